@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fragmotion: turns motion capture into a character that you can drive."""
+
+from __future__ import annotations
+
+import bpy
+
+from . import actions, building, operators, panel, properties
+from .operators import build
+
+bl_info = {
+    "name": "Fragmotion",
+    "author": "Fragmotion contributors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "3D Viewport > Sidebar > Fragmotion",
+    "description": "Turns motion capture into a character that you can drive",
+    "category": "Animation",
+}
+
+_CLASSES = (*properties.CLASSES, *operators.CLASSES, *panel.CLASSES)
+
+
+def register() -> None:
+    """Add the add-on's classes and properties to Blender."""
+    for cls in _CLASSES:
+        bpy.utils.register_class(cls)
+    properties.register()
+
+
+def unregister() -> None:
+    """Remove all that `register` added; a build that runs is stopped."""
+    build.stop()
+    properties.unregister()
+    for cls in reversed(_CLASSES):
+        bpy.utils.unregister_class(cls)
+    building.forget()
+    actions.forget()

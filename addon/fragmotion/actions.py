@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which of the file's Actions can move an armature."""
+
+from __future__ import annotations
+
+import re
+
+import bpy
+
+from . import versions
+
+RATE = "fragmotion_rate"
+"""Custom property of an imported Action: the take's frames a second."""
+
+_BONE = re.compile(r'pose\.bones\["((?:[^"\\]|\\.)*)"\]\.')
+_OWN_SHARE = 1 / 2  # of the bones that the Action animates, so many must be the armature's ...
+_ARMATURE_SHARE = 1 / 4  # ... and so many of the armature's (fingers and helpers may rest)
+_cache: dict[tuple[object, ...], bool] = {}
+
+
+def animated_bones(action: bpy.types.Action, obj: bpy.types.Object) -> set[str]:
+    """Names of the bones that the Action's F-curves move, whether or not the armature has them."""
+    matches = (_BONE.match(curve.data_path) for curve in versions.curves_of(action, obj))
+    return {re.sub(r"\\(.)", r"\1", match[1]) for match in matches if match}
+
+
+def fits(action: bpy.types.Action, obj: bpy.types.Object) -> bool:
+    """Whether most of what the Action animates is this armature's."""
+    animated = animated_bones(action, obj)
+    known = sum(name in obj.data.bones for name in animated)
+    return known > 0 and known >= _OWN_SHARE * len(animated) and known >= _ARMATURE_SHARE * len(obj.data.bones)
+
+
+def fits_cached(action: bpy.types.Action, obj: bpy.types.Object) -> bool:
+    """As `fits`, quick enough for drawing."""
+    key = (bpy.data.filepath, action.name, versions.count_curves(action), obj.name, len(obj.data.bones))
+    if key not in _cache:
+        if len(_cache) > 10_000:
+            _cache.clear()
+        _cache[key] = fits(action, obj)
+    return _cache[key]
+
+
+def ticked(obj: bpy.types.Object) -> list[bpy.types.Action]:
+    """The Actions ticked to be learned from that fit the armature, by name."""
+    return [action for action in bpy.data.actions if action.fragmotion.use and fits_cached(action, obj)]
+
+
+def fitting(obj: bpy.types.Object) -> list[bpy.types.Action]:
+    """All Actions that fit the armature, by name."""
+    return [action for action in bpy.data.actions if fits_cached(action, obj)]
+
+
+def forget() -> None:
+    """Let go of what was found out about the file's Actions."""
+    _cache.clear()

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the user can put right is a UserError: raised where it is found, reported once by the operator."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import wraps
+from typing import Any
+
+
+class UserError(Exception):
+    """What was wrong, where, and what to do about it."""
+
+
+@contextmanager
+def core_errors(place: str = "") -> Iterator[None]:
+    """Turn the core's ValueError into a UserError that begins with the place."""
+    try:
+        yield
+    except ValueError as error:
+        raise UserError(f"{place}: {error}" if place else str(error)) from error
+
+
+def reported(method: Callable[..., set[str]]) -> Callable[..., set[str]]:
+    """Make an operator's method report a UserError as its one message, and end as cancelled."""
+
+    def run(self: Any, *arguments: Any) -> set[str]:
+        try:
+            return method(self, *arguments)
+        except UserError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+
+    # Blender counts a method's parameters, so each must be written out.
+    def execute(self: Any, context: Any) -> set[str]:
+        return run(self, context)
+
+    def handle(self: Any, context: Any, event: Any) -> set[str]:
+        return run(self, context, event)
+
+    return wraps(method)(execute if method.__name__ == "execute" else handle)

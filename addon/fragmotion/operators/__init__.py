@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The buttons, one operator a file."""
+
+from __future__ import annotations
+
+from .bake import FRAGMOTION_OT_bake
+from .build import FRAGMOTION_OT_build, FRAGMOTION_OT_cancel_build
+from .import_mocap import FRAGMOTION_OT_import_mocap
+from .tick_actions import FRAGMOTION_OT_tick_actions
+
+CLASSES = (
+    FRAGMOTION_OT_import_mocap,
+    FRAGMOTION_OT_tick_actions,
+    FRAGMOTION_OT_build,
+    FRAGMOTION_OT_cancel_build,
+    FRAGMOTION_OT_bake,
+)

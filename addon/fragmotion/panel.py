@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Fragmotion tab of the 3D viewport's sidebar, in the order of the work."""
+
+from __future__ import annotations
+
+import bpy
+
+from . import building, versions
+from .actions import fits_cached, fitting
+from .drawing import draw_bake, draw_build, draw_figures
+from .operators import build as build_operator
+from .operators.context import active_armature
+
+_ROWS = 5
+
+
+class FRAGMOTION_UL_actions(bpy.types.UIList):
+    """The file's Actions that fit the active armature, each with a tick."""
+
+    bl_idname = "FRAGMOTION_UL_actions"
+
+    def draw_item(
+        self,
+        _context: bpy.types.Context,
+        layout: bpy.types.UILayout,
+        _data: object,
+        item: bpy.types.Action,
+        _icon: int,
+        _active_data: object,
+        _active_name: str,
+    ) -> None:
+        row = layout.row(align=True)
+        row.prop(item.fragmotion, "use", text="")
+        row.label(text=item.name, icon="ACTION", translate=False)
+
+    def filter_items(self, context: bpy.types.Context, data: object, name: str) -> tuple[list[int], list[int]]:
+        actions, obj = getattr(data, name), active_armature(context)
+        by_name = bpy.types.UI_UL_list.filter_items_by_name(self.filter_name, self.bitflag_filter_item, actions)
+        named = by_name or [self.bitflag_filter_item] * len(actions)
+        return [flag if obj and fits_cached(action, obj) else 0 for flag, action in zip(named, actions)], []
+
+
+class _Sidebar:
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Fragmotion"
+
+
+class FRAGMOTION_PT_mocap(_Sidebar, bpy.types.Panel):
+    """What the character learns from."""
+
+    bl_idname = "FRAGMOTION_PT_mocap"
+    bl_label = "Mocap"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.operator("fragmotion.import_mocap", text="Import Mocap...", icon="IMPORT")
+        obj = active_armature(context)
+        if obj is None:
+            layout.label(text="No armature is active", icon="INFO")
+            return
+        actions = fitting(obj)
+        if not actions:
+            layout.label(text=f"No Actions for '{obj.name}'", icon="INFO")
+            return
+        layout.template_list(
+            "FRAGMOTION_UL_actions",
+            "",
+            bpy.data,
+            "actions",
+            context.window_manager.fragmotion,
+            "active_action",
+            rows=_ROWS,
+        )
+        row = layout.row(align=True)
+        row.label(text=f"{sum(action.fragmotion.use for action in actions)} of {len(actions)} ticked")
+        row.operator("fragmotion.tick_actions", text="All").use = True
+        row.operator("fragmotion.tick_actions", text="None").use = False
+
+
+class FRAGMOTION_PT_build(_Sidebar, bpy.types.Panel):
+    """From takes to a character."""
+
+    bl_idname = "FRAGMOTION_PT_build"
+    bl_label = "Build"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, obj, job = self.layout, active_armature(context), build_operator.current
+        if job is not None:
+            layout.label(text=job.label)
+            versions.draw_progress(layout, job.fraction, job.stage)
+            layout.operator("fragmotion.cancel_build", text="Cancel", icon="CANCEL")
+            return
+        if obj is not None:
+            draw_build(layout, obj.fragmotion.build)
+        layout.operator("fragmotion.build", icon="SHADERFX")
+        if obj is not None and building.has_character(obj):
+            draw_figures(layout, obj.fragmotion.figures)
+
+
+class FRAGMOTION_PT_bake(_Sidebar, bpy.types.Panel):
+    """From a trace to an Action."""
+
+    bl_idname = "FRAGMOTION_PT_bake"
+    bl_label = "Bake"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        obj = active_armature(context)
+        if obj is not None:
+            draw_bake(self.layout, obj.fragmotion.bake)
+        self.layout.operator("fragmotion.bake", icon="ACTION_TWEAK")
+
+
+CLASSES = (FRAGMOTION_UL_actions, FRAGMOTION_PT_mocap, FRAGMOTION_PT_build, FRAGMOTION_PT_bake)

@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the user sets and what a build found, kept in the .blend with the armature; and the tick of an Action.
+
+The fields of a stage are written down once: the panel's settings and the stage's operator both have them.
+"""
+
+from __future__ import annotations
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from .core import core
+
+_DEFAULTS = core.BuildOptions()
+_SOURCES = (
+    ("PLAYER", "Simulated Player", "A made-up joystick session: a stick with inertia that chases targets"),
+    ("FILE", "Trace File", "A CSV file with the header velocity_x,velocity_y,turn,jump and 10 rows a second"),
+)
+_HABITS = tuple((name, name.title(), f"A simulated player with the habits of a {name}") for name in core.PLAYERS)
+_CUTS = (
+    ("gait", "At Footsteps", "Cut where a foot strikes the ground; by windows where the armature has no feet"),
+    ("windows", "By Windows", "Cut into windows of equal length, whatever the feet do"),
+)
+_POLICY_LABELS = {
+    "iterate": ("Value Iteration", "Looks ahead, with a model of how the controls change learned from the trace"),
+    "svm": ("SVM", "A support vector machine that learned from the best path through the trace"),
+    "greedy": ("Greedy", "The best next class, without a look at what comes after it"),
+}
+_POLICIES = tuple((name, *_POLICY_LABELS.get(name, (name.title(), ""))) for name in core.POLICIES)
+
+
+class TraceFields:
+    """Where a trace comes from."""
+
+    trace_source: EnumProperty(  # type: ignore[valid-type]
+        name="Trace", description="Where the joystick session comes from", items=_SOURCES, default="PLAYER"
+    )
+    trace_file: StringProperty(  # type: ignore[valid-type]
+        name="Trace File",
+        description="CSV file: velocity_x,velocity_y (m/s), turn (-1 to 1, 1 is left), jump (0 or 1); 10 rows a second",
+        subtype="FILE_PATH",
+    )
+
+
+class BuildFields(TraceFields):
+    """What a build can be told."""
+
+    longest: FloatProperty(  # type: ignore[valid-type]
+        name="Longest Fragment",
+        description="Longest fragment in seconds; shorter ones respond faster, longer ones move more naturally",
+        default=_DEFAULTS.longest,
+        min=_DEFAULTS.shortest,
+        max=2.0,
+        soft_max=0.5,
+        step=5,
+        precision=2,
+        unit="TIME_ABSOLUTE",
+    )
+    cut: EnumProperty(  # type: ignore[valid-type]
+        name="Cut", description="Where takes are cut into fragments", items=_CUTS, default=_DEFAULTS.cut
+    )
+    classes: IntProperty(  # type: ignore[valid-type]
+        name="Classes",
+        description="Number of clusters of similar fragments; there must be at least as many fragments",
+        default=_DEFAULTS.classes,
+        min=2,
+        soft_max=500,
+    )
+    seed: IntProperty(  # type: ignore[valid-type]
+        name="Seed", description="Same takes and same seed: same character", default=1, min=0
+    )
+    mirror: BoolProperty(  # type: ignore[valid-type]
+        name="Mirror",
+        description="Learn from the mirror image of every take too (left and right bones by name)",
+        default=_DEFAULTS.mirror,
+    )
+    synthesize: BoolProperty(  # type: ignore[valid-type]
+        name="Fill Gaps",
+        description="Synthesize fragments for the directions and speeds that the takes lack",
+        default=_DEFAULTS.synthesize,
+    )
+    policy: EnumProperty(  # type: ignore[valid-type]
+        name="Policy",
+        description="How the next class is chosen from the class that plays and the control",
+        items=_POLICIES,
+        default=_DEFAULTS.policies[0],
+    )
+    player: EnumProperty(  # type: ignore[valid-type]
+        name="Player", description="Whose habits the policy learns from", items=_HABITS, default="explorer"
+    )
+    seconds: FloatProperty(  # type: ignore[valid-type]
+        name="Length",
+        description="How long the simulated player plays, in seconds",
+        default=60.0,
+        min=1.0,
+        max=3600.0,
+        unit="TIME_ABSOLUTE",
+    )
+
+
+def _suggest_actions(_settings: object, _context: bpy.types.Context, text: str) -> list[str]:
+    return [action.name for action in bpy.data.actions if text.lower() in action.name.lower()]
+
+
+class BakeFields(TraceFields):
+    """What a bake can be told."""
+
+    player: EnumProperty(  # type: ignore[valid-type]
+        name="Player", description="Whose habits drive the character", items=_HABITS, default="walker"
+    )
+    seconds: FloatProperty(  # type: ignore[valid-type]
+        name="Length",
+        description="How long the simulated player plays, in seconds",
+        default=20.0,
+        min=0.5,
+        max=3600.0,
+        unit="TIME_ABSOLUTE",
+    )
+    frame_start: IntProperty(  # type: ignore[valid-type]
+        name="Start Frame", description="Scene frame of the first key", default=1
+    )
+    action: StringProperty(  # type: ignore[valid-type]
+        name="Action",
+        description="Action to write to: this armature's keys in it are replaced. Empty or a new name makes a new one",
+        search=_suggest_actions,
+        search_options={"SUGGESTION"},
+    )
+    seed: IntProperty(  # type: ignore[valid-type]
+        name="Seed",
+        description="Draws the simulated player's targets and which fragment of a class plays",
+        default=1,
+        min=0,
+    )
+
+
+class BuildSettings(BuildFields, bpy.types.PropertyGroup):
+    """The panel's settings of Build."""
+
+
+class BakeSettings(BakeFields, bpy.types.PropertyGroup):
+    """The panel's settings of Bake."""
+
+
+class BuildFigures(bpy.types.PropertyGroup):
+    """What the last build found."""
+
+    captured: IntProperty()  # type: ignore[valid-type]
+    fragments: IntProperty()  # type: ignore[valid-type]
+    classes: IntProperty()  # type: ignore[valid-type]
+    controls: IntProperty()  # type: ignore[valid-type]
+    seconds: FloatProperty()  # type: ignore[valid-type]
+    quality: FloatProperty()  # type: ignore[valid-type]
+    examiner: StringProperty()  # type: ignore[valid-type]
+    others: StringProperty()  # type: ignore[valid-type]
+
+
+class CharacterSettings(bpy.types.PropertyGroup):
+    """An armature object's `fragmotion`: settings, figures and the policy file's bytes."""
+
+    build: PointerProperty(type=BuildSettings)  # type: ignore[valid-type]
+    bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
+    figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
+    policy: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
+
+
+class ActionSettings(bpy.types.PropertyGroup):
+    """An Action's `fragmotion`."""
+
+    use: BoolProperty(  # type: ignore[valid-type]
+        name="Learn from it", description="Build cuts fragments from the ticked Actions", default=False
+    )
+
+
+class WindowSettings(bpy.types.PropertyGroup):
+    """The window manager's `fragmotion`: what no file need remember."""
+
+    active_action: IntProperty()  # type: ignore[valid-type]
+
+
+CLASSES = (BuildSettings, BakeSettings, BuildFigures, CharacterSettings, ActionSettings, WindowSettings)
+_OWNERS = (
+    (bpy.types.Object, CharacterSettings),
+    (bpy.types.Action, ActionSettings),
+    (bpy.types.WindowManager, WindowSettings),
+)
+
+
+def register() -> None:
+    """Give objects, Actions and the window manager their `fragmotion`; its classes are registered."""
+    for owner, settings in _OWNERS:
+        owner.fragmotion = PointerProperty(type=settings)
+
+
+def unregister() -> None:
+    """Take it away again."""
+    for owner, _ in _OWNERS:
+        del owner.fragmotion

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An Action as a Clip: read from its F-curves, or from Blender's evaluated pose where they are not all that moves."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Quaternion, Vector
+
+from . import posing, versions
+from .actions import RATE, animated_bones
+from .core import core
+from .errors import UserError, core_errors
+from .rigs import bone_path, is_tied
+
+if TYPE_CHECKING:
+    from fragmotion_core import Clip, Doubles, Rig
+
+Curves = dict[tuple[str, int], bpy.types.FCurve]
+
+_SAME_FRAME = 0.01  # keys closer than this to a frame are on it
+_ROTATIONS: dict[str, tuple[str, tuple[float, ...]]] = {
+    "QUATERNION": ("rotation_quaternion", (1, 0, 0, 0)),
+    "AXIS_ANGLE": ("rotation_axis_angle", (0, 0, 1, 0)),
+}
+_EULER: tuple[str, tuple[float, ...]] = ("rotation_euler", (0, 0, 0))
+_OBJECT_CHANNELS = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
+
+
+def sample(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action, rig: Rig) -> Clip:
+    """The Action on the armature at its own rate. A channel without keys rests; the file is as before."""
+    curves = {(c.data_path, c.array_index): c for c in versions.curves_of(action, obj) if not c.mute}
+    place = f"Action '{action.name}'"
+    if not any(name in obj.data.bones for name in animated_bones(action, obj)):
+        raise UserError(f"{place} animates no bone of armature '{obj.name}': it belongs to another rig")
+    rate, times = frame_times(context.scene, action, curves)
+    with core_errors(place):
+        if posing.is_needed(obj, curves):
+            matrices, worlds = posing.sample_poses(context, obj, action, times)
+            return rig.clip_from_matrices(action.name, rate, matrices, worlds)
+        locations, rotations = _sample_bones(obj, curves, times)
+        return rig.clip(action.name, rate, locations, rotations, _sample_object(obj, curves, times))
+
+
+def scene_rate(scene: bpy.types.Scene) -> float:
+    """The scene's frames a second."""
+    return float(scene.render.fps / scene.render.fps_base)
+
+
+def frame_times(scene: bpy.types.Scene, action: bpy.types.Action, curves: Curves) -> tuple[float, Doubles]:
+    """The rate at which to sample (an imported take's own, else the scene's), and the scene frames of the samples."""
+    rate = float(action.get(RATE, scene_rate(scene)))
+    step = scene_rate(scene) / rate
+    if action.use_frame_range:
+        first, last = action.frame_range
+    else:
+        ranges = [curve.range() for curve in curves.values()]
+        first, last = min(r[0] for r in ranges), max(r[1] for r in ranges)
+    return rate, first + step * np.arange(math.floor((last - first) / step + _SAME_FRAME) + 1)
+
+
+def _sample_bones(obj: bpy.types.Object, curves: Curves, times: Doubles) -> tuple[Doubles, Doubles]:
+    """Locations [F,B,3] and quaternions [F,B,4] of all bones, in the armature's order."""
+    bones = obj.data.bones
+    locations = np.zeros((len(times), len(bones), 3))
+    rotations = np.zeros((len(times), len(bones), 4))
+    for index, bone in enumerate(bones):
+        if not is_tied(bone):
+            locations[:, index] = _channel(curves, bone_path(bone.name, "location"), (0, 0, 0), times)
+        mode = obj.pose.bones[bone.name].rotation_mode
+        channel, rest = _ROTATIONS.get(mode, _EULER)
+        rotations[:, index] = to_quaternions(mode, _channel(curves, bone_path(bone.name, channel), rest, times))
+    return locations, rotations
+
+
+def _sample_object(obj: bpy.types.Object, curves: Curves, times: Doubles) -> Doubles | None:
+    """World matrices [F,4,4] of an object that its own F-curves move, else None."""
+    if not any((channel, index) in curves for channel in _OBJECT_CHANNELS for index in range(4)):
+        return None
+    channel, _ = _ROTATIONS.get(obj.rotation_mode, _EULER)
+    locations = _channel(curves, "location", obj.location, times)
+    scales = _channel(curves, "scale", obj.scale, times)
+    rotations = to_quaternions(obj.rotation_mode, _channel(curves, channel, getattr(obj, channel), times))
+    return np.array(
+        [
+            Matrix.LocRotScale(Vector(location), Quaternion(rotation).normalized(), Vector(scale))
+            for location, rotation, scale in zip(locations, rotations, scales)
+        ]
+    )
+
+
+def to_quaternions(mode: str, values: Doubles) -> Doubles:
+    """A rotation channel's values in the mode's terms to quaternions [F,4]."""
+    if mode == "QUATERNION":
+        return values
+    rotations: Doubles = (
+        core.axis_angle_to_quaternion(values) if mode == "AXIS_ANGLE" else core.euler_to_quaternion(mode, values)
+    )
+    return rotations
+
+
+def _channel(curves: Curves, path: str, rest: tuple[float, ...], times: Doubles) -> Doubles:
+    """A vector channel at the times, [F, len(rest)]."""
+    values = np.empty((len(times), len(rest)))
+    for index, default in enumerate(rest):
+        curve = curves.get((path, index))
+        values[:, index] = default if curve is None else read_curve(curve, times)
+    return values
+
+
+def read_curve(curve: bpy.types.FCurve, times: Doubles) -> Doubles:
+    """An F-curve's values at the times: its keys where they sit on them, else evaluated."""
+    keys = curve.keyframe_points
+    if len(keys) >= len(times) and not curve.modifiers:
+        points = np.empty(2 * len(keys), np.float32)
+        keys.foreach_get("co", points)
+        first = int(np.searchsorted(points[::2], times[0] - _SAME_FRAME))
+        near = points.reshape(-1, 2)[first : first + len(times)]
+        if len(near) == len(times) and np.abs(near[:, 0] - times).max() < _SAME_FRAME:
+            return near[:, 1].astype(float)
+    return np.fromiter((curve.evaluate(time) for time in times), float, len(times))

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one place for what differs between Blender 3.4 and 5.2.
+
+Up to 4.3 an Action holds its F-curves. From 4.4 it holds slots, each with its own channelbag of F-curves, and an object
+plays one slot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import bpy
+
+SLOTTED = bpy.app.version >= (4, 4, 0)
+
+
+def curves_of(action: bpy.types.Action, obj: bpy.types.Object) -> list[bpy.types.FCurve]:
+    """The Action's F-curves that move `obj`, were the Action assigned to it."""
+    if not SLOTTED:
+        return list(action.fcurves)
+    slot = _slot_for(action, obj)
+    return [curve for bag in _bags(action) if slot and bag.slot_handle == slot.handle for curve in bag.fcurves]
+
+
+def count_curves(action: bpy.types.Action) -> int:
+    """Number of all the Action's F-curves."""
+    return sum(len(bag.fcurves) for bag in _bags(action)) if SLOTTED else len(action.fcurves)
+
+
+def assign(obj: bpy.types.Object, action: bpy.types.Action | None) -> None:
+    """Let the object play the Action (its slot for this object)."""
+    data = obj.animation_data or obj.animation_data_create()
+    data.action = action
+    if SLOTTED and action is not None:
+        slot = _slot_for(action, obj)
+        if slot is not None:
+            data.action_slot = slot
+
+
+def assignment(obj: bpy.types.Object) -> tuple[bpy.types.Action | None, Any]:
+    """What the object plays: the Action, and its slot where there are slots."""
+    data = obj.animation_data
+    if data is None:
+        return None, None
+    return data.action, data.action_slot if SLOTTED else None
+
+
+def restore(obj: bpy.types.Object, played: tuple[bpy.types.Action | None, Any]) -> None:
+    """Let the object play again what `assignment` told."""
+    action, slot = played
+    data = obj.animation_data
+    if data is None:
+        return
+    data.action = action
+    if slot is not None:
+        data.action_slot = slot
+
+
+def holder_for(action: bpy.types.Action, obj: bpy.types.Object) -> Any:
+    """What holds the object's F-curves as `.fcurves` and `.groups`; slot, layer and strip are made where missing."""
+    if not SLOTTED:
+        return action
+    slot = _slot_for(action, obj) or action.slots.new(id_type="OBJECT", name=obj.name)
+    layer = action.layers[0] if action.layers else action.layers.new("Layer")
+    strip = layer.strips[0] if layer.strips else layer.strips.new(type="KEYFRAME")
+    return strip.channelbag(slot, ensure=True)
+
+
+def new_curve(holder: Any, path: str, index: int, group: str) -> bpy.types.FCurve:
+    """Add an F-curve to what `holder_for` gave, in the group of that name."""
+    if bpy.app.version >= (5, 0, 0):
+        return holder.fcurves.new(path, index=index, group_name=group)
+    if not SLOTTED:
+        return holder.fcurves.new(path, index=index, action_group=group)
+    curve = holder.fcurves.new(path, index=index)
+    curve.group = holder.groups.get(group) or holder.groups.new(group)
+    return curve
+
+
+def draw_named(layout: bpy.types.UILayout, data: Any, name: str, placeholder: str) -> None:
+    """A text field that says what it means while it is empty (from 4.1)."""
+    if bpy.app.version >= (4, 1, 0):
+        layout.prop(data, name, placeholder=placeholder)
+    else:
+        layout.prop(data, name)
+
+
+def draw_progress(layout: bpy.types.UILayout, fraction: float, text: str) -> None:
+    """A progress bar; its text and a percentage before 4.0, which had no bar."""
+    if hasattr(layout, "progress"):
+        layout.progress(factor=fraction, text=text)
+    else:
+        layout.label(text=f"{text}: {100 * fraction:.0f} %", icon="SORTTIME")
+
+
+def _bags(action: bpy.types.Action) -> Iterator[Any]:
+    for layer in action.layers:
+        for strip in layer.strips:
+            yield from strip.channelbags
+
+
+def _slot_for(action: bpy.types.Action, obj: bpy.types.Object) -> Any:
+    """The slot that the object plays, else the one named after it, else the one with the most F-curves, else None."""
+    data = obj.animation_data
+    if data is not None and data.action == action and data.action_slot is not None:
+        return data.action_slot
+    slots = [slot for slot in action.slots if slot.target_id_type in {"OBJECT", "UNSPECIFIED"}]
+    sizes = {bag.slot_handle: len(bag.fcurves) for bag in _bags(action)}
+    return max(slots, key=lambda slot: (slot.name_display == obj.name, sizes.get(slot.handle, 0)), default=None)

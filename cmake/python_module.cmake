@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: MIT
+# The Python module fragmotion_core: one extension module, its stub beside it.
+file(GLOB fragmotion_bindings CONFIGURE_DEPENDS cpp/bindings/*.cpp)
+if(NOT fragmotion_bindings)
+  message(STATUS "cpp/bindings holds no source yet: no Python module")
+  return()
+endif()
+set(PYBIND11_FINDPYTHON ON)
+find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
+find_package(pybind11 CONFIG REQUIRED)
+pybind11_add_module(fragmotion_core NO_EXTRAS ${fragmotion_bindings})
+target_link_libraries(fragmotion_core PRIVATE fragmotion)
+target_compile_options(fragmotion_core PRIVATE -Wall -Wextra -Wpedantic)
+target_compile_definitions(fragmotion_core PRIVATE FRAGMOTION_VERSION="${PROJECT_VERSION}")
+install(TARGETS fragmotion_core LIBRARY DESTINATION .)
+file(GLOB fragmotion_stub cpp/bindings/*.pyi)
+install(FILES ${fragmotion_stub} DESTINATION .)

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+
+#include "arrays.hpp"
+#include "fragmotion/greedy.hpp"
+#include "fragmotion/policy_file.hpp"
+
+namespace fragmotion::bindings {
+namespace {
+
+using Holder = std::shared_ptr<Character>;
+
+// A property that views a member's values as an array [rows, columns]; columns 0: one dimension.
+template <typename T, typename Get>
+auto viewed(Get get, int columns_of_classes) {
+  return [=](const py::object& self) {
+    const auto& c = self.cast<const Character&>();
+    const std::vector<T>& values = get(c);
+    const auto size = static_cast<py::ssize_t>(values.size());
+    const py::ssize_t rows = c.classes.count;
+    return columns_of_classes != 0 ? view(values, {rows, size / rows}, self) : view(values, {size}, self);
+  };
+}
+
+// An array [fragments, width] of what `fill` appends for each fragment.
+template <typename Fill>
+auto of_fragments(int width, Fill fill) {
+  return [=](const Character& c) {
+    std::vector<double> values;
+    for (const Fragment& f : c.pool.fragments) fill(c, f, values);
+    const auto count = static_cast<py::ssize_t>(c.pool.fragments.size());
+    return width > 1 ? to_array(std::move(values), {count, width}) : to_array(std::move(values), {count});
+  };
+}
+
+void bind_options(py::module_& m) {
+  py::class_<BuildOptions>(m, "BuildOptions", py::module_local())
+      .def(py::init<>())
+      .def_property(
+          "cut", [](const BuildOptions& o) { return o.cut.at_gait_events ? "gait" : "windows"; },
+          [](BuildOptions& o, const std::string& cut) {
+            if (cut != "gait" && cut != "windows")
+              throw std::invalid_argument("cut is \"gait\" or \"windows\", not \"" + cut + "\"");
+            o.cut.at_gait_events = cut == "gait";
+          })
+      .def_property(
+          "shortest", [](const BuildOptions& o) { return o.cut.shortest; },
+          [](BuildOptions& o, double seconds) { o.cut.shortest = seconds; })
+      .def_property(
+          "longest", [](const BuildOptions& o) { return o.cut.longest; },
+          [](BuildOptions& o, double seconds) { o.cut.longest = seconds; })
+      .def_readwrite("mirror", &BuildOptions::mirror)
+      .def_readwrite("synthesize", &BuildOptions::synthesize)
+      .def_readwrite("classes", &BuildOptions::classes)
+      .def_readwrite("restarts", &BuildOptions::restarts)
+      .def_readwrite("seed", &BuildOptions::seed)
+      .def_readwrite("policies", &BuildOptions::policies)
+      .def_property(
+          "policy", [](const BuildOptions& o) { return o.policies.empty() ? std::string() : o.policies.front(); },
+          [](BuildOptions& o, const std::string& name) {
+            o.policies.erase(std::remove(o.policies.begin(), o.policies.end(), name), o.policies.end());
+            o.policies.insert(o.policies.begin(), name);
+          })
+      .def_readwrite("threads", &BuildOptions::threads);
+  m.attr("POLICIES") = policy_names();
+}
+
+void bind_fragments(py::class_<Character, Holder>& character) {
+  character
+      .def_property_readonly("clip_names",
+                             [](const Character& c) {
+                               std::vector<std::string> names;
+                               for (const Clip& clip : c.pool.clips) names.push_back(clip.name);
+                               return names;
+                             })
+      .def_property_readonly("fragment_clips",
+                             [](const Character& c) {
+                               std::vector<int> clips;
+                               for (const Fragment& f : c.pool.fragments) clips.push_back(f.clip);
+                               const auto count = static_cast<py::ssize_t>(clips.size());
+                               return to_array(std::move(clips), {count});
+                             })
+      .def_property_readonly("fragment_ranges",
+                             of_fragments(2,
+                                          [](const Character& c, const Fragment& f, std::vector<double>& out) {
+                                            const double rate = c.pool.clips[f.clip].rate;
+                                            out.insert(out.end(), {f.begin / rate, f.end / rate});
+                                          }))
+      .def_property_readonly("fragment_durations",
+                             of_fragments(1, [](const Character& c, const Fragment& f,
+                                                std::vector<double>& out) { out.push_back(c.pool.seconds(f)); }))
+      .def_property_readonly("fragment_origins",
+                             [](const Character& c) {
+                               std::vector<std::string> origins;
+                               for (const Fragment& f : c.pool.fragments) origins.emplace_back(origin_name(f.origin));
+                               return origins;
+                             })
+      .def_property_readonly("evident",
+                             of_fragments(4, [](const Character&, const Fragment& f, std::vector<double>& out) {
+                               out.insert(out.end(), {f.evident.x, f.evident.y, f.evident.turn, f.evident.jump});
+                             }));
+}
+
+void bind_tables(py::class_<Character, Holder>& character) {
+  const auto labels = [](const Character& c) -> const std::vector<int>& { return c.classes.labels; };
+  const auto medoids = [](const Character& c) -> const std::vector<int>& { return c.classes.representatives; };
+  const auto smoothness = [](const Character& c) -> const std::vector<double>& { return c.quality.smoothness; };
+  const auto match = [](const Character& c) -> const std::vector<double>& { return c.quality.match; };
+  const auto table = [](const Character& c) -> const std::vector<int>& { return c.policy().next; };
+  const auto bridges = [](const Character& c) -> const std::vector<int>& { return c.bridges; };
+  character.def_property_readonly("labels", viewed<int>(labels, 0))
+      .def_property_readonly("representatives", viewed<int>(medoids, 0))
+      .def_property_readonly("smoothness", viewed<double>(smoothness, 1))
+      .def_property_readonly("match", viewed<double>(match, 1))
+      .def_property_readonly("table", viewed<int>(table, 1))
+      .def_property_readonly("bridges", viewed<int>(bridges, 1))
+      .def_property_readonly("coverage_counts",
+                             [](const Character& c) {
+                               return to_array(std::vector<int>(c.coverage.counts.begin(), c.coverage.counts.end()),
+                                               {ControlSpace::kPoints});
+                             })
+      .def_property_readonly("coverage_distances", [](const Character& c) {
+        return to_array(std::vector<double>(c.coverage.distances.begin(), c.coverage.distances.end()),
+                        {ControlSpace::kPoints});
+      });
+}
+
+double percent(const Character& c, const Doubles& trace, const std::string& policy) {
+  return percent_of_optimal(c.quality, c.policy(policy), snap(c.space, to_trace(trace)));
+}
+
+std::vector<std::string> policies_of(const Character& c) {
+  std::vector<std::string> names;
+  for (const Policy& policy : c.policies) names.push_back(policy.name);
+  return names;
+}
+
+void bind_use(py::class_<Character, Holder>& character) {
+  character
+      .def(
+          "save", [](const Character& c, const std::filesystem::path& path) { save_policy(path, c); }, py::arg("path"),
+          py::call_guard<py::gil_scoped_release>())
+      .def_static(
+          "load", [](const std::filesystem::path& path) { return std::make_shared<Character>(load_policy(path)); },
+          py::arg("path"), py::call_guard<py::gil_scoped_release>())
+      .def("to_bytes", [](const Character& c) { return py::bytes(to_bytes(c)); })
+      .def_static(
+          "from_bytes",
+          [](const py::bytes& data) { return std::make_shared<Character>(from_bytes(std::string(data))); },
+          py::arg("data"))
+      .def(
+          "optimal",
+          [](const Character& c, const Doubles& trace) {
+            OptimalPath path = optimal_path(c.quality, snap(c.space, to_trace(trace)));
+            const auto count = static_cast<py::ssize_t>(path.classes.size());
+            return py::make_tuple(to_array(std::move(path.classes), {count}), path.quality);
+          },
+          py::arg("trace"))
+      .def("percent_of_optimal", &percent, py::arg("trace"), py::arg("policy") = "");
+}
+
+}  // namespace
+
+void bind_character(py::module_& m) {
+  bind_options(m);
+  py::class_<Character, Holder> character(m, "Character", py::module_local());
+  character.def_property_readonly("skeleton", [](const Character& c) { return c.pool.skeleton; })
+      .def_property_readonly("space", [](const Character& c) { return c.space; })
+      .def_property_readonly("policies", &policies_of)
+      .def_property_readonly("policy", [](const Character& c) { return c.policy().name; })
+      .def_readonly("report", &Character::report);
+  bind_fragments(character);
+  bind_tables(character);
+  bind_use(character);
+  m.def(
+      "build",
+      [](const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Doubles>& traces,
+         const std::optional<BuildOptions>& options, const py::object& progress) {
+        std::vector<Trace> controls;
+        for (const Doubles& trace : traces) controls.push_back(to_trace(trace));
+        const Progress told = to_progress(progress);
+        const py::gil_scoped_release release;
+        return std::make_shared<Character>(build(skeleton, clips, controls, options.value_or(BuildOptions{}), told));
+      },
+      py::arg("skeleton"), py::arg("clips"), py::arg("traces"), py::arg("options") = py::none(),
+      py::arg("progress") = py::none());
+}
+
+}  // namespace fragmotion::bindings

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "fragmotion/player.hpp"
+
+namespace fragmotion::bindings {
+namespace {
+
+Control checked_control(const Doubles& values) {
+  check_shape(values, "a control", {4});
+  return to_trace(Doubles({1, 4}, values.data())).front();
+}
+
+py::tuple step(Player& player, const Doubles& control, double seconds) {
+  if (!(seconds >= 0 && seconds < 3600)) throw std::invalid_argument("a step must last 0 s or more");
+  player.step(checked_control(control), seconds);
+  const Vector3& root = player.root_position();
+  const auto bones = static_cast<py::ssize_t>(player.rotations().size()) / 4;
+  return py::make_tuple(to_array(std::vector<double>{root.x(), root.y(), root.z()}, {3}),
+                        to_array(player.rotations(), {bones, 4}));
+}
+
+template <typename T>
+auto viewed(std::vector<T> Performance::*member, std::vector<py::ssize_t> rest) {
+  return [=](const py::object& self) {
+    const auto& p = self.cast<const Performance&>();
+    std::vector<py::ssize_t> shape{p.frames};
+    shape.insert(shape.end(), rest.begin(), rest.end());
+    return view(p.*member, shape, self);
+  };
+}
+
+void bind_performance(py::module_& m) {
+  py::class_<Performance>(m, "Performance", py::module_local())
+      .def_readonly("rate", &Performance::rate)
+      .def_property_readonly("root_positions", viewed(&Performance::root_positions, {3}))
+      .def_property_readonly("rotations",
+                             [](const py::object& self) {
+                               const auto& p = self.cast<const Performance&>();
+                               const auto bones = static_cast<py::ssize_t>(p.rotations.size()) / p.frames / 4;
+                               return view(p.rotations, {p.frames, bones, 4}, self);
+                             })
+      .def_property_readonly("frames", viewed(&Performance::path, {3}))
+      .def_property_readonly("classes", viewed(&Performance::classes, {}))
+      .def_property_readonly("fragments", viewed(&Performance::fragments, {}))
+      .def_readonly("quality", &Performance::quality)
+      .def_readonly("velocity_error", &Performance::velocity_error)
+      .def_readonly("commanded_speed", &Performance::commanded_speed);
+}
+
+}  // namespace
+
+void bind_player(py::module_& m) {
+  bind_performance(m);
+  py::class_<Player>(m, "Player", py::module_local())
+      .def(py::init([](std::shared_ptr<Character> character, std::uint64_t seed, double stitch,
+                       const std::string& policy) { return Player(std::move(character), seed, stitch, policy); }),
+           py::arg("character"), py::arg("seed") = 1, py::arg("stitch") = 0.15, py::arg("policy") = "")
+      .def(
+          "reset",
+          [](Player& p, double x, double y, double heading) {
+            p.reset({Vector2{x, y}, heading});
+          },
+          py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("heading") = 0.0)
+      .def("step", &step, py::arg("control"), py::arg("seconds"))
+      .def_property_readonly("frame",
+                             [](const Player& p) {
+                               const CharacterFrame frame = p.frame();
+                               return py::make_tuple(frame.position.x(), frame.position.y(), frame.heading);
+                             })
+      .def_property_readonly("playing",
+                             [](const Player& p) { return py::make_tuple(p.playing_class(), p.playing_fragment()); })
+      .def(
+          "run",
+          [](Player& player, const Doubles& trace, double rate, const py::object& progress) {
+            const Trace controls = to_trace(trace);
+            const Progress told = to_progress(progress);
+            const py::gil_scoped_release release;
+            return player.run(controls, rate, told);
+          },
+          py::arg("trace"), py::arg("rate"), py::arg("progress") = py::none());
+}
+
+}  // namespace fragmotion::bindings

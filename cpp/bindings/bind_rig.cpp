@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "fragmotion/rig.hpp"
+
+namespace fragmotion::bindings {
+namespace {
+
+std::vector<bool> to_flags(const std::optional<Flags>& flags, const std::string& name, py::ssize_t bones) {
+  if (!flags) return {};
+  check_shape(*flags, name, {bones});
+  return std::vector<bool>(flags->data(), flags->data() + flags->size());
+}
+
+Rig new_rig(const std::vector<std::string>& names, const std::vector<int>& parents, const Doubles& rest,
+            const Doubles& lengths, const Doubles& world, const std::optional<Flags>& inherit_rotation,
+            const std::optional<Flags>& local_location,
+            const std::optional<std::map<std::string, std::string>>& roles) {
+  const auto bones = static_cast<py::ssize_t>(names.size());
+  check_shape(rest, "rest", {bones, 4, 4});
+  check_shape(lengths, "lengths", {bones});
+  check_shape(world, "world", {4, 4});
+  Armature armature;
+  armature.names = names;
+  armature.parents = parents;
+  armature.rest = to_vector(rest);
+  armature.lengths = to_vector(lengths);
+  armature.world = to_vector(world);
+  armature.inherit_rotation = to_flags(inherit_rotation, "inherit_rotation", bones);
+  armature.local_location = to_flags(local_location, "local_location", bones);
+  if (roles) armature.roles = *roles;
+  return Rig(std::move(armature));
+}
+
+const double* checked_worlds(const std::optional<Doubles>& worlds, py::ssize_t frames) {
+  if (!worlds) return nullptr;
+  check_shape(*worlds, "worlds", {frames, 4, 4});
+  return worlds->data();
+}
+
+py::tuple to_tuple(Channels channels, py::ssize_t bones) {
+  return py::make_tuple(to_array(std::move(channels.locations), {channels.frames, bones, 3}),
+                        to_array(std::move(channels.rotations), {channels.frames, bones, 4}));
+}
+
+}  // namespace
+
+void bind_rig(py::module_& m) {
+  py::class_<Rig>(m, "Rig", py::module_local())
+      .def(py::init(&new_rig), py::arg("names"), py::arg("parents"), py::arg("rest"), py::arg("lengths"),
+           py::arg("world"), py::arg("inherit_rotation") = py::none(), py::arg("local_location") = py::none(),
+           py::arg("roles") = py::none())
+      .def_property_readonly("skeleton", &Rig::skeleton)
+      .def(
+          "clip",
+          [](const Rig& rig, const std::string& name, double rate, const Doubles& locations, const Doubles& rotations,
+             const std::optional<Doubles>& worlds) {
+            const py::ssize_t frames = rotations.ndim() > 0 ? rotations.shape(0) : 0;
+            check_shape(rotations, "rotations", {frames, rig.bones(), 4});
+            check_shape(locations, "locations", {frames, rig.bones(), 3});
+            return rig.clip(name, rate, static_cast<int>(frames), locations.data(), rotations.data(),
+                            checked_worlds(worlds, frames));
+          },
+          py::arg("name"), py::arg("rate"), py::arg("locations"), py::arg("rotations"), py::arg("worlds") = py::none())
+      .def(
+          "clip_from_matrices",
+          [](const Rig& rig, const std::string& name, double rate, const Doubles& matrices,
+             const std::optional<Doubles>& worlds) {
+            const py::ssize_t frames = matrices.ndim() > 0 ? matrices.shape(0) : 0;
+            check_shape(matrices, "matrices", {frames, rig.bones(), 4, 4});
+            return rig.clip_from_matrices(name, rate, static_cast<int>(frames), matrices.data(),
+                                          checked_worlds(worlds, frames));
+          },
+          py::arg("name"), py::arg("rate"), py::arg("matrices"), py::arg("worlds") = py::none())
+      .def(
+          "channels",
+          [](const Rig& rig, const Doubles& roots, const Doubles& rotations) {
+            check_shape(roots, "root_positions", {-1, 3});
+            check_shape(rotations, "rotations", {roots.shape(0), rig.skeleton().size(), 4});
+            return to_tuple(rig.channels(static_cast<int>(roots.shape(0)), roots.data(), rotations.data()),
+                            rig.bones());
+          },
+          py::arg("root_positions"), py::arg("rotations"))
+      .def(
+          "take_channels",
+          [](const Rig& rig, const Take& take) { return to_tuple(rig.take_channels(take), rig.bones()); },
+          py::arg("take"));
+}
+
+}  // namespace fragmotion::bindings

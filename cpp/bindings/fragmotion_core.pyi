@@ -1,0 +1,353 @@
+# SPDX-License-Identifier: MIT
+"""Fragment-based responsive character motion (Cheng, Liu, Pan and Tang 2009): the compiled core of Fragmotion.
+
+Units: metres, seconds, radians, frames a second; z is up. Rotations are unit quaternions (w, x, y, z). F is a number of
+frames, B of bones, N of fragments, n of classes. Everything that is wrong with an argument or a file raises ValueError
+with the cause and the place in its text; a cancelled call raises Cancelled. Long calls release the GIL and are
+deterministic: the same input and seed give the same bits, whatever the number of threads.
+"""
+
+from collections.abc import Callable, Sequence
+from os import PathLike
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+Doubles = NDArray[np.float64]
+Floats = NDArray[np.float32]
+Ints = NDArray[np.int32]
+Progress = Callable[[float, str], bool]
+"""Called now and then with the fraction done (0..1) and the stage's name; returning False cancels the call."""
+
+class Cancelled(RuntimeError):
+    """A progress callback returned False."""
+
+class Skeleton:
+    """Bones in parent-before-child order; only the first has no parent (-1)."""
+
+    def __init__(
+        self,
+        names: Sequence[str],
+        parents: Sequence[int],
+        rest_rotations: ArrayLike,
+        offsets: ArrayLike,
+        tips: ArrayLike,
+        roles: dict[str, str] | None = None,
+    ) -> None:
+        """rest_rotations [B,4] relative to the parent, offsets [B,3] m of the head in the parent's frame, tips [B,3] m of
+        the tail in the bone's own frame; bone 0 is relative to the world. `roles` (role -> bone name) overrides what the
+        names tell; the roles are hips, head, left_hand, right_hand, left_foot, right_foot, left_toe, right_toe,
+        left_thigh, right_thigh."""
+    names: list[str]
+    parents: list[int]
+    rest_rotations: Doubles
+    offsets: Doubles
+    tips: Doubles
+    roles: dict[str, str]
+    """Role -> bone name, for the roles that the skeleton has."""
+    stature: float
+    """Height of the standing character, m."""
+    def rest_heads(self) -> Doubles:
+        """World position [B,3] of each bone's head at rest, m."""
+    def rest_tails(self) -> Doubles:
+        """World position [B,3] of each bone's tail at rest, m."""
+
+class Take:
+    """A motion capture file as it stands: local transforms [F,B] on its own skeleton."""
+
+    name: str
+    rate: float
+    skeleton: Skeleton
+    translations: Doubles
+    """[F,B,3] m: a bone's head in its parent's frame (replaces the skeleton's offset)."""
+    rotations: Doubles
+    """[F,B,4]: a bone's rotation relative to its parent."""
+    def world_transforms(self) -> tuple[Doubles, Doubles]:
+        """World positions [F,B,3] m and rotations [F,B,4] of every bone's frame."""
+
+def read_bvh(path: str | PathLike[str], unit: float = 0.01) -> Take:
+    """Read a BVH file; `unit` is one file unit in metres. y-up becomes z-up as (x, -z, y)."""
+
+def read_asf_amc(asf: str | PathLike[str], amc: str | PathLike[str], rate: float = 120.0) -> Take:
+    """Read an Acclaim skeleton and a motion on it; AMC holds no frame rate."""
+
+def euler_to_quaternion(order: str, angles: ArrayLike) -> Doubles:
+    """[F,3] radians in the order X, Y, Z of the channels (whatever `order` is) to [F,4]. `order` is Blender's: in 'XYZ' the
+    rotation about X comes first, about fixed axes."""
+
+def quaternion_to_euler(order: str, rotations: ArrayLike) -> Doubles:
+    """Inverse of euler_to_quaternion [F,4] -> [F,3]; successive frames are kept continuous."""
+
+def axis_angle_to_quaternion(axis_angles: ArrayLike) -> Doubles:
+    """[F,4] as (angle, x, y, z) to [F,4]; a zero axis is no rotation."""
+
+def quaternion_to_axis_angle(rotations: ArrayLike) -> Doubles:
+    """[F,4] to [F,4] as (angle, x, y, z)."""
+
+class Rig:
+    """An armature as an animation package stores it: rest matrices, and per frame each bone's channels (a location and a
+    rotation relative to its rest in its parent). Turns channels into clips, and poses back into channels."""
+
+    def __init__(
+        self,
+        names: Sequence[str],
+        parents: Sequence[int],
+        rest: ArrayLike,
+        lengths: ArrayLike,
+        world: ArrayLike,
+        inherit_rotation: ArrayLike | None = None,
+        local_location: ArrayLike | None = None,
+        roles: dict[str, str] | None = None,
+    ) -> None:
+        """rest [B,4,4]: armature-space rest matrices (row-major, y along the bone), lengths [B] of the bones along y,
+        world [4,4]: the armature object's matrix (a uniform scale only), inherit_rotation and local_location [B] bool
+        (default all True). Raises ValueError on a non-uniform or mirrored scale, naming it. Bones outside the tree of
+        the hips keep their rest pose."""
+    skeleton: Skeleton
+    """In world metres."""
+    def clip(self, name: str, rate: float, locations: ArrayLike, rotations: ArrayLike, worlds: ArrayLike | None = None) -> Clip:
+        """Channels [F,B,3], [F,B,4] (quaternions; need not be unit) to a clip; `worlds` [F,4,4] where the object moves."""
+    def clip_from_matrices(self, name: str, rate: float, matrices: ArrayLike, worlds: ArrayLike | None = None) -> Clip:
+        """Armature-space pose matrices [F,B,4,4] (row-major; uniform scale is dropped) to a clip."""
+    def channels(self, root_positions: ArrayLike, rotations: ArrayLike) -> tuple[Doubles, Doubles]:
+        """A clip's or performance's poses to channels: locations [F,B,3] in the armature's units and rotations [F,B,4],
+        successive quaternions on the same side. Bones above the hips follow the character frame."""
+    def take_channels(self, take: Take) -> tuple[Doubles, Doubles]:
+        """A take's transforms as channels of this rig, bones matched by name; every one of the rig's bones that the take
+        lacks rests. The rig must have been made from a take's skeleton (same rest heads), its world matrix a uniform
+        scale. Raises ValueError naming the take's bones that the rig lacks."""
+
+class Clip:
+    """One take on a skeleton at a fixed rate."""
+
+    def __init__(self, skeleton: Skeleton, name: str, rate: float, root_positions: ArrayLike, rotations: ArrayLike) -> None:
+        """root_positions [F,3]: world position of the hips' head; rotations [F,B,4]: the hips' in the world, every other
+        bone's relative to its parent (bones above the hips are ignored)."""
+    @staticmethod
+    def from_take(take: Take, skeleton: Skeleton | None = None) -> Clip:
+        """The take on its own skeleton, or on `skeleton` with the same bone names. Only the hips translate: what other
+        bones move away from their offsets is dropped."""
+    name: str
+    rate: float
+    root_positions: Doubles
+    rotations: Doubles
+    def world_transforms(self, skeleton: Skeleton) -> tuple[Doubles, Doubles]:
+        """World positions [F,B,3] of the heads, m, and rotations [F,B,4]."""
+
+class ControlSpace:
+    """The 102 controls (Sec. 4): 17 velocities x turn {-1,0,1} x jump {0,1}. Control i = 6 velocity + 2 (turn + 1) + jump;
+    velocity 0 stands, 1-8 walk, 9-16 run, both counter-clockwise from forward."""
+
+    def __init__(self, walk: float = 1.2, run: float = 3.3, turn_rate: float = ..., scale: float = 1.0) -> None:
+        """Speeds in m/s, turn rate in rad/s (default 70 degrees/s), scale: 1.8 m / stature."""
+    walk: float
+    run: float
+    turn_rate: float
+    scale: float
+    weights: tuple[float, float, float]
+    """Of velocity, turn and jump in ControlDis."""
+    points: Doubles
+    """[102,4]: velocity x (right), velocity y (forward) in m/s, turn (-1, 0, 1; 1 is left), jump (0, 1)."""
+    def nearest(self, controls: ArrayLike) -> Ints:
+        """Index of the nearest of the 102 points for each of [T,4] controls."""
+    def distance(self, a: ArrayLike, b: ArrayLike) -> float:
+        """ControlDis (Eq. 2) of two controls [4]."""
+
+def read_trace(path: str | PathLike[str]) -> Doubles:
+    """Read a trace [T,4] from CSV (header velocity_x,velocity_y,turn,jump; 10 rows a second). ValueError with FILE:LINE."""
+
+def write_trace(path: str | PathLike[str], trace: ArrayLike) -> None:
+    """Write a trace [T,4] as CSV."""
+
+def simulate_trace(player: str, seconds: float = 60.0, seed: int = 1, space: ControlSpace | None = None) -> Doubles:
+    """A trace [T,4] of a simulated player: a stick with inertia that chases targets. See PLAYERS for the habits."""
+
+PLAYERS: list[str]
+
+class BuildOptions:
+    """All that a build can be told; every field has a documented default."""
+
+    def __init__(self) -> None: ...
+    cut: str
+    """'gait' (foot strikes where the skeleton has feet, else windows; default) or 'windows'."""
+    shortest: float
+    """Shortest fragment, s (default 0.1)."""
+    longest: float
+    """Longest fragment, s (default 0.5)."""
+    mirror: bool
+    """Add the mirror image of every take (default True)."""
+    synthesize: bool
+    """Fill the controls that the takes lack (Sec. 4; default True)."""
+    classes: int
+    """Number of classes n (default 97)."""
+    restarts: int
+    """Clusterings, of which the one that serves Optimal best on the traces is taken (default 8)."""
+    seed: int
+    policies: list[str]
+    """Of POLICIES; the first one drives, the others are there to be compared (default iterate, svm, greedy)."""
+    policy: str
+    """The first of `policies`; setting it puts that policy in front."""
+    threads: int
+    """0: as many as the machine has."""
+
+POLICIES: list[str]
+
+class Character:
+    """A skeleton, its fragments, their classes and a policy: what a policy file holds and a player plays."""
+
+    skeleton: Skeleton
+    space: ControlSpace
+    policies: list[str]
+    """The policies; the first one drives."""
+    policy: str
+    """The policy that drives."""
+    clip_names: list[str]
+    fragment_clips: Ints
+    """[N] index into clip_names."""
+    fragment_ranges: Doubles
+    """[N,2]: first and last pose's time in the clip, s."""
+    fragment_origins: list[str]
+    """[N]: captured, mirrored, interpolated, turned, scaled, stood, raised ..."""
+    fragment_durations: Doubles
+    """[N] s"""
+    evident: Doubles
+    """[N,4]: Ev(f), the control each fragment visibly performs."""
+    labels: Ints
+    """[N]: class of each fragment."""
+    representatives: Ints
+    """[n]: the medoid fragment of each class."""
+    smoothness: Doubles
+    """[n,n]: 1/(1 + Dis(last pose of Q, first pose of Q')), the first factor of Eq. 2."""
+    match: Doubles
+    """[n,102]: 1/(1 + ControlDis(Ev(Q'), c)), the second factor of Eq. 2."""
+    table: Ints
+    """[n,102]: the policy that drives, class x control -> next class."""
+    bridges: Ints
+    """[n,n]: the stand-in-place class that goes between two classes, or -1."""
+    coverage_counts: Ints
+    """[102]: fragments whose evident control is nearest to this one."""
+    coverage_distances: Doubles
+    """[102]: ControlDis to the nearest fragment's evident control."""
+    report: dict[str, float]
+    """Figures of the build: fragments, captured, synthesized, classes, seconds of each stage."""
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the policy file (to a temporary file, then renamed)."""
+    def to_bytes(self) -> bytes: ...
+    @staticmethod
+    def load(path: str | PathLike[str]) -> Character:
+        """Read a policy file; ValueError says why a damaged or foreign one is refused."""
+    @staticmethod
+    def from_bytes(data: bytes) -> Character: ...
+    def optimal(self, trace: ArrayLike) -> tuple[Ints, float]:
+        """Path [T+1] of classes that is best in hindsight (Eqs. 1, 3, 4) and its total quality."""
+    def percent_of_optimal(self, trace: ArrayLike, policy: str = "") -> float:
+        """Quality of one of its policies (default: the one that drives) on a trace [T,4], in percent of Optimal's, both
+        from Optimal's first class."""
+
+def build(
+    skeleton: Skeleton,
+    clips: Sequence[Clip],
+    traces: Sequence[ArrayLike],
+    options: BuildOptions | None = None,
+    progress: Progress | None = None,
+) -> Character:
+    """Clips to a character: fragments, synthesis, classes, quality, policy. Traces [T,4] teach the policy."""
+
+class Player:
+    """The run time: policy + fragments + stitching -> poses (Sec. 3.4, Fig. 3)."""
+
+    def __init__(self, character: Character, seed: int = 1, stitch: float = 0.15, policy: str = "") -> None:
+        """`stitch`: seconds over which two fragments are blended; `policy`: one of the character's (default: the one that
+        drives)."""
+    def reset(self, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
+        """Stand at a place, facing `heading` (radians, counter-clockwise from +y)."""
+    def step(self, control: ArrayLike, seconds: float) -> tuple[Doubles, Doubles]:
+        """Advance and return the pose: root position [3] m and rotations [B,4] as in Clip."""
+    frame: tuple[float, float, float]
+    """x, y, heading of the character frame now."""
+    playing: tuple[int, int]
+    """Class and fragment that play now."""
+    def run(self, trace: ArrayLike, rate: float, progress: Progress | None = None) -> Performance:
+        """Reset is not called. Play a trace [T,4] (10 controls a second) from now, sampled at `rate` (any, also 29.97): frames
+        0 .. round(T/10 * rate)."""
+
+class Performance:
+    """What a player did."""
+
+    rate: float
+    root_positions: Doubles
+    """[F,3] m"""
+    rotations: Doubles
+    """[F,B,4]"""
+    frames: Doubles
+    """[F,3]: character frame x, y, heading (unwrapped)."""
+    classes: Ints
+    """[F]"""
+    fragments: Ints
+    """[F]"""
+    quality: float
+    """Time-weighted mean of Eq. 2 over what was played, 0..1."""
+    velocity_error: float
+    """Mean distance of the velocity from the commanded one, m/s; the velocity is that of the centre of mass over the
+    last second against the mean command of that second, both in the character frame."""
+    commanded_speed: float
+    """Mean commanded speed, m/s."""
+
+# The stages of a build, each a function of arrays.
+
+def trajectories(character: Character, poses: int = 16) -> tuple[Floats, Floats, Floats]:
+    """The fragments as Dis sees them (Sec. 3.1), m of a 1.8 m character: bone tips [N,poses*K,3] at equal times in the
+    character frame of the first pose, and [N,K,3] of the first and the last pose, each in its own character frame."""
+
+def cluster(
+    points: ArrayLike,
+    classes: int,
+    weights: ArrayLike | None = None,
+    restarts: int = 4,
+    seed: int = 1,
+    threads: int = 0,
+    progress: Progress | None = None,
+) -> tuple[Ints, Ints, float]:
+    """k-means of points [N,K,3] under Dis, the sum of K distances; weights [N] > 0 say how much each counts. Returns
+    labels [N], representatives [n] (medoids) and the inertia, the weighted sum of squares of Dis to the class's mean."""
+
+def optimal_path(smoothness: ArrayLike, match: ArrayLike, trace: ArrayLike) -> tuple[Ints, float]:
+    """The best path in hindsight (Eqs. 1, 3, 4) for the factors of Eq. 2, [n,n] and [n,102], over a trace of control
+    indices [T]: classes [T+1] and total quality. Ties go to the lower class."""
+
+def percent_of_optimal(smoothness: ArrayLike, match: ArrayLike, table: ArrayLike, trace: ArrayLike) -> float:
+    """Quality of a policy table [n,102] over control indices [T], percent of Optimal's, both from its first class."""
+
+def greedy_table(smoothness: ArrayLike, match: ArrayLike) -> Ints:
+    """[n,102]: argmax of Eq. 2 (Sec. 4, "Greedy")."""
+
+def control_model(traces: Sequence[ArrayLike]) -> Doubles:
+    """[102,102]: P(next control | control) learned from traces of control indices; rows sum to 1."""
+
+def iterate_table(
+    smoothness: ArrayLike, match: ArrayLike, traces: Sequence[ArrayLike], discount: float = ..., tolerance: float = ...
+) -> Ints:
+    """[n,102] by value iteration with control_model() (McCann and Pollard 2007)."""
+
+def class_features(character: Character) -> Doubles:
+    """[n, up to 8]: each class as a previous class in the SVM's inputs: principal components of its last pose."""
+
+def svm_samples(
+    smoothness: ArrayLike, match: ArrayLike, traces: Sequence[ArrayLike], features: ArrayLike, space: ControlSpace
+) -> tuple[Doubles, Ints]:
+    """The SVM's training samples from Optimal's paths (Sec. 3.3): inputs [S, features + 4] and next classes [S]."""
+
+def svm_table(
+    smoothness: ArrayLike,
+    match: ArrayLike,
+    traces: Sequence[ArrayLike],
+    features: ArrayLike,
+    space: ControlSpace,
+    c: float = 0.0,
+    gamma: float = 0.0,
+    threads: int = 0,
+) -> tuple[Ints, float, float, float]:
+    """[n,102] by C-SVC with the RBF kernel (Eqs. 5, 6), and its C, gamma (0: by cross-validation) and the accuracy of the
+    cross-validation (0 where both were given)."""

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "fragmotion/quality.hpp"
+
+namespace fragmotion {
+
+/// Transitions further apart than this get a stand-in-place fragment between, m summed over bone tips (22 bones: about
+/// 20 cm a tip).
+constexpr double kBridgeDistance = 4;
+
+/// The stand-in-place rule (Sec. 5: "most unnatural transitions are removed by inserting an appropriate intermediate
+/// motion fragment"): for every pair of classes the standing class that goes between, or -1. One does where the direct
+/// Dis is over `threshold` and both ways by the standing class are shorter; the one with the shortest sum is taken.
+std::vector<int> stand_bridges(const FragmentPool& pool, const Trajectories& t, const Classes& classes,
+                               const ControlSpace& space, double threshold = kBridgeDistance);
+
+}  // namespace fragmotion

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fragmotion/coverage.hpp"
+#include "fragmotion/policy.hpp"
+#include "fragmotion/progress.hpp"
+#include "fragmotion/trace.hpp"
+
+namespace fragmotion {
+
+/// What a policy file holds and a player plays: fragments, their classes and the control policy table.
+struct Character {
+  FragmentPool pool;
+  ControlSpace space;
+  Classes classes;
+  Quality quality;
+  std::vector<Policy> policies;  ///< The first one drives.
+  std::vector<int> bridges;      ///< [classes, classes]: stand_bridges().
+  Coverage coverage;
+  std::map<std::string, double> report;  ///< Figures of the build: counts, and seconds of each stage.
+
+  /// The policy of that name, or the one that drives where the name is empty. Throws std::invalid_argument listing
+  /// those that there are.
+  const Policy& policy(const std::string& name = {}) const;
+};
+
+/// All that a build can be told.
+struct BuildOptions {
+  CutOptions cut;
+  bool mirror = true;      ///< Add the mirror image of every take.
+  bool synthesize = true;  ///< Fill the controls that the takes lack.
+  int classes = 97;
+  int restarts = 8;  ///< Clusterings, of which the one that serves Optimal best on the traces is taken.
+  std::uint64_t seed = 1;
+  /// Of policy_names(); the first one drives, the others are there to be compared.
+  std::vector<std::string> policies{"iterate", "svm", "greedy"};
+  int threads = 0;  ///< 0: as many as the machine has. The result does not depend on it.
+};
+
+/// The policies that build() knows.
+const std::vector<std::string>& policy_names();
+
+/// The control space of a set of evident controls (in the default space): the speeds are the means of the two gaits
+/// that the fragments fall into, the turn rate the upper quartile of those that turn; the defaults where the fragments
+/// show none.
+ControlSpace control_space_of(const std::vector<Control>& evident, double scale);
+
+/// Clips to a character: fragments, synthesis, classes, Eq. 2, policy. `traces` teach the policy.
+/// Deterministic: the same input gives the same bits, whatever the number of threads.
+/// Throws std::invalid_argument where there is nothing to build from, fewer fragments than classes, no trace, or an
+/// unknown policy; Cancelled where the progress callback says so.
+Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
+                const BuildOptions& options = {}, const Progress& progress = {});
+
+/// The indices of the points of the space nearest to a trace's controls.
+std::vector<int> snap(const ControlSpace& space, const Trace& trace);
+
+}  // namespace fragmotion

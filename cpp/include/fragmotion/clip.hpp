@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fragmotion/skeleton.hpp"
+#include "fragmotion/take.hpp"
+
+namespace fragmotion {
+
+/// One take on a skeleton at a fixed rate. Only the hips translate; the bones above them follow the character frame.
+struct Clip {
+  std::string name;
+  double rate = 0;  ///< Frames a second.
+  int frames = 0;
+  std::vector<double> root_positions;  ///< [frames, 3] m: the hips' head in the world, z up
+  std::vector<double> rotations;       ///< [frames, bones, 4]: the hips' in the world, every other bone's in its parent
+  std::vector<double> headings;        ///< [frames] rad, unwrapped: where the character faces; see facing.hpp
+};
+
+/// Checks shapes, finite numbers, rate > 0 and at least two frames, and makes the quaternions unit, successive ones on
+/// the same side. The rotations of bones outside the tree of the hips become their rest rotations, whatever they were.
+/// Throws std::invalid_argument naming the clip, frame (from 0) and bone.
+Clip make_clip(const Skeleton& skeleton, Clip clip);
+
+/// The take's motion on `skeleton`, bones matched by name. What bones other than the hips move away from their offsets
+/// is dropped; the bones above the hips go into the hips' motion. Below the hips the bones must have the same parents
+/// and rest rotations as in the take. Throws std::invalid_argument naming the bone that is missing or differs.
+Clip clip_from_take(const Skeleton& skeleton, const Take& take);
+
+}  // namespace fragmotion

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+#include "fragmotion/distance.hpp"
+#include "fragmotion/progress.hpp"
+
+namespace fragmotion {
+
+struct ClusterOptions {
+  int classes = 97;      ///< The paper's, "based on several experiment results".
+  int restarts = 4;      ///< Runs from different starts, of which the best counts.
+  int iterations = 100;  ///< At most, a run.
+  std::uint64_t seed = 1;
+  int threads = 0;
+};
+
+/// The fragments in n classes Q_1 .. Q_n (Sec. 3.1).
+struct Classes {
+  int count = 0;
+  std::vector<int> labels;           ///< [fragments] class of each
+  std::vector<int> representatives;  ///< [count] the medoid: the member nearest to the mean
+  double inertia = 0;                ///< Sum over fragments of Dis(f, mean of its class) squared.
+
+  /// The fragments of each class, in order.
+  std::vector<std::vector<int>> members() const;
+};
+
+/// What makes one clustering better than another: the greater score. By default the smaller inertia.
+using ClassScore = std::function<double(const Classes&)>;
+
+/// k-means under Dis: k-means++ starts, Elkan's bounds (exact, since Dis is a norm), empty classes refilled with the
+/// fragment furthest from its mean. `weights` (> 0, one a fragment) say how much each counts. Classes are
+/// numbered by their representatives' order in the pool.
+/// Throws std::invalid_argument where there are fewer distinct fragments than classes.
+Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
+                const ClassScore& score = {}, const Progress& progress = {});
+
+}  // namespace fragmotion

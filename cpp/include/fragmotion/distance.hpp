@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "fragmotion/fragment.hpp"
+
+namespace fragmotion {
+
+/// Bone tips as Dis sees them: x, y and z each in a row of floats, padded with zeros to whole blocks of kLanes.
+constexpr int kLanes = 8;
+
+/// Sum over points of the Euclidean distance between two such vectors of `stride` floats a row (Sec. 3.1): a norm of
+/// their difference. The same bits on every x86-64, with AVX2 or without.
+float tip_distance(const float* a, const float* b, int stride);
+
+/// The fragments as points of the space in which Dis is a norm. Lengths are those of a character of 1.8 m.
+/// A trajectory is `poses` poses at equal times, all in the character frame of the first; `first` and `last` are the
+/// fragment's end poses, each in its own character frame.
+struct Trajectories {
+  int count = 0;
+  int stride = 0;            ///< Floats in a row of a trajectory.
+  int pose_stride = 0;       ///< Floats in a row of an end pose.
+  std::vector<float> whole;  ///< [count, 3, stride]
+  std::vector<float> first;  ///< [count, 3, pose_stride]
+  std::vector<float> last;   ///< [count, 3, pose_stride]
+
+  const float* trajectory(int i) const { return &whole[static_cast<std::size_t>(i) * 3 * stride]; }
+  const float* first_pose(int i) const { return &first[static_cast<std::size_t>(i) * 3 * pose_stride]; }
+  const float* last_pose(int i) const { return &last[static_cast<std::size_t>(i) * 3 * pose_stride]; }
+};
+
+/// Samples every fragment of the pool at `poses` times.
+Trajectories trajectories(const FragmentPool& pool, int poses = 16, int threads = 0);
+
+/// Dis(f, g) of two fragments: summed over corresponding poses.
+float fragment_distance(const Trajectories& t, int f, int g);
+
+/// Dis(p_m of f, p_1 of g) (Eq. 2).
+float transition_distance(const Trajectories& t, int f, int g);
+
+}  // namespace fragmotion

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fragmotion/contacts.hpp"
+#include "fragmotion/control.hpp"
+
+namespace fragmotion {
+
+/// Where a fragment comes from: the takes, their mirror image, or synthesis (Sec. 4).
+enum class Origin : std::uint8_t { captured, mirrored, interpolated, transformed };
+
+/// The name of an origin.
+const char* origin_name(Origin origin);
+
+/// One cycle of an action: the frames begin .. end of a clip, both included; frame `end` is also the first of what
+/// follows in the clip. Lasts (end - begin) / rate seconds.
+struct Fragment {
+  int clip = 0;
+  int begin = 0;
+  int end = 0;
+  Origin origin = Origin::captured;
+  Control evident;  ///< Ev(f), see evident.hpp.
+};
+
+/// All fragments, with the clips that hold their poses.
+struct FragmentPool {
+  Skeleton skeleton;
+  std::vector<Clip> clips;
+  std::vector<Fragment> fragments;
+
+  double seconds(const Fragment& fragment) const { return (fragment.end - fragment.begin) / clips[fragment.clip].rate; }
+};
+
+struct CutOptions {
+  bool at_gait_events = true;  ///< At foot strikes, where the skeleton has feet; else by windows.
+  double shortest = 0.1;       ///< s
+  double longest = 0.5;        ///< s
+};
+
+/// Cuts clip `clip` of the pool into fragments (Sec. 4: 100 to 500 ms) and appends them. Between two cuts that are
+/// further apart than `longest`, the fragment is divided into equal parts, or into parts of `longest` without the rest
+/// where equal ones would be shorter than `shortest`; cuts nearer than `shortest` are dropped. Throws
+/// std::invalid_argument on a range with no whole number of frames for this clip's rate.
+void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const CutOptions& options);
+
+}  // namespace fragmotion

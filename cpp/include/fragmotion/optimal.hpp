@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "fragmotion/quality.hpp"
+
+namespace fragmotion {
+
+/// The class Q' after `from` with the greatest Quality(from, Q', c) + value(Q') (Eqs. 1 and 4): `match` is the second
+/// factor of Eq. 2 for c, `value` what each class is worth afterwards, both [classes]. The greatest sum goes to `best`.
+/// Ties go to the lower class.
+int best_next(const Quality& quality, int from, const double* match, const double* value, double& best);
+
+/// The best path in hindsight: Q_0 and the class after each of the trace's controls, and the sum of Eq. 2 along it.
+struct OptimalPath {
+  std::vector<int> classes;  ///< [steps + 1]
+  double quality = 0;
+};
+
+/// Dynamic programming over a trace of control indices (Eqs. 1, 3 and 4): O(steps classes^2).
+/// Ties go to the lower class. Throws std::invalid_argument on an empty trace or an index outside 0..101.
+OptimalPath optimal_path(const Quality& quality, const std::vector<int>& trace);
+
+}  // namespace fragmotion

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fragmotion/character.hpp"
+#include "fragmotion/random.hpp"
+
+namespace fragmotion {
+
+/// What a player did, a pose a frame.
+struct Performance {
+  double rate = 0;  ///< Frames a second.
+  int frames = 0;
+  std::vector<double> root_positions;  ///< [frames, 3] m
+  std::vector<double> rotations;       ///< [frames, bones, 4]
+  std::vector<double> path;            ///< [frames, 3]: character frame x, y in m and heading in rad, unwrapped
+  std::vector<int> classes;            ///< [frames]
+  std::vector<int> fragments;          ///< [frames]
+  double quality = 0;                  ///< Mean over time of Eq. 2 for what plays and the control then, 0..1.
+  double velocity_error = 0;   ///< Mean over frames of |velocity of the hips - commanded|, character frame, m/s.
+  double commanded_speed = 0;  ///< Mean over frames, m/s.
+};
+
+/// The run time (Sec. 3.4, Fig. 3): at a fragment's end the table tells the next class; a member drawn at random is
+/// placed where the character stands, and stitched on: over a set time the old fragment goes on in its take while
+/// translations are interpolated linearly and rotations by slerp, with ease-in-ease-out weights.
+class Player {
+ public:
+  /// `stitch` seconds are cut short by shorter fragments; `policy` is one of the character's, or empty for the one that
+  /// drives. Throws std::invalid_argument unless stitch is 0 .. 1 s, and on an unknown policy.
+  explicit Player(std::shared_ptr<const Character> character, std::uint64_t seed = 1, double stitch = 0.15,
+                  const std::string& policy = {});
+
+  /// Stands at `frame`, in the class that best performs standing still.
+  void reset(const CharacterFrame& frame = {});
+
+  /// Plays on for `seconds` >= 0 under a control.
+  void step(const Control& control, double seconds);
+
+  const Vector3& root_position() const { return root_; }
+  /// [bones, 4] as in Clip.
+  const std::vector<double>& rotations() const { return rotations_; }
+  CharacterFrame frame() const;
+  int playing_class() const { return class_; }
+  int playing_fragment() const { return now_.fragment; }
+  /// Eq. 2 for the transition that led here and the control.
+  double quality(int control) const;
+
+  /// Steps through a trace from now: frames 0 .. round(duration * rate), each control for 1/kTraceRate s.
+  Performance run(const Trace& trace, double rate, const Progress& progress = {});
+
+  const Character& character() const { return *character_; }
+
+ private:
+  // A fragment that plays, placed in the world: its clip turned by `heading` about z and moved by `offset`.
+  struct Placed {
+    int fragment = 0;
+    double seconds = 0;  // since its first pose
+    double heading = 0;
+    Vector2 offset = Vector2::Zero();
+  };
+
+  Placed place(int fragment, const CharacterFrame& frame) const;
+  Vector3 sample(const Placed& placed, double* rotations) const;
+  double heading(const Placed& placed) const;
+  void start(int next_class);
+  int decide(int control);
+  bool leaves_early(const Control& control) const;
+  void show();
+  double left() const;
+
+  std::shared_ptr<const Character> character_;
+  const Policy* policy_;
+  Kinematics kinematics_;
+  std::vector<std::vector<int>> members_;
+  Random random_;
+  double stitch_;
+
+  Placed now_, before_;
+  double stitching_ = 0;  // s that the stitch under way lasts; 0: none
+  int class_ = 0, from_ = 0;
+  int waiting_ = -1;  // the class that follows a stand-in-place fragment
+  Control decided_for_;
+  bool jump_pressed_ = false;
+  Vector3 root_;
+  double heading_ = 0;
+  std::vector<double> rotations_, other_;
+};
+
+}  // namespace fragmotion

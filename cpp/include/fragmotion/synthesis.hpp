@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "fragmotion/evident.hpp"
+
+namespace fragmotion {
+
+/// "Simple transforming of the original fragments" (Sec. 4): how the path of a fragment is changed; the body goes
+/// along.
+struct Transform {
+  double direction = 0;  ///< Turns the direction of travel against the body, rad, left is positive.
+  double speed = 1;      ///< Scales the path.
+  double turn = 0;       ///< Turns path and body at this rate, rad/s.
+  double rise = 0;       ///< Height of a parabola through the air, m.
+};
+
+/// Frames begin .. end of a clip, and up to `tail` more, with the path transformed; frame 0 is where `begin` was.
+Clip transformed(const Kinematics& kinematics, const Clip& clip, int begin, int end, int tail,
+                 const Transform& transform);
+
+/// A motion between two fragments: each pose, and the path, interpolated at equal phases with weight (1 - w, w). Its
+/// last frame but `tail` is the fragments' end. Both at the rate of `a`'s clip.
+Clip interpolated(const Kinematics& kinematics, const FragmentPool& pool, const Fragment& a, const Fragment& b,
+                  double w, int tail);
+
+/// A character that stands for `frames` frames: the mean pose of the pool's slowest fragments, on the ground that they
+/// stand on. Symmetric where the pool holds the fragments' mirror images.
+Clip standing(const Kinematics& kinematics, const FragmentPool& pool, int frames, double rate);
+
+struct SynthesisOptions {
+  double tolerance = 0.3;  ///< A fragment performs a control when ControlDis(Ev, control) is at most this.
+  int wanted = 4;          ///< Fragments that should perform each control.
+  double longest = 0.5;    ///< s: longest fragment.
+  double tail = 0.3;       ///< s kept beyond a fragment's end, for stitching.
+};
+
+/// Adds fragments for the controls that fewer than `wanted` fragments perform: interpolations of similar fragments
+/// whose evident controls lie around it, and a transformed gait cycle, cut into fragments that follow each other, so
+/// that the control can be performed for long. `usual` is usual_height() of the takes.
+void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, const SynthesisOptions& options = {});
+
+}  // namespace fragmotion

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace fragmotion {
+
+/// Half a turn, rad.
+constexpr double kPi = 3.14159265358979323846;
+
+using Vector2 = Eigen::Vector2d;
+using Vector3 = Eigen::Vector3d;
+using Quaternion = Eigen::Quaterniond;
+
+/// Arrays hold rotations as (w, x, y, z); Eigen stores (x, y, z, w).
+inline Quaternion load_quaternion(const double* wxyz) { return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]}; }
+
+inline void store_quaternion(const Quaternion& q, double* wxyz) {
+  wxyz[0] = q.w();
+  wxyz[1] = q.x();
+  wxyz[2] = q.y();
+  wxyz[3] = q.z();
+}
+
+inline Vector3 load_vector(const double* xyz) { return {xyz[0], xyz[1], xyz[2]}; }
+
+inline void store_vector(const Vector3& v, double* xyz) { Eigen::Map<Vector3>{xyz} = v; }
+
+}  // namespace fragmotion

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/character.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "fragmotion/bridge.hpp"
+#include "fragmotion/evident.hpp"
+#include "fragmotion/greedy.hpp"
+#include "fragmotion/iterate.hpp"
+#include "fragmotion/mirror.hpp"
+#include "fragmotion/svm.hpp"
+#include "fragmotion/synthesis.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kMoving = 0.3;     // m/s of a 1.8 m character
+constexpr double kTwoGaits = 1.6;   // a run is at least so much faster than a walk
+constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gaits
+constexpr double kRunOverWalk = 3.3 / 1.2;
+constexpr double kBalance = -1.0 / 3;  // each of k fragments that perform one control counts k^(-1/3) in clustering
+constexpr double kTurning = kPi / 6;   // rad/s
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+double mean_of(const std::vector<double>& values, std::size_t begin, std::size_t end) {
+  double sum = 0;
+  for (std::size_t i = begin; i < end; ++i) sum += values[i];
+  return sum / static_cast<double>(end - begin);
+}
+
+// The two means of sorted values that split them best (the least squares of two clusters).
+std::pair<double, double> two_means(const std::vector<double>& sorted) {
+  double best = -1;
+  std::pair<double, double> means{sorted.front(), sorted.back()};
+  for (std::size_t split = 1; split < sorted.size(); ++split) {
+    const double a = mean_of(sorted, 0, split), b = mean_of(sorted, split, sorted.size());
+    const double between = (b - a) * (b - a) * static_cast<double>(split) * static_cast<double>(sorted.size() - split);
+    if (between > best) best = between, means = {a, b};
+  }
+  return means;
+}
+
+std::pair<double, double> gait_speeds(const std::vector<Control>& evident, double scale) {
+  std::vector<double> speeds;
+  for (const Control& ev : evident) {
+    const double speed = std::hypot(ev.x, ev.y) * scale;
+    if (speed > kMoving && ev.jump < 0.5) speeds.push_back(speed);
+  }
+  if (speeds.empty()) return {1.2, 3.3};
+  std::sort(speeds.begin(), speeds.end());
+  const auto [slow, fast] = two_means(speeds);
+  if (fast > kTwoGaits * slow) return {slow, fast};
+  const double mean = mean_of(speeds, 0, speeds.size());
+  return mean < kWalkOrRun ? std::pair{mean, mean * kRunOverWalk} : std::pair{mean / kRunOverWalk, mean};
+}
+
+double turn_rate(const std::vector<Control>& evident) {
+  const double unit = ControlSpace().turn_rate();
+  std::vector<double> rates;
+  for (const Control& ev : evident) {
+    if (std::abs(ev.turn) * unit > kTurning) rates.push_back(std::abs(ev.turn) * unit);
+  }
+  if (rates.size() * 20 < evident.size() || rates.empty()) return unit;
+  const std::size_t at = rates.size() * 3 / 4;
+  std::nth_element(rates.begin(), rates.begin() + at, rates.end());
+  return rates[at];
+}
+
+// Cuts the clips from `first` on and marks their fragments.
+void cut(FragmentPool& pool, const Kinematics& kinematics, std::size_t first, Origin origin,
+         const CutOptions& options) {
+  for (std::size_t c = first; c < pool.clips.size(); ++c) {
+    const std::size_t before = pool.fragments.size();
+    cut_fragments(pool, static_cast<int>(c), find_contacts(kinematics, pool.clips[c]), options);
+    for (std::size_t i = before; i < pool.fragments.size(); ++i) pool.fragments[i].origin = origin;
+  }
+}
+
+// The captured and mirrored fragments, without their evident controls.
+FragmentPool captured_pool(const Skeleton& skeleton, const std::vector<Clip>& clips, const BuildOptions& options,
+                           const Kinematics& kinematics) {
+  FragmentPool pool{skeleton, {}, {}};
+  for (const Clip& clip : clips) pool.clips.push_back(make_clip(skeleton, clip));  // they may be another skeleton's
+  cut(pool, kinematics, 0, Origin::captured, options.cut);
+  if (pool.fragments.empty()) {
+    throw std::invalid_argument("the takes are too short: none holds a fragment of " +
+                                std::to_string(options.cut.shortest) + " s");
+  }
+  if (options.mirror) {
+    const Mirror mirror(kinematics, clips);
+    for (const Clip& clip : clips) pool.clips.push_back(mirror(clip));
+    cut(pool, kinematics, clips.size(), Origin::mirrored, options.cut);
+  }
+  return pool;
+}
+
+// Fills the evident controls; returns the space that fits them and the usual height of the centre of mass.
+ControlSpace perform(FragmentPool& pool, const Kinematics& kinematics, double& usual) {
+  const double scale = 1.8 / stature(pool.skeleton);
+  std::vector<BodyMotion> motions;
+  for (const Clip& clip : pool.clips) motions.push_back(body_motion(kinematics, clip));
+  usual = usual_height(motions);
+  const ControlSpace standard(1.2, 3.3, ControlSpace().turn_rate(), scale);
+  std::vector<Control> evident;
+  for (Fragment& f : pool.fragments) {
+    f.evident = evident_control(motions[f.clip], pool.clips[f.clip].rate, f.begin, f.end, usual, standard);
+    evident.push_back(f.evident);
+  }
+  const ControlSpace space = control_space_of(evident, scale);
+  for (Fragment& f : pool.fragments) f.evident.turn *= standard.turn_rate() / space.turn_rate();
+  return space;
+}
+
+// Policy files keep poses in single precision; so does a character that was just built, so that both play the same.
+void round_to_single(std::vector<Clip>& clips) {
+  for (Clip& clip : clips) {
+    for (double& value : clip.root_positions) value = static_cast<float>(value);
+    for (double& value : clip.rotations) value = static_cast<float>(value);
+    for (double& value : clip.headings) value = static_cast<float>(value);
+  }
+}
+
+// What many fragments perform must not take all classes from what few do.
+std::vector<float> balanced_weights(const Character& c) {
+  std::vector<float> weights;
+  for (const Fragment& f : c.pool.fragments) {
+    weights.push_back(static_cast<float>(std::pow(c.coverage.counts[c.space.nearest(f.evident)], kBalance)));
+  }
+  return weights;
+}
+
+// Scores classes by the quality of Optimal's paths over the traces.
+ClassScore serves_traces(const Character& c, const Trajectories& t, const std::vector<std::vector<int>>& traces) {
+  return [&](const Classes& classes) {
+    const Quality quality = quality_table(c.pool, t, classes, c.space);
+    double sum = 0;
+    for (const std::vector<int>& trace : traces) sum += optimal_path(quality, trace).quality;
+    return sum;
+  };
+}
+
+Policy policy_named(const std::string& name, const Character& c, const Trajectories& t,
+                    const std::vector<std::vector<int>>& traces, int threads, const Progress& progress) {
+  if (name == "greedy") return greedy_policy(c.quality);
+  if (name == "iterate") return iterate_policy(c.quality, traces);
+  SvmOptions options;
+  options.threads = threads;
+  return svm_policy(c.quality, traces, class_features(t, c.classes), c.space, options, progress).policy;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+void check(const std::vector<Clip>& clips, const std::vector<Trace>& traces, const BuildOptions& options) {
+  if (clips.empty()) throw std::invalid_argument("there are no takes to build from");
+  if (traces.empty()) throw std::invalid_argument("there is no trace to learn from");
+  for (const Trace& trace : traces) {
+    if (trace.size() < 2) throw std::invalid_argument("a trace must hold at least two controls");
+  }
+  if (options.policies.empty()) throw std::invalid_argument("no policy is asked for");
+  const std::vector<std::string>& names = policy_names();
+  for (const std::string& name : options.policies) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw std::invalid_argument("there is no policy \"" + name + "\"; the policies are " + listed(names));
+  }
+}
+
+// A part of a build's progress as the whole's.
+Progress part_of(const Progress& progress, double from, double to) {
+  if (!progress) return {};
+  return [=](double fraction, const std::string& stage) { return progress(from + (to - from) * fraction, stage); };
+}
+
+}  // namespace
+
+const std::vector<std::string>& policy_names() {
+  static const std::vector<std::string> names{"greedy", "svm", "iterate"};
+  return names;
+}
+
+const Policy& Character::policy(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const Policy& policy : policies) {
+    if (name.empty() || policy.name == name) return policy;
+    names.push_back(policy.name);
+  }
+  throw std::invalid_argument("this character has no policy \"" + name + "\"; it has " + listed(names));
+}
+
+ControlSpace control_space_of(const std::vector<Control>& evident, double scale) {
+  const auto [walk, run] = gait_speeds(evident, scale);
+  return ControlSpace(walk / scale, run / scale, turn_rate(evident), scale);
+}
+
+std::vector<int> snap(const ControlSpace& space, const Trace& trace) {
+  std::vector<int> indices;
+  for (const Control& control : trace) indices.push_back(space.nearest(control));
+  return indices;
+}
+
+Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
+                const BuildOptions& options, const Progress& progress) {
+  check(clips, traces, options);
+  Stopwatch whole, stage;
+  Character c;
+  report(progress, 0, "Cutting fragments");
+  const Kinematics kinematics(skeleton);
+  c.pool = captured_pool(skeleton, clips, options, kinematics);
+  c.report["captured"] = static_cast<double>(c.pool.fragments.size());
+  double usual = 0;
+  c.space = perform(c.pool, kinematics, usual);
+  c.report["cut_seconds"] = stage.lap();
+  report(progress, 0.15, "Synthesizing fragments");
+  if (options.synthesize) {
+    SynthesisOptions synthesis;
+    synthesis.longest = options.cut.longest;
+    synthesize(c.pool, c.space, usual, synthesis);
+  }
+  round_to_single(c.pool.clips);
+  c.coverage = coverage(c.pool, c.space);
+  c.report["fragments"] = static_cast<double>(c.pool.fragments.size());
+  c.report["synthesize_seconds"] = stage.lap();
+  report(progress, 0.3, "Measuring fragments");
+  const Trajectories t = trajectories(c.pool, 16, options.threads);
+  c.report["measure_seconds"] = stage.lap();
+  std::vector<std::vector<int>> snapped;
+  for (const Trace& trace : traces) snapped.push_back(snap(c.space, trace));
+  ClusterOptions clustering;
+  clustering.classes = options.classes;
+  clustering.restarts = options.restarts;
+  clustering.seed = options.seed;
+  clustering.threads = options.threads;
+  c.classes = cluster(t, balanced_weights(c), clustering, serves_traces(c, t, snapped), part_of(progress, 0.35, 0.7));
+  c.report["classes"] = c.classes.count;
+  c.report["cluster_seconds"] = stage.lap();
+  c.quality = quality_table(c.pool, t, c.classes, c.space);
+  c.bridges = stand_bridges(c.pool, t, c.classes, c.space);
+  c.report["quality_seconds"] = stage.lap();
+  for (const std::string& name : options.policies) {
+    c.policies.push_back(policy_named(name, c, t, snapped, options.threads, part_of(progress, 0.7, 1)));
+    c.report[name + "_seconds"] = stage.lap();
+  }
+  c.report["seconds"] = whole.lap();
+  report(progress, 1, "Done");
+  return c;
+}
+
+}  // namespace fragmotion

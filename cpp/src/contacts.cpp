@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/contacts.hpp"
+
+#include <cmath>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kHeight = 0.045, kSpeed = 0.5, kSpeedShare = 0.2, kShortest = 0.06;
+
+// The path of a foot's lower end (the ball: the toe's head, else the foot's tip) and of its heel (the foot's head).
+struct FootPath {
+  std::vector<Vector3> ball, heel;
+};
+
+FootPath foot_path(const Kinematics& kinematics, const Clip& clip, int foot, int toe) {
+  const Skeleton& skeleton = kinematics.skeleton();
+  std::vector<Vector3> heads(kinematics.bones());
+  std::vector<Quaternion> rotations(kinematics.bones());
+  FootPath path;
+  for (int f = 0; f < clip.frames; ++f) {
+    kinematics.world(clip, f, heads.data(), rotations.data());
+    path.ball.push_back(toe >= 0 ? heads[toe] : Vector3{heads[foot] + rotations[foot] * skeleton.tips[foot]});
+    path.heel.push_back(heads[foot]);
+  }
+  return path;
+}
+
+double speed_at(const std::vector<Vector3>& path, int f, double rate) {
+  const int last = static_cast<int>(path.size()) - 1, a = std::max(0, f - 1), b = std::min(last, f + 1);
+  return (path[b] - path[a]).norm() * rate / (b - a);
+}
+
+double lowest(const std::vector<Vector3>& path) {
+  double z = path.front().z();
+  for (const Vector3& p : path) z = std::min(z, p.z());
+  return z;
+}
+
+// Flips runs of `value` shorter than `frames`, those at the ends of the clip excepted.
+void close_short_runs(std::vector<bool>& flags, bool value, int frames) {
+  const int count = static_cast<int>(flags.size());
+  for (int begin = 0; begin < count;) {
+    int end = begin;
+    while (end < count && flags[end] == flags[begin]) ++end;
+    if (flags[begin] == value && end - begin < frames && begin > 0 && end < count) {
+      std::fill(flags.begin() + begin, flags.begin() + end, !value);
+    }
+    begin = end;
+  }
+}
+
+std::vector<bool> foot_contacts(const FootPath& path, const std::vector<Vector3>& hips, double rate, double scale) {
+  const double ball_floor = lowest(path.ball), heel_floor = lowest(path.heel);
+  std::vector<bool> flags(path.ball.size());
+  for (int f = 0; f < static_cast<int>(flags.size()); ++f) {
+    const double limit = kSpeed + kSpeedShare * speed_at(hips, f, rate) * scale;
+    const auto stands = [&](const std::vector<Vector3>& point, double floor) {
+      return (point[f].z() - floor) * scale < kHeight && speed_at(point, f, rate) * scale < limit;
+    };
+    flags[f] = stands(path.ball, ball_floor) || stands(path.heel, heel_floor);
+  }
+  const int frames = static_cast<int>(std::ceil(kShortest * rate));
+  close_short_runs(flags, false, frames);
+  close_short_runs(flags, true, frames);
+  return flags;
+}
+
+}  // namespace
+
+Contacts find_contacts(const Kinematics& kinematics, const Clip& clip) {
+  const Roles& roles = kinematics.skeleton().roles;
+  if (roles.left_foot < 0 || roles.right_foot < 0) return {};
+  std::vector<Vector3> hips;
+  for (int f = 0; f < clip.frames; ++f) hips.push_back(load_vector(&clip.root_positions[3 * f]));
+  const double scale = 1.8 / stature(kinematics.skeleton());
+  Contacts contacts;
+  contacts.feet[0] =
+      foot_contacts(foot_path(kinematics, clip, roles.left_foot, roles.left_toe), hips, clip.rate, scale);
+  contacts.feet[1] =
+      foot_contacts(foot_path(kinematics, clip, roles.right_foot, roles.right_toe), hips, clip.rate, scale);
+  return contacts;
+}
+
+std::vector<int> foot_strikes(const Contacts& contacts) {
+  std::vector<int> strikes;
+  for (int f = 1; f < static_cast<int>(contacts.feet[0].size()); ++f) {
+    for (const std::vector<bool>& foot : contacts.feet) {
+      if (foot[f] && !foot[f - 1] && (strikes.empty() || strikes.back() != f)) strikes.push_back(f);
+    }
+  }
+  return strikes;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/control.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace fragmotion {
+
+namespace {
+
+void require(bool valid, const char* name, double value, const char* expected) {
+  if (valid) return;
+  std::ostringstream text;
+  text << "control space: " << name << " is " << value << ", expected " << expected;
+  throw std::invalid_argument(text.str());
+}
+
+void require_positive(const char* name, double value) {
+  require(std::isfinite(value) && value > 0, name, value, "a finite number above 0");
+}
+
+void require_weight(const char* name, double value) {
+  require(std::isfinite(value) && value >= 0, name, value, "a finite number, 0 or above");
+}
+
+/// Unit vectors counter-clockwise from forward; a table, so that the axes are exact.
+Vector2 direction(int index) {
+  const double d = std::sqrt(0.5);
+  const double directions[8][2] = {{0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}, {1, 0}, {d, d}};
+  return {directions[index][0], directions[index][1]};
+}
+
+Vector2 velocity(int index, double walk, double run) {
+  if (index == 0) return Vector2::Zero();
+  return index <= 8 ? walk * direction(index - 1) : run * direction(index - 9);
+}
+
+double square(double value) { return value * value; }
+
+}  // namespace
+
+ControlSpace::ControlSpace(double walk, double run, double turn_rate, double scale, ControlWeights weights)
+    : walk_(walk), run_(run), turn_rate_(turn_rate), scale_(scale), weights_(weights) {
+  require_positive("walk (m/s)", walk);
+  require_positive("run (m/s)", run);
+  require(run > walk, "run (m/s)", run, "more than walk");
+  require_positive("turn rate (rad/s)", turn_rate);
+  require_positive("scale", scale);
+  require_weight("velocity weight", weights.velocity);
+  require_weight("turn weight", weights.turn);
+  require_weight("jump weight", weights.jump);
+  for (int i = 0; i < kPoints; ++i) {
+    const Vector2 v = velocity(i / 6, walk, run);
+    points_[i] = {v.x(), v.y(), static_cast<double>(i % 6 / 2 - 1), static_cast<double>(i % 2)};
+  }
+}
+
+int ControlSpace::nearest(const Control& control) const {
+  int best = 0;
+  double best_distance = distance(points_[0], control);
+  for (int i = 1; i < kPoints; ++i) {
+    const double d = distance(points_[i], control);
+    if (d < best_distance) {
+      best = i;
+      best_distance = d;
+    }
+  }
+  return best;
+}
+
+double ControlSpace::distance(const Control& a, const Control& b) const {
+  return std::sqrt(square(weights_.velocity * scale_) * (square(a.x - b.x) + square(a.y - b.y)) +
+                   square(weights_.turn * (a.turn - b.turn)) + square(weights_.jump * (a.jump - b.jump)));
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/distance.hpp"
+
+#include <cmath>
+
+#include "fragmotion/parallel.hpp"
+#include "fragmotion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+int padded(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
+
+// The pose of a clip at a time between its frames.
+struct PoseSampler {
+  const Kinematics& kinematics;
+  std::vector<double> rotations;
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> orientations;
+
+  explicit PoseSampler(const Kinematics& k)
+      : kinematics(k), rotations(4 * k.bones()), heads(k.bones()), orientations(k.bones()) {}
+
+  CharacterFrame sample(const Clip& clip, double frame) {
+    const Vector3 root = sample_pose(clip, frame, rotations.data());
+    kinematics.world(root, rotations.data(), heads.data(), orientations.data());
+    return frame_at(clip, frame);
+  }
+};
+
+class TipWriter {
+ public:
+  explicit TipWriter(const FragmentPool& pool)
+      : kinematics_(pool.skeleton),
+        sampler_(kinematics_),
+        bones_(measured_bones(pool.skeleton)),
+        scale_(1.8 / stature(pool.skeleton)) {}
+
+  int points() const { return static_cast<int>(bones_.size()); }
+  CharacterFrame sample(const Clip& clip, double frame) { return sampler_.sample(clip, frame); }
+
+  // Writes the sampled pose's tips, seen from `frame`, as points offset .. of three rows of `stride`.
+  void write(const CharacterFrame& frame, float* rows, int stride, int offset) const {
+    for (int i = 0; i < points(); ++i) {
+      const int b = bones_[i];
+      const Vector3 tip = sampler_.heads[b] + sampler_.orientations[b] * kinematics_.skeleton().tips[b];
+      const Vector3 local = frame.to_local(tip) * scale_;
+      for (int axis = 0; axis < 3; ++axis) rows[axis * stride + offset + i] = static_cast<float>(local[axis]);
+    }
+  }
+
+ private:
+  Kinematics kinematics_;
+  PoseSampler sampler_;
+  std::vector<int> bones_;
+  double scale_;
+};
+
+}  // namespace
+
+// GCC builds this for both instruction sets and the loader picks. Eight partial sums make the order of additions, and
+// so the bits, the same in both.
+__attribute__((target_clones("avx2", "default"))) float tip_distance(const float* a, const float* b, int stride) {
+  float sums[kLanes] = {};
+  for (int i = 0; i < stride; i += kLanes) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int x = i + lane, y = x + stride, z = y + stride;
+      const float dx = a[x] - b[x], dy = a[y] - b[y], dz = a[z] - b[z];
+      sums[lane] += std::sqrt(dx * dx + dy * dy + dz * dz);
+    }
+  }
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+}
+
+Trajectories trajectories(const FragmentPool& pool, int poses, int threads) {
+  const int points = TipWriter(pool).points();
+  Trajectories t;
+  t.count = static_cast<int>(pool.fragments.size());
+  t.stride = padded(points * poses);
+  t.pose_stride = padded(points);
+  t.whole.assign(static_cast<std::size_t>(t.count) * 3 * t.stride, 0);
+  t.first.assign(static_cast<std::size_t>(t.count) * 3 * t.pose_stride, 0);
+  t.last = t.first;
+  parallel_for(t.count, thread_count(threads), [&](int begin, int end) {
+    TipWriter writer(pool);
+    for (int i = begin; i < end; ++i) {
+      const Fragment& f = pool.fragments[i];
+      const Clip& clip = pool.clips[f.clip];
+      CharacterFrame start;
+      for (int pose = 0; pose < poses; ++pose) {
+        const double at = f.begin + (f.end - f.begin) * static_cast<double>(pose) / (poses - 1);
+        const CharacterFrame frame = writer.sample(clip, at);
+        if (pose == 0) {
+          start = frame;
+          writer.write(frame, &t.first[static_cast<std::size_t>(i) * 3 * t.pose_stride], t.pose_stride, 0);
+        }
+        writer.write(start, &t.whole[static_cast<std::size_t>(i) * 3 * t.stride], t.stride, pose * points);
+        if (pose == poses - 1) {
+          writer.write(frame, &t.last[static_cast<std::size_t>(i) * 3 * t.pose_stride], t.pose_stride, 0);
+        }
+      }
+    }
+  });
+  return t;
+}
+
+float fragment_distance(const Trajectories& t, int f, int g) {
+  return tip_distance(t.trajectory(f), t.trajectory(g), t.stride);
+}
+
+float transition_distance(const Trajectories& t, int f, int g) {
+  return tip_distance(t.last_pose(f), t.first_pose(g), t.pose_stride);
+}
+
+}  // namespace fragmotion

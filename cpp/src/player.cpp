@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/player.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "fragmotion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kInstant = 1e-9;  // s: no time
+constexpr double kChange = 1;      // ControlDis between controls that is "a lot"
+constexpr double kWorthIt = 0.05;  // s that must be left of a fragment for leaving it early
+constexpr double kInTheAir = 0.5;  // evident jump above which a fragment is played to its end
+
+}  // namespace
+
+Player::Player(std::shared_ptr<const Character> character, std::uint64_t seed, double stitch, const std::string& policy)
+    : character_(std::move(character)),
+      policy_(&character_->policy(policy)),
+      kinematics_(character_->pool.skeleton),
+      members_(character_->classes.members()),
+      random_(seed),
+      stitch_(stitch),
+      rotations_(std::size_t{4} * kinematics_.bones()),
+      other_(rotations_) {
+  if (!(stitch >= 0 && stitch <= 1)) throw std::invalid_argument("the stitching time must be 0 to 1 s");
+  reset();
+}
+
+void Player::reset(const CharacterFrame& frame) {
+  const Quality& quality = character_->quality;
+  const int still = character_->space.nearest({});
+  class_ = 0;
+  for (int k = 1; k < quality.classes; ++k) {
+    const auto match = [&](int q) {
+      return quality.match[static_cast<std::size_t>(q) * ControlSpace::kPoints + still];
+    };
+    if (match(k) > match(class_)) class_ = k;
+  }
+  from_ = class_;
+  waiting_ = -1;
+  stitching_ = 0;
+  jump_pressed_ = false;
+  decided_for_ = {};
+  now_ = place(character_->classes.representatives[class_], frame);
+  show();
+}
+
+Player::Placed Player::place(int fragment, const CharacterFrame& frame) const {
+  const Fragment& f = character_->pool.fragments[fragment];
+  const CharacterFrame first = frame_at(character_->pool.clips[f.clip], f.begin);
+  Placed placed;
+  placed.fragment = fragment;
+  placed.heading = frame.heading - first.heading;
+  placed.offset = frame.position - Eigen::Rotation2Dd(placed.heading) * first.position;
+  return placed;
+}
+
+Vector3 Player::sample(const Placed& placed, double* rotations) const {
+  const Fragment& f = character_->pool.fragments[placed.fragment];
+  const Clip& clip = character_->pool.clips[f.clip];
+  const CharacterFrame world{placed.offset, placed.heading};
+  const Vector3 root = sample_pose(clip, f.begin + placed.seconds * clip.rate, rotations);
+  double* hips = rotations + std::ptrdiff_t{4} * kinematics_.skeleton().roles.hips;
+  store_quaternion(world.rotation() * load_quaternion(hips), hips);
+  return world.to_world(root);
+}
+
+double Player::heading(const Placed& placed) const {
+  const Fragment& f = character_->pool.fragments[placed.fragment];
+  const Clip& clip = character_->pool.clips[f.clip];
+  return placed.heading + frame_at(clip, f.begin + placed.seconds * clip.rate).heading;
+}
+
+CharacterFrame Player::frame() const { return {root_.head<2>(), heading_}; }
+
+void Player::show() {
+  root_ = sample(now_, rotations_.data());
+  heading_ = heading(now_);
+  if (now_.seconds >= stitching_) return;
+  const Vector3 old = sample(before_, other_.data());
+  const double weight = ease_in_ease_out(now_.seconds / stitching_), old_heading = heading(before_);
+  blend_rotations(other_.data(), rotations_.data(), weight, kinematics_.bones(), rotations_.data());
+  root_ = old + weight * (root_ - old);
+  heading_ = old_heading + weight * (heading_ - old_heading);
+}
+
+double Player::left() const {
+  return character_->pool.seconds(character_->pool.fragments[now_.fragment]) - now_.seconds;
+}
+
+void Player::start(int next_class) {
+  const std::vector<int>& members = members_[next_class];
+  before_ = now_;
+  now_ = place(members[random_.below(static_cast<int>(members.size()))], frame());
+  from_ = class_;
+  class_ = next_class;
+  stitching_ = std::min(stitch_, left());
+  show();
+}
+
+int Player::decide(int control) {
+  const Character& c = *character_;
+  if (waiting_ >= 0) {
+    const int next = waiting_;
+    waiting_ = -1;
+    return next;
+  }
+  const int next = (*policy_)(class_, control);
+  const int bridge = c.bridges[static_cast<std::size_t>(class_) * c.classes.count + next];
+  if (bridge < 0) return next;
+  waiting_ = next;
+  return bridge;
+}
+
+bool Player::leaves_early(const Control& control) const {
+  const Character& c = *character_;
+  return now_.seconds >= stitching_ && left() > kWorthIt && waiting_ < 0 &&
+         c.pool.fragments[now_.fragment].evident.jump < kInTheAir && c.space.distance(control, decided_for_) > kChange;
+}
+
+double Player::quality(int control) const { return character_->quality(from_, class_, control); }
+
+void Player::step(const Control& control, double seconds) {
+  const ControlSpace& space = character_->space;
+  jump_pressed_ = jump_pressed_ || control.jump > 0.5;
+  Control wanted = control;
+  if (jump_pressed_) wanted.jump = 1;
+  while (seconds > 0) {
+    if (left() < kInstant || leaves_early(wanted)) {
+      decided_for_ = control;
+      jump_pressed_ = false;
+      start(decide(space.nearest(wanted)));
+    }
+    const double part = std::min(seconds, left());
+    now_.seconds += part;
+    before_.seconds += part;
+    seconds -= part;
+    show();
+  }
+}
+
+Performance Player::run(const Trace& trace, double rate, const Progress& progress) {
+  if (trace.empty()) throw std::invalid_argument("the trace has no controls");
+  if (!(rate > 0 && rate <= 1000)) throw std::invalid_argument("the frame rate must be over 0 and at most 1000");
+  Performance p;
+  p.rate = rate;
+  p.frames = static_cast<int>(std::lround(static_cast<double>(trace.size()) / kTraceRate * rate)) + 1;
+  for (int f = 0; f < p.frames; ++f) {
+    if (f % 256 == 0) report(progress, static_cast<double>(f) / p.frames, "Playing");
+    const int at = static_cast<int>(std::max(0.0, (f - 1) / rate) * kTraceRate + 1e-9);
+    const Control& control = trace[std::min<std::size_t>(at, trace.size() - 1)];
+    const CharacterFrame before = frame();
+    if (f > 0) step(control, 1 / rate);
+    const CharacterFrame now = frame();
+    p.root_positions.insert(p.root_positions.end(), root_.data(), root_.data() + 3);
+    p.rotations.insert(p.rotations.end(), rotations_.begin(), rotations_.end());
+    p.path.insert(p.path.end(), {now.position.x(), now.position.y(), now.heading});
+    p.classes.push_back(class_);
+    p.fragments.push_back(now_.fragment);
+    if (f == 0) continue;
+    const Vector2 velocity = Eigen::Rotation2Dd(-before.heading) * (now.position - before.position) * rate;
+    p.velocity_error += (velocity - Vector2{control.x, control.y}).norm() / (p.frames - 1);
+    p.commanded_speed += std::hypot(control.x, control.y) / (p.frames - 1);
+    p.quality += quality(character_->space.nearest(control)) / (p.frames - 1);
+  }
+  return p;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/policy_file.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <type_traits>
+
+namespace fragmotion {
+namespace {
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "policy files are little-endian");
+
+constexpr char kMagic[9] = "FRAGMOTN";
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
+
+std::uint64_t checksum(const char* data, std::size_t size) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ static_cast<unsigned char>(data[i])) * 0x100000001b3ULL;
+  return hash;
+}
+
+// Writes and Reads share their spelling, so that one function, exchange(), says what a file holds and in which order.
+class Writer {
+ public:
+  static constexpr bool kReads = false;
+  std::string bytes;
+
+  template <typename T>
+  void raw(const T* values, std::size_t count) {
+    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+  }
+  template <typename Stored, typename T>
+  void number(const T& value) {
+    const auto stored = static_cast<Stored>(value);
+    raw(&stored, 1);
+  }
+  template <typename Stored, typename T>
+  void numbers(const std::vector<T>& values) {
+    number<std::uint64_t>(values.size());
+    for (const T& value : values) number<Stored>(value);
+  }
+  void text(const std::string& value) {
+    number<std::uint32_t>(value.size());
+    raw(value.data(), value.size());
+  }
+  template <typename T, typename Each>
+  void list(const std::vector<T>& values, std::size_t /*least*/, const Each& each) {
+    number<std::uint64_t>(values.size());
+    for (const T& value : values) each(value);
+  }
+};
+
+class Reader {
+ public:
+  static constexpr bool kReads = true;
+  Reader(const char* data, std::size_t size) : data_(data), left_(size) {}
+
+  template <typename Stored, typename T>
+  void number(T& value) {
+    Stored stored;
+    std::memcpy(&stored, take(sizeof(Stored)), sizeof(Stored));
+    value = static_cast<T>(stored);
+  }
+  template <typename Stored, typename T>
+  void numbers(std::vector<T>& values) {
+    values.resize(count(sizeof(Stored)));
+    for (T& value : values) number<Stored>(value);
+  }
+  void text(std::string& value) {
+    std::uint32_t size = 0;
+    number<std::uint32_t>(size);
+    value.assign(take(size), size);
+  }
+  // `least`: bytes that an element takes at the least, so that a count that cannot be is refused before it is believed.
+  template <typename T, typename Each>
+  void list(std::vector<T>& values, std::size_t least, const Each& each) {
+    values.resize(count(least));
+    for (T& value : values) each(value);
+  }
+  bool done() const { return left_ == 0; }
+
+ private:
+  const char* take(std::size_t size) {
+    if (size > left_) throw std::invalid_argument("it ends too early");
+    const char* at = data_;
+    data_ += size;
+    left_ -= size;
+    return at;
+  }
+  std::size_t count(std::size_t least) {
+    std::uint64_t count = 0;
+    number<std::uint64_t>(count);
+    if (count > left_ / least) throw std::invalid_argument("it announces more than it holds");
+    return static_cast<std::size_t>(count);
+  }
+
+  const char* data_;
+  std::size_t left_;
+};
+
+template <typename Archive, typename V>
+void exchange_vector(Archive& a, V& v) {
+  for (int i = 0; i < 3; ++i) a.template number<double>(v[i]);
+}
+
+template <typename Archive, typename Q>
+void exchange_quaternion(Archive& a, Q& q) {
+  for (int i = 0; i < 4; ++i) a.template number<double>(q.coeffs()[i]);
+}
+
+template <typename Archive, typename S>
+void exchange_skeleton(Archive& a, S& s) {
+  a.list(s.names, 4, [&](auto& name) { a.text(name); });
+  a.template numbers<std::int32_t>(s.parents);
+  a.list(s.rest_rotations, 32, [&](auto& q) { exchange_quaternion(a, q); });
+  a.list(s.offsets, 24, [&](auto& v) { exchange_vector(a, v); });
+  a.list(s.tips, 24, [&](auto& v) { exchange_vector(a, v); });
+  auto& r = s.roles;
+  for (auto* role : {&r.hips, &r.head, &r.left_hand, &r.right_hand, &r.left_foot, &r.right_foot, &r.left_toe,
+                     &r.right_toe, &r.left_thigh, &r.right_thigh}) {
+    a.template number<std::int32_t>(*role);
+  }
+}
+
+template <typename Archive, typename C>
+void exchange_control(Archive& a, C& c) {
+  for (auto* value : {&c.x, &c.y, &c.turn, &c.jump}) a.template number<double>(*value);
+}
+
+template <typename Archive, typename P>
+void exchange_pool(Archive& a, P& pool) {
+  exchange_skeleton(a, pool.skeleton);
+  a.list(pool.clips, 32, [&](auto& clip) {
+    a.text(clip.name);
+    a.template number<double>(clip.rate);
+    a.template number<std::int32_t>(clip.frames);
+    a.template numbers<float>(clip.root_positions);
+    a.template numbers<float>(clip.rotations);
+    a.template numbers<float>(clip.headings);
+  });
+  a.list(pool.fragments, 45, [&](auto& f) {
+    for (auto* value : {&f.clip, &f.begin, &f.end}) a.template number<std::int32_t>(*value);
+    a.template number<std::uint8_t>(f.origin);
+    exchange_control(a, f.evident);
+  });
+}
+
+template <typename Archive>
+void exchange_space(Archive& a, ControlSpace& space) {
+  double values[] = {
+      space.walk(),         space.run(),         space.turn_rate(), space.scale(), space.weights().velocity,
+      space.weights().turn, space.weights().jump};
+  for (double& value : values) a.template number<double>(value);
+  if (Archive::kReads) {
+    space = ControlSpace(values[0], values[1], values[2], values[3], {values[4], values[5], values[6]});
+  }
+}
+
+template <typename Archive>
+void exchange_report(Archive& a, std::map<std::string, double>& report) {
+  std::vector<std::pair<std::string, double>> figures(report.begin(), report.end());
+  a.list(figures, 12, [&](auto& figure) {
+    a.text(const_cast<std::string&>(figure.first));
+    a.template number<double>(const_cast<double&>(figure.second));
+  });
+  report = {figures.begin(), figures.end()};
+}
+
+template <typename Archive>
+void exchange(Archive& a, Character& c) {
+  exchange_pool(a, c.pool);
+  exchange_space(a, c.space);
+  a.template number<std::int32_t>(c.classes.count);
+  a.template numbers<std::int32_t>(c.classes.labels);
+  a.template numbers<std::int32_t>(c.classes.representatives);
+  a.template number<double>(c.classes.inertia);
+  a.template number<std::int32_t>(c.quality.classes);
+  a.template numbers<double>(c.quality.smoothness);
+  a.template numbers<double>(c.quality.match);
+  a.list(c.policies, 16, [&](auto& policy) {
+    a.text(policy.name);
+    a.template number<std::int32_t>(policy.classes);
+    a.template numbers<std::int32_t>(policy.next);
+  });
+  a.template numbers<std::int32_t>(c.bridges);
+  exchange_report(a, c.report);
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(std::string("its ") + what + " do not fit together");
+}
+
+bool all_within(const std::vector<int>& values, int least, int end) {
+  for (const int value : values) {
+    if (value < least || value >= end) return false;
+  }
+  return true;
+}
+
+bool all_finite(const std::vector<double>& values) {
+  for (const double value : values) {
+    if (!std::isfinite(value)) return false;
+  }
+  return true;
+}
+
+void check_pool(FragmentPool& pool) {
+  Skeleton skeleton = make_skeleton(pool.skeleton);
+  pool.skeleton = skeleton;
+  for (Clip& clip : pool.clips) make_clip(pool.skeleton, clip);
+  for (const Fragment& f : pool.fragments) {
+    require(f.clip >= 0 && f.clip < static_cast<int>(pool.clips.size()) && f.begin >= 0 && f.begin < f.end &&
+                f.end < pool.clips[f.clip].frames && f.origin <= Origin::transformed,
+            "fragments and clips");
+    require(all_finite({f.evident.x, f.evident.y, f.evident.turn, f.evident.jump}), "evident controls");
+  }
+}
+
+void check(Character& c) {
+  check_pool(c.pool);
+  const std::size_t n = c.classes.count, fragments = c.pool.fragments.size();
+  require(c.classes.count > 0 && c.classes.labels.size() == fragments && c.classes.representatives.size() == n &&
+              all_within(c.classes.labels, 0, c.classes.count) &&
+              all_within(c.classes.representatives, 0, static_cast<int>(fragments)),
+          "classes");
+  for (const std::vector<int>& members : c.classes.members()) require(!members.empty(), "classes");
+  require(c.quality.classes == c.classes.count && c.quality.smoothness.size() == n * n &&
+              c.quality.match.size() == n * ControlSpace::kPoints && all_finite(c.quality.smoothness) &&
+              all_finite(c.quality.match),
+          "qualities");
+  require(!c.policies.empty(), "policy tables");
+  for (const Policy& policy : c.policies) {
+    require(policy.classes == c.classes.count && policy.next.size() == n * ControlSpace::kPoints &&
+                all_within(policy.next, 0, c.classes.count),
+            "policy tables");
+  }
+  require(c.bridges.size() == n * n && all_within(c.bridges, -1, c.classes.count), "stand-in-place classes");
+}
+
+}  // namespace
+
+std::string to_bytes(const Character& character) {
+  Writer payload;
+  exchange(payload, const_cast<Character&>(character));
+  Writer file;
+  file.raw(kMagic, 8);
+  file.number<std::uint32_t>(kVersion);
+  file.number<std::uint64_t>(payload.bytes.size());
+  file.bytes += payload.bytes;
+  file.number<std::uint64_t>(checksum(payload.bytes.data(), payload.bytes.size()));
+  return file.bytes;
+}
+
+Character from_bytes(const std::string& bytes, const std::string& name) {
+  try {
+    if (bytes.size() < kHeader || std::memcmp(bytes.data(), kMagic, 8) != 0) {
+      throw std::invalid_argument("it is no Fragmotion policy file");
+    }
+    std::uint32_t version = 0;
+    std::uint64_t length = 0;
+    std::memcpy(&version, bytes.data() + 8, 4);
+    std::memcpy(&length, bytes.data() + 12, 8);
+    if (version != kVersion) {
+      throw std::invalid_argument("it is of version " + std::to_string(version) + ", and this program reads version " +
+                                  std::to_string(kVersion) + ": build the policy again");
+    }
+    if (bytes.size() < kHeader + kChecksum || length != bytes.size() - kHeader - kChecksum) {
+      throw std::invalid_argument("it is cut short or has bytes too many");
+    }
+    std::uint64_t expected = 0;
+    std::memcpy(&expected, bytes.data() + kHeader + length, 8);
+    if (checksum(bytes.data() + kHeader, length) != expected) throw std::invalid_argument("it is damaged (checksum)");
+    Character character;
+    Reader reader(bytes.data() + kHeader, length);
+    exchange(reader, character);
+    if (!reader.done()) throw std::invalid_argument("it has bytes too many");
+    check(character);
+    character.coverage = coverage(character.pool, character.space);
+    return character;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(name + " is refused: " + error.what());
+  }
+}
+
+void save_policy(const std::filesystem::path& path, const Character& character) {
+  std::filesystem::path temporary = path;
+  temporary += ".part";
+  const std::string bytes = to_bytes(character);
+  std::ofstream file(temporary, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  std::error_code error;
+  if (file) std::filesystem::rename(temporary, path, error);
+  if (!file || error) {
+    std::filesystem::remove(temporary, error);
+    throw std::invalid_argument("cannot write " + path.string());
+  }
+}
+
+Character load_policy(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream bytes;
+  if (file) bytes << file.rdbuf();
+  if (!file) throw std::invalid_argument("cannot read " + path.string());
+  return from_bytes(bytes.str(), path.filename().string());
+}
+
+}  // namespace fragmotion

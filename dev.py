@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The one command of Fragmotion's developers: sets the machine up, builds, tests, packages and shows the add-on."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from tools import benchmarks, demo, machine, packages, testing
+from tools.shell import Failure, say
+
+
+def parse_arguments(arguments: list[str]) -> argparse.Namespace:
+    """Read the command line; `--help` tells what there is."""
+    parser = argparse.ArgumentParser(prog="dev.py", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True)
+    commands.add_parser("demo", help="from motion capture to a baked, controlled Action in Debian's Blender")
+    test = commands.add_parser("test", help="run every test: C++, Python, and the add-on in each Blender")
+    test.add_argument("stages", nargs="*", metavar="STAGE", help=f"only these of {', '.join(testing.STAGES)}")
+    test.add_argument("-k", dest="expression", metavar="EXPR", help="only the tests that match, as pytest's -k")
+    bench = commands.add_parser("bench", help="measure the core against NumPy and scikit-learn")
+    bench.add_argument("--json", type=Path, metavar="FILE", help="save the figures there too")
+    commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
+    return parser.parse_args(arguments)
+
+
+def package() -> int:
+    """Build both zips and say where they are."""
+    machine.set_up(machine.package_needs())
+    for path in packages.build_all():
+        say(str(path))
+    return 0
+
+
+def main(arguments: list[str]) -> int:
+    """Run one command and return its exit code."""
+    options = parse_arguments(arguments)
+    try:
+        if options.command == "demo":
+            return demo.run_demo()
+        if options.command == "test":
+            return testing.run_tests(options.stages, options.expression)
+        if options.command == "bench":
+            return benchmarks.run_benchmarks(options.json)
+        return package()
+    except Failure as failure:
+        say(f"dev.py: {failure}")
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""Fixtures of the tests inside Blender; `dev.py test blender-4.5` (or -5.2, -3.4) gives the environment."""
+
+from __future__ import annotations
+
+import importlib
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+
+import bpy
+import pytest
+
+_ZIP = "FRAGMOTION_ADDON_ZIP"
+
+
+def _install(package: str) -> str:
+    """Install and enable the zip with Blender's own operators, and return the name of the add-on's module."""
+    if bpy.app.version >= (4, 2, 0):
+        bpy.ops.extensions.package_install_files(filepath=package, repo="user_default", enable_on_install=True)
+        return "bl_ext.user_default.fragmotion"
+    bpy.ops.preferences.addon_install(filepath=package)
+    bpy.ops.preferences.addon_enable(module="fragmotion")
+    return "fragmotion"
+
+
+@pytest.fixture(scope="session")
+def addon() -> Iterator[ModuleType]:
+    """The add-on's package as it runs in this Blender: installed from the zip, and enabled."""
+    if _ZIP not in os.environ:
+        pytest.exit(f"{_ZIP} is not set: run these tests by `python3 dev.py test`", returncode=1)
+    name = _install(os.environ[_ZIP])
+    assert name in bpy.context.preferences.addons, f"{name} was installed but is not enabled"
+    module = importlib.import_module(name)
+    assert module.__file__ and Path(os.environ["BLENDER_USER_RESOURCES"]) in Path(module.__file__).parents
+    yield module
+    bpy.ops.preferences.addon_disable(module=name)
+
+
+@pytest.fixture(autouse=True)
+def empty_file(addon: ModuleType) -> None:
+    """Each test starts from an empty file, with the add-on enabled."""
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)

@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: MIT
+"""Build and bake on the sample rig: the file keeps the character, and the baked Action is what the player plays."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import ModuleType
+
+import bpy
+import making
+import numpy as np
+import pytest
+
+ARMATURE = "Fragmotion Sample"
+
+
+def open_sample() -> bpy.types.Object:
+    """The sample file's armature, active."""
+    bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE))
+    obj = bpy.data.objects[ARMATURE]
+    making.activate(obj)
+    return obj
+
+
+@pytest.fixture(scope="module")
+def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The sample file after Build, saved."""
+    open_sample()
+    assert bpy.ops.fragmotion.tick_actions(use=True) == {"FINISHED"}
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    path = tmp_path_factory.mktemp("built") / "built.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+@pytest.fixture
+def obj(addon: ModuleType, built: Path) -> bpy.types.Object:
+    """The built armature, after loading the file."""
+    addon.building.forget()
+    bpy.ops.wm.open_mainfile(filepath=str(built))
+    armature = bpy.data.objects[ARMATURE]
+    making.activate(armature)
+    return armature
+
+
+def test_build_reports_what_it_found_and_survives_saving(addon: ModuleType, obj: bpy.types.Object) -> None:
+    character = addon.building.load(obj)
+    figures = obj.fragmotion.figures
+    assert figures.fragments == len(character.labels) > figures.captured > 97
+    assert (figures.classes, figures.controls) == character.table.shape == (97, 102)
+    assert 0 < figures.seconds < 60
+    exam = addon.core.core.simulate_trace(figures.examiner, 60.0, 7001, character.space)
+    assert figures.quality == pytest.approx(character.percent_of_optimal(exam), abs=1e-3)
+    assert 50 < figures.quality <= 100.001
+    drives, *others = character.policies
+    assert drives == obj.fragmotion.build.policy
+    assert [word for word in figures.others.split() if word.isalpha()] == others
+    assert figures.examiner != obj.fragmotion.build.player
+
+
+def test_the_character_is_decoded_once(addon: ModuleType, obj: bpy.types.Object) -> None:
+    assert addon.building.load(obj) is addon.building.load(obj)
+    data = bytes(obj.fragmotion.policy)
+    obj.fragmotion.policy = data[:-1] + bytes([data[-1] ^ 1])
+    with pytest.raises(addon.errors.UserError, match=f"policy kept in armature '{ARMATURE}'"):
+        addon.building.load(obj)
+
+
+@pytest.mark.parametrize(("fps", "base"), [(30, 1.0), (24, 1.0), (30, 1.001)])
+def test_a_baked_action_poses_the_armature_as_the_player_does(
+    addon: ModuleType, obj: bpy.types.Object, fps: int, base: float
+) -> None:
+    scene = bpy.context.scene
+    scene.render.fps, scene.render.fps_base = fps, base
+    obj.location, obj.rotation_euler.z = (2, -1, 0), 0.7
+    former = obj.animation_data.action
+    fields = {"trace_source": "PLAYER", "player": "explorer", "seconds": 10, "frame_start": 5, "seed": 3}
+    assert bpy.ops.fragmotion.bake(**fields) == {"FINISHED"}
+    action = obj.animation_data.action
+    assert action != former and action.name == f"{ARMATURE} Bake"
+    frames = round(10 * fps / base) + 1
+    assert tuple(action.frame_range) == (5, 4 + frames)
+
+    core = addon.core.core
+    character = addon.building.load(obj)
+    player = core.Player(character, 3)
+    player.reset(2, -1, 0.7 + np.pi)
+    trace = core.simulate_trace("explorer", 10, 3, character.space)
+    played = player.run(trace, fps / scene.render.fps_base)
+    clip = core.Clip(character.skeleton, "played", played.rate, played.root_positions, played.rotations)
+    heads, rotations = clip.world_transforms(character.skeleton)
+    assert len(heads) == frames
+    body = making.body_bones(character.skeleton)
+    rows = np.arange(0, frames, 7)
+    names = [character.skeleton.names[index] for index in body]
+    matrices = making.blender_poses(obj, action, 5 + rows, names)
+    making.assert_same_poses(matrices, heads[rows][:, body], rotations[rows][:, body], 1e-4)
+    assert np.ptp(heads[:, 0], axis=0).max() > 1, "the character did not travel"
+
+
+def test_a_baked_character_walks_where_its_front_points(obj: bpy.types.Object, tmp_path: Path) -> None:
+    trace = tmp_path / "forward.csv"
+    trace.write_text("velocity_x,velocity_y,turn,jump\n" + "0,1.2,0,0\n" * 12)
+    obj.rotation_euler.z = np.pi / 2  # the armature's -Y is now the world's +X
+    assert bpy.ops.fragmotion.bake(trace_source="FILE", trace_file=str(trace)) == {"FINISHED"}
+    hips = making.blender_poses(obj, obj.animation_data.action, (1, 37), ["hips"])[:, 0, :3, 3]
+    travel = hips[1] - hips[0]
+    assert travel[0] > 0.8 and abs(travel[1]) < 0.5 * travel[0]
+
+
+def test_bake_is_undone_in_one_step(obj: bpy.types.Object) -> None:
+    played = obj.animation_data.action.name
+    bpy.ops.ed.undo_push(message="before")
+    before = making.contents()
+    before.pop("playing")
+    assert bpy.ops.fragmotion.bake("EXEC_DEFAULT", True, seconds=2) == {"FINISHED"}
+    assert bpy.data.objects[ARMATURE].animation_data.action.name != played
+    bpy.ops.ed.undo()
+    after = making.contents()
+    after.pop("playing")
+    assert after == before
+    assert bpy.data.objects[ARMATURE].animation_data.action.name == played
+
+
+def test_build_is_undone_in_one_step(addon: ModuleType, obj: bpy.types.Object) -> None:
+    before = bytes(obj.fragmotion.policy)
+    bpy.ops.ed.undo_push(message="before")
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT", True, classes=20, seconds=5) == {"FINISHED"}
+    obj = bpy.data.objects[ARMATURE]
+    assert obj.fragmotion.figures.classes == 20 and len(addon.building.load(obj).representatives) == 20
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects[ARMATURE]
+    assert obj.fragmotion.figures.classes == 97 and bytes(obj.fragmotion.policy) == before
+
+
+def test_the_same_seed_builds_and_bakes_the_same(addon: ModuleType, obj: bpy.types.Object) -> None:
+    before = bytes(obj.fragmotion.policy)
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    first, second = addon.core.core.Character.from_bytes(before), addon.building.load(obj)
+    np.testing.assert_array_equal(first.table, second.table)
+    np.testing.assert_array_equal(first.labels, second.labels)
+
+
+def test_a_bake_replaces_its_own_action_but_never_a_take(obj: bpy.types.Object) -> None:
+    assert bpy.ops.fragmotion.bake(action="My Run", seconds=4) == {"FINISHED"}
+    count = len(bpy.data.actions)
+    assert bpy.ops.fragmotion.bake(action="My Run", seconds=1) == {"FINISHED"}
+    assert len(bpy.data.actions) == count
+    assert tuple(obj.animation_data.action.frame_range) == (1, 31)
+    take = next(action for action in bpy.data.actions if action.fragmotion.use)
+    before = making.contents()
+    with pytest.raises(RuntimeError, match=f"'{take.name}' is a take"):
+        bpy.ops.fragmotion.bake(action=take.name)
+    assert making.contents() == before
+
+
+def test_a_bake_is_written_in_each_bones_rotation_mode(addon: ModuleType, obj: bpy.types.Object) -> None:
+    fields = {"player": "runner", "seconds": 3, "seed": 2}
+    assert bpy.ops.fragmotion.bake(action="quaternions", **fields) == {"FINISHED"}
+    names = obj.pose.bones.keys()
+    expected = making.blender_poses(obj, bpy.data.actions["quaternions"], (1, 40, 90), names)
+    for index, bone in enumerate(obj.pose.bones):
+        bone.rotation_mode = ("XYZ", "AXIS_ANGLE", "ZYX", "QUATERNION")[index % 4]
+    assert bpy.ops.fragmotion.bake(action="mixed", **fields) == {"FINISHED"}
+    mixed = bpy.data.actions["mixed"]
+    channels = {curve.data_path.rpartition(".")[2] for curve in addon.versions.curves_of(mixed, obj)}
+    assert channels == {"location", "rotation_quaternion", "rotation_euler", "rotation_axis_angle"}
+    np.testing.assert_allclose(making.blender_poses(obj, mixed, (1, 40, 90), names), expected, atol=1e-4)
+
+
+def test_a_cancelled_build_changes_nothing(addon: ModuleType, obj: bpy.types.Object) -> None:
+    before = making.contents()
+    task = addon.building.prepare(bpy.context, obj, obj.fragmotion.build)
+    job = addon.jobs.Job("test", task)
+    heard = []
+
+    def stop(fraction: float) -> None:
+        heard.append(fraction)
+        if fraction > 0.1:
+            job.cancel()
+
+    job.run(stop)
+    with pytest.raises(addon.core.core.Cancelled):
+        job.result()
+    assert 0.1 < max(heard) < 0.9, "it was not stopped in the middle"
+    assert making.contents() == before
+
+
+def test_the_cancel_button_stops_the_build(
+    addon: ModuleType, obj: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    button = addon.operators.build
+    assert not bpy.ops.fragmotion.cancel_build.poll()
+    build = addon.building.core.build
+    stages = []
+
+    def press_cancel(skeleton: object, clips: object, traces: object, options: object, progress: object) -> object:
+        def spy(fraction: float, stage: str) -> bool:
+            stages.append(stage)
+            if fraction > 0.1 and not button.current._cancelled.is_set():
+                assert bpy.ops.fragmotion.cancel_build() == {"FINISHED"}
+            return progress(fraction, stage)
+
+        return build(skeleton, clips, traces, options, spy)
+
+    monkeypatch.setattr(addon.building.core, "build", press_cancel)
+    before = making.contents()
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"CANCELLED"}
+    assert stages and making.contents() == before
+    assert button.current is None and bpy.ops.fragmotion.build.poll()
+
+
+def test_a_build_in_the_background_ends_with_the_same_character(addon: ModuleType, obj: bpy.types.Object) -> None:
+    job = addon.jobs.Job("test", addon.building.prepare(bpy.context, obj, obj.fragmotion.build))
+    job.start()
+    job.wait()
+    built = job.result()
+    assert not job.running and job.fraction >= 0.95
+    np.testing.assert_array_equal(built.character.table, addon.building.load(obj).table)

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""Registering adds what the panel needs and unregistering leaves nothing."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+import bpy
+
+
+def _registered() -> set[str]:
+    classes = {name for name in dir(bpy.types) if "fragmotion" in name.lower()}
+    operators = {name for name in dir(bpy.ops.fragmotion)}
+    owners = (bpy.types.Object, bpy.types.Action, bpy.types.WindowManager, bpy.types.Scene)
+    return classes | operators | {owner.__name__ for owner in owners if hasattr(owner, "fragmotion")}
+
+
+def test_unregister_leaves_nothing_and_register_brings_it_back(addon: ModuleType) -> None:
+    before = _registered()
+    assert {"FRAGMOTION_PT_build", "FRAGMOTION_OT_bake", "import_mocap", "Object", "Action"} <= before
+    addon.unregister()
+    try:
+        assert _registered() == set()
+    finally:
+        addon.register()
+    assert _registered() == before
+
+
+def test_every_operator_has_a_tooltip_and_undoes_what_it_changes() -> None:
+    for name in ("import_mocap", "tick_actions", "build", "bake", "cancel_build"):
+        operator = getattr(bpy.ops.fragmotion, name).get_rna_type()
+        assert len(operator.description) > 20, name
+        shown = [p for p in operator.properties if not (p.is_hidden or p.identifier == "rna_type")]
+        assert all(p.description for p in shown), name
+        changes = name != "cancel_build"
+        cls = getattr(bpy.types, f"FRAGMOTION_OT_{name}")
+        assert ("UNDO" in cls.bl_options) == changes, name
+
+
+def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) -> None:
+    panels = [cls for cls in addon.panel.CLASSES if issubclass(cls, bpy.types.Panel)]
+    assert [panel.bl_label for panel in panels] == ["Mocap", "Build", "Bake"]
+    assert {panel.bl_category for panel in panels} == {"Fragmotion"}
+    assert {(panel.bl_space_type, panel.bl_region_type) for panel in panels} == {("VIEW_3D", "UI")}

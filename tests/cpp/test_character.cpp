@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fragmotion/character.hpp"
+#include "fragmotion/greedy.hpp"
+#include "fragmotion/policy_file.hpp"
+#include "mocap_files.hpp"
+#include "small_character.hpp"
+#include "small_skeleton.hpp"
+
+namespace fragmotion {
+namespace {
+
+std::vector<Trace> some_traces() { return {simulate_trace("explorer", 20, 1, ControlSpace())}; }
+
+BuildOptions few_classes(const std::string& policy = "greedy") {
+  BuildOptions options;
+  options.classes = 15;
+  options.policies = {policy};
+  return options;
+}
+
+std::vector<Clip> some_takes() {
+  const std::vector<Clip> all = gait_takes();
+  return {all[0], all[1], all[9], all[10]};
+}
+
+// The character's bytes without its times, which differ from run to run.
+std::string timeless_bytes(Character c) {
+  c.report.clear();
+  return to_bytes(c);
+}
+
+TEST(Build, HoldsWhatItsReportSays) {
+  const Character& c = *gait_character();
+  EXPECT_EQ(c.report.at("fragments"), static_cast<double>(c.pool.fragments.size()));
+  EXPECT_EQ(c.report.at("classes"), c.classes.count);
+  const auto captured = std::count_if(c.pool.fragments.begin(), c.pool.fragments.end(), [](const Fragment& f) {
+    return f.origin == Origin::captured || f.origin == Origin::mirrored;
+  });
+  EXPECT_EQ(c.report.at("captured"), static_cast<double>(captured));
+  EXPECT_EQ(c.policy().next.size(), std::size_t{40} * ControlSpace::kPoints);
+  EXPECT_EQ(c.bridges.size(), std::size_t{40} * 40);
+  for (const auto& [name, value] : c.report) EXPECT_TRUE(std::isfinite(value) && value >= 0) << name;
+}
+
+TEST(Build, FindsTheGaitsOfItsTakes) {
+  const ControlSpace& space = gait_character()->space;
+  EXPECT_NEAR(space.walk(), 1.2, 0.15);
+  EXPECT_NEAR(space.run(), 3, 0.3);
+}
+
+TEST(Build, GivesTheSameBitsForAnyNumberOfThreads) {
+  for (const std::string& policy : policy_names()) {
+    BuildOptions options = few_classes(policy);
+    options.threads = 1;
+    const std::string one = timeless_bytes(build(humanoid(), some_takes(), some_traces(), options));
+    for (const int threads : {1, 2, 3}) {
+      options.threads = threads;
+      EXPECT_EQ(timeless_bytes(build(humanoid(), some_takes(), some_traces(), options)), one) << policy;
+    }
+  }
+}
+
+TEST(Build, NamesItsPolicyAndFillsTheTableWithClasses) {
+  for (const std::string& policy : policy_names()) {
+    const Character c = build(humanoid(), some_takes(), some_traces(), few_classes(policy));
+    EXPECT_EQ(c.policy().name, policy);
+    for (const int next : c.policy().next) ASSERT_TRUE(next >= 0 && next < 15);
+    if (policy == "greedy") {
+      EXPECT_EQ(c.policy().next, greedy_policy(c.quality).next);
+    }
+  }
+}
+
+TEST(Build, TheFirstPolicyAskedForDrives) {
+  BuildOptions options = few_classes();
+  options.policies = {"iterate", "greedy"};
+  const Character c = build(humanoid(), some_takes(), some_traces(), options);
+  ASSERT_EQ(c.policies.size(), 2U);
+  EXPECT_EQ(c.policy().name, "iterate");
+  EXPECT_EQ(&c.policy("greedy"), &c.policies[1]);
+  const std::string error = error_of([&] { static_cast<void>(c.policy("svm")); });
+  for (const char* part : {"\"svm\"", "iterate", "greedy"}) EXPECT_NE(error.find(part), std::string::npos) << error;
+  options.policies = {};
+  EXPECT_NE(error_of([&] { build(humanoid(), some_takes(), some_traces(), options); }), "no error");
+}
+
+TEST(Build, MirrorsAndSynthesizesOnlyWhenAsked) {
+  BuildOptions options = few_classes();
+  const std::size_t all = build(humanoid(), some_takes(), some_traces(), options).pool.fragments.size();
+  options.synthesize = false;
+  const Character mirrored = build(humanoid(), some_takes(), some_traces(), options);
+  options.mirror = false;
+  const Character plain = build(humanoid(), some_takes(), some_traces(), options);
+  EXPECT_LT(plain.pool.fragments.size(), mirrored.pool.fragments.size());
+  EXPECT_LT(mirrored.pool.fragments.size(), all);
+  for (const Fragment& f : plain.pool.fragments) EXPECT_EQ(f.origin, Origin::captured);
+  EXPECT_EQ(plain.pool.clips.size(), 4U);
+}
+
+TEST(Build, IsTheSameCharacterTenTimesAsLarge) {
+  BuildOptions options = few_classes();
+  const Character usual = build(humanoid(), gait_takes(), some_traces(), options),
+                  giant = build(humanoid(10), gait_takes(30, 10), some_traces(), options);
+  ASSERT_EQ(giant.pool.fragments.size(), usual.pool.fragments.size());
+  EXPECT_NEAR(giant.space.walk(), 10 * usual.space.walk(), 1e-3);
+  EXPECT_NEAR(giant.space.run(), 10 * usual.space.run(), 1e-3);
+  EXPECT_NEAR(giant.classes.inertia, usual.classes.inertia, 0.05 * usual.classes.inertia);
+}
+
+TEST(Build, RefusesWhatItCannotBuildFrom) {
+  const std::vector<Clip> takes = some_takes();
+  const auto error = [&](const std::vector<Clip>& clips, const std::vector<Trace>& traces,
+                         const BuildOptions& options) {
+    return error_of([&] { build(humanoid(), clips, traces, options); });
+  };
+  const auto expect = [](const std::string& error, const std::string& part) {
+    EXPECT_NE(error.find(part), std::string::npos) << error;
+  };
+  expect(error({}, some_traces(), few_classes()), "no takes");
+  expect(error(takes, {}, few_classes()), "no trace");
+  expect(error(takes, {{}}, few_classes()), "two controls");
+  expect(error(takes, some_traces(), few_classes("wise")), "\"wise\"");
+  BuildOptions options = few_classes();
+  options.classes = 5000;
+  expect(error(takes, some_traces(), options), "5000 classes");
+  options.classes = 0;
+  expect(error(takes, some_traces(), options), "classes");
+  options = few_classes();
+  options.cut.shortest = 2;
+  expect(error(takes, some_traces(), options), "\"stand\"");
+  Gait blink;
+  blink.seconds = 0.05;
+  expect(error({gait_clip(blink)}, some_traces(), few_classes()), "too short");
+}
+
+TEST(Build, RefusesClipsOfAnotherSkeletonNamingThem) {
+  const Skeleton other = small_skeleton();
+  Clip stranger = make_clip(other, random_clip(other, 60, 1));
+  stranger.name = "stranger";
+  std::vector<Clip> clips = some_takes();
+  clips.push_back(stranger);
+  const std::string error = error_of([&] { build(humanoid(), clips, some_traces(), few_classes()); });
+  EXPECT_NE(error.find("stranger"), std::string::npos) << error;
+}
+
+TEST(Build, RefusesClipsThatAreNotWhole) {
+  std::vector<Clip> clips = some_takes();
+  clips[1].root_positions[5] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(error_of([&] { build(humanoid(), clips, some_traces(), few_classes()); }), "no error");
+}
+
+TEST(Build, TakesASkeletonOfOneBone) {
+  Skeleton bone;
+  bone.names = {"bone"};
+  bone.parents = {-1};
+  bone.rest_rotations = {Quaternion::Identity()};
+  bone.offsets = {{0, 0, 0}};
+  bone.tips = {{0, 0, 1}};
+  bone = make_skeleton(bone);
+  Clip clip{"slide", 30, 91, {}, {}, {}};
+  for (int f = 0; f < clip.frames; ++f) {
+    clip.root_positions.insert(clip.root_positions.end(), {0, -f / 30.0, 0.1 * std::sin(f)});
+    clip.rotations.insert(clip.rotations.end(), {1, 0, 0, 0});
+  }
+  BuildOptions options = few_classes();
+  options.classes = 3;
+  Character c;
+  const std::string error = error_of([&] { c = build(bone, {make_clip(bone, clip)}, some_traces(), options); });
+  if (error == "no error") {
+    EXPECT_EQ(c.classes.count, 3);
+  } else {
+    EXPECT_NE(error.find("bone"), std::string::npos) << error;
+  }
+}
+
+TEST(Build, TakesASkeletonWithoutFeet) {
+  Skeleton legless = humanoid();
+  for (std::string& name : legless.names) {
+    if (name.find("foot") == 0) name = "stump" + name.substr(4);
+    if (name.find("shin") == 0) name = "lower" + name.substr(4);
+    if (name.find("thigh") == 0) name = "upper" + name.substr(5);
+  }
+  legless.roles = {};
+  legless = make_skeleton(legless);
+  ASSERT_LT(legless.roles.left_foot, 0);
+  const Character c = build(legless, some_takes(), some_traces(), few_classes());
+  EXPECT_EQ(c.classes.count, 15);
+}
+
+TEST(Build, TellsItsProgressInOrder) {
+  std::vector<double> fractions;
+  std::vector<std::string> stages;
+  build(humanoid(), some_takes(), some_traces(), few_classes("svm"), [&](double fraction, const std::string& stage) {
+    fractions.push_back(fraction);
+    stages.push_back(stage);
+    return true;
+  });
+  ASSERT_GT(fractions.size(), 4U);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_GE(fractions.front(), 0);
+  EXPECT_EQ(fractions.back(), 1);
+  for (const std::string& stage : stages) EXPECT_FALSE(stage.empty());
+}
+
+TEST(Build, IsCancelledAtEveryReport) {
+  int reports = 0;
+  const BuildOptions options = few_classes("svm");
+  build(humanoid(), some_takes(), some_traces(), options, [&](double, const std::string&) { return ++reports > 0; });
+  for (int stop = 1; stop <= reports; ++stop) {
+    int calls = 0;
+    EXPECT_THROW(build(humanoid(), some_takes(), some_traces(), options,
+                       [&](double, const std::string&) { return ++calls < stop; }),
+                 Cancelled);
+    EXPECT_EQ(calls, stop);
+  }
+}
+
+TEST(ControlSpaceOf, FindsTwoGaits) {
+  Random random(1);
+  std::vector<Control> evident;
+  for (int i = 0; i < 200; ++i) {
+    const double angle = 2 * kPi * random.uniform(), speed = i % 2 == 0 ? 1.4 : 4.2;
+    evident.push_back({speed * std::cos(angle), speed * std::sin(angle), 0, 0});
+  }
+  for (const double size : {1.0, 10.0}) {
+    std::vector<Control> sized = evident;
+    for (Control& c : sized) c.x *= size, c.y *= size;
+    const ControlSpace space = control_space_of(sized, 1 / size);
+    EXPECT_NEAR(space.walk(), 1.4 * size, 1e-9 * size);
+    EXPECT_NEAR(space.run(), 4.2 * size, 1e-9 * size);
+    EXPECT_NEAR(space.scale(), 1 / size, 1e-12);
+  }
+}
+
+TEST(ControlSpaceOf, KeepsTheDefaultsWhereNothingMoves) {
+  const ControlSpace standard, space = control_space_of(std::vector<Control>(20), 1);
+  EXPECT_NEAR(space.walk(), standard.walk(), 1e-12);
+  EXPECT_NEAR(space.run(), standard.run(), 1e-12);
+  EXPECT_NEAR(space.turn_rate(), standard.turn_rate(), 1e-12);
+}
+
+TEST(ControlSpaceOf, IsASpaceForAnyFragments) {
+  Random random(2);
+  for (int n = 0; n < 300; ++n) {
+    std::vector<Control> evident(1 + random.below(30));
+    const double size = 10 * random.uniform() * random.uniform();
+    for (Control& c : evident)
+      c = {size * (random.uniform() - 0.5), size * (random.uniform() - 0.5), 3 * random.uniform() - 1.5,
+           random.uniform()};
+    const ControlSpace space = control_space_of(evident, 1);
+    EXPECT_GT(space.walk(), 0);
+    EXPECT_GT(space.run(), space.walk());
+    EXPECT_GT(space.turn_rate(), 0);
+  }
+}
+
+TEST(Snap, FindsTheNearestPointOfEveryControl) {
+  const ControlSpace space;
+  const Trace trace = simulate_trace("twitcher", 5, 3, space);
+  const std::vector<int> indices = snap(space, trace);
+  ASSERT_EQ(indices.size(), trace.size());
+  for (std::size_t i = 0; i < trace.size(); ++i) EXPECT_EQ(indices[i], space.nearest(trace[i]));
+}
+
+}  // namespace
+}  // namespace fragmotion

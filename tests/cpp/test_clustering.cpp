@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "fragmotion/clustering.hpp"
+#include "fragmotion/random.hpp"
+#include "mocap_files.hpp"
+
+namespace fragmotion {
+namespace {
+
+// Points in `groups` blobs; `grid` rounds the coordinates, so that some points coincide.
+Trajectories blobs(int count, int points, int groups, std::uint64_t seed, double grid = 0) {
+  Random random(seed);
+  Trajectories t;
+  t.count = count;
+  t.stride = (points + kLanes - 1) / kLanes * kLanes;
+  t.whole.assign(std::size_t{3} * count * t.stride, 0);
+  std::vector<float> centers(std::size_t{3} * groups * t.stride);
+  for (float& value : centers) value = static_cast<float>(4 * random.uniform());
+  for (int i = 0; i < count; ++i) {
+    const int group = random.below(groups);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 0; k < points; ++k) {
+        double value = centers[(std::size_t{3} * group + axis) * t.stride + k] + random.uniform() - 0.5;
+        if (grid > 0) value = std::round(value / grid) * grid;
+        t.whole[(std::size_t{3} * i + axis) * t.stride + k] = static_cast<float>(value);
+      }
+    }
+  }
+  return t;
+}
+
+std::vector<float> equal_weights(const Trajectories& t) { return std::vector<float>(t.count, 1); }
+
+// The result looked at naively, in double precision.
+class Naive {
+ public:
+  Naive(const Trajectories& t, const std::vector<float>& weights, const Classes& classes)
+      : t_(t), width_(std::size_t{3} * t.stride), means_(classes.count * width_, 0) {
+    std::vector<double> total(classes.count, 0);
+    for (int i = 0; i < t.count; ++i) {
+      const int k = classes.labels[i];
+      total[k] += weights[i];
+      for (std::size_t j = 0; j < width_; ++j) means_[k * width_ + j] += weights[i] * t.trajectory(i)[j];
+    }
+    for (int k = 0; k < classes.count; ++k) {
+      for (std::size_t j = 0; j < width_; ++j) means_[k * width_ + j] /= total[k];
+    }
+  }
+
+  double distance(int i, int k) const {
+    double sum = 0;
+    for (int j = 0; j < t_.stride; ++j) {
+      double square = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t at = std::size_t(axis) * t_.stride + j;
+        square += std::pow(t_.trajectory(i)[at] - means_[k * width_ + at], 2);
+      }
+      sum += std::sqrt(square);
+    }
+    return sum;
+  }
+
+ private:
+  const Trajectories& t_;
+  std::size_t width_;
+  std::vector<double> means_;
+};
+
+void expect_fixed_point(const Trajectories& t, const std::vector<float>& weights, const Classes& classes) {
+  const Naive naive(t, weights, classes);
+  double inertia = 0;
+  for (int i = 0; i < t.count; ++i) {
+    const double own = naive.distance(i, classes.labels[i]);
+    for (int k = 0; k < classes.count; ++k) EXPECT_LE(own, naive.distance(i, k) * (1 + 1e-4) + 1e-4) << "point " << i;
+    inertia += weights[i] * own * own;
+  }
+  EXPECT_NEAR(classes.inertia, inertia, 1e-4 * inertia + 1e-4);
+}
+
+void expect_classes(const Trajectories& t, const std::vector<float>& weights, const Classes& classes, int count) {
+  ASSERT_EQ(classes.count, count);
+  ASSERT_EQ(classes.labels.size(), static_cast<std::size_t>(t.count));
+  ASSERT_EQ(classes.representatives.size(), static_cast<std::size_t>(count));
+  for (const int label : classes.labels) ASSERT_TRUE(label >= 0 && label < count);
+  EXPECT_TRUE(std::is_sorted(classes.representatives.begin(), classes.representatives.end()));
+  const Naive naive(t, weights, classes);
+  const std::vector<std::vector<int>> members = classes.members();
+  for (int k = 0; k < count; ++k) {
+    ASSERT_FALSE(members[k].empty()) << "class " << k << " is empty";
+    const int medoid = classes.representatives[k];
+    ASSERT_TRUE(medoid >= 0 && medoid < t.count);
+    EXPECT_EQ(classes.labels[medoid], k);
+    for (const int i : members[k]) EXPECT_LE(naive.distance(medoid, k), naive.distance(i, k) * (1 + 1e-4) + 1e-4);
+  }
+}
+
+TEST(Cluster, EndsWhereEveryPointHasItsNearestMean) {
+  for (int seed = 1; seed <= 12; ++seed) {
+    const Trajectories t = blobs(150 + 20 * seed, 3 + seed, 8, seed, seed % 3 == 0 ? 0.25 : 0);
+    Random random(seed);
+    std::vector<float> weights = equal_weights(t);
+    if (seed % 2 == 0) {
+      for (float& w : weights) w = static_cast<float>(0.2 + random.uniform());
+    }
+    ClusterOptions options;
+    options.classes = 2 + 2 * seed;
+    options.restarts = 2;
+    options.iterations = 1000;
+    options.seed = seed;
+    SCOPED_TRACE(seed);
+    const Classes classes = cluster(t, weights, options);
+    expect_classes(t, weights, classes, options.classes);
+    expect_fixed_point(t, weights, classes);
+  }
+}
+
+TEST(Cluster, LeavesNoClassEmptyHoweverFewTheIterations) {
+  for (int seed = 1; seed <= 300; ++seed) {
+    const Trajectories t = blobs(14 + seed % 9, 1, 3, seed, seed % 2 == 0 ? 0.5 : 0);
+    std::set<std::vector<float>> distinct;
+    for (int i = 0; i < t.count; ++i) distinct.insert({t.trajectory(i), t.trajectory(i) + 3 * t.stride});
+    ClusterOptions options;
+    options.classes = std::min<int>(3 + seed % 10, static_cast<int>(distinct.size()));
+    options.iterations = 1 + seed % 4;
+    options.restarts = 1;
+    options.seed = seed;
+    const Classes classes = cluster(t, equal_weights(t), options);
+    for (const std::vector<int>& members : classes.members()) ASSERT_FALSE(members.empty()) << "seed " << seed;
+    for (const int medoid : classes.representatives) ASSERT_GE(medoid, 0) << "seed " << seed;
+  }
+}
+
+TEST(Cluster, FindsBlobsThatLieFarApart) {
+  Trajectories t = blobs(60, 4, 1, 3);
+  for (int i = 0; i < t.count; ++i)
+    t.whole[static_cast<std::size_t>(i) * 3 * t.stride] += static_cast<float>(50 * (i % 5));
+  ClusterOptions options;
+  options.classes = 5;
+  const Classes classes = cluster(t, equal_weights(t), options);
+  for (int i = 0; i < t.count; ++i) EXPECT_EQ(classes.labels[i], classes.labels[i % 5]);
+  EXPECT_EQ(std::set<int>(classes.labels.begin(), classes.labels.end()).size(), 5U);
+}
+
+TEST(Cluster, AWeightOfTwoCountsAsTwoPoints) {
+  const Trajectories t = blobs(40, 2, 4, 9);
+  Trajectories twice = t;
+  twice.count = 80;
+  twice.whole.insert(twice.whole.end(), t.whole.begin(), t.whole.end());
+  ClusterOptions options;
+  options.classes = 1;
+  const Classes doubled = cluster(t, std::vector<float>(40, 2), options),
+                both = cluster(twice, equal_weights(twice), options);
+  EXPECT_NEAR(doubled.inertia, both.inertia, 1e-4 * both.inertia);
+}
+
+TEST(Cluster, IsTheSameForAnyNumberOfThreadsAndEveryRun) {
+  const Trajectories t = blobs(400, 30, 12, 5);
+  ClusterOptions options;
+  options.classes = 20;
+  options.threads = 1;
+  const Classes one = cluster(t, equal_weights(t), options);
+  for (const int threads : {1, 2, 3, 8}) {
+    options.threads = threads;
+    const Classes other = cluster(t, equal_weights(t), options);
+    EXPECT_EQ(other.labels, one.labels);
+    EXPECT_EQ(other.representatives, one.representatives);
+    EXPECT_EQ(other.inertia, one.inertia);
+  }
+}
+
+TEST(Cluster, MoreRestartsAreNeverWorse) {
+  const Trajectories t = blobs(200, 4, 30, 6);
+  double before = 1e30;
+  for (const int restarts : {1, 2, 4, 8}) {
+    ClusterOptions options;
+    options.classes = 25;
+    options.restarts = restarts;
+    const double inertia = cluster(t, equal_weights(t), options).inertia;
+    EXPECT_LE(inertia, before);
+    before = inertia;
+  }
+}
+
+TEST(Cluster, TakesTheRunThatScoresBest) {
+  const Trajectories t = blobs(200, 4, 30, 6);
+  ClusterOptions options;
+  options.classes = 25;
+  options.restarts = 6;
+  double worst = 0;
+  const Classes found = cluster(t, equal_weights(t), options, [&](const Classes& classes) {
+    worst = std::max(worst, classes.inertia);
+    return classes.inertia;
+  });
+  EXPECT_EQ(found.inertia, worst);
+  EXPECT_GT(found.inertia, cluster(t, equal_weights(t), options).inertia);
+}
+
+TEST(Cluster, OneClassHoldsAllAndIsRepresentedByTheMedoid) {
+  const Trajectories t = blobs(50, 3, 3, 7);
+  ClusterOptions options;
+  options.classes = 1;
+  const Classes classes = cluster(t, equal_weights(t), options);
+  expect_classes(t, equal_weights(t), classes, 1);
+}
+
+TEST(Cluster, AsManyClassesAsFragmentsHoldOneEach) {
+  const Trajectories t = blobs(30, 3, 5, 8);
+  ClusterOptions options;
+  options.classes = 30;
+  const Classes classes = cluster(t, equal_weights(t), options);
+  for (int i = 0; i < 30; ++i) EXPECT_EQ(classes.representatives[classes.labels[i]], i);
+  EXPECT_NEAR(classes.inertia, 0, 1e-6);
+}
+
+TEST(Cluster, RefusesWhatCannotBeClustered) {
+  const Trajectories t = blobs(20, 2, 2, 1);
+  Trajectories same = t;
+  for (int i = 0; i < 20; ++i)
+    std::copy_n(t.trajectory(i % 3), 3 * t.stride, &same.whole[std::size_t(i) * 3 * t.stride]);
+  const auto error = [](const Trajectories& points, int classes, std::vector<float> weights) {
+    ClusterOptions options;
+    options.classes = classes;
+    return error_of([&] { cluster(points, weights, options); });
+  };
+  const std::string more = error(t, 21, equal_weights(t));
+  EXPECT_NE(more.find("21 classes"), std::string::npos) << more;
+  EXPECT_NE(more.find("only 20"), std::string::npos) << more;
+  EXPECT_NE(error(same, 4, equal_weights(t)).find("distinct"), std::string::npos);
+  EXPECT_EQ(error(same, 3, equal_weights(t)), "no error");
+  EXPECT_NE(error(t, 0, equal_weights(t)).find("at least 1"), std::string::npos);
+  EXPECT_NE(error(t, 2, {1, 2}).find("weight"), std::string::npos);
+}
+
+TEST(Cluster, IsCancelledByItsProgress) {
+  const Trajectories t = blobs(50, 2, 2, 1);
+  ClusterOptions options;
+  options.classes = 3;
+  int calls = 0;
+  const Progress stop = [&](double, const std::string&) { return ++calls < 2; };
+  EXPECT_THROW(cluster(t, equal_weights(t), options, {}, stop), Cancelled);
+  EXPECT_EQ(calls, 2);
+}
+
+}  // namespace
+}  // namespace fragmotion

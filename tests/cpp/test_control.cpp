@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "fragmotion/control.hpp"
+#include "fragmotion/random.hpp"
+
+namespace fragmotion {
+namespace {
+
+TEST(ControlSpace, NumbersItsPointsAsDocumented) {
+  const ControlSpace space(1, 2);
+  for (int i = 0; i < ControlSpace::kPoints; ++i) {
+    const Control& point = space.point(i);
+    const int velocity = i / 6;
+    EXPECT_EQ(i, 6 * velocity + 2 * (point.turn + 1) + point.jump);
+    EXPECT_NEAR(std::hypot(point.x, point.y), velocity == 0 ? 0 : velocity <= 8 ? 1 : 2, 1e-15);
+  }
+}
+
+TEST(ControlSpace, CountsDirectionsCounterClockwiseFromForward) {
+  const ControlSpace space(1, 2);
+  const auto velocity = [&](int index) { return Vector2{space.point(6 * index).x, space.point(6 * index).y}; };
+  EXPECT_EQ(velocity(0), Vector2(0, 0));
+  EXPECT_EQ(velocity(1), Vector2(0, 1));   // forward
+  EXPECT_EQ(velocity(3), Vector2(-1, 0));  // left
+  EXPECT_EQ(velocity(5), Vector2(0, -1));  // back
+  EXPECT_EQ(velocity(7), Vector2(1, 0));   // right
+  EXPECT_EQ(velocity(9), Vector2(0, 2));
+  EXPECT_LT((velocity(10) - Vector2(-std::sqrt(2), std::sqrt(2))).norm(), 1e-15);
+}
+
+TEST(ControlSpace, FindsEachPointNearestToItself) {
+  const ControlSpace space;
+  for (int i = 0; i < ControlSpace::kPoints; ++i) EXPECT_EQ(space.nearest(space.point(i)), i);
+}
+
+TEST(ControlSpace, FindsNoPointNearerThanTheNearest) {
+  const ControlSpace space(1.1, 3.4, 1, 0.9, {1, 0.7, 1.5});
+  Random random(3);
+  for (int n = 0; n < 300; ++n) {
+    const Control control{8 * random.uniform() - 4, 8 * random.uniform() - 4, 2 * random.uniform() - 1,
+                          random.uniform()};
+    const double found = space.distance(space.point(space.nearest(control)), control);
+    for (int i = 0; i < ControlSpace::kPoints; ++i) EXPECT_LE(found, space.distance(space.point(i), control));
+  }
+}
+
+TEST(ControlSpace, PrefersTheLowerIndexOnATie) {
+  const ControlSpace space(1, 2);
+  EXPECT_EQ(space.nearest({0, 0.5, 0, 0}), 2);      // between standing and walking
+  EXPECT_EQ(space.nearest({0, 1.5, 0, 0}), 6 + 2);  // between walking and running
+  EXPECT_EQ(space.nearest({0, 0, 0, 0.5}), 2);      // between jumping and not
+  EXPECT_EQ(space.nearest({0, 0, -0.5, 0}), 0);     // between turning right and not
+}
+
+TEST(ControlSpace, WeighsDifferencesBeforeSquaring) {
+  const ControlSpace space(1, 2, 1, 0.5, {3, 5, 7});
+  const Control origin;
+  EXPECT_DOUBLE_EQ(space.distance(origin, {3, 4, 0, 0}), 3 * 0.5 * 5);
+  EXPECT_DOUBLE_EQ(space.distance(origin, {0, 0, -1, 0}), 5);
+  EXPECT_DOUBLE_EQ(space.distance(origin, {0, 0, 0, 1}), 7);
+  EXPECT_DOUBLE_EQ(space.distance(origin, {2, 0, 1, 1}), std::sqrt(9 + 25 + 49));
+}
+
+TEST(ControlSpace, HasAMetric) {
+  const ControlSpace space;
+  for (int a = 0; a < ControlSpace::kPoints; a += 7) {
+    for (int b = 0; b < ControlSpace::kPoints; b += 5) {
+      const double ab = space.distance(space.point(a), space.point(b));
+      EXPECT_EQ(ab, space.distance(space.point(b), space.point(a)));
+      EXPECT_EQ(ab == 0, a == b);
+      for (int c = 0; c < ControlSpace::kPoints; c += 3)
+        EXPECT_LE(ab, space.distance(space.point(a), space.point(c)) + space.distance(space.point(c), space.point(b)) +
+                          1e-12);
+    }
+  }
+}
+
+TEST(ControlSpace, NamesTheValueThatIsOutOfRange) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const struct {
+    const char* label;
+    double walk, run, turn_rate, scale;
+    ControlWeights weights;
+    const char* named;
+  } cases[] = {
+      {"no walk", 0, 2, 1, 1, {}, "walk"},
+      {"walk is not a number", nan, 2, 1, 1, {}, "walk"},
+      {"run slower than walk", 2, 1, 1, 1, {}, "run"},
+      {"infinite run", 1, INFINITY, 1, 1, {}, "run"},
+      {"negative turn rate", 1, 2, -1, 1, {}, "turn rate"},
+      {"no scale", 1, 2, 1, 0, {}, "scale"},
+      {"negative velocity weight", 1, 2, 1, 1, {-1, 1, 1}, "velocity weight"},
+      {"turn weight is not a number", 1, 2, 1, 1, {1, nan, 1}, "turn weight"},
+      {"infinite jump weight", 1, 2, 1, 1, {1, 1, INFINITY}, "jump weight"},
+  };
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.label);
+    try {
+      ControlSpace(c.walk, c.run, c.turn_rate, c.scale, c.weights);
+      ADD_FAILURE() << "accepted";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(c.named), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fragmotion

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fragmotion/player.hpp"
+#include "fragmotion/pose.hpp"
+#include "mocap_files.hpp"
+#include "small_character.hpp"
+
+namespace fragmotion {
+namespace {
+
+const Control kForward{0, 1.2, 0, 0};
+
+std::vector<Vector3> joints(const Kinematics& kinematics, const Vector3& root, const std::vector<double>& rotations) {
+  std::vector<Vector3> heads(kinematics.bones());
+  std::vector<Quaternion> orientations(kinematics.bones());
+  kinematics.world(root, rotations.data(), heads.data(), orientations.data());
+  for (int b = 0; b < kinematics.bones(); ++b)
+    heads.push_back(heads[b] + orientations[b] * kinematics.skeleton().tips[b]);
+  return heads;
+}
+
+double largest_distance(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).norm());
+  return largest;
+}
+
+// The speed of the fastest joint of all takes, m/s.
+double top_speed(const Character& c, const Kinematics& kinematics) {
+  double top = 0;
+  for (const Clip& clip : c.pool.clips) {
+    std::vector<Vector3> before;
+    for (int f = 0; f < clip.frames; ++f) {
+      const std::size_t width = std::size_t{4} * kinematics.bones();
+      const std::vector<double> pose(clip.rotations.begin() + f * width, clip.rotations.begin() + (f + 1) * width);
+      const std::vector<Vector3> now = joints(kinematics, load_vector(&clip.root_positions[3 * f]), pose);
+      if (f > 0) top = std::max(top, clip.rate * largest_distance(before, now));
+      before = now;
+    }
+  }
+  return top;
+}
+
+// Takes, however different, are stitched over at least a tenth of a second, with a slope of at most 1.5.
+double allowed_step(const Character& c, const Kinematics& kinematics, double seconds) {
+  const double reach = 2 * stature(c.pool.skeleton);
+  return (1.2 * top_speed(c, kinematics) + 1.5 * reach / 0.1) * seconds;
+}
+
+TEST(Player, NeverJumps) {
+  const auto c = gait_character();
+  const Kinematics kinematics(c->pool.skeleton);
+  for (const double dt : {1.0 / 60, 1.0 / 5000}) {
+    const double allowed = allowed_step(*c, kinematics, dt);
+    Player player(c, 3);
+    Random random(4);
+    Control control;
+    std::vector<Vector3> before = joints(kinematics, player.root_position(), player.rotations());
+    double heading = player.frame().heading, largest = 0;
+    for (int i = 0; i < static_cast<int>(8 / dt); ++i) {
+      if (i % static_cast<int>(0.3 / dt) == 0) control = c->space.point(random.below(ControlSpace::kPoints));
+      player.step(control, dt);
+      const std::vector<Vector3> now = joints(kinematics, player.root_position(), player.rotations());
+      largest = std::max(largest, largest_distance(before, now));
+      EXPECT_LT(std::abs(player.frame().heading - heading), 40 * dt);
+      heading = player.frame().heading;
+      before = now;
+    }
+    EXPECT_LT(largest, allowed) << dt;
+  }
+}
+
+TEST(Player, ShowsFinitePosesOfUnitRotations) {
+  Player player(gait_character(), 5);
+  Random random(6);
+  for (int i = 0; i < 2000; ++i) {
+    const Control wild{40 * random.uniform() - 20, 40 * random.uniform() - 20, 4 * random.uniform() - 2,
+                       random.uniform()};
+    player.step(wild, 0.3 * random.uniform() * random.uniform());
+    ASSERT_TRUE(player.root_position().allFinite());
+    for (std::size_t b = 0; b < player.rotations().size(); b += 4)
+      ASSERT_NEAR(load_quaternion(&player.rotations()[b]).norm(), 1, 1e-6);
+  }
+}
+
+// What plays, asked between the ends of fragments, which all lie on whole thirtieths of a second.
+std::vector<int> what_plays(double rate, const Control& control, double seconds) {
+  Player player(gait_character(), 9);
+  player.step(control, 1.0 / 240);
+  std::vector<int> played;
+  const int steps = static_cast<int>(rate / 30);
+  for (int i = 0; i < static_cast<int>(seconds * 30); ++i) {
+    for (int k = 0; k < steps; ++k) player.step(control, 1 / rate);
+    played.push_back(player.playing_fragment());
+  }
+  return played;
+}
+
+TEST(Player, PlaysTheSameFragmentsWhateverTheStep) {
+  for (const int point : {2, 8, 56, 14, 1, 33}) {
+    const Control control = gait_character()->space.point(point);
+    const std::vector<int> expected = what_plays(30, control, 10);
+    for (const double rate : {60.0, 120.0, 240.0}) EXPECT_EQ(what_plays(rate, control, 10), expected) << point;
+  }
+}
+
+TEST(Player, GoesTheSameWayWhateverTheStep) {
+  const auto position = [](int steps) {
+    Player player(gait_character(), 2);
+    for (int i = 0; i < steps; ++i) player.step(kForward, 7.003 / steps);
+    return player.root_position();
+  };
+  const Vector3 expected = position(101);
+  for (const int steps : {1, 7, 1000}) EXPECT_LT((position(steps) - expected).norm(), 1e-6) << steps;
+}
+
+Performance performed(std::uint64_t seed, double rate) {
+  Player player(gait_character(), seed);
+  return player.run(simulate_trace("explorer", 20, 4, gait_character()->space), rate);
+}
+
+TEST(Player, RepeatsItselfForASeed) {
+  const Performance a = performed(1, 30), b = performed(1, 30), other = performed(2, 30);
+  EXPECT_EQ(a.rotations, b.rotations);
+  EXPECT_EQ(a.root_positions, b.root_positions);
+  EXPECT_EQ(a.fragments, b.fragments);
+  EXPECT_NE(a.fragments, other.fragments);
+}
+
+TEST(Player, StandsWhereItIsPut) {
+  const auto c = gait_character();
+  Player player(c);
+  for (const double heading : {0.0, 2.0, -3.0}) {
+    player.step(kForward, 1.3);
+    player.reset({{3, -4}, heading});
+    EXPECT_LT((player.frame().position - Vector2(3, -4)).norm(), 1e-9);
+    EXPECT_NEAR(player.frame().heading, heading, 1e-9);
+    EXPECT_LT((player.root_position().head<2>() - Vector2(3, -4)).norm(), 1e-9);
+    const Fragment& f = c->pool.fragments[player.playing_fragment()];
+    EXPECT_EQ(c->space.nearest(f.evident), c->space.nearest({}));
+    const Kinematics kinematics(c->pool.skeleton);
+    const CharacterFrame hips = kinematics.frame(player.root_position(), load_quaternion(player.rotations().data()));
+    EXPECT_NEAR(std::remainder(hips.heading - heading, 2 * kPi), 0, 0.5);
+  }
+}
+
+TEST(Player, StaysWhereItStandsWithoutACommand) {
+  Player player(gait_character());
+  player.reset({{1, 2}, 0.7});
+  for (int i = 0; i < 300; ++i) player.step({}, 1.0 / 30);
+  EXPECT_LT((player.frame().position - Vector2(1, 2)).norm(), 0.5);
+}
+
+TEST(Player, GoesForwardFromWhereItIsPut) {
+  for (const double heading : {0.0, 1.5, -2.0}) {
+    Player player(gait_character());
+    player.reset({{0, 0}, heading});
+    player.step(kForward, 1);
+    const CharacterFrame start = player.frame();
+    player.step(kForward, 4);
+    const Vector3 moved = start.to_local({player.frame().position.x(), player.frame().position.y(), 0});
+    EXPECT_NEAR(moved.y() / 4, 1.2, 0.35);
+    EXPECT_NEAR(moved.x() / 4, 0, 0.35);
+  }
+}
+
+TEST(Player, MirrorsNothingButTurnsAndMovesWithItsPlace) {
+  Player here(gait_character(), 4), there(gait_character(), 4);
+  const CharacterFrame place{{10, -7}, 2.5};
+  here.reset();
+  there.reset(place);
+  Random random(3);
+  for (int i = 0; i < 300; ++i) {
+    const Control control = gait_character()->space.point(random.below(ControlSpace::kPoints));
+    here.step(control, 1.0 / 30);
+    there.step(control, 1.0 / 30);
+    ASSERT_LT((there.root_position() - place.to_world(here.root_position())).norm(), 1e-6);
+    ASSERT_EQ(there.playing_fragment(), here.playing_fragment());
+  }
+}
+
+TEST(Player, GivesAFrameForEveryTickOfAnyRate) {
+  const double rates[] = {24, 25, 29.97, 30, 60, 120, 7.3, 1};
+  for (const double rate : rates) {
+    for (const std::size_t controls : {1U, 13U, 50U}) {
+      Player player(gait_character());
+      const Performance p = player.run(Trace(controls, kForward), rate);
+      EXPECT_EQ(p.frames, static_cast<int>(std::lround(controls / 10.0 * rate)) + 1) << rate;
+      EXPECT_EQ(p.rate, rate);
+      EXPECT_EQ(p.root_positions.size(), std::size_t(3) * p.frames);
+      EXPECT_EQ(p.rotations.size(), std::size_t(4) * p.frames * gait_character()->pool.skeleton.size());
+      EXPECT_EQ(p.path.size(), std::size_t(3) * p.frames);
+      EXPECT_EQ(p.classes.size(), std::size_t(p.frames));
+      EXPECT_EQ(p.fragments.size(), std::size_t(p.frames));
+    }
+  }
+}
+
+TEST(Performance, IsWhatStepsWouldHaveShown) {
+  const Trace trace(40, kForward);
+  Player one(gait_character(), 6), two(gait_character(), 6);
+  one.reset({{1, 1}, 1});
+  two.reset({{1, 1}, 1});
+  const Performance p = one.run(trace, 30);
+  for (int f = 0; f < p.frames; ++f) {
+    if (f > 0) two.step(kForward, 1.0 / 30);
+    EXPECT_LT((load_vector(&p.root_positions[3 * f]) - two.root_position()).norm(), 1e-9);
+    EXPECT_NEAR(p.path[3 * f + 2], two.frame().heading, 1e-9);
+    EXPECT_EQ(p.classes[f], two.playing_class());
+    EXPECT_EQ(gait_character()->classes.labels[p.fragments[f]], p.classes[f]);
+  }
+}
+
+TEST(Performance, MeasuresQualityAndSpeed) {
+  for (const double rate : {24.0, 60.0}) {
+    const Performance p = performed(3, rate);
+    EXPECT_GT(p.quality, 0);
+    EXPECT_LE(p.quality, 1);
+    EXPECT_GE(p.velocity_error, 0);
+    EXPECT_TRUE(std::isfinite(p.velocity_error));
+  }
+  Player player(gait_character());
+  EXPECT_NEAR(player.run(Trace(50, kForward), 30).commanded_speed, 1.2, 0.05);
+}
+
+TEST(Performance, PathIsUnwrapped) {
+  Player player(gait_character());
+  const Performance p = player.run(Trace(100, Control{0, 1.2, 1, 0}), 30);
+  for (int f = 1; f < p.frames; ++f) EXPECT_LT(std::abs(p.path[3 * f + 2] - p.path[3 * f - 1]), 1);
+  EXPECT_GT(p.path[3 * (p.frames - 1) + 2], 3);
+}
+
+TEST(Player, RefusesBadTimesRatesAndTraces) {
+  const auto c = gait_character();
+  const double nan = std::nan("");
+  for (const double stitch : {-0.1, 1.5, nan}) EXPECT_NE(error_of([&] { Player(c, 1, stitch); }), "no error") << stitch;
+  for (const double stitch : {0.0, 1.0}) EXPECT_EQ(error_of([&] { Player(c, 1, stitch); }), "no error") << stitch;
+  Player player(c);
+  EXPECT_NE(error_of([&] { player.run({}, 30); }).find("no controls"), std::string::npos);
+  for (const double rate : {0.0, -30.0, nan, 1e9})
+    EXPECT_NE(error_of([&] { player.run(Trace(5), rate); }).find("rate"), std::string::npos) << rate;
+}
+
+TEST(Player, IsCancelledByItsProgress) {
+  Player player(gait_character());
+  EXPECT_THROW(player.run(Trace(500, kForward), 60, [](double f, const std::string&) { return f < 0.3; }), Cancelled);
+}
+
+TEST(Player, PlaysWithoutStitching) {
+  Player player(gait_character(), 1, 0);
+  for (int i = 0; i < 300; ++i) player.step(kForward, 1.0 / 30);
+  EXPECT_TRUE(player.root_position().allFinite());
+}
+
+}  // namespace
+}  // namespace fragmotion

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "fragmotion/coverage.hpp"
+#include "fragmotion/distance.hpp"
+#include "fragmotion/mirror.hpp"
+#include "fragmotion/pose.hpp"
+#include "fragmotion/synthesis.hpp"
+#include "walker.hpp"
+
+namespace fragmotion {
+namespace {
+
+const Skeleton kSkeleton = humanoid();
+const Kinematics kKinematics(kSkeleton);
+
+double usual_of(const std::vector<Clip>& clips) {
+  std::vector<BodyMotion> motions;
+  for (const Clip& clip : clips) motions.push_back(body_motion(kKinematics, clip));
+  return usual_height(motions);
+}
+
+Control evident_of(const Clip& clip, int begin, int end, double usual, const ControlSpace& space = ControlSpace()) {
+  return evident_control(body_motion(kKinematics, clip), clip.rate, begin, end, usual, space);
+}
+
+double lowest_tip(const Clip& clip, int frame) {
+  std::vector<Vector3> heads(kSkeleton.size());
+  std::vector<Quaternion> rotations(kSkeleton.size());
+  kKinematics.world(clip, frame, heads.data(), rotations.data());
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int b = 0; b < kSkeleton.size(); ++b) {
+    const Vector3 tip = heads[b] + rotations[b] * kSkeleton.tips[b];
+    lowest = std::min(lowest, tip.z());
+  }
+  return lowest;
+}
+
+TEST(Transformed, ByNothingIsTheSource) {
+  Gait gait;
+  gait.turn = 0.5;
+  gait.heading = 1;
+  const Clip clip = moved(kSkeleton, gait_clip(gait), {{2, -1}, 0.5});
+  const Clip same = transformed(kKinematics, clip, 20, 40, 9, {});
+  ASSERT_EQ(same.frames, 30);
+  EXPECT_EQ(same.rate, clip.rate);
+  for (int f = 0; f < same.frames; ++f) {
+    const Vector3 root = load_vector(&clip.root_positions[3 * (20 + f)]);
+    EXPECT_LT((load_vector(&same.root_positions[3 * f]) - root).norm(), 1e-12);
+    EXPECT_NEAR(same.headings[f], clip.headings[20 + f], 1e-12);
+    for (int b = 0; b < kSkeleton.size(); ++b) {
+      const Quaternion q = load_quaternion(&same.rotations[std::size_t{4} * (f * kSkeleton.size() + b)]);
+      const Quaternion p = load_quaternion(&clip.rotations[std::size_t{4} * ((20 + f) * kSkeleton.size() + b)]);
+      EXPECT_GT(std::abs(q.dot(p)), 1 - 1e-12);
+    }
+  }
+}
+
+TEST(Transformed, EndsWithTheClipWhereItsTailIsLonger) {
+  const Clip clip = gait_clip({});
+  EXPECT_EQ(transformed(kKinematics, clip, 70, clip.frames - 1, 30, {}).frames, clip.frames - 70);
+}
+
+TEST(Transformed, DoesToTheEvidentControlWhatItSays) {
+  const ControlSpace space;
+  Random random(1);
+  for (int n = 0; n < 40; ++n) {
+    Gait gait;
+    gait.x = random.uniform() - 0.5;
+    gait.y = 0.6 + random.uniform();
+    gait.turn = random.uniform() - 0.5;
+    const Clip clip = gait_clip(gait);
+    const double usual = usual_of({clip});
+    const int begin = random.below(40), end = begin + 5 + random.below(10);
+    Transform change;
+    change.direction = n % 4 == 0 ? 2 * random.uniform() - 1 : 0;
+    change.speed = n % 4 == 1 ? 0.5 + random.uniform() : 1;
+    change.turn = n % 4 == 2 ? 2 * random.uniform() - 1 : 0;
+    change.rise = n % 4 == 3 ? 0.1 + 0.3 * random.uniform() : 0;
+    const Clip made = transformed(kKinematics, clip, begin, end, 5, change);
+    const Control before = evident_of(clip, begin, end, usual, space),
+                  after = evident_of(made, 0, end - begin, usual, space);
+    const Vector2 expected = Eigen::Rotation2Dd(change.direction) * Vector2(before.x, before.y) * change.speed;
+    EXPECT_NEAR(after.x, expected.x(), 0.08) << n;
+    EXPECT_NEAR(after.y, expected.y(), 0.08) << n;
+    EXPECT_NEAR(after.turn, before.turn + change.turn / space.turn_rate(), 1e-6) << n;
+    double rise = 0;
+    for (int f = 0; f <= end - begin; ++f)
+      rise = std::max(rise, made.root_positions[3 * f + 2] - clip.root_positions[3 * (begin + f) + 2]);
+    EXPECT_LE(rise, change.rise + 1e-9);
+    EXPECT_GE(rise, 0.9 * change.rise - 1e-9);
+    EXPECT_NEAR(made.root_positions[2], clip.root_positions[3 * begin + 2], 1e-9);
+    EXPECT_NEAR(made.root_positions[3 * (end - begin) + 2], clip.root_positions[3 * end + 2], 1e-9);
+  }
+}
+
+// The pool with a clip's frames 0 .. end as one more fragment.
+Trajectories with(FragmentPool pool, const Clip& clip, int end) {
+  Fragment fragment;
+  fragment.clip = static_cast<int>(pool.clips.size());
+  fragment.end = end;
+  pool.clips.push_back(make_clip(pool.skeleton, clip));
+  pool.fragments.push_back(fragment);
+  return trajectories(pool);
+}
+
+TEST(Interpolated, AtItsEndsIsTheOneOrTheOther) {
+  Gait slow, fast;
+  fast.y = 1.8;
+  fast.heading = 2;
+  const FragmentPool pool = gait_pool({gait_clip(slow), gait_clip(fast)});
+  const int a = 2, b = static_cast<int>(pool.fragments.size()) - 3, last = static_cast<int>(pool.fragments.size());
+  for (const double w : {0.0, 1.0}) {
+    const Clip clip = interpolated(kKinematics, pool, pool.fragments[a], pool.fragments[b], w, 4);
+    const Trajectories t = with(pool, clip, clip.frames - 1 - 4);
+    EXPECT_LT(fragment_distance(t, last, w == 0 ? a : b), 1e-3);
+    EXPECT_GT(fragment_distance(t, last, w == 0 ? b : a), 1);
+  }
+}
+
+TEST(Interpolated, LiesBetweenWhatItIsMadeOf) {
+  Gait slow, fast;
+  fast.y = 1.8;
+  const FragmentPool pool = gait_pool({gait_clip(slow), gait_clip(fast)});
+  const double usual = usual_of(pool.clips);
+  for (const Fragment& a : pool.fragments) {
+    const Fragment& b = pool.fragments.back();
+    const Clip clip = interpolated(kKinematics, pool, a, b, 0.5, 0);
+    const double seconds = (clip.frames - 1) / clip.rate, mean = (pool.seconds(a) + pool.seconds(b)) / 2;
+    EXPECT_NEAR(seconds, mean, 0.5 / clip.rate + 1e-9);
+    const double speed = evident_of(clip, 0, clip.frames - 1, usual).y;
+    EXPECT_GT(speed, std::min(a.evident.y, b.evident.y) - 0.15);
+    EXPECT_LT(speed, std::max(a.evident.y, b.evident.y) + 0.15);
+  }
+}
+
+TEST(Standing, StandsStillOnTheGround) {
+  for (const bool with_mirror : {false, true}) {
+    std::vector<Clip> clips = gait_takes();
+    clips.erase(clips.begin());  // without the take that stands
+    if (with_mirror) {
+      const Mirror mirror(kKinematics, clips);
+      for (std::size_t i = 0, count = clips.size(); i < count; ++i) clips.push_back(mirror(clips[i]));
+    }
+    const FragmentPool pool = gait_pool(clips);
+    const Clip stand = make_clip(kSkeleton, standing(kKinematics, pool, 16, 30));
+    ASSERT_EQ(stand.frames, 16);
+    const Control found = evident_of(stand, 0, 15, usual_of(clips));
+    for (const double value : {found.x, found.y, found.turn, found.jump}) EXPECT_NEAR(value, 0, 1e-9);
+    EXPECT_NEAR(lowest_tip(stand, 0), 0, 0.03);
+    EXPECT_NEAR(lowest_tip(stand, 15), 0, 0.03);
+  }
+}
+
+FragmentPool synthesized(std::vector<Clip> clips, const ControlSpace& space, const SynthesisOptions& options) {
+  FragmentPool pool = gait_pool(clips, 1, {}, &space);
+  synthesize(pool, space, usual_of(clips), options);
+  return pool;
+}
+
+TEST(Synthesize, OnlyAddsAndBringsControlsNearer) {
+  const std::vector<Clip> clips = gait_takes();
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  const FragmentPool before = gait_pool(clips, 1, {}, &space), after = synthesized(clips, space, {});
+  ASSERT_GT(after.fragments.size(), before.fragments.size());
+  for (std::size_t i = 0; i < before.fragments.size(); ++i) {
+    EXPECT_EQ(after.fragments[i].begin, before.fragments[i].begin);
+    EXPECT_EQ(after.fragments[i].evident.y, before.fragments[i].evident.y);
+  }
+  const Coverage was = coverage(before, space), is = coverage(after, space);
+  double sum_was = 0, sum_is = 0;
+  for (int c = 0; c < ControlSpace::kPoints; ++c) {
+    EXPECT_LE(is.distances[c], was.distances[c]);
+    sum_was += was.distances[c];
+    sum_is += is.distances[c];
+  }
+  EXPECT_LT(sum_is, 0.5 * sum_was);
+}
+
+TEST(Synthesize, SaysTruelyWhatItsFragmentsAre) {
+  const std::vector<Clip> clips = gait_takes();
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  const double usual = usual_of(clips);
+  const FragmentPool pool = synthesized(clips, space, {});
+  int made = 0;
+  for (const Fragment& f : pool.fragments) {
+    ASSERT_TRUE(f.clip >= 0 && f.clip < static_cast<int>(pool.clips.size()));
+    const Clip& clip = pool.clips[f.clip];
+    ASSERT_TRUE(f.begin >= 0 && f.begin < f.end && f.end < clip.frames);
+    if (f.origin == Origin::captured) continue;
+    ++made;
+    EXPECT_NE(f.origin, Origin::mirrored);
+    EXPECT_GE(pool.seconds(f), 0.1 - 1e-9);
+    EXPECT_LE(pool.seconds(f), 0.5 + 1.0 / clip.rate);
+    const Control found = evident_of(clip, f.begin, f.end, usual, space);
+    EXPECT_NEAR(space.distance(found, f.evident), 0, 1e-6);
+  }
+  EXPECT_GT(made, 50);
+}
+
+TEST(Synthesize, LetsEveryCharacterStand) {
+  Gait run;
+  run.y = 3;
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  const FragmentPool pool = synthesized({gait_clip(run)}, space, {});
+  EXPECT_LT(coverage(pool, space).distances[space.nearest({})], 1e-6);
+}
+
+TEST(Synthesize, IsDeterministic) {
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  const FragmentPool one = synthesized(gait_takes(), space, {}), two = synthesized(gait_takes(), space, {});
+  ASSERT_EQ(one.clips.size(), two.clips.size());
+  for (std::size_t i = 0; i < one.clips.size(); ++i) EXPECT_EQ(one.clips[i].rotations, two.clips[i].rotations);
+}
+
+}  // namespace
+}  // namespace fragmotion

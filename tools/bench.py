@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: MIT
+"""Compare the core's stages (Google Benchmark) with NumPy and scikit-learn: same run, same data, results compared.
+
+python -m tools.bench PROGRAM [--json FILE], from the top folder, with NumPy and scikit-learn.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tests.reference import numpy_build as reference
+
+Arrays = dict[str, NDArray[Any]]
+Stage = Callable[[Arrays], tuple[float, str]]
+
+_UNITS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
+_ENOUGH = 1.0  # s: a reference that took less is measured again
+_REPEATS = 3
+_FRAMES = 200  # of the NumPy player
+
+
+@dataclass(frozen=True)
+class Row:
+    """One stage; `seconds` are the core's."""
+
+    name: str
+    seconds: float
+    reference: str
+    reference_seconds: float
+    ratio: float
+
+
+def measure_core(program: Path, folder: Path) -> tuple[dict[str, float], dict[str, Any]]:
+    """Run the benchmarks: seconds by name, and all that is said of the whole build; their data lie in the folder."""
+    output = folder / "benchmarks.json"
+    options = [f"--benchmark_out={output}", "--benchmark_out_format=json"]
+    answer = subprocess.run([program, "--dump", folder, *options], capture_output=True, text=True, check=False)
+    if answer.returncode != 0:
+        raise SystemExit(f"{program} failed with exit code {answer.returncode}:\n{answer.stderr}")
+    found = {run["name"].partition("/")[0]: run for run in json.loads(output.read_text())["benchmarks"]}
+    return {name: run["real_time"] * _UNITS[run["time_unit"]] for name, run in found.items()}, found["whole build"]
+
+
+def timed(work: Callable[[], Any]) -> tuple[float, Any]:
+    """The shortest of a few runs in seconds, and the result."""
+    best, result = float("inf"), None
+    for _ in range(_REPEATS):
+        start = time.perf_counter()
+        result = work()
+        best = min(best, time.perf_counter() - start)
+        if best > _ENOUGH:
+            break
+    return best, result
+
+
+# The stages in NumPy: seconds, and how their results compare with the core's.
+
+
+def _trajectories(data: Arrays) -> tuple[float, str]:
+    seconds, (whole, first, last) = timed(lambda: reference.trajectories(_body(data), _motion(data), data["ranges"]))
+    ours = np.moveaxis(data["trajectories"], 1, 2)[:, : whole.shape[1]]
+    data.update(whole=whole, first=first, last=last)
+    return seconds, f"largest difference {np.abs(whole - ours).max() * 1e3:.4f} mm"
+
+
+def _cluster(data: Arrays) -> tuple[float, str]:
+    points, classes = data["whole"].astype(np.float32), len(data["representatives"])
+    restarts = int(data["restarts"][0])
+    seconds, (_, _, inertia) = timed(lambda: reference.cluster(points, classes, restarts=restarts))
+    return seconds, f"inertia: core {data['inertia'][0]:.0f}, NumPy {inertia:.0f}"
+
+
+def _k_means(data: Arrays) -> tuple[float, str]:
+    from sklearn.cluster import KMeans
+
+    points, classes = data["whole"].astype(np.float32), len(data["representatives"])
+    model = KMeans(classes, n_init=int(data["restarts"][0]), random_state=1)
+    seconds, _ = timed(lambda: model.fit(points.reshape(len(points), -1)))
+    means = [points[model.labels_ == k].mean(axis=0) for k in range(classes)]
+    own = [reference.distances(points[model.labels_ == k], mean[None]) for k, mean in enumerate(means)]
+    inertia = sum(float((apart**2).sum()) for apart in own)
+    return seconds, f"inertia under Dis: core {data['inertia'][0]:.0f}, scikit-learn {inertia:.0f}"
+
+
+def _quality(data: Arrays) -> tuple[float, str]:
+    chosen = data["representatives"]
+    first, last, evident = (data[name][chosen] for name in ("first", "last", "evident"))
+    seconds, (smoothness, match) = timed(
+        lambda: reference.quality_table(first, last, evident, data["points"], data["control_weights"])
+    )
+    worst = max(np.abs(smoothness - data["smoothness"]).max(), np.abs(match - data["match"]).max())
+    return seconds, f"largest difference {worst:.0e}"
+
+
+def _optimal(data: Arrays) -> tuple[float, str]:
+    seconds, (_, quality) = timed(lambda: reference.optimal_path(data["smoothness"], data["match"], data["trace"]))
+    return seconds, f"total quality: core {data['optimal'][0]:.6f}, NumPy {quality:.6f}"
+
+
+def _svm(data: Arrays) -> tuple[float, str]:
+    seconds, (table, c, gamma, accuracy) = timed(
+        lambda: reference.svm_table(
+            data["smoothness"], data["match"], data["trace"], data["features"], data["points"], data["control_weights"]
+        )
+    )
+    same = (table == data["svm_table"]).mean()
+    return seconds, f"{same:.2%} of the table equal; C {c:g}, gamma {gamma:g}, cross-validated accuracy {accuracy:.1%}"
+
+
+def _iterate(data: Arrays) -> tuple[float, str]:
+    seconds, table = timed(lambda: reference.iterate_table(data["smoothness"], data["match"], [data["trace"]]))
+    return seconds, f"{(table == data['iterate_table']).mean():.2%} of the table equal"
+
+
+def _player_frame(data: Arrays) -> tuple[float, str]:
+    motion, offset = _motion(data), np.zeros(3)
+    frames = [10 + 0.5 * k for k in range(_FRAMES)]
+    seconds, _ = timed(
+        lambda: [reference.player_frame(motion, at, at + 20, 0.5, 0.3, offset) for at in frames],
+    )
+    return seconds / _FRAMES, "a frame in the middle of a stitch; the core's is the mean of all frames"
+
+
+def _body(data: Arrays) -> reference.Body:
+    return reference.Body(
+        data["parents"], data["offsets"], data["tips"], data["measured"], scale=float(data["scale"][0])
+    )
+
+
+def _motion(data: Arrays) -> reference.Motion:
+    return reference.Motion(data["root_positions"], data["rotations"], data["headings"])
+
+
+_STAGES: dict[str, tuple[str, str, Stage]] = {
+    "trajectories": ("trajectories", "NumPy", _trajectories),
+    "cluster": ("cluster", "NumPy", _cluster),
+    "cluster, Euclidean": ("cluster", "scikit-learn KMeans", _k_means),
+    "quality table": ("quality table", "NumPy", _quality),
+    "optimal": ("optimal", "NumPy", _optimal),
+    "svm": ("svm", "scikit-learn SVC", _svm),
+    "iterate": ("iterate", "NumPy", _iterate),
+    "player frame": ("player frame", "NumPy", _player_frame),
+}
+_WHOLE = ("trajectories", "cluster", "quality table", "svm", "iterate")  # svm holds optimal
+
+
+def compare(core: dict[str, float], data: Arrays) -> tuple[list[Row], dict[str, str]]:
+    """Measure every stage's reference; the rows, and a remark on the results of each."""
+    rows, remarks = [], {}
+    for name, (measured, library, stage) in _STAGES.items():
+        seconds, remarks[name] = stage(data)
+        rows.append(Row(name, core[measured], library, seconds, seconds / core[measured]))
+    whole = sum(row.reference_seconds for row in rows if row.name in _WHOLE)
+    rows.append(Row("whole build", core["whole build"], "NumPy, scikit-learn", whole, whole / core["whole build"]))
+    remarks["whole build"] = f"reference: {', '.join(_WHOLE)}; without cutting, mirroring and synthesis"
+    return rows, remarks
+
+
+def show(rows: list[Row], remarks: dict[str, str], whole: dict[str, Any], data: Arrays) -> None:
+    """Print the table."""
+    print(
+        f"{len(data['ranges'])} fragments, {len(data['representatives'])} classes, {len(data['points'])} controls, "
+        f"{len(data['trace'])} samples, {len(data['parents'])} bones; {os.cpu_count()} CPUs, "
+        f"load {os.getloadavg()[0]:.1f}\n"
+    )
+    print(f"{'stage':<20} {'core':>10} {'reference':>10} {'ratio':>8}  by")
+    for row in rows:
+        figures = f"{_duration(row.seconds):>10} {_duration(row.reference_seconds):>10} {row.ratio:>7.1f}x"
+        print(f"{row.name:<20} {figures}  {row.reference}: {remarks[row.name]}")
+    stages = [key for key in whole if key.endswith("_seconds")]
+    parts = ", ".join(f"{key.partition('_')[0]} {_duration(whole[key])}" for key in stages)
+    print(f"\nThe last whole build: {whole['fragments']:.0f} fragments ({whole['captured']:.0f} captured); {parts}")
+
+
+def _duration(seconds: float) -> str:
+    for unit in ("s", "ms"):
+        if seconds >= _UNITS[unit]:
+            return f"{seconds / _UNITS[unit]:.3g} {unit}"
+    return f"{seconds / _UNITS['us']:.3g} us"
+
+
+def main(arguments: list[str]) -> None:
+    """Measure, print, and save where asked."""
+    parser = argparse.ArgumentParser(prog="tools.bench", description=__doc__)
+    parser.add_argument("program", type=Path, help="the Google Benchmark program")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="save the figures there too")
+    options = parser.parse_args(arguments)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        core, whole = measure_core(options.program, folder)
+        data: Arrays = {path.stem: np.load(path) for path in folder.glob("*.npy")}
+    rows, remarks = compare(core, data)
+    show(rows, remarks, whole, data)
+    if options.json:
+        options.json.write_text(json.dumps([asdict(row) for row in rows], indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: MIT
+"""`dev.py bench`: build the benchmarks, and compare the core with NumPy and scikit-learn."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tools import machine, packages
+from tools.compiling import compile_preset, installed_core
+from tools.environments import environment_python
+from tools.shell import run, say
+
+
+def run_benchmarks(json_file: Path | None) -> int:
+    """Measure in the Python 3.11 environment, and save the figures in `json_file` if one is given."""
+    machine.set_up(machine.BENCH)
+    say("build: benchmarks and core")
+    program = compile_preset("release", "fragmotion_benchmarks") / "fragmotion_benchmarks"
+    core = installed_core("3.11", packages.wheel("3.11"))
+    output = ["--json", str(json_file.resolve())] if json_file else []
+    python = environment_python("3.11")
+    run([python, "-m", "tools.bench", program, *output], "bench", {"PYTHONPATH": str(core)}, echo=True)
+    return 0

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""Compiling: the C++ programs by CMake preset, and the wheel of fragmotion_core for one Python."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+from tools.environments import environment_python, install_into
+from tools.paths import BUILD, TOP
+from tools.shell import Failure, run
+
+# The glibc with which each libstdc++ came out, as the manylinux policies pair them.
+_GLIBC_OF_GLIBCXX = {29: 34, 30: 35, 31: 38, 32: 38, 33: 39}
+_OLDEST_GLIBC = 17
+
+
+def compile_preset(preset: str, *targets: str) -> Path:
+    """Configure and build a preset of CMakePresets.json (all of it, or the targets); return its folder."""
+    folder = BUILD / preset
+    run(["cmake", "--preset", preset], f"cmake-{preset}", _compiler_environment())
+    selection = ["--target", *targets] if targets else []
+    run(["cmake", "--build", folder, *selection], f"build-{preset}", _compiler_environment())
+    return folder
+
+
+def build_wheel(python: str) -> Path:
+    """Build the wheel for one Python ("3.11"), tagged with the oldest glibc that it runs on."""
+    folder = BUILD / "wheels" / python
+    shutil.rmtree(folder, ignore_errors=True)
+    options = ("--disable-pip-version-check", "--no-deps", "--no-build-isolation", "--wheel-dir", str(folder))
+    run([environment_python(python), "-m", "pip", "wheel", *options, TOP], f"wheel-{python}", _compiler_environment())
+    wheel = next(folder.glob("*.whl"))
+    tag = _platform_tag(wheel)
+    run([environment_python(python), "-m", "wheel", "tags", "--remove", "--platform-tag", tag, wheel], "wheel-tags")
+    return next(folder.glob("*.whl"))
+
+
+def installed_core(python: str, wheel: Path) -> Path:
+    """Install a wheel into a folder of its own for PYTHONPATH, so that no Blender finds it by chance."""
+    folder = BUILD / f"core-{python}"
+    install_into(folder, python, "--no-deps", wheel)
+    return folder
+
+
+def _compiler_environment() -> dict[str, str]:
+    # The same sources are compiled for the tests and for the wheel of each Python: by one compiler name, ccache does it
+    # once (CMake alone says c++, scikit-build-core g++).
+    return {
+        "CXX": os.environ.get("CXX", "g++"),
+        "CMAKE_CXX_COMPILER_LAUNCHER": "ccache",
+        "CCACHE_DIR": str(BUILD / "ccache"),
+        "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count() or 1),
+    }
+
+
+def _platform_tag(wheel: Path) -> str:
+    folder = BUILD / "wheels" / "unpacked"
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.unpack_archive(wheel, folder, "zip")
+    glibc = max(_needed_glibc(library) for library in folder.glob("*.so"))
+    return f"manylinux_2_{glibc}_{os.uname().machine}"
+
+
+def _needed_glibc(library: Path) -> int:
+    """The minor version of the oldest glibc 2 whose systems have every versioned symbol that the library needs."""
+    answer = subprocess.run(["objdump", "-T", str(library)], capture_output=True, text=True, check=False)
+    if answer.returncode != 0:
+        raise Failure(f"objdump cannot read {library}: {answer.stderr.strip()}")
+    glibc = [int(minor) for minor in re.findall(r"\bGLIBC_2\.(\d+)", answer.stdout)]
+    glibcxx = [int(minor) for minor in re.findall(r"\bGLIBCXX_3\.4\.(\d+)", answer.stdout)]
+    return max(_OLDEST_GLIBC, *glibc, *(_GLIBC_OF_GLIBCXX.get(minor, _OLDEST_GLIBC) for minor in glibcxx))
