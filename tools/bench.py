@@ -182,7 +182,9 @@ def show(rows: list[Row], remarks: dict[str, str], whole: dict[str, Any], data: 
         print(f"{row.name:<20} {figures}  {row.reference}: {remarks[row.name]}")
     stages = [key for key in whole if key.endswith("_seconds")]
     parts = ", ".join(f"{key.partition('_')[0]} {_duration(whole[key])}" for key in stages)
-    print(f"\nThe last whole build: {whole['fragments']:.0f} fragments ({whole['captured']:.0f} captured); {parts}")
+    cpu = _duration(whole["cpu_time"] * _UNITS[whole["time_unit"]])
+    print(f"\nWhole build: {whole['fragments']:.0f} fragments ({whole['captured']:.0f} not synthesized), {cpu} of CPU")
+    print(f"The last one's stages: {parts}")
 
 
 def _duration(seconds: float) -> str:

@@ -12,6 +12,9 @@ from . import versions
 RATE = "fragmotion_rate"
 """Custom property of an imported Action: the take's frames a second."""
 
+BAKED = "fragmotion_baked"
+"""Custom property of an Action that Bake wrote: not to learn from."""
+
 _BONE = re.compile(r'pose\.bones\["((?:[^"\\]|\\.)*)"\]\.')
 _OWN_SHARE = 1 / 2  # of the bones that the Action animates, so many must be the armature's ...
 _ARMATURE_SHARE = 1 / 4  # ... and so many of the armature's (fingers and helpers may rest)
@@ -32,7 +35,9 @@ def fits(action: bpy.types.Action, obj: bpy.types.Object) -> bool:
 
 
 def fits_cached(action: bpy.types.Action, obj: bpy.types.Object) -> bool:
-    """As `fits`, quick enough for drawing."""
+    """As `fits`, quick enough for drawing; a bake is not offered."""
+    if BAKED in action:
+        return False
     key = (bpy.data.filepath, action.name, versions.count_curves(action), obj.name, len(obj.data.bones))
     if key not in _cache:
         if len(_cache) > 10_000:

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from . import versions
-from .actions import RATE
+from .actions import BAKED, RATE
 from .building import check_skeleton, load
 from .core import core
 from .errors import UserError, core_errors
@@ -41,6 +41,7 @@ def bake(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> tu
         locations, rotations = rig.channels(performance.root_positions, performance.rotations)
     times = settings.frame_start + np.arange(len(rotations), dtype=float)
     action = target or bpy.data.actions.new(settings.action or f"{obj.name} Bake")
+    action[BAKED] = True
     _keep_former(obj)
     write_poses(action, obj, times, locations, rotations, moving)
     reset_pose(obj, ("location", "scale"))

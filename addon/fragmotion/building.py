@@ -91,8 +91,11 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
     figures.fragments = int(character.report["fragments"])
     figures.classes, figures.controls = character.table.shape
     figures.seconds = character.report["seconds"]
-    (_, figures.quality), *others = built.qualities.items()
-    figures.others = ", ".join(f"{policy} {quality:.1f} %" for policy, quality in others)
+    figures.quality = next(iter(built.qualities.values()))
+    figures.policies.clear()
+    for policy, quality in built.qualities.items():
+        row = figures.policies.add()
+        row.name, row.quality = policy, quality
     figures.examiner = built.examiner
 
 

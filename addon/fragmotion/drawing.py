@@ -6,18 +6,23 @@ from __future__ import annotations
 import bpy
 
 from . import versions
-from .properties import BakeFields, BuildFields, BuildFigures
+from .properties import POLICY_NAMES, BakeFields, BuildFields, BuildFigures
 
 
 def draw_build(layout: bpy.types.UILayout, settings: BuildFields) -> None:
-    """The fields of a build."""
+    """The fields of a build that are changed most."""
     layout = _aligned(layout)
-    layout.prop(settings, "longest")
+    layout.prop(settings, "longest", text="Longest")
     layout.prop(settings, "classes")
-    layout.prop(settings, "cut")
     column = layout.column(heading="Add")
     column.prop(settings, "mirror")
     column.prop(settings, "synthesize")
+
+
+def draw_training(layout: bpy.types.UILayout, settings: BuildFields) -> None:
+    """The other fields of a build."""
+    layout = _aligned(layout)
+    layout.prop(settings, "cut")
     layout.prop(settings, "policy")
     _draw_trace(layout, settings, "Learn from")
     layout.prop(settings, "seed")
@@ -35,17 +40,21 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields) -> None:
 def draw_figures(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
     """What the last build found."""
     box = layout.box().column(align=True)
-    lines = [
-        ("Fragments", f"{figures.fragments} ({figures.captured} captured)"),
-        ("Classes", f"{figures.classes}"),
-        ("Policy Table", f"{figures.classes} x {figures.controls}"),
-        ("Build Time", f"{figures.seconds:.2f} s"),
-        ("Quality", f"{figures.quality:.1f} % of Optimal"),
-    ]
-    for label, value in [*lines, ("Others", figures.others)] if figures.others else lines:
-        row = box.split(factor=0.4)
-        row.label(text=label)
-        row.label(text=value)
+    _draw_row(box, "Fragments", str(figures.fragments))
+    _draw_row(box, "from takes", str(figures.captured))
+    _draw_row(box, "Classes", str(figures.classes))
+    _draw_row(box, "Table", f"{figures.classes} x {figures.controls}")
+    _draw_row(box, "Built in", f"{figures.seconds:.2f} s")
+    box.separator()
+    box.label(text="Quality, of Optimal:")
+    for policy in figures.policies:
+        _draw_row(box, POLICY_NAMES.get(policy.name, policy.name), f"{policy.quality:.1f} %")
+
+
+def _draw_row(layout: bpy.types.UILayout, label: str, value: str) -> None:
+    row = layout.split(factor=0.6)
+    row.label(text=label)
+    row.label(text=value)
 
 
 def _draw_trace(layout: bpy.types.UILayout, settings: BuildFields | BakeFields, label: str) -> None:

@@ -27,6 +27,7 @@ METRES = {"CENTIMETRES": 0.01, "METRES": 1.0, "INCHES": 0.0254}
 FIRST_FRAME = 1
 _SHORTEST_BONE = 0.001  # m; Blender deletes bones without length
 _STUB = 0.01  # m; length of a bone that has none
+_ROOT_LENGTH = 0.2  # of the stature, at most
 _LONGEST_NAME = 63  # bytes
 _STILL = 1e-6  # m; a location that stays below never leaves its rest
 _READING = 0.5  # share of the progress that reading takes
@@ -140,12 +141,15 @@ def _select(context: bpy.types.Context, objects: Sequence[bpy.types.Object], act
 
 
 def _add_bones(armature: bpy.types.Armature, skeleton: Skeleton) -> None:
-    bones = armature.edit_bones
-    for name, parent, head, tail in zip(skeleton.names, skeleton.parents, skeleton.rest_heads(), skeleton.rest_tails()):
-        bone = bones.new(name)
+    heads, tails = skeleton.rest_heads(), skeleton.rest_tails()
+    for name, parent, head, tail in zip(skeleton.names, skeleton.parents, heads, tails):
+        bone = armature.edit_bones.new(name)
         bone.head = head
         bone.tail = tail if np.linalg.norm(tail - head) >= _SHORTEST_BONE else head + np.array((0, 0, _STUB))
-        bone.parent = bones[skeleton.names[parent]] if parent >= 0 else None
+        bone.parent = armature.edit_bones[skeleton.names[parent]] if parent >= 0 else None
+    root = armature.edit_bones[skeleton.names[0]]
+    if root.name != skeleton.roles["hips"]:  # it reaches to where the hips happened to stand at rest, often metres away
+        root.length = min(root.length, _ROOT_LENGTH * skeleton.stature)
 
 
 def _moving_bones(obj: bpy.types.Object, channels: Sequence[tuple[Doubles, Doubles]]) -> set[str]:

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import bpy
 
 from . import building, versions
 from .actions import fits_cached, fitting
-from .drawing import draw_bake, draw_build, draw_figures
+from .drawing import draw_bake, draw_build, draw_figures, draw_training
 from .operators import build as build_operator
 from .operators.context import active_armature
 
@@ -31,7 +33,7 @@ class FRAGMOTION_UL_actions(bpy.types.UIList):
     ) -> None:
         row = layout.row(align=True)
         row.prop(item.fragmotion, "use", text="")
-        row.label(text=item.name, icon="ACTION", translate=False)
+        row.label(text=item.name, translate=False)
 
     def filter_items(self, context: bpy.types.Context, data: object, name: str) -> tuple[list[int], list[int]]:
         actions, obj = getattr(data, name), active_armature(context)
@@ -73,7 +75,7 @@ class FRAGMOTION_PT_mocap(_Sidebar, bpy.types.Panel):
             rows=_ROWS,
         )
         row = layout.row(align=True)
-        row.label(text=f"{sum(action.fragmotion.use for action in actions)} of {len(actions)} ticked")
+        row.label(text=f"{sum(action.fragmotion.use for action in actions)} of {len(actions)}")
         row.operator("fragmotion.tick_actions", text="All").use = True
         row.operator("fragmotion.tick_actions", text="None").use = False
 
@@ -98,6 +100,22 @@ class FRAGMOTION_PT_build(_Sidebar, bpy.types.Panel):
             draw_figures(layout, obj.fragmotion.figures)
 
 
+class FRAGMOTION_PT_training(_Sidebar, bpy.types.Panel):
+    """What the policy learns from, and how."""
+
+    bl_idname = "FRAGMOTION_PT_training"
+    bl_label = "Training"
+    bl_parent_id = "FRAGMOTION_PT_build"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return active_armature(context) is not None and build_operator.current is None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_training(self.layout, active_armature(context).fragmotion.build)
+
+
 class FRAGMOTION_PT_bake(_Sidebar, bpy.types.Panel):
     """From a trace to an Action."""
 
@@ -111,4 +129,4 @@ class FRAGMOTION_PT_bake(_Sidebar, bpy.types.Panel):
         self.layout.operator("fragmotion.bake", icon="ACTION_TWEAK")
 
 
-CLASSES = (FRAGMOTION_UL_actions, FRAGMOTION_PT_mocap, FRAGMOTION_PT_build, FRAGMOTION_PT_bake)
+CLASSES = (FRAGMOTION_UL_actions, FRAGMOTION_PT_mocap, FRAGMOTION_PT_build, FRAGMOTION_PT_training, FRAGMOTION_PT_bake)

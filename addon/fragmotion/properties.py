@@ -9,6 +9,7 @@ from __future__ import annotations
 import bpy
 from bpy.props import (
     BoolProperty,
+    CollectionProperty,
     EnumProperty,
     FloatProperty,
     IntProperty,
@@ -20,8 +21,8 @@ from .core import core
 
 _DEFAULTS = core.BuildOptions()
 _SOURCES = (
-    ("PLAYER", "Simulated Player", "A made-up joystick session: a stick with inertia that chases targets"),
-    ("FILE", "Trace File", "A CSV file with the header velocity_x,velocity_y,turn,jump and 10 rows a second"),
+    ("PLAYER", "Simulated", "A made-up joystick session: a stick with inertia that chases targets"),
+    ("FILE", "CSV File", "A CSV file with the header velocity_x,velocity_y,turn,jump and 10 rows a second"),
 )
 _HABITS = tuple((name, name.title(), f"A simulated player with the habits of a {name}") for name in core.PLAYERS)
 _CUTS = (
@@ -34,6 +35,8 @@ _POLICY_LABELS = {
     "greedy": ("Greedy", "The best next class, without a look at what comes after it"),
 }
 _POLICIES = tuple((name, *_POLICY_LABELS.get(name, (name.title(), ""))) for name in core.POLICIES)
+POLICY_NAMES = {name: label for name, label, _ in _POLICIES}
+"""What the core's policies are called in the panel."""
 
 
 class TraceFields:
@@ -148,6 +151,12 @@ class BakeSettings(BakeFields, bpy.types.PropertyGroup):
     """The panel's settings of Bake."""
 
 
+class PolicyFigure(bpy.types.PropertyGroup):
+    """How one policy did, by its `name`."""
+
+    quality: FloatProperty()  # type: ignore[valid-type]
+
+
 class BuildFigures(bpy.types.PropertyGroup):
     """What the last build found."""
 
@@ -158,7 +167,7 @@ class BuildFigures(bpy.types.PropertyGroup):
     seconds: FloatProperty()  # type: ignore[valid-type]
     quality: FloatProperty()  # type: ignore[valid-type]
     examiner: StringProperty()  # type: ignore[valid-type]
-    others: StringProperty()  # type: ignore[valid-type]
+    policies: CollectionProperty(type=PolicyFigure)  # type: ignore[valid-type]
 
 
 class CharacterSettings(bpy.types.PropertyGroup):
@@ -184,7 +193,7 @@ class WindowSettings(bpy.types.PropertyGroup):
     active_action: IntProperty()  # type: ignore[valid-type]
 
 
-CLASSES = (BuildSettings, BakeSettings, BuildFigures, CharacterSettings, ActionSettings, WindowSettings)
+CLASSES = (BuildSettings, BakeSettings, PolicyFigure, BuildFigures, CharacterSettings, ActionSettings, WindowSettings)
 _OWNERS = (
     (bpy.types.Object, CharacterSettings),
     (bpy.types.Action, ActionSettings),

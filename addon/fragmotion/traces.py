@@ -21,7 +21,7 @@ def make_trace(settings: Any, space: ControlSpace | None = None) -> Doubles:
             simulated: Doubles = core.simulate_trace(settings.player, settings.seconds, settings.seed, space)
             return simulated
     if not settings.trace_file:
-        raise UserError("No trace file is chosen: choose a CSV file, or Simulated Player as the trace")
+        raise UserError("No trace file is chosen: choose a CSV file, or Simulated as the trace")
     with core_errors():
         trace: Doubles = core.read_trace(bpy.path.abspath(settings.trace_file))
         return trace

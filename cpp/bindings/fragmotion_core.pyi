@@ -231,7 +231,7 @@ class Character:
     coverage_distances: Doubles
     """[102]: ControlDis to the nearest fragment's evident control."""
     report: dict[str, float]
-    """Figures of the build: fragments, captured, synthesized, classes, seconds of each stage."""
+    """Figures of the build: fragments, captured, synthesized, classes, seconds of each stage. Empty in a loaded one."""
     def save(self, path: str | PathLike[str]) -> None:
         """Write the policy file (to a temporary file, then renamed)."""
     def to_bytes(self) -> bytes: ...
@@ -290,8 +290,7 @@ class Performance:
     quality: float
     """Time-weighted mean of Eq. 2 over what was played, 0..1."""
     velocity_error: float
-    """Mean distance of the velocity from the commanded one, m/s; the velocity is that of the centre of mass over the
-    last second against the mean command of that second, both in the character frame."""
+    """Mean over frames of the distance of the hips' velocity from the commanded one, both in the character frame, m/s."""
     commanded_speed: float
     """Mean commanded speed, m/s."""
 

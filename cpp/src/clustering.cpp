@@ -66,20 +66,58 @@ class KMeans {
   float& between(int a, int b) { return between_[static_cast<std::size_t>(a) * n_ + b]; }
   float distance(int i, int k) const { return tip_distance(t_.trajectory(i), mean(k), t_.stride); }
 
-  // k-means++ (Arthur and Vassilvitskii 2007): each next mean is a fragment drawn by its squared distance to the
-  // nearest so far. Leaves every lower bound exact.
+  // A fragment that may become a mean: how far each fragment is from it, or at least is where that is further than the
+  // nearest mean so far.
+  struct Candidate {
+    int fragment = 0;
+    std::vector<float> distances;
+  };
+
+  // Greedy k-means++ (Arthur and Vassilvitskii 2007): of several fragments drawn by their squared distance to the
+  // nearest mean so far, the one that leaves the smallest inertia is the next mean.
   void start(Random& random) {
     upper_.assign(t_.count, 1);
-    int chosen = draw_far(random);
+    const int trials = 2 + static_cast<int>(std::log(n_));
+    std::vector<Candidate> candidates(trials);
+    for (Candidate& candidate : candidates) candidate.distances.resize(t_.count);
     for (int k = 0; k < n_; ++k) {
-      std::copy_n(t_.trajectory(chosen), width_, mean(k));
+      candidates.resize(k == 0 ? 1 : trials, candidates[0]);
+      for (Candidate& candidate : candidates) candidate.fragment = draw_far(random);
       parallel_for(t_.count, threads_, [&](int begin, int end) {
-        for (int i = begin; i < end; ++i) {
-          const float d = lower(i, k) = distance(i, k);
-          if (k == 0 || d < upper_[i]) upper_[i] = d, labels_[i] = k;
-        }
+        for (Candidate& candidate : candidates) measure(candidate, k, begin, end);
       });
-      if (k + 1 < n_) chosen = draw_far(random);
+      const auto left = [&](const Candidate& candidate) { return inertia_with(candidate, k); };
+      std::vector<double> inertias(candidates.size());
+      std::transform(candidates.begin(), candidates.end(), inertias.begin(), left);
+      add_mean(candidates[std::min_element(inertias.begin(), inertias.end()) - inertias.begin()], k);
+    }
+  }
+
+  // The triangle inequality tells of most fragments that they are not nearer to the candidate than to their mean.
+  void measure(Candidate& candidate, int k, int begin, int end) const {
+    const float* to_means = &lower_[static_cast<std::size_t>(candidate.fragment) * n_];
+    for (int i = begin; i < end; ++i) {
+      const float least = k == 0 ? 0 : to_means[labels_[i]] * (1 - kSlack) - upper_[i] * (1 + kSlack);
+      const bool further = k > 0 && least >= upper_[i];
+      candidate.distances[i] =
+          further ? least : tip_distance(t_.trajectory(i), t_.trajectory(candidate.fragment), t_.stride);
+    }
+  }
+
+  double inertia_with(const Candidate& candidate, int k) const {
+    double sum = 0;
+    for (int i = 0; i < t_.count; ++i) {
+      const double d = k == 0 ? candidate.distances[i] : std::min(upper_[i], candidate.distances[i]);
+      sum += weights_[i] * d * d;
+    }
+    return sum;
+  }
+
+  void add_mean(const Candidate& candidate, int k) {
+    std::copy_n(t_.trajectory(candidate.fragment), width_, mean(k));
+    for (int i = 0; i < t_.count; ++i) {
+      const float d = lower(i, k) = candidate.distances[i];
+      if (k == 0 || d < upper_[i]) upper_[i] = d, labels_[i] = k;
     }
   }
 

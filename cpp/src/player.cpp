@@ -43,7 +43,7 @@ void Player::reset(const CharacterFrame& frame) {
   from_ = class_;
   waiting_ = -1;
   stitching_ = 0;
-  jump_pressed_ = false;
+  jump_waits_ = jump_pressed_ = false;
   decided_for_ = {};
   now_ = place(character_->classes.representatives[class_], frame);
   show();
@@ -126,13 +126,15 @@ double Player::quality(int control) const { return character_->quality(from_, cl
 
 void Player::step(const Control& control, double seconds) {
   const ControlSpace& space = character_->space;
-  jump_pressed_ = jump_pressed_ || control.jump > 0.5;
+  const bool pressed = control.jump > 0.5;
+  jump_waits_ = jump_waits_ || (pressed && !jump_pressed_);
+  jump_pressed_ = pressed;
   Control wanted = control;
-  if (jump_pressed_) wanted.jump = 1;
+  if (jump_waits_) wanted.jump = 1;
   while (seconds > 0) {
     if (left() < kInstant || leaves_early(wanted)) {
       decided_for_ = control;
-      jump_pressed_ = false;
+      jump_waits_ = false;
       start(decide(space.nearest(wanted)));
     }
     const double part = std::min(seconds, left());

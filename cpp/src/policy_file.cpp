@@ -16,6 +16,7 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "policy files are littl
 constexpr char kMagic[9] = "FRAGMOTN";
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
+constexpr double kShortest = 1e-3, kLongest = 3600;  // s that a fragment may last: a player must get to its end
 
 std::uint64_t checksum(const char* data, std::size_t size) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
@@ -161,16 +162,6 @@ void exchange_space(Archive& a, ControlSpace& space) {
 }
 
 template <typename Archive>
-void exchange_report(Archive& a, std::map<std::string, double>& report) {
-  std::vector<std::pair<std::string, double>> figures(report.begin(), report.end());
-  a.list(figures, 12, [&](auto& figure) {
-    a.text(const_cast<std::string&>(figure.first));
-    a.template number<double>(const_cast<double&>(figure.second));
-  });
-  report = {figures.begin(), figures.end()};
-}
-
-template <typename Archive>
 void exchange(Archive& a, Character& c) {
   exchange_pool(a, c.pool);
   exchange_space(a, c.space);
@@ -187,7 +178,6 @@ void exchange(Archive& a, Character& c) {
     a.template numbers<std::int32_t>(policy.next);
   });
   a.template numbers<std::int32_t>(c.bridges);
-  exchange_report(a, c.report);
 }
 
 void require(bool holds, const char* what) {
@@ -209,13 +199,17 @@ bool all_finite(const std::vector<double>& values) {
 }
 
 void check_pool(FragmentPool& pool) {
-  Skeleton skeleton = make_skeleton(pool.skeleton);
-  pool.skeleton = skeleton;
-  for (Clip& clip : pool.clips) make_clip(pool.skeleton, clip);
+  require(pool.skeleton.roles.hips >= 0, "roles");  // make_skeleton would find new ones
+  make_skeleton(pool.skeleton);
+  for (const Clip& clip : pool.clips) {
+    require(!clip.headings.empty(), "headings");  // make_clip would find new ones
+    make_clip(pool.skeleton, clip);
+  }
   for (const Fragment& f : pool.fragments) {
     require(f.clip >= 0 && f.clip < static_cast<int>(pool.clips.size()) && f.begin >= 0 && f.begin < f.end &&
                 f.end < pool.clips[f.clip].frames && f.origin <= Origin::transformed,
             "fragments and clips");
+    require(pool.seconds(f) >= kShortest && pool.seconds(f) <= kLongest, "fragments and rates");
     require(all_finite({f.evident.x, f.evident.y, f.evident.turn, f.evident.jump}), "evident controls");
   }
 }

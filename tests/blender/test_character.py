@@ -52,9 +52,9 @@ def test_build_reports_what_it_found_and_survives_saving(addon: ModuleType, obj:
     exam = addon.core.core.simulate_trace(figures.examiner, 60.0, 7001, character.space)
     assert figures.quality == pytest.approx(character.percent_of_optimal(exam), abs=1e-3)
     assert 50 < figures.quality <= 100.001
-    drives, *others = character.policies
-    assert drives == obj.fragmotion.build.policy
-    assert [word for word in figures.others.split() if word.isalpha()] == others
+    assert character.policies[0] == obj.fragmotion.build.policy
+    found = {row.name: row.quality for row in figures.policies}
+    assert found == pytest.approx({name: character.percent_of_optimal(exam, name) for name in character.policies})
     assert figures.examiner != obj.fragmotion.build.player
 
 
@@ -100,12 +100,12 @@ def test_a_baked_action_poses_the_armature_as_the_player_does(
 
 def test_a_baked_character_walks_where_its_front_points(obj: bpy.types.Object, tmp_path: Path) -> None:
     trace = tmp_path / "forward.csv"
-    trace.write_text("velocity_x,velocity_y,turn,jump\n" + "0,1.2,0,0\n" * 12)
+    trace.write_text("velocity_x,velocity_y,turn,jump\n" + "0,1.2,0,0\n" * 60)
     obj.rotation_euler.z = np.pi / 2  # the armature's -Y is now the world's +X
     assert bpy.ops.fragmotion.bake(trace_source="FILE", trace_file=str(trace)) == {"FINISHED"}
-    hips = making.blender_poses(obj, obj.animation_data.action, (1, 37), ["hips"])[:, 0, :3, 3]
+    hips = making.blender_poses(obj, obj.animation_data.action, (1, 181), ["hips"])[:, 0, :3, 3]
     travel = hips[1] - hips[0]
-    assert travel[0] > 0.8 and abs(travel[1]) < 0.5 * travel[0]
+    assert travel[0] > 5 and abs(travel[1]) < 0.3 * travel[0]
 
 
 def test_bake_is_undone_in_one_step(obj: bpy.types.Object) -> None:
@@ -144,6 +144,8 @@ def test_the_same_seed_builds_and_bakes_the_same(addon: ModuleType, obj: bpy.typ
 def test_a_bake_replaces_its_own_action_but_never_a_take(obj: bpy.types.Object) -> None:
     assert bpy.ops.fragmotion.bake(action="My Run", seconds=4) == {"FINISHED"}
     count = len(bpy.data.actions)
+    bpy.ops.fragmotion.tick_actions(use=True)
+    assert not obj.animation_data.action.fragmotion.use, "a bake is not offered to learn from"
     assert bpy.ops.fragmotion.bake(action="My Run", seconds=1) == {"FINISHED"}
     assert len(bpy.data.actions) == count
     assert tuple(obj.animation_data.action.frame_range) == (1, 31)

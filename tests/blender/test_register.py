@@ -39,6 +39,6 @@ def test_every_operator_has_a_tooltip_and_undoes_what_it_changes() -> None:
 
 def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) -> None:
     panels = [cls for cls in addon.panel.CLASSES if issubclass(cls, bpy.types.Panel)]
-    assert [panel.bl_label for panel in panels] == ["Mocap", "Build", "Bake"]
+    assert [panel.bl_label for panel in panels] == ["Mocap", "Build", "Training", "Bake"]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}
     assert {(panel.bl_space_type, panel.bl_region_type) for panel in panels} == {("VIEW_3D", "UI")}

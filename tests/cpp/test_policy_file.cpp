@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <new>
 
@@ -25,16 +26,18 @@ void* allocate(std::size_t size) {
 
 }  // namespace
 
-// Watches how much memory anything in this program asks for at once.
-void* operator new(std::size_t size) {
+// Watches how much memory anything in this program asks for at once. Not inlined, or GCC takes free() for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   void* memory = allocate(size);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
-void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept { return allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
-void operator delete(void* memory, const std::nothrow_t& /*tag*/) noexcept { std::free(memory); }
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  return allocate(size);
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, const std::nothrow_t& /*tag*/) noexcept { std::free(memory); }
 
 namespace fragmotion {
 namespace {
@@ -93,7 +96,6 @@ TEST(PolicyFile, BringsEverythingBack) {
   EXPECT_EQ(back.space.walk(), c.space.walk());
   EXPECT_EQ(back.coverage.counts, c.coverage.counts);
   EXPECT_EQ(back.coverage.distances, c.coverage.distances);
-  EXPECT_EQ(back.report, c.report);
 }
 
 TEST(PolicyFile, PlaysTheSameBits) {
@@ -189,6 +191,55 @@ TEST(PolicyFile, BelievesNoCount) {
     accepts(file_around(forged));
   }
   EXPECT_LT(largest_allocation, std::size_t{64} * tiny_file().size());
+}
+
+TEST(PolicyFile, RefusesCharactersThatDoNotFitTogether) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const struct {
+    const char* label;
+    std::function<void(Character&)> spoil;
+  } cases[] = {
+      {"no headings", [](Character& c) { c.pool.clips[0].headings.clear(); }},
+      {"too few headings", [](Character& c) { c.pool.clips[0].headings.pop_back(); }},
+      {"too few rotations", [](Character& c) { c.pool.clips[0].rotations.pop_back(); }},
+      {"zero rotation", [](Character& c) { std::fill_n(c.pool.clips[0].rotations.begin(), 4, 0.0); }},
+      {"position not finite", [=](Character& c) { c.pool.clips[0].root_positions[0] = nan; }},
+      {"no rate", [](Character& c) { c.pool.clips[1].rate = 0; }},
+      {"fragments of no time", [](Character& c) { c.pool.clips[1].rate = 1e300; }},
+      {"fragments without end", [](Character& c) { c.pool.clips[1].rate = 1e-300; }},
+      {"frames of others", [](Character& c) { c.pool.clips[0].frames = 1 << 30; }},
+      {"hips that are no bone", [](Character& c) { c.pool.skeleton.roles.hips = 4; }},
+      {"negative hips", [](Character& c) { c.pool.skeleton.roles.hips = -7; }},
+      {"foot that is no bone", [](Character& c) { c.pool.skeleton.roles.left_foot = 1000000; }},
+      {"parent after its child", [](Character& c) { c.pool.skeleton.parents[1] = 3; }},
+      {"no bones", [](Character& c) { c.pool.skeleton = {}; }},
+      {"no fragments", [](Character& c) { c.pool.fragments.clear(); }},
+      {"fragment of no clip", [](Character& c) { c.pool.fragments[0].clip = 2; }},
+      {"fragment past its clip", [](Character& c) { c.pool.fragments[0].end = 11; }},
+      {"fragment before its clip", [](Character& c) { c.pool.fragments[0].begin = -1; }},
+      {"fragment without a frame", [](Character& c) { c.pool.fragments[0].end = c.pool.fragments[0].begin; }},
+      {"evident control not finite", [=](Character& c) { c.pool.fragments[0].evident.turn = nan; }},
+      {"label too high", [](Character& c) { c.classes.labels[0] = 2; }},
+      {"empty class", [](Character& c) { std::fill(c.classes.labels.begin(), c.classes.labels.end(), 0); }},
+      {"too few labels", [](Character& c) { c.classes.labels.pop_back(); }},
+      {"no representative", [](Character& c) { c.classes.representatives[0] = -1; }},
+      {"no classes", [](Character& c) { c.classes.count = 0; }},
+      {"too many classes", [](Character& c) { c.classes.count = 0x7fffffff; }},
+      {"quality not finite", [=](Character& c) { c.quality.match[3] = nan; }},
+      {"too few qualities", [](Character& c) { c.quality.smoothness.pop_back(); }},
+      {"no policy", [](Character& c) { c.policies.clear(); }},
+      {"next class too high", [](Character& c) { c.policies[0].next[5] = 2; }},
+      {"next class negative", [](Character& c) { c.policies[0].next[5] = -1; }},
+      {"too few next classes", [](Character& c) { c.policies[0].next.pop_back(); }},
+      {"bridge too high", [](Character& c) { c.bridges[0] = 2; }},
+      {"too few bridges", [](Character& c) { c.bridges.pop_back(); }},
+  };
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.label);
+    Character character = tiny_character();
+    c.spoil(character);
+    EXPECT_EQ(error_of([&] { from_bytes(to_bytes(character), "forged"); }).find("forged is refused: "), 0U);
+  }
 }
 
 TEST(PolicyFile, SurvivesForgedPayloads) {

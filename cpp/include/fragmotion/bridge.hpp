@@ -6,8 +6,8 @@
 namespace fragmotion {
 
 /// Transitions further apart than this get a stand-in-place fragment between, m summed over bone tips (22 bones: about
-/// 20 cm a tip).
-constexpr double kBridgeDistance = 4;
+/// 27 cm a tip).
+constexpr double kBridgeDistance = 6;
 
 /// The stand-in-place rule (Sec. 5: "most unnatural transitions are removed by inserting an appropriate intermediate
 /// motion fragment"): for every pair of classes the standing class that goes between, or -1. One does where the direct

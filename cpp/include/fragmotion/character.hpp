@@ -21,7 +21,7 @@ struct Character {
   std::vector<Policy> policies;  ///< The first one drives.
   std::vector<int> bridges;      ///< [classes, classes]: stand_bridges().
   Coverage coverage;
-  std::map<std::string, double> report;  ///< Figures of the build: counts, and seconds of each stage.
+  std::map<std::string, double> report;  ///< Figures of the build: counts, and seconds of each stage. Not saved.
 
   /// The policy of that name, or the one that drives where the name is empty. Throws std::invalid_argument listing
   /// those that there are.

@@ -15,12 +15,12 @@ struct Control {
   double jump = 0;  ///< 1: jumping.
 };
 
-/// The weights of ControlDis (Eq. 2). Defaults: an error of 1 m/s (of a 1.8 m character) weighs as much as turning
-/// when one should not; missing a jump weighs twice as much.
+/// The weights of ControlDis (Eq. 2). Defaults: going 0.5 m/s too fast (at 1.8 m stature) weighs as much as 2/3 of the
+/// turn rate, and a quarter of a jump, so that no jump is made to please a velocity.
 struct ControlWeights {
   double velocity = 2;
   double turn = 1.5;
-  double jump = 2;
+  double jump = 4;
 };
 
 /// The 102 points of the control space (Sec. 4, Fig. 4): standing, 8 directions at a walk and at a run; turning right,

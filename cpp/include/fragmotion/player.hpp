@@ -84,6 +84,7 @@ class Player {
   int waiting_ = -1;  // the class that follows a stand-in-place fragment
   Control decided_for_;
   bool jump_pressed_ = false;
+  bool jump_waits_ = false;  // pressed since the last decision: a tap is not lost
   Vector3 root_;
   double heading_ = 0;
   std::vector<double> rotations_, other_;

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: MIT
+"""Run in a Blender with a window by test_panel.py: import, build, cancel and bake while the panel is drawn.
+
+Arguments after `--`: the add-on's zip, the folder for takes and pictures.
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+import traceback
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
+
+import making
+
+ZIP, FOLDER = sys.argv[sys.argv.index("--") + 1 :]
+TICK = 0.05  # s
+PATIENCE = 1200  # ticks that a build may take
+FIELDS = {"classes": 12, "seconds": 20.0}
+
+
+def view() -> dict[str, Any]:
+    """The 3D viewport, as an operator started by hand sees it."""
+    window = bpy.context.window_manager.windows[0]
+    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    return {"window": window, "area": area, "region": next(r for r in area.regions if r.type == "WINDOW")}
+
+
+def press(operator: Any, *mode: Any, **fields: Any) -> None:
+    """Start an operator as its button does."""
+    with bpy.context.temp_override(**view()):
+        print(operator.idname_py(), operator(*(mode or ("INVOKE_DEFAULT", True)), **fields))
+
+
+def picture(name: str) -> Iterator[None]:
+    """Let the panel be drawn, and take a picture of the window."""
+    for _ in range(4):
+        view()["area"].tag_redraw()
+        yield
+    with bpy.context.temp_override(**view()):
+        bpy.ops.screen.screenshot(filepath=f"{FOLDER}/{name}.png")
+
+
+def send(kind: str, value: str, x: int, y: int) -> Iterator[None]:
+    """One event of the mouse or the keyboard, handled before the next."""
+    view()["window"].event_simulate(type=kind, value=value, x=x, y=y)
+    yield
+
+
+def open_tab() -> Iterator[None]:
+    """Show the sidebar and click the lowest of its tabs, ours: the only one below those of a view without an object."""
+    view()["area"].spaces[0].show_region_ui = True
+    yield
+    yield
+    sidebar = next(region for region in view()["area"].regions if region.type == "UI")
+    x, y = sidebar.x + sidebar.width - 13, sidebar.y + sidebar.height - 145
+    for kind, value in (("MOUSEMOVE", "NOTHING"), ("LEFTMOUSE", "PRESS"), ("LEFTMOUSE", "RELEASE")):
+        yield from send(kind, value, x, y)
+    yield from send("MOUSEMOVE", "NOTHING", 300, 300)
+
+
+def hold_builds(core: Any) -> threading.Event:
+    """Let the core's builds stand at 40 % until the event is set, so that there is time to press buttons."""
+    event, build = threading.Event(), core.build
+
+    def held_build(*arguments: Any) -> Any:
+        while not event.wait(0.01):
+            if not arguments[4](0.4, "Clustering"):
+                raise core.Cancelled("cancelled")
+        return build(*arguments)
+
+    core.build = held_build
+    return event
+
+
+def finish_build(build: Any) -> Iterator[None]:
+    """Wait for the build that runs."""
+    for _ in range(PATIENCE):
+        if build.current is None:
+            return
+        yield
+    raise AssertionError("the build did not end")
+
+
+def steps() -> Iterator[None]:
+    """The whole session."""
+    build = import_module("fragmotion.operators.build")
+    building = import_module("fragmotion.building")
+    go_on = hold_builds(building.core)
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    yield from open_tab()
+    yield from picture("1 empty")
+    takes = Path(FOLDER) / "takes"
+    takes.mkdir()
+    for seed in (1, 2, 3):
+        making.write_bvh(takes / f"take {seed}.bvh", frames=150, seed=seed)
+    press(bpy.ops.fragmotion.import_mocap, "EXEC_DEFAULT", True, directory=str(takes))
+    yield from picture("2 imported")
+    obj = bpy.context.view_layer.objects.active
+
+    press(bpy.ops.fragmotion.build, **FIELDS)
+    assert build.current is not None, "the build does not run in the background"
+    yield from send("ESC", "PRESS", 300, 300)
+    yield from finish_build(build)
+    assert not building.has_character(obj), "Esc did not stop the build"
+
+    press(bpy.ops.fragmotion.build, **FIELDS)
+    press(bpy.ops.fragmotion.cancel_build)
+    yield from finish_build(build)
+    assert not building.has_character(obj), "Cancel did not stop the build"
+
+    press(bpy.ops.fragmotion.build, **FIELDS)
+    yield from picture("3 building")
+    assert 0 < build.current.fraction < 0.5 and build.current.stage == "Clustering"
+    assert not bpy.ops.fragmotion.build.poll(), "two builds at once"
+    go_on.set()
+    yield from finish_build(build)
+    assert obj.fragmotion.figures.classes == FIELDS["classes"], "the build left nothing"
+    yield from picture("4 built")
+    press(bpy.ops.fragmotion.bake, seconds=2.0)
+    assert obj.animation_data.action.name == f"{obj.name} Bake"
+    yield from picture("5 baked")
+
+    bpy.ops.ed.undo()
+    bpy.ops.ed.undo()
+    obj = bpy.context.view_layer.objects.active
+    assert not building.has_character(obj), "Bake and Build are not one undo step each"
+    print("SESSION PASSED")
+
+
+def tick() -> float | None:
+    """Go one step on; quit at the end."""
+    try:
+        next(session)
+    except StopIteration:
+        bpy.ops.wm.quit_blender()
+        return None
+    except BaseException:
+        traceback.print_exc()
+        bpy.ops.wm.quit_blender()
+        return None
+    return TICK
+
+
+bpy.context.preferences.view.show_splash = False
+bpy.ops.preferences.addon_install(filepath=ZIP)
+bpy.ops.preferences.addon_enable(module="fragmotion")
+session = steps()
+bpy.app.timers.register(tick, first_interval=1.0)
