@@ -26,6 +26,7 @@ Player::Player(std::shared_ptr<const Character> character, std::uint64_t seed, d
       stitch_(stitch),
       rotations_(std::size_t{4} * kinematics_.bones()),
       other_(rotations_) {
+  fitting_.reserve(character_->pool.fragments.size());
   if (!(stitch >= 0 && stitch <= 1)) throw std::invalid_argument("the stitching time must be 0 to 1 s");
   reset();
 }
@@ -92,10 +93,20 @@ double Player::left() const {
   return character_->pool.seconds(character_->pool.fragments[now_.fragment]) - now_.seconds;
 }
 
-void Player::start(int next_class) {
-  const std::vector<int>& members = members_[next_class];
+int Player::draw(int next_class, const Control& control) {
+  const Character& c = *character_;
+  const auto error = [&](int fragment) { return c.space.distance(c.pool.fragments[fragment].evident, control); };
+  const double allowed = error(c.classes.representatives[next_class]);
+  fitting_.clear();
+  for (const int fragment : members_[next_class]) {
+    if (error(fragment) <= allowed) fitting_.push_back(fragment);
+  }
+  return fitting_[random_.below(static_cast<int>(fitting_.size()))];
+}
+
+void Player::start(int next_class, const Control& control) {
   before_ = now_;
-  now_ = place(members[random_.below(static_cast<int>(members.size()))], frame());
+  now_ = place(draw(next_class, control), frame());
   from_ = class_;
   class_ = next_class;
   stitching_ = std::min(stitch_, left());
@@ -135,7 +146,7 @@ void Player::step(const Control& control, double seconds) {
     if (left() < kInstant || leaves_early(wanted)) {
       decided_for_ = control;
       jump_waits_ = false;
-      start(decide(space.nearest(wanted)));
+      start(decide(space.nearest(wanted)), wanted);
     }
     const double part = std::min(seconds, left());
     now_.seconds += part;

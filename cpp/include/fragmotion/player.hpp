@@ -23,9 +23,11 @@ struct Performance {
   double commanded_speed = 0;  ///< Mean over frames, m/s.
 };
 
-/// The run time (Sec. 3.4, Fig. 3): at a fragment's end the table tells the next class; a member drawn at random is
-/// placed where the character stands, and stitched on: over a set time the old fragment goes on in its take while
-/// translations are interpolated linearly and rotations by slerp, with ease-in-ease-out weights.
+/// The run time (Sec. 3.4, Fig. 3). At a fragment's end the table tells the next class. A member of it, drawn at random
+/// among those that perform the control as well as the representative or better, is placed where the character stands,
+/// and stitched on: over a set time the old fragment goes on in its take while translations are interpolated linearly
+/// and rotations by slerp, with ease-in-ease-out weights. A fragment is left early, once stitched and unless in the air,
+/// when the control changes a lot.
 class Player {
  public:
   /// `stitch` seconds are cut short by shorter fragments; `policy` is one of the character's, or empty for the one that
@@ -65,7 +67,8 @@ class Player {
   Placed place(int fragment, const CharacterFrame& frame) const;
   Vector3 sample(const Placed& placed, double* rotations) const;
   double heading(const Placed& placed) const;
-  void start(int next_class);
+  int draw(int next_class, const Control& control);
+  void start(int next_class, const Control& control);
   int decide(int control);
   bool leaves_early(const Control& control) const;
   void show();
@@ -75,6 +78,7 @@ class Player {
   const Policy* policy_;
   Kinematics kinematics_;
   std::vector<std::vector<int>> members_;
+  std::vector<int> fitting_;  // scratch of draw()
   Random random_;
   double stitch_;
 
