@@ -196,11 +196,12 @@ def _facing(armature: bpy.types.Object) -> Vector:
 
 
 def _stature(armature: bpy.types.Object) -> float:
-    """Height of the character: the largest extent of the rest bones, in world units."""
-    ends = [armature.matrix_world.to_3x3() @ p for b in armature.data.bones for p in (b.head_local, b.tail_local)]
-    if not ends:
+    """Height of the character as it is posed now, in world units. The rest pose of mocap may be no pose at all."""
+    body = [bone for bone in armature.pose.bones if not _is_root(bone)] or list(armature.pose.bones)
+    if not body:
         raise ValueError(f"armature {armature.name!r} has no bones")
-    return max(max(e[k] for e in ends) - min(e[k] for e in ends) for k in (0, 1, 2)) or 1.0
+    heights = [(armature.matrix_world @ end).z for bone in body for end in (bone.head, bone.tail)]
+    return max(heights) - min(heights) or 1.0
 
 
 def _top(moment: Moment) -> float:
