@@ -8,20 +8,18 @@ namespace fragmotion {
 namespace {
 
 constexpr int kPoints = ControlSpace::kPoints;
-constexpr double kStay = 0.5;  // of a count
+constexpr double kPrior = 10;  // counts
 
-// For every class Q' and control c, what choosing Q' under c promises beyond its transition.
-std::vector<double> expected(const std::vector<double>& model, const std::vector<double>& value, int classes,
-                             double discount) {
-  std::vector<double> result(value.size(), 0);
-  for (int c = 0; c < kPoints; ++c) {
-    for (int next = 0; next < kPoints; ++next) {
-      const double p = discount * model[c * kPoints + next];
-      if (p == 0) continue;
-      for (int q = 0; q < classes; ++q) result[c * classes + q] += p * value[next * classes + q];
-    }
-  }
-  return result;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+Eigen::Map<const Matrix> as_matrix(const std::vector<double>& values, int rows) {
+  return {values.data(), rows, static_cast<Eigen::Index>(values.size()) / rows};
+}
+
+// The share of the steps of all traces in which the control stays; all where there are no steps.
+double staying_share(const std::vector<double>& counts) {
+  const double steps = as_matrix(counts, kPoints).sum();
+  return steps > 0 ? as_matrix(counts, kPoints).trace() / steps : 1;
 }
 
 }  // namespace
@@ -31,13 +29,11 @@ std::vector<double> control_model(const std::vector<std::vector<int>>& traces) {
   for (const std::vector<int>& trace : traces) {
     for (std::size_t i = 1; i < trace.size(); ++i) ++model[trace[i - 1] * kPoints + trace[i]];
   }
-  for (int c = 0; c < kPoints; ++c) {
-    double* row = &model[c * kPoints];
-    row[c] += kStay;
-    double sum = 0;
-    for (int next = 0; next < kPoints; ++next) sum += row[next];
-    for (int next = 0; next < kPoints; ++next) row[next] /= sum;
-  }
+  const double stay = staying_share(model);
+  Eigen::Map<Matrix> counts(model.data(), kPoints, kPoints);
+  counts.array() += kPrior * (1 - stay) / kPoints;
+  counts.diagonal().array() += kPrior * stay;
+  counts.array().colwise() /= counts.rowwise().sum().array().eval();
   return model;
 }
 
@@ -49,14 +45,14 @@ Policy iterate_policy(const Quality& quality, const std::vector<std::vector<int>
   std::vector<double> value(static_cast<std::size_t>(n) * kPoints, 0), match(n);  // value is [102, classes]
   double change = options.tolerance + 1;
   while (change > options.tolerance) {
-    const std::vector<double> promise = expected(model, value, n, options.discount);
+    const Matrix promise = options.discount * as_matrix(model, kPoints) * as_matrix(value, kPoints);
     change = 0;
     for (int c = 0; c < kPoints; ++c) {
       for (int q = 0; q < n; ++q) match[q] = quality.match[static_cast<std::size_t>(q) * kPoints + c];
       for (int from = 0; from < n; ++from) {
         double best = 0;
         policy.next[static_cast<std::size_t>(from) * kPoints + c] =
-            best_next(quality, from, match.data(), &promise[static_cast<std::size_t>(c) * n], best);
+            best_next(quality, from, match.data(), promise.row(c).data(), best);
         change = std::max(change, std::abs(best - value[static_cast<std::size_t>(c) * n + from]));
         value[static_cast<std::size_t>(c) * n + from] = best;
       }

@@ -153,13 +153,21 @@ TEST(ControlModel, LearnsCountsAndItsRowsSumToOne) {
   }
 }
 
-TEST(ControlModel, AddsHalfACountForStaying) {
+TEST(ControlModel, AddsTenCountsOfWhatControlsDoOnTheWhole) {
   const std::vector<double> model = control_model({{0, 1, 1, 0, 1}});  // 0 -> 1 twice; 1 -> 1 once, 1 -> 0 once
-  EXPECT_DOUBLE_EQ(model[0 * kPoints + 1], 2 / 2.5);
-  EXPECT_DOUBLE_EQ(model[0 * kPoints + 0], 0.5 / 2.5);
-  EXPECT_DOUBLE_EQ(model[1 * kPoints + 1], 1.5 / 2.5);
-  EXPECT_DOUBLE_EQ(model[1 * kPoints + 0], 1 / 2.5);
-  EXPECT_DOUBLE_EQ(model[50 * kPoints + 50], 1);
+  const double stay = 10 * 0.25, go = 10 * 0.75 / kPoints;             // one step of four stays
+  EXPECT_NEAR(model[0 * kPoints + 1], (2 + go) / 12, 1e-12);
+  EXPECT_NEAR(model[0 * kPoints + 0], (stay + go) / 12, 1e-12);
+  EXPECT_NEAR(model[1 * kPoints + 1], (1 + stay + go) / 12, 1e-12);
+  EXPECT_NEAR(model[1 * kPoints + 0], (1 + go) / 12, 1e-12);
+  EXPECT_NEAR(model[50 * kPoints + 50], (stay + go) / 10, 1e-12);
+  EXPECT_NEAR(model[50 * kPoints + 7], go / 10, 1e-12);
+}
+
+TEST(ControlModel, WithoutStepsExpectsTheControlToStay) {
+  const std::vector<double> model = control_model({{3}});
+  EXPECT_EQ(model[3 * kPoints + 3], 1);
+  EXPECT_EQ(model[50 * kPoints + 50], 1);
 }
 
 TEST(IteratePolicy, WithoutAFutureIsGreedy) {

@@ -156,9 +156,11 @@ def test_iterate_is_value_iteration() -> None:
     traces = [random_trace(random, 300), random_trace(random, 100, 40)]
     model = core.control_model(traces)
     np.testing.assert_allclose(model.sum(1), 1, atol=1e-12)
-    counts = 0.5 * np.eye(POINTS)
+    counts = np.zeros((POINTS, POINTS))
     for trace in traces:
         np.add.at(counts, (trace[:-1], trace[1:]), 1)
+    stay = counts.trace() / counts.sum()
+    counts += 10 * (stay * np.eye(POINTS) + (1 - stay) / POINTS)
     np.testing.assert_allclose(model, counts / counts.sum(1, keepdims=True), atol=1e-12)
     choices, _ = numpy_value_iteration(smoothness, match, model, 0.8)
     table = core.iterate_table(smoothness, match, traces, discount=0.8, tolerance=1e-10)

@@ -243,11 +243,13 @@ def greedy_table(smoothness: Floats, match: Floats) -> Ints:
     return np.stack([(smoothness * match[:, c]).argmax(axis=1) for c in range(match.shape[1])], axis=1)
 
 
-def control_model(traces: list[Ints], stay: float = 0.5) -> Floats:
-    """[102,102]: P(next control | control) from counts, and `stay` of a count for no change."""
-    counts = stay * np.eye(CONTROLS)
+def control_model(traces: list[Ints], prior: float = 10) -> Floats:
+    """[102,102]: P(next control | control) from counts, and `prior` counts of what controls do on the whole."""
+    counts = np.zeros((CONTROLS, CONTROLS))
     for trace in traces:
         np.add.at(counts, (trace[:-1], trace[1:]), 1)
+    stay = counts.trace() / counts.sum()
+    counts += prior * (stay * np.eye(CONTROLS) + (1 - stay) / CONTROLS)
     model: Floats = counts / counts.sum(axis=1, keepdims=True)
     return model
 

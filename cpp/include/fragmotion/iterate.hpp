@@ -5,8 +5,9 @@
 
 namespace fragmotion {
 
-/// P(c' | c) learned from traces: transition counts, and half a count for "the control stays", so that a control that
-/// no trace visits is expected to stay. [102, 102], rows sum to 1.
+/// P(c' | c) learned from traces: transition counts, and a prior of ten counts, so that a control that a trace rarely
+/// visits is expected to behave as controls do on the whole: it stays with the share of all steps in which the control
+/// stayed, and else goes anywhere. [102, 102], rows sum to 1.
 std::vector<double> control_model(const std::vector<std::vector<int>>& traces);
 
 struct IterateOptions {
