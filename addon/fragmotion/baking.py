@@ -82,6 +82,8 @@ def _target(obj: bpy.types.Object, name: str) -> bpy.types.Action | None:
         raise UserError(f"Action '{name}' is linked from '{action.library.filepath}': choose another name")
     if RATE in action or action.fragmotion.use:
         raise UserError(f"Action '{name}' is a take that Build learns from: choose another name, or untick it")
+    if BAKED not in action and versions.count_curves(action) > 0:
+        raise UserError(f"Action '{name}' holds keys that no bake made, which would be lost: choose another name")
     return action
 
 

@@ -86,6 +86,7 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
     character, figures = built.character, obj.fragmotion.figures
     data = character.to_bytes()
     obj.fragmotion.policy = data
+    _cache.clear()
     _cache[_key(data)] = character
     figures.captured = int(character.report["captured"])
     figures.fragments = int(character.report["fragments"])

@@ -141,6 +141,19 @@ def test_the_same_seed_builds_and_bakes_the_same(addon: ModuleType, obj: bpy.typ
     np.testing.assert_array_equal(first.labels, second.labels)
 
 
+def test_a_bake_never_writes_into_an_action_of_something_else(obj: bpy.types.Object) -> None:
+    light = bpy.data.objects.new("Lamp", None)
+    bpy.context.scene.collection.objects.link(light)
+    light.location = (1, 2, 3)
+    light.keyframe_insert("location", frame=1)
+    action = light.animation_data.action
+    with pytest.raises(RuntimeError, match="which would be lost"):
+        bpy.ops.fragmotion.bake(action=action.name, seconds=1)
+    light.location = (0, 0, 0)
+    bpy.context.scene.frame_set(1)
+    assert tuple(light.location) == (1, 2, 3)
+
+
 def test_a_bake_replaces_its_own_action_but_never_a_take(obj: bpy.types.Object) -> None:
     assert bpy.ops.fragmotion.bake(action="My Run", seconds=4) == {"FINISHED"}
     count = len(bpy.data.actions)
