@@ -36,6 +36,8 @@ def sample(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.
     place = f"Action '{action.name}'"
     if not any(name in obj.data.bones for name in animated_bones(action, obj)):
         raise UserError(f"{place} animates no bone of armature '{obj.name}': it belongs to another rig")
+    if not curves:
+        raise UserError(f"{place}: all of its channels are muted: unmute them, or untick it")
     rate, times = frame_times(context.scene, action, curves)
     with core_errors(place):
         if posing.is_needed(obj, curves):

@@ -172,3 +172,12 @@ def test_a_manual_frame_range_limits_the_take(addon: ModuleType) -> None:
     action.use_frame_range = False
     whole = addon.sampling.sample(bpy.context, obj, action, rig)
     np.testing.assert_array_equal(whole_range.root_positions, whole.root_positions[2:8])
+
+
+def test_an_action_whose_channels_are_all_muted_is_refused(addon: ModuleType) -> None:
+    obj = making.add_armature()
+    action = making.add_action(obj, FRAMES)
+    for curve in addon.versions.curves_of(action, obj):
+        curve.mute = True
+    with pytest.raises(addon.errors.UserError, match="all of its channels are muted"):
+        addon.sampling.sample(bpy.context, obj, action, addon.rigs.make_rig(obj))
