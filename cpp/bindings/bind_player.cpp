@@ -56,7 +56,7 @@ void bind_player(py::module_& m) {
   py::class_<Player>(m, "Player", py::module_local())
       .def(py::init([](std::shared_ptr<Character> character, std::uint64_t seed, double stitch,
                        const std::string& policy) { return Player(std::move(character), seed, stitch, policy); }),
-           py::arg("character"), py::arg("seed") = 1, py::arg("stitch") = 0.15, py::arg("policy") = "")
+           py::arg("character").none(false), py::arg("seed") = 1, py::arg("stitch") = 0.15, py::arg("policy") = "")
       .def(
           "reset",
           [](Player& p, double x, double y, double heading) {

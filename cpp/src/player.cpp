@@ -99,7 +99,7 @@ int Player::draw(int next_class, const Control& control) {
   const double allowed = error(c.classes.representatives[next_class]);
   fitting_.clear();
   for (const int fragment : members_[next_class]) {
-    if (error(fragment) <= allowed) fitting_.push_back(fragment);
+    if (!(error(fragment) > allowed)) fitting_.push_back(fragment);
   }
   return fitting_[random_.below(static_cast<int>(fitting_.size()))];
 }

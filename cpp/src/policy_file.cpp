@@ -221,6 +221,9 @@ void check(Character& c) {
               all_within(c.classes.labels, 0, c.classes.count) &&
               all_within(c.classes.representatives, 0, static_cast<int>(fragments)),
           "classes");
+  for (std::size_t k = 0; k < n; ++k) {
+    require(c.classes.labels[c.classes.representatives[k]] == static_cast<int>(k), "representatives");
+  }
   for (const std::vector<int>& members : c.classes.members()) require(!members.empty(), "classes");
   require(c.quality.classes == c.classes.count && c.quality.smoothness.size() == n * n &&
               c.quality.match.size() == n * ControlSpace::kPoints && all_finite(c.quality.smoothness) &&
