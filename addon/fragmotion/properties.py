@@ -30,7 +30,8 @@ _CUTS = (
     ("windows", "By Windows", "Cut into windows of equal length, whatever the feet do"),
 )
 _POLICY_LABELS = {
-    "iterate": ("Value Iteration", "Looks ahead, with a model of how the controls change learned from the trace"),
+    "anticipate": ("Anticipate", "Looks ahead, as value iteration does, and knows how long any player keeps a control"),
+    "iterate": ("Value Iteration", "Looks ahead, with a model of how the controls change learned from the trace alone"),
     "svm": ("SVM", "A support vector machine that learned from the best path through the trace"),
     "greedy": ("Greedy", "The best next class, without a look at what comes after it"),
 }

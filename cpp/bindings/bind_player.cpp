@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "fragmotion/player.hpp"
+#include "fragmotion/response.hpp"
 
 namespace fragmotion::bindings {
 namespace {
@@ -46,17 +47,43 @@ void bind_performance(py::module_& m) {
       .def_property_readonly("fragments", viewed(&Performance::fragments, {}))
       .def_readonly("quality", &Performance::quality)
       .def_readonly("velocity_error", &Performance::velocity_error)
+      .def_readonly("turn_error", &Performance::turn_error)
+      .def_readonly("jump_error", &Performance::jump_error)
       .def_readonly("commanded_speed", &Performance::commanded_speed);
+}
+
+void bind_yardsticks(py::module_& m) {
+  m.def(
+      "optimal_performance",
+      [](const Character& character, const Doubles& trace, double rate, double shortest) {
+        const Trace controls = to_trace(trace);
+        const py::gil_scoped_release release;
+        return optimal_performance(character, controls, rate, shortest);
+      },
+      py::arg("character"), py::arg("trace"), py::arg("rate"), py::arg("shortest") = kStitch);
+  m.def(
+      "response_times",
+      [](const std::shared_ptr<Character>& character, std::uint64_t seed, double stitch, const std::string& policy) {
+        std::vector<double> times;
+        {
+          const py::gil_scoped_release release;
+          times = response_times(character, seed, stitch, policy);
+        }
+        const auto count = static_cast<py::ssize_t>(times.size());
+        return to_array(std::move(times), {count});
+      },
+      py::arg("character").none(false), py::arg("seed") = 1, py::arg("stitch") = kStitch, py::arg("policy") = "");
 }
 
 }  // namespace
 
 void bind_player(py::module_& m) {
   bind_performance(m);
+  bind_yardsticks(m);
   py::class_<Player>(m, "Player", py::module_local())
       .def(py::init([](std::shared_ptr<Character> character, std::uint64_t seed, double stitch,
                        const std::string& policy) { return Player(std::move(character), seed, stitch, policy); }),
-           py::arg("character").none(false), py::arg("seed") = 1, py::arg("stitch") = 0.15, py::arg("policy") = "")
+           py::arg("character").none(false), py::arg("seed") = 1, py::arg("stitch") = kStitch, py::arg("policy") = "")
       .def(
           "reset",
           [](Player& p, double x, double y, double heading) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "arrays.hpp"
+#include "fragmotion/anticipate.hpp"
 #include "fragmotion/character.hpp"
 #include "fragmotion/greedy.hpp"
 #include "fragmotion/iterate.hpp"
@@ -164,10 +165,17 @@ void bind_policies(py::module_& m) {
       py::arg("smoothness"), py::arg("match"));
   m.def(
       "control_model",
-      [](const std::vector<Indices>& traces) {
-        return to_array(control_model(to_traces(traces)), {kPoints, kPoints});
+      [](const std::vector<Indices>& traces, double stays, double goes_anywhere) {
+        if (!(stays >= 0 && goes_anywhere >= 0)) throw std::invalid_argument("the counts of a prior must be 0 or more");
+        return to_array(control_model(to_traces(traces), {stays, goes_anywhere}), {kPoints, kPoints});
       },
-      py::arg("traces"));
+      py::arg("traces"), py::arg("stays") = kAnyPlayer.stays, py::arg("goes_anywhere") = kAnyPlayer.goes_anywhere);
+  m.def(
+      "anticipate_table",
+      [](const Doubles& smoothness, const Doubles& match, const std::vector<Indices>& traces) {
+        return to_table(anticipate_policy(to_quality(smoothness, match), to_traces(traces)));
+      },
+      py::arg("smoothness"), py::arg("match"), py::arg("traces"));
   m.def(
       "iterate_table",
       [](const Doubles& smoothness, const Doubles& match, const std::vector<Indices>& traces, double discount,

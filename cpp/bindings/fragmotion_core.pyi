@@ -186,7 +186,7 @@ class BuildOptions:
     """Clusterings, of which the one that serves Optimal best on the traces is taken (default 8)."""
     seed: int
     policies: list[str]
-    """Of POLICIES; the first one drives, the others are there to be compared (default iterate, svm, greedy)."""
+    """Of POLICIES; the first one drives, the others are there to be compared (default anticipate, iterate, svm, greedy)."""
     policy: str
     """The first of `policies`; setting it puts that policy in front."""
     threads: int
@@ -291,8 +291,20 @@ class Performance:
     """Time-weighted mean of Eq. 2 over what was played, 0..1."""
     velocity_error: float
     """Mean over frames of the distance of the hips' velocity from the commanded one, both in the character frame, m/s."""
+    turn_error: float
+    """Mean over frames of the difference of the turn rate from the commanded one, rad/s."""
+    jump_error: float
+    """Share of the frames in which a jump was commanded and none played, or none and one did."""
     commanded_speed: float
     """Mean commanded speed, m/s."""
+
+def optimal_performance(character: Character, trace: ArrayLike, rate: float, shortest: float = 0.15) -> float:
+    """The greatest `Performance.quality` that a player could reach who knew the whole trace: it may play a class for any
+    time from `shortest` seconds to the longest of its fragments."""
+
+def response_times(character: Character, seed: int = 1, stitch: float = 0.15, policy: str = "") -> Doubles:
+    """[272] seconds from each step of the command between two of the 17 velocities until the velocity over the last 0.1 s
+    has made 90 % of the way; 3 where it takes longer."""
 
 # The stages of a build, each a function of arrays.
 
@@ -322,13 +334,17 @@ def percent_of_optimal(smoothness: ArrayLike, match: ArrayLike, table: ArrayLike
 def greedy_table(smoothness: ArrayLike, match: ArrayLike) -> Ints:
     """[n,102]: argmax of Eq. 2 (Sec. 4, "Greedy")."""
 
-def control_model(traces: Sequence[ArrayLike]) -> Doubles:
-    """[102,102]: P(next control | control) learned from traces of control indices; rows sum to 1."""
+def control_model(traces: Sequence[ArrayLike], stays: float = 8.5, goes_anywhere: float = 1.5) -> Doubles:
+    """[102,102]: P(next control | control): the transitions of traces of control indices, and for every control a prior of
+    `stays` counts of itself and `goes_anywhere` counts spread over all controls; rows sum to 1."""
+
+def anticipate_table(smoothness: ArrayLike, match: ArrayLike, traces: Sequence[ArrayLike]) -> Ints:
+    """[n,102] by value iteration with control_model(traces): the default policy."""
 
 def iterate_table(
     smoothness: ArrayLike, match: ArrayLike, traces: Sequence[ArrayLike], discount: float = ..., tolerance: float = ...
 ) -> Ints:
-    """[n,102] by value iteration with control_model() (McCann and Pollard 2007)."""
+    """[n,102] by value iteration with control_model(traces, 0.5, 0) (McCann and Pollard 2007)."""
 
 def class_features(character: Character) -> Doubles:
     """[n, up to 8]: each class as a previous class in the SVM's inputs: principal components of its last pose."""

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fragmotion/anticipate.hpp"
 #include "fragmotion/bridge.hpp"
 #include "fragmotion/evident.hpp"
 #include "fragmotion/greedy.hpp"
@@ -157,6 +158,7 @@ ClassScore serves_traces(const Character& c, const Trajectories& t, const std::v
 Policy policy_named(const std::string& name, const Character& c, const Trajectories& t,
                     const std::vector<std::vector<int>>& traces, int threads, const Progress& progress) {
   if (name == "greedy") return greedy_policy(c.quality);
+  if (name == "anticipate") return anticipate_policy(c.quality, traces);
   if (name == "iterate") return iterate_policy(c.quality, traces);
   SvmOptions options;
   options.threads = threads;
@@ -192,7 +194,7 @@ Progress part_of(const Progress& progress, double from, double to) {
 }  // namespace
 
 const std::vector<std::string>& policy_names() {
-  static const std::vector<std::string> names{"greedy", "svm", "iterate"};
+  static const std::vector<std::string> names{"anticipate", "iterate", "svm", "greedy"};
   return names;
 }
 

@@ -5,18 +5,14 @@
 #include <stdexcept>
 
 namespace fragmotion {
-namespace {
 
-void check(const std::vector<int>& trace) {
-  if (trace.empty()) throw std::invalid_argument("the trace has no controls");
+void check_controls(const std::vector<int>& trace) {
   for (const int control : trace) {
     if (control < 0 || control >= ControlSpace::kPoints) {
       throw std::invalid_argument("control " + std::to_string(control) + " is not one of the 102 points");
     }
   }
 }
-
-}  // namespace
 
 int best_next(const Quality& quality, int from, const double* match, const double* value, double& best) {
   const double* smoothness = &quality.smoothness[static_cast<std::size_t>(from) * quality.classes];
@@ -30,7 +26,8 @@ int best_next(const Quality& quality, int from, const double* match, const doubl
 }
 
 OptimalPath optimal_path(const Quality& quality, const std::vector<int>& trace) {
-  check(trace);
+  if (trace.empty()) throw std::invalid_argument("the trace has no controls");
+  check_controls(trace);
   const int n = quality.classes, steps = static_cast<int>(trace.size());
   std::vector<int> next(static_cast<std::size_t>(steps) * n);
   std::vector<double> value(n, 0), earlier(n), match(n);

@@ -156,6 +156,19 @@ void Player::step(const Control& control, double seconds) {
   }
 }
 
+void Player::judge(Performance& p, const Control& control, const CharacterFrame& before) const {
+  const ControlSpace& space = character_->space;
+  const double weight = 1.0 / (p.frames - 1);
+  const CharacterFrame now = frame();
+  const Vector2 velocity = Eigen::Rotation2Dd(-before.heading) * (now.position - before.position) * p.rate;
+  const bool jumps = character_->pool.fragments[now_.fragment].evident.jump > kInTheAir;
+  p.velocity_error += weight * (velocity - Vector2{control.x, control.y}).norm();
+  p.turn_error += weight * std::abs((now.heading - before.heading) * p.rate - control.turn * space.turn_rate());
+  p.jump_error += jumps != (control.jump > 0.5) ? weight : 0;
+  p.commanded_speed += weight * std::hypot(control.x, control.y);
+  p.quality += weight * quality(space.nearest(control));
+}
+
 Performance Player::run(const Trace& trace, double rate, const Progress& progress) {
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
   if (!(rate > 0 && rate <= 1000)) throw std::invalid_argument("the frame rate must be over 0 and at most 1000");
@@ -174,11 +187,7 @@ Performance Player::run(const Trace& trace, double rate, const Progress& progres
     p.path.insert(p.path.end(), {now.position.x(), now.position.y(), now.heading});
     p.classes.push_back(class_);
     p.fragments.push_back(now_.fragment);
-    if (f == 0) continue;
-    const Vector2 velocity = Eigen::Rotation2Dd(-before.heading) * (now.position - before.position) * rate;
-    p.velocity_error += (velocity - Vector2{control.x, control.y}).norm() / (p.frames - 1);
-    p.commanded_speed += std::hypot(control.x, control.y) / (p.frames - 1);
-    p.quality += quality(character_->space.nearest(control)) / (p.frames - 1);
+    if (f > 0) judge(p, control, before);
   }
   return p;
 }

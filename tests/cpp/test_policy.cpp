@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "fragmotion/anticipate.hpp"
 #include "fragmotion/greedy.hpp"
-#include "fragmotion/iterate.hpp"
 #include "fragmotion/policy.hpp"
 #include "mocap_files.hpp"
 #include "random_quality.hpp"
@@ -140,7 +140,7 @@ TEST(TraceQuality, AddsEq2AlongThePathOfThePolicy) {
 TEST(ControlModel, LearnsCountsAndItsRowsSumToOne) {
   Random random(9);
   const std::vector<std::vector<int>> traces{random_trace(random, 500, 7), random_trace(random, 300, 102), {3}, {}};
-  const std::vector<double> model = control_model(traces);
+  const std::vector<double> model = control_model(traces, {3, 2});
   ASSERT_EQ(model.size(), static_cast<std::size_t>(kPoints) * kPoints);
   for (int c = 0; c < kPoints; ++c) {
     double sum = 0;
@@ -153,21 +153,40 @@ TEST(ControlModel, LearnsCountsAndItsRowsSumToOne) {
   }
 }
 
-TEST(ControlModel, AddsTenCountsOfWhatControlsDoOnTheWhole) {
-  const std::vector<double> model = control_model({{0, 1, 1, 0, 1}});  // 0 -> 1 twice; 1 -> 1 once, 1 -> 0 once
-  const double stay = 10 * 0.25, go = 10 * 0.75 / kPoints;             // one step of four stays
-  EXPECT_NEAR(model[0 * kPoints + 1], (2 + go) / 12, 1e-12);
-  EXPECT_NEAR(model[0 * kPoints + 0], (stay + go) / 12, 1e-12);
-  EXPECT_NEAR(model[1 * kPoints + 1], (1 + stay + go) / 12, 1e-12);
-  EXPECT_NEAR(model[1 * kPoints + 0], (1 + go) / 12, 1e-12);
-  EXPECT_NEAR(model[50 * kPoints + 50], (stay + go) / 10, 1e-12);
-  EXPECT_NEAR(model[50 * kPoints + 7], go / 10, 1e-12);
+TEST(ControlModel, AddsThePriorsCounts) {
+  const std::vector<double> model = control_model({{0, 1, 1, 0, 1}}, {8, 2});  // 0 -> 1 twice; 1 -> 1 and 1 -> 0 once
+  const double anywhere = 2.0 / kPoints;
+  EXPECT_NEAR(model[0 * kPoints + 1], (2 + anywhere) / 12, 1e-12);
+  EXPECT_NEAR(model[0 * kPoints + 0], (8 + anywhere) / 12, 1e-12);
+  EXPECT_NEAR(model[1 * kPoints + 1], (9 + anywhere) / 12, 1e-12);
+  EXPECT_NEAR(model[1 * kPoints + 0], (1 + anywhere) / 12, 1e-12);
+  EXPECT_NEAR(model[50 * kPoints + 50], (8 + anywhere) / 10, 1e-12);
+  EXPECT_NEAR(model[50 * kPoints + 7], anywhere / 10, 1e-12);
 }
 
-TEST(ControlModel, WithoutStepsExpectsTheControlToStay) {
-  const std::vector<double> model = control_model({{3}});
-  EXPECT_EQ(model[3 * kPoints + 3], 1);
+TEST(ControlModel, ExpectsAControlOfWhichNothingIsKnownToStay) {
+  const std::vector<double> model = control_model({{3, 4}}, {});
+  EXPECT_EQ(model[3 * kPoints + 4], 1);
   EXPECT_EQ(model[50 * kPoints + 50], 1);
+}
+
+TEST(ControlModel, RefusesIndicesThatAreNoControl) {
+  EXPECT_THROW(control_model({{3, kPoints}}, kKept), std::invalid_argument);
+}
+
+TEST(AnticipatePolicy, ForeseesForControlsThatWereNeverSeen) {
+  // Control 5 was never seen. Iterate believes that it is kept for ever and goes where it is worth most in the long
+  // run; anticipate knows that it may end, and that class 0 is better placed for all else.
+  Quality quality;
+  quality.classes = 2;
+  quality.smoothness = {1, 0.9, 0.5, 1};
+  quality.match.assign(std::size_t{2} * kPoints, 0.1);
+  for (int c = 0; c < kPoints; ++c) quality.match[c] = 1;
+  quality.match[5] = 0.6;
+  quality.match[kPoints + 5] = 0.63;
+  const std::vector<std::vector<int>> traces{{7, 7, 7}};
+  EXPECT_EQ(iterate_policy(quality, traces)(1, 5), 1);
+  EXPECT_EQ(anticipate_policy(quality, traces)(0, 5), 0);
 }
 
 TEST(IteratePolicy, WithoutAFutureIsGreedy) {

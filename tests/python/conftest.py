@@ -102,7 +102,7 @@ def traces() -> list[Array]:
 @pytest.fixture(scope="session")
 def character(skeleton: core.Skeleton, clips: list[core.Clip], traces: list[Array]) -> core.Character:
     """A made character of 30 classes with every policy."""
-    return core.build(skeleton, clips, traces, build_options(classes=30, policies=["iterate", "svm", "greedy"]))
+    return core.build(skeleton, clips, traces, build_options(classes=30, policies=["anticipate", "iterate", "svm", "greedy"]))
 
 
 class Bandai(NamedTuple):
@@ -123,5 +123,5 @@ def bandai() -> Bandai:
     skeleton = takes[0].skeleton
     clips = [core.Clip.from_take(take, skeleton) for take in takes]
     traces = [core.simulate_trace("explorer", 60, 1)]
-    options = build_options(policies=["iterate", "svm", "greedy"])
+    options = build_options(policies=["anticipate", "iterate", "svm", "greedy"])
     return Bandai(skeleton, clips, core.build(skeleton, clips, traces, options))

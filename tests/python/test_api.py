@@ -43,7 +43,7 @@ def test_character_has_the_documented_shapes_and_types(character: core.Character
     assert len(character.fragment_origins) == fragments
     assert set(character.fragment_origins) <= {"captured", "mirrored", "interpolated", "transformed"}
     assert character.report["fragments"] == fragments
-    assert character.policies == ["iterate", "svm", "greedy"]
+    assert character.policies == ["anticipate", "iterate", "svm", "greedy"]
 
 
 def test_character_says_what_holds_together(character: core.Character) -> None:

@@ -154,19 +154,31 @@ def test_iterate_is_value_iteration() -> None:
     random = np.random.default_rng(2)
     smoothness, match = random_factors(random, 8)
     traces = [random_trace(random, 300), random_trace(random, 100, 40)]
-    model = core.control_model(traces)
-    np.testing.assert_allclose(model.sum(1), 1, atol=1e-12)
-    counts = np.zeros((POINTS, POINTS))
+    model = core.control_model(traces, 0.5, 0)
+    counts = 0.5 * np.eye(POINTS)
     for trace in traces:
         np.add.at(counts, (trace[:-1], trace[1:]), 1)
-    stay = counts.trace() / counts.sum()
-    counts += 10 * (stay * np.eye(POINTS) + (1 - stay) / POINTS)
     np.testing.assert_allclose(model, counts / counts.sum(1, keepdims=True), atol=1e-12)
     choices, _ = numpy_value_iteration(smoothness, match, model, 0.8)
     table = core.iterate_table(smoothness, match, traces, discount=0.8, tolerance=1e-10)
     chosen = np.take_along_axis(choices, table[:, None, :], 1)[:, 0]
     np.testing.assert_allclose(chosen, choices.max(1), atol=1e-8)
     assert (table == choices.argmax(1)).mean() > 0.999
+
+
+def test_anticipate_is_value_iteration_with_a_prior_of_any_player() -> None:
+    random = np.random.default_rng(6)
+    smoothness, match = random_factors(random, 8)
+    traces = [random_trace(random, 300)]
+    counts = 8.5 * np.eye(POINTS) + 1.5 / POINTS
+    np.add.at(counts, (traces[0][:-1], traces[0][1:]), 1)
+    model = core.control_model(traces)
+    np.testing.assert_allclose(model, counts / counts.sum(1, keepdims=True), atol=1e-12)
+    choices, _ = numpy_value_iteration(smoothness, match, model, 0.9)
+    table = core.anticipate_table(smoothness, match, traces)
+    chosen = np.take_along_axis(choices, table[:, None, :], 1)[:, 0]
+    np.testing.assert_allclose(chosen, choices.max(1), atol=2e-3)
+    assert (table == choices.argmax(1)).mean() > 0.99
 
 
 def test_no_table_is_better_than_optimal() -> None:

@@ -243,13 +243,11 @@ def greedy_table(smoothness: Floats, match: Floats) -> Ints:
     return np.stack([(smoothness * match[:, c]).argmax(axis=1) for c in range(match.shape[1])], axis=1)
 
 
-def control_model(traces: list[Ints], prior: float = 10) -> Floats:
-    """[102,102]: P(next control | control) from counts, and `prior` counts of what controls do on the whole."""
-    counts = np.zeros((CONTROLS, CONTROLS))
+def control_model(traces: list[Ints], stays: float, goes_anywhere: float) -> Floats:
+    """[102,102]: P(next control | control) from counts and a prior: `stays` of itself, `goes_anywhere` spread over all."""
+    counts = stays * np.eye(CONTROLS) + np.full((CONTROLS, CONTROLS), goes_anywhere / CONTROLS)
     for trace in traces:
         np.add.at(counts, (trace[:-1], trace[1:]), 1)
-    stay = counts.trace() / counts.sum()
-    counts += prior * (stay * np.eye(CONTROLS) + (1 - stay) / CONTROLS)
     model: Floats = counts / counts.sum(axis=1, keepdims=True)
     return model
 
@@ -258,7 +256,16 @@ def iterate_table(
     smoothness: Floats, match: Floats, traces: list[Ints], discount: float = 0.9, tolerance: float = 1e-4
 ) -> Ints:
     """[n,102] by value iteration (McCann and Pollard 2007)."""
-    model = control_model(traces)
+    return value_iteration(smoothness, match, control_model(traces, 0.5, 0), discount, tolerance)
+
+
+def anticipate_table(smoothness: Floats, match: Floats, traces: list[Ints]) -> Ints:
+    """[n,102], the default policy: every control is kept in 8.5 of ten counts, and else anything may follow."""
+    return value_iteration(smoothness, match, control_model(traces, 8.5, 1.5), 0.9, 1e-4)
+
+
+def value_iteration(smoothness: Floats, match: Floats, model: Floats, discount: float, tolerance: float) -> Ints:
+    """[n,102]: the best class by quality and the discounted value to come under a control model."""
     value = np.zeros((CONTROLS, len(smoothness)))
     while True:
         promise = discount * model @ value

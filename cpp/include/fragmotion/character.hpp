@@ -37,7 +37,7 @@ struct BuildOptions {
   int restarts = 8;  ///< Clusterings, of which the one that serves Optimal best on the traces is taken.
   std::uint64_t seed = 1;
   /// Of policy_names(); the first one drives, the others are there to be compared.
-  std::vector<std::string> policies{"iterate", "svm", "greedy"};
+  std::vector<std::string> policies{"anticipate", "iterate", "svm", "greedy"};
   int threads = 0;  ///< 0: as many as the machine has. The result does not depend on it.
 };
 

@@ -5,6 +5,9 @@
 
 namespace fragmotion {
 
+/// Throws std::invalid_argument on a control index outside 0..101.
+void check_controls(const std::vector<int>& trace);
+
 /// The class Q' after `from` with the greatest Quality(from, Q', c) + value(Q') (Eqs. 1 and 4): `match` is the second
 /// factor of Eq. 2 for c, `value` what each class is worth afterwards, both [classes]. The greatest sum goes to `best`.
 /// Ties go to the lower class.

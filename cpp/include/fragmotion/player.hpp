@@ -4,35 +4,24 @@
 #include <memory>
 #include <vector>
 
-#include "fragmotion/character.hpp"
+#include "fragmotion/performance.hpp"
 #include "fragmotion/random.hpp"
 
 namespace fragmotion {
 
-/// What a player did, a pose a frame.
-struct Performance {
-  double rate = 0;  ///< Frames a second.
-  int frames = 0;
-  std::vector<double> root_positions;  ///< [frames, 3] m
-  std::vector<double> rotations;       ///< [frames, bones, 4]
-  std::vector<double> path;            ///< [frames, 3]: character frame x, y in m and heading in rad, unwrapped
-  std::vector<int> classes;            ///< [frames]
-  std::vector<int> fragments;          ///< [frames]
-  double quality = 0;                  ///< Mean over time of Eq. 2 for what plays and the control then, 0..1.
-  double velocity_error = 0;   ///< Mean over frames of |velocity of the hips - commanded|, character frame, m/s.
-  double commanded_speed = 0;  ///< Mean over frames, m/s.
-};
+/// Seconds over which two fragments are stitched, unless told.
+constexpr double kStitch = 0.15;
 
 /// The run time (Sec. 3.4, Fig. 3). At a fragment's end the table tells the next class. A member of it, drawn at random
 /// among those that perform the control as well as the representative or better, is placed where the character stands,
 /// and stitched on: over a set time the old fragment goes on in its take while translations are interpolated linearly
-/// and rotations by slerp, with ease-in-ease-out weights. A fragment is left early, once stitched and unless in the air,
-/// when the control changes a lot.
+/// and rotations by slerp, with ease-in-ease-out weights. A fragment is left early, once stitched and unless in the
+/// air, when the control changes a lot.
 class Player {
  public:
   /// `stitch` seconds are cut short by shorter fragments; `policy` is one of the character's, or empty for the one that
   /// drives. Throws std::invalid_argument unless stitch is 0 .. 1 s, and on an unknown policy.
-  explicit Player(std::shared_ptr<const Character> character, std::uint64_t seed = 1, double stitch = 0.15,
+  explicit Player(std::shared_ptr<const Character> character, std::uint64_t seed = 1, double stitch = kStitch,
                   const std::string& policy = {});
 
   /// Stands at `frame`, in the class that best performs standing still.
@@ -72,6 +61,7 @@ class Player {
   int decide(int control);
   bool leaves_early(const Control& control) const;
   void show();
+  void judge(Performance& p, const Control& control, const CharacterFrame& before) const;
   double left() const;
 
   std::shared_ptr<const Character> character_;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "fragmotion/character.hpp"
+
+namespace fragmotion {
+
+/// What a player did, a pose a frame, and how well it followed its trace: means over time.
+struct Performance {
+  double rate = 0;  ///< Frames a second.
+  int frames = 0;
+  std::vector<double> root_positions;  ///< [frames, 3] m
+  std::vector<double> rotations;       ///< [frames, bones, 4]
+  std::vector<double> path;            ///< [frames, 3]: character frame x, y in m and heading in rad, unwrapped
+  std::vector<int> classes;            ///< [frames]
+  std::vector<int> fragments;          ///< [frames]
+  double quality = 0;                  ///< Eq. 2 for what plays and the control then, 0..1.
+  double velocity_error = 0;  ///< |velocity of the character frame - commanded|, seen from the character frame, m/s.
+  double turn_error = 0;      ///< |turn rate of the character frame - commanded|, rad/s.
+  double jump_error = 0;      ///< Share of the time in which a jump was commanded and none played, or none and one did.
+  double commanded_speed = 0;  ///< m/s
+};
+
+/// The yardstick of Performance::quality: the greatest mean over time of Eq. 2 that a player could reach on a trace who
+/// knew all of it, played at `rate`. It may play a class for any time from `shortest` seconds to the longest of its
+/// fragments, so no player that stitches for `shortest` or longer is better.
+double optimal_performance(const Character& character, const Trace& trace, double rate, double shortest);
+
+}  // namespace fragmotion

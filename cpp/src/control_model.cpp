@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/control_model.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "fragmotion/optimal.hpp"
+
+namespace fragmotion {
+
+std::vector<double> control_model(const std::vector<std::vector<int>>& traces, const ControlPrior& prior) {
+  constexpr std::size_t kPoints = ControlSpace::kPoints;
+  std::vector<double> model(kPoints * kPoints, prior.goes_anywhere / kPoints);
+  for (std::size_t c = 0; c < kPoints; ++c) model[c * kPoints + c] += prior.stays;
+  for (const std::vector<int>& trace : traces) {
+    check_controls(trace);
+    for (std::size_t i = 1; i < trace.size(); ++i) ++model[trace[i - 1] * kPoints + trace[i]];
+  }
+  for (std::size_t c = 0; c < kPoints; ++c) {
+    double* row = &model[c * kPoints];
+    const double sum = std::accumulate(row, row + kPoints, 0.0);
+    if (sum > 0)
+      std::for_each(row, row + kPoints, [&](double& p) { p /= sum; });
+    else
+      row[c] = 1;
+  }
+  return model;
+}
+
+}  // namespace fragmotion

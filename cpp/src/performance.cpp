@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/performance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kRounding = 1e-9;  // frames
+
+// A play of a class for some frames: the sum of its match over them, and the value of what follows.
+struct Play {
+  double match, value;
+};
+
+// Dynamic programming over frames, from the last to the first (Eq. 1 with classes that last).
+class Hindsight {
+ public:
+  Hindsight(const Character& c, const std::vector<int>& controls, double rate, double shortest)
+      : n_(c.classes.count),
+        frames_(static_cast<int>(controls.size())),
+        shortest_(n_, static_cast<int>(shortest * rate + kRounding)),
+        longest_(n_, 0),
+        smoothness_(c.quality.smoothness.size()),
+        match_(static_cast<std::size_t>(frames_ + 1) * n_, 0),
+        value_(match_.size(), 0) {
+    for (std::size_t f = 0; f < c.pool.fragments.size(); ++f) {
+      const int label = c.classes.labels[f];
+      const double frames = c.pool.seconds(c.pool.fragments[f]) * rate;
+      shortest_[label] = std::clamp(static_cast<int>(frames + kRounding), 1, std::max(1, shortest_[label]));
+      longest_[label] = std::max(longest_[label], static_cast<int>(std::ceil(frames - kRounding)));
+    }
+    for (int from = 0; from < n_; ++from) {
+      for (int to = 0; to < n_; ++to) smoothness_[at(to, from)] = c.quality.smoothness[at(from, to)];
+    }
+    for (int f = 0; f < frames_; ++f) {
+      for (int q = 0; q < n_; ++q) {
+        match_[at(f + 1, q)] =
+            match_[at(f, q)] + c.quality.match[static_cast<std::size_t>(q) * ControlSpace::kPoints + controls[f]];
+      }
+    }
+  }
+
+  double best() {
+    for (int f = frames_ - 1; f >= 0; --f) {
+      for (int to = 0; to < n_; ++to) best_of_class(f, to);
+    }
+    return *std::max_element(value_.begin(), value_.begin() + n_) / frames_;
+  }
+
+ private:
+  std::size_t at(int row, int column) const { return static_cast<std::size_t>(row) * n_ + column; }
+
+  // What playing `to` from frame `f` on is worth after each class.
+  void best_of_class(int f, int to) {
+    double* value = &value_[at(f, 0)];
+    const double* smoothness = &smoothness_[at(to, 0)];
+    const int last = std::min(frames_, f + longest_[to]);
+    for (int end = std::min(frames_, f + shortest_[to]); end <= last; ++end) {
+      const Play play{match_[at(end, to)] - match_[at(f, to)], value_[at(end, to)]};
+      for (int from = 0; from < n_; ++from) {
+        value[from] = std::max(value[from], smoothness[from] * play.match + play.value);
+      }
+    }
+  }
+
+  int n_, frames_;
+  std::vector<int> shortest_, longest_;  // [classes] frames that a class may play
+  std::vector<double> smoothness_;       // [to, from]
+  std::vector<double> match_;            // [frames + 1, classes] summed from the first frame
+  std::vector<double> value_;            // [frames + 1, classes] of what follows a class that ends at a frame
+};
+
+}  // namespace
+
+double optimal_performance(const Character& character, const Trace& trace, double rate, double shortest) {
+  if (trace.empty()) throw std::invalid_argument("the trace has no controls");
+  if (!(rate > 0 && rate <= 1000)) throw std::invalid_argument("the frame rate must be over 0 and at most 1000");
+  const std::vector<int> snapped = snap(character.space, trace);
+  std::vector<int> controls;
+  const long frames = std::lround(static_cast<double>(trace.size()) / kTraceRate * rate);
+  for (long f = 0; f < frames; ++f) {
+    const auto i = static_cast<std::size_t>(static_cast<double>(f) / rate * kTraceRate + kRounding);
+    controls.push_back(snapped[std::min(i, snapped.size() - 1)]);
+  }
+  return Hindsight(character, controls, rate, shortest).best();
+}
+
+}  // namespace fragmotion
