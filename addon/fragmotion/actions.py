@@ -12,6 +12,9 @@ from . import versions
 RATE = "fragmotion_rate"
 """Custom property of an imported Action: the take's frames a second."""
 
+SCENE_RATE = "fragmotion_scene_rate"
+"""Custom property of an imported Action: the scene's frames a second when its keys were laid."""
+
 BAKED = "fragmotion_baked"
 """Custom property of an Action that Bake wrote: not to learn from."""
 

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from . import versions
-from .actions import RATE
+from .actions import RATE, SCENE_RATE
 from .core import core
 from .errors import UserError, core_errors
 from .rigs import carriers, make_rig
@@ -91,9 +91,9 @@ def import_takes(
         moving = _moving_bones(obj, channels) | set(carriers(obj, rig))
         actions = []
         for index, (take, (locations, rotations)) in enumerate(zip(takes, channels)):
-            action = _make_action(take)
+            action = _make_action(context.scene, take)
             actions.append(action)
-            write_poses(action, obj, _key_times(context.scene, action, len(rotations)), locations, rotations, moving)
+            write_poses(action, obj, _key_times(action, len(rotations)), locations, rotations, moving)
             advance(_READING + (1 - _READING) * index / len(files))
     except BaseException:
         _remove(context, set(bpy.data.objects) - known_objects, set(bpy.data.actions) - known_actions)
@@ -158,17 +158,17 @@ def _moving_bones(obj: bpy.types.Object, channels: Sequence[tuple[Doubles, Doubl
     return {bone.name for bone, distance in zip(obj.data.bones, furthest) if distance > _STILL}
 
 
-def _make_action(take: Take) -> bpy.types.Action:
+def _make_action(scene: bpy.types.Scene, take: Take) -> bpy.types.Action:
     action = bpy.data.actions.new(take.name)
     action.use_fake_user = True
-    action[RATE] = _tidy_rate(take.rate)
+    action[RATE], action[SCENE_RATE] = _tidy_rate(take.rate), scene_rate(scene)
     action.fragmotion.use = True
     return action
 
 
-def _key_times(scene: bpy.types.Scene, action: bpy.types.Action, frames: int) -> Doubles:
-    """Scene frames on which the take plays in its own time."""
-    return FIRST_FRAME + scene_rate(scene) / float(action[RATE]) * np.arange(frames, dtype=float)
+def _key_times(action: bpy.types.Action, frames: int) -> Doubles:
+    """Scene frames on which the take plays in its own time at the scene's rate now."""
+    return FIRST_FRAME + float(action[SCENE_RATE]) / float(action[RATE]) * np.arange(frames, dtype=float)
 
 
 def _tidy_rate(rate: float) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 from mathutils import Matrix, Quaternion, Vector
 
 from . import posing, versions
-from .actions import RATE, animated_bones
+from .actions import RATE, SCENE_RATE, animated_bones
 from .core import core
 from .errors import UserError, core_errors
 from .rigs import bone_path, is_tied
@@ -53,9 +53,13 @@ def scene_rate(scene: bpy.types.Scene) -> float:
 
 
 def frame_times(scene: bpy.types.Scene, action: bpy.types.Action, curves: Curves) -> tuple[float, Doubles]:
-    """The rate at which to sample (an imported take's own, else the scene's), and the scene frames of the samples."""
+    """The rate at which to sample (an imported take's own, else the scene's), and the scene frames of the samples.
+
+    An imported take keeps its own time when the scene's rate is changed after the import, as it remembers the rate for
+    which its keys were laid. Any other Action lasts as long as the scene plays it now.
+    """
     rate = float(action.get(RATE, scene_rate(scene)))
-    step = scene_rate(scene) / rate
+    step = float(action.get(SCENE_RATE, scene_rate(scene))) / rate
     if action.use_frame_range:
         first, last = action.frame_range
     else:

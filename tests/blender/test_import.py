@@ -67,6 +67,20 @@ def test_a_take_plays_in_its_own_time_whatever_the_scenes_rate(addon: ModuleType
     check_take(addon, obj, addon.core.core.read_bvh(path), 1 + rows * 24 / 1.001 / 60, rows)
 
 
+def test_a_take_is_learned_in_its_own_time_whatever_the_scenes_rate_becomes(addon: ModuleType, tmp_path: Path) -> None:
+    scene = bpy.context.scene
+    scene.render.fps = 24
+    making.write_bvh(tmp_path / "walk.bvh", frames=61, frame_time=1 / 60)
+    obj = import_folder(tmp_path)
+    rig = addon.rigs.make_rig(obj)
+    before = addon.sampling.sample(bpy.context, obj, bpy.data.actions["walk"], rig)
+    scene.render.fps, scene.render.fps_base = 60, 1.001
+    after = addon.sampling.sample(bpy.context, obj, bpy.data.actions["walk"], rig)
+    assert before.rate == after.rate == 60 and len(after.root_positions) == 61
+    np.testing.assert_array_equal(after.root_positions, before.root_positions)
+    np.testing.assert_array_equal(after.rotations, before.rotations)
+
+
 def test_still_locations_get_no_keys(addon: ModuleType, tmp_path: Path) -> None:
     making.write_bvh(tmp_path / "walk.bvh")
     obj = import_folder(tmp_path)
