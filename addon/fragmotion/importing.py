@@ -43,10 +43,10 @@ class TakeFile(NamedTuple):
 
 
 def find_takes(directory: Path, names: Sequence[str] = ()) -> list[TakeFile]:
-    """The takes among the named files of a folder, or all of its takes. UserError says what is missing."""
+    """The takes among the named files of a folder, or all that are not hidden. UserError says what is missing."""
     if not directory.is_dir():
         raise UserError(f"'{directory}' is not a folder")
-    paths = [directory / name for name in names] or sorted(directory.iterdir())
+    paths = [directory / name for name in names] or _visible_files(directory)
     takes = [_take_file(path) for path in paths if path.suffix.lower() in {".bvh", ".amc"}]
     if not takes:
         where = ", ".join(f"'{path}'" for path in paths) if names else f"Folder '{directory}'"
@@ -54,11 +54,16 @@ def find_takes(directory: Path, names: Sequence[str] = ()) -> list[TakeFile]:
     return takes
 
 
+def _visible_files(directory: Path) -> list[Path]:
+    """The folder's files without hidden ones, such as the "._NAME" that macOS puts beside each file."""
+    return sorted(path for path in directory.iterdir() if path.is_file() and not path.name.startswith("."))
+
+
 def _take_file(path: Path) -> TakeFile:
     """An .amc belongs to the .asf named by what stands before its underscore, or to the folder's only one."""
     if path.suffix.lower() == ".bvh":
         return TakeFile(path, None)
-    skeletons = [p for p in path.parent.iterdir() if p.suffix.lower() == ".asf"]
+    skeletons = [p for p in _visible_files(path.parent) if p.suffix.lower() == ".asf"]
     stem = path.stem.partition("_")[0].lower()
     named = [asf for asf in skeletons if asf.stem.lower() in {stem, path.stem.lower()}]
     if not named and len(skeletons) != 1:

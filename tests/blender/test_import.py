@@ -133,6 +133,16 @@ def test_an_amc_belongs_to_the_asf_of_its_subject(addon: ModuleType, tmp_path: P
     assert find(tmp_path, ["03_01.amc"])[0].asf.name == "02.asf"
 
 
+def test_hidden_files_are_no_takes(addon: ModuleType, tmp_path: Path) -> None:
+    for name in ("02.asf", "02_01.amc", "walk.bvh", "._walk.bvh", "._02.asf", "._02_01.amc", ".old.bvh"):
+        (tmp_path / name).write_text("")
+    (tmp_path / "folder.bvh").mkdir()
+    takes = addon.importing.find_takes(tmp_path)
+    assert [take.path.name for take in takes] == ["02_01.amc", "walk.bvh"]
+    (tmp_path / "03_01.amc").write_text("")
+    assert addon.importing.find_takes(tmp_path)[1].asf.name == "02.asf", "the folder's only skeleton"
+
+
 def test_importing_is_one_undo_step(tmp_path: Path) -> None:
     making.write_bvh(tmp_path / "walk.bvh")
     bpy.ops.ed.undo_push(message="before")
