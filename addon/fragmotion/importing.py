@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -87,9 +88,7 @@ def import_takes(
         takes.append(read_take(file, unit))
         _check_bones(file, takes[-1], files[0], takes[0])
         advance(_READING * index / len(files))
-    selected, active = context.selected_objects, context.view_layer.objects.active
-    known_objects, known_actions = set(bpy.data.objects), set(bpy.data.actions)
-    try:
+    with _undone_on_error(context):
         obj = make_armature(context, name, takes[0].skeleton)
         rig = make_rig(obj)
         channels = [rig.take_channels(take) for take in takes]
@@ -100,13 +99,27 @@ def import_takes(
             actions.append(action)
             write_poses(action, obj, _key_times(action, len(rotations)), locations, rotations, moving)
             advance(_READING + (1 - _READING) * index / len(files))
-    except BaseException:
-        _remove(context, set(bpy.data.objects) - known_objects, set(bpy.data.actions) - known_actions)
-        _select(context, selected, active)
-        raise
     versions.assign(obj, actions[0])
     context.view_layer.update()
     return obj, actions
+
+
+@contextmanager
+def _undone_on_error(context: bpy.types.Context) -> Iterator[None]:
+    """On an error remove the objects and Actions made inside, and give back the selection, active object and mode."""
+    selected, active = context.selected_objects, context.view_layer.objects.active
+    mode = active.mode if active else "OBJECT"
+    in_mode = [obj for obj in context.view_layer.objects if obj.mode == mode != "OBJECT"]
+    known_objects, known_actions = set(bpy.data.objects), set(bpy.data.actions)
+    try:
+        yield
+    except BaseException:
+        _remove(context, set(bpy.data.objects) - known_objects, set(bpy.data.actions) - known_actions)
+        if in_mode:
+            _select(context, in_mode, active)
+            bpy.ops.object.mode_set(mode=mode)
+        _select(context, selected, active)
+        raise
 
 
 def _check_bones(file: TakeFile, take: Take, first_file: TakeFile, first: Take) -> None:

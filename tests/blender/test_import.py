@@ -174,6 +174,27 @@ def test_a_broken_bvh_is_named_by_line_and_changes_nothing(tmp_path: Path, name:
     assert making.contents() == before
 
 
+@pytest.mark.parametrize("mode", ["POSE", "EDIT"])
+def test_a_refused_import_gives_back_mode_and_selection(tmp_path: Path, mode: str) -> None:
+    idle, third = making.add_armature(name="Idle"), making.add_armature(name="Third")
+    obj = making.add_armature(name="Active")
+    third.select_set(True)
+    bpy.ops.object.mode_set(mode=mode)
+    idle.select_set(True)
+    path = making.write_bvh(tmp_path / "single.bvh")
+    head, tail = path.read_text().split("  JOINT", 1)[0], path.read_text().partition("MOTION")[2]
+    rows = [" ".join(row.split()[:6]) for row in tail.splitlines()[3:]]
+    end = "  End Site\n  {\n    OFFSET 0 10 0\n  }\n}\nMOTION\nFrames: 40\nFrame Time: 0.0333333\n"
+    path.write_text(head + end + "\n".join(rows) + "\n")
+    before = making.contents()
+    modes = {o.name: o.mode for o in bpy.data.objects}
+    assert modes == {"Active": mode, "Third": mode, "Idle": "OBJECT"}
+    with pytest.raises(RuntimeError, match="only one bone, 'Root'"):
+        import_folder(tmp_path)
+    assert making.contents() == before
+    assert {o.name: o.mode for o in bpy.data.objects} == modes and bpy.context.object == obj
+
+
 def test_a_take_of_another_skeleton_is_named_with_its_bone(tmp_path: Path) -> None:
     making.write_bvh(tmp_path / "a.bvh")
     other = making.write_bvh(tmp_path / "b.bvh")
