@@ -31,8 +31,11 @@ _OBJECT_CHANNELS = ("location", "rotation_euler", "rotation_quaternion", "rotati
 
 
 def sample(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action, rig: Rig) -> Clip:
-    """The Action on the armature at its own rate. A channel without keys rests; the file is as before."""
-    curves = {(c.data_path, c.array_index): c for c in versions.curves_of(action, obj) if not c.mute}
+    """The Action on the armature at its own rate; SinglePose where it lasts one frame.
+
+    A channel without keys or muted rests; the file is as before.
+    """
+    curves = {(c.data_path, c.array_index): c for c in versions.curves_of(action, obj) if not versions.is_muted(c)}
     place = f"Action '{action.name}'"
     if not any(name in obj.data.bones for name in animated_bones(action, obj)):
         raise UserError(f"{place} animates no bone of armature '{obj.name}': it belongs to another rig")

@@ -28,6 +28,11 @@ def count_curves(action: bpy.types.Action) -> int:
     return sum(len(bag.fcurves) for bag in _bags(action)) if SLOTTED else len(action.fcurves)
 
 
+def is_muted(curve: bpy.types.FCurve) -> bool:
+    """Whether Blender leaves the F-curve out: by itself, or up to 4.3 by its group (from 4.4 a muted group plays)."""
+    return curve.mute or (not SLOTTED and curve.group is not None and curve.group.mute)
+
+
 def assign(obj: bpy.types.Object, action: bpy.types.Action | None) -> None:
     """Let the object play the Action (its slot for this object)."""
     data = obj.animation_data or obj.animation_data_create()

@@ -181,3 +181,31 @@ def test_an_action_whose_channels_are_all_muted_is_refused(addon: ModuleType) ->
         curve.mute = True
     with pytest.raises(addon.errors.UserError, match="all of its channels are muted"):
         addon.sampling.sample(bpy.context, obj, action, addon.rigs.make_rig(obj))
+
+
+def test_channels_of_a_muted_group_rest_or_play_as_in_blender(addon: ModuleType) -> None:
+    obj = making.add_armature()
+    action = making.add_action(obj, FRAMES)
+    groups = addon.versions.holder_for(action, obj).groups
+    body, spine = groups.new("body"), groups.new("back")
+    for curve in addon.versions.curves_of(action, obj):
+        curve.group = spine if "spine" in curve.data_path else body
+    spine.mute = True
+    action.update_tag()
+    addon.posing.reset_pose(obj)  # Blender leaves a muted channel as it stands
+    check_sampling(addon, obj, action)
+    body.mute = True
+    action.update_tag()
+    if addon.versions.SLOTTED:
+        check_sampling(addon, obj, action)
+        return
+    with pytest.raises(addon.errors.UserError, match="all of its channels are muted"):
+        addon.sampling.sample(bpy.context, obj, action, addon.rigs.make_rig(obj))
+
+
+def test_an_action_lasts_as_long_as_the_scene_plays_it(addon: ModuleType) -> None:
+    obj = making.add_armature()
+    action = making.add_action(obj, FRAMES)
+    bpy.context.scene.render.fps = 60
+    clip = addon.sampling.sample(bpy.context, obj, action, addon.rigs.make_rig(obj))
+    assert clip.rate == 60 and len(clip.root_positions) == FRAMES
