@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
-from types import ModuleType
+from collections.abc import Callable
+from threading import Event
+from types import ModuleType, SimpleNamespace
 
 import bpy
+import pytest
 
 
 def _registered() -> set[str]:
@@ -24,6 +27,28 @@ def test_unregister_leaves_nothing_and_register_brings_it_back(addon: ModuleType
     finally:
         addon.register()
     assert _registered() == before
+
+
+def test_unregister_stops_a_build_with_its_thread_and_timer(addon: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    timers: list[object] = []
+    manager = SimpleNamespace(
+        event_timer_add=lambda step, window: timers.append(step) or step, event_timer_remove=timers.remove
+    )
+    button = addon.operators.build
+    monkeypatch.setattr(button, "bpy", SimpleNamespace(context=SimpleNamespace(window_manager=manager)))
+    started = Event()
+
+    def work(report: Callable[[float, str], bool]) -> None:
+        started.set()
+        while report(0.5, "Working"):
+            pass
+
+    job = addon.jobs.Job("test", work)
+    button._watch(SimpleNamespace(window_manager=manager, window=None), job)
+    assert started.wait(60) and job.running and len(timers) == 1 and button.current is job
+    addon.unregister()
+    addon.register()
+    assert not job.running and timers == [] and button.current is None
 
 
 def test_every_operator_has_a_tooltip_and_undoes_what_it_changes() -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Run in a Blender with a window by test_panel.py: import, build, cancel and bake while the panel is drawn.
+"""Run in a Blender with a window by test_panel.py: import, build, cancel, bake and disable while the panel is drawn.
 
 Arguments after `--`: the add-on's zip, the folder for takes and pictures.
 """
@@ -89,6 +89,43 @@ def finish_build(build: Any) -> Iterator[None]:
     raise AssertionError("the build did not end")
 
 
+class TEST_OT_count_timers(bpy.types.Operator):
+    """Count the timer events that the window's modal operators get, until Esc."""
+
+    bl_idname = "test.count_timers"
+    bl_label = "Count Timers"
+    count = 0
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, _context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        TEST_OT_count_timers.count += event.type == "TIMER"
+        return {"FINISHED"} if event.type == "ESC" else {"PASS_THROUGH"}
+
+
+def count_timers() -> Iterator[None]:
+    """Count anew the timer events of half a second."""
+    TEST_OT_count_timers.count = 0
+    for _ in range(round(0.5 / TICK)):
+        yield
+
+
+def disable_while_building(build: Any) -> Iterator[None]:
+    """Switching the add-on off stops the build's thread and its timer."""
+    bpy.utils.register_class(TEST_OT_count_timers)
+    press(bpy.ops.test.count_timers)
+    press(bpy.ops.fragmotion.build, **FIELDS)
+    assert build.current.running
+    yield from count_timers()
+    assert TEST_OT_count_timers.count > 0, "the timers of a build are not heard"
+    bpy.ops.preferences.addon_disable(module="fragmotion")
+    assert all(thread.name != "Fragmotion" for thread in threading.enumerate()), "the build goes on"
+    yield from count_timers()
+    assert TEST_OT_count_timers.count == 0, "the build's timer goes on"
+
+
 def steps() -> Iterator[None]:
     """The whole session."""
     build = import_module("fragmotion.operators.build")
@@ -132,6 +169,8 @@ def steps() -> Iterator[None]:
     bpy.ops.ed.undo()
     obj = bpy.context.view_layer.objects.active
     assert not building.has_character(obj), "Bake and Build are not one undo step each"
+    go_on.clear()
+    yield from disable_while_building(build)
     print("SESSION PASSED")
 
 

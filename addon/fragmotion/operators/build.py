@@ -19,6 +19,8 @@ _TICK = 0.1  # s between looks at the job
 current: Job | None = None
 """The build that runs now; the panel shows it."""
 
+_timer: bpy.types.Timer | None = None  # wakes the modal operator while a build runs in the background
+
 
 class FRAGMOTION_OT_build(BuildFields, bpy.types.Operator):
     """Build in the background; to its end at once where there is no window, and when executed."""
@@ -51,9 +53,7 @@ class FRAGMOTION_OT_build(BuildFields, bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         if bpy.app.background:
             return self.execute(context)
-        job = self._prepare(context)
-        job.start()
-        self._timer = context.window_manager.event_timer_add(_TICK, window=context.window)
+        _watch(context, self._prepare(context))
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
@@ -76,6 +76,7 @@ class FRAGMOTION_OT_build(BuildFields, bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         manager = context.window_manager
         job = self._prepare(context)
+        _set_current(job)
         manager.progress_begin(0, 100)
         try:
             job.run(lambda fraction: manager.progress_update(100 * fraction))
@@ -87,14 +88,12 @@ class FRAGMOTION_OT_build(BuildFields, bpy.types.Operator):
     def cancel(self, context: bpy.types.Context) -> None:
         """Blender ends the operator: another file is loaded, or Blender quits."""
         stop()
-        self._end(context)
 
     def _prepare(self, context: bpy.types.Context) -> Job:
         obj = active_armature(context)
         adopt_settings(self, obj.fragmotion.build, BuildFields)
         job = Job(f"Building '{obj.name}'", building.prepare(context, obj, self))
         self._armature = obj.name
-        _set_current(job)
         return job
 
     def _finish(self, job: Job) -> set[str]:
@@ -124,7 +123,7 @@ class FRAGMOTION_OT_build(BuildFields, bpy.types.Operator):
 
     def _end(self, context: bpy.types.Context) -> None:
         _set_current(None)
-        context.window_manager.event_timer_remove(self._timer)
+        _stop_timer()
         self._show(context)
 
 
@@ -148,12 +147,28 @@ class FRAGMOTION_OT_cancel_build(bpy.types.Operator):
 
 
 def stop() -> None:
-    """Cancel the build that is running, and return when it has stopped."""
+    """Cancel the build that is running, return when it has stopped, and let nothing of it stay with Blender."""
     if current is not None:
         current.cancel()
         if current.running:
             current.wait()
     _set_current(None)
+    _stop_timer()
+
+
+def _watch(context: bpy.types.Context, job: Job) -> None:
+    """Start the build in the background, and a timer that wakes its operator."""
+    global _timer
+    _set_current(job)
+    job.start()
+    _timer = context.window_manager.event_timer_add(_TICK, window=context.window)
+
+
+def _stop_timer() -> None:
+    global _timer
+    if _timer is not None:
+        bpy.context.window_manager.event_timer_remove(_timer)
+    _timer = None
 
 
 def _set_current(job: Job | None) -> None:
