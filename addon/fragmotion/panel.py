@@ -61,6 +61,8 @@ class FRAGMOTION_PT_mocap(_Sidebar, bpy.types.Panel):
         if obj is None:
             layout.label(text="No armature is active", icon="INFO")
             return
+        if obj != context.active_object:
+            layout.label(text=obj.name, icon="ARMATURE_DATA", translate=False)
         actions = fitting(obj)
         if not actions:
             layout.label(text=f"No Actions for '{obj.name}'", icon="INFO")

@@ -9,23 +9,40 @@ import bpy
 
 
 def active_armature(context: bpy.types.Context) -> Any:
-    """The active object where it is an armature."""
+    """The active object where it is an armature, else the armature that deforms or carries it, if any."""
     obj = context.active_object
-    return obj if obj is not None and obj.type == "ARMATURE" else None
+    while obj is not None and obj.type != "ARMATURE":
+        obj = obj.find_armature() or obj.parent
+    return obj
 
 
 def poll_armature(cls: Any, context: bpy.types.Context) -> bool:
     """Whether an armature that can be changed is active; says why not."""
     obj = active_armature(context)
     if obj is None:
-        cls.poll_message_set("No armature is active: import mocap, or click an armature in the viewport")
-    elif obj.library is not None or obj.data.library is not None:
-        cls.poll_message_set("The armature is linked from another file: make it local first")
+        cls.poll_message_set("No armature is active: import mocap, or click an armature or its mesh")
+    elif _is_foreign(obj) or _is_foreign(obj.data):
+        cls.poll_message_set(_advise_on_foreign(obj))
     elif context.mode not in {"OBJECT", "POSE"}:
         cls.poll_message_set("Leave this mode first: it works in Object Mode and Pose Mode")
     else:
         return True
     return False
+
+
+def _is_foreign(data: bpy.types.ID) -> bool:
+    """Whether another file has the last word on the data-block: what a build keeps in it would not be saved."""
+    return data.library is not None or data.override_library is not None
+
+
+def _advise_on_foreign(obj: bpy.types.Object) -> str:
+    state = "is a library override" if obj.override_library is not None else "is linked from another file"
+    in_linked_collection = any(collection.library is not None for collection in obj.users_collection)
+    choice = "All" if in_linked_collection else "Selected Objects and Data"
+    return (
+        f"Armature '{obj.name}' {state}, where no character can be kept: select it and choose, in Object Mode, "
+        f"Object > Relations > Make Local > {choice}"
+    )
 
 
 def adopt_settings(operator: Any, settings: Any, fields: type) -> None:
