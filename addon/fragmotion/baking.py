@@ -11,17 +11,19 @@ import numpy as np
 
 from . import versions
 from .actions import BAKED, RATE
-from .building import check_skeleton, load
+from .building import load
 from .core import core
 from .errors import UserError, core_errors
+from .movers import movers
 from .posing import check_free, reset_pose
 from .rigs import carriers, make_rig
 from .sampling import scene_rate
+from .skeletons import difference
 from .traces import make_trace
 from .writing import write_poses
 
 if TYPE_CHECKING:
-    from fragmotion_core import Character, Performance
+    from fragmotion_core import Character, Performance, Rig
 
 
 def bake(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> tuple[bpy.types.Action, Performance]:
@@ -33,7 +35,7 @@ def bake(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> tu
     character = load(obj)
     context.view_layer.update()
     rig = make_rig(obj)
-    check_skeleton(obj, character.skeleton, rig.skeleton)
+    _check_skeleton(obj, character, rig)
     moving = carriers(obj, rig)
     target = _target(obj, settings.action)
     performance = perform(context.scene, obj, character, settings)
@@ -61,16 +63,20 @@ def perform(scene: bpy.types.Scene, obj: bpy.types.Object, character: Character,
         return performance
 
 
-def hindrances(obj: bpy.types.Object, bones: list[str]) -> list[str]:
-    """What will move the armature beside the baked keys, in words."""
-    constrained = [name for name in bones if any(not c.mute for c in obj.pose.bones[name].constraints)]
-    found = [f"bone '{constrained[0]}' has constraints"] if constrained else []
+def hindrances(obj: bpy.types.Object) -> list[str]:
+    """What will show the armature otherwise than the baked keys say, in words."""
     data = obj.animation_data
-    if data is not None and data.use_nla and any(not track.mute for track in data.nla_tracks):
-        found.append("NLA tracks play too")
-    if obj.data.pose_position == "REST":
-        found.append("the armature shows its rest position")
-    return found
+    tracks = data.nla_tracks if data is not None and data.use_nla else ()
+    playing = [f"NLA track '{track.name}'" for track in tracks if not track.mute]
+    resting = ["the armature's Rest Position"] if obj.data.pose_position == "REST" else []
+    return [*movers(obj), *playing[:1], *resting]
+
+
+def _check_skeleton(obj: bpy.types.Object, character: Character, rig: Rig) -> None:
+    """UserError where the armature's bones are not those that the character was built on."""
+    changed = difference(character.skeleton, rig.skeleton)
+    if changed:
+        raise UserError(f"Armature '{obj.name}' has changed since Build: {changed}. Undo that, or press Build again")
 
 
 def _target(obj: bpy.types.Object, name: str) -> bpy.types.Action | None:

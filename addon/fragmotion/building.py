@@ -11,14 +11,16 @@ import bpy
 
 from . import actions
 from .core import core
-from .errors import UserError, core_errors
+from .errors import SinglePose, UserError, core_errors
 from .jobs import Report
+from .movers import movers
 from .rigs import carriers, make_rig
 from .sampling import sample
+from .skeletons import difference
 from .traces import make_trace
 
 if TYPE_CHECKING:
-    from fragmotion_core import Character, Skeleton
+    from fragmotion_core import Character, Clip, Rig
 
 _EXAM_SECONDS = 60.0
 _EXAM_SEED = 7_001
@@ -35,27 +37,59 @@ class Built(NamedTuple):
     examiner: str
 
 
-def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Callable[[Report], Built]:
-    """Sample the ticked Actions and return the task that builds from them; UserError on what cannot be built from."""
+class Prepared(NamedTuple):
+    """What a build has read of the file: the task that does the rest, and what the user should know of it."""
+
+    task: Callable[[Report], Built]
+    warnings: list[str]
+
+
+def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Prepared:
+    """Sample the ticked Actions for a build; UserError on what cannot be built from."""
     takes = _ticked(obj)
     context.view_layer.update()
     rig = make_rig(obj)
     carriers(obj, rig)
     trace = make_trace(settings)
-    clips = [sample(context, obj, action, rig) for action in takes]
+    clips, warnings = _sample_all(context, obj, takes, rig)
     options = make_options(settings)
-    examiner = next(name for name in _EXAMINERS if name != settings.player or settings.trace_source == "FILE")
+    teacher = settings.player if settings.trace_source == "PLAYER" else ""
 
     def task(report: Report) -> Built:
         character = core.build(
             rig.skeleton, clips, [trace], options, lambda fraction, stage: report(_BUILD_SHARE * fraction, stage)
         )
         report(_BUILD_SHARE, "Examining")
-        exam = core.simulate_trace(examiner, _EXAM_SECONDS, _EXAM_SEED, character.space)
-        qualities = {policy: character.percent_of_optimal(exam, policy) for policy in character.policies}
-        return Built(character, qualities, examiner)
+        return examine(character, teacher)
 
-    return task
+    return Prepared(task, warnings)
+
+
+def examine(character: Character, teacher: str) -> Built:
+    """Measure the character's policies on a simulated player who is not the teacher."""
+    examiner = next(name for name in _EXAMINERS if name != teacher)
+    exam = core.simulate_trace(examiner, _EXAM_SECONDS, _EXAM_SEED, character.space)
+    return Built(character, {name: character.percent_of_optimal(exam, name) for name in character.policies}, examiner)
+
+
+def _sample_all(
+    context: bpy.types.Context, obj: bpy.types.Object, takes: list[bpy.types.Action], rig: Rig
+) -> tuple[list[Clip], list[str]]:
+    """The takes as clips, and what to warn of. Takes of a single pose are left out where there are others."""
+    clips, poses, warnings = [], [], []
+    for action in takes:
+        try:
+            clips.append(sample(context, obj, action, rig))
+        except SinglePose:
+            poses.append(action.name)
+            if len(poses) == len(takes):
+                raise
+    if poses:
+        warnings.append(f"Left out, as they hold a single pose: {', '.join(poses)}")
+    others = movers(obj)
+    if others:
+        warnings.append(f"The takes were learned as Blender shows them, moved also by {'; '.join(others)}")
+    return clips, warnings
 
 
 def _ticked(obj: bpy.types.Object) -> list[bpy.types.Action]:
@@ -116,13 +150,6 @@ def load(obj: bpy.types.Object) -> Character:
             _cache.clear()
             _cache[key] = core.Character.from_bytes(data)
     return _cache[key]
-
-
-def check_skeleton(obj: bpy.types.Object, built: Skeleton, now: Skeleton) -> None:
-    """UserError where the armature's bones are not those that the character was built on."""
-    if list(built.names) != list(now.names):
-        changed = sorted(set(built.names) ^ set(now.names)) or ["(their order)"]
-        raise UserError(f"Armature '{obj.name}' has changed since Build (bone '{changed[0]}'): press Build again")
 
 
 def forget() -> None:

@@ -13,6 +13,10 @@ class UserError(Exception):
     """What was wrong, where, and what to do about it."""
 
 
+class SinglePose(UserError):
+    """An Action that lasts one frame only, so that there is no motion to learn from."""
+
+
 @contextmanager
 def core_errors(place: str = "") -> Iterator[None]:
     """Turn the core's ValueError into a UserError that begins with the place."""

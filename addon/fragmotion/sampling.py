@@ -13,7 +13,7 @@ from mathutils import Matrix, Quaternion, Vector
 from . import posing, versions
 from .actions import RATE, SCENE_RATE, animated_bones
 from .core import core
-from .errors import UserError, core_errors
+from .errors import SinglePose, UserError, core_errors
 from .rigs import bone_path, is_tied
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 Curves = dict[tuple[str, int], bpy.types.FCurve]
 
+_FEWEST_FRAMES = 2
 _SAME_FRAME = 0.01  # keys closer than this to a frame are on it
 _ROTATIONS: dict[str, tuple[str, tuple[float, ...]]] = {
     "QUATERNION": ("rotation_quaternion", (1, 0, 0, 0)),
@@ -42,6 +43,8 @@ def sample(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.
     if not curves:
         raise UserError(f"{place}: all of its channels are muted: unmute them, or untick it")
     rate, times = frame_times(context.scene, action, curves)
+    if len(times) < _FEWEST_FRAMES:
+        raise SinglePose(f"{place} holds a single pose (frame {times[0]:g}), no motion to learn from: untick it")
     with core_errors(place):
         if posing.is_needed(obj, curves):
             matrices, worlds = posing.sample_poses(context, obj, action, times)
@@ -68,7 +71,7 @@ def frame_times(scene: bpy.types.Scene, action: bpy.types.Action, curves: Curves
     else:
         ranges = [curve.range() for curve in curves.values()]
         first, last = min(r[0] for r in ranges), max(r[1] for r in ranges)
-    return rate, first + step * np.arange(math.floor((last - first) / step + _SAME_FRAME) + 1)
+    return rate, first + step * np.arange(max(math.floor((last - first) / step + _SAME_FRAME), 0) + 1)
 
 
 def _sample_bones(obj: bpy.types.Object, curves: Curves, times: Doubles) -> tuple[Doubles, Doubles]:

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -112,6 +113,23 @@ def add_armature(bones: Iterable[Any] = BODY, name: str = "Rig", connected: Sequ
         bone.parent = obj.data.edit_bones[parent] if parent else None
         bone.use_connect = bone_name in connected
     bpy.ops.object.mode_set(mode="OBJECT")
+    return obj
+
+
+@contextmanager
+def editing(obj: bpy.types.Object) -> Iterator[Any]:
+    """The armature's edit bones, in Edit Mode."""
+    activate(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    yield obj.data.edit_bones
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def add_mesh(parent: bpy.types.Object | None = None) -> bpy.types.Object:
+    """A mesh object without vertices, a child of `parent`."""
+    obj = bpy.data.objects.new("Body", bpy.data.meshes.new("Body"))
+    obj.parent = parent
+    bpy.context.scene.collection.objects.link(obj)
     return obj
 
 

@@ -185,8 +185,7 @@ def test_a_bake_is_written_in_each_bones_rotation_mode(addon: ModuleType, obj: b
 
 def test_a_cancelled_build_changes_nothing(addon: ModuleType, obj: bpy.types.Object) -> None:
     before = making.contents()
-    task = addon.building.prepare(bpy.context, obj, obj.fragmotion.build)
-    job = addon.jobs.Job("test", task)
+    job = addon.jobs.Job("test", addon.building.prepare(bpy.context, obj, obj.fragmotion.build).task)
     heard = []
 
     def stop(fraction: float) -> None:
@@ -226,7 +225,7 @@ def test_the_cancel_button_stops_the_build(
 
 
 def test_a_build_in_the_background_ends_with_the_same_character(addon: ModuleType, obj: bpy.types.Object) -> None:
-    job = addon.jobs.Job("test", addon.building.prepare(bpy.context, obj, obj.fragmotion.build))
+    job = addon.jobs.Job("test", addon.building.prepare(bpy.context, obj, obj.fragmotion.build).task)
     job.start()
     job.wait()
     built = job.result()

@@ -46,9 +46,9 @@ class FRAGMOTION_OT_bake(BakeFields, bpy.types.Operator):
             f"Baked {frames} frames ({self.frame_start}-{self.frame_start + frames - 1}) to Action '{action.name}'; "
             f"velocity error {played.velocity_error:.2f} m/s of {played.commanded_speed:.2f} m/s",
         )
-        others = hindrances(obj, list(obj.data.bones.keys()))
+        others = hindrances(obj)
         if others:
-            self.report({"WARNING"}, f"The pose will differ from the bake: {'; '.join(others)}")
+            self.report({"WARNING"}, f"The pose will differ from the bake because of {'; '.join(others)}")
         return {"FINISHED"}
 
     def draw(self, _context: bpy.types.Context) -> None:

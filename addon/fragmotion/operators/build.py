@@ -92,7 +92,8 @@ class FRAGMOTION_OT_build(BuildFields, bpy.types.Operator):
     def _prepare(self, context: bpy.types.Context) -> Job:
         obj = active_armature(context)
         adopt_settings(self, obj.fragmotion.build, BuildFields)
-        job = Job(f"Building '{obj.name}'", building.prepare(context, obj, self))
+        task, self._warnings = building.prepare(context, obj, self)
+        job = Job(f"Building '{obj.name}'", task)
         self._armature = obj.name
         return job
 
@@ -114,6 +115,8 @@ class FRAGMOTION_OT_build(BuildFields, bpy.types.Operator):
             f"{figures.fragments} fragments in {figures.classes} classes, built in {figures.seconds:.1f} s; "
             f"quality {figures.quality:.0f} % of Optimal",
         )
+        for warning in self._warnings:
+            self.report({"WARNING"}, warning)
         return {"FINISHED"}
 
     def _show(self, context: bpy.types.Context) -> None:
