@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
 
 from . import actions
 from .core import core
+from .coverage import measure_coverage
 from .errors import SinglePose, UserError, core_errors
 from .jobs import Report
 from .movers import movers
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
 _EXAM_SECONDS = 60.0
 _EXAM_SEED = 7_001
 _EXAMINERS = ("explorer", "runner")
+_FROM_TAKES = ("captured", "mirrored")
 _BUILD_SHARE = 0.95  # of the progress; the exam has the rest
 _cache: dict[str, Character] = {}
 
@@ -122,16 +125,43 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
     obj.fragmotion.policy = data
     _cache.clear()
     _cache[_key(data)] = character
-    figures.captured = int(character.report["captured"])
-    figures.fragments = int(character.report["fragments"])
+    figures.captured = sum(origin in _FROM_TAKES for origin in character.fragment_origins)
+    figures.fragments = len(character.labels)
     figures.classes, figures.controls = character.table.shape
-    figures.seconds = character.report["seconds"]
+    figures.seconds = character.report.get("seconds", 0)
     figures.quality = next(iter(built.qualities.values()))
     figures.policies.clear()
     for policy, quality in built.qualities.items():
         row = figures.policies.add()
         row.name, row.quality = policy, quality
     figures.examiner = built.examiner
+    _keep_coverage(figures, character)
+
+
+def _keep_coverage(figures: Any, character: Character) -> None:
+    figures.coverage.clear()
+    for name, performed, total in measure_coverage(character.coverage_distances):
+        row = figures.coverage.add()
+        row.name, row.performed, row.total = name, performed, total
+    figures.performed = sum(sum(row.performed) for row in figures.coverage)
+
+
+def save_policy(obj: bpy.types.Object, path: Path) -> None:
+    """Write the armature's character to a policy file; UserError where the file cannot be written."""
+    character = load(obj)
+    with core_errors():
+        character.save(path)
+
+
+def load_policy(context: bpy.types.Context, obj: bpy.types.Object, path: Path) -> None:
+    """Give the armature the character of a policy file; UserError where it is damaged or of another skeleton."""
+    with core_errors():
+        character = core.Character.load(path)
+    context.view_layer.update()
+    other = difference(character.skeleton, make_rig(obj).skeleton)
+    if other:
+        raise UserError(f"'{path}' was built for another skeleton than armature '{obj.name}' has: here {other}")
+    keep(obj, examine(character, ""))
 
 
 def has_character(obj: bpy.types.Object) -> bool:

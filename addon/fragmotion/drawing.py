@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 
 from . import versions
+from .coverage import COLUMNS
 from .properties import POLICY_NAMES, BakeFields, BuildFields, BuildFigures
 
 
@@ -43,12 +44,36 @@ def draw_figures(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
     _draw_row(box, "Fragments", str(figures.fragments))
     _draw_row(box, "from takes", str(figures.captured))
     _draw_row(box, "Classes", str(figures.classes))
-    _draw_row(box, "Table", f"{figures.classes} x {figures.controls}")
-    _draw_row(box, "Built in", f"{figures.seconds:.2f} s")
+    if figures.coverage:
+        _draw_row(box, "Performed well", f"{figures.performed} of {figures.controls}")
+    if figures.seconds > 0:
+        _draw_row(box, "Built in", f"{figures.seconds:.2f} s")
     box.separator()
     box.label(text="Quality, of Optimal:")
     for policy in figures.policies:
         _draw_row(box, POLICY_NAMES.get(policy.name, policy.name), f"{policy.quality:.1f} %")
+    _draw_row(box, "Measured on", figures.examiner.title())
+
+
+def draw_coverage(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
+    """How many controls of each kind are performed well; greyed where not all are."""
+    column = layout.column(align=True)
+    column.label(text="Controls performed well:")
+    _draw_cells(column, "", [(name, True) for name in COLUMNS])
+    for row in figures.coverage:
+        counts = zip(row.performed, row.total)
+        _draw_cells(column, row.name, [(f"{performed}/{total}", performed == total) for performed, total in counts])
+
+
+def _draw_cells(layout: bpy.types.UILayout, label: str, cells: list[tuple[str, bool]]) -> None:
+    """A row of a table: a label, and cells of text that are bright or greyed."""
+    split = layout.split(factor=0.42, align=True)
+    split.label(text=label)
+    row = split.row(align=True)
+    for text, bright in cells:
+        cell = row.row()
+        cell.active = bright
+        cell.label(text=text)
 
 
 def _draw_row(layout: bpy.types.UILayout, label: str, value: str) -> None:

@@ -9,7 +9,7 @@ import bpy
 
 from . import building, versions
 from .actions import fits_cached, fitting
-from .drawing import draw_bake, draw_build, draw_figures, draw_training
+from .drawing import draw_bake, draw_build, draw_coverage, draw_figures, draw_training
 from .operators import build as build_operator
 from .operators.context import active_armature
 
@@ -98,8 +98,30 @@ class FRAGMOTION_PT_build(_Sidebar, bpy.types.Panel):
         if obj is not None:
             draw_build(layout, obj.fragmotion.build)
         layout.operator("fragmotion.build", icon="SHADERFX")
-        if obj is not None and building.has_character(obj):
+        if obj is None:
+            return
+        if building.has_character(obj):
             draw_figures(layout, obj.fragmotion.figures)
+        row = layout.row(align=True)
+        row.operator("fragmotion.save_policy", text="Save Policy...")
+        row.operator("fragmotion.load_policy", text="Load Policy...")
+
+
+class FRAGMOTION_PT_coverage(_Sidebar, bpy.types.Panel):
+    """Which controls the character performs well."""
+
+    bl_idname = "FRAGMOTION_PT_coverage"
+    bl_label = "Coverage"
+    bl_parent_id = "FRAGMOTION_PT_build"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        obj = active_armature(context)
+        return obj is not None and len(obj.fragmotion.figures.coverage) > 0 and build_operator.current is None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_coverage(self.layout, active_armature(context).fragmotion.figures)
 
 
 class FRAGMOTION_PT_training(_Sidebar, bpy.types.Panel):
@@ -131,4 +153,11 @@ class FRAGMOTION_PT_bake(_Sidebar, bpy.types.Panel):
         self.layout.operator("fragmotion.bake", icon="ACTION_TWEAK")
 
 
-CLASSES = (FRAGMOTION_UL_actions, FRAGMOTION_PT_mocap, FRAGMOTION_PT_build, FRAGMOTION_PT_training, FRAGMOTION_PT_bake)
+CLASSES = (
+    FRAGMOTION_UL_actions,
+    FRAGMOTION_PT_mocap,
+    FRAGMOTION_PT_build,
+    FRAGMOTION_PT_coverage,
+    FRAGMOTION_PT_training,
+    FRAGMOTION_PT_bake,
+)

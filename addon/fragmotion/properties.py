@@ -13,11 +13,13 @@ from bpy.props import (
     EnumProperty,
     FloatProperty,
     IntProperty,
+    IntVectorProperty,
     PointerProperty,
     StringProperty,
 )
 
 from .core import core
+from .coverage import COLUMNS
 
 _DEFAULTS = core.BuildOptions()
 _SOURCES = (
@@ -158,6 +160,13 @@ class PolicyFigure(bpy.types.PropertyGroup):
     quality: FloatProperty()  # type: ignore[valid-type]
 
 
+class CoverageFigure(bpy.types.PropertyGroup):
+    """A row, by its `name`, of the table that says how many controls are performed well."""
+
+    performed: IntVectorProperty(size=len(COLUMNS))  # type: ignore[valid-type]
+    total: IntVectorProperty(size=len(COLUMNS))  # type: ignore[valid-type]
+
+
 class BuildFigures(bpy.types.PropertyGroup):
     """What the last build found."""
 
@@ -169,6 +178,8 @@ class BuildFigures(bpy.types.PropertyGroup):
     quality: FloatProperty()  # type: ignore[valid-type]
     examiner: StringProperty()  # type: ignore[valid-type]
     policies: CollectionProperty(type=PolicyFigure)  # type: ignore[valid-type]
+    performed: IntProperty()  # type: ignore[valid-type]
+    coverage: CollectionProperty(type=CoverageFigure)  # type: ignore[valid-type]
 
 
 class CharacterSettings(bpy.types.PropertyGroup):
@@ -194,7 +205,16 @@ class WindowSettings(bpy.types.PropertyGroup):
     active_action: IntProperty()  # type: ignore[valid-type]
 
 
-CLASSES = (BuildSettings, BakeSettings, PolicyFigure, BuildFigures, CharacterSettings, ActionSettings, WindowSettings)
+CLASSES = (
+    BuildSettings,
+    BakeSettings,
+    PolicyFigure,
+    CoverageFigure,
+    BuildFigures,
+    CharacterSettings,
+    ActionSettings,
+    WindowSettings,
+)
 _OWNERS = (
     (bpy.types.Object, CharacterSettings),
     (bpy.types.Action, ActionSettings),

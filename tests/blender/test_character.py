@@ -56,6 +56,88 @@ def test_build_reports_what_it_found_and_survives_saving(addon: ModuleType, obj:
     found = {row.name: row.quality for row in figures.policies}
     assert found == pytest.approx({name: character.percent_of_optimal(exam, name) for name in character.policies})
     assert figures.examiner != obj.fragmotion.build.player
+    assert figures.captured == character.report.get("captured", figures.captured)
+
+
+def test_the_coverage_shown_is_the_cores(addon: ModuleType, obj: bpy.types.Object) -> None:
+    character, figures = addon.building.load(obj), obj.fragmotion.figures
+    well = character.coverage_distances <= addon.coverage.WELL
+    assert figures.performed == well.sum() > 50
+    x, y, turn, jump = character.space.points.T
+    speed, ahead = np.hypot(x, y), y > 0.1
+    back, running = y < -0.1, speed > (character.space.walk + character.space.run) / 2
+    columns = [(turn == 0) & (jump == 0), (turn != 0) & (jump == 0), jump == 1]
+    rows = {"Stand": speed == 0}
+    for gait, of_gait in (("Walk", (speed > 0) & ~running), ("Run", running)):
+        rows |= {
+            f"{gait} ahead": of_gait & ahead,
+            f"{gait} aside": of_gait & ~ahead & ~back,
+            f"{gait} back": of_gait & back,
+        }
+    assert [row.name for row in figures.coverage] == list(rows)
+    for name, row in rows.items():
+        assert list(figures.coverage[name].total) == [(row & column).sum() for column in columns]
+        assert list(figures.coverage[name].performed) == [well[row & column].sum() for column in columns]
+
+
+def test_a_character_saved_as_a_policy_file_is_loaded_onto_the_same_bones(
+    addon: ModuleType, obj: bpy.types.Object, tmp_path: Path
+) -> None:
+    policy, figures = bytes(obj.fragmotion.policy), obj.fragmotion.figures
+    shown = {row.name: tuple(row.performed) for row in figures.coverage}
+    counts = (figures.captured, figures.fragments, figures.classes, figures.controls, figures.performed)
+    assert bpy.ops.fragmotion.save_policy(filepath=str(tmp_path / "mine")) == {"FINISHED"}
+    assert (tmp_path / "mine.policy").read_bytes() == policy
+    open_sample()
+    assert not bpy.ops.fragmotion.save_policy.poll() and not bpy.ops.fragmotion.bake.poll()
+    bpy.ops.ed.undo_push(message="before")
+    path = str(tmp_path / "mine.policy")
+    assert bpy.ops.fragmotion.load_policy("EXEC_DEFAULT", True, filepath=path) == {"FINISHED"}
+    obj = bpy.data.objects[ARMATURE]
+    figures = obj.fragmotion.figures
+    assert bytes(obj.fragmotion.policy) == policy
+    assert {row.name: tuple(row.performed) for row in figures.coverage} == shown
+    assert (figures.captured, figures.fragments, figures.classes, figures.controls, figures.performed) == counts
+    assert figures.examiner in addon.core.core.PLAYERS and 50 < figures.quality <= 100.001
+    assert bpy.ops.fragmotion.bake(seconds=1) == {"FINISHED"}
+    bpy.ops.ed.undo()
+    assert not addon.building.has_character(bpy.data.objects[ARMATURE]), "loading is not one undo step"
+
+
+def test_a_policy_file_that_does_not_fit_or_is_damaged_changes_nothing(obj: bpy.types.Object, tmp_path: Path) -> None:
+    path = tmp_path / "mine.policy"
+    assert bpy.ops.fragmotion.save_policy(filepath=str(path)) == {"FINISHED"}
+    before = making.contents()
+    damaged = bytearray(path.read_bytes())
+    damaged[len(damaged) // 2] ^= 1
+    (tmp_path / "bad.policy").write_bytes(damaged)
+    causes = {
+        "bad.policy": r"bad\.policy.*damaged",
+        "missing.policy": r"cannot.*missing\.policy",
+        "": "No file is chosen",
+    }
+    for name, cause in causes.items():
+        with pytest.raises(RuntimeError, match=cause):
+            bpy.ops.fragmotion.load_policy(filepath=name and str(tmp_path / name))
+    with pytest.raises(RuntimeError, match=r"cannot.*no folder.*mine\.policy"):
+        bpy.ops.fragmotion.save_policy(filepath=str(tmp_path / "no folder" / "mine.policy"))
+    assert making.contents() == before
+    making.add_armature()
+    with pytest.raises(RuntimeError, match=r"another skeleton than armature 'Rig' has: here bone '.*' is missing"):
+        bpy.ops.fragmotion.load_policy(filepath=str(path))
+
+
+def test_a_mesh_leads_to_its_armature(addon: ModuleType, obj: bpy.types.Object) -> None:
+    deformed, carried = making.add_mesh(), making.add_mesh(obj)
+    deformed.modifiers.new("Armature", "ARMATURE").object = obj
+    hat = making.add_mesh(deformed)
+    for thing in (deformed, carried, hat):
+        making.activate(thing)
+        assert addon.operators.context.active_armature(bpy.context) == obj
+        assert bpy.ops.fragmotion.bake(seconds=1, action=f"of {thing.name}") == {"FINISHED"}
+        assert obj.animation_data.action.name == f"of {thing.name}"
+    making.activate(making.add_mesh())
+    assert addon.operators.context.active_armature(bpy.context) is None
 
 
 def test_the_character_is_decoded_once(addon: ModuleType, obj: bpy.types.Object) -> None:

@@ -6,6 +6,8 @@ from __future__ import annotations
 from .bake import FRAGMOTION_OT_bake
 from .build import FRAGMOTION_OT_build, FRAGMOTION_OT_cancel_build
 from .import_mocap import FRAGMOTION_OT_import_mocap
+from .load_policy import FRAGMOTION_OT_load_policy
+from .save_policy import FRAGMOTION_OT_save_policy
 from .tick_actions import FRAGMOTION_OT_tick_actions
 
 CLASSES = (
@@ -13,5 +15,7 @@ CLASSES = (
     FRAGMOTION_OT_tick_actions,
     FRAGMOTION_OT_build,
     FRAGMOTION_OT_cancel_build,
+    FRAGMOTION_OT_save_policy,
+    FRAGMOTION_OT_load_policy,
     FRAGMOTION_OT_bake,
 )

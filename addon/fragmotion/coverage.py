@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How many of the 102 controls a character performs well, by kinds that people have words for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from fragmotion_core import Doubles
+
+WELL = 0.3
+"""ControlDis within which a fragment performs a control, as in the core's synthesis."""
+
+# Numbers of the velocities, counter-clockwise from forward.
+_ROWS = {
+    "Stand": [0],
+    "Walk ahead": [8, 1, 2],
+    "Walk aside": [3, 7],
+    "Walk back": [4, 5, 6],
+    "Run ahead": [16, 9, 10],
+    "Run aside": [11, 15],
+    "Run back": [12, 13, 14],
+}
+# Turns (right, none, left) and jumps (no, yes).
+_COLUMNS = {"Go": (slice(1, 2), 0), "Turn": (slice(0, 3, 2), 0), "Jump": (slice(0, 3), 1)}
+COLUMNS = tuple(_COLUMNS)
+"""The kinds in each row: without a turn or jump, turning, and jumping."""
+
+
+class Row(NamedTuple):
+    """Controls of similar velocities: how many are performed well, and how many there are, for each of COLUMNS."""
+
+    name: str
+    performed: list[int]
+    total: list[int]
+
+
+def measure_coverage(distances: Doubles) -> list[Row]:
+    """A table of all controls, from each control's ControlDis [102] to the nearest fragment."""
+    well = (np.asarray(distances) <= WELL).reshape(-1, 3, 2)  # velocity, turn, jump
+    table = []
+    for name, velocities in _ROWS.items():
+        cells = [well[velocities][:, turns, jump] for turns, jump in _COLUMNS.values()]
+        table.append(Row(name, [int(cell.sum()) for cell in cells], [cell.size for cell in cells]))
+    return table
