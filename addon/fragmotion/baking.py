@@ -48,6 +48,8 @@ def bake(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> tu
     write_poses(action, obj, times, locations, rotations, moving)
     reset_pose(obj, ("location", "scale"))
     versions.assign(obj, action)
+    if settings.fit_end:
+        context.scene.frame_end = max(context.scene.frame_end, int(times[-1]))
     context.view_layer.update()
     return action, performance
 

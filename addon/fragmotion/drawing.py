@@ -35,6 +35,7 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields) -> None:
     _draw_trace(layout, settings, "Trace")
     layout.prop(settings, "seed")
     layout.prop(settings, "frame_start")
+    layout.prop(settings, "fit_end")
     versions.draw_named(layout, settings, "action", "New Action")
 
 

@@ -132,6 +132,11 @@ class BakeFields(TraceFields):
     frame_start: IntProperty(  # type: ignore[valid-type]
         name="Start Frame", description="Scene frame of the first key", default=1
     )
+    fit_end: BoolProperty(  # type: ignore[valid-type]
+        name="Fit Scene End",
+        description="Extend the scene to the last baked frame where it ends before; it is never shortened",
+        default=True,
+    )
     action: StringProperty(  # type: ignore[valid-type]
         name="Action",
         description="Action to write to: this armature's keys in it are replaced. Empty or a new name makes a new one",

@@ -225,6 +225,7 @@ def contents() -> dict[str, Any]:
         "armatures": sorted(a.name for a in bpy.data.armatures),
         "actions": sorted((a.name, a.users, tuple(a.frame_range)) for a in bpy.data.actions),
         "frame": bpy.context.scene.frame_current_final,
+        "end": bpy.context.scene.frame_end,
         "active": obj and obj.name,
         "mode": bpy.context.mode,
         "selected": sorted(o.name for o in bpy.context.selected_objects),

@@ -190,8 +190,19 @@ def test_a_baked_character_walks_where_its_front_points(obj: bpy.types.Object, t
     assert travel[0] > 5 and abs(travel[1]) < 0.3 * travel[0]
 
 
+@pytest.mark.parametrize(("end", "fit", "expected"), [(50, True, 64), (50, False, 50), (250, True, 250)])
+def test_a_bake_extends_the_scene_where_it_is_told_to(
+    obj: bpy.types.Object, end: int, fit: bool, expected: int
+) -> None:
+    scene = bpy.context.scene
+    scene.render.fps, scene.frame_end = 30, end
+    assert bpy.ops.fragmotion.bake(seconds=2, frame_start=4, fit_end=fit) == {"FINISHED"}
+    assert scene.frame_end == expected
+
+
 def test_bake_is_undone_in_one_step(obj: bpy.types.Object) -> None:
     played = obj.animation_data.action.name
+    bpy.context.scene.frame_end = 10
     bpy.ops.ed.undo_push(message="before")
     before = making.contents()
     before.pop("playing")
