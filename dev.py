@@ -27,10 +27,10 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
 
 
 def package() -> int:
-    """Build both zips and say where they are."""
+    """Build both zips and say where they are, and which Pythons can load them."""
     machine.set_up(machine.package_needs())
     for path in packages.build_all():
-        say(str(path))
+        say(f"{path}: for Python {', '.join(packages.pythons_inside(path))}")
     return 0
 
 

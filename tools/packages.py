@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import zipfile
 from functools import cache
@@ -38,6 +39,13 @@ def extension_path() -> Path:
 def legacy_path() -> Path:
     """Where the legacy add-on's zip is."""
     return PACKAGES / f"fragmotion-{version()}-legacy-linux_{os.uname().machine}.zip"
+
+
+def pythons_inside(package: Path) -> list[str]:
+    """The Pythons ("3.11") that a zip holds a compiled core for."""
+    with zipfile.ZipFile(package) as archive:
+        tags = re.findall(r"fragmotion_core\S*?\bcp(?:ython-)?3(\d+)\b", "\n".join(archive.namelist()))
+    return [f"3.{minor}" for minor in sorted(set(tags), key=int)]
 
 
 def build_extension(wheels: list[Path]) -> Path:
