@@ -61,6 +61,23 @@ def _shift(addon: ModuleType, obj: bpy.types.Object, action: bpy.types.Action) -
     return max((abs(key.co.y) for curve in inner for key in curve.keyframe_points), default=0.0)
 
 
+def test_a_character_of_all_takes_is_built_and_baked(addon: ModuleType, imported: Path) -> None:
+    bpy.ops.wm.open_mainfile(filepath=str(imported))
+    obj = bpy.data.objects["bandai-namco"]
+    making.activate(obj)
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    figures = obj.fragmotion.figures
+    assert figures.captured > 5000 and (figures.classes, figures.controls) == (97, 102)
+    assert figures.quality > 80 and figures.performed > 60
+    assert bpy.ops.fragmotion.bake(player="runner", seconds=10) == {"FINISHED"}
+    action = obj.animation_data.action
+    assert tuple(action.frame_range) == (1, 301)
+    played = making.blender_poses(obj, action, range(1, 302, 10), [addon.building.load(obj).skeleton.roles["hips"]])
+    hips = played[:, 0, :3, 3]
+    assert np.isfinite(hips).all() and np.ptp(hips[:, :2], axis=0).max() > 3
+    assert hips[:, 2].min() > 0.3 and hips[:, 2].max() < 2.5
+
+
 @pytest.mark.skipif(
     bpy.app.version < (4, 2, 0) or bpy.app.version >= (5, 0, 0),
     reason="compared with the BVH importer of Blender 4.5 (3.4.1's fails on Python 3.11)",
