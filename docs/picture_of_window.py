@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Picture Blender's window with the add-on's tab beside the demo's character, for the README. It needs a screen:
 
-xvfb-run -s "-screen 0 1280x960x24" blender --factory-startup --enable-event-simulate --window-geometry 0 0 1280 960 \
+xvfb-run -s "-screen 0 1280x1040x24" blender --factory-startup --enable-event-simulate --window-geometry 0 0 1280 1040 \
     --python docs/picture_of_window.py -- build/packages/LEGACY.zip [DEMO_FOLDER]
 """
 
@@ -16,7 +16,7 @@ import bpy
 DOCS = Path(__file__).resolve().parent
 TICK = 0.5  # s between steps, so that the window is drawn
 FRAME = 196
-TAB = (1267, 700)  # the Fragmotion tab, pixels from the lower left
+TAB = (1267, 780)  # the Fragmotion tab, pixels from the lower left
 
 
 def largest_area(window: bpy.types.Window) -> bpy.types.Area:
