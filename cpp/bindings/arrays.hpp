@@ -51,6 +51,7 @@ void bind_rig(py::module_& m);
 void bind_control(py::module_& m);
 void bind_character(py::module_& m);
 void bind_player(py::module_& m);
+void bind_explain(py::module_& m);
 void bind_stages(py::module_& m);
 
 }  // namespace fragmotion::bindings

@@ -306,6 +306,29 @@ def response_times(character: Character, seed: int = 1, stitch: float = 0.15, po
     """[272] seconds from each step of the command between two of the 17 velocities until the velocity over the last 0.1 s
     has made 90 % of the way; 3 where it takes longer."""
 
+class Alternative:
+    """A class that might be played next, and what speaks for it."""
+
+    next: int
+    smoothness: float
+    """First factor of Eq. 2."""
+    match: float
+    """Second factor of Eq. 2."""
+    to_come: float
+    """Eq. 2 expected of all later steps, discounted, if the policy goes on from there."""
+    value: float
+    """smoothness * match + to_come"""
+    fragments: list[int]
+    """Up to three of the class's fragments: those of the greatest Eq. 2 of their own, best first."""
+
+class Explainer:
+    """Why a policy plays what it plays."""
+
+    def __init__(self, character: Character, policy: str = "") -> None:
+        """`policy`: one of the character's (default: the one that drives); it is evaluated once, here."""
+    def __call__(self, playing: int, control: int) -> list[Alternative]:
+        """All classes after class `playing` under a control index, the greatest value first."""
+
 # The stages of a build, each a function of arrays.
 
 def trajectories(character: Character, poses: int = 16) -> tuple[Floats, Floats, Floats]:

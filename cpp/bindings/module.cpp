@@ -52,5 +52,6 @@ PYBIND11_MODULE(fragmotion_core, m) {
   b::bind_control(m);
   b::bind_character(m);
   b::bind_player(m);
+  b::bind_explain(m);
   b::bind_stages(m);
 }

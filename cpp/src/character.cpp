@@ -256,6 +256,7 @@ Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const 
   c.quality = quality_table(c.pool, t, c.classes, c.space);
   c.bridges = stand_bridges(c.pool, t, c.classes, c.space);
   c.report["quality_seconds"] = stage.lap();
+  c.control_model = control_model(snapped, kAnyPlayer);
   for (const std::string& name : options.policies) {
     c.policies.push_back(policy_named(name, c, t, snapped, options.threads, part_of(progress, 0.7, 1)));
     c.report[name + "_seconds"] = stage.lap();

@@ -14,7 +14,7 @@ namespace {
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "policy files are little-endian");
 
 constexpr char kMagic[9] = "FRAGMOTN";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
 constexpr double kShortest = 1e-3, kLongest = 3600;  // s that a fragment may last: a player must get to its end
 
@@ -178,6 +178,7 @@ void exchange(Archive& a, Character& c) {
     a.template numbers<std::int32_t>(policy.next);
   });
   a.template numbers<std::int32_t>(c.bridges);
+  a.template numbers<double>(c.control_model);
 }
 
 void require(bool holds, const char* what) {
@@ -214,6 +215,21 @@ void check_pool(FragmentPool& pool) {
   }
 }
 
+// A row that summed to more than 1 would let values grow without end.
+void check_model(const std::vector<double>& model) {
+  constexpr std::size_t kPoints = ControlSpace::kPoints;
+  require(model.size() == kPoints * kPoints, "control probabilities");
+  for (std::size_t c = 0; c < kPoints; ++c) {
+    double sum = 0;
+    for (std::size_t next = 0; next < kPoints; ++next) {
+      const double p = model[c * kPoints + next];
+      require(p >= 0 && p <= 1, "control probabilities");
+      sum += p;
+    }
+    require(std::abs(sum - 1) < 1e-6, "control probabilities");
+  }
+}
+
 void check(Character& c) {
   check_pool(c.pool);
   const std::size_t n = c.classes.count, fragments = c.pool.fragments.size();
@@ -236,6 +252,7 @@ void check(Character& c) {
             "policy tables");
   }
   require(c.bridges.size() == n * n && all_within(c.bridges, -1, c.classes.count), "stand-in-place classes");
+  check_model(c.control_model);
 }
 
 }  // namespace

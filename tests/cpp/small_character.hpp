@@ -13,7 +13,7 @@ inline std::shared_ptr<const Character> gait_character() {
   static const auto character = [] {
     BuildOptions options;
     options.classes = 40;
-    options.policies = {"iterate", "svm"};
+    options.policies = {"anticipate", "svm"};
     const ControlSpace space;
     return std::make_shared<const Character>(
         build(humanoid(), gait_takes(),

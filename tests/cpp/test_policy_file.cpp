@@ -54,7 +54,7 @@ std::uint64_t fnv1a(const std::string& payload) {
   return hash;
 }
 
-// A file around a payload: magic, version 1, length, payload, checksum.
+// A file around a payload: magic, version 2, length, payload, checksum.
 std::string file_around(const std::string& payload) {
   std::string bytes = tiny_file().substr(0, 12);
   const std::uint64_t numbers[] = {payload.size(), fnv1a(payload)};

@@ -20,6 +20,8 @@ struct Character {
   Quality quality;
   std::vector<Policy> policies;  ///< The first one drives.
   std::vector<int> bridges;      ///< [classes, classes]: stand_bridges().
+  /// [102, 102]: control_model() of the traces that taught the policies, with kAnyPlayer.
+  std::vector<double> control_model;
   Coverage coverage;
   std::map<std::string, double> report;  ///< Figures of the build: counts, and seconds of each stage. Not saved.
 
