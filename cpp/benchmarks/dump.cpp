@@ -64,7 +64,7 @@ void dump_skeleton(const Skeleton& skeleton, const Writer& write) {
   write("tips", tips, {bones, 3});
   write("measured", measured_bones(skeleton));
   write("hips", std::vector<int>{skeleton.roles.hips});
-  write("scale", std::vector<double>{1.8 / stature(skeleton)});
+  write("scale", std::vector<double>{standard_scale(skeleton)});
 }
 
 // The clips behind one another; a fragment's range is in frames of the whole.

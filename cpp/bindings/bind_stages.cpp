@@ -113,7 +113,7 @@ void bind_measuring(py::module_& m) {
                               to_points(t.first, t.count, t.pose_stride, tips),
                               to_points(t.last, t.count, t.pose_stride, tips));
       },
-      py::arg("character"), py::arg("poses") = 16);
+      py::arg("character"), py::arg("poses") = kPoses);
   m.def(
       "cluster",
       [](const Floats& points, int classes, const std::optional<Floats>& weights, int restarts, std::uint64_t seed,

@@ -8,21 +8,21 @@ namespace fragmotion {
 
 std::vector<int> stand_bridges(const FragmentPool& pool, const Trajectories& t, const Classes& classes,
                                const ControlSpace& space, double threshold) {
-  const std::vector<int>& members = classes.representatives;
+  const std::vector<int>& representatives = classes.representatives;
   const int still = space.nearest({});
   std::vector<int> standing;
   for (int k = 0; k < classes.count; ++k) {
-    if (space.nearest(pool.fragments[members[k]].evident) == still) standing.push_back(k);
+    if (space.nearest(pool.fragments[representatives[k]].evident) == still) standing.push_back(k);
   }
   std::vector<int> bridges;
-  for (const int from : members) {
-    for (const int to : members) {
+  for (const int from : representatives) {
+    for (const int to : representatives) {
       const double direct = transition_distance(t, from, to);
       int bridge = -1;
       double shortest = std::numeric_limits<double>::infinity();
       for (const int stand : standing) {
-        const double there = transition_distance(t, from, members[stand]),
-                     on = transition_distance(t, members[stand], to);
+        const double there = transition_distance(t, from, representatives[stand]),
+                     on = transition_distance(t, representatives[stand], to);
         if (std::max(there, on) < direct && there + on < shortest) shortest = there + on, bridge = stand;
       }
       bridges.push_back(direct > threshold ? bridge : -1);

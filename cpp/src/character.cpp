@@ -18,7 +18,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kMoving = 0.3;     // m/s of a 1.8 m character
 constexpr double kTwoGaits = 1.6;   // a run is at least so much faster than a walk
 constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gaits
 constexpr double kRunOverWalk = 3.3 / 1.2;
@@ -112,7 +111,7 @@ FragmentPool captured_pool(const Skeleton& skeleton, const std::vector<Clip>& cl
 
 // Fills the evident controls; returns the space that fits them and the usual height of the centre of mass.
 ControlSpace perform(FragmentPool& pool, const Kinematics& kinematics, double& usual) {
-  const double scale = 1.8 / stature(pool.skeleton);
+  const double scale = standard_scale(pool.skeleton);
   std::vector<BodyMotion> motions;
   for (const Clip& clip : pool.clips) motions.push_back(body_motion(kinematics, clip));
   usual = usual_height(motions);
@@ -241,7 +240,7 @@ Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const 
   c.report["fragments"] = static_cast<double>(c.pool.fragments.size());
   c.report["synthesize_seconds"] = stage.lap();
   report(progress, 0.3, "Measuring fragments");
-  const Trajectories t = trajectories(c.pool, 16, options.threads);
+  const Trajectories t = trajectories(c.pool, kPoses, options.threads);
   c.report["measure_seconds"] = stage.lap();
   std::vector<std::vector<int>> snapped;
   for (const Trace& trace : traces) snapped.push_back(snap(c.space, trace));

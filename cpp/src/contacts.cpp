@@ -13,17 +13,22 @@ struct FootPath {
   std::vector<Vector3> ball, heel;
 };
 
-FootPath foot_path(const Kinematics& kinematics, const Clip& clip, int foot, int toe) {
+std::array<FootPath, 2> foot_paths(const Kinematics& kinematics, const Clip& clip) {
   const Skeleton& skeleton = kinematics.skeleton();
+  const Roles& roles = skeleton.roles;
+  const int feet[] = {roles.left_foot, roles.right_foot}, toes[] = {roles.left_toe, roles.right_toe};
   std::vector<Vector3> heads(kinematics.bones());
   std::vector<Quaternion> rotations(kinematics.bones());
-  FootPath path;
+  std::array<FootPath, 2> paths;
   for (int f = 0; f < clip.frames; ++f) {
     kinematics.world(clip, f, heads.data(), rotations.data());
-    path.ball.push_back(toe >= 0 ? heads[toe] : Vector3{heads[foot] + rotations[foot] * skeleton.tips[foot]});
-    path.heel.push_back(heads[foot]);
+    for (int side = 0; side < 2; ++side) {
+      const int foot = feet[side], toe = toes[side];
+      paths[side].ball.push_back(toe >= 0 ? heads[toe] : Vector3{heads[foot] + rotations[foot] * skeleton.tips[foot]});
+      paths[side].heel.push_back(heads[foot]);
+    }
   }
-  return path;
+  return paths;
 }
 
 double speed_at(const std::vector<Vector3>& path, int f, double rate) {
@@ -73,12 +78,10 @@ Contacts find_contacts(const Kinematics& kinematics, const Clip& clip) {
   if (roles.left_foot < 0 || roles.right_foot < 0) return {};
   std::vector<Vector3> hips;
   for (int f = 0; f < clip.frames; ++f) hips.push_back(load_vector(&clip.root_positions[3 * f]));
-  const double scale = 1.8 / stature(kinematics.skeleton());
+  const double scale = standard_scale(kinematics.skeleton());
+  const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
   Contacts contacts;
-  contacts.feet[0] =
-      foot_contacts(foot_path(kinematics, clip, roles.left_foot, roles.left_toe), hips, clip.rate, scale);
-  contacts.feet[1] =
-      foot_contacts(foot_path(kinematics, clip, roles.right_foot, roles.right_toe), hips, clip.rate, scale);
+  for (int side = 0; side < 2; ++side) contacts.feet[side] = foot_contacts(paths[side], hips, clip.rate, scale);
   return contacts;
 }
 

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "fragmotion/role_names.hpp"
+
 namespace fragmotion {
 namespace {
 
@@ -120,11 +122,7 @@ void exchange_skeleton(Archive& a, S& s) {
   a.list(s.rest_rotations, 32, [&](auto& q) { exchange_quaternion(a, q); });
   a.list(s.offsets, 24, [&](auto& v) { exchange_vector(a, v); });
   a.list(s.tips, 24, [&](auto& v) { exchange_vector(a, v); });
-  auto& r = s.roles;
-  for (auto* role : {&r.hips, &r.head, &r.left_hand, &r.right_hand, &r.left_foot, &r.right_foot, &r.left_toe,
-                     &r.right_toe, &r.left_thigh, &r.right_thigh}) {
-    a.template number<std::int32_t>(*role);
-  }
+  for (const auto& [name, member] : role_names()) a.template number<std::int32_t>(s.roles.*member);
 }
 
 template <typename Archive, typename C>

@@ -9,14 +9,12 @@
 #include <unordered_set>
 #include <utility>
 
+#include "fragmotion/role_names.hpp"
+
 namespace fragmotion {
 namespace {
 
 constexpr double kUnitTolerance = 1e-3;  // Blender's rotations are floats; anything worse is a caller's mistake.
-
-constexpr std::array kRoleMembers = {&Roles::hips,       &Roles::head,       &Roles::left_hand, &Roles::right_hand,
-                                     &Roles::left_foot,  &Roles::right_foot, &Roles::left_toe,  &Roles::right_toe,
-                                     &Roles::left_thigh, &Roles::right_thigh};
 
 void check_sizes(const Skeleton& skeleton) {
   const std::size_t bones = skeleton.names.size();
@@ -55,7 +53,7 @@ void check_numbers(const Skeleton& skeleton, int bone) {
 }
 
 void check_roles(const Skeleton& skeleton) {
-  for (const auto member : kRoleMembers) {
+  for (const auto& [name, member] : role_names()) {
     const int bone = skeleton.roles.*member;
     if (bone < -1 || bone >= skeleton.size()) {
       throw std::invalid_argument("skeleton with first bone '" + skeleton.names[0] + "' has a role for bone " +
@@ -121,7 +119,7 @@ Skeleton make_skeleton(Skeleton skeleton) {
   }
   check_roles(skeleton);
   const Roles found = find_roles(skeleton);
-  for (const auto member : kRoleMembers) {
+  for (const auto& [name, member] : role_names()) {
     if (skeleton.roles.*member == -1) skeleton.roles.*member = found.*member;
   }
   return skeleton;
@@ -134,6 +132,8 @@ double stature(const Skeleton& skeleton) {
   // The foot bone's own length stands for the ankle's height, which no bone holds.
   return skeleton.tips[roles.head].norm() + path_length(skeleton, roles.head, foot) + skeleton.tips[foot].norm();
 }
+
+double standard_scale(const Skeleton& skeleton) { return 1.8 / stature(skeleton); }
 
 void rest_pose(const Skeleton& skeleton, std::vector<Vector3>& heads, std::vector<Quaternion>& rotations) {
   heads.assign(skeleton.offsets.begin(), skeleton.offsets.end());

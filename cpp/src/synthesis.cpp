@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <utility>
 
 #include "fragmotion/distance.hpp"
 #include "fragmotion/mirror.hpp"
@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kJumpHeight = 9.81 * 0.5 * 0.5 / 8;  // m, of a 1.8 m character: in the air for half a second
 constexpr double kSimilar = 0.12;                     // m a bone tip: fragments this near may be interpolated
-constexpr double kMoving = 0.3;                       // m/s of a 1.8 m character
 constexpr int kCandidates = 24;                       // neighbours of a control that interpolation tries in pairs
 constexpr double kStandSeconds = 0.5;
 constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
@@ -198,7 +197,7 @@ class Synthesizer {
     }
   }
 
-  int trajectory_points() const { return 16 * static_cast<int>(measured_bones(pool_.skeleton).size()); }
+  int trajectory_points() const { return kPoses * static_cast<int>(measured_bones(pool_.skeleton).size()); }
 
   // Fragments that follow each other in a take and end nearly as they began: played again and again, they are a gait.
   struct Cycle {
@@ -244,7 +243,7 @@ class Synthesizer {
     const auto cheaper = [&](const Cycle& a, const Cycle& b) { return effort(a, control) < effort(b, control); };
     const auto best = std::min_element(cycles_.begin(), cycles_.end(), cheaper);
     if (best == cycles_.end() || std::isinf(effort(*best, control))) return;
-    const Clip clip = pool_.clips[best->clip];
+    const Clip& clip = pool_.clips[best->clip];
     Transform change;
     change.turn = (control.turn - best->evident.turn) * space_.turn_rate();
     if (speed(best->evident) > kMoving / space_.scale()) {
@@ -255,11 +254,13 @@ class Synthesizer {
     if (jumps) change.rise = kJumpHeight / space_.scale();
     const int longest = static_cast<int>(options_.longest * clip.rate + 1e-6), length = best->end - best->begin;
     const int pieces = (length + longest - 1) / longest;
+    std::vector<std::pair<Clip, int>> made;  // with their fragments' ends; added at last, since that moves `clip`
     for (int piece = 0; piece < pieces; ++piece) {
       const int begin = best->begin + length * piece / pieces;
       const int end = jumps ? std::min(clip.frames - 1, begin + longest) : best->begin + length * (piece + 1) / pieces;
-      add(transformed(kinematics_, clip, begin, end, tail(clip), change), end - begin, Origin::transformed);
+      made.emplace_back(transformed(kinematics_, clip, begin, end, tail(clip), change), end - begin);
     }
+    for (auto& [piece, end] : made) add(std::move(piece), end, Origin::transformed);
   }
 
   FragmentPool& pool_;

@@ -7,6 +7,9 @@
 
 namespace fragmotion {
 
+/// Slower than this a character of 1.8 m stands, m/s.
+constexpr double kMoving = 0.3;
+
 /// What the user asks for, or what a fragment visibly does (Sec. 3.2), in the character frame.
 struct Control {
   double x = 0;     ///< Velocity to the right, m/s.
@@ -16,7 +19,8 @@ struct Control {
 };
 
 /// The weights of ControlDis (Eq. 2). Defaults: going 0.5 m/s too fast (at 1.8 m stature) weighs as much as 2/3 of the
-/// turn rate, and a quarter of a jump, so that no jump is made to please a velocity.
+/// turn rate, and a quarter of a jump, so that no jump is made to please a velocity. A weight of 0
+/// ignores its part of a control.
 struct ControlWeights {
   double velocity = 2;
   double turn = 1.5;

@@ -10,6 +10,9 @@ namespace fragmotion {
 /// Bone tips as Dis sees them: x, y and z each in a row of floats, padded with zeros to whole blocks of kLanes.
 constexpr int kLanes = 8;
 
+/// Poses of a trajectory.
+constexpr int kPoses = 16;
+
 /// Sum over points of the Euclidean distance between two such vectors of `stride` floats a row (Sec. 3.1): a norm of
 /// their difference. The same bits on every x86-64, with AVX2 or without.
 float tip_distance(const float* a, const float* b, int stride);
@@ -31,7 +34,7 @@ struct Trajectories {
 };
 
 /// Samples every fragment of the pool at `poses` times.
-Trajectories trajectories(const FragmentPool& pool, int poses = 16, int threads = 0);
+Trajectories trajectories(const FragmentPool& pool, int poses = kPoses, int threads = 0);
 
 /// Dis(f, g) of two fragments: summed over corresponding poses.
 float fragment_distance(const Trajectories& t, int f, int g);

@@ -10,7 +10,7 @@
 
 namespace fragmotion {
 
-/// The roles' names as the user meets them: hips, head, left_hand, right_hand, left_foot ...
+/// The roles' names as the user meets them, in the order of policy files: hips, head, left_hand, right_hand ...
 const std::vector<std::pair<std::string, int Roles::*>>& role_names();
 
 /// Sets the skeleton's roles as `bones` (role -> bone's name) says and leaves the others. Throws std::invalid_argument

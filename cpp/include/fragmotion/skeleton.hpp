@@ -50,9 +50,11 @@ Roles find_roles(const Skeleton& skeleton);
 std::vector<int> mirror_bones(const Skeleton& skeleton);
 
 /// Height of the standing character in metres, whatever the rest pose: the chain of bones from the head's tip to the
-/// hips and on to a foot, or the longest chain of bones where those roles are missing. Distances are scaled by 1.8 m
-/// over this (design: "a number means the same on every rig").
+/// hips and on to a foot, or the longest chain of bones where those roles are missing.
 double stature(const Skeleton& skeleton);
+
+/// 1.8 m over the stature: distances are scaled by this, so that a number means the same on every rig.
+double standard_scale(const Skeleton& skeleton);
 
 /// The bones whose tips `Dis` (Sec. 3.1) sums over: the hips and all below, without fingers and face.
 std::vector<int> measured_bones(const Skeleton& skeleton);
