@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kPoseComponents = 8;
 constexpr int kBlock = 50;  // samples: neighbours in time are alike, so folds are made of blocks of five seconds
-constexpr double kCosts[] = {1, 8, 64, 512};
-constexpr double kGammas[] = {1.0 / 64, 1.0 / 16, 1.0 / 4, 1};
+const std::vector<double> kCosts{1, 8, 64, 512};
+const std::vector<double> kGammas{1.0 / 64, 1.0 / 16, 1.0 / 4, 1};
 
 // Rows of doubles as libsvm wants them.
 class Nodes {
@@ -49,9 +49,9 @@ class Model {
       y_.push_back(labels[row]);
     }
     svm_parameter parameter{};
-    parameter.svm_type = C_SVC;
-    parameter.kernel_type = RBF;
-    parameter.C = c;
+    parameter.svm_type = C_SVC;   // Eq. 5,
+    parameter.C = c;              // its penalty a,
+    parameter.kernel_type = RBF;  // and Eq. 6
     parameter.gamma = gamma;
     parameter.cache_size = 16;
     parameter.eps = 1e-3;
@@ -77,31 +77,33 @@ std::vector<double> input(const double* features, int width, const Control& cont
 
 double fold_accuracy(Nodes& nodes, const std::vector<int>& labels, int folds, double c, double gamma) {
   int right = 0;
-  const int count = static_cast<int>(labels.size());
+  const int count = static_cast<int>(labels.size()), block = std::clamp(count / folds, 1, kBlock);
   for (int fold = 0; fold < folds; ++fold) {
     std::vector<int> train, test;
-    for (int i = 0; i < count; ++i) (i / kBlock % folds == fold ? test : train).push_back(i);
-    if (train.empty()) continue;
+    for (int i = 0; i < count; ++i) (i / block % folds == fold ? test : train).push_back(i);
+    if (train.empty() || test.empty()) continue;
     const Model model(nodes, labels, train, c, gamma);
     for (const int i : test) right += model.predict(nodes.row(i)) == labels[i] ? 1 : 0;
   }
   return static_cast<double>(right) / count;
 }
 
-// Fills c, gamma and accuracy with the best pair of the grid; on a tie the smoother one (lower C, then lower gamma).
+// Fills c, gamma and accuracy with the best pair of the grid, or of its part where one was given; on a tie the smoother
+// one (lower C, then lower gamma).
 void cross_validate(const SvmSamples& samples, const SvmOptions& options, SvmPolicy& result) {
-  constexpr int kPairs = static_cast<int>(std::size(kCosts) * std::size(kGammas));
-  std::vector<double> accuracy(kPairs);
-  parallel_for(kPairs, thread_count(options.threads), [&](int begin, int end) {
+  const std::vector<double> costs = options.c > 0 ? std::vector<double>{options.c} : kCosts;
+  const std::vector<double> gammas = options.gamma > 0 ? std::vector<double>{options.gamma} : kGammas;
+  std::vector<double> accuracy(costs.size() * gammas.size());
+  parallel_for(static_cast<int>(accuracy.size()), thread_count(options.threads), [&](int begin, int end) {
     Nodes nodes(samples.inputs, samples.width);
     for (int i = begin; i < end; ++i) {
-      accuracy[i] = fold_accuracy(nodes, samples.labels, options.folds, kCosts[i / std::size(kGammas)],
-                                  kGammas[i % std::size(kGammas)]);
+      accuracy[i] =
+          fold_accuracy(nodes, samples.labels, options.folds, costs[i / gammas.size()], gammas[i % gammas.size()]);
     }
   });
   const auto best = static_cast<std::size_t>(std::max_element(accuracy.begin(), accuracy.end()) - accuracy.begin());
-  result.c = kCosts[best / std::size(kGammas)];
-  result.gamma = kGammas[best % std::size(kGammas)];
+  result.c = costs[best / gammas.size()];
+  result.gamma = gammas[best % gammas.size()];
   result.accuracy = accuracy[best];
 }
 
@@ -120,6 +122,15 @@ Policy whole_table(const Model& model, const std::vector<double>& features, int 
     }
   });
   return policy;
+}
+
+void check(const std::vector<std::vector<int>>& traces, const SvmOptions& options) {
+  if (traces.empty()) throw std::invalid_argument("the svm policy needs at least one trace to learn from");
+  if (options.folds < 2) throw std::invalid_argument("the svm's cross-validation needs at least 2 folds");
+  for (const double value : {options.c, options.gamma}) {
+    if (!(value >= 0 && std::isfinite(value)))
+      throw std::invalid_argument("the svm's C and gamma must be over 0, or 0 to have them chosen");
+  }
 }
 
 }  // namespace
@@ -167,14 +178,14 @@ SvmSamples svm_samples(const Quality& quality, const std::vector<std::vector<int
 SvmPolicy svm_policy(const Quality& quality, const std::vector<std::vector<int>>& traces,
                      const std::vector<double>& features, const ControlSpace& space, const SvmOptions& options,
                      const Progress& progress) {
-  if (traces.empty()) throw std::invalid_argument("the svm policy needs at least one trace to learn from");
+  check(traces, options);
   svm_set_print_string_function([](const char*) {});
   const SvmSamples samples = svm_samples(quality, traces, features, space);
   SvmPolicy result;
   result.c = options.c;
   result.gamma = options.gamma;
   report(progress, 0, "Cross-validating the SVM");
-  if (options.c <= 0 || options.gamma <= 0) cross_validate(samples, options, result);
+  if (options.c == 0 || options.gamma == 0) cross_validate(samples, options, result);
   report(progress, 0.7, "Training the SVM");
   Nodes nodes(samples.inputs, samples.width);
   std::vector<int> rows(samples.labels.size());

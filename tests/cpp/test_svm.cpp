@@ -177,6 +177,42 @@ TEST(SvmPolicy, LearnsFromTheShortestTrace) {
   for (const int next : found.policy.next) EXPECT_TRUE(next >= 0 && next < 3);
 }
 
+TEST(SvmPolicy, KeepsTheParameterThatIsGivenAndSearchesTheOther) {
+  const World w(8, 24, 6);
+  SvmOptions options;
+  options.c = 3;
+  const SvmPolicy searched = svm_policy(w.quality, w.traces, w.features, ControlSpace(), options);
+  EXPECT_EQ(searched.c, 3);
+  EXPECT_GT(searched.gamma, 0);
+  EXPECT_GT(searched.accuracy, 0);
+  options = {};
+  options.gamma = 0.3;
+  const SvmPolicy other = svm_policy(w.quality, w.traces, w.features, ControlSpace(), options);
+  EXPECT_EQ(other.gamma, 0.3);
+  EXPECT_GT(other.c, 0);
+  EXPECT_GT(other.accuracy, 0);
+}
+
+// With blocks of 50 samples, these would be one fold, which has nothing else to learn from.
+TEST(SvmPolicy, CrossValidatesShortTraces) {
+  for (const int steps : {6, 20, 50}) {
+    const World w(3, 9, 11, steps);
+    EXPECT_GT(svm_policy(w.quality, w.traces, w.features, ControlSpace()).accuracy, 0) << steps;
+  }
+}
+
+TEST(SvmPolicy, RefusesParametersOutOfRange) {
+  const World w(3, 9, 9);
+  const auto error = [&](int folds, double c, double gamma) {
+    return error_of([&] { svm_policy(w.quality, w.traces, w.features, ControlSpace(), {folds, c, gamma}); });
+  };
+  for (const int folds : {1, 0, -3}) EXPECT_NE(error(folds, 0, 0).find("folds"), std::string::npos) << folds;
+  for (const double bad : {-1.0, std::nan(""), static_cast<double>(INFINITY)}) {
+    EXPECT_NE(error(3, bad, 1).find("C and gamma"), std::string::npos) << bad;
+    EXPECT_NE(error(3, 1, bad).find("C and gamma"), std::string::npos) << bad;
+  }
+}
+
 TEST(SvmPolicy, RefusesToLearnFromNothing) {
   const World w(3, 9, 9);
   EXPECT_NE(error_of([&] { svm_policy(w.quality, {}, w.features, ControlSpace()); }).find("trace"), std::string::npos);

@@ -14,7 +14,7 @@ struct SvmSamples {
 };
 
 struct SvmOptions {
-  int folds = 3;     ///< Of the cross-validation that chooses C and gamma.
+  int folds = 3;     ///< Of the cross-validation that chooses what is not given; at least 2.
   double c = 0;      ///< Penalty a of Eq. 5; 0: by cross-validation.
   double gamma = 0;  ///< Of Eq. 6; 0: by cross-validation.
   int threads = 0;
@@ -36,7 +36,8 @@ std::vector<double> class_features(const Trajectories& t, const Classes& classes
 SvmSamples svm_samples(const Quality& quality, const std::vector<std::vector<int>>& traces,
                        const std::vector<double>& features, const ControlSpace& space);
 
-/// C-SVC with the RBF kernel (Eqs. 5 and 6, libsvm), one against one, asked for every class and control.
+/// C-SVC with the RBF kernel (Eqs. 5 and 6, libsvm), one against one, asked for every class and control. Throws
+/// std::invalid_argument without a trace, and on folds, C or gamma out of range.
 SvmPolicy svm_policy(const Quality& quality, const std::vector<std::vector<int>>& traces,
                      const std::vector<double>& features, const ControlSpace& space, const SvmOptions& options = {},
                      const Progress& progress = {});
