@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "fragmotion/pose.hpp"
 
@@ -14,6 +15,14 @@ constexpr double kInstant = 1e-9;  // s: no time
 constexpr double kChange = 1;      // ControlDis between controls that is "a lot"
 constexpr double kWorthIt = 0.05;  // s that must be left of a fragment for leaving it early
 constexpr double kInTheAir = 0.5;  // evident jump above which a fragment is played to its end
+constexpr double kLongest = 3600;  // s that a step may last
+
+void check_step(const Control& control, double seconds) {
+  for (const double value : {control.x, control.y, control.turn, control.jump}) {
+    if (!std::isfinite(value)) throw std::invalid_argument("the control holds what is not a number");
+  }
+  if (!(seconds >= 0 && seconds <= kLongest)) throw std::invalid_argument("a step must last 0 s to an hour");
+}
 
 }  // namespace
 
@@ -22,6 +31,7 @@ Player::Player(std::shared_ptr<const Character> character, std::uint64_t seed, d
       policy_(&character_->policy(policy)),
       kinematics_(character_->pool.skeleton),
       members_(character_->classes.members()),
+      seed_(seed),
       random_(seed),
       stitch_(stitch),
       rotations_(std::size_t{4} * kinematics_.bones()),
@@ -42,6 +52,7 @@ void Player::reset(const CharacterFrame& frame) {
     if (match(k) > match(class_)) class_ = k;
   }
   from_ = class_;
+  random_ = Random(seed_);
   waiting_ = -1;
   stitching_ = 0;
   jump_waits_ = jump_pressed_ = false;
@@ -113,41 +124,43 @@ void Player::start(int next_class, const Control& control) {
   show();
 }
 
-int Player::decide(int control) {
+bool Player::changed(const Control& wanted) const { return character_->space.distance(wanted, decided_for_) > kChange; }
+
+int Player::decide(const Control& wanted) {
   const Character& c = *character_;
-  if (waiting_ >= 0) {
-    const int next = waiting_;
-    waiting_ = -1;
-    return next;
-  }
-  const int next = (*policy_)(class_, control);
+  const int waiting = std::exchange(waiting_, -1);
+  if (waiting >= 0 && !changed(wanted)) return waiting;
+  decided_for_ = wanted;
+  const int next = (*policy_)(class_, c.space.nearest(wanted));
   const int bridge = c.bridges[static_cast<std::size_t>(class_) * c.classes.count + next];
   if (bridge < 0) return next;
   waiting_ = next;
   return bridge;
 }
 
-bool Player::leaves_early(const Control& control) const {
-  const Character& c = *character_;
+bool Player::leaves_early(const Control& wanted) const {
   return now_.seconds >= stitching_ && left() > kWorthIt && waiting_ < 0 &&
-         c.pool.fragments[now_.fragment].evident.jump < kInTheAir && c.space.distance(control, decided_for_) > kChange;
+         character_->pool.fragments[now_.fragment].evident.jump < kInTheAir && changed(wanted);
+}
+
+void Player::go_on(const Control& control, const Control& wanted) {
+  start(decide(wanted), wanted);
+  if (waiting_ >= 0) return;  // the jump, too, waits for the end of the stand-in-place fragment
+  jump_waits_ = false;
+  decided_for_.jump = control.jump;
 }
 
 double Player::quality(int control) const { return character_->quality(from_, class_, control); }
 
 void Player::step(const Control& control, double seconds) {
-  const ControlSpace& space = character_->space;
+  check_step(control, seconds);
   const bool pressed = control.jump > 0.5;
   jump_waits_ = jump_waits_ || (pressed && !jump_pressed_);
   jump_pressed_ = pressed;
-  Control wanted = control;
-  if (jump_waits_) wanted.jump = 1;
   while (seconds > 0) {
-    if (left() < kInstant || leaves_early(wanted)) {
-      decided_for_ = control;
-      jump_waits_ = false;
-      start(decide(space.nearest(wanted)), wanted);
-    }
+    Control wanted = control;
+    if (jump_waits_) wanted.jump = 1;
+    if (left() < kInstant || leaves_early(wanted)) go_on(control, wanted);
     const double part = std::min(seconds, left());
     now_.seconds += part;
     before_.seconds += part;

@@ -22,32 +22,37 @@ inline std::shared_ptr<const Character> gait_character() {
   return character;
 }
 
-/// A character of a few kilobytes: four bones, two short takes, two classes.
-inline Character tiny_character() {
+/// Hips, a spine and two legs, and no feet.
+inline Skeleton tiny_skeleton() {
   Skeleton skeleton;
   skeleton.names = {"hips", "spine", "leg.L", "leg.R"};
   skeleton.parents = {-1, 0, 0, 0};
   skeleton.rest_rotations.assign(4, Quaternion::Identity());
   skeleton.offsets = {{0, 0, 1}, {0, 0, 0.1}, {0.1, 0, 0}, {-0.1, 0, 0}};
   skeleton.tips = {{0, 0, 0.1}, {0, 0, 0.6}, {0, 0, -0.9}, {0, 0, -0.9}};
-  skeleton = make_skeleton(skeleton);
-  std::vector<Clip> clips;
-  for (const double speed : {0.0, 1.5}) {
-    Clip clip{"take", 20, 11, {}, {}, {}};
-    for (int f = 0; f < clip.frames; ++f) {
-      clip.root_positions.insert(clip.root_positions.end(), {0, -speed * f / 20, 1});
-      for (int b = 0; b < 4; ++b) {
-        const double angle = b < 2 ? 0 : (b == 2 ? 1 : -1) * 0.3 * speed * std::sin(0.6 * f);
-        clip.rotations.insert(clip.rotations.end(), {std::cos(angle / 2), std::sin(angle / 2), 0, 0});
-      }
+  return make_skeleton(skeleton);
+}
+
+/// Half a second: one fragment of a tiny_skeleton() that goes forward at `speed` m/s and hops `hop` m high.
+inline Clip tiny_clip(double speed, double hop = 0) {
+  Clip clip{"take", 20, 11, {}, {}, {}};
+  for (int f = 0; f < clip.frames; ++f) {
+    clip.root_positions.insert(clip.root_positions.end(), {0, -speed * f / 20, 1 + hop * 0.04 * f * (10 - f)});
+    for (int b = 0; b < 4; ++b) {
+      const double angle = b < 2 ? 0 : (b == 2 ? 1 : -1) * 0.3 * speed * std::sin(0.6 * f);
+      clip.rotations.insert(clip.rotations.end(), {std::cos(angle / 2), std::sin(angle / 2), 0, 0});
     }
-    clips.push_back(make_clip(skeleton, clip));
   }
+  return make_clip(tiny_skeleton(), clip);
+}
+
+/// A character of tiny_clip()s, each a class of its own.
+inline Character tiny_character(const std::vector<Clip>& clips = {tiny_clip(0), tiny_clip(1.5)}) {
   BuildOptions options;
-  options.classes = 2;
+  options.classes = static_cast<int>(clips.size());
   options.mirror = options.synthesize = false;
   options.policies = {"greedy"};
-  return build(skeleton, clips, {{{}, {}}}, options);
+  return build(tiny_skeleton(), clips, {{{}, {}}}, options);
 }
 
 }  // namespace fragmotion

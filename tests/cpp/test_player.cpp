@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fragmotion/player.hpp"
 #include "fragmotion/pose.hpp"
@@ -115,6 +117,88 @@ TEST(Player, GoesTheSameWayWhateverTheStep) {
   };
   const Vector3 expected = position(101);
   for (const int steps : {1, 7, 1000}) EXPECT_LT((position(steps) - expected).norm(), 1e-6) << steps;
+}
+
+// Four acts, a class and a fragment of half a second each. The table gives at once what is asked for, but from standing
+// only a jump or forward; between forward and what else moves comes standing.
+struct Acts {
+  enum : int { stand, forward, back, jump };  // classes are numbered by the takes' order
+  std::shared_ptr<Character> character =
+      std::make_shared<Character>(tiny_character({tiny_clip(0), tiny_clip(1.5), tiny_clip(-1.5), tiny_clip(0, 0.5)}));
+
+  Acts() {
+    for (int point = 0; point < ControlSpace::kPoints; ++point) {
+      const Control control = character->space.point(point);
+      const int asked = control.jump > 0 ? jump : control.y > 0 ? forward : control.y < 0 ? back : stand;
+      for (int from = 0; from < 4; ++from) {
+        character->policies[0].next[from * ControlSpace::kPoints + point] =
+            from == stand && asked == back ? stand : asked;
+      }
+    }
+    std::fill(character->bridges.begin(), character->bridges.end(), -1);
+    character->bridges[forward * 4 + back] = character->bridges[forward * 4 + jump] = stand;
+  }
+};
+
+const Control kBack{0, -1.5, 0, 0};
+const Control kTap{0, 1.5, 0, 1};
+
+// The classes that play, one after another, while each control is held for its time, shown 100 times a second.
+std::vector<int> acts_of(Player& player, const std::vector<std::pair<Control, double>>& held) {
+  std::vector<int> acts;
+  for (const auto& [control, seconds] : held) {
+    for (int i = 0; i < std::lround(100 * seconds); ++i) {
+      player.step(control, 0.01);
+      if (acts.empty() || acts.back() != player.playing_class()) acts.push_back(player.playing_class());
+    }
+  }
+  return acts;
+}
+
+TEST(Player, StandsBetweenActsThatDoNotFitAndThenDoesWhatWasAskedFor) {
+  Player player(Acts().character);
+  EXPECT_EQ(acts_of(player, {{kForward, 0.7}, {kBack, 1.5}}),
+            (std::vector<int>{Acts::forward, Acts::stand, Acts::back}));
+}
+
+TEST(Player, AsksAgainAfterStandingWhereTheControlHasChanged) {
+  Player player(Acts().character);
+  EXPECT_EQ(acts_of(player, {{kForward, 0.7}, {kBack, 0.3}, {kForward, 1.5}}),
+            (std::vector<int>{Acts::forward, Acts::stand, Acts::forward}));
+}
+
+TEST(Player, LosesNoJumpHoweverShortlyItIsPressed) {
+  for (double wait = 0.5; wait < 2; wait += 0.03) {
+    Player walking(Acts().character), bridging(Acts().character);
+    const std::vector<int> one = acts_of(walking, {{kForward, wait}, {kTap, 0.01}, {kForward, 2}}),
+                           two = acts_of(bridging, {{kForward, 0.7}, {kBack, wait - 0.5}, {kTap, 0.01}, {kBack, 3}});
+    EXPECT_EQ(std::count(one.begin(), one.end(), Acts::jump), 1) << wait;
+    EXPECT_EQ(std::count(two.begin(), two.end(), Acts::jump), 1) << wait;
+  }
+}
+
+TEST(Player, JumpsOnceInAStepOfAnyLength) {
+  const auto place = [](int steps) {
+    Player player(Acts().character);
+    player.step(kTap, 0.2);   // takes off,
+    player.step({}, 0.1);     // lets go,
+    player.step(kTap, 0.01);  // and presses again in the air
+    for (int i = 0; i < steps; ++i) player.step({}, 1.83 / steps);
+    return player.root_position();
+  };
+  const Vector3 expected = place(183);
+  for (const int steps : {1, 2, 7}) EXPECT_LT((place(steps) - expected).norm(), 1e-6) << steps;
+}
+
+TEST(Player, ShowsTheSameAfterAReset) {
+  const Trace trace = simulate_trace("jumper", 10, 4, gait_character()->space);
+  Player player(gait_character(), 3);
+  const Performance first = player.run(trace, 30);
+  player.reset();
+  const Performance again = player.run(trace, 30);
+  EXPECT_EQ(again.fragments, first.fragments);
+  EXPECT_EQ(again.rotations, first.rotations);
+  EXPECT_EQ(again.root_positions, first.root_positions);
 }
 
 Performance performed(std::uint64_t seed, double rate) {
@@ -251,6 +335,18 @@ TEST(Player, RefusesBadTimesRatesAndTraces) {
   EXPECT_NE(error_of([&] { player.run({}, 30); }).find("no controls"), std::string::npos);
   for (const double rate : {0.0, -30.0, nan, 1e9})
     EXPECT_NE(error_of([&] { player.run(Trace(5), rate); }).find("rate"), std::string::npos) << rate;
+}
+
+TEST(Player, RefusesStepsThatAreNoNumbers) {
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  Player player(gait_character());
+  for (const double bad : {nan, infinity, -infinity}) {
+    for (const Control& control : {Control{bad, 0, 0, 0}, {0, bad, 0, 0}, {0, 0, bad, 0}, {0, 0, 0, bad}})
+      EXPECT_NE(error_of([&] { player.step(control, 0.1); }).find("not a number"), std::string::npos) << bad;
+  }
+  for (const double seconds : {-0.1, nan, infinity, -infinity, 1e9})
+    EXPECT_NE(error_of([&] { player.step({}, seconds); }).find("step"), std::string::npos) << seconds;
+  EXPECT_EQ(error_of([&] { player.step({}, 0); }), "no error");
 }
 
 TEST(Player, IsCancelledByItsProgress) {
