@@ -92,18 +92,18 @@ void cut(FragmentPool& pool, const Kinematics& kinematics, std::size_t first, Or
 }
 
 // The captured and mirrored fragments, without their evident controls.
-FragmentPool captured_pool(const Skeleton& skeleton, const std::vector<Clip>& clips, const BuildOptions& options,
-                           const Kinematics& kinematics) {
+FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>& clips, const BuildOptions& options) {
+  const Skeleton& skeleton = kinematics.skeleton();
   FragmentPool pool{skeleton, {}, {}};
-  for (const Clip& clip : clips) pool.clips.push_back(make_clip(skeleton, clip));  // they may be another skeleton's
+  for (const Clip& clip : clips) pool.clips.push_back(make_clip(skeleton, clip));
   cut(pool, kinematics, 0, Origin::captured, options.cut);
   if (pool.fragments.empty()) {
     throw std::invalid_argument("the takes are too short: none holds a fragment of " +
                                 std::to_string(options.cut.shortest) + " s");
   }
   if (options.mirror) {
-    const Mirror mirror(kinematics, clips);
-    for (const Clip& clip : clips) pool.clips.push_back(mirror(clip));
+    const Mirror mirror(kinematics, pool.clips);
+    for (std::size_t c = 0; c < clips.size(); ++c) pool.clips.push_back(mirror(pool.clips[c]));
     cut(pool, kinematics, clips.size(), Origin::mirrored, options.cut);
   }
   return pool;
@@ -170,12 +170,21 @@ std::string listed(const std::vector<std::string>& names) {
   return list;
 }
 
+void check(const Trace& trace, std::size_t number) {
+  if (trace.size() < 2) throw std::invalid_argument("a trace must hold at least two controls");
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    for (const double value : {trace[i].x, trace[i].y, trace[i].turn, trace[i].jump}) {
+      if (std::isfinite(value)) continue;
+      throw std::invalid_argument("control " + std::to_string(i) + " of trace " + std::to_string(number) +
+                                  " is not a number");
+    }
+  }
+}
+
 void check(const std::vector<Clip>& clips, const std::vector<Trace>& traces, const BuildOptions& options) {
   if (clips.empty()) throw std::invalid_argument("there are no takes to build from");
   if (traces.empty()) throw std::invalid_argument("there is no trace to learn from");
-  for (const Trace& trace : traces) {
-    if (trace.size() < 2) throw std::invalid_argument("a trace must hold at least two controls");
-  }
+  for (std::size_t i = 0; i < traces.size(); ++i) check(traces[i], i);
   if (options.policies.empty()) throw std::invalid_argument("no policy is asked for");
   const std::vector<std::string>& names = policy_names();
   for (const std::string& name : options.policies) {
@@ -223,8 +232,8 @@ Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const 
   Stopwatch whole, stage;
   Character c;
   report(progress, 0, "Cutting fragments");
-  const Kinematics kinematics(skeleton);
-  c.pool = captured_pool(skeleton, clips, options, kinematics);
+  const Kinematics kinematics(make_skeleton(skeleton));
+  c.pool = captured_pool(kinematics, clips, options);
   c.report["captured"] = static_cast<double>(c.pool.fragments.size());
   double usual = 0;
   c.space = perform(c.pool, kinematics, usual);

@@ -7,6 +7,7 @@
 
 #include "fragmotion/character.hpp"
 #include "fragmotion/greedy.hpp"
+#include "fragmotion/player.hpp"
 #include "fragmotion/policy_file.hpp"
 #include "mocap_files.hpp"
 #include "small_character.hpp"
@@ -119,6 +120,7 @@ TEST(Build, RefusesWhatItCannotBuildFrom) {
   expect(error({}, some_traces(), few_classes()), "no takes");
   expect(error(takes, {}, few_classes()), "no trace");
   expect(error(takes, {{}}, few_classes()), "two controls");
+  expect(error(takes, {Trace(1)}, few_classes()), "two controls");
   expect(error(takes, some_traces(), few_classes("wise")), "\"wise\"");
   BuildOptions options = few_classes();
   options.classes = 5000;
@@ -143,10 +145,89 @@ TEST(Build, RefusesClipsOfAnotherSkeletonNamingThem) {
   EXPECT_NE(error.find("stranger"), std::string::npos) << error;
 }
 
-TEST(Build, RefusesClipsThatAreNotWhole) {
-  std::vector<Clip> clips = some_takes();
-  clips[1].root_positions[5] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(error_of([&] { build(humanoid(), clips, some_traces(), few_classes()); }), "no error");
+TEST(Build, RefusesClipsThatAreNotFiniteNamingThem) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (auto values : {&Clip::root_positions, &Clip::rotations, &Clip::headings}) {
+      std::vector<Clip> clips = some_takes();
+      (clips[1].*values)[5] = bad;
+      clips[1].name = "broken";
+      const std::string error = error_of([&] { build(humanoid(), clips, some_traces(), few_classes()); });
+      EXPECT_NE(error.find("'broken'"), std::string::npos) << error;
+    }
+  }
+}
+
+TEST(Build, TakesRawClipsAndARawSkeleton) {
+  const Character made = build(humanoid(), some_takes(), some_traces(), few_classes());
+  std::vector<Clip> raw = some_takes();
+  for (Clip& clip : raw) {
+    clip.headings.clear();
+    for (std::size_t i = 0; i < clip.rotations.size(); ++i) clip.rotations[i] *= i / 4 % 2 == 0 ? 2 : -1;
+  }
+  Skeleton skeleton = humanoid();
+  skeleton.roles = {};
+  const Character c = build(skeleton, raw, some_traces(), few_classes());
+  ASSERT_EQ(c.pool.fragments.size(), made.pool.fragments.size());
+  for (std::size_t i = 0; i < c.pool.fragments.size(); ++i)
+    EXPECT_LT(c.space.distance(c.pool.fragments[i].evident, made.pool.fragments[i].evident), 1e-6);
+  raw[2].rotations.pop_back();
+  EXPECT_NE(error_of([&] { build(skeleton, raw, some_traces(), few_classes()); }).find("run"), std::string::npos);
+}
+
+TEST(Build, RefusesTracesThatAreNotFiniteNamingTheControl) {
+  Trace trace(5);
+  trace[3].turn = std::numeric_limits<double>::quiet_NaN();
+  const std::string error = error_of([&] { build(humanoid(), some_takes(), {Trace(5), trace}, few_classes()); });
+  EXPECT_NE(error.find("control 3 of trace 1"), std::string::npos) << error;
+}
+
+TEST(Build, RefusesMoreClassesThanDistinctFragments) {
+  BuildOptions options = few_classes();
+  options.synthesize = options.mirror = false;
+  options.classes = 2;
+  const Clip still = some_takes()[0];  // every part of it is the same
+  const std::string error = error_of([&] { build(humanoid(), {still, still}, some_traces(), options); });
+  EXPECT_NE(error.find("distinct"), std::string::npos) << error;
+}
+
+TEST(Build, LearnsFromATraceOfOneControl) {
+  BuildOptions options = few_classes();
+  options.policies = policy_names();
+  const Control forward{0, 1.2, 0, 0};
+  const auto c = std::make_shared<const Character>(build(humanoid(), some_takes(), {Trace(50, forward)}, options));
+  for (const std::string& policy : policy_names()) {
+    const double percent = percent_of_optimal(c->quality, c->policy(policy), snap(c->space, Trace(50, forward)));
+    EXPECT_GT(percent, 80) << policy;
+    EXPECT_LE(percent, 100 + 1e-9) << policy;
+  }
+}
+
+TEST(Build, StandsWhereTheTakesCanDoNothingElse) {
+  BuildOptions options = few_classes();
+  options.policies = policy_names();
+  for (const bool synthesize : {true, false}) {
+    options.synthesize = synthesize;
+    options.classes = synthesize ? 3 : 1;
+    const auto c = std::make_shared<const Character>(build(humanoid(), {some_takes()[0]}, some_traces(), options));
+    for (const std::string& policy : policy_names()) {
+      Player player(c, 1, 0.15, policy);
+      for (int i = 0; i < 300; ++i) player.step({0, 3, 0, 0}, 1.0 / 30);
+      EXPECT_LT(player.root_position().head<2>().norm(), 1) << policy;
+    }
+  }
+}
+
+TEST(Build, MakesOneClass) {
+  BuildOptions options = few_classes();
+  options.policies = policy_names();
+  options.classes = 1;
+  const auto c = std::make_shared<const Character>(build(humanoid(), some_takes(), some_traces(), options));
+  const std::vector<int> trace = snap(c->space, some_traces()[0]);
+  for (const std::string& policy : policy_names())
+    EXPECT_NEAR(percent_of_optimal(c->quality, c->policy(policy), trace), 100, 1e-9) << policy;
+  Player player(c);
+  for (int i = 0; i < 100; ++i) player.step({0, 3, 0, 0}, 1.0 / 30);
+  EXPECT_TRUE(player.root_position().allFinite());
 }
 
 TEST(Build, TakesASkeletonOfOneBone) {

@@ -81,6 +81,14 @@ TEST(ControlSpace, HasAMetric) {
   }
 }
 
+TEST(ControlSpace, IgnoresWhatHasNoWeight) {
+  const ControlSpace turnless(1, 2, 1, 1, {2, 0, 4}), blind(1, 2, 1, 1, {0, 0, 0});
+  EXPECT_EQ(turnless.distance({1, 1, 0.7, 1}, {1, 1, -0.2, 1}), 0);
+  EXPECT_EQ(turnless.distance({1, 0, 0.7, 1}, {0, 0, -0.2, 1}), 2);
+  EXPECT_EQ(turnless.nearest({0, 1, 1, 0}), turnless.nearest({0, 1, -1, 0}));
+  for (int i = 0; i < ControlSpace::kPoints; ++i) EXPECT_EQ(blind.nearest(blind.point(i)), 0);
+}
+
 TEST(ControlSpace, NamesTheValueThatIsOutOfRange) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const struct {

@@ -53,8 +53,10 @@ ControlSpace control_space_of(const std::vector<Control>& evident, double scale)
 
 /// Clips to a character: fragments, synthesis, classes, Eq. 2, policy. `traces` teach the policy.
 /// Deterministic: the same input gives the same bits, whatever the number of threads.
-/// Throws std::invalid_argument where there is nothing to build from, fewer fragments than classes, no trace, or an
-/// unknown policy; Cancelled where the progress callback says so.
+/// Skeleton and clips need not have been through make_skeleton and make_clip, and are refused as by them. Throws
+/// std::invalid_argument also where there is nothing to build from, fewer distinct fragments than classes, no trace, a
+/// trace of one control or with one that is not a number, or an unknown policy; Cancelled where the progress callback
+/// says so.
 Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
                 const BuildOptions& options = {}, const Progress& progress = {});
 
