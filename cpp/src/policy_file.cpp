@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "fragmotion/role_names.hpp"
+#include "write_file.hpp"
 
 namespace fragmotion {
 namespace {
@@ -299,18 +300,7 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
 }
 
 void save_policy(const std::filesystem::path& path, const Character& character) {
-  std::filesystem::path temporary = path;
-  temporary += ".part";
-  const std::string bytes = to_bytes(character);
-  std::ofstream file(temporary, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(temporary, path, error);
-  if (!file || error) {
-    std::filesystem::remove(temporary, error);
-    throw std::invalid_argument("cannot write " + path.string());
-  }
+  write_file(path, to_bytes(character));
 }
 
 Character load_policy(const std::filesystem::path& path) {

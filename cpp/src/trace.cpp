@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "text_reader.hpp"
+#include "write_file.hpp"
 
 namespace fragmotion {
 
@@ -121,20 +122,6 @@ std::string format_trace(const Trace& trace) {
   return text;
 }
 
-void write_and_rename(const std::filesystem::path& path, const std::string& text) {
-  std::filesystem::path temporary = path;
-  temporary += ".part";
-  std::ofstream stream(temporary, std::ios::binary);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(temporary, path, error);
-  if (stream && !error) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw std::invalid_argument(path.u8string() + ": cannot be written" + (error ? ": " + error.message() : ""));
-}
-
 }  // namespace
 
 Trace read_trace(const std::filesystem::path& path) {
@@ -155,7 +142,7 @@ void write_trace(const std::filesystem::path& path, const Trace& trace) {
   if (trace.size() < 2)
     throw std::invalid_argument(file + ": the trace has " + std::to_string(trace.size()) +
                                 " controls, expected at least 2");
-  write_and_rename(path, format_trace(trace));
+  write_file(path, format_trace(trace));
 }
 
 }  // namespace fragmotion

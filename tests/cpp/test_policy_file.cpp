@@ -120,7 +120,10 @@ TEST(PolicyFile, IsSavedAndLoaded) {
 TEST(PolicyFile, NamesThePathThatCannotBeReadOrWritten) {
   const TemporaryFolder folder;
   const auto missing = folder.path() / "no folder" / "a.policy";
-  EXPECT_NE(error_of([&] { save_policy(missing, from_bytes(tiny_file())); }).find("a.policy"), std::string::npos);
+  EXPECT_EQ(error_of([&] { save_policy(missing, from_bytes(tiny_file())); }),
+            "cannot write " + missing.u8string() + ": No such file or directory");
+  EXPECT_NE(error_of([&] { save_policy(folder.path(), from_bytes(tiny_file())); }).find("directory"),
+            std::string::npos);
   EXPECT_NE(error_of([&] { load_policy(missing); }).find("a.policy"), std::string::npos);
   EXPECT_NE(error_of([&] { load_policy(folder.path()); }), "no error");
   EXPECT_NE(error_of([&] { load_policy(folder.write("empty.policy", "")); }).find("empty.policy"), std::string::npos);
@@ -222,6 +225,8 @@ TEST(PolicyFile, RefusesCharactersThatDoNotFitTogether) {
       {"label too high", [](Character& c) { c.classes.labels[0] = 2; }},
       {"empty class", [](Character& c) { std::fill(c.classes.labels.begin(), c.classes.labels.end(), 0); }},
       {"too few labels", [](Character& c) { c.classes.labels.pop_back(); }},
+      {"representatives of other classes",
+       [](Character& c) { std::swap(c.classes.representatives[0], c.classes.representatives[1]); }},
       {"no representative", [](Character& c) { c.classes.representatives[0] = -1; }},
       {"no classes", [](Character& c) { c.classes.count = 0; }},
       {"too many classes", [](Character& c) { c.classes.count = 0x7fffffff; }},
