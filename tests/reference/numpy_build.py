@@ -313,7 +313,7 @@ def _cross_validate(inputs: Floats, labels: Ints) -> tuple[float, float, float]:
     return search.best_params_["C"], search.best_params_["gamma"], float(search.best_score_)
 
 
-# The player (Sec. 3.4).
+# The player (Sec. 3.3, Fig. 3).
 
 
 def ease(t: float) -> float:

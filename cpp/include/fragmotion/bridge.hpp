@@ -9,9 +9,10 @@ namespace fragmotion {
 /// 27 cm a tip).
 constexpr double kBridgeDistance = 6;
 
-/// The stand-in-place rule (Sec. 5: "most unnatural transitions are removed by inserting an appropriate intermediate
-/// motion fragment"): for every pair of classes the standing class that goes between, or -1. One does where the direct
-/// Dis is over `threshold` and both ways by the standing class are shorter; the one with the shortest sum is taken.
+/// The stand-in-place rule (Sec. 3.3: "we insert a stand-in-place motion fragment between the two motion fragments when
+/// they are inappropriate to connect directly"): for every pair of classes the standing class that goes between, or -1.
+/// One does where the direct Dis is over `threshold` and both ways by the standing class are shorter; the one with the
+/// shortest sum is taken.
 std::vector<int> stand_bridges(const FragmentPool& pool, const Trajectories& t, const Classes& classes,
                                const ControlSpace& space, double threshold = kBridgeDistance);
 
