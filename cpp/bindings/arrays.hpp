@@ -40,11 +40,22 @@ void check_shape(const py::array& array, const std::string& name, const std::vec
 /// The values of an array.
 std::vector<double> to_vector(const Doubles& array);
 
+/// A control from [4].
+Control to_control(const Doubles& values);
+
 /// A trace from [T,4].
 Trace to_trace(const Doubles& controls);
 
-/// A Python callable (or None) as a progress callback that may be called without the GIL.
+/// A Python callable (or None) as a progress callback that may be called without the GIL. It goes on where the callable
+/// returns None.
 Progress to_progress(const py::object& callback);
+
+/// What `work` returns; meanwhile other Python threads run, so it must touch no Python object but the values of arrays.
+template <typename Work>
+auto without_gil(const Work& work) {
+  const py::gil_scoped_release release;
+  return work();
+}
 
 void bind_motion(py::module_& m);
 void bind_rig(py::module_& m);

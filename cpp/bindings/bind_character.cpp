@@ -129,7 +129,8 @@ void bind_tables(py::class_<Character, Holder>& character) {
 }
 
 double percent(const Character& c, const Doubles& trace, const std::string& policy) {
-  return percent_of_optimal(c.quality, c.policy(policy), snap(c.space, to_trace(trace)));
+  const Trace controls = to_trace(trace);
+  return without_gil([&] { return percent_of_optimal(c.quality, c.policy(policy), snap(c.space, controls)); });
 }
 
 std::vector<std::string> policies_of(const Character& c) {
@@ -146,15 +147,19 @@ void bind_use(py::class_<Character, Holder>& character) {
       .def_static(
           "load", [](const std::filesystem::path& path) { return std::make_shared<Character>(load_policy(path)); },
           py::arg("path"), py::call_guard<py::gil_scoped_release>())
-      .def("to_bytes", [](const Character& c) { return py::bytes(to_bytes(c)); })
+      .def("to_bytes", [](const Character& c) { return py::bytes(without_gil([&] { return to_bytes(c); })); })
       .def_static(
           "from_bytes",
-          [](const py::bytes& data) { return std::make_shared<Character>(from_bytes(std::string(data))); },
+          [](const py::bytes& data) {
+            const std::string bytes(data);
+            return without_gil([&] { return std::make_shared<Character>(from_bytes(bytes)); });
+          },
           py::arg("data"))
       .def(
           "optimal",
           [](const Character& c, const Doubles& trace) {
-            OptimalPath path = optimal_path(c.quality, snap(c.space, to_trace(trace)));
+            const Trace controls = to_trace(trace);
+            OptimalPath path = without_gil([&] { return optimal_path(c.quality, snap(c.space, controls)); });
             const auto count = static_cast<py::ssize_t>(path.classes.size());
             return py::make_tuple(to_array(std::move(path.classes), {count}), path.quality);
           },
@@ -182,8 +187,9 @@ void bind_character(py::module_& m) {
         std::vector<Trace> controls;
         for (const Doubles& trace : traces) controls.push_back(to_trace(trace));
         const Progress told = to_progress(progress);
-        const py::gil_scoped_release release;
-        return std::make_shared<Character>(build(skeleton, clips, controls, options.value_or(BuildOptions{}), told));
+        return without_gil([&] {
+          return std::make_shared<Character>(build(skeleton, clips, controls, options.value_or(BuildOptions{}), told));
+        });
       },
       py::arg("skeleton"), py::arg("clips"), py::arg("traces"), py::arg("options") = py::none(),
       py::arg("progress") = py::none());

@@ -20,11 +20,6 @@ py::array_t<double> points(const ControlSpace& space) {
   return to_rows(controls);
 }
 
-Control to_control(const Doubles& values) {
-  check_shape(values, "a control", {4});
-  return {*values.data(0), *values.data(1), *values.data(2), *values.data(3)};
-}
-
 }  // namespace
 
 void bind_control(py::module_& m) {
@@ -47,7 +42,8 @@ void bind_control(py::module_& m) {
       .def(
           "nearest",
           [](const ControlSpace& space, const Doubles& controls) {
-            std::vector<int> indices = snap(space, to_trace(controls));
+            const Trace trace = to_trace(controls);
+            std::vector<int> indices = without_gil([&] { return snap(space, trace); });
             return to_array(std::move(indices), {controls.shape(0)});
           },
           py::arg("controls"))
@@ -58,15 +54,21 @@ void bind_control(py::module_& m) {
           },
           py::arg("a"), py::arg("b"));
   m.def(
-      "read_trace", [](const std::filesystem::path& path) { return to_rows(read_trace(path)); }, py::arg("path"));
+      "read_trace",
+      [](const std::filesystem::path& path) { return to_rows(without_gil([&] { return read_trace(path); })); },
+      py::arg("path"));
   m.def(
       "write_trace",
-      [](const std::filesystem::path& path, const Doubles& trace) { write_trace(path, to_trace(trace)); },
+      [](const std::filesystem::path& path, const Doubles& trace) {
+        const Trace controls = to_trace(trace);
+        without_gil([&] { write_trace(path, controls); });
+      },
       py::arg("path"), py::arg("trace"));
   m.def(
       "simulate_trace",
       [](const std::string& player, double seconds, std::uint64_t seed, const std::optional<ControlSpace>& space) {
-        return to_rows(simulate_trace(player, seconds, seed, space.value_or(ControlSpace())));
+        return to_rows(
+            without_gil([&] { return simulate_trace(player, seconds, seed, space.value_or(ControlSpace())); }));
       },
       py::arg("player"), py::arg("seconds") = 60.0, py::arg("seed") = 1, py::arg("space") = py::none());
   m.attr("PLAYERS") = simulated_players();

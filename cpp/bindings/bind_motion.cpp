@@ -54,33 +54,47 @@ py::array_t<double> rest_points(const Skeleton& skeleton, bool tails) {
   return vectors(heads);
 }
 
-std::pair<py::array_t<double>, py::array_t<double>> clip_transforms(const Clip& clip, const Skeleton& skeleton) {
+// World positions [F, B, 3] and rotations [F, B, 4].
+struct Transforms {
+  std::vector<double> positions, rotations;
+};
+
+py::tuple to_tuple(Transforms transforms, int frames, int bones) {
+  return py::make_tuple(to_array(std::move(transforms.positions), {frames, bones, 3}),
+                        to_array(std::move(transforms.rotations), {frames, bones, 4}));
+}
+
+Transforms clip_transforms(const Clip& clip, const Skeleton& skeleton) {
   const Kinematics kinematics(skeleton);
   const std::size_t bones = kinematics.bones();
   if (clip.rotations.size() != 4 * bones * clip.frames) {
     throw std::invalid_argument("clip \"" + clip.name + "\" has not the skeleton's number of bones");
   }
-  std::vector<double> positions(3 * bones * clip.frames), rotations(4 * bones * clip.frames);
+  Transforms world{std::vector<double>(3 * bones * clip.frames), std::vector<double>(4 * bones * clip.frames)};
   std::vector<Vector3> heads(bones);
   std::vector<Quaternion> orientations(bones);
   for (int f = 0; f < clip.frames; ++f) {
     kinematics.world(clip, f, heads.data(), orientations.data());
     for (std::size_t b = 0; b < bones; ++b) {
-      store_vector(heads[b], &positions[3 * (f * bones + b)]);
-      store_quaternion(orientations[b], &rotations[4 * (f * bones + b)]);
+      store_vector(heads[b], &world.positions[3 * (f * bones + b)]);
+      store_quaternion(orientations[b], &world.rotations[4 * (f * bones + b)]);
     }
   }
-  const auto count = static_cast<py::ssize_t>(bones);
-  return {to_array(std::move(positions), {clip.frames, count, 3}),
-          to_array(std::move(rotations), {clip.frames, count, 4})};
+  return world;
+}
+
+Transforms take_transforms(const Take& take) {
+  Transforms world;
+  world_transforms(take, world.positions, world.rotations);
+  return world;
 }
 
 Clip new_clip(const Skeleton& skeleton, const std::string& name, double rate, const Doubles& roots,
               const Doubles& rotations) {
   check_shape(roots, "root_positions", {-1, 3});
   check_shape(rotations, "rotations", {roots.shape(0), skeleton.size(), 4});
-  return make_clip(skeleton,
-                   {name, rate, static_cast<int>(roots.shape(0)), to_vector(roots), to_vector(rotations), {}});
+  Clip clip{name, rate, static_cast<int>(roots.shape(0)), to_vector(roots), to_vector(rotations), {}};
+  return without_gil([&] { return make_clip(skeleton, std::move(clip)); });
 }
 
 void bind_skeleton(py::module_& m) {
@@ -114,10 +128,7 @@ void bind_take(py::module_& m) {
                                return view(take.rotations, {take.frames, take.skeleton.size(), 4}, self);
                              })
       .def("world_transforms", [](const Take& take) {
-        std::vector<double> positions, rotations;
-        world_transforms(take, positions, rotations);
-        return std::pair{to_array(std::move(positions), {take.frames, take.skeleton.size(), 3}),
-                         to_array(std::move(rotations), {take.frames, take.skeleton.size(), 4})};
+        return to_tuple(without_gil([&] { return take_transforms(take); }), take.frames, take.skeleton.size());
       });
   m.def("read_bvh", &read_bvh, py::arg("path"), py::arg("unit") = 0.01, py::call_guard<py::gil_scoped_release>());
   m.def("read_asf_amc", &read_asf_amc, py::arg("asf"), py::arg("amc"), py::arg("rate") = 120.0,
@@ -131,7 +142,7 @@ void bind_clip(py::module_& m) {
       .def_static(
           "from_take",
           [](const Take& take, const std::optional<Skeleton>& skeleton) {
-            return clip_from_take(skeleton ? *skeleton : take.skeleton, take);
+            return without_gil([&] { return clip_from_take(skeleton ? *skeleton : take.skeleton, take); });
           },
           py::arg("take"), py::arg("skeleton") = py::none())
       .def_readonly("name", &Clip::name)
@@ -147,7 +158,12 @@ void bind_clip(py::module_& m) {
                                const auto bones = static_cast<py::ssize_t>(clip.rotations.size()) / clip.frames / 4;
                                return view(clip.rotations, {clip.frames, bones, 4}, self);
                              })
-      .def("world_transforms", &clip_transforms, py::arg("skeleton"));
+      .def(
+          "world_transforms",
+          [](const Clip& clip, const Skeleton& skeleton) {
+            return to_tuple(without_gil([&] { return clip_transforms(clip, skeleton); }), clip.frames, skeleton.size());
+          },
+          py::arg("skeleton"));
 }
 
 void bind_rotations(py::module_& m) {

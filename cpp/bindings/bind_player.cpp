@@ -8,14 +8,8 @@
 namespace fragmotion::bindings {
 namespace {
 
-Control checked_control(const Doubles& values) {
-  check_shape(values, "a control", {4});
-  return to_trace(Doubles({1, 4}, values.data())).front();
-}
-
 py::tuple step(Player& player, const Doubles& control, double seconds) {
-  if (!(seconds >= 0 && seconds < 3600)) throw std::invalid_argument("a step must last 0 s or more");
-  player.step(checked_control(control), seconds);
+  player.step(to_control(control), seconds);
   const Vector3& root = player.root_position();
   const auto bones = static_cast<py::ssize_t>(player.rotations().size()) / 4;
   return py::make_tuple(to_array(std::vector<double>{root.x(), root.y(), root.z()}, {3}),
@@ -103,8 +97,7 @@ void bind_player(py::module_& m) {
           [](Player& player, const Doubles& trace, double rate, const py::object& progress) {
             const Trace controls = to_trace(trace);
             const Progress told = to_progress(progress);
-            const py::gil_scoped_release release;
-            return player.run(controls, rate, told);
+            return without_gil([&] { return player.run(controls, rate, told); });
           },
           py::arg("trace"), py::arg("rate"), py::arg("progress") = py::none());
 }

@@ -59,8 +59,10 @@ void bind_rig(py::module_& m) {
             const py::ssize_t frames = rotations.ndim() > 0 ? rotations.shape(0) : 0;
             check_shape(rotations, "rotations", {frames, rig.bones(), 4});
             check_shape(locations, "locations", {frames, rig.bones(), 3});
-            return rig.clip(name, rate, static_cast<int>(frames), locations.data(), rotations.data(),
-                            checked_worlds(worlds, frames));
+            const double* objects = checked_worlds(worlds, frames);
+            return without_gil([&] {
+              return rig.clip(name, rate, static_cast<int>(frames), locations.data(), rotations.data(), objects);
+            });
           },
           py::arg("name"), py::arg("rate"), py::arg("locations"), py::arg("rotations"), py::arg("worlds") = py::none())
       .def(
@@ -69,8 +71,9 @@ void bind_rig(py::module_& m) {
              const std::optional<Doubles>& worlds) {
             const py::ssize_t frames = matrices.ndim() > 0 ? matrices.shape(0) : 0;
             check_shape(matrices, "matrices", {frames, rig.bones(), 4, 4});
-            return rig.clip_from_matrices(name, rate, static_cast<int>(frames), matrices.data(),
-                                          checked_worlds(worlds, frames));
+            const double* objects = checked_worlds(worlds, frames);
+            return without_gil(
+                [&] { return rig.clip_from_matrices(name, rate, static_cast<int>(frames), matrices.data(), objects); });
           },
           py::arg("name"), py::arg("rate"), py::arg("matrices"), py::arg("worlds") = py::none())
       .def(
@@ -78,13 +81,16 @@ void bind_rig(py::module_& m) {
           [](const Rig& rig, const Doubles& roots, const Doubles& rotations) {
             check_shape(roots, "root_positions", {-1, 3});
             check_shape(rotations, "rotations", {roots.shape(0), rig.skeleton().size(), 4});
-            return to_tuple(rig.channels(static_cast<int>(roots.shape(0)), roots.data(), rotations.data()),
+            const int frames = static_cast<int>(roots.shape(0));
+            return to_tuple(without_gil([&] { return rig.channels(frames, roots.data(), rotations.data()); }),
                             rig.bones());
           },
           py::arg("root_positions"), py::arg("rotations"))
       .def(
           "take_channels",
-          [](const Rig& rig, const Take& take) { return to_tuple(rig.take_channels(take), rig.bones()); },
+          [](const Rig& rig, const Take& take) {
+            return to_tuple(without_gil([&] { return rig.take_channels(take); }), rig.bones());
+          },
           py::arg("take"));
 }
 

@@ -107,7 +107,7 @@ void bind_measuring(py::module_& m) {
       "trajectories",
       [](const Character& c, int poses) {
         if (poses < 2) throw std::invalid_argument("a trajectory needs at least 2 poses");
-        const Trajectories t = trajectories(c.pool, poses);
+        const Trajectories t = without_gil([&] { return trajectories(c.pool, poses); });
         const int tips = static_cast<int>(measured_bones(c.pool.skeleton).size());
         return py::make_tuple(to_points(t.whole, t.count, t.stride, poses * tips),
                               to_points(t.first, t.count, t.pose_stride, tips),
@@ -126,11 +126,7 @@ void bind_measuring(py::module_& m) {
         options.seed = seed;
         options.threads = threads;
         const Progress told = to_progress(progress);
-        Classes found;
-        {
-          const py::gil_scoped_release release;
-          found = cluster(t, counted, options, {}, told);
-        }
+        Classes found = without_gil([&] { return cluster(t, counted, options, {}, told); });
         return py::make_tuple(to_array(std::move(found.labels), {t.count}),
                               to_array(std::move(found.representatives), {found.count}), found.inertia);
       },
@@ -142,7 +138,9 @@ void bind_paths(py::module_& m) {
   m.def(
       "optimal_path",
       [](const Doubles& smoothness, const Doubles& match, const Indices& trace) {
-        OptimalPath path = optimal_path(to_quality(smoothness, match), to_controls(trace));
+        const Quality quality = to_quality(smoothness, match);
+        const std::vector<int> controls = to_controls(trace);
+        OptimalPath path = without_gil([&] { return optimal_path(quality, controls); });
         const auto count = static_cast<py::ssize_t>(path.classes.size());
         return py::make_tuple(to_array(std::move(path.classes), {count}), path.quality);
       },
@@ -151,7 +149,9 @@ void bind_paths(py::module_& m) {
       "percent_of_optimal",
       [](const Doubles& smoothness, const Doubles& match, const Indices& table, const Indices& trace) {
         const Quality quality = to_quality(smoothness, match);
-        return percent_of_optimal(quality, to_policy(table, quality.classes), to_controls(trace));
+        const Policy policy = to_policy(table, quality.classes);
+        const std::vector<int> controls = to_controls(trace);
+        return without_gil([&] { return percent_of_optimal(quality, policy, controls); });
       },
       py::arg("smoothness"), py::arg("match"), py::arg("table"), py::arg("trace"));
 }
@@ -160,7 +160,8 @@ void bind_policies(py::module_& m) {
   m.def(
       "greedy_table",
       [](const Doubles& smoothness, const Doubles& match) {
-        return to_table(greedy_policy(to_quality(smoothness, match)));
+        const Quality quality = to_quality(smoothness, match);
+        return to_table(without_gil([&] { return greedy_policy(quality); }));
       },
       py::arg("smoothness"), py::arg("match"));
   m.def(
@@ -182,7 +183,9 @@ void bind_policies(py::module_& m) {
          double tolerance) {
         if (!(discount >= 0 && discount < 1)) throw std::invalid_argument("the discount must be 0 or more and under 1");
         if (!(tolerance > 0)) throw std::invalid_argument("the tolerance must be over 0");
-        return to_table(iterate_policy(to_quality(smoothness, match), to_traces(traces), {discount, tolerance}));
+        const Quality quality = to_quality(smoothness, match);
+        const std::vector<std::vector<int>> controls = to_traces(traces);
+        return to_table(without_gil([&] { return iterate_policy(quality, controls, {discount, tolerance}); }));
       },
       py::arg("smoothness"), py::arg("match"), py::arg("traces"), py::arg("discount") = IterateOptions().discount,
       py::arg("tolerance") = IterateOptions().tolerance);
@@ -192,7 +195,7 @@ void bind_svm(py::module_& m) {
   m.def(
       "class_features",
       [](const Character& c) {
-        std::vector<double> features = class_features(trajectories(c.pool), c.classes);
+        std::vector<double> features = without_gil([&] { return class_features(trajectories(c.pool), c.classes); });
         const py::ssize_t n = c.classes.count, width = static_cast<py::ssize_t>(features.size()) / n;
         return to_array(std::move(features), {n, width});
       },
@@ -202,7 +205,9 @@ void bind_svm(py::module_& m) {
       [](const Doubles& smoothness, const Doubles& match, const std::vector<Indices>& traces, const Doubles& features,
          const ControlSpace& space) {
         const Quality quality = to_quality(smoothness, match);
-        SvmSamples samples = svm_samples(quality, to_traces(traces), to_features(features, quality.classes), space);
+        const std::vector<double> described = to_features(features, quality.classes);
+        const std::vector<std::vector<int>> controls = to_traces(traces);
+        SvmSamples samples = without_gil([&] { return svm_samples(quality, controls, described, space); });
         const auto count = static_cast<py::ssize_t>(samples.labels.size());
         return py::make_tuple(to_array(std::move(samples.inputs), {count, samples.width}),
                               to_array(std::move(samples.labels), {count}));
@@ -219,11 +224,7 @@ void bind_svm(py::module_& m) {
         options.c = c;
         options.gamma = gamma;
         options.threads = threads;
-        SvmPolicy trained;
-        {
-          const py::gil_scoped_release release;
-          trained = svm_policy(quality, controls, described, space, options);
-        }
+        SvmPolicy trained = without_gil([&] { return svm_policy(quality, controls, described, space, options); });
         return py::make_tuple(to_table(std::move(trained.policy)), trained.c, trained.gamma, trained.accuracy);
       },
       py::arg("smoothness"), py::arg("match"), py::arg("traces"), py::arg("features"), py::arg("space"),

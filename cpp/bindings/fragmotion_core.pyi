@@ -18,8 +18,9 @@ __version__: str
 Doubles = NDArray[np.float64]
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
-Progress = Callable[[float, str], bool]
-"""Called now and then with the fraction done (0..1) and the stage's name; returning False cancels the call."""
+Progress = Callable[[float, str], bool | None]
+"""Called now and then with the fraction done (0..1) and the stage's name; returning False cancels the call, None does
+not."""
 
 class Cancelled(RuntimeError):
     """A progress callback returned False."""
@@ -156,7 +157,8 @@ class ControlSpace:
         """ControlDis (Eq. 2) of two controls [4]."""
 
 def read_trace(path: str | PathLike[str]) -> Doubles:
-    """Read a trace [T,4] from CSV (header velocity_x,velocity_y,turn,jump; 10 rows a second). ValueError with FILE:LINE."""
+    """Read a trace [T,4] from CSV (header velocity_x,velocity_y,turn,jump; 10 rows a second), as it was written: what
+    asks a policy snaps controls to the points of its ControlSpace. ValueError with FILE:LINE."""
 
 def write_trace(path: str | PathLike[str], trace: ArrayLike) -> None:
     """Write a trace [T,4] as CSV."""
@@ -256,15 +258,17 @@ def build(
     """Clips to a character: fragments, synthesis, classes, quality, policy. Traces [T,4] teach the policy."""
 
 class Player:
-    """The run time: policy + fragments + stitching -> poses (Sec. 3.4, Fig. 3)."""
+    """The run time: policy + fragments + stitching -> poses (Sec. 3.3, Fig. 3)."""
 
     def __init__(self, character: Character, seed: int = 1, stitch: float = 0.15, policy: str = "") -> None:
         """`stitch`: seconds over which two fragments are blended; `policy`: one of the character's (default: the one that
         drives)."""
     def reset(self, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
-        """Stand at a place, facing `heading` (radians, counter-clockwise from +y)."""
+        """Stand at a place, facing `heading` (radians, counter-clockwise from +y), and draw again from the seed: after
+        a reset the same steps show the same poses."""
     def step(self, control: ArrayLike, seconds: float) -> tuple[Doubles, Doubles]:
-        """Advance and return the pose: root position [3] m and rotations [B,4] as in Clip."""
+        """Advance by 0 to 3600 s under a control [4] and return the pose: root position [3] m and rotations [B,4] as in
+        Clip. ValueError on what is not finite."""
     frame: tuple[float, float, float]
     """x, y, heading of the character frame now."""
     playing: tuple[int, int]

@@ -18,6 +18,11 @@ void check_shape(const py::array& array, const std::string& name, const std::vec
 
 std::vector<double> to_vector(const Doubles& array) { return {array.data(), array.data() + array.size()}; }
 
+Control to_control(const Doubles& values) {
+  check_shape(values, "a control", {4});
+  return {*values.data(0), *values.data(1), *values.data(2), *values.data(3)};
+}
+
 Trace to_trace(const Doubles& controls) {
   check_shape(controls, "a trace", {-1, 4});
   Trace trace;
@@ -36,7 +41,8 @@ Progress to_progress(const py::object& callback) {
   if (callback.is_none()) return {};
   return [callback = callback.ptr()](double fraction, const std::string& stage) {
     const py::gil_scoped_acquire gil;
-    return py::handle(callback)(fraction, stage).cast<bool>();
+    const py::object goes_on = py::handle(callback)(fraction, stage);
+    return goes_on.is_none() || goes_on.cast<bool>();
   };
 }
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import ast
 import inspect
+import sys
 import threading
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -123,12 +125,13 @@ def test_errors_are_value_errors_that_name_the_cause(
     broken = rotations.copy()
     broken[7, 2] = np.nan
     few = build_options(classes=5, policies=["greedy"])
-    cases = [
+    cases: list[tuple[str, Callable[[], object]]] = [
         ("frame 7.*head", lambda: core.Clip(skeleton, "walk", 30, roots, broken)),
         ("shape", lambda: core.Clip(skeleton, "walk", 30, roots[:-1], rotations)),
         ("rate", lambda: core.Clip(skeleton, "walk", 0, roots, rotations)),
         ("no takes", lambda: core.build(skeleton, [], traces, few)),
         ("no trace", lambda: core.build(skeleton, clips, [], few)),
+        ("two controls", lambda: core.build(skeleton, clips, [np.zeros((1, 4))], few)),
         ("shape", lambda: core.build(skeleton, clips, [np.zeros((5, 3))], few)),
         ("not a number", lambda: core.build(skeleton, clips, [np.full((5, 4), np.nan)], few)),
         ("4000 classes", lambda: core.build(skeleton, clips, traces, build_options(classes=4000))),
@@ -139,20 +142,46 @@ def test_errors_are_value_errors_that_name_the_cause(
         ("stitching", lambda: core.Player(character, stitch=3)),
         ("shape", lambda: core.Player(character).step([0, 1, 0], 0.1)),
         ("not a number", lambda: core.Player(character).step([0, np.nan, 0, 0], 0.1)),
+        ("not a number", lambda: core.Player(character).step([0, 1, 0, np.inf], 0.1)),
         ("step", lambda: core.Player(character).step([0, 1, 0, 0], -0.1)),
         ("step", lambda: core.Player(character).step([0, 1, 0, 0], np.nan)),
+        ("step", lambda: core.Player(character).step([0, 1, 0, 0], np.inf)),
+        ("not a number", lambda: core.Player(character).run([[0, 1, 0, np.nan]], 30)),
         ("rate", lambda: core.Player(character).run(traces[0], 0)),
         ("no controls", lambda: core.Player(character).run(np.zeros((0, 4)), 30)),
         ("no controls", lambda: character.optimal(np.zeros((0, 4)))),
         ("shape", lambda: character.optimal(np.zeros(4))),
         ("policy", lambda: core.Character.from_bytes(b"nonsense")),
         ("nowhere", lambda: core.Character.load("/nowhere/at/all")),
-        ("nowhere", lambda: character.save("/nowhere/at/all")),
+        ("nowhere/at/all: No such file", lambda: character.save("/nowhere/at/all")),
+        ("nowhere/at/all: No such file", lambda: core.write_trace("/nowhere/at/all", traces[0])),
         ("unheard", lambda: core.simulate_trace("unheard")),
     ]
     for message, call in cases:
         with pytest.raises(ValueError, match=message):
             call()
+
+
+def test_player_needs_a_character() -> None:
+    with pytest.raises(TypeError):
+        core.Player(None)  # type: ignore[arg-type]
+
+
+def test_build_makes_what_it_can_of_little(skeleton: core.Skeleton, clips: list[core.Clip]) -> None:
+    """One class, a trace of one control, takes of standing only."""
+    forward = np.tile([0, 1.2, 0, 0], (30, 1))
+    for takes, classes in ((clips, 1), (clips, 10), (clips[:1], 1)):
+        made = core.build(skeleton, takes, [forward], build_options(classes=classes))
+        assert (made.table >= 0).all() and (made.table < classes).all()
+        for policy in made.policies:
+            assert 0 < made.percent_of_optimal(forward, policy) <= 100 + 1e-9
+            assert np.isfinite(core.Player(made, policy=policy).run(forward, 30).root_positions).all()
+
+
+def test_build_refuses_more_classes_than_distinct_fragments(skeleton: core.Skeleton, clips: list[core.Clip]) -> None:
+    options = build_options(classes=5, mirror=False, synthesize=False)
+    with pytest.raises(ValueError, match="distinct"):
+        core.build(skeleton, clips[:1] * 5, [np.zeros((2, 4))], options)
 
 
 def test_build_refuses_clips_of_another_skeleton(clips: list[core.Clip], traces: list[Array]) -> None:
@@ -204,6 +233,15 @@ def test_progress_tells_growing_fractions_and_stages(
     assert len({stage for _, stage in told}) >= 4 and all(stage for _, stage in told)
 
 
+def test_progress_goes_on_where_nothing_is_returned(
+    skeleton: core.Skeleton, clips: list[core.Clip], traces: list[Array], character: core.Character
+) -> None:
+    told: list[float] = []
+    small_build(skeleton, clips, traces, lambda fraction, _: told.append(fraction))
+    assert told[-1] == 1
+    core.Player(character).run(np.zeros((60, 4)), 60, lambda *_: None)
+
+
 @pytest.mark.parametrize("calls", [1, 3, 6])
 def test_progress_cancels(skeleton: core.Skeleton, clips: list[core.Clip], traces: list[Array], calls: int) -> None:
     left = iter(range(calls - 1, -1, -1))
@@ -240,26 +278,111 @@ def test_progress_must_return_a_truth(skeleton: core.Skeleton, clips: list[core.
         small_build(skeleton, clips, traces, lambda *_: "yes")  # type: ignore[arg-type]
 
 
-def test_other_threads_run_during_a_build(character: core.Character) -> None:
-    points = core.trajectories(character)[0]
-    counted, stop = [0], threading.Event()
+def rig_of(skeleton: core.Skeleton) -> core.Rig:
+    """An armature whose bones are the skeleton's, pointing up."""
+    upright = np.array([[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
+    bones = len(skeleton.names)
+    rest = np.tile(upright, (bones, 1, 1))
+    rest[:, :3, 3] = skeleton.rest_heads()
+    return core.Rig(skeleton.names, skeleton.parents, rest, np.full(bones, 0.1), np.eye(4))
 
-    def count() -> None:
-        while not stop.is_set():
-            counted[0] += 1
 
-    thread = threading.Thread(target=count)
-    thread.start()
+BVH = """HIERARCHY
+ROOT hips
+{
+OFFSET 0 90 0
+CHANNELS 3 Zrotation Xrotation Yrotation
+End Site
+{
+OFFSET 0 20 0
+}
+}
+MOTION
+Frames: 9000
+Frame Time: 0.01
+"""
+
+
+def take_of(folder: Path) -> core.Take:
+    """A file of one bone and 9000 frames."""
+    (folder / "turn.bvh").write_text(BVH + "0 0 5\n" * 9000)
+    return core.read_bvh(folder / "turn.bvh")
+
+
+def long_calls(
+    skeleton: core.Skeleton, clips: list[core.Clip], made: core.Character, take: core.Take
+) -> dict[str, Callable[[], object]]:
+    """Calls that take a while. Their arrays are ready, so that NumPy, which may let threads run, has nothing to do."""
+    rig, taken = rig_of(skeleton), rig_of(take.skeleton)
+    data, trace = made.to_bytes(), np.zeros((3000, 4))
+    clip = core.Clip(skeleton, "walk", 30.0, *walking_arrays(seconds=60))
+    frames, bones = clip.rotations.shape[:2]
+    locations, rotations = np.zeros((frames, bones, 3)), np.tile([1.0, 0, 0, 0], (frames, bones, 1))
+    matrices = np.tile(np.eye(4), (frames, bones, 1, 1))
+    points = np.random.default_rng(1).random((90, 9, 3), np.float32)
+    numbers = np.zeros(3000, np.int32)
+    few = numbers[:50]
+    factors = (made.smoothness, made.match)
+    features = core.class_features(made)
+    return {
+        "build": lambda: core.build(skeleton, clips[:2], [trace], build_options(classes=2, synthesize=False)),
+        "cluster": lambda: core.cluster(points, 9),
+        "percent_of_optimal": lambda: made.percent_of_optimal(trace),
+        "optimal": lambda: made.optimal(trace),
+        "to_bytes": made.to_bytes,
+        "from_bytes": lambda: core.Character.from_bytes(data),
+        "Clip": lambda: core.Clip(skeleton, "clip", 30.0, clip.root_positions, clip.rotations),
+        "world_transforms of a clip": lambda: clip.world_transforms(skeleton),
+        "world_transforms of a take": take.world_transforms,
+        "from_take": lambda: core.Clip.from_take(take),
+        "Rig.clip": lambda: rig.clip("clip", 30.0, locations, rotations),
+        "Rig.clip_from_matrices": lambda: rig.clip_from_matrices("clip", 30.0, matrices),
+        "Rig.take_channels": lambda: taken.take_channels(take),
+        "Rig.channels": lambda: rig.channels(clip.root_positions, clip.rotations),
+        "trajectories": lambda: core.trajectories(made),
+        "class_features": lambda: core.class_features(made),
+        "optimal_path": lambda: core.optimal_path(*factors, numbers),
+        "percent_of_optimal of a table": lambda: core.percent_of_optimal(*factors, made.table, numbers),
+        "greedy_table": lambda: core.greedy_table(*factors),
+        "iterate_table": lambda: core.iterate_table(*factors, [numbers]),
+        "svm_samples": lambda: core.svm_samples(*factors, [numbers], features, made.space),
+        "svm_table": lambda: core.svm_table(*factors, [few], features, made.space, 1.0, 1.0),
+    }
+
+
+def runs_beside(call: Callable[[], object]) -> bool:
+    """Whether another thread gets to run during some of the calls. Python does not switch threads by itself here, so it
+    does only where the call lets it."""
+    ran: list[bool] = []
+    gate = threading.Lock()
+    gate.acquire()
+
+    def run() -> None:
+        with gate:
+            ran.append(True)
+
+    thread = threading.Thread(target=run)
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1000)
     try:
-        before = counted[0]
-        core.cluster(
-            np.tile(points, (4, 1, 1)) + np.random.default_rng(1).random((4 * len(points), 1, 1)), 97, restarts=8
-        )
-        after = counted[0]
+        thread.start()
+        gate.release()
+        for _ in range(2000):
+            call()
+            if ran:
+                return True
+        return False
     finally:
-        stop.set()
+        sys.setswitchinterval(interval)
         thread.join()
-    assert after - before > 1000
+
+
+def test_other_threads_run_during_long_calls(
+    skeleton: core.Skeleton, clips: list[core.Clip], character: core.Character, tmp_path: Path
+) -> None:
+    assert not runs_beside(lambda: core.ControlSpace().points)  # the test sees a call that holds the lock
+    for name, call in long_calls(skeleton, clips, character, take_of(tmp_path)).items():
+        assert runs_beside(call), name
 
 
 def test_builds_run_beside_each_other(skeleton: core.Skeleton, clips: list[core.Clip], traces: list[Array]) -> None:
