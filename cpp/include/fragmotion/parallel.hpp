@@ -8,16 +8,21 @@
 
 namespace fragmotion {
 
-/// The number of threads to use: `requested`, or the machine's where it is 0.
+/// More threads than this are never started.
+constexpr int kMostThreads = 256;
+
+/// The number of threads to use: `requested`, or the machine's where it is 0; at most kMostThreads.
 inline int thread_count(int requested) {
-  return requested > 0 ? requested : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = requested > 0 ? requested : static_cast<int>(std::thread::hardware_concurrency());
+  return std::clamp(threads, 1, kMostThreads);
 }
 
-/// Calls body(begin, end) on `threads` consecutive parts of 0 .. count - 1. `body` must give the same result however
-/// the range is cut. An exception of a part is thrown again here, the lowest part's first.
+/// Calls body(begin, end) on `threads` consecutive parts of 0 .. count - 1, the first part on the calling thread.
+/// `body` must give the same result however the range is cut. Parts for which no thread can be started run on the
+/// calling thread too. An exception of a part is thrown again here, the lowest part's first.
 template <typename Body>
 void parallel_for(int count, int threads, const Body& body) {
-  threads = std::max(1, std::min(threads, count));
+  threads = std::max(1, std::min({threads, count, kMostThreads}));
   std::vector<std::exception_ptr> errors(threads);
   const auto run = [&](int part) {
     try {
@@ -28,8 +33,14 @@ void parallel_for(int count, int threads, const Body& body) {
     }
   };
   std::vector<std::thread> workers;
-  for (int part = 1; part < threads; ++part) workers.emplace_back(run, part);
+  workers.reserve(threads);
+  int started = 1;
+  try {
+    for (; started < threads; ++started) workers.emplace_back(run, started);
+  } catch (const std::exception&) {  // the system has no thread left
+  }
   run(0);
+  for (int part = started; part < threads; ++part) run(part);
   for (std::thread& worker : workers) worker.join();
   for (const std::exception_ptr& error : errors) {
     if (error) std::rethrow_exception(error);
