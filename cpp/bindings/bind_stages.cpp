@@ -181,8 +181,6 @@ void bind_policies(py::module_& m) {
       "iterate_table",
       [](const Doubles& smoothness, const Doubles& match, const std::vector<Indices>& traces, double discount,
          double tolerance) {
-        if (!(discount >= 0 && discount < 1)) throw std::invalid_argument("the discount must be 0 or more and under 1");
-        if (!(tolerance > 0)) throw std::invalid_argument("the tolerance must be over 0");
         const Quality quality = to_quality(smoothness, match);
         const std::vector<std::vector<int>> controls = to_traces(traces);
         return to_table(without_gil([&] { return iterate_policy(quality, controls, {discount, tolerance}); }));

@@ -2,7 +2,10 @@
 #include "fragmotion/optimal.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
+
+#include "transposed.hpp"
 
 namespace fragmotion {
 
@@ -14,12 +17,30 @@ void check_controls(const std::vector<int>& trace) {
   }
 }
 
-int best_next(const Quality& quality, int from, const double* match, const double* value, double& best) {
-  const double* smoothness = &quality.smoothness[static_cast<std::size_t>(from) * quality.classes];
+// best[i] becomes row[i] * match + value where that is more. GCC builds this for both instruction sets.
+__attribute__((target_clones("avx2", "default"))) void raise(double* best, const double* row, int count, double match,
+                                                             double value) {
+  for (int i = 0; i < count; ++i) {
+    const double candidate = row[i] * match + value;
+    best[i] = candidate > best[i] ? candidate : best[i];
+  }
+}
+
+NextClass::NextClass(const Quality& quality)
+    : classes_(quality.classes), smoothness_(transposed(quality.smoothness, classes_, classes_)) {}
+
+void NextClass::values(const double* match, const double* value, double* best) const {
+  std::fill_n(best, classes_, -std::numeric_limits<double>::infinity());
+  for (int to = 0; to < classes_; ++to) {
+    raise(best, &smoothness_[static_cast<std::size_t>(to) * classes_], classes_, match[to], value[to]);
+  }
+}
+
+int NextClass::after(int from, const double* match, const double* value) const {
   int next = 0;
-  best = smoothness[0] * match[0] + value[0];
-  for (int to = 1; to < quality.classes; ++to) {
-    const double candidate = smoothness[to] * match[to] + value[to];
+  double best = -std::numeric_limits<double>::infinity();
+  for (int to = 0; to < classes_; ++to) {
+    const double candidate = smoothness_[static_cast<std::size_t>(to) * classes_ + from] * match[to] + value[to];
     if (candidate > best) best = candidate, next = to;
   }
   return next;
@@ -28,22 +49,18 @@ int best_next(const Quality& quality, int from, const double* match, const doubl
 OptimalPath optimal_path(const Quality& quality, const std::vector<int>& trace) {
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
   check_controls(trace);
-  const int n = quality.classes, steps = static_cast<int>(trace.size());
-  std::vector<int> next(static_cast<std::size_t>(steps) * n);
-  std::vector<double> value(n, 0), earlier(n), match(n);
-  for (int i = steps - 1; i >= 0; --i) {
-    for (int to = 0; to < n; ++to)
-      match[to] = quality.match[static_cast<std::size_t>(to) * ControlSpace::kPoints + trace[i]];
-    for (int from = 0; from < n; ++from) {
-      next[static_cast<std::size_t>(i) * n + from] =
-          best_next(quality, from, match.data(), value.data(), earlier[from]);
-    }
-    value.swap(earlier);
-  }
+  const std::size_t n = quality.classes, steps = trace.size();
+  const NextClass next(quality);
+  const std::vector<double> matches = transposed(quality.match, quality.classes, ControlSpace::kPoints);
+  const auto match = [&](std::size_t step) { return &matches[trace[step] * n]; };
+  std::vector<double> values((steps + 1) * n, 0);  // of each class before each step and after the last one
+  for (std::size_t i = steps; i-- > 0;) next.values(match(i), &values[(i + 1) * n], &values[i * n]);
   OptimalPath path;
-  path.classes.push_back(static_cast<int>(std::max_element(value.begin(), value.end()) - value.begin()));
-  path.quality = value[path.classes[0]];
-  for (int i = 0; i < steps; ++i) path.classes.push_back(next[static_cast<std::size_t>(i) * n + path.classes[i]]);
+  path.classes.push_back(static_cast<int>(std::max_element(values.begin(), values.begin() + n) - values.begin()));
+  path.quality = values[path.classes[0]];
+  for (std::size_t i = 0; i < steps; ++i) {
+    path.classes.push_back(next.after(path.classes[i], match(i), &values[(i + 1) * n]));
+  }
   return path;
 }
 

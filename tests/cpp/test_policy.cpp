@@ -86,6 +86,27 @@ TEST(OptimalPath, RefusesEmptyTracesAndUnknownControls) {
   EXPECT_NE(error_of([&] { optimal_path(quality, {-1}); }).find("-1"), std::string::npos);
 }
 
+// The sums are made lane by lane where the machine can, and must be those of the plain loop.
+TEST(NextClass, IsThePlainLoopToTheBit) {
+  Random random(11);
+  for (int n = 0; n < 200; ++n) {
+    const int classes = 1 + random.below(100);
+    const Quality quality = random_quality(random, classes, n % 4 == 0);
+    std::vector<double> match(classes), value(classes), best(classes);
+    for (double& m : match) m = n % 4 == 0 ? 0.5 : random.uniform();
+    for (double& v : value) v = n % 4 == 0 ? random.below(3) : 10 * random.uniform();
+    const NextClass next(quality);
+    next.values(match.data(), value.data(), best.data());
+    for (int from = 0; from < classes; ++from) {
+      int expected = 0;
+      const auto sum = [&](int to) { return quality.smoothness[from * classes + to] * match[to] + value[to]; };
+      for (int to = 1; to < classes; ++to) expected = sum(to) > sum(expected) ? to : expected;
+      EXPECT_EQ(best[from], sum(expected));
+      EXPECT_EQ(next.after(from, match.data(), value.data()), expected);
+    }
+  }
+}
+
 TEST(GreedyPolicy, TakesTheGreatestQualityAtEachStep) {
   Random random(6);
   for (const bool coarse : {false, true}) {
@@ -208,6 +229,70 @@ TEST(IteratePolicy, UnderOneControlThatStaysFollowsTheBestLoop) {
   EXPECT_EQ(policy(0, 7), 1);
   EXPECT_EQ(policy(1, 7), 2);
   EXPECT_EQ(policy(2, 7), 1);
+}
+
+// Value iteration word by word.
+Policy plain_iteration(const Quality& quality, const std::vector<std::vector<int>>& traces, double discount) {
+  const int n = quality.classes;
+  const std::vector<double> model = control_model(traces);
+  std::vector<double> value(n * kPoints, 0);
+  Policy policy{"plain", n, std::vector<int>(n * kPoints)};
+  for (double change = 1; change > 1e-4;) {
+    const std::vector<double> before = value;
+    change = 0;
+    for (int c = 0; c < kPoints; ++c) {
+      std::vector<double> promise(n, 0);
+      for (int to = 0; to < n; ++to) {
+        for (int then = 0; then < kPoints; ++then) {
+          promise[to] += discount * model[c * kPoints + then] * before[to * kPoints + then];
+        }
+      }
+      for (int from = 0; from < n; ++from) {
+        const auto worth = [&](int to) { return quality(from, to, c) + promise[to]; };
+        int best = 0;
+        for (int to = 1; to < n; ++to) best = worth(to) > worth(best) ? to : best;
+        policy.next[from * kPoints + c] = best;
+        value[from * kPoints + c] = worth(best);
+        change = std::max(change, std::abs(worth(best) - before[from * kPoints + c]));
+      }
+    }
+  }
+  return policy;
+}
+
+TEST(IteratePolicy, IsValueIteration) {
+  Random random(12);
+  for (int n = 0; n < 4; ++n) {
+    const Quality quality = random_quality(random, 5 + 7 * n);
+    const std::vector<std::vector<int>> traces{random_trace(random, 200, 20), random_trace(random, 100)};
+    IterateOptions options;
+    options.discount = 0.5 + 0.1 * n;
+    EXPECT_EQ(iterate_policy(quality, traces, options).next, plain_iteration(quality, traces, options.discount).next);
+  }
+}
+
+TEST(IteratePolicy, RefusesOptionsThatHaveNoEnd) {
+  Random random(13);
+  const Quality quality = random_quality(random, 3);
+  const auto error = [&](double discount, double tolerance, int sweeps) {
+    return error_of([&] { iterate_policy(quality, {{1, 2}}, {discount, tolerance, sweeps}); });
+  };
+  for (const double discount : {1.0, 2.0, -0.1, std::nan("")}) {
+    EXPECT_NE(error(discount, 1e-4, 100).find("discount"), std::string::npos) << discount;
+  }
+  for (const double tolerance : {0.0, -1.0, std::nan("")}) {
+    EXPECT_NE(error(0.9, tolerance, 100).find("tolerance"), std::string::npos) << tolerance;
+  }
+  EXPECT_NE(error(0.9, 1e-4, 0).find("sweeps"), std::string::npos);
+  EXPECT_EQ(error(0, 1e-4, 1), "no error");
+}
+
+TEST(IteratePolicy, EndsAfterItsSweepsHoweverFarTheValues) {
+  Random random(14);
+  const Quality quality = random_quality(random, 6);
+  const std::vector<std::vector<int>> traces{random_trace(random, 50)};
+  EXPECT_EQ(iterate_policy(quality, traces, {0.999999999, 1e-300, 1}).next, greedy_policy(quality).next);
+  EXPECT_EQ(iterate_policy(quality, traces, {0.999999999, 1e-300, 100}).next.size(), 6U * kPoints);
 }
 
 TEST(QualityTable, IsEq2ForTheRepresentatives) {

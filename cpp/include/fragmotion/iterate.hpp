@@ -7,13 +7,14 @@
 namespace fragmotion {
 
 struct IterateOptions {
-  double discount = 0.9;    ///< Of the quality a step later.
-  double tolerance = 1e-4;  ///< Iteration ends when no value changes by more.
+  double discount = 0.9;    ///< Of the quality a step later: 0 or more, under 1.
+  double tolerance = 1e-4;  ///< Iteration ends when no value changes by more; over 0.
+  int sweeps = 10000;       ///< At most.
 };
 
 /// Value iteration with a control model [102, 102] (McCann and Pollard, "Responsive characters from motion fragments",
 /// SIGGRAPH 2007): V(Q, c) = max over Q' of Quality(Q, Q', c) + discount * sum over c' of P(c' | c) V(Q', c').
-/// Ties go to the lower class.
+/// Ties go to the lower class. Throws std::invalid_argument on an option that is out of its range.
 Policy value_iteration(const Quality& quality, const std::vector<double>& model, const IterateOptions& options = {});
 
 /// McCann and Pollard's prior: a control that was never seen is kept.
