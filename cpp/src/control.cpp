@@ -38,6 +38,20 @@ Vector2 velocity(int index, double walk, double run) {
 
 double square(double value) { return value * value; }
 
+/// The index below `count` whose value is least; the lower one on a tie.
+template <int count, typename Value>
+int least(const Value& value) {
+  int best = 0;
+  double best_value = value(0);
+  for (int i = 1; i < count; ++i) {
+    const double candidate = value(i);
+    const bool better = candidate < best_value;
+    best = better ? i : best;
+    best_value = better ? candidate : best_value;
+  }
+  return best;
+}
+
 }  // namespace
 
 ControlSpace::ControlSpace(double walk, double run, double turn_rate, double scale, ControlWeights weights)
@@ -56,17 +70,17 @@ ControlSpace::ControlSpace(double walk, double run, double turn_rate, double sca
   }
 }
 
+// The squared distance is a sum of what velocity, turn and jump differ, and the points are all combinations of them, so
+// that the nearest of each make the nearest point.
 int ControlSpace::nearest(const Control& control) const {
-  int best = 0;
-  double best_distance = distance(points_[0], control);
-  for (int i = 1; i < kPoints; ++i) {
-    const double d = distance(points_[i], control);
-    if (d < best_distance) {
-      best = i;
-      best_distance = d;
-    }
-  }
-  return best;
+  const double velocity_weight = square(weights_.velocity * scale_);
+  const int velocity = least<kVelocities>([&](int i) {
+    const Control& point = points_[6 * i];
+    return velocity_weight * (square(point.x - control.x) + square(point.y - control.y));
+  });
+  const int turn = least<3>([&](int i) { return square(weights_.turn * (points_[2 * i].turn - control.turn)); });
+  const int jump = least<2>([&](int i) { return square(weights_.jump * (points_[i].jump - control.jump)); });
+  return 6 * velocity + 2 * turn + jump;
 }
 
 double ControlSpace::distance(const Control& a, const Control& b) const {

@@ -50,6 +50,33 @@ TEST(ControlSpace, FindsNoPointNearerThanTheNearest) {
   }
 }
 
+int first_of_the_nearest(const ControlSpace& space, const Control& control) {
+  int best = 0;
+  for (int i = 1; i < ControlSpace::kPoints; ++i) {
+    if (space.distance(space.point(i), control) < space.distance(space.point(best), control)) best = i;
+  }
+  return best;
+}
+
+TEST(ControlSpace, FindsTheFirstOfTheNearestPoints) {
+  Random random(4);
+  const auto quarters = [&](int count) { return 0.25 * random.below(2 * count + 1) - 0.25 * count; };
+  const ControlSpace spaces[] = {ControlSpace(1, 2), ControlSpace(1, 2, 1, 0.5, {1, 2, 4}),
+                                 ControlSpace(1, 2, 1, 1, {0, 1, 1}), ControlSpace(1, 2, 1, 1, {1, 0, 0}),
+                                 ControlSpace(1.3, 3.1, 1, 1.2)};
+  for (const ControlSpace& space : spaces) {
+    for (int n = 0; n < 2000; ++n) {
+      const Control tied{quarters(12), quarters(12), quarters(6), quarters(6)};
+      const Control any{6 * random.uniform() - 3, 6 * random.uniform() - 3, 3 * random.uniform() - 1.5,
+                        2 * random.uniform() - 0.5};
+      for (const Control& control : {tied, any}) {
+        EXPECT_EQ(space.nearest(control), first_of_the_nearest(space, control))
+            << control.x << " " << control.y << " " << control.turn << " " << control.jump;
+      }
+    }
+  }
+}
+
 TEST(ControlSpace, PrefersTheLowerIndexOnATie) {
   const ControlSpace space(1, 2);
   EXPECT_EQ(space.nearest({0, 0.5, 0, 0}), 2);      // between standing and walking
