@@ -5,263 +5,202 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 
 #include "fragmotion/parallel.hpp"
 #include "fragmotion/random.hpp"
+#include "kmeans.hpp"
 
 namespace fragmotion {
 namespace {
 
-// Bounds are kept in floats; so much of them is given away to rounding.
-constexpr float kSlack = 1e-5F;
-
-// One run of k-means with Elkan's bounds ("Using the triangle inequality to accelerate k-means", ICML 2003).
-class KMeans {
- public:
-  KMeans(const Trajectories& t, const std::vector<float>& weights, int classes, int threads)
-      : t_(t),
-        weights_(weights),
-        n_(classes),
-        threads_(threads),
-        width_(std::size_t{3} * t.stride),
-        means_(n_ * width_),
-        labels_(t.count, 0),
-        upper_(t.count),
-        lower_(static_cast<std::size_t>(t.count) * n_),
-        between_(static_cast<std::size_t>(n_) * n_),
-        nearest_(n_) {}
-
-  void run(Random& random, int iterations) {
-    start(random);
-    for (int i = 0; i < iterations; ++i) {
-      const bool moved = move_means();
-      if (!assign() && !moved) break;
-    }
-  }
-
-  const std::vector<int>& labels() const { return labels_; }
-
-  double inertia() const {
-    double sum = 0;
-    for (int i = 0; i < t_.count; ++i) sum += weights_[i] * std::pow(static_cast<double>(distance(i, labels_[i])), 2);
-    return sum;
-  }
-
-  // The member of each class nearest to its mean.
-  std::vector<int> medoids() const {
-    std::vector<int> medoids(n_, -1);
-    std::vector<float> best(n_, std::numeric_limits<float>::infinity());
-    for (int i = 0; i < t_.count; ++i) {
-      const float d = distance(i, labels_[i]);
-      if (d < best[labels_[i]]) best[labels_[i]] = d, medoids[labels_[i]] = i;
-    }
-    return medoids;
-  }
-
- private:
-  float* mean(int k) { return &means_[k * width_]; }
-  const float* mean(int k) const { return &means_[k * width_]; }
-  float& lower(int i, int k) { return lower_[static_cast<std::size_t>(i) * n_ + k]; }
-  float& between(int a, int b) { return between_[static_cast<std::size_t>(a) * n_ + b]; }
-  float distance(int i, int k) const { return tip_distance(t_.trajectory(i), mean(k), t_.stride); }
-
-  // A fragment that may become a mean: how far each fragment is from it, or at least is where that is further than the
-  // nearest mean so far.
-  struct Candidate {
-    int fragment = 0;
-    std::vector<float> distances;
-  };
-
-  // Greedy k-means++ (Arthur and Vassilvitskii 2007): of several fragments drawn by their squared distance to the
-  // nearest mean so far, the one that leaves the smallest inertia is the next mean.
-  void start(Random& random) {
-    upper_.assign(t_.count, 1);
-    const int trials = 2 + static_cast<int>(std::log(n_));
-    std::vector<Candidate> candidates(trials);
-    for (Candidate& candidate : candidates) candidate.distances.resize(t_.count);
-    for (int k = 0; k < n_; ++k) {
-      candidates.resize(k == 0 ? 1 : trials, candidates[0]);
-      for (Candidate& candidate : candidates) candidate.fragment = draw_far(random);
-      parallel_for(t_.count, threads_, [&](int begin, int end) {
-        for (Candidate& candidate : candidates) measure(candidate, k, begin, end);
-      });
-      const auto left = [&](const Candidate& candidate) { return inertia_with(candidate, k); };
-      std::vector<double> inertias(candidates.size());
-      std::transform(candidates.begin(), candidates.end(), inertias.begin(), left);
-      add_mean(candidates[std::min_element(inertias.begin(), inertias.end()) - inertias.begin()], k);
-    }
-  }
-
-  // The triangle inequality tells of most fragments that they are not nearer to the candidate than to their mean.
-  void measure(Candidate& candidate, int k, int begin, int end) const {
-    const float* to_means = &lower_[static_cast<std::size_t>(candidate.fragment) * n_];
-    for (int i = begin; i < end; ++i) {
-      const float least = k == 0 ? 0 : to_means[labels_[i]] * (1 - kSlack) - upper_[i] * (1 + kSlack);
-      const bool further = k > 0 && least >= upper_[i];
-      candidate.distances[i] =
-          further ? least : tip_distance(t_.trajectory(i), t_.trajectory(candidate.fragment), t_.stride);
-    }
-  }
-
-  double inertia_with(const Candidate& candidate, int k) const {
-    double sum = 0;
-    for (int i = 0; i < t_.count; ++i) {
-      const double d = k == 0 ? candidate.distances[i] : std::min(upper_[i], candidate.distances[i]);
-      sum += weights_[i] * d * d;
-    }
-    return sum;
-  }
-
-  void add_mean(const Candidate& candidate, int k) {
-    std::copy_n(t_.trajectory(candidate.fragment), width_, mean(k));
-    for (int i = 0; i < t_.count; ++i) {
-      const float d = lower(i, k) = candidate.distances[i];
-      if (k == 0 || d < upper_[i]) upper_[i] = d, labels_[i] = k;
-    }
-  }
-
-  int draw_far(Random& random) const {
-    double total = 0;
-    for (int i = 0; i < t_.count; ++i) total += squared(i);
-    if (total == 0) throw std::invalid_argument("there are fewer distinct fragments than classes");
-    double rest = random.uniform() * total;
-    int last = 0;
-    for (int i = 0; i < t_.count; ++i) {
-      if (upper_[i] == 0) continue;
-      last = i;
-      rest -= squared(i);
-      if (rest < 0) break;
-    }
-    return last;
-  }
-
-  double squared(int i) const { return static_cast<double>(weights_[i]) * upper_[i] * upper_[i]; }
-
-  std::vector<int> sizes() const {
-    std::vector<int> sizes(n_, 0);
-    for (const int label : labels_) ++sizes[label];
-    return sizes;
-  }
-
-  // Gives every empty class the fragment that is furthest from its mean, of a class that has others.
-  bool refill_empty_classes() {
-    std::vector<int> count = sizes();
-    bool refilled = false;
-    for (int k = 0; k < n_; ++k) {
-      if (count[k] > 0) continue;
-      int furthest = -1;
-      for (int i = 0; i < t_.count; ++i) {
-        if (count[labels_[i]] > 1 && (furthest < 0 || upper_[i] > upper_[furthest])) furthest = i;
-      }
-      --count[labels_[furthest]];
-      ++count[k];
-      labels_[furthest] = k;
-      upper_[furthest] = std::numeric_limits<float>::infinity();
-      refilled = true;
-    }
-    return refilled;
-  }
-
-  // New means of all classes; bounds follow by how far each mean moved. Returns whether a class was empty.
-  bool move_means() {
-    const bool refilled = refill_empty_classes();
-    const std::vector<float> before = means_;
-    std::vector<float> total(n_, 0);
-    for (int i = 0; i < t_.count; ++i) total[labels_[i]] += weights_[i];
-    parallel_for(static_cast<int>(width_), threads_, [&](int begin, int end) { average_columns(total, begin, end); });
-    std::vector<float> shift(n_);
-    for (int k = 0; k < n_; ++k) shift[k] = tip_distance(&before[k * width_], mean(k), t_.stride) * (1 + kSlack);
-    parallel_for(t_.count, threads_, [&](int begin, int end) {
-      for (int i = begin; i < end; ++i) {
-        upper_[i] = upper_[i] * (1 + kSlack) + shift[labels_[i]];
-        for (int k = 0; k < n_; ++k) lower(i, k) = std::max(0.0F, lower(i, k) * (1 - kSlack) - shift[k]);
-      }
-    });
-    return refilled;
-  }
-
-  void average_columns(const std::vector<float>& total, int begin, int end) {
-    for (int k = 0; k < n_; ++k) std::fill(mean(k) + begin, mean(k) + end, 0.0F);
-    for (int i = 0; i < t_.count; ++i) {
-      float* sum = mean(labels_[i]);
-      const float* x = t_.trajectory(i);
-      for (int j = begin; j < end; ++j) sum[j] += weights_[i] * x[j];
-    }
-    for (int k = 0; k < n_; ++k) {
-      for (int j = begin; j < end; ++j) mean(k)[j] /= total[k];
-    }
-  }
-
-  void measure_means() {
-    parallel_for(n_, threads_, [&](int begin, int end) {
-      for (int a = begin; a < end; ++a) {
-        nearest_[a] = std::numeric_limits<float>::infinity();
-        for (int b = 0; b < n_; ++b) {
-          between(a, b) = tip_distance(mean(a), mean(b), t_.stride);
-          if (a != b) nearest_[a] = std::min(nearest_[a], between(a, b));
-        }
-      }
-    });
-  }
-
-  // Moves each fragment to its nearest mean. Returns whether any moved.
-  bool assign() {
-    measure_means();
-    std::vector<char> changed(t_.count, 0);
-    parallel_for(t_.count, threads_, [&](int begin, int end) {
-      for (int i = begin; i < end; ++i) changed[i] = assign(i) ? 1 : 0;
-    });
-    return std::find(changed.begin(), changed.end(), 1) != changed.end();
-  }
-
-  bool assign(int i) {
-    const int before = labels_[i];
-    if (upper_[i] <= 0.5F * nearest_[before] * (1 - kSlack)) return false;
-    bool exact = false;
-    for (int k = 0; k < n_; ++k) {
-      const auto ruled_out = [&] {
-        return upper_[i] <= lower(i, k) || upper_[i] <= 0.5F * between(labels_[i], k) * (1 - kSlack);
-      };
-      if (k == labels_[i] || ruled_out()) continue;
-      if (!exact) {
-        upper_[i] = lower(i, labels_[i]) = distance(i, labels_[i]);
-        exact = true;
-        if (ruled_out()) continue;
-      }
-      const float d = lower(i, k) = distance(i, k);
-      if (d < upper_[i]) upper_[i] = d, labels_[i] = k;
-    }
-    return labels_[i] != before;
-  }
-
-  const Trajectories& t_;
-  const std::vector<float>& weights_;
-  int n_, threads_;
-  std::size_t width_;
-  std::vector<float> means_;    // [n, 3, stride]
-  std::vector<int> labels_;     // [fragments]
-  std::vector<float> upper_;    // [fragments] at least the distance to the own mean
-  std::vector<float> lower_;    // [fragments, n] at most the distance to each mean
-  std::vector<float> between_;  // [n, n] distances of the means
-  std::vector<float> nearest_;  // [n] from each mean to the nearest other one
-};
+constexpr int kPosesSummed = 8;
+constexpr int kSampled = 100;     // fragments for each class
+constexpr float kLargest = 1e9F;  // m
+const char* const kStage = "Clustering";
 
 // Renumbers the classes by their representatives' order.
-Classes ordered(const KMeans& run, int count, double inertia) {
+Classes ordered(const KMeans& run, int count) {
   const std::vector<int> medoids = run.medoids();
   std::vector<int> order(count), rank(count);
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return medoids[a] < medoids[b]; });
   Classes classes;
   classes.count = count;
-  classes.inertia = inertia;
+  classes.inertia = run.inertia();
   for (int k = 0; k < count; ++k) {
     rank[order[k]] = k;
     classes.representatives.push_back(medoids[order[k]]);
   }
   for (const int label : run.labels()) classes.labels.push_back(rank[label]);
   return classes;
+}
+
+// Sums of every few poses of each bone tip. Their Dis is at most that of the poses, and hardly less: neighbouring poses
+// differ alike. Returns [count, 3, stride].
+std::vector<float> summed_poses(const Trajectories& t, int threads, int& stride) {
+  const int tips = t.tips > 0 ? t.tips : t.stride, group = t.tips > 0 ? kPosesSummed * tips : tips;
+  stride = padded((t.stride + group - 1) / group * tips);
+  std::vector<float> sums(static_cast<std::size_t>(t.count) * 3 * stride, 0);
+  parallel_for(3 * t.count, threads, [&](int begin, int end) {
+    for (int row = begin; row < end; ++row) {
+      const float* from = &t.whole[static_cast<std::size_t>(row) * t.stride];
+      float* to = &sums[static_cast<std::size_t>(row) * stride];
+      for (int pose = 0; pose < t.stride; pose += tips) {
+        float* sum = to + pose / group * tips;
+        for (int i = 0; i < std::min(tips, t.stride - pose); ++i) sum[i] += from[pose + i];
+      }
+    }
+  });
+  return sums;
+}
+
+// What the rounding of coordinates may add to a distance of sums of poses.
+float rounding(const Trajectories& t) {
+  float largest = 0;
+  for (const float x : t.whole) largest = std::max(largest, std::abs(x));
+  return 8 * std::numeric_limits<float>::epsilon() * static_cast<float>(t.stride) * largest;
+}
+
+// Finds classes at two resolutions: first among the sums of poses, then, from there, among the poses.
+class Clustering {
+ public:
+  Clustering(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options)
+      : classes_(options.classes),
+        iterations_(options.iterations),
+        fine_{t.count, t.stride, t.whole.data(), weights.data()},
+        coarse_{t.count, 0, nullptr, weights.data()},
+        sums_(summed_poses(t, thread_count(options.threads), coarse_.stride)),
+        rounding_(rounding(t)) {
+    coarse_.rows = sums_.data();
+  }
+  Clustering(const Clustering&) = delete;
+  Clustering& operator=(const Clustering&) = delete;
+
+  // From a random start.
+  Classes operator()(Random random, int threads) const {
+    KMeans coarse(coarse_, classes_, threads);
+    coarse.seed(random);
+    return settled(coarse, threads);
+  }
+
+  // From the labels of some of the fragments; -1 is none.
+  Classes operator()(const std::vector<int>& labels, int threads) const {
+    KMeans coarse(coarse_, classes_, threads);
+    coarse.start(labels, std::vector<float>(labels.size() * classes_, 0));
+    return settled(coarse, threads);
+  }
+
+ private:
+  Classes settled(KMeans& coarse, int threads) const {
+    coarse.settle(iterations_);
+    std::vector<float> lower = coarse.lower();
+    for (float& bound : lower) bound -= rounding_;
+    KMeans fine(fine_, classes_, threads);
+    fine.start(coarse.labels(), std::move(lower));
+    fine.settle(iterations_);
+    return ordered(fine, classes_);
+  }
+
+  int classes_, iterations_;
+  Points fine_, coarse_;
+  std::vector<float> sums_;
+  float rounding_;
+};
+
+// The best of all restarts; each runs on one thread, unless there are more threads than restarts.
+Classes best_run(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
+                 const ClassScore& score, const Progress& progress) {
+  const int runs = std::max(1, options.restarts), threads = thread_count(options.threads);
+  Random seeds(options.seed);
+  std::vector<Random> starts;
+  for (int run = 0; run < runs; ++run) starts.emplace_back(seeds.next());
+  std::vector<Classes> found(runs);
+  const Clustering clustering(t, weights, options);
+  parallel_for(runs, threads, [&](int begin, int end) {
+    const bool calling = begin == 0;
+    for (int run = begin; run < end; ++run) {
+      if (calling) report(progress, static_cast<double>(run) / end, kStage);
+      found[run] = clustering(starts[run], std::max(1, threads / runs));
+    }
+  });
+  report(progress, 1, kStage);
+  std::vector<double> scores;
+  for (const Classes& classes : found) scores.push_back(score ? score(classes) : -classes.inertia);
+  return found[std::max_element(scores.begin(), scores.end()) - scores.begin()];
+}
+
+// Every so manieth fragment of a pool.
+class Sample {
+ public:
+  Sample(const Trajectories& t, const std::vector<float>& weights, int count) : pool_(t.count) {
+    trajectories_.count = count;
+    trajectories_.tips = t.tips;
+    trajectories_.stride = t.stride;
+    for (int i = 0; i < count; ++i) {
+      const int fragment = static_cast<int>(static_cast<long long>(t.count) * i / count);
+      const float* row = t.trajectory(fragment);
+      fragments_.push_back(fragment);
+      weights_.push_back(weights[fragment]);
+      trajectories_.whole.insert(trajectories_.whole.end(), row, row + std::size_t{3} * t.stride);
+    }
+  }
+
+  const Trajectories& trajectories() const { return trajectories_; }
+  const std::vector<float>& weights() const { return weights_; }
+
+  // The sample's classes as the pool's.
+  Classes of_pool(const Classes& found) const {
+    Classes classes = found;
+    classes.labels.assign(pool_, -1);
+    for (std::size_t i = 0; i < fragments_.size(); ++i) classes.labels[fragments_[i]] = found.labels[i];
+    for (int& representative : classes.representatives) representative = fragments_[representative];
+    return classes;
+  }
+
+ private:
+  int pool_;
+  std::vector<int> fragments_;
+  std::vector<float> weights_;
+  Trajectories trajectories_;
+};
+
+void check(const Trajectories& t, const std::vector<float>& weights) {
+  if (static_cast<int>(weights.size()) != t.count) throw std::invalid_argument("every fragment needs a weight");
+  for (int i = 0; i < t.count; ++i) {
+    if (!(weights[i] > 0 && std::isfinite(weights[i]))) {
+      throw std::invalid_argument("fragment " + std::to_string(i) + ": its weight must be a number over 0");
+    }
+    const float* row = t.trajectory(i);
+    if (!std::all_of(row, row + std::size_t{3} * t.stride, [](float x) { return std::abs(x) <= kLargest; })) {
+      throw std::invalid_argument("fragment " + std::to_string(i) +
+                                  ": a coordinate is not a number, or more than a million kilometres");
+    }
+  }
+}
+
+// The number of different fragments, if it is below `most`.
+int distinct(const Trajectories& t, int most) {
+  const std::size_t width = std::size_t{3} * t.stride;
+  const auto before = [&](int a, int b) {
+    return std::lexicographical_compare(t.trajectory(a), t.trajectory(a) + width, t.trajectory(b),
+                                        t.trajectory(b) + width);
+  };
+  std::set<int, decltype(before)> different(before);
+  for (int i = 0; i < t.count && static_cast<int>(different.size()) < most; ++i) different.insert(i);
+  return static_cast<int>(different.size());
+}
+
+void check_count(const Trajectories& t, int classes) {
+  if (classes < 1) throw std::invalid_argument("the number of classes must be at least 1");
+  const auto too_few = [&](const char* kind, int count) {
+    return std::invalid_argument(std::to_string(classes) + " classes need as many " + kind + ", but there are only " +
+                                 std::to_string(count) + ": ask for fewer classes or add takes");
+  };
+  if (classes > t.count) throw too_few("fragments", t.count);
+  const int different = distinct(t, classes);
+  if (classes > different) throw too_few("distinct fragments", different);
 }
 
 }  // namespace
@@ -274,25 +213,16 @@ std::vector<std::vector<int>> Classes::members() const {
 
 Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
                 const ClassScore& score, const Progress& progress) {
-  if (static_cast<int>(weights.size()) != t.count) throw std::invalid_argument("every fragment needs a weight");
-  if (options.classes < 1) throw std::invalid_argument("the number of classes must be at least 1");
-  if (options.classes > t.count) {
-    throw std::invalid_argument(std::to_string(options.classes) +
-                                " classes need as many fragments, but there are only " + std::to_string(t.count) +
-                                ": ask for fewer classes or add takes");
-  }
-  Random random(options.seed);
-  Classes best;
-  double best_score = -std::numeric_limits<double>::infinity();
-  for (int restart = 0; restart < std::max(1, options.restarts); ++restart) {
-    report(progress, static_cast<double>(restart) / options.restarts, "Clustering");
-    KMeans run(t, weights, options.classes, thread_count(options.threads));
-    run.run(random, options.iterations);
-    Classes found = ordered(run, options.classes, run.inertia());
-    const double found_score = score ? score(found) : -found.inertia;
-    if (found_score > best_score) best_score = found_score, best = std::move(found);
-  }
-  return best;
+  check(t, weights);
+  check_count(t, options.classes);
+  const int sampled =
+      static_cast<int>(std::min<long long>(t.count, static_cast<long long>(kSampled) * options.classes));
+  if (sampled == t.count) return best_run(t, weights, options, score, progress);
+  const Sample sample(t, weights, sampled);
+  const ClassScore of_pool = [&](const Classes& classes) { return score(sample.of_pool(classes)); };
+  const Classes best =
+      best_run(sample.trajectories(), sample.weights(), options, score ? of_pool : ClassScore{}, progress);
+  return Clustering(t, weights, options)(sample.of_pool(best).labels, thread_count(options.threads));
 }
 
 }  // namespace fragmotion

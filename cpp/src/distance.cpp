@@ -9,8 +9,6 @@
 namespace fragmotion {
 namespace {
 
-int padded(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
-
 // The pose of a clip at a time between its frames.
 struct PoseSampler {
   const Kinematics& kinematics;
@@ -76,6 +74,7 @@ Trajectories trajectories(const FragmentPool& pool, int poses, int threads) {
   const int points = TipWriter(pool).points();
   Trajectories t;
   t.count = static_cast<int>(pool.fragments.size());
+  t.tips = points;
   t.stride = padded(points * poses);
   t.pose_stride = padded(points);
   t.whole.assign(static_cast<std::size_t>(t.count) * 3 * t.stride, 0);

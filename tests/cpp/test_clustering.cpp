@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "fragmotion/clustering.hpp"
@@ -230,10 +231,138 @@ TEST(Cluster, RefusesWhatCannotBeClustered) {
   const std::string more = error(t, 21, equal_weights(t));
   EXPECT_NE(more.find("21 classes"), std::string::npos) << more;
   EXPECT_NE(more.find("only 20"), std::string::npos) << more;
+  EXPECT_NE(error(same, 4, equal_weights(t)).find("only 3"), std::string::npos);
   EXPECT_NE(error(same, 4, equal_weights(t)).find("distinct"), std::string::npos);
   EXPECT_EQ(error(same, 3, equal_weights(t)), "no error");
   EXPECT_NE(error(t, 0, equal_weights(t)).find("at least 1"), std::string::npos);
   EXPECT_NE(error(t, 2, {1, 2}).find("weight"), std::string::npos);
+}
+
+TEST(Cluster, RefusesWeightsAndCoordinatesThatAreOutOfAllProportion) {
+  const float nan = std::nanf(""), infinite = std::numeric_limits<float>::infinity();
+  const Trajectories t = blobs(20, 2, 2, 1);
+  ClusterOptions options;
+  options.classes = 3;
+  for (const float weight : {0.0F, -1.0F, nan, infinite}) {
+    std::vector<float> weights = equal_weights(t);
+    weights[7] = weight;
+    const std::string error = error_of([&] { cluster(t, weights, options); });
+    EXPECT_NE(error.find("fragment 7"), std::string::npos) << weight;
+    EXPECT_NE(error.find("weight"), std::string::npos) << weight;
+  }
+  for (const float coordinate : {nan, infinite, -infinite, 1e25F}) {
+    Trajectories far = t;
+    far.whole[std::size_t{3} * 7 * t.stride] = coordinate;
+    const std::string error = error_of([&] { cluster(far, equal_weights(t), options); });
+    EXPECT_NE(error.find("fragment 7"), std::string::npos) << coordinate;
+    EXPECT_NE(error.find("coordinate"), std::string::npos) << coordinate;
+  }
+}
+
+TEST(Cluster, GivesClassesAtEveryScaleThatItAccepts) {
+  for (const float scale : {1e-38F, 1e-20F, 1e-3F, 1e3F, 1e8F}) {
+    Trajectories t = blobs(40, 2, 2, 1);
+    for (float& value : t.whole) value *= scale;
+    for (const float weight : {1e-38F, 1.0F, 1e38F}) {
+      ClusterOptions options;
+      options.classes = 5;
+      const Classes classes = cluster(t, std::vector<float>(t.count, weight), options);
+      for (const std::vector<int>& members : classes.members()) EXPECT_FALSE(members.empty()) << scale;
+      for (const int medoid : classes.representatives) EXPECT_GE(medoid, 0) << scale;
+      EXPECT_TRUE(std::isfinite(classes.inertia)) << scale;
+    }
+  }
+}
+
+TEST(Cluster, RunsOnceWhereNoRestartIsAskedFor) {
+  const Trajectories t = blobs(50, 2, 2, 1);
+  for (const int restarts : {0, -3}) {
+    ClusterOptions options;
+    options.classes = 3;
+    options.restarts = restarts;
+    const auto told = [](double fraction, const std::string&) {
+      EXPECT_TRUE(fraction >= 0 && fraction <= 1) << fraction;
+      return true;
+    };
+    expect_classes(t, equal_weights(t), cluster(t, equal_weights(t), options, {}, told), 3);
+  }
+}
+
+TEST(Cluster, TakesTheFirstRunWhereNoScoreIsANumber) {
+  const Trajectories t = blobs(50, 2, 2, 1);
+  ClusterOptions options;
+  options.classes = 3;
+  const Classes classes = cluster(t, equal_weights(t), options, [](const Classes&) { return std::nan(""); });
+  expect_classes(t, equal_weights(t), classes, 3);
+}
+
+// Poses of some tips that swing, as bones do.
+Trajectories swings(int count, int tips, int poses, std::uint64_t seed) {
+  Trajectories t = blobs(count, tips * poses, 1, seed);
+  Random random(seed);
+  t.tips = tips;
+  for (int i = 0; i < count; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double kind = random.below(6), speed = kind + 0.3 * random.uniform(), phase = 0.2 * random.uniform();
+      float* row = &t.whole[(std::size_t{3} * i + axis) * t.stride];
+      for (int pose = 0; pose < poses; ++pose) {
+        for (int k = 0; k < tips; ++k) {
+          row[pose * tips + k] = static_cast<float>(k + std::sin(0.3 * speed * pose + phase + k));
+        }
+      }
+    }
+  }
+  return t;
+}
+
+TEST(Cluster, SettlesAmongAllPosesOfMotions) {
+  for (const int poses : {2, 7, 8, 16, 19}) {
+    const Trajectories t = swings(300, 5, poses, poses);
+    ClusterOptions options;
+    options.classes = 12;
+    options.iterations = 1000;
+    SCOPED_TRACE(poses);
+    const Classes classes = cluster(t, equal_weights(t), options);
+    expect_classes(t, equal_weights(t), classes, options.classes);
+    expect_fixed_point(t, equal_weights(t), classes);
+  }
+}
+
+TEST(Cluster, FindsMotionsThatDifferOnlyWithinAFewPoses) {
+  Trajectories t = swings(4, 3, 16, 1);  // sums of poses tell none of these from another
+  std::fill(t.whole.begin(), t.whole.end(), 0.0F);
+  for (int i = 0; i < t.count; ++i) {
+    float* row = &t.whole[std::size_t{3} * i * t.stride];
+    row[0] = static_cast<float>(i);
+    row[t.tips] = static_cast<float>(-i);
+  }
+  ClusterOptions options;
+  options.classes = 4;
+  EXPECT_EQ(cluster(t, equal_weights(t), options).labels, (std::vector<int>{0, 1, 2, 3}));
+}
+
+TEST(Cluster, OfManyFragmentsSettlesAmongAllWhatItFindsInASample) {
+  const Trajectories t = swings(3000, 4, 16, 3);
+  ClusterOptions options;
+  options.classes = 6;
+  options.iterations = 1000;
+  int runs = 0;
+  const Classes classes = cluster(t, equal_weights(t), options, [&](const Classes& found) {
+    EXPECT_EQ(found.labels.size(), 3000U);
+    EXPECT_EQ(std::count(found.labels.begin(), found.labels.end(), -1), 3000 - 600);
+    for (int k = 0; k < found.count; ++k) EXPECT_EQ(found.labels[found.representatives[k]], k);
+    return ++runs;
+  });
+  EXPECT_EQ(runs, options.restarts);
+  expect_classes(t, equal_weights(t), classes, options.classes);
+  expect_fixed_point(t, equal_weights(t), classes);
+  for (const int threads : {1, 2, 3}) {
+    options.threads = threads;
+    const Classes other = cluster(t, equal_weights(t), options);
+    EXPECT_EQ(other.labels, classes.labels);
+    EXPECT_EQ(other.representatives, classes.representatives);
+    EXPECT_EQ(other.inertia, classes.inertia);
+  }
 }
 
 TEST(Cluster, IsCancelledByItsProgress) {

@@ -43,6 +43,25 @@ TEST(TipDistance, IsTheSumOfEuclideanDistances) {
   }
 }
 
+// The eight partial sums that the contract fixes, one after another.
+float plain_distance(const Rows& a, const Rows& b, int stride) {
+  float sums[kLanes] = {};
+  for (int i = 0; i < stride; ++i) {
+    const float dx = a[i] - b[i], dy = a[stride + i] - b[stride + i], dz = a[2 * stride + i] - b[2 * stride + i];
+    sums[i % kLanes] += std::sqrt(dx * dx + dy * dy + dz * dz);
+  }
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+}
+
+TEST(TipDistance, IsThePlainLoopToTheBit) {
+  Random random(3);
+  for (int n = 0; n < 1000; ++n) {
+    const int points = 1 + random.below(400), stride = padded(points);
+    const Rows a = random_rows(random, points, stride), b = random_rows(random, points, stride);
+    EXPECT_EQ(tip_distance(a.data(), b.data(), stride), plain_distance(a, b, stride));
+  }
+}
+
 TEST(TipDistance, IsANormOfTheDifference) {
   Random random(2);
   const int stride = 24;

@@ -10,8 +10,8 @@ namespace fragmotion {
 
 struct ClusterOptions {
   int classes = 97;      ///< The paper's, "based on several experiment results".
-  int restarts = 4;      ///< Runs from different starts, of which the best counts.
-  int iterations = 100;  ///< At most, a run.
+  int restarts = 4;      ///< Runs from different starts, of which the best counts; at least 1.
+  int iterations = 100;  ///< At most, a run at each resolution.
   std::uint64_t seed = 1;
   int threads = 0;
 };
@@ -21,7 +21,7 @@ struct Classes {
   int count = 0;
   std::vector<int> labels;           ///< [fragments] class of each
   std::vector<int> representatives;  ///< [count] the medoid: the member nearest to the mean
-  double inertia = 0;                ///< Sum over fragments of Dis(f, mean of its class) squared.
+  double inertia = 0;                ///< Sum over fragments of weight times Dis(f, mean of its class) squared.
 
   /// The fragments of each class, in order.
   std::vector<std::vector<int>> members() const;
@@ -30,10 +30,13 @@ struct Classes {
 /// What makes one clustering better than another: the greater score. By default the smaller inertia.
 using ClassScore = std::function<double(const Classes&)>;
 
-/// k-means under Dis: k-means++ starts, Elkan's bounds (exact, since Dis is a norm), empty classes refilled with the
-/// fragment furthest from its mean. `weights` (> 0, one a fragment) say how much each counts. Classes are
-/// numbered by their representatives' order in the pool.
-/// Throws std::invalid_argument where there are fewer distinct fragments than classes.
+/// k-means under Dis: k-means++ starts, Elkan's lower bounds (exact, since Dis is a norm), empty classes refilled with
+/// the fragment furthest from its mean. Classes are sought among sums of neighbouring poses, and settled among the
+/// poses. `weights` (> 0, one a fragment) say how much each counts. Classes are numbered by their representatives'
+/// order in the pool. Of more than 100 fragments a class, the restarts see only as many, evenly spaced, and `score`
+/// gets classes whose labels are -1 for all others; the best run is then settled among all fragments. So time is linear
+/// in their number. Throws std::invalid_argument where there are fewer distinct fragments than classes, and on a weight
+/// or coordinate that is no number, or out of all proportion.
 Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
                 const ClassScore& score = {}, const Progress& progress = {});
 

@@ -13,6 +13,9 @@ constexpr int kLanes = 8;
 /// Poses of a trajectory.
 constexpr int kPoses = 16;
 
+/// The floats in a row of so many points.
+constexpr int padded(int points) { return (points + kLanes - 1) / kLanes * kLanes; }
+
 /// Sum over points of the Euclidean distance between two such vectors of `stride` floats a row (Sec. 3.1): a norm of
 /// their difference. The same bits on every x86-64, with AVX2 or without.
 float tip_distance(const float* a, const float* b, int stride);
@@ -22,6 +25,7 @@ float tip_distance(const float* a, const float* b, int stride);
 /// fragment's end poses, each in its own character frame.
 struct Trajectories {
   int count = 0;
+  int tips = 0;              ///< Points of each pose, one behind another in a row; 0 where there is but one pose.
   int stride = 0;            ///< Floats in a row of a trajectory.
   int pose_stride = 0;       ///< Floats in a row of an end pose.
   std::vector<float> whole;  ///< [count, 3, stride]
