@@ -18,17 +18,22 @@ namespace py = pybind11;
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Flags = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 
+/// Throws std::logic_error unless so many values fill an array of this shape.
+void check_size(std::size_t count, const std::vector<py::ssize_t>& shape);
+
 /// The vector's values as an array that takes the vector over, without a copy.
 template <typename T>
 py::array_t<T> to_array(std::vector<T> values, std::vector<py::ssize_t> shape) {
+  check_size(values.size(), shape);
   auto* owned = new std::vector<T>(std::move(values));
   const py::capsule free(owned, [](void* p) { delete static_cast<std::vector<T>*>(p); });
   return py::array_t<T>(std::move(shape), owned->data(), free);
 }
 
-/// A read-only view of values that `owner` keeps.
+/// A read-only view of values that `owner` keeps and that fill an array of this shape.
 template <typename T>
 py::array_t<T> view(const std::vector<T>& values, std::vector<py::ssize_t> shape, const py::handle& owner) {
+  check_size(values.size(), shape);
   py::array_t<T> array(std::move(shape), values.data(), owner);
   array.attr("setflags")(py::arg("write") = false);
   return array;

@@ -16,6 +16,13 @@ void check_shape(const py::array& array, const std::string& name, const std::vec
   throw std::invalid_argument(name + " must have the shape [" + expected + "], not [" + found + "]");
 }
 
+void check_size(std::size_t count, const std::vector<py::ssize_t>& shape) {
+  std::size_t size = 1;
+  for (const py::ssize_t length : shape) size *= static_cast<std::size_t>(length);
+  if (size == count) return;
+  throw std::logic_error(std::to_string(count) + " values do not fill an array of " + std::to_string(size));
+}
+
 std::vector<double> to_vector(const Doubles& array) { return {array.data(), array.data() + array.size()}; }
 
 Control to_control(const Doubles& values) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "raise.hpp"
 #include "transposed.hpp"
 
 namespace fragmotion {
@@ -17,7 +18,6 @@ void check_controls(const std::vector<int>& trace) {
   }
 }
 
-// best[i] becomes row[i] * match + value where that is more. GCC builds this for both instruction sets.
 __attribute__((target_clones("avx2", "default"))) void raise(double* best, const double* row, int count, double match,
                                                              double value) {
   for (int i = 0; i < count; ++i) {

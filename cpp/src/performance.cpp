@@ -5,15 +5,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "raise.hpp"
+#include "transposed.hpp"
+
 namespace fragmotion {
 namespace {
 
 constexpr double kRounding = 1e-9;  // frames
-
-// A play of a class for some frames: the sum of its match over them, and the value of what follows.
-struct Play {
-  double match, value;
-};
 
 // Dynamic programming over frames, from the last to the first (Eq. 1 with classes that last).
 class Hindsight {
@@ -23,7 +21,7 @@ class Hindsight {
         frames_(static_cast<int>(controls.size())),
         shortest_(n_, static_cast<int>(shortest * rate + kRounding)),
         longest_(n_, 0),
-        smoothness_(c.quality.smoothness.size()),
+        smoothness_(transposed(c.quality.smoothness, n_, n_)),
         match_(static_cast<std::size_t>(frames_ + 1) * n_, 0),
         value_(match_.size(), 0) {
     for (std::size_t f = 0; f < c.pool.fragments.size(); ++f) {
@@ -31,9 +29,6 @@ class Hindsight {
       const double frames = c.pool.seconds(c.pool.fragments[f]) * rate;
       shortest_[label] = std::clamp(static_cast<int>(frames + kRounding), 1, std::max(1, shortest_[label]));
       longest_[label] = std::max(longest_[label], static_cast<int>(std::ceil(frames - kRounding)));
-    }
-    for (int from = 0; from < n_; ++from) {
-      for (int to = 0; to < n_; ++to) smoothness_[at(to, from)] = c.quality.smoothness[at(from, to)];
     }
     for (int f = 0; f < frames_; ++f) {
       for (int q = 0; q < n_; ++q) {
@@ -59,10 +54,7 @@ class Hindsight {
     const double* smoothness = &smoothness_[at(to, 0)];
     const int last = std::min(frames_, f + longest_[to]);
     for (int end = std::min(frames_, f + shortest_[to]); end <= last; ++end) {
-      const Play play{match_[at(end, to)] - match_[at(f, to)], value_[at(end, to)]};
-      for (int from = 0; from < n_; ++from) {
-        value[from] = std::max(value[from], smoothness[from] * play.match + play.value);
-      }
+      raise(value, smoothness, n_, match_[at(end, to)] - match_[at(f, to)], value_[at(end, to)]);
     }
   }
 

@@ -206,7 +206,7 @@ TEST(AnticipatePolicy, ForeseesForControlsThatWereNeverSeen) {
   quality.match[5] = 0.6;
   quality.match[kPoints + 5] = 0.63;
   const std::vector<std::vector<int>> traces{{7, 7, 7}};
-  EXPECT_EQ(iterate_policy(quality, traces)(1, 5), 1);
+  EXPECT_EQ(iterate_policy(quality, traces)(0, 5), 1);
   EXPECT_EQ(anticipate_policy(quality, traces)(0, 5), 0);
 }
 
@@ -234,7 +234,7 @@ TEST(IteratePolicy, UnderOneControlThatStaysFollowsTheBestLoop) {
 // Value iteration word by word.
 Policy plain_iteration(const Quality& quality, const std::vector<std::vector<int>>& traces, double discount) {
   const int n = quality.classes;
-  const std::vector<double> model = control_model(traces);
+  const std::vector<double> model = control_model(traces, kKept);
   std::vector<double> value(n * kPoints, 0);
   Policy policy{"plain", n, std::vector<int>(n * kPoints)};
   for (double change = 1; change > 1e-4;) {

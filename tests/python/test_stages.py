@@ -109,11 +109,28 @@ def test_clusters_are_the_same_bits_for_any_number_of_threads() -> None:
         (np.ones((5, 2, 3)) * np.nan, 2, "not a number"),
         (np.zeros((5, 2, 2)), 2, "shape"),
         (np.zeros((5, 2, 3)), 0, "at least 1"),
+        (np.arange(30).reshape((5, 2, 3)) * 1e25, 2, "fragment 1: a coordinate"),
     ],
 )
 def test_clusters_refuse_what_cannot_be_clustered(points: Array, classes: int, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         core.cluster(points, classes)
+
+
+@pytest.mark.parametrize("weight", [0, -1, np.nan, np.inf])
+def test_clusters_refuse_weights_that_do_not_count(weight: float) -> None:
+    points = np.random.default_rng(1).random((5, 2, 3), dtype=np.float32)
+    with pytest.raises(ValueError, match="weight"):
+        core.cluster(points, 2, [1, 1, weight, 1, 1])
+
+
+@pytest.mark.parametrize("restarts", [0, -1])
+def test_clusters_without_restarts_tell_a_progress_that_is_a_number(restarts: int) -> None:
+    points = np.random.default_rng(1).random((20, 2, 3), dtype=np.float32)
+    told: list[float] = []
+    labels = core.cluster(points, 3, restarts=restarts, progress=lambda part, _: told.append(part) or True)[0]
+    assert set(labels) == {0, 1, 2}
+    assert told and all(0 <= part <= 1 for part in told)
 
 
 # --- Optimal, Greedy, Iterate ----------------------------------------------------------------------------------------
@@ -179,6 +196,13 @@ def test_anticipate_is_value_iteration_with_a_prior_of_any_player() -> None:
     chosen = np.take_along_axis(choices, table[:, None, :], 1)[:, 0]
     np.testing.assert_allclose(chosen, choices.max(1), atol=2e-3)
     assert (table == choices.argmax(1)).mean() > 0.99
+
+
+@pytest.mark.parametrize("options", [{"discount": 1}, {"discount": np.nan}, {"tolerance": 0}, {"tolerance": np.nan}])
+def test_iterate_refuses_options_without_an_end(options: dict[str, float]) -> None:
+    smoothness, match = random_factors(np.random.default_rng(9), 3)
+    with pytest.raises(ValueError, match=next(iter(options))):
+        core.iterate_table(smoothness, match, [[1, 2]], **options)
 
 
 def test_no_table_is_better_than_optimal() -> None:
