@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "fragmotion/anticipate.hpp"
@@ -37,18 +38,14 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-double mean_of(const std::vector<double>& values, std::size_t begin, std::size_t end) {
-  double sum = 0;
-  for (std::size_t i = begin; i < end; ++i) sum += values[i];
-  return sum / static_cast<double>(end - begin);
-}
-
 // The two means of sorted values that split them best (the least squares of two clusters).
 std::pair<double, double> two_means(const std::vector<double>& sorted) {
-  double best = -1;
+  const double total = std::accumulate(sorted.begin(), sorted.end(), 0.0);
+  double best = -1, low = 0;
   std::pair<double, double> means{sorted.front(), sorted.back()};
   for (std::size_t split = 1; split < sorted.size(); ++split) {
-    const double a = mean_of(sorted, 0, split), b = mean_of(sorted, split, sorted.size());
+    low += sorted[split - 1];
+    const double a = low / static_cast<double>(split), b = (total - low) / static_cast<double>(sorted.size() - split);
     const double between = (b - a) * (b - a) * static_cast<double>(split) * static_cast<double>(sorted.size() - split);
     if (between > best) best = between, means = {a, b};
   }
@@ -65,7 +62,7 @@ std::pair<double, double> gait_speeds(const std::vector<Control>& evident, doubl
   std::sort(speeds.begin(), speeds.end());
   const auto [slow, fast] = two_means(speeds);
   if (fast > kTwoGaits * slow) return {slow, fast};
-  const double mean = mean_of(speeds, 0, speeds.size());
+  const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
   return mean < kWalkOrRun ? std::pair{mean, mean * kRunOverWalk} : std::pair{mean / kRunOverWalk, mean};
 }
 
