@@ -7,6 +7,7 @@
 #include "arrays.hpp"
 #include "fragmotion/greedy.hpp"
 #include "fragmotion/policy_file.hpp"
+#include "fragmotion/suggest.hpp"
 
 namespace fragmotion::bindings {
 namespace {
@@ -190,6 +191,23 @@ void bind_character(py::module_& m) {
         return without_gil([&] {
           return std::make_shared<Character>(build(skeleton, clips, controls, options.value_or(BuildOptions{}), told));
         });
+      },
+      py::arg("skeleton"), py::arg("clips"), py::arg("traces"), py::arg("options") = py::none(),
+      py::arg("progress") = py::none());
+  py::class_<ClassesTried>(m, "ClassesTried", py::module_local())
+      .def_readonly("classes", &ClassesTried::classes)
+      .def_readonly("quality", &ClassesTried::quality)
+      .def_readonly("velocity_error", &ClassesTried::velocity_error);
+  m.def(
+      "suggest_classes",
+      [](const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Doubles>& traces,
+         const std::optional<BuildOptions>& options, const py::object& progress) {
+        std::vector<Trace> controls;
+        for (const Doubles& trace : traces) controls.push_back(to_trace(trace));
+        const Progress told = to_progress(progress);
+        Suggestion suggestion = without_gil(
+            [&] { return suggest_classes(skeleton, clips, controls, options.value_or(BuildOptions{}), told); });
+        return py::make_tuple(suggestion.classes, std::move(suggestion.tried));
       },
       py::arg("skeleton"), py::arg("clips"), py::arg("traces"), py::arg("options") = py::none(),
       py::arg("progress") = py::none());

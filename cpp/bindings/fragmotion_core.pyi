@@ -310,6 +310,25 @@ def response_times(character: Character, seed: int = 1, stitch: float = 0.15, po
     """[272] seconds from each step of the command between two of the 17 velocities until the velocity over the last 0.1 s
     has made 90 % of the way; 3 where it takes longer."""
 
+class ClassesTried:
+    """What a number of classes is good for: means over a minute of each simulated player."""
+
+    classes: int
+    quality: float
+    """As Performance's."""
+    velocity_error: float
+    """Over the commanded speed."""
+
+def suggest_classes(
+    skeleton: Skeleton,
+    clips: Sequence[Clip],
+    traces: Sequence[ArrayLike],
+    options: BuildOptions | None = None,
+    progress: Progress | None = None,
+) -> tuple[int, list[ClassesTried]]:
+    """The fewest classes with which the character follows the stick as well as with any more, and all that were tried:
+    24 to 274, as far as there are four fragments a class."""
+
 class Alternative:
     """A class that might be played next, and what speaks for it."""
 

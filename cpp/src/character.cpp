@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "building.hpp"
 #include "fragmotion/anticipate.hpp"
 #include "fragmotion/bridge.hpp"
 #include "fragmotion/evident.hpp"
@@ -190,12 +191,6 @@ void check(const std::vector<Clip>& clips, const std::vector<Trace>& traces, con
   }
 }
 
-// A part of a build's progress as the whole's.
-Progress part_of(const Progress& progress, double from, double to) {
-  if (!progress) return {};
-  return [=](double fraction, const std::string& stage) { return progress(from + (to - from) * fraction, stage); };
-}
-
 }  // namespace
 
 const std::vector<std::string>& policy_names() {
@@ -223,11 +218,17 @@ std::vector<int> snap(const ControlSpace& space, const Trace& trace) {
   return indices;
 }
 
-Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
-                const BuildOptions& options, const Progress& progress) {
+Progress part_of(const Progress& progress, double from, double to) {
+  if (!progress) return {};
+  return [=](double fraction, const std::string& stage) { return progress(from + (to - from) * fraction, stage); };
+}
+
+Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
+                 const BuildOptions& options, const Progress& progress) {
   check(clips, traces, options);
-  Stopwatch whole, stage;
-  Character c;
+  Material material{std::make_shared<Character>(), {}, {}};
+  Character& c = *material.character;
+  Stopwatch stage;
   report(progress, 0, "Cutting fragments");
   const Kinematics kinematics(make_skeleton(skeleton));
   c.pool = captured_pool(kinematics, clips, options);
@@ -235,7 +236,7 @@ Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const 
   double usual = 0;
   c.space = perform(c.pool, kinematics, usual);
   c.report["cut_seconds"] = stage.lap();
-  report(progress, 0.15, "Synthesizing fragments");
+  report(progress, 0.5, "Synthesizing fragments");
   if (options.synthesize) {
     SynthesisOptions synthesis;
     synthesis.longest = options.cut.longest;
@@ -245,30 +246,46 @@ Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const 
   c.coverage = coverage(c.pool, c.space);
   c.report["fragments"] = static_cast<double>(c.pool.fragments.size());
   c.report["synthesize_seconds"] = stage.lap();
-  report(progress, 0.3, "Measuring fragments");
-  const Trajectories t = trajectories(c.pool, kPoses, options.threads);
+  report(progress, 0.9, "Measuring fragments");
+  material.trajectories = trajectories(c.pool, kPoses, options.threads);
+  for (const Trace& trace : traces) material.traces.push_back(snap(c.space, trace));
   c.report["measure_seconds"] = stage.lap();
-  std::vector<std::vector<int>> snapped;
-  for (const Trace& trace : traces) snapped.push_back(snap(c.space, trace));
+  return material;
+}
+
+void learn(const Material& material, const BuildOptions& options, const Progress& progress) {
+  Character& c = *material.character;
+  const Trajectories& t = material.trajectories;
+  Stopwatch stage;
   ClusterOptions clustering;
   clustering.classes = options.classes;
   clustering.restarts = options.restarts;
   clustering.seed = options.seed;
   clustering.threads = options.threads;
-  c.classes = cluster(t, balanced_weights(c), clustering, serves_traces(c, t, snapped), part_of(progress, 0.35, 0.7));
+  c.classes =
+      cluster(t, balanced_weights(c), clustering, serves_traces(c, t, material.traces), part_of(progress, 0, 0.5));
   c.report["classes"] = c.classes.count;
   c.report["cluster_seconds"] = stage.lap();
   c.quality = quality_table(c.pool, t, c.classes, c.space);
   c.bridges = stand_bridges(c.pool, t, c.classes, c.space);
   c.report["quality_seconds"] = stage.lap();
-  c.control_model = control_model(snapped, kAnyPlayer);
+  c.control_model = control_model(material.traces, kAnyPlayer);
+  c.policies.clear();
   for (const std::string& name : options.policies) {
-    c.policies.push_back(policy_named(name, c, t, snapped, options.threads, part_of(progress, 0.7, 1)));
+    c.policies.push_back(policy_named(name, c, t, material.traces, options.threads, part_of(progress, 0.5, 1)));
     c.report[name + "_seconds"] = stage.lap();
   }
+}
+
+Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
+                const BuildOptions& options, const Progress& progress) {
+  Stopwatch whole;
+  const Material material = prepare(skeleton, clips, traces, options, part_of(progress, 0, 0.35));
+  learn(material, options, part_of(progress, 0.35, 1));
+  Character& c = *material.character;
   c.report["seconds"] = whole.lap();
   report(progress, 1, "Done");
-  return c;
+  return std::move(c);
 }
 
 }  // namespace fragmotion
