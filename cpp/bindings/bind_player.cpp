@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
+#include "fragmotion/motion_measures.hpp"
 #include "fragmotion/player.hpp"
 #include "fragmotion/response.hpp"
 
@@ -46,6 +47,23 @@ void bind_performance(py::module_& m) {
       .def_readonly("commanded_speed", &Performance::commanded_speed);
 }
 
+void bind_measures(py::module_& m) {
+  py::class_<Steps>(m, "Steps", py::module_local())
+      .def_readonly("p99", &Steps::p99)
+      .def_readonly("p999", &Steps::p999)
+      .def_readonly("worst", &Steps::worst);
+  py::class_<MotionMeasures>(m, "MotionMeasures", py::module_local())
+      .def_readonly("foot_skate", &MotionMeasures::foot_skate)
+      .def_readonly("sliding_share", &MotionMeasures::sliding_share)
+      .def_readonly("penetration", &MotionMeasures::penetration)
+      .def_readonly("positions", &MotionMeasures::positions)
+      .def_readonly("velocities", &MotionMeasures::velocities)
+      .def_readonly("accelerations", &MotionMeasures::accelerations);
+  m.def("measure_takes", &measure_takes, py::arg("character"), py::call_guard<py::gil_scoped_release>());
+  m.def("measure_performance", &measure_performance, py::arg("character"), py::arg("performance"),
+        py::call_guard<py::gil_scoped_release>());
+}
+
 void bind_yardsticks(py::module_& m) {
   m.def(
       "optimal_performance",
@@ -73,6 +91,7 @@ void bind_yardsticks(py::module_& m) {
 
 void bind_player(py::module_& m) {
   bind_performance(m);
+  bind_measures(m);
   bind_yardsticks(m);
   py::class_<Player>(m, "Player", py::module_local())
       .def(py::init([](std::shared_ptr<Character> character, std::uint64_t seed, double stitch,

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/motion_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fragmotion/kinematics.hpp"
+#include "fragmotion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kRate = 60, kHeight = 0.025, kSliding = 0.1, kStitched = 0.25;
+constexpr double kNeverLow = std::numeric_limits<double>::infinity();
+
+using Floors = std::array<double, 4>;  // heights of left ball, left heel, right ball, right heel
+
+// A motion as the places of its joints, for a character of 1.8 m.
+struct Joints {
+  double rate = 0;
+  int bones = 0, frames = 0;
+  std::vector<Vector3> places;                 // [frames, bones]
+  std::array<std::vector<Vector3>, 4> points;  // of the feet, as Floors; empty without feet
+  std::vector<bool> judged;                    // frames whose steps count
+
+  const Vector3& place(int frame, int bone) const { return places[static_cast<std::size_t>(frame) * bones + bone]; }
+};
+
+class JointReader {
+ public:
+  explicit JointReader(const Skeleton& skeleton)
+      : kinematics_(skeleton),
+        scale_(standard_scale(skeleton)),
+        measured_(measured_bones(skeleton)),
+        heads_(kinematics_.bones()),
+        orientations_(kinematics_.bones()) {}
+
+  void add(Joints& joints, const Vector3& root, const double* rotations) {
+    kinematics_.world(root, rotations, heads_.data(), orientations_.data());
+    joints.bones = static_cast<int>(measured_.size());
+    for (const int b : measured_) joints.places.push_back(heads_[b] * scale_);
+    const Roles& roles = kinematics_.skeleton().roles;
+    if (roles.left_foot >= 0 && roles.right_foot >= 0) {
+      add_foot(joints, 0, roles.left_foot, roles.left_toe);
+      add_foot(joints, 2, roles.right_foot, roles.right_toe);
+    }
+    ++joints.frames;
+  }
+
+ private:
+  void add_foot(Joints& joints, int at, int foot, int toe) {
+    const Vector3 tip = heads_[foot] + orientations_[foot] * kinematics_.skeleton().tips[foot];
+    joints.points[at].push_back((toe >= 0 ? heads_[toe] : tip) * scale_);
+    joints.points[at + 1].push_back(heads_[foot] * scale_);
+  }
+
+  Kinematics kinematics_;
+  double scale_;
+  std::vector<int> measured_;
+  std::vector<Vector3> heads_;
+  std::vector<Quaternion> orientations_;
+};
+
+std::vector<Joints> takes_of(const Character& character) {
+  const FragmentPool& pool = character.pool;
+  std::vector<bool> captured(pool.clips.size(), false);
+  for (const Fragment& f : pool.fragments) captured[f.clip] = captured[f.clip] || f.origin == Origin::captured;
+  JointReader reader(pool.skeleton);
+  std::vector<double> rotations(std::size_t{4} * pool.skeleton.size());
+  std::vector<Joints> takes;
+  for (std::size_t c = 0; c < pool.clips.size(); ++c) {
+    if (!captured[c]) continue;
+    const Clip& clip = pool.clips[c];
+    Joints joints;
+    joints.rate = kRate;
+    for (int f = 0; f * clip.rate / kRate <= clip.frames - 1; ++f) {
+      const Vector3 root = sample_pose(clip, f * clip.rate / kRate, rotations.data());
+      reader.add(joints, root, rotations.data());
+    }
+    joints.judged.assign(joints.frames, true);
+    takes.push_back(std::move(joints));
+  }
+  return takes;
+}
+
+// The median over the takes of where each point is lowest.
+Floors floors_of(const std::vector<Joints>& takes) {
+  Floors floors;
+  floors.fill(kNeverLow);
+  for (std::size_t point = 0; point < floors.size(); ++point) {
+    std::vector<double> lowest;
+    for (const Joints& take : takes) {
+      double z = kNeverLow;
+      for (const Vector3& p : take.points[point]) z = std::min(z, p.z());
+      lowest.push_back(z);
+    }
+    std::nth_element(lowest.begin(), lowest.begin() + lowest.size() / 2, lowest.end());
+    floors[point] = lowest[lowest.size() / 2];
+  }
+  return floors;
+}
+
+class Measurement {
+ public:
+  explicit Measurement(const Floors& floors) : floors_(floors) {}
+
+  void add(const Joints& joints) {
+    for (std::size_t point = 0; point < floors_.size(); ++point) add_point(joints, point);
+    for (int f = 3; f < joints.frames; ++f) {
+      if (joints.judged[f]) add_steps(joints, f);
+    }
+  }
+
+  MotionMeasures result() {
+    MotionMeasures m;
+    m.foot_skate = count_ > 0 ? skate_ / count_ : 0;
+    m.sliding_share = low_ > 0 ? sliding_ / low_ : 0;
+    m.penetration = depth_;
+    m.positions = steps(positions_);
+    m.velocities = steps(velocities_);
+    m.accelerations = steps(accelerations_);
+    return m;
+  }
+
+ private:
+  void add_point(const Joints& joints, std::size_t point) {
+    const std::vector<Vector3>& path = joints.points[point];
+    for (std::size_t f = 1; f < path.size(); ++f) {
+      const double height = path[f].z() - floors_[point];
+      const double speed = (path[f] - path[f - 1]).head<2>().norm() * joints.rate;
+      skate_ += speed * std::clamp(2 - std::exp2(height / kHeight), 0.0, 1.0);
+      ++count_;
+      depth_ = std::max(depth_, -height);
+      if (height < kHeight) ++low_;
+      if (height < kHeight && speed > kSliding) ++sliding_;
+    }
+  }
+
+  void add_steps(const Joints& joints, int f) {
+    for (int b = 0; b < joints.bones; ++b) {
+      const Vector3 now = (joints.place(f, b) - joints.place(f - 1, b)) * joints.rate;
+      const Vector3 before = (joints.place(f - 1, b) - joints.place(f - 2, b)) * joints.rate;
+      const Vector3 earlier = (joints.place(f - 2, b) - joints.place(f - 3, b)) * joints.rate;
+      positions_.push_back(static_cast<float>(now.norm() / joints.rate));
+      velocities_.push_back(static_cast<float>((now - before).norm()));
+      accelerations_.push_back(static_cast<float>((now - 2 * before + earlier).norm() * joints.rate));
+    }
+  }
+
+  static Steps steps(std::vector<float>& values) {
+    if (values.empty()) return {};
+    const auto at = [&](double share) {
+      const auto i = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+      std::nth_element(values.begin(), i, values.end());
+      return static_cast<double>(*i);
+    };
+    return {at(0.99), at(0.999), at(1)};
+  }
+
+  Floors floors_;
+  double skate_ = 0, count_ = 0, low_ = 0, sliding_ = 0, depth_ = 0;
+  std::vector<float> positions_, velocities_, accelerations_;
+};
+
+}  // namespace
+
+MotionMeasures measure_takes(const Character& character) {
+  const std::vector<Joints> takes = takes_of(character);
+  Measurement measurement(floors_of(takes));
+  for (const Joints& take : takes) measurement.add(take);
+  return measurement.result();
+}
+
+MotionMeasures measure_performance(const Character& character, const Performance& p) {
+  JointReader reader(character.pool.skeleton);
+  Joints joints;
+  joints.rate = p.rate;
+  const std::size_t width = p.rotations.size() / p.frames;
+  double since = kStitched;
+  for (int f = 0; f < p.frames; ++f) {
+    reader.add(joints, load_vector(&p.root_positions[std::size_t{3} * f]), &p.rotations[width * f]);
+    since = f > 0 && p.fragments[f] != p.fragments[f - 1] ? 0 : since + 1 / p.rate;
+    joints.judged.push_back(since < kStitched);
+  }
+  Measurement measurement(floors_of(takes_of(character)));
+  measurement.add(joints);
+  return measurement.result();
+}
+
+}  // namespace fragmotion
