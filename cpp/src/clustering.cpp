@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kPosesSummed = 8;
 constexpr int kSampled = 100;     // fragments for each class
+constexpr int kHardlyAny = 1000;  // one fragment in so many
 constexpr float kLargest = 1e9F;  // m
 const char* const kStage = "Clustering";
 
@@ -63,12 +64,38 @@ float rounding(const Trajectories& t) {
   return 8 * std::numeric_limits<float>::epsilon() * static_cast<float>(t.stride) * largest;
 }
 
+std::vector<int> even_sample(int pool, int count) {
+  std::vector<int> fragments(count);
+  for (int i = 0; i < count; ++i) fragments[i] = static_cast<int>(static_cast<long long>(pool) * i / count);
+  return fragments;
+}
+
+std::vector<float> some(const std::vector<float>& weights, const std::vector<int>& fragments) {
+  std::vector<float> chosen;
+  for (const int i : fragments) chosen.push_back(weights[i]);
+  return chosen;
+}
+
+Trajectories some(const Trajectories& t, const std::vector<int>& fragments) {
+  Trajectories chosen;
+  chosen.count = static_cast<int>(fragments.size());
+  chosen.tips = t.tips;
+  chosen.stride = t.stride;
+  const std::size_t width = std::size_t{3} * t.stride;
+  chosen.whole.reserve(fragments.size() * width);
+  for (const int i : fragments) {
+    chosen.whole.insert(chosen.whole.end(), t.trajectory(i), t.trajectory(i) + width);
+  }
+  return chosen;
+}
+
 // Finds classes at two resolutions: first among the sums of poses, then, from there, among the poses.
 class Clustering {
  public:
   Clustering(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options)
       : classes_(options.classes),
         iterations_(options.iterations),
+        few_(t.count / kHardlyAny),
         fine_{t.count, t.stride, t.whole.data(), weights.data()},
         coarse_{t.count, 0, nullptr, weights.data()},
         sums_(summed_poses(t, thread_count(options.threads), coarse_.stride)),
@@ -94,35 +121,61 @@ class Clustering {
 
  private:
   Classes settled(KMeans& coarse, int threads) const {
-    coarse.settle(iterations_);
-    std::vector<float> lower = coarse.lower();
+    coarse.settle(iterations_, few_);
+    std::vector<float> lower = coarse.take_lower();
     for (float& bound : lower) bound -= rounding_;
     KMeans fine(fine_, classes_, threads);
     fine.start(coarse.labels(), std::move(lower));
-    fine.settle(iterations_);
+    fine.settle(iterations_, few_);
     return ordered(fine, classes_);
   }
 
   int classes_, iterations_;
+  int few_;  // fragments of which it does not matter that they still move
   Points fine_, coarse_;
   std::vector<float> sums_;
   float rounding_;
 };
 
+// Finds classes among an even sample first where the pool is large.
+class SampledClustering {
+ public:
+  SampledClustering(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options)
+      : pool_(t.count),
+        fragments_(even_sample(t.count, kSampled * options.classes)),
+        sample_(some(t, fragments_)),
+        weights_(some(weights, fragments_)),
+        among_sample_(sample_, weights_, options),
+        among_all_(t, weights, options) {}
+
+  Classes operator()(Random random, int threads) const {
+    const Classes found = among_sample_(random, threads);
+    std::vector<int> labels(pool_, -1);
+    for (std::size_t i = 0; i < fragments_.size(); ++i) labels[fragments_[i]] = found.labels[i];
+    return among_all_(labels, threads);
+  }
+
+ private:
+  int pool_;
+  std::vector<int> fragments_;
+  Trajectories sample_;
+  std::vector<float> weights_;
+  Clustering among_sample_, among_all_;
+};
+
 // The best of all restarts; each runs on one thread, unless there are more threads than restarts.
-Classes best_run(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
-                 const ClassScore& score, const Progress& progress) {
+template <typename Find>
+Classes best_run(const Find& find, const ClusterOptions& options, const ClassScore& score, const Progress& progress) {
   const int runs = std::max(1, options.restarts), threads = thread_count(options.threads);
   Random seeds(options.seed);
   std::vector<Random> starts;
   for (int run = 0; run < runs; ++run) starts.emplace_back(seeds.next());
   std::vector<Classes> found(runs);
-  const Clustering clustering(t, weights, options);
   parallel_for(runs, threads, [&](int begin, int end) {
     const bool calling = begin == 0;
     for (int run = begin; run < end; ++run) {
       if (calling) report(progress, static_cast<double>(run) / end, kStage);
-      found[run] = clustering(starts[run], std::max(1, threads / runs));
+      found[run] = find(starts[run], std::max(1, threads / runs));
     }
   });
   report(progress, 1, kStage);
@@ -130,41 +183,6 @@ Classes best_run(const Trajectories& t, const std::vector<float>& weights, const
   for (const Classes& classes : found) scores.push_back(score ? score(classes) : -classes.inertia);
   return found[std::max_element(scores.begin(), scores.end()) - scores.begin()];
 }
-
-// Every so manieth fragment of a pool.
-class Sample {
- public:
-  Sample(const Trajectories& t, const std::vector<float>& weights, int count) : pool_(t.count) {
-    trajectories_.count = count;
-    trajectories_.tips = t.tips;
-    trajectories_.stride = t.stride;
-    for (int i = 0; i < count; ++i) {
-      const int fragment = static_cast<int>(static_cast<long long>(t.count) * i / count);
-      const float* row = t.trajectory(fragment);
-      fragments_.push_back(fragment);
-      weights_.push_back(weights[fragment]);
-      trajectories_.whole.insert(trajectories_.whole.end(), row, row + std::size_t{3} * t.stride);
-    }
-  }
-
-  const Trajectories& trajectories() const { return trajectories_; }
-  const std::vector<float>& weights() const { return weights_; }
-
-  // The sample's classes as the pool's.
-  Classes of_pool(const Classes& found) const {
-    Classes classes = found;
-    classes.labels.assign(pool_, -1);
-    for (std::size_t i = 0; i < fragments_.size(); ++i) classes.labels[fragments_[i]] = found.labels[i];
-    for (int& representative : classes.representatives) representative = fragments_[representative];
-    return classes;
-  }
-
- private:
-  int pool_;
-  std::vector<int> fragments_;
-  std::vector<float> weights_;
-  Trajectories trajectories_;
-};
 
 void check(const Trajectories& t, const std::vector<float>& weights) {
   if (static_cast<int>(weights.size()) != t.count) throw std::invalid_argument("every fragment needs a weight");
@@ -215,14 +233,10 @@ Classes cluster(const Trajectories& t, const std::vector<float>& weights, const 
                 const ClassScore& score, const Progress& progress) {
   check(t, weights);
   check_count(t, options.classes);
-  const int sampled =
-      static_cast<int>(std::min<long long>(t.count, static_cast<long long>(kSampled) * options.classes));
-  if (sampled == t.count) return best_run(t, weights, options, score, progress);
-  const Sample sample(t, weights, sampled);
-  const ClassScore of_pool = [&](const Classes& classes) { return score(sample.of_pool(classes)); };
-  const Classes best =
-      best_run(sample.trajectories(), sample.weights(), options, score ? of_pool : ClassScore{}, progress);
-  return Clustering(t, weights, options)(sample.of_pool(best).labels, thread_count(options.threads));
+  if (t.count / kSampled < options.classes) {
+    return best_run(Clustering(t, weights, options), options, score, progress);
+  }
+  return best_run(SampledClustering(t, weights, options), options, score, progress);
 }
 
 }  // namespace fragmotion

@@ -38,8 +38,7 @@ KMeans::KMeans(const Points& points, int classes, int threads)
       means_(n_ * width_),
       labels_(points.count, 0),
       averaged_(points.count, -1),
-      upper_(points.count, kInfinite),
-      lower_(static_cast<std::size_t>(points.count) * n_) {}
+      upper_(points.count, kInfinite) {}
 
 // A point that may become a mean: how far each point is from it, or at least is where that is further than the nearest
 // mean so far.
@@ -53,6 +52,7 @@ void KMeans::seed(Random& random) {
   std::vector<Candidate> candidates(trials);
   for (Candidate& candidate : candidates) candidate.distances.resize(points_.count);
   std::fill(upper_.begin(), upper_.end(), 1.0F);
+  lower_.assign(static_cast<std::size_t>(points_.count) * n_, 0);
   for (int k = 0; k < n_; ++k) {
     const std::vector<double> squares = cumulated_squares();
     const int tried = k == 0 ? 1 : trials;
@@ -113,10 +113,12 @@ void KMeans::start(const std::vector<int>& labels, std::vector<float> lower) {
   assign();
 }
 
-void KMeans::settle(int iterations) {
+void KMeans::settle(int iterations, int few) {
   for (int i = 0; i < iterations; ++i) {
     const bool refilled = move_means();
-    if (!assign() && !refilled) return;
+    const int moved = assign();
+    if (moved == 0 && !refilled) return;
+    if (moved <= few) break;
   }
   move_means();
 }
@@ -206,13 +208,13 @@ void KMeans::average_columns(const std::vector<double>& masses, int begin, int e
   }
 }
 
-// Moves each point to its nearest mean. Returns whether any moved.
-bool KMeans::assign() {
+// Moves each point to its nearest mean. Returns how many moved.
+int KMeans::assign() {
   std::vector<char> changed(points_.count, 0);
   parallel_for(points_.count, threads_, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) changed[i] = assign(i) ? 1 : 0;
   });
-  return std::find(changed.begin(), changed.end(), 1) != changed.end();
+  return static_cast<int>(std::count(changed.begin(), changed.end(), 1));
 }
 
 bool KMeans::assign(int i) {

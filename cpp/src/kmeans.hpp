@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "fragmotion/distance.hpp"
@@ -32,13 +33,13 @@ class KMeans {
   /// classes] of the distances between the points and the labels' means; 0 where nothing is known.
   void start(const std::vector<int>& labels, std::vector<float> lower);
 
-  /// Moves means and points in turns until none moves, or `iterations` times. Then the means are those of the labels,
-  /// and no class is empty: one that was has got the point furthest from its mean.
-  void settle(int iterations);
+  /// Moves means and points in turns until no more than `few` points move, or `iterations` times. Then the means are
+  /// those of the labels, and no class is empty: one that was has got the point furthest from its mean.
+  void settle(int iterations, int few);
 
   const std::vector<int>& labels() const { return labels_; }
-  /// Lower bounds [count, classes] of the distances between points and means.
-  const std::vector<float>& lower() const { return lower_; }
+  /// Lower bounds [count, classes] of the distances between points and means, which it then no longer has.
+  std::vector<float> take_lower() { return std::move(lower_); }
   /// Sum over points of weight times squared distance to the own mean.
   double inertia() const;
   /// The member of each class that is nearest to its mean.
@@ -61,7 +62,7 @@ class KMeans {
   void average();
   void average_columns(const std::vector<double>& masses, int begin, int end);
   bool move_means();
-  bool assign();
+  int assign();
   bool assign(int i);
 
   Points points_;

@@ -31,12 +31,12 @@ struct Classes {
 using ClassScore = std::function<double(const Classes&)>;
 
 /// k-means under Dis: k-means++ starts, Elkan's lower bounds (exact, since Dis is a norm), empty classes refilled with
-/// the fragment furthest from its mean. Classes are sought among sums of neighbouring poses, and settled among the
-/// poses. `weights` (> 0, one a fragment) say how much each counts. Classes are numbered by their representatives'
-/// order in the pool. Of more than 100 fragments a class, the restarts see only as many, evenly spaced, and `score`
-/// gets classes whose labels are -1 for all others; the best run is then settled among all fragments. So time is linear
-/// in their number. Throws std::invalid_argument where there are fewer distinct fragments than classes, and on a weight
-/// or coordinate that is no number, or out of all proportion.
+/// the fragment furthest from its mean. Classes are sought among sums of neighbouring poses, then settled among the
+/// poses, until no more than one fragment in a thousand changes its class. Of more than 100 fragments a class, each
+/// restart first looks at as many, evenly spaced: time is linear in the number of fragments.
+/// `weights` (> 0, one a fragment) say how much each counts. Classes are numbered by their representatives' order in
+/// the pool. Throws std::invalid_argument where there are fewer distinct fragments than classes, and on a weight or
+/// coordinate that is no number, or out of all proportion.
 Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
                 const ClassScore& score = {}, const Progress& progress = {});
 
