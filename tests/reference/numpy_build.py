@@ -313,6 +313,11 @@ def _cross_validate(inputs: Floats, labels: Ints) -> tuple[float, float, float]:
     return search.best_params_["C"], search.best_params_["gamma"], float(search.best_score_)
 
 
+def decide(table: Ints, playing: int, control: Floats, points: Floats, weights: Floats) -> int:
+    """The class after `playing` that a policy table [n,102] gives for any control [4]."""
+    return int(table[playing, control_distances(control[None], points, weights)[0].argmin()])
+
+
 # The player (Sec. 3.3, Fig. 3).
 
 
