@@ -84,7 +84,7 @@ void measure_large(benchmark::State& state) {
 
 void measure_player_frame(benchmark::State& state) {
   const Workload& w = workload();
-  Player player(w.built, 1);
+  Player player(w.built);
   std::size_t frame = 0;
   for (auto _ : state) {
     player.step(w.trace[frame++ / kFramesPerControl % w.trace.size()], 1 / kFrameRate);

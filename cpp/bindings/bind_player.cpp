@@ -47,6 +47,15 @@ void bind_performance(py::module_& m) {
       .def_readonly("commanded_speed", &Performance::commanded_speed);
 }
 
+PlayerOptions to_options(std::uint64_t seed, double stitch, const std::string& policy, const std::string& stitching,
+                         bool lock_feet, double pull) {
+  if (stitching != "inertialize" && stitching != "crossfade") {
+    throw std::invalid_argument("there is no stitching \"" + stitching + "\"; there are inertialize and crossfade");
+  }
+  return {seed,      stitch, policy, stitching == "crossfade" ? Stitching::crossfade : Stitching::inertialize,
+          lock_feet, pull};
+}
+
 void bind_measures(py::module_& m) {
   py::class_<Steps>(m, "Steps", py::module_local())
       .def_readonly("p99", &Steps::p99)
@@ -72,19 +81,18 @@ void bind_yardsticks(py::module_& m) {
         const py::gil_scoped_release release;
         return optimal_performance(character, controls, rate, shortest);
       },
-      py::arg("character"), py::arg("trace"), py::arg("rate"), py::arg("shortest") = kStitch);
+      py::arg("character"), py::arg("trace"), py::arg("rate"), py::arg("shortest") = kSoonest);
   m.def(
       "response_times",
-      [](const std::shared_ptr<Character>& character, std::uint64_t seed, double stitch, const std::string& policy) {
-        std::vector<double> times;
-        {
-          const py::gil_scoped_release release;
-          times = response_times(character, seed, stitch, policy);
-        }
+      [](const std::shared_ptr<Character>& character, std::uint64_t seed, double stitch, const std::string& policy,
+         const std::string& stitching, bool lock_feet, double pull) {
+        const PlayerOptions options = to_options(seed, stitch, policy, stitching, lock_feet, pull);
+        std::vector<double> times = without_gil([&] { return response_times(character, options); });
         const auto count = static_cast<py::ssize_t>(times.size());
         return to_array(std::move(times), {count});
       },
-      py::arg("character").none(false), py::arg("seed") = 1, py::arg("stitch") = kStitch, py::arg("policy") = "");
+      py::arg("character").none(false), py::arg("seed") = 1, py::arg("stitch") = kStitch, py::arg("policy") = "",
+      py::arg("stitching") = "inertialize", py::arg("lock_feet") = true, py::arg("pull") = 1.0);
 }
 
 }  // namespace
@@ -95,8 +103,11 @@ void bind_player(py::module_& m) {
   bind_yardsticks(m);
   py::class_<Player>(m, "Player", py::module_local())
       .def(py::init([](std::shared_ptr<Character> character, std::uint64_t seed, double stitch,
-                       const std::string& policy) { return Player(std::move(character), seed, stitch, policy); }),
-           py::arg("character").none(false), py::arg("seed") = 1, py::arg("stitch") = kStitch, py::arg("policy") = "")
+                       const std::string& policy, const std::string& stitching, bool lock_feet, double pull) {
+             return Player(std::move(character), to_options(seed, stitch, policy, stitching, lock_feet, pull));
+           }),
+           py::arg("character").none(false), py::arg("seed") = 1, py::arg("stitch") = kStitch, py::arg("policy") = "",
+           py::arg("stitching") = "inertialize", py::arg("lock_feet") = true, py::arg("pull") = 1.0)
       .def(
           "reset",
           [](Player& p, double x, double y, double heading) {

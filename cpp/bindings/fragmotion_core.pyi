@@ -258,11 +258,21 @@ def build(
     """Clips to a character: fragments, synthesis, classes, quality, policy. Traces [T,4] teach the policy."""
 
 class Player:
-    """The run time: policy + fragments + stitching -> poses (Sec. 3.3, Fig. 3)."""
+    """The run-time (Sec. 3.3, Fig. 3): policy, fragments and stitching to poses."""
 
-    def __init__(self, character: Character, seed: int = 1, stitch: float = 0.15, policy: str = "") -> None:
-        """`stitch`: seconds over which two fragments are blended; `policy`: one of the character's (default: the one that
-        drives)."""
+    def __init__(
+        self,
+        character: Character,
+        seed: int = 1,
+        stitch: float = 0.2,
+        policy: str = "",
+        stitching: str = "inertialize",
+        lock_feet: bool = True,
+        pull: float = 1.0,
+    ) -> None:
+        """`stitch`: seconds that a stitch lasts; `policy`: one of the character's (default: the one that drives);
+        `stitching`: "inertialize" or the paper's "crossfade"; `lock_feet`: planted feet stay where they are; `pull`: how
+        much the root is pulled to the command, 0 .. 1."""
     def reset(self, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
         """Stand at a place, facing `heading` (radians, counter-clockwise from +y), and draw again from the seed: after
         a reset the same steps show the same poses."""
@@ -302,11 +312,19 @@ class Performance:
     commanded_speed: float
     """Mean commanded speed, m/s."""
 
-def optimal_performance(character: Character, trace: ArrayLike, rate: float, shortest: float = 0.15) -> float:
+def optimal_performance(character: Character, trace: ArrayLike, rate: float, shortest: float = 0.1) -> float:
     """The greatest `Performance.quality` that a player could reach who knew the whole trace: it may play a class for any
     time from `shortest` seconds to the longest of its fragments."""
 
-def response_times(character: Character, seed: int = 1, stitch: float = 0.15, policy: str = "") -> Doubles:
+def response_times(
+    character: Character,
+    seed: int = 1,
+    stitch: float = 0.2,
+    policy: str = "",
+    stitching: str = "inertialize",
+    lock_feet: bool = True,
+    pull: float = 1.0,
+) -> Doubles:
     """[272] seconds from each step of the command between two of the 17 velocities until the velocity over the last 0.1 s
     has made 90 % of the way; 3 where it takes longer."""
 
@@ -351,6 +369,35 @@ class Explainer:
         """`policy`: one of the character's (default: the one that drives); it is evaluated once, here."""
     def __call__(self, playing: int, control: int) -> list[Alternative]:
         """All classes after class `playing` under a control index, the greatest value first."""
+
+class Steps:
+    """How far something of all joints goes from one frame to the next, at 60 frames a second."""
+
+    p99: float
+    p999: float
+    worst: float
+
+class MotionMeasures:
+    """What a viewer finds fault with, for a character of 1.8 m."""
+
+    foot_skate: float
+    """Mean horizontal speed of balls and heels, weighted by 2 - 2^(height / 2.5 cm), m/s."""
+    sliding_share: float
+    """Share of the time with a point under 2.5 cm in which it goes faster than 0.1 m/s."""
+    penetration: float
+    """The deepest that a point sinks under the ground, m."""
+    positions: Steps
+    """m"""
+    velocities: Steps
+    """m/s"""
+    accelerations: Steps
+    """m/s^2"""
+
+def measure_takes(character: Character) -> MotionMeasures:
+    """The captured takes' own measures: the yardstick."""
+
+def measure_performance(character: Character, performance: Performance) -> MotionMeasures:
+    """A performance's measures; its steps are those within a quarter of a second after a change of fragment."""
 
 # The stages of a build, each a function of arrays.
 

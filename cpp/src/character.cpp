@@ -14,6 +14,7 @@
 #include "fragmotion/greedy.hpp"
 #include "fragmotion/iterate.hpp"
 #include "fragmotion/mirror.hpp"
+#include "fragmotion/parallel.hpp"
 #include "fragmotion/svm.hpp"
 #include "fragmotion/synthesis.hpp"
 
@@ -212,6 +213,15 @@ ControlSpace control_space_of(const std::vector<Control>& evident, double scale)
   return ControlSpace(walk / scale, run / scale, turn_rate(evident), scale);
 }
 
+std::vector<Contacts> contacts_of(const FragmentPool& pool, int threads) {
+  std::vector<Contacts> contacts(pool.clips.size());
+  parallel_for(static_cast<int>(contacts.size()), thread_count(threads), [&](int begin, int end) {
+    const Kinematics kinematics(pool.skeleton);
+    for (int c = begin; c < end; ++c) contacts[c] = find_contacts(kinematics, pool.clips[c]);
+  });
+  return contacts;
+}
+
 std::vector<int> snap(const ControlSpace& space, const Trace& trace) {
   std::vector<int> indices;
   for (const Control& control : trace) indices.push_back(space.nearest(control));
@@ -243,11 +253,13 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
     synthesize(c.pool, c.space, usual, synthesis);
   }
   round_to_single(c.pool.clips);
+  c.contacts = contacts_of(c.pool, options.threads);
   c.coverage = coverage(c.pool, c.space);
   c.report["fragments"] = static_cast<double>(c.pool.fragments.size());
   c.report["synthesize_seconds"] = stage.lap();
   report(progress, 0.9, "Measuring fragments");
   material.trajectories = trajectories(c.pool, kPoses, options.threads);
+  c.first_poses = material.trajectories.first;
   for (const Trace& trace : traces) material.traces.push_back(snap(c.space, trace));
   c.report["measure_seconds"] = stage.lap();
   return material;

@@ -7,54 +7,26 @@
 #include "fragmotion/pose.hpp"
 
 namespace fragmotion {
-namespace {
+namespace {}  // namespace
 
-// The pose of a clip at a time between its frames.
-struct PoseSampler {
-  const Kinematics& kinematics;
-  std::vector<double> rotations;
-  std::vector<Vector3> heads;
-  std::vector<Quaternion> orientations;
+BodyTips::BodyTips(const Skeleton& skeleton)
+    : kinematics_(skeleton),
+      bones_(measured_bones(skeleton)),
+      scale_(standard_scale(skeleton)),
+      posed_(skeleton.size()) {}
 
-  explicit PoseSampler(const Kinematics& k)
-      : kinematics(k), rotations(4 * k.bones()), heads(k.bones()), orientations(k.bones()) {}
+void BodyTips::pose(const Vector3& root, const double* rotations) {
+  kinematics_.world(root, rotations, posed_.heads.data(), posed_.rotations.data());
+}
 
-  CharacterFrame sample(const Clip& clip, double frame) {
-    const Vector3 root = sample_pose(clip, frame, rotations.data());
-    kinematics.world(root, rotations.data(), heads.data(), orientations.data());
-    return frame_at(clip, frame);
+void BodyTips::write(const CharacterFrame& frame, float* rows, int stride, int offset) const {
+  for (int i = 0; i < points(); ++i) {
+    const int b = bones_[i];
+    const Vector3 tip = posed_.heads[b] + posed_.rotations[b] * kinematics_.skeleton().tips[b];
+    const Vector3 local = frame.to_local(tip) * scale_;
+    for (int axis = 0; axis < 3; ++axis) rows[axis * stride + offset + i] = static_cast<float>(local[axis]);
   }
-};
-
-class TipWriter {
- public:
-  explicit TipWriter(const FragmentPool& pool)
-      : kinematics_(pool.skeleton),
-        sampler_(kinematics_),
-        bones_(measured_bones(pool.skeleton)),
-        scale_(1.8 / stature(pool.skeleton)) {}
-
-  int points() const { return static_cast<int>(bones_.size()); }
-  CharacterFrame sample(const Clip& clip, double frame) { return sampler_.sample(clip, frame); }
-
-  // Writes the sampled pose's tips, seen from `frame`, as points offset .. of three rows of `stride`.
-  void write(const CharacterFrame& frame, float* rows, int stride, int offset) const {
-    for (int i = 0; i < points(); ++i) {
-      const int b = bones_[i];
-      const Vector3 tip = sampler_.heads[b] + sampler_.orientations[b] * kinematics_.skeleton().tips[b];
-      const Vector3 local = frame.to_local(tip) * scale_;
-      for (int axis = 0; axis < 3; ++axis) rows[axis * stride + offset + i] = static_cast<float>(local[axis]);
-    }
-  }
-
- private:
-  Kinematics kinematics_;
-  PoseSampler sampler_;
-  std::vector<int> bones_;
-  double scale_;
-};
-
-}  // namespace
+}
 
 // GCC builds this for both instruction sets and the loader picks. Eight partial sums make the order of additions, and
 // so the bits, the same in both.
@@ -71,7 +43,7 @@ __attribute__((target_clones("avx2", "default"))) float tip_distance(const float
 }
 
 Trajectories trajectories(const FragmentPool& pool, int poses, int threads) {
-  const int points = TipWriter(pool).points();
+  const int points = BodyTips(pool.skeleton).points();
   Trajectories t;
   t.count = static_cast<int>(pool.fragments.size());
   t.tips = points;
@@ -81,21 +53,26 @@ Trajectories trajectories(const FragmentPool& pool, int poses, int threads) {
   t.first.assign(static_cast<std::size_t>(t.count) * 3 * t.pose_stride, 0);
   t.last = t.first;
   parallel_for(t.count, thread_count(threads), [&](int begin, int end) {
-    TipWriter writer(pool);
+    BodyTips tips(pool.skeleton);
+    std::vector<double> rotations(std::size_t{4} * pool.skeleton.size());
+    const auto sample = [&](const Clip& clip, double frame) {
+      tips.pose(sample_pose(clip, frame, rotations.data()), rotations.data());
+      return frame_at(clip, frame);
+    };
     for (int i = begin; i < end; ++i) {
       const Fragment& f = pool.fragments[i];
       const Clip& clip = pool.clips[f.clip];
       CharacterFrame start;
       for (int pose = 0; pose < poses; ++pose) {
         const double at = f.begin + (f.end - f.begin) * static_cast<double>(pose) / (poses - 1);
-        const CharacterFrame frame = writer.sample(clip, at);
+        const CharacterFrame frame = sample(clip, at);
         if (pose == 0) {
           start = frame;
-          writer.write(frame, &t.first[static_cast<std::size_t>(i) * 3 * t.pose_stride], t.pose_stride, 0);
+          tips.write(frame, &t.first[static_cast<std::size_t>(i) * 3 * t.pose_stride], t.pose_stride, 0);
         }
-        writer.write(start, &t.whole[static_cast<std::size_t>(i) * 3 * t.stride], t.stride, pose * points);
+        tips.write(start, &t.whole[static_cast<std::size_t>(i) * 3 * t.stride], t.stride, pose * points);
         if (pose == poses - 1) {
-          writer.write(frame, &t.last[static_cast<std::size_t>(i) * 3 * t.pose_stride], t.pose_stride, 0);
+          tips.write(frame, &t.last[static_cast<std::size_t>(i) * 3 * t.pose_stride], t.pose_stride, 0);
         }
       }
     }

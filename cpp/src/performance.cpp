@@ -12,6 +12,20 @@ namespace fragmotion {
 namespace {
 
 constexpr double kRounding = 1e-9;  // frames
+constexpr double kAround = 0.5;     // s over which speeds are measured
+constexpr double kJumps = 0.5;
+
+// The slope a frame of the least-squares line through frames first .. last of a path.
+Vector3 slope(const std::vector<double>& path, int first, int last) {
+  const double middle = 0.5 * (first + last);
+  Vector3 sum = Vector3::Zero();
+  double square = 0;
+  for (int f = first; f <= last; ++f) {
+    sum += (f - middle) * load_vector(&path[std::size_t{3} * f]);
+    square += (f - middle) * (f - middle);
+  }
+  return sum / square;
+}
 
 // Dynamic programming over frames, from the last to the first (Eq. 1 with classes that last).
 class Hindsight {
@@ -67,16 +81,34 @@ class Hindsight {
 
 }  // namespace
 
+std::size_t control_at(int frame, double rate, std::size_t controls) {
+  const double seconds = std::max(0.0, (frame - 1) / rate);
+  return std::min(static_cast<std::size_t>(seconds * kTraceRate + kRounding), controls - 1);
+}
+
+void judge(Performance& p, const Character& character, const Trace& trace) {
+  const int half = std::max(1, static_cast<int>(std::lround(kAround / 2 * p.rate)));
+  const double weight = 1.0 / (p.frames - 1);
+  p.velocity_error = p.turn_error = p.jump_error = p.commanded_speed = 0;
+  for (int f = 1; f < p.frames; ++f) {
+    const Control& control = trace[control_at(f, p.rate, trace.size())];
+    const Vector3 speed = slope(p.path, std::max(0, f - half), std::min(p.frames - 1, f + half)) * p.rate;
+    const Vector2 velocity = Eigen::Rotation2Dd(-p.path[std::size_t{3} * f + 2]) * speed.head<2>();
+    const bool jumps = character.pool.fragments[p.fragments[f]].evident.jump > kJumps;
+    p.velocity_error += weight * (velocity - Vector2{control.x, control.y}).norm();
+    p.turn_error += weight * std::abs(speed.z() - control.turn * character.space.turn_rate());
+    p.jump_error += jumps != (control.jump > kJumps) ? weight : 0;
+    p.commanded_speed += weight * std::hypot(control.x, control.y);
+  }
+}
+
 double optimal_performance(const Character& character, const Trace& trace, double rate, double shortest) {
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
   if (!(rate > 0 && rate <= 1000)) throw std::invalid_argument("the frame rate must be over 0 and at most 1000");
   const std::vector<int> snapped = snap(character.space, trace);
   std::vector<int> controls;
-  const long frames = std::lround(static_cast<double>(trace.size()) / kTraceRate * rate);
-  for (long f = 0; f < frames; ++f) {
-    const auto i = static_cast<std::size_t>(static_cast<double>(f) / rate * kTraceRate + kRounding);
-    controls.push_back(snapped[std::min(i, snapped.size() - 1)]);
-  }
+  const auto frames = static_cast<int>(std::lround(static_cast<double>(trace.size()) / kTraceRate * rate));
+  for (int f = 1; f <= frames; ++f) controls.push_back(snapped[control_at(f, rate, snapped.size())]);
   return Hindsight(character, controls, rate, shortest).best();
 }
 

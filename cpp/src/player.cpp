@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -11,11 +12,14 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kInstant = 1e-9;  // s: no time
-constexpr double kChange = 1;      // ControlDis between controls that is "a lot"
-constexpr double kWorthIt = 0.05;  // s that must be left of a fragment for leaving it early
-constexpr double kInTheAir = 0.5;  // evident jump above which a fragment is played to its end
-constexpr double kLongest = 3600;  // s that a step may last
+constexpr double kInstant = 1e-9;   // s: no time
+constexpr double kChange = 1;       // ControlDis between controls that is "a lot"
+constexpr double kWorthIt = 0.05;   // s that must be left of a fragment for leaving it early
+constexpr double kInTheAir = 0.5;   // evident jump above which a fragment is played to its end
+constexpr double kJoinsWell = 1.3;  // times the Dis of the fragment that joins best
+constexpr double kPull = 0.4;       // of speed and turn rate: the most that the root is pulled
+constexpr double kPulling = 0.1;    // s: time constant of the pull
+constexpr double kLongest = 3600;   // s that a step may last
 
 void check_step(const Control& control, double seconds) {
   for (const double value : {control.x, control.y, control.turn, control.jump}) {
@@ -26,18 +30,27 @@ void check_step(const Control& control, double seconds) {
 
 }  // namespace
 
-Player::Player(std::shared_ptr<const Character> character, std::uint64_t seed, double stitch, const std::string& policy)
+Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options)
     : character_(std::move(character)),
-      policy_(&character_->policy(policy)),
+      policy_(&character_->policy(options.policy)),
       kinematics_(character_->pool.skeleton),
       members_(character_->classes.members()),
-      seed_(seed),
-      random_(seed),
-      stitch_(stitch),
-      rotations_(std::size_t{4} * kinematics_.bones()),
-      other_(rotations_) {
+      tips_(kinematics_.skeleton()),
+      seed_(options.seed),
+      random_(options.seed),
+      stitch_(options.stitch),
+      stitching_(options.stitching),
+      lock_feet_(options.lock_feet),
+      pull_(options.pull),
+      inertia_(kinematics_.bones()),
+      foot_lock_(kinematics_) {
+  if (!(pull_ >= 0 && pull_ <= 1)) throw std::invalid_argument("the pull must be 0 to 1");
+  if (!(stitch_ >= 0 && stitch_ <= 1)) throw std::invalid_argument("the stitching time must be 0 to 1 s");
+  last_pose_.resize(character_->first_poses.size() / character_->pool.fragments.size());
   fitting_.reserve(character_->pool.fragments.size());
-  if (!(stitch >= 0 && stitch <= 1)) throw std::invalid_argument("the stitching time must be 0 to 1 s");
+  pose_.rotations.resize(std::size_t{4} * kinematics_.bones());
+  shown_ = pose_;
+  scratch_.fill(pose_);
   reset();
 }
 
@@ -54,11 +67,16 @@ void Player::reset(const CharacterFrame& frame) {
   from_ = class_;
   random_ = Random(seed_);
   waiting_ = -1;
-  stitching_ = 0;
+  stitched_ = soonest_ = 0;
+  pulling_ = Vector2::Zero();
+  turning_ = 0;
+  inertia_.clear();
+  foot_lock_.reset();
   jump_waits_ = jump_pressed_ = false;
   decided_for_ = {};
   now_ = place(character_->classes.representatives[class_], frame);
-  show();
+  pose();
+  plant(0);
 }
 
 Player::Placed Player::place(int fragment, const CharacterFrame& frame) const {
@@ -71,33 +89,62 @@ Player::Placed Player::place(int fragment, const CharacterFrame& frame) const {
   return placed;
 }
 
-Vector3 Player::sample(const Placed& placed, double* rotations) const {
+void Player::sample(const Placed& placed, WorldPose& pose) const {
   const Fragment& f = character_->pool.fragments[placed.fragment];
   const Clip& clip = character_->pool.clips[f.clip];
   const CharacterFrame world{placed.offset, placed.heading};
-  const Vector3 root = sample_pose(clip, f.begin + placed.seconds * clip.rate, rotations);
-  double* hips = rotations + std::ptrdiff_t{4} * kinematics_.skeleton().roles.hips;
+  const double at = f.begin + placed.seconds * clip.rate;
+  pose.root = world.to_world(sample_pose(clip, at, pose.rotations.data()));
+  pose.heading = placed.heading + frame_at(clip, at).heading;
+  double* hips = &pose.rotations[std::size_t{4} * kinematics_.skeleton().roles.hips];
   store_quaternion(world.rotation() * load_quaternion(hips), hips);
-  return world.to_world(root);
 }
 
-double Player::heading(const Placed& placed) const {
-  const Fragment& f = character_->pool.fragments[placed.fragment];
+CharacterFrame Player::frame() const { return {pose_.root.head<2>(), pose_.heading}; }
+
+// Moves and turns what plays, so that it does more of what the control says.
+void Player::pull(const Control& control, double seconds) {
+  const Control& ev = character_->pool.fragments[now_.fragment].evident;
+  const ControlSpace& space = character_->space;
+  Vector2 wanted{control.x - ev.x, control.y - ev.y};
+  const double most = kPull * std::hypot(ev.x, ev.y);
+  if (wanted.norm() > most) wanted *= most / wanted.norm();
+  const double turn = std::clamp(control.turn - ev.turn, -kPull, kPull) * space.turn_rate();
+  const double share = 1 - std::exp(-seconds / kPulling);
+  pulling_ += share * (pull_ * wanted - pulling_);
+  turning_ += share * (pull_ * turn - turning_);
+  const Vector2 root = pose_.root.head<2>(), way = seconds * (Eigen::Rotation2Dd(pose_.heading) * pulling_);
+  for (Placed* placed : {&now_, &before_}) {
+    placed->heading += seconds * turning_;
+    placed->offset = root + way + Eigen::Rotation2Dd(seconds * turning_) * (placed->offset - root);
+  }
+}
+
+// What plays, stitched to what played.
+void Player::pose() {
+  sample(now_, pose_);
+  if (now_.seconds >= stitched_) return;
+  if (stitching_ == Stitching::inertialize) return inertia_.apply(now_.seconds, pose_);
+  WorldPose& old = scratch_[0];
+  sample(before_, old);
+  const double weight = ease_in_ease_out(now_.seconds / stitched_);
+  blend_rotations(old.rotations.data(), pose_.rotations.data(), weight, kinematics_.bones(), pose_.rotations.data());
+  pose_.root = old.root + weight * (pose_.root - old.root);
+  pose_.heading = old.heading + weight * (pose_.heading - old.heading);
+}
+
+// The pose with planted feet where they are, `seconds` after the last one.
+void Player::plant(double seconds) {
+  shown_.root = pose_.root;
+  shown_.heading = pose_.heading;
+  std::copy(pose_.rotations.begin(), pose_.rotations.end(), shown_.rotations.begin());
+  const Fragment& f = character_->pool.fragments[now_.fragment];
+  const Contacts& contacts = character_->contacts[f.clip];
+  if (!lock_feet_ || contacts.feet[0].empty()) return;
   const Clip& clip = character_->pool.clips[f.clip];
-  return placed.heading + frame_at(clip, f.begin + placed.seconds * clip.rate).heading;
-}
-
-CharacterFrame Player::frame() const { return {root_.head<2>(), heading_}; }
-
-void Player::show() {
-  root_ = sample(now_, rotations_.data());
-  heading_ = heading(now_);
-  if (now_.seconds >= stitching_) return;
-  const Vector3 old = sample(before_, other_.data());
-  const double weight = ease_in_ease_out(now_.seconds / stitching_), old_heading = heading(before_);
-  blend_rotations(other_.data(), rotations_.data(), weight, kinematics_.bones(), rotations_.data());
-  root_ = old + weight * (root_ - old);
-  heading_ = old_heading + weight * (heading_ - old_heading);
+  const long at = std::lround(f.begin + now_.seconds * clip.rate);
+  const auto frame = static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(clip.frames) - 1));
+  foot_lock_.apply(shown_, {contacts.feet[0][frame], contacts.feet[1][frame]}, seconds);
 }
 
 double Player::left() const {
@@ -108,11 +155,36 @@ int Player::draw(int next_class, const Control& control) {
   const Character& c = *character_;
   const auto error = [&](int fragment) { return c.space.distance(c.pool.fragments[fragment].evident, control); };
   const double allowed = error(c.classes.representatives[next_class]);
+  const int stride = static_cast<int>(last_pose_.size()) / 3;
+  tips_.pose(pose_.root, pose_.rotations.data());
+  tips_.write(frame(), last_pose_.data(), stride, 0);
+  float least = std::numeric_limits<float>::infinity();
   fitting_.clear();
   for (const int fragment : members_[next_class]) {
-    if (!(error(fragment) > allowed)) fitting_.push_back(fragment);
+    if (error(fragment) > allowed) continue;
+    const float* first = &c.first_poses[last_pose_.size() * fragment];
+    fitting_.emplace_back(tip_distance(last_pose_.data(), first, stride), fragment);
+    least = std::min(least, fitting_.back().first);
   }
-  return fitting_[random_.below(static_cast<int>(fitting_.size()))];
+  const auto joins = [&](const auto& each) { return each.first <= kJoinsWell * least; };
+  const auto end = std::partition(fitting_.begin(), fitting_.end(), joins);
+  return fitting_[random_.below(static_cast<int>(end - fitting_.begin()))].second;
+}
+
+// Begins a stitch of `seconds` from the old fragment, as it is shown, to the one that plays now.
+void Player::stitch(const Placed& old, double seconds) {
+  constexpr double kLater = 1.0 / 60;  // s over which speeds are measured
+  auto& [old_now, old_later, fresh, fresh_later] = scratch_;
+  old_now = pose_;
+  Placed later = old;
+  later.seconds += kLater;
+  sample(later, old_later);
+  if (later.seconds < stitched_) inertia_.apply(later.seconds, old_later);
+  sample(now_, fresh);
+  later = now_;
+  later.seconds += kLater;
+  sample(later, fresh_later);
+  inertia_.begin(old_now, old_later, fresh, fresh_later, kLater, seconds);
 }
 
 void Player::start(int next_class, const Control& control) {
@@ -120,8 +192,12 @@ void Player::start(int next_class, const Control& control) {
   now_ = place(draw(next_class, control), frame());
   from_ = class_;
   class_ = next_class;
-  stitching_ = std::min(stitch_, left());
-  show();
+  const bool inertial = stitching_ == Stitching::inertialize;
+  const double seconds = inertial ? stitch_ : std::min(stitch_, left());
+  if (inertial && seconds > 0) stitch(before_, seconds);
+  stitched_ = seconds;
+  soonest_ = inertial ? kSoonest : std::max(kSoonest, seconds);
+  pose();
 }
 
 bool Player::changed(const Control& wanted) const { return character_->space.distance(wanted, decided_for_) > kChange; }
@@ -139,7 +215,7 @@ int Player::decide(const Control& wanted) {
 }
 
 bool Player::leaves_early(const Control& wanted) const {
-  return now_.seconds >= stitching_ && left() > kWorthIt && waiting_ < 0 &&
+  return now_.seconds > soonest_ - kInstant && left() > kWorthIt && waiting_ < 0 &&
          character_->pool.fragments[now_.fragment].evident.jump < kInTheAir && changed(wanted);
 }
 
@@ -154,6 +230,7 @@ double Player::quality(int control) const { return character_->quality(from_, cl
 
 void Player::step(const Control& control, double seconds) {
   check_step(control, seconds);
+  const double whole = seconds;
   const bool pressed = control.jump > 0.5;
   jump_waits_ = jump_waits_ || (pressed && !jump_pressed_);
   jump_pressed_ = pressed;
@@ -161,25 +238,14 @@ void Player::step(const Control& control, double seconds) {
     Control wanted = control;
     if (jump_waits_) wanted.jump = 1;
     if (left() < kInstant || leaves_early(wanted)) go_on(control, wanted);
-    const double part = std::min(seconds, left());
+    const double wait = soonest_ - now_.seconds, part = std::min({seconds, left(), wait > kInstant ? wait : seconds});
     now_.seconds += part;
     before_.seconds += part;
+    pull(control, part);
     seconds -= part;
-    show();
+    pose();
   }
-}
-
-void Player::judge(Performance& p, const Control& control, const CharacterFrame& before) const {
-  const ControlSpace& space = character_->space;
-  const double weight = 1.0 / (p.frames - 1);
-  const CharacterFrame now = frame();
-  const Vector2 velocity = Eigen::Rotation2Dd(-before.heading) * (now.position - before.position) * p.rate;
-  const bool jumps = character_->pool.fragments[now_.fragment].evident.jump > kInTheAir;
-  p.velocity_error += weight * (velocity - Vector2{control.x, control.y}).norm();
-  p.turn_error += weight * std::abs((now.heading - before.heading) * p.rate - control.turn * space.turn_rate());
-  p.jump_error += jumps != (control.jump > 0.5) ? weight : 0;
-  p.commanded_speed += weight * std::hypot(control.x, control.y);
-  p.quality += weight * quality(space.nearest(control));
+  plant(whole);
 }
 
 Performance Player::run(const Trace& trace, double rate, const Progress& progress) {
@@ -190,18 +256,17 @@ Performance Player::run(const Trace& trace, double rate, const Progress& progres
   p.frames = static_cast<int>(std::lround(static_cast<double>(trace.size()) / kTraceRate * rate)) + 1;
   for (int f = 0; f < p.frames; ++f) {
     if (f % 256 == 0) report(progress, static_cast<double>(f) / p.frames, "Playing");
-    const int at = static_cast<int>(std::max(0.0, (f - 1) / rate) * kTraceRate + 1e-9);
-    const Control& control = trace[std::min<std::size_t>(at, trace.size() - 1)];
-    const CharacterFrame before = frame();
+    const Control& control = trace[control_at(f, rate, trace.size())];
     if (f > 0) step(control, 1 / rate);
     const CharacterFrame now = frame();
-    p.root_positions.insert(p.root_positions.end(), root_.data(), root_.data() + 3);
-    p.rotations.insert(p.rotations.end(), rotations_.begin(), rotations_.end());
+    p.root_positions.insert(p.root_positions.end(), shown_.root.data(), shown_.root.data() + 3);
+    p.rotations.insert(p.rotations.end(), shown_.rotations.begin(), shown_.rotations.end());
     p.path.insert(p.path.end(), {now.position.x(), now.position.y(), now.heading});
     p.classes.push_back(class_);
     p.fragments.push_back(now_.fragment);
-    if (f > 0) judge(p, control, before);
+    if (f > 0) p.quality += quality(character_->space.nearest(control)) / (p.frames - 1);
   }
+  judge(p, *character_, trace);
   return p;
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "fragmotion/distance.hpp"
 #include "fragmotion/role_names.hpp"
 #include "write_file.hpp"
 
@@ -293,6 +294,8 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     if (!reader.done()) throw std::invalid_argument("it has bytes too many");
     check(character);
     character.coverage = coverage(character.pool, character.space);
+    character.contacts = contacts_of(character.pool);
+    character.first_poses = trajectories(character.pool, 2).first;
     return character;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(name + " is refused: " + error.what());

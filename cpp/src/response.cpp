@@ -42,11 +42,10 @@ double response(Runner& runner, const Control& from, const Control& to) {
 
 }  // namespace
 
-std::vector<double> response_times(const std::shared_ptr<const Character>& character, std::uint64_t seed, double stitch,
-                                   const std::string& policy) {
-  Player player(character, seed, stitch, policy);
+std::vector<double> response_times(const std::shared_ptr<const Character>& character, const PlayerOptions& options) {
+  Player player(character, options);
   Runner runner(player);
-  Random random(seed);
+  Random random(options.seed);
   const auto point = [&](int velocity) { return character->space.point(6 * velocity + 2); };
   std::vector<double> times;
   for (int from = 0; from < ControlSpace::kVelocities; ++from) {

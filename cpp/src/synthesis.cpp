@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fragmotion/distance.hpp"
+#include "fragmotion/foot_lock.hpp"
 #include "fragmotion/mirror.hpp"
 #include "fragmotion/pose.hpp"
 
@@ -93,6 +94,60 @@ void add_standing(FragmentPool& pool, const SynthesisOptions& options) {
   const int frames = fragment.end + 1 + static_cast<int>(std::lround(options.tail * rate));
   pool.clips.push_back(make_clip(pool.skeleton, standing(Kinematics(pool.skeleton), pool, frames, rate)));
   pool.fragments.push_back(fragment);
+}
+
+// The strides of a motion as its path is changed: what the balls of the feet do about their middle is turned and scaled
+// like the path, so that a foot that stood still on the old path does so on the new one.
+class Strides {
+ public:
+  Strides(const Kinematics& kinematics, const Clip& clip, int begin, int end)
+      : kinematics_(kinematics),
+        legs_{left_leg(kinematics.skeleton()), right_leg(kinematics.skeleton())},
+        posed_(kinematics.bones()) {
+    for (int f = begin; f <= end; ++f) {
+      pose(body_pose(kinematics, clip, f));
+      for (int side = 0; exist() && side < 2; ++side) middles_[side] += balls(side) / (end - begin + 1);
+    }
+  }
+
+  void change(BodyPose& body, double direction, double scale) {
+    if (!exist()) return;
+    pose(body);
+    for (int side = 0; side < 2; ++side) {
+      const Vector2 stride = balls(side) - middles_[side], by = scale * turned(stride, direction) - stride;
+      const Vector3 ankle = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), 0};
+      reach(kinematics_.skeleton(), legs_[side], posed_, ankle, 0, body.rotations.data());
+    }
+  }
+
+ private:
+  bool exist() const { return legs_[0].exists() && legs_[1].exists(); }
+  void pose(const BodyPose& body) {
+    kinematics_.world({0, 0, body.height}, body.rotations.data(), posed_.heads.data(), posed_.rotations.data());
+  }
+  Vector2 balls(int side) const { return ball(kinematics_.skeleton(), legs_[side], posed_).head<2>(); }
+
+  const Kinematics& kinematics_;
+  std::array<Leg, 2> legs_;
+  std::array<Vector2, 2> middles_{Vector2::Zero(), Vector2::Zero()};
+  PosedBones posed_;
+};
+
+// Keeps planted feet of a clip where they are; `contacts` are those of another clip whose frame `first` is its frame 0.
+void plant_feet(const Kinematics& kinematics, Clip& clip, const Contacts& contacts, int first) {
+  if (contacts.feet[0].empty()) return;
+  FootLock lock(kinematics);
+  WorldPose pose;
+  pose.rotations.resize(std::size_t{4} * kinematics.bones());
+  for (int f = 0; f < clip.frames; ++f) {
+    double *root = &clip.root_positions[std::size_t{3} * f], *rotations = &clip.rotations[pose.rotations.size() * f];
+    pose.root = load_vector(root);
+    pose.heading = clip.headings[f];
+    std::copy_n(rotations, pose.rotations.size(), pose.rotations.begin());
+    lock.apply(pose, {contacts.feet[0][first + f], contacts.feet[1][first + f]}, f > 0 ? 1 / clip.rate : 0);
+    store_vector(pose.root, root);
+    std::copy(pose.rotations.begin(), pose.rotations.end(), rotations);
+  }
 }
 
 // Fills the holes of a pool's control space.
@@ -254,11 +309,12 @@ class Synthesizer {
     if (jumps) change.rise = kJumpHeight / space_.scale();
     const int longest = static_cast<int>(options_.longest * clip.rate + 1e-6), length = best->end - best->begin;
     const int pieces = (length + longest - 1) / longest;
+    const Contacts contacts = find_contacts(kinematics_, clip);
     std::vector<std::pair<Clip, int>> made;  // with their fragments' ends; added at last, since that moves `clip`
     for (int piece = 0; piece < pieces; ++piece) {
       const int begin = best->begin + length * piece / pieces;
       const int end = jumps ? std::min(clip.frames - 1, begin + longest) : best->begin + length * (piece + 1) / pieces;
-      made.emplace_back(transformed(kinematics_, clip, begin, end, tail(clip), change), end - begin);
+      made.emplace_back(transformed(kinematics_, clip, contacts, begin, end, tail(clip), change), end - begin);
     }
     for (auto& [piece, end] : made) add(std::move(piece), end, Origin::transformed);
   }
@@ -275,8 +331,10 @@ class Synthesizer {
 
 }  // namespace
 
-Clip transformed(const Kinematics& kinematics, const Clip& clip, int begin, int end, int tail,
+Clip transformed(const Kinematics& kinematics, const Clip& clip, const Contacts& contacts, int begin, int end, int tail,
                  const Transform& transform) {
+  const bool other_path = transform.direction != 0 || transform.speed != 1;
+  Strides strides(kinematics, clip, begin, end);
   Clip result;
   result.name = clip.name + " transformed";
   result.rate = clip.rate;
@@ -284,6 +342,7 @@ Clip transformed(const Kinematics& kinematics, const Clip& clip, int begin, int 
   Vector2 position = frame_at(clip, begin).position, before = position;
   for (int f = begin; f <= last; ++f) {
     BodyPose pose = body_pose(kinematics, clip, f);
+    if (other_path) strides.change(pose, transform.direction, transform.speed);
     const double seconds = (f - begin) / clip.rate, phase = static_cast<double>(f - begin) / (end - begin);
     const double turn = transform.turn * seconds;
     const double middle = transform.turn * std::max(0.0, seconds - 0.5 / clip.rate);
@@ -292,6 +351,7 @@ Clip transformed(const Kinematics& kinematics, const Clip& clip, int begin, int 
     if (phase < 1) pose.height += 4 * transform.rise * phase * (1 - phase);
     append(kinematics, result, {position, pose.frame.heading + turn}, pose);
   }
+  if (other_path || transform.turn != 0) plant_feet(kinematics, result, contacts, begin);
   return result;
 }
 

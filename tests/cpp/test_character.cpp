@@ -210,7 +210,9 @@ TEST(Build, StandsWhereTheTakesCanDoNothingElse) {
     options.classes = synthesize ? 3 : 1;
     const auto c = std::make_shared<const Character>(build(humanoid(), {some_takes()[0]}, some_traces(), options));
     for (const std::string& policy : policy_names()) {
-      Player player(c, 1, 0.15, policy);
+      PlayerOptions options;
+      options.policy = policy;
+      Player player(c, options);
       for (int i = 0; i < 300; ++i) player.step({0, 3, 0, 0}, 1.0 / 30);
       EXPECT_LT(player.root_position().head<2>().norm(), 1) << policy;
     }

@@ -14,10 +14,10 @@ TEST(OptimalPerformance, IsNeverReachedByAPlayer) {
   const auto character = gait_character();
   for (const std::string& name : simulated_players()) {
     const Trace trace = simulate_trace(name, 30, 5, character->space);
-    const double best = optimal_performance(*character, trace, kRate, kStitch);
+    const double best = optimal_performance(*character, trace, kRate, kSoonest);
     EXPECT_LT(best, 1);
     for (const std::uint64_t seed : {1, 2, 3}) {
-      const double reached = Player(character, seed).run(trace, kRate).quality;
+      const double reached = Player(character, {seed}).run(trace, kRate).quality;
       EXPECT_LE(reached, best) << name;
       EXPECT_GT(reached, 0.3 * best) << name;
     }
@@ -68,28 +68,46 @@ TEST(OptimalPerformance, IsTheBestOfAllPlays) {
 
 TEST(OptimalPerformance, RefusesAnEmptyTraceAndARateOfNothing) {
   const Character c = tiny_character();
-  EXPECT_THROW(optimal_performance(c, {}, kRate, kStitch), std::invalid_argument);
+  EXPECT_THROW(optimal_performance(c, {}, kRate, kSoonest), std::invalid_argument);
   EXPECT_THROW(optimal_performance(c, {{}, {}}, 0, kStitch), std::invalid_argument);
 }
 
-TEST(Performance, JudgesWhatItShows) {
-  const auto character = gait_character();
-  const Trace trace = simulate_trace("explorer", 20, 9, character->space);
-  const Performance p = Player(character).run(trace, kRate);
-  double velocity = 0, turn = 0, jump = 0;
-  for (int f = 1; f < p.frames; ++f) {
-    const double* now = &p.path[3 * f];
-    const double* before = now - 3;
-    const Control& control = trace[std::min<std::size_t>((f - 1) / 6, trace.size() - 1)];
-    const double x = (now[0] - before[0]) * kRate, y = (now[1] - before[1]) * kRate, h = before[2];
-    velocity +=
-        std::hypot(std::cos(h) * x + std::sin(h) * y - control.x, std::cos(h) * y - std::sin(h) * x - control.y);
-    turn += std::abs((now[2] - before[2]) * kRate - control.turn * character->space.turn_rate());
-    jump += (character->pool.fragments[p.fragments[f]].evident.jump > 0.5) != (control.jump > 0.5) ? 1 : 0;
+TEST(Judge, MeasuresAPathAgainstItsTrace) {
+  const Character c = tiny_character();
+  Performance p;
+  p.rate = kRate;
+  p.frames = 121;
+  for (int f = 0; f < p.frames; ++f) {  // turns left at 0.5 rad/s in place, and is carried forward and to the right
+    const double heading = 0.5 * f / kRate, forward = 1.5 * f / kRate;
+    p.path.insert(p.path.end(), {0.2 * f / kRate, forward, heading});
+    p.fragments.push_back(0);
   }
-  EXPECT_NEAR(p.velocity_error, velocity / (p.frames - 1), 1e-9);
-  EXPECT_NEAR(p.turn_error, turn / (p.frames - 1), 1e-9);
-  EXPECT_NEAR(p.jump_error, jump / (p.frames - 1), 1e-9);
+  judge(p, c, Trace(20, Control{0, 1, 1, 0}));
+  EXPECT_NEAR(p.turn_error, std::abs(0.5 - c.space.turn_rate()), 1e-9);
+  EXPECT_NEAR(p.commanded_speed, 1, 1e-9);
+  EXPECT_EQ(p.jump_error, 0);
+  double expected = 0;
+  for (int f = 1; f < p.frames; ++f) {
+    const double h = 0.5 * f / kRate, x = std::cos(h) * 0.2 + std::sin(h) * 1.5,
+                 y = std::cos(h) * 1.5 - std::sin(h) * 0.2;
+    expected += std::hypot(x, y - 1) / (p.frames - 1);
+  }
+  EXPECT_NEAR(p.velocity_error, expected, 1e-9);
+  judge(p, c, Trace(20, Control{0, 0, 0, 1}));
+  EXPECT_NEAR(p.jump_error, 1, 1e-12);
+}
+
+TEST(Judge, SeesNoErrorInTheSwayOfAGait) {
+  const Character c = tiny_character();
+  Performance p;
+  p.rate = kRate;
+  p.frames = 301;
+  for (int f = 0; f < p.frames; ++f) {  // sways by 2 cm, twice a second
+    p.path.insert(p.path.end(), {0.02 * std::sin(4 * kPi * f / kRate), 1.2 * f / kRate, 0});
+    p.fragments.push_back(0);
+  }
+  judge(p, c, Trace(50, Control{0, 1.2, 0, 0}));
+  EXPECT_LT(p.velocity_error, 0.1);  // frame by frame it would be 0.16
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST(Player, NeverJumps) {
   const Kinematics kinematics(c->pool.skeleton);
   for (const double dt : {1.0 / 60, 1.0 / 5000}) {
     const double allowed = allowed_step(*c, kinematics, dt);
-    Player player(c, 3);
+    Player player(c, {3});
     Random random(4);
     Control control;
     std::vector<Vector3> before = joints(kinematics, player.root_position(), player.rotations());
@@ -76,7 +76,7 @@ TEST(Player, NeverJumps) {
 }
 
 TEST(Player, ShowsFinitePosesOfUnitRotations) {
-  Player player(gait_character(), 5);
+  Player player(gait_character(), {5});
   Random random(6);
   for (int i = 0; i < 2000; ++i) {
     const Control wild{40 * random.uniform() - 20, 40 * random.uniform() - 20, 4 * random.uniform() - 2,
@@ -88,9 +88,18 @@ TEST(Player, ShowsFinitePosesOfUnitRotations) {
   }
 }
 
+// Without what is done once a step.
+PlayerOptions unpulled(std::uint64_t seed) {
+  PlayerOptions options;
+  options.seed = seed;
+  options.lock_feet = false;
+  options.pull = 0;
+  return options;
+}
+
 // What plays, asked between the ends of fragments, which all lie on whole thirtieths of a second.
 std::vector<int> what_plays(double rate, const Control& control, double seconds) {
-  Player player(gait_character(), 9);
+  Player player(gait_character(), unpulled(9));
   player.step(control, 1.0 / 240);
   std::vector<int> played;
   const int steps = static_cast<int>(rate / 30);
@@ -111,7 +120,7 @@ TEST(Player, PlaysTheSameFragmentsWhateverTheStep) {
 
 TEST(Player, GoesTheSameWayWhateverTheStep) {
   const auto position = [](int steps) {
-    Player player(gait_character(), 2);
+    Player player(gait_character(), unpulled(2));
     for (int i = 0; i < steps; ++i) player.step(kForward, 7.003 / steps);
     return player.root_position();
   };
@@ -192,7 +201,7 @@ TEST(Player, JumpsOnceInAStepOfAnyLength) {
 
 TEST(Player, ShowsTheSameAfterAReset) {
   const Trace trace = simulate_trace("jumper", 10, 4, gait_character()->space);
-  Player player(gait_character(), 3);
+  Player player(gait_character(), {3});
   const Performance first = player.run(trace, 30);
   player.reset();
   const Performance again = player.run(trace, 30);
@@ -202,7 +211,7 @@ TEST(Player, ShowsTheSameAfterAReset) {
 }
 
 Performance performed(std::uint64_t seed, double rate) {
-  Player player(gait_character(), seed);
+  Player player(gait_character(), {seed});
   return player.run(simulate_trace("explorer", 20, 4, gait_character()->space), rate);
 }
 
@@ -255,7 +264,7 @@ TEST(Player, GoesForwardFromWhereItIsPut) {
 }
 
 TEST(Player, MovesAndTurnsWithThePlaceWhereItStarts) {
-  Player here(gait_character(), 4), there(gait_character(), 4);
+  Player here(gait_character(), {4}), there(gait_character(), {4});
   const CharacterFrame place{{10, -7}, 2.5};
   here.reset();
   there.reset(place);
@@ -288,7 +297,7 @@ TEST(Player, GivesAFrameForEveryTickOfAnyRate) {
 
 TEST(Performance, IsWhatStepsWouldHaveShown) {
   const Trace trace(40, kForward);
-  Player one(gait_character(), 6), two(gait_character(), 6);
+  Player one(gait_character(), {6}), two(gait_character(), {6});
   one.reset({{1, 1}, 1});
   two.reset({{1, 1}, 1});
   const Performance p = one.run(trace, 30);
@@ -329,8 +338,9 @@ TEST(Performance, PathIsUnwrapped) {
 TEST(Player, RefusesBadTimesRatesAndTraces) {
   const auto c = gait_character();
   const double nan = std::nan("");
-  for (const double stitch : {-0.1, 1.5, nan}) EXPECT_NE(error_of([&] { Player(c, 1, stitch); }), "no error") << stitch;
-  for (const double stitch : {0.0, 1.0}) EXPECT_EQ(error_of([&] { Player(c, 1, stitch); }), "no error") << stitch;
+  for (const double stitch : {-0.1, 1.5, nan})
+    EXPECT_NE(error_of([&] { Player(c, {1, stitch}); }), "no error") << stitch;
+  for (const double stitch : {0.0, 1.0}) EXPECT_EQ(error_of([&] { Player(c, {1, stitch}); }), "no error") << stitch;
   Player player(c);
   EXPECT_NE(error_of([&] { player.run({}, 30); }).find("no controls"), std::string::npos);
   for (const double rate : {0.0, -30.0, nan, 1e9})
@@ -355,7 +365,7 @@ TEST(Player, IsCancelledByItsProgress) {
 }
 
 TEST(Player, PlaysWithoutStitching) {
-  Player player(gait_character(), 1, 0);
+  Player player(gait_character(), {1, 0});
   for (int i = 0; i < 300; ++i) player.step(kForward, 1.0 / 30);
   EXPECT_TRUE(player.root_position().allFinite());
 }

@@ -100,7 +100,7 @@ TEST(PolicyFile, BringsEverythingBack) {
 
 TEST(PolicyFile, PlaysTheSameBits) {
   const auto loaded = std::make_shared<const Character>(from_bytes(to_bytes(*gait_character())));
-  Player built(gait_character(), 7), read(loaded, 7);
+  Player built(gait_character(), {7}), read(loaded, {7});
   const Trace trace = simulate_trace("explorer", 15, 3, loaded->space);
   const Performance a = built.run(trace, 29.97), b = read.run(trace, 29.97);
   EXPECT_EQ(a.rotations, b.rotations);

@@ -6,6 +6,7 @@
 
 #include "fragmotion/coverage.hpp"
 #include "fragmotion/distance.hpp"
+#include "fragmotion/leg.hpp"
 #include "fragmotion/mirror.hpp"
 #include "fragmotion/pose.hpp"
 #include "fragmotion/synthesis.hpp"
@@ -44,7 +45,7 @@ TEST(Transformed, ByNothingIsTheSource) {
   gait.turn = 0.5;
   gait.heading = 1;
   const Clip clip = moved(kSkeleton, gait_clip(gait), {{2, -1}, 0.5});
-  const Clip same = transformed(kKinematics, clip, 20, 40, 9, {});
+  const Clip same = transformed(kKinematics, clip, find_contacts(kKinematics, clip), 20, 40, 9, {});
   ASSERT_EQ(same.frames, 30);
   EXPECT_EQ(same.rate, clip.rate);
   for (int f = 0; f < same.frames; ++f) {
@@ -61,7 +62,8 @@ TEST(Transformed, ByNothingIsTheSource) {
 
 TEST(Transformed, EndsWithTheClipWhereItsTailIsLonger) {
   const Clip clip = gait_clip({});
-  EXPECT_EQ(transformed(kKinematics, clip, 70, clip.frames - 1, 30, {}).frames, clip.frames - 70);
+  EXPECT_EQ(transformed(kKinematics, clip, find_contacts(kKinematics, clip), 70, clip.frames - 1, 30, {}).frames,
+            clip.frames - 70);
 }
 
 TEST(Transformed, DoesToTheEvidentControlWhatItSays) {
@@ -80,7 +82,7 @@ TEST(Transformed, DoesToTheEvidentControlWhatItSays) {
     change.speed = n % 4 == 1 ? 0.5 + random.uniform() : 1;
     change.turn = n % 4 == 2 ? 2 * random.uniform() - 1 : 0;
     change.rise = n % 4 == 3 ? 0.1 + 0.3 * random.uniform() : 0;
-    const Clip made = transformed(kKinematics, clip, begin, end, 5, change);
+    const Clip made = transformed(kKinematics, clip, {}, begin, end, 5, change);
     const Control before = evident_of(clip, begin, end, usual, space),
                   after = evident_of(made, 0, end - begin, usual, space);
     const Vector2 expected = Eigen::Rotation2Dd(change.direction) * Vector2(before.x, before.y) * change.speed;
@@ -111,6 +113,37 @@ Trajectories with(FragmentPool pool, const Clip& clip, int end) {
   pool.clips.push_back(make_clip(pool.skeleton, clip));
   pool.fragments.push_back(fragment);
   return trajectories(pool);
+}
+
+// The greatest speed of a ball of the foot that stands, m/s.
+double slide(const Clip& clip, const Contacts& contacts, int first) {
+  const Leg legs[] = {left_leg(kKinematics.skeleton()), right_leg(kKinematics.skeleton())};
+  PosedBones posed(kKinematics.bones());
+  double most = 0;
+  for (int side = 0; side < 2; ++side) {
+    Vector3 before = Vector3::Zero();
+    for (int f = 0, standing = 0; f < clip.frames; ++f) {
+      kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+      const Vector3 now = ball(kKinematics.skeleton(), legs[side], posed);
+      standing = contacts.feet[side][first + f] ? standing + 1 : 0;
+      if (standing > 4) most = std::max(most, (now - before).head<2>().norm() * clip.rate);
+      before = now;
+    }
+  }
+  return most;
+}
+
+TEST(Transformed, KeepsPlantedFeetWhereTheyAre) {
+  const Clip clip = gait_clip({1.2, 0, 0});
+  const Contacts contacts = find_contacts(kKinematics, clip);
+  for (const double direction : {kPi / 4, -kPi / 2}) {
+    Transform change;
+    change.direction = direction;
+    change.speed = 0.8;
+    change.turn = 0.5;
+    const Clip planted = transformed(kKinematics, clip, contacts, 15, 45, 5, change);
+    EXPECT_LT(slide(planted, contacts, 15), 0.15) << direction;
+  }
 }
 
 TEST(Interpolated, AtItsEndsIsTheOneOrTheOther) {

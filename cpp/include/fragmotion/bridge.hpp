@@ -6,8 +6,8 @@
 namespace fragmotion {
 
 /// Transitions further apart than this get a stand-in-place fragment between, m summed over bone tips (22 bones: about
-/// 27 cm a tip).
-constexpr double kBridgeDistance = 6;
+/// 70 cm a tip). Inertialization makes what is nearer than that clean.
+constexpr double kBridgeDistance = 15;
 
 /// The stand-in-place rule (Sec. 3.3: "we insert a stand-in-place motion fragment between the two motion fragments when
 /// they are inappropriate to connect directly"): for every pair of classes the standing class that goes between, or -1.

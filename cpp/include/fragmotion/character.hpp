@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fragmotion/contacts.hpp"
 #include "fragmotion/coverage.hpp"
 #include "fragmotion/policy.hpp"
 #include "fragmotion/progress.hpp"
@@ -23,6 +24,8 @@ struct Character {
   /// [102, 102]: control_model() of the traces that taught the policies, with kAnyPlayer.
   std::vector<double> control_model;
   Coverage coverage;
+  std::vector<Contacts> contacts;        ///< Of each clip of the pool.
+  std::vector<float> first_poses;        ///< Trajectories::first of the fragments.
   std::map<std::string, double> report;  ///< Figures of the build: counts, and seconds of each stage. Not saved.
 
   /// The policy of that name, or the one that drives where the name is empty. Throws std::invalid_argument listing
@@ -59,6 +62,9 @@ ControlSpace control_space_of(const std::vector<Control>& evident, double scale)
 /// says so.
 Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
                 const BuildOptions& options = {}, const Progress& progress = {});
+
+/// The contacts of all clips of a pool.
+std::vector<Contacts> contacts_of(const FragmentPool& pool, int threads = 0);
 
 /// The indices of the points of the space nearest to a trace's controls.
 std::vector<int> snap(const ControlSpace& space, const Trace& trace);

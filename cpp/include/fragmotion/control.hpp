@@ -18,11 +18,11 @@ struct Control {
   double jump = 0;  ///< 1: jumping.
 };
 
-/// The weights of ControlDis (Eq. 2). Defaults: going 0.5 m/s too fast (at 1.8 m stature) weighs as much as 2/3 of the
-/// turn rate, and a quarter of a jump, so that no jump is made to please a velocity. A weight of 0
-/// ignores its part of a control.
+/// The weights of ControlDis (Eq. 2). Defaults: going 0.5 m/s too fast (at 1.8 m stature) weighs as much as the whole
+/// turn rate, and 3/8 of a jump, so that no jump is made to please a velocity. A weight of 0 ignores its part of a
+/// control.
 struct ControlWeights {
-  double velocity = 2;
+  double velocity = 3;
   double turn = 1.5;
   double jump = 4;
 };

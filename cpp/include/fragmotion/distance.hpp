@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fragmotion/fragment.hpp"
+#include "fragmotion/leg.hpp"
 
 namespace fragmotion {
 
@@ -19,6 +20,24 @@ constexpr int padded(int points) { return (points + kLanes - 1) / kLanes * kLane
 /// Sum over points of the Euclidean distance between two such vectors of `stride` floats a row (Sec. 3.1): a norm of
 /// their difference. The same bits on every x86-64, with AVX2 or without.
 float tip_distance(const float* a, const float* b, int stride);
+
+/// The bone tips of poses, as Dis sees them. Allocates nothing once it is made.
+class BodyTips {
+ public:
+  explicit BodyTips(const Skeleton& skeleton);
+
+  int points() const { return static_cast<int>(bones_.size()); }
+  /// Takes a pose: the hips' place and rotations [bones, 4] as in Clip.
+  void pose(const Vector3& root, const double* rotations);
+  /// Writes its tips as seen from `frame`, as points offset .. of three rows of `stride` floats.
+  void write(const CharacterFrame& frame, float* rows, int stride, int offset) const;
+
+ private:
+  Kinematics kinematics_;
+  std::vector<int> bones_;
+  double scale_;
+  PosedBones posed_;
+};
 
 /// The fragments as points of the space in which Dis is a norm. Lengths are those of a character of 1.8 m.
 /// A trajectory is `poses` poses at equal times, all in the character frame of the first; `first` and `last` are the

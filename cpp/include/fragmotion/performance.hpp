@@ -7,7 +7,8 @@
 
 namespace fragmotion {
 
-/// What a player did, a pose a frame, and how well it followed its trace: means over time.
+/// What a player did, a pose a frame, and how well it followed its trace: means over time. Velocity and turn rate are
+/// those of the character frame over the half second around, so that the sway of a gait is no error.
 struct Performance {
   double rate = 0;  ///< Frames a second.
   int frames = 0;
@@ -17,15 +18,21 @@ struct Performance {
   std::vector<int> classes;            ///< [frames]
   std::vector<int> fragments;          ///< [frames]
   double quality = 0;                  ///< Eq. 2 for what plays and the control then, 0..1.
-  double velocity_error = 0;  ///< |velocity of the character frame - commanded|, seen from the character frame, m/s.
-  double turn_error = 0;      ///< |turn rate of the character frame - commanded|, rad/s.
-  double jump_error = 0;      ///< Share of the time in which a jump was commanded and none played, or none and one did.
+  double velocity_error = 0;           ///< |velocity - commanded|, seen from the character frame, m/s.
+  double turn_error = 0;               ///< |turn rate - commanded|, rad/s.
+  double jump_error = 0;  ///< Share of the time in which a jump was commanded and none played, or none and one did.
   double commanded_speed = 0;  ///< m/s
 };
 
+/// The index of the control that leads to frame `frame` of a performance of a trace of so many controls.
+std::size_t control_at(int frame, double rate, std::size_t controls);
+
+/// Fills the errors and the commanded speed of a performance of a trace.
+void judge(Performance& performance, const Character& character, const Trace& trace);
+
 /// The yardstick of Performance::quality: the greatest mean over time of Eq. 2 that a player could reach on a trace who
 /// knew all of it, played at `rate`. It may play a class for any time from `shortest` seconds to the longest of its
-/// fragments, so no player that stitches for `shortest` or longer is better.
+/// fragments, so no player that ends no fragment sooner is better.
 double optimal_performance(const Character& character, const Trace& trace, double rate, double shortest);
 
 }  // namespace fragmotion

@@ -4,27 +4,47 @@
 #include <memory>
 #include <vector>
 
+#include "fragmotion/distance.hpp"
+#include "fragmotion/foot_lock.hpp"
+#include "fragmotion/inertialization.hpp"
 #include "fragmotion/performance.hpp"
 #include "fragmotion/random.hpp"
 
 namespace fragmotion {
 
-/// Seconds over which two fragments are stitched, unless told.
-constexpr double kStitch = 0.15;
+/// How the next fragment joins on to what is shown (Fig. 3).
+enum class Stitching {
+  inertialize,  ///< It takes over pose and velocity, whose differences fade (inertialization.hpp).
+  crossfade     ///< The paper's: the old fragment goes on in its take while both are interpolated.
+};
+
+/// Seconds that a stitch lasts, unless told.
+constexpr double kStitch = 0.2;
+
+/// Seconds that a fragment is played at least before a change of the control may end it.
+constexpr double kSoonest = 0.1;
+
+struct PlayerOptions {
+  std::uint64_t seed = 1;
+  double stitch = kStitch;  ///< s, 0 .. 1; cut short by shorter fragments.
+  std::string policy{};     ///< One of the character's; empty: the one that drives.
+  Stitching stitching = Stitching::inertialize;
+  bool lock_feet = true;  ///< Planted feet stay where they are (foot_lock.hpp).
+  /// How much the root is pulled to the command, over what its fragments do, 0 .. 1; at 1 by up to two fifths of the
+  /// fragment's speed and of the turn rate.
+  double pull = 1;
+};
 
 /// The run time (Sec. 3.3, Fig. 3). At a fragment's end the table tells the next class. A member of it, drawn at random
-/// (Sec. 3.1) among those that perform the control as well as the representative or better, is placed where the
-/// character stands, and stitched on: over a set time the old fragment goes on in its take while translations are
-/// interpolated linearly and rotations by slerp, with ease-in-ease-out weights. A fragment is left early, once stitched
-/// and unless in the air, when the control changes a lot. A stand-in-place fragment is played to its end; then comes
-/// the class that it leads to, or, where the control has changed a lot meanwhile, what the table tells from standing. A
-/// jump that is pressed, however shortly, is asked of the table at the next decision.
+/// (Sec. 3.1) among those that perform the control as well as the representative or better and join well, is placed
+/// where the character stands, and stitched on with ease-in-ease-out weights. A fragment is left early, unless in the
+/// air, when the control changes a lot. A stand-in-place fragment is played to its end; then comes the class that it
+/// leads to, or, where the control has changed a lot meanwhile, what the table tells from standing. A jump that is
+/// pressed, however shortly, is asked of the table at the next decision.
 class Player {
  public:
-  /// `stitch` seconds are cut short by shorter fragments; `policy` is one of the character's, or empty for the one that
-  /// drives. Throws std::invalid_argument unless stitch is 0 .. 1 s, and on an unknown policy.
-  explicit Player(std::shared_ptr<const Character> character, std::uint64_t seed = 1, double stitch = kStitch,
-                  const std::string& policy = {});
+  /// Throws std::invalid_argument on an option that is out of its range.
+  explicit Player(std::shared_ptr<const Character> character, const PlayerOptions& options = {});
 
   /// Stands at `frame`, in the class that best performs standing still, and draws again from the seed: after a reset
   /// the same steps show the same poses.
@@ -34,9 +54,9 @@ class Player {
   /// unless the control is finite and `seconds` is 0 .. 3600.
   void step(const Control& control, double seconds);
 
-  const Vector3& root_position() const { return root_; }
+  const Vector3& root_position() const { return shown_.root; }
   /// [bones, 4] as in Clip.
-  const std::vector<double>& rotations() const { return rotations_; }
+  const std::vector<double>& rotations() const { return shown_.rotations; }
   CharacterFrame frame() const;
   int playing_class() const { return class_; }
   int playing_fragment() const { return now_.fragment; }
@@ -58,37 +78,48 @@ class Player {
   };
 
   Placed place(int fragment, const CharacterFrame& frame) const;
-  Vector3 sample(const Placed& placed, double* rotations) const;
-  double heading(const Placed& placed) const;
+  void sample(const Placed& placed, WorldPose& pose) const;
+  void stitch(const Placed& old, double seconds);
   int draw(int next_class, const Control& control);
   void start(int next_class, const Control& control);
   bool changed(const Control& wanted) const;
   int decide(const Control& wanted);
   bool leaves_early(const Control& wanted) const;
   void go_on(const Control& control, const Control& wanted);
-  void show();
-  void judge(Performance& p, const Control& control, const CharacterFrame& before) const;
+  void pull(const Control& control, double seconds);
+  void pose();
+  void plant(double seconds);
   double left() const;
 
   std::shared_ptr<const Character> character_;
   const Policy* policy_;
   Kinematics kinematics_;
   std::vector<std::vector<int>> members_;
-  std::vector<int> fitting_;  // scratch of draw()
+  BodyTips tips_;
+  std::vector<float> last_pose_;                // scratch of draw(): tips of what is shown
+  std::vector<std::pair<float, int>> fitting_;  // scratch of draw(): fragments by their distance from it
   std::uint64_t seed_;
   Random random_;
   double stitch_;
+  Stitching stitching_;
+  bool lock_feet_;
+  double pull_;
 
   Placed now_, before_;
-  double stitching_ = 0;  // s that the stitch under way lasts; 0: none
+  double stitched_ = 0;  // s that the stitch under way lasts; 0: none
+  double soonest_ = 0;   // s after which what plays may be left early
   int class_ = 0, from_ = 0;
   int waiting_ = -1;  // the class that follows a stand-in-place fragment
   Control decided_for_;
   bool jump_pressed_ = false;
-  bool jump_waits_ = false;  // pressed since the last decision that plays: a tap is not lost
-  Vector3 root_;
-  double heading_ = 0;
-  std::vector<double> rotations_, other_;
+  bool jump_waits_ = false;            // pressed since the last decision that plays: a tap is not lost
+  Vector2 pulling_ = Vector2::Zero();  // m/s, in the character frame
+  double turning_ = 0;                 // rad/s
+  Inertialization inertia_;
+  FootLock foot_lock_;
+  WorldPose pose_;  // before feet are locked
+  WorldPose shown_;
+  std::array<WorldPose, 4> scratch_;
 };
 
 }  // namespace fragmotion

@@ -9,8 +9,8 @@ namespace fragmotion {
 /// no turn, no jump), from the step until the velocity over the last 0.1 s has made 90 % of the way, s. The command is
 /// held for 1.5 to 2 s before each step, so that steps meet every phase of a gait; an answer that takes more than
 /// kNoResponse counts as that. Arguments as Player's.
-std::vector<double> response_times(const std::shared_ptr<const Character>& character, std::uint64_t seed = 1,
-                                   double stitch = kStitch, const std::string& policy = {});
+std::vector<double> response_times(const std::shared_ptr<const Character>& character,
+                                   const PlayerOptions& options = {});
 
 /// s
 constexpr double kNoResponse = 3;

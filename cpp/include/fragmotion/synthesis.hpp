@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "fragmotion/contacts.hpp"
 #include "fragmotion/evident.hpp"
 
 namespace fragmotion {
@@ -14,8 +15,9 @@ struct Transform {
   double rise = 0;       ///< Height of a parabola through the air, m.
 };
 
-/// Frames begin .. end of a clip, and up to `tail` more, with the path transformed; frame 0 is where `begin` was.
-Clip transformed(const Kinematics& kinematics, const Clip& clip, int begin, int end, int tail,
+/// Frames begin .. end of a clip, and up to `tail` more, with the path transformed; frame 0 is where `begin` was. The
+/// strides are turned and scaled with the path, and feet that `contacts` (of the clip) say are planted stay planted.
+Clip transformed(const Kinematics& kinematics, const Clip& clip, const Contacts& contacts, int begin, int end, int tail,
                  const Transform& transform);
 
 /// A motion between two fragments: each pose, and the path, interpolated at equal phases with weight (1 - w, w). Its

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "fragmotion/inertialization.hpp"
+#include "fragmotion/leg.hpp"
+
+namespace fragmotion {
+
+/// Keeps planted feet where they are: the ball of a foot that is planted comes to rest and stays there, the leg follows
+/// (leg.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion smoothly; the
+/// hips sink where a leg would be too short. Does nothing to a skeleton without legs. Allocates nothing once it is
+/// made.
+class FootLock {
+ public:
+  explicit FootLock(const Kinematics& kinematics);
+
+  /// Both feet are free, and where their motion has them.
+  void reset();
+
+  /// Moves the legs of the pose that is shown `seconds` after the last one; `planted`: left, right.
+  void apply(WorldPose& pose, const std::array<bool, 2>& planted, double seconds);
+
+  bool locked(int side) const { return feet_[side].locked; }
+
+ private:
+  // Places of a ball on the ground, m, and speeds, m/s.
+  struct Foot {
+    bool locked = false;
+    Vector2 moved = Vector2::Zero(), shown = Vector2::Zero();          // last, by its motion and as it was shown
+    Vector2 place = Vector2::Zero(), drift = Vector2::Zero();          // of the lock; the drift comes to rest
+    Vector2 offset = Vector2::Zero(), offset_speed = Vector2::Zero();  // from the motion, when it was let go
+    double free = 0;                                                   // s since then
+  };
+
+  Vector2 away(Foot& foot, const Vector2& moved, bool planted, double seconds) const;
+  void lock(Foot& foot, const Vector2& shown, double seconds) const;
+  void release(Foot& foot, const Vector2& held, const Vector2& speed) const;
+
+  Kinematics kinematics_;
+  double scale_;
+  std::array<Leg, 2> legs_;
+  std::array<Foot, 2> feet_;
+  bool fresh_ = true;  // no pose was shown yet
+  double sunk_ = 0;    // m that the hips are lowered
+  PosedBones posed_;
+};
+
+}  // namespace fragmotion

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "fragmotion/types.hpp"
+
+namespace fragmotion {
+
+/// A pose in the world: the hips' place, where the character faces (rad), and rotations [bones, 4] as in Clip.
+struct WorldPose {
+  Vector3 root = Vector3::Zero();
+  double heading = 0;
+  std::vector<double> rotations;
+};
+
+/// A stitch that keeps pose and velocity (D. Bollo, "Inertialization: high-performance animation transitions in Gears
+/// of War", GDC 2018): the new motion is shown with the old one's offset and relative speed, which fade with the
+/// paper's ease-in-ease-out weights. It needs nothing of the old motion once it has begun, so it may begin anew at any
+/// time.
+class Inertialization {
+ public:
+  explicit Inertialization(int bones);
+
+  /// Nothing to fade.
+  void clear() { seconds_ = 0; }
+
+  /// From `old` to `fresh`, each given now and `later` seconds on, over `seconds`.
+  void begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh, const WorldPose& fresh_later,
+             double later, double seconds);
+
+  /// Adds what is left `time` seconds after the beginning.
+  void apply(double time, WorldPose& pose) const;
+
+ private:
+  double seconds_ = 0;
+  Vector3 root_ = Vector3::Zero(), root_speed_ = Vector3::Zero();
+  double heading_ = 0, heading_speed_ = 0;
+  std::vector<Vector3> turns_, turn_speeds_;  // [bones] modified Rodrigues parameters, and a second
+};
+
+}  // namespace fragmotion

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/foot_lock.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fragmotion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+// Lengths are those of a character of 1.8 m.
+constexpr double kTooFar = 0.3;    // m from its motion at which a foot is let go
+constexpr double kRelease = 0.2;   // s in which a foot that is let go gets back to its motion
+constexpr double kSettle = 0.03;   // s: time constant of a foot that comes to rest
+constexpr double kDeepest = 0.12;  // m that the hips may sink
+constexpr double kSinking = 0.06;  // s: time constant of the hips
+
+}  // namespace
+
+FootLock::FootLock(const Kinematics& kinematics)
+    : kinematics_(kinematics),
+      scale_(standard_scale(kinematics.skeleton())),
+      legs_{left_leg(kinematics.skeleton()), right_leg(kinematics.skeleton())},
+      posed_(kinematics.bones()) {
+  reset();
+}
+
+void FootLock::reset() {
+  feet_ = {};
+  feet_[0].free = feet_[1].free = kRelease;
+  sunk_ = 0;
+  fresh_ = true;
+}
+
+void FootLock::lock(Foot& foot, const Vector2& shown, double seconds) const {
+  foot.locked = true;
+  foot.place = fresh_ ? shown : foot.shown;
+  foot.drift = seconds > 0 && !fresh_ ? Vector2{(shown - foot.shown) / seconds} : Vector2::Zero();
+}
+
+void FootLock::release(Foot& foot, const Vector2& held, const Vector2& speed) const {
+  foot.locked = false;
+  foot.offset = held;
+  foot.offset_speed = foot.drift - speed;
+  foot.free = 0;
+}
+
+// How far the foot is shown from where its motion has it.
+Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double seconds) const {
+  const Vector2 speed = seconds > 0 && !fresh_ ? Vector2{(moved - foot.moved) / seconds} : Vector2::Zero();
+  foot.moved = moved;
+  foot.free += seconds;
+  Vector2 away = Vector2::Zero();
+  if (foot.free < kRelease) {
+    const double phase = foot.free / kRelease;
+    away = (1 - ease_in_ease_out(phase)) * foot.offset + foot.free * (1 - phase) * (1 - phase) * foot.offset_speed;
+  }
+  if (planted && !foot.locked && away.norm() * scale_ < kTooFar) lock(foot, moved + away, seconds);
+  if (foot.locked) {
+    foot.place += kSettle * (1 - std::exp(-seconds / kSettle)) * foot.drift;
+    foot.drift *= std::exp(-seconds / kSettle);
+    away = foot.place - moved;
+    if (!planted || away.norm() * scale_ > kTooFar) release(foot, away, speed);
+  }
+  foot.shown = moved + away;
+  return away;
+}
+
+void FootLock::apply(WorldPose& pose, const std::array<bool, 2>& planted, double seconds) {
+  if (!legs_[0].exists() || !legs_[1].exists()) return;
+  const Skeleton& skeleton = kinematics_.skeleton();
+  kinematics_.world(pose.root, pose.rotations.data(), posed_.heads.data(), posed_.rotations.data());
+  std::array<Vector3, 2> ankles;
+  double sink = 0;
+  bool moved = false;
+  for (int side = 0; side < 2; ++side) {
+    const Vector2 by = away(feet_[side], ball(skeleton, legs_[side], posed_).head<2>(), planted[side], seconds);
+    ankles[side] = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), 0};
+    if (by.isZero(1e-9)) continue;
+    moved = true;
+    sink = std::max(sink, std::min(kDeepest / scale_, sinking(legs_[side], posed_, ankles[side])));
+  }
+  fresh_ = false;
+  sunk_ += (sink - sunk_) * (1 - std::exp(-seconds / kSinking));
+  if (!moved && sunk_ < 1e-6) return;
+  pose.root.z() -= sunk_;
+  for (Vector3& head : posed_.heads) head.z() -= sunk_;
+  for (int side = 0; side < 2; ++side) {
+    reach(skeleton, legs_[side], posed_, ankles[side], pose.heading, pose.rotations.data());
+  }
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "fragmotion/foot_lock.hpp"
+#include "walker.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kFrame = 1.0 / 60;
+
+// A standing body that is carried along at a speed, its feet planted for a while.
+struct Carried {
+  Skeleton skeleton = humanoid();
+  Kinematics kinematics{skeleton};
+  FootLock lock{kinematics};
+  Clip clip = gait_clip({0, 0, 0});
+  double speed = 0.3;
+
+  Vector3 shown(int frame, bool planted) {
+    WorldPose pose{load_vector(clip.root_positions.data()), clip.headings[0], {}};
+    pose.root.y() += speed * frame * kFrame;
+    pose.rotations.assign(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
+    lock.apply(pose, {planted, false}, frame == 0 ? 0 : kFrame);
+    PosedBones posed(skeleton.size());
+    kinematics.world(pose.root, pose.rotations.data(), posed.heads.data(), posed.rotations.data());
+    return ball(skeleton, left_leg(skeleton), posed);
+  }
+};
+
+TEST(FootLock, KeepsAPlantedFootWhereItIs) {
+  Carried body;
+  const Vector3 place = body.shown(0, true);
+  for (int f = 1; f < 30; ++f) EXPECT_LT((body.shown(f, true) - place).head<2>().norm(), 1e-3) << f;
+  EXPECT_TRUE(body.lock.locked(0));
+  EXPECT_FALSE(body.lock.locked(1));
+}
+
+TEST(FootLock, LetsGoSmoothlyAndComesBackToTheMotion) {
+  Carried body, free;
+  Vector3 before = body.shown(0, true);
+  free.shown(0, false);
+  for (int f = 1; f < 60; ++f) {
+    const Vector3 now = body.shown(f, f < 30), moved = free.shown(f, false);
+    EXPECT_LT((now - before).norm(), 0.05) << f;  // 3 m/s
+    if (f > 30 + 0.2 / kFrame + 1) {
+      EXPECT_LT((now - moved).head<2>().norm(), 1e-3) << f;
+    }
+    before = now;
+  }
+}
+
+TEST(FootLock, LetsAFootGoThatIsTooFarBehind) {
+  Carried body;
+  body.speed = 2;
+  for (int f = 0; f < 30; ++f) body.shown(f, true);
+  Carried free;
+  free.speed = 2;
+  free.shown(0, false);
+  EXPECT_LT((body.shown(30, true) - free.shown(30, false)).head<2>().norm(), 0.4);
+}
+
+TEST(FootLock, LeavesASkeletonWithoutLegsAsItIs) {
+  Skeleton skeleton = humanoid();
+  skeleton.roles.left_thigh = skeleton.roles.right_thigh = -1;
+  FootLock lock{Kinematics(skeleton)};
+  const Clip clip = gait_clip({1.2, 0, 0});
+  WorldPose pose{load_vector(clip.root_positions.data()), 0, {}};
+  pose.rotations.assign(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
+  const std::vector<double> before = pose.rotations;
+  lock.apply(pose, {true, true}, kFrame);
+  EXPECT_EQ(pose.rotations, before);
+}
+
+}  // namespace
+}  // namespace fragmotion

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "fragmotion/inertialization.hpp"
+#include "fragmotion/random.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kLater = 1e-4, kSeconds = 0.3;
+
+Quaternion random_rotation(Random& random, double angle) {
+  const Vector3 axis{random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
+  return Quaternion{Eigen::AngleAxisd(angle * random.uniform(), axis.normalized())};
+}
+
+// A motion of two bones that goes and turns evenly.
+struct Motion {
+  Vector3 root, speed;
+  Quaternion start[2];
+  Vector3 turn[2];
+
+  explicit Motion(Random& random) {
+    for (Vector3* v : {&root, &speed, &turn[0], &turn[1]}) {
+      *v = {random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
+    }
+    for (Quaternion& q : start) q = random_rotation(random, 2);
+  }
+
+  WorldPose at(double time) const {
+    WorldPose pose{root + time * speed, time * speed.x(), {}};
+    pose.rotations.resize(8);
+    for (int b = 0; b < 2; ++b) {
+      const Quaternion by{Eigen::AngleAxisd(time * turn[b].norm(), turn[b].normalized())};
+      store_quaternion(by * start[b], &pose.rotations[4 * b]);
+    }
+    return pose;
+  }
+};
+
+double largest_difference(const WorldPose& a, const WorldPose& b) {
+  double largest = std::max((a.root - b.root).norm(), std::abs(a.heading - b.heading));
+  for (int i = 0; i < 8; i += 4) {
+    largest = std::max(largest, load_quaternion(&a.rotations[i]).angularDistance(load_quaternion(&b.rotations[i])));
+  }
+  return largest;
+}
+
+TEST(Inertialization, BeginsWithTheOldMotionAndItsSpeedAndEndsWithTheNewOne) {
+  Random random(1);
+  for (int n = 0; n < 100; ++n) {
+    const Motion old(random), fresh(random);
+    Inertialization inertia(2);
+    inertia.begin(old.at(0), old.at(kLater), fresh.at(0), fresh.at(kLater), kLater, kSeconds);
+    const auto shown = [&](double time) {
+      WorldPose pose = fresh.at(time);
+      inertia.apply(time, pose);
+      return pose;
+    };
+    EXPECT_LT(largest_difference(shown(0), old.at(0)), 1e-7);
+    EXPECT_LT(largest_difference(shown(kLater), old.at(kLater)), 1e-6);
+    EXPECT_EQ(largest_difference(shown(kSeconds), fresh.at(kSeconds)), 0);
+    EXPECT_LT(largest_difference(shown(kSeconds - kLater), fresh.at(kSeconds - kLater)), 1e-5);
+  }
+}
+
+TEST(Inertialization, NeverSteps) {
+  Random random(2);
+  const Motion old(random), fresh(random);
+  Inertialization inertia(2);
+  inertia.begin(old.at(0), old.at(kLater), fresh.at(0), fresh.at(kLater), kLater, kSeconds);
+  WorldPose before = old.at(0);
+  for (double time = 0; time < 2 * kSeconds; time += 1e-3) {
+    WorldPose now = fresh.at(time);
+    inertia.apply(time, now);
+    EXPECT_LT(largest_difference(now, before), 0.025) << time;
+    before = now;
+  }
+}
+
+}  // namespace
+}  // namespace fragmotion

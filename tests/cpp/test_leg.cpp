@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "fragmotion/leg.hpp"
+#include "fragmotion/random.hpp"
+#include "walker.hpp"
+
+namespace fragmotion {
+namespace {
+
+TEST(Leg, IsFoundByItsRoles) {
+  const Skeleton skeleton = humanoid();
+  for (const Leg& leg : {left_leg(skeleton), right_leg(skeleton)}) {
+    ASSERT_TRUE(leg.exists());
+    EXPECT_TRUE(skeleton.is_below(leg.foot, leg.knee));
+    EXPECT_TRUE(skeleton.is_below(leg.knee, leg.thigh));
+  }
+  Skeleton footless = skeleton;
+  footless.roles.left_foot = -1;
+  EXPECT_FALSE(left_leg(footless).exists());
+}
+
+TEST(Reach, BringsTheFootThereAndLeavesItsRotation) {
+  const Skeleton skeleton = humanoid();
+  const Kinematics kinematics(skeleton);
+  const Clip clip = gait_clip({1.2, 0, 0});
+  Random random(5);
+  for (int n = 0; n < 200; ++n) {
+    const Leg leg = n % 2 == 0 ? left_leg(skeleton) : right_leg(skeleton);
+    const int f = random.below(clip.frames);
+    PosedBones posed(skeleton.size()), after(skeleton.size());
+    kinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    const Vector3 foot = posed.heads[leg.foot], hip = posed.heads[leg.thigh];
+    const Vector3 wanted = hip + (0.7 + 0.2 * random.uniform()) * (foot - hip) +
+                           0.1 * Vector3{random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
+    const auto begin = clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size() * f;
+    std::vector<double> rotations(begin, begin + std::ptrdiff_t{4} * skeleton.size());
+    reach(skeleton, leg, posed, wanted, clip.headings[f], rotations.data());
+    kinematics.world(load_vector(&clip.root_positions[3 * f]), rotations.data(), after.heads.data(),
+                     after.rotations.data());
+    EXPECT_LT((after.heads[leg.foot] - wanted).norm(), 1e-6) << n;
+    EXPECT_GT(std::abs(after.rotations[leg.foot].dot(posed.rotations[leg.foot])), 1 - 1e-9);
+    EXPECT_LT((after.heads[leg.thigh] - hip).norm(), 1e-12);
+  }
+}
+
+TEST(Reach, ComesAsNearAsTheLegIsLong) {
+  const Skeleton skeleton = humanoid();
+  const Kinematics kinematics(skeleton);
+  const Clip clip = gait_clip({1.2, 0, 0});
+  const Leg leg = left_leg(skeleton);
+  PosedBones posed(skeleton.size()), after(skeleton.size());
+  kinematics.world(clip, 0, posed.heads.data(), posed.rotations.data());
+  std::vector<double> rotations(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
+  const Vector3 far = posed.heads[leg.thigh] + Vector3{0.3, 2, -1};
+  reach(skeleton, leg, posed, far, 0, rotations.data());
+  kinematics.world(load_vector(clip.root_positions.data()), rotations.data(), after.heads.data(),
+                   after.rotations.data());
+  const Vector3 leg_now = after.heads[leg.foot] - after.heads[leg.thigh], way = far - after.heads[leg.thigh];
+  EXPECT_LT(leg_now.cross(way).norm(), 1e-6 * way.norm());
+  EXPECT_GT(leg_now.dot(way), 0);
+}
+
+}  // namespace
+}  // namespace fragmotion
