@@ -8,7 +8,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from tools import benchmarks, demo, machine, packages, testing
+from tools import benchmarks, demo, evaluating, machine, packages, testing
+from tools.evaluate import inputs
 from tools.shell import Failure, say
 
 
@@ -22,6 +23,8 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     test.add_argument("-k", dest="expression", metavar="EXPR", help="only the tests that match, as pytest's -k")
     bench = commands.add_parser("bench", help="measure the core against NumPy and scikit-learn")
     bench.add_argument("--json", type=Path, metavar="FILE", help="save the figures there too")
+    evaluate = commands.add_parser("evaluate", help="measure the policies on takes and traces, as the paper does")
+    inputs.add_arguments(evaluate)
     commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
     return parser.parse_args(arguments)
 
@@ -44,9 +47,11 @@ def main(arguments: list[str]) -> int:
             return testing.run_tests(options.stages, options.expression)
         if options.command == "bench":
             return benchmarks.run_benchmarks(options.json)
+        if options.command == "evaluate":
+            return evaluating.run_evaluation(options, arguments[1:])
         return package()
     except Failure as failure:
-        say(f"dev.py: {failure}")
+        print(f"dev.py: {failure}", file=sys.stderr)
         return 1
 
 

@@ -60,6 +60,8 @@ DEMO = BUILD_311 | Needs(_BLENDER_PACKAGES)
 BLENDER_34 = DEMO | Needs(pytest_folder=True)
 WINDOWS = BLENDER_34 | PYTHON_TESTS | Needs(_WINDOW_PACKAGES)
 BENCH = CPP_TESTS | PYTHON_TESTS
+EVALUATE = BUILD_311 | Needs((), {"3.11": ("numpy", "matplotlib")})
+EVALUATE_BLEND = EVALUATE | BLENDER_45
 
 
 def has_python_313() -> bool:

@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: MIT
+"""The figures of a run as tables of text, for the terminal and for docs/evaluation.md."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
+
+Result = dict[str, Any]
+TITLES = {"greedy": "Greedy", "svm": "SVM", "iterate": "Iterate", "anticipate": "Anticipate", "optimal": "Optimal"}
+HOLE = 0.3  # ControlDis: the core's synthesis and the add-on's panel count a control as performed within this
+
+
+class Table(NamedTuple):
+    """Cells as text; the first column is left-aligned."""
+
+    title: str
+    header: list[str]
+    rows: list[list[str]]
+
+
+def number(value: float | None, digits: int = 1) -> str:
+    """A figure, or a dash where there is none."""
+    return "-" if value is None else f"{value:.{digits}f}"
+
+
+def duration(seconds: float) -> str:
+    """Seconds, or milliseconds where they are few."""
+    return f"{seconds:.2f} s" if seconds >= 1 else f"{1000 * seconds:.1f} ms"
+
+
+def size(count: int | None) -> str:
+    """Bytes as kB or MB."""
+    if count is None:
+        return "not measured"
+    return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{count / 1e3:.0f} kB"
+
+
+def title(name: str, result: Result) -> str:
+    """A controller's name for people."""
+    return f"{TITLES[name]} (default)" if name == result["default"] else TITLES[name]
+
+
+def synthesis_table(result: Result) -> Table:
+    """The paper's Table 1."""
+    rows = [
+        [
+            title(name, result),
+            "yes" if figures["online"] else "no",
+            duration(figures["synthesis_seconds"]),
+            size(figures["peak_bytes"]),
+        ]
+        for name, figures in result["controllers"].items()
+    ]
+    return Table("Synthesis of each controller", ["controller", "online", "time", "memory"], rows)
+
+
+def trace_table(result: Result) -> Table:
+    """Fig. 5: the controllers that learned from the first session, on each test."""
+    names = list(result["adaptability"])
+    columns = {name: result["adaptability"][name]["matrix"][0] for name in names}
+    rows = [
+        [test, *(number(columns[name][i]) for name in names), number(result["bound"][test])]
+        for i, test in enumerate(result["test"])
+    ]
+    bound = statistics.fmean(result["bound"].values())
+    rows.append(["mean", *(number(statistics.fmean(columns[name])) for name in names), number(bound)])
+    heading = f"Percent of Optimal on each test, learned from {result['train'][0]}"
+    return Table(heading, ["test", *(title(name, result) for name in names), "knows the player"], rows)
+
+
+def adaptability_table(result: Result) -> Table:
+    """Over all pairs of a session learned from and a test of another player."""
+    rows = [
+        [title(name, result), *(number(found[key]) for key in ("mean", "sd", "min", "max"))]
+        for name, found in result["adaptability"].items()
+    ]
+    bound = list(result["bound"].values())
+    spread = statistics.stdev(bound) if len(bound) > 1 else 0.0
+    figures = (statistics.fmean(bound), spread, min(bound), max(bound))
+    rows.append(["knows the player", *(number(figure) for figure in figures)])
+    heading = "Percent of Optimal over all pairs of a training session and a test of another player"
+    return Table(heading, ["controller", "mean", "sd", "least", "greatest"], rows)
+
+
+def matrix_table(result: Result) -> Table:
+    """The default policy: who it learned from (rows) and who was tested (columns)."""
+    name = result["default"]
+    rows = [
+        [own, *(number(value) for value in row)]
+        for own, row in zip(result["train"], result["adaptability"][name]["matrix"])
+    ]
+    return Table(f"{TITLES[name]}, percent of Optimal", ["learned from \\ tested on", *result["test"]], rows)
+
+
+_RUN_TIME: tuple[tuple[str, Callable[[Result], str]], ...] = (
+    ("of Optimal, %", lambda r: number(r["percent_of_optimal"])),
+    ("velocity error, m/s", lambda r: number(r["velocity_error"], 2)),
+    ("velocity error, %", lambda r: number(r["velocity_error_percent"])),
+    ("turn error, deg/s", lambda r: number(r["turn_error"])),
+    ("jump error, %", lambda r: number(None if r["jump_error"] is None else 100 * r["jump_error"])),
+    ("response p50, s", lambda r: number(r["response_p50_s"], 2)),
+    ("response p95, s", lambda r: number(r["response_p95_s"], 2)),
+)
+
+
+def run_time_table(result: Result) -> Table:
+    """The real player at 60 Hz."""
+    rows = [
+        [title(name, result), *(cell(figures["run_time"]) for _, cell in _RUN_TIME)]
+        for name, figures in result["controllers"].items()
+    ]
+    heading = "The player at 60 frames a second (Optimal: 100 by definition)"
+    return Table(heading, ["controller", *(head for head, _ in _RUN_TIME)], rows)
+
+
+def coverage_table(result: Result) -> Table:
+    """How many of the controls of each kind have a fragment near."""
+    rows = []
+    for jump in (0, 1):
+        for name, turns in (("no turn", (0,)), ("turning", (-1, 1))):
+            cells = []
+            for velocities in (range(1), range(1, 9), range(9, 17)):
+                wanted = [6 * velocity + 2 * (turn + 1) + jump for velocity in velocities for turn in turns]
+                good = sum(result["coverage"][i] <= HOLE for i in wanted)
+                cells.append(f"{good} of {len(wanted)}")
+            rows.append([f"{'jump' if jump else 'no jump'}, {name}", *cells])
+    return Table(f"Controls with a fragment within ControlDis {HOLE}", ["", "stand", "walk", "run"], rows)
+
+
+_CURVE = ("of Optimal, %", "quality a step", "velocity error, m/s", "build, s")
+
+
+def _curve_cells(row: Result) -> list[str]:
+    return [
+        number(row["percent_of_optimal"]),
+        number(row["quality_per_step"], 3),
+        number(row["velocity_error"], 2),
+        number(row["build_seconds"]),
+    ]
+
+
+def classes_table(result: Result) -> Table:
+    """Against the number of classes."""
+    rows = [[str(row["classes"]), *_curve_cells(row)] for row in result["classes_curve"]]
+    return Table(f"{TITLES[result['default']]} against the number of classes", ["classes", *_CURVE], rows)
+
+
+def minutes_table(result: Result) -> Table:
+    """Against the minutes learned from, with the other policies' percents."""
+    others = [name for name in ("iterate", "svm") if name != result["default"]]
+    rows = [
+        [f"{row['minutes']:.3g}", *_curve_cells(row), *(number(row["percents"][name]) for name in others)]
+        for row in result["minutes_curve"]
+    ]
+    heading = f"{TITLES[result['default']]} against minutes of the simulated explorer learned from"
+    return Table(heading, ["minutes", *_CURVE, *(f"{TITLES[name]}, %" for name in others)], rows)
+
+
+def tables(result: Result) -> Iterable[Table]:
+    """All tables that the run has figures for."""
+    for make in (synthesis_table, trace_table, adaptability_table, matrix_table, run_time_table, coverage_table):
+        yield make(result)
+    if "classes_curve" in result:
+        yield classes_table(result)
+        yield minutes_table(result)
+
+
+def text(table: Table) -> str:
+    """The table for a terminal."""
+    lines = [table.header, *table.rows]
+    widths = [max(len(line[i]) for line in lines) for i in range(len(table.header))]
+    aligned = [
+        "  ".join(
+            cell.ljust(width) if i == 0 else cell.rjust(width) for i, (cell, width) in enumerate(zip(line, widths))
+        )
+        for line in lines
+    ]
+    return "\n".join([table.title, *(line.rstrip() for line in aligned)])
+
+
+def summary(result: Result) -> str:
+    """What was built."""
+    space = result["control_space"]
+    return (
+        f"{result['takes']} takes, {result['fragments']} fragments ({result['captured']} not synthesized), "
+        f"{result['classes']} classes, built in {result['build_seconds']:.1f} s; "
+        f"walk {space['walk']:.2f} m/s, run {space['run']:.2f} m/s, turn {space['turn_rate']:.0f} degrees/s"
+    )

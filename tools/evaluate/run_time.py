@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: MIT
+"""How the real player does at run time: it blends, plays whole fragments and answers late, as Fig. 5 does not see."""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Sequence
+from typing import Any
+
+import fragmotion_core as core
+import numpy as np
+
+from tools.evaluate.loading import Session
+
+RATE = 60.0  # frames a second
+PLAYERS = 3  # random seeds
+FIGURES = (
+    "percent_of_optimal",
+    "velocity_error",
+    "velocity_error_percent",
+    "turn_error",
+    "jump_error",
+    "response_p50_s",
+    "response_p95_s",
+)
+
+
+def no_figures() -> dict[str, float | None]:
+    """Optimal's run time: it is the yardstick, and cannot be played."""
+    return {**dict.fromkeys(FIGURES), "percent_of_optimal": 100.0}
+
+
+def best_qualities(character: core.Character, sessions: Sequence[Session]) -> list[float]:
+    """The yardstick for each session: what a player could reach who knew it all."""
+    return [core.optimal_performance(character, session.controls, RATE) for session in sessions]
+
+
+def play(
+    character: core.Character, policy: str, sessions: Sequence[Session], seed: int
+) -> list[list[core.Performance]]:
+    """Performances [session][player]."""
+    seeds = range(seed, seed + PLAYERS)
+    return [
+        [core.Player(character, s, policy=policy).run(session.controls, RATE) for s in seeds] for session in sessions
+    ]
+
+
+def errors(performances: list[list[core.Performance]]) -> dict[str, float | None]:
+    """Mean errors of velocity (m/s, and percent of the mean commanded speed), turn (degrees/s) and jump (share)."""
+    every = [performance for some in performances for performance in some]
+    velocity = statistics.fmean(p.velocity_error for p in every)
+    speed = statistics.fmean(p.commanded_speed for p in every)
+    return {
+        "velocity_error": velocity,
+        "velocity_error_percent": 100 * velocity / speed if speed > 0 else None,
+        "turn_error": math.degrees(statistics.fmean(p.turn_error for p in every)),
+        "jump_error": statistics.fmean(p.jump_error for p in every),
+    }
+
+
+def responses(character: core.Character, policy: str, seed: int) -> dict[str, float]:
+    """Half of all changes of velocity are answered within p50, 95 of 100 within p95, s."""
+    times = [core.response_times(character, s, policy=policy) for s in range(seed, seed + PLAYERS)]
+    p50, p95 = np.percentile(np.concatenate(times), [50, 95])
+    return {"response_p50_s": float(p50), "response_p95_s": float(p95)}
+
+
+def measure_run_time(
+    character: core.Character, policies: Sequence[str], sessions: Sequence[Session], seed: int
+) -> dict[str, dict[str, Any]]:
+    """Each policy's figures, the percent of Optimal for each session among them as `by_trace`."""
+    best = best_qualities(character, sessions)
+    found: dict[str, dict[str, Any]] = {}
+    for policy in policies:
+        played = play(character, policy, sessions, seed)
+        percent = [100 * statistics.fmean(p.quality for p in some) / top for some, top in zip(played, best)]
+        found[policy] = {
+            "percent_of_optimal": statistics.fmean(percent),
+            **errors(played),
+            **responses(character, policy, seed),
+            "by_trace": dict(zip((session.name for session in sessions), percent)),
+        }
+    return found
