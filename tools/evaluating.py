@@ -16,7 +16,7 @@ from tools.shell import say
 
 
 def run_evaluation(options: argparse.Namespace, arguments: list[str]) -> int:
-    """Measure in the Python 3.11 environment and the user's own folder; `arguments` are what the options were read from."""
+    """Measure in the Python 3.11 environment; `arguments` are the words that the options were read from."""
     inputs.check(options)
     machine.set_up(machine.EVALUATE_BLEND if inputs.has_blend(options.mocap) else machine.EVALUATE)
     say("build: core")

@@ -22,10 +22,11 @@ import numpy as np
 
 from tools.evaluate.controllers import CONTROLLERS, Factors, make_table
 from tools.evaluate.loading import Session
+from tools.paths import TOP
 from tools.shell import Failure
 
-_PROCESSES = 5  # a controller
-_RUNS = 3  # timed, a process
+_PROCESSES = 3  # a controller
+_RUNS = 3  # a process
 _WARM_UP = 4  # classes
 
 
@@ -47,7 +48,7 @@ def _median(runs: list[dict[str, Any]]) -> dict[str, float | None]:
 
 def _run_child(arrays: Path, name: str) -> dict[str, Any]:
     command = [sys.executable, "-m", "tools.evaluate.synthesis", str(arrays), name]
-    answer = subprocess.run(command, capture_output=True, text=True, check=False)
+    answer = subprocess.run(command, cwd=TOP, capture_output=True, text=True, check=False)
     if answer.returncode != 0:
         raise Failure(f"measuring the synthesis of {name} failed:\n{answer.stderr}")
     measured: dict[str, Any] = json.loads(answer.stdout)
@@ -76,7 +77,15 @@ def _status(field: str) -> int:
 
 
 def peak_memory(work: Callable[[], object]) -> int | None:
-    """By how many bytes the process grew at most while it worked; None where the system does not tell."""
+    """By how many bytes the process grew at most while it worked; None where the system does not tell.
+
+    The greatest of a few runs: Linux counts pages for each processor and adds them up late, so that one may miss some.
+    """
+    peaks = [_peak_of_a_run(work) for _ in range(_RUNS)]
+    return max((peak for peak in peaks if peak is not None), default=None)
+
+
+def _peak_of_a_run(work: Callable[[], object]) -> int | None:
     try:
         ctypes.CDLL(None).malloc_trim(0)
         before = _status("VmRSS")
