@@ -146,6 +146,16 @@ def test_the_json_file_is_laid_out_as_documented(run: Run) -> None:
     assert set(result["adaptability"]) == set(NAMED[:-1])
 
 
+def test_sessions_are_described(run: Run) -> None:
+    for kind in ("train", "test"):
+        for name, described in run.result["sessions"][kind].items():
+            controls = [tuple(row) for row in trace(run, kind, name)]
+            changes = sum(before != after for before, after in zip(controls, controls[1:]))
+            assert described["steps"] == len(controls) == 600
+            assert described["visited"] == len(set(controls))
+            assert described["changes_a_second"] == pytest.approx(changes / 60)
+
+
 def test_optimal_is_100_and_has_no_run_time(run: Run) -> None:
     optimal = run.result["controllers"]["optimal"]
     assert set(optimal["percent_of_optimal"]["by_trace"].values()) == {100.0}

@@ -76,7 +76,7 @@ def has_blend(paths: Sequence[Path]) -> bool:
 def _takes_of_folder(folder: Path) -> list[TakeFile]:
     takes = [_take(path) for path in _files(folder) if path.suffix.lower() in (".bvh", ".amc")]
     if not takes:
-        raise Failure(f"{folder}: no takes in this folder (.bvh, or .amc with its .asf)")
+        raise Failure(f"{folder}: no takes in this folder (.bvh, or .amc with its .asf; a .blend is named itself)")
     return takes
 
 

@@ -16,6 +16,7 @@ from tools.evaluate.inputs import TakeFile, find_takes
 from tools.shell import Failure
 
 SECONDS = 60.0
+STEPS_A_SECOND = 10
 TEACHER = "explorer"
 _TEST_SEEDS = 1000  # how far the seeds of the simulated tests are from those of the training
 

@@ -8,11 +8,12 @@ import math
 from typing import Any
 
 import fragmotion_core as core
+import numpy as np
 
 from tools.evaluate import run_time
 from tools.evaluate.controllers import CONTROLLERS, DEFAULT, TABLES, factors_of, measure_bound, measure_quality
 from tools.evaluate.curves import build, classes_curve, minutes_curve
-from tools.evaluate.loading import Recordings, Session, Sessions
+from tools.evaluate.loading import STEPS_A_SECOND, Recordings, Session, Sessions
 from tools.evaluate.synthesis import measure_synthesis
 from tools.shell import say
 
@@ -44,10 +45,23 @@ def _describe(
         "build_seconds": character.report["seconds"],
         "train": [session.name for session in sessions.train],
         "test": [session.name for session in sessions.test],
-        "steps": {session.name: len(session.indices) for session in sessions.test},
+        "sessions": {
+            kind: {session.name: _describe_session(session) for session in some}
+            for kind, some in zip(("train", "test"), sessions)
+        },
         "control_space": _describe_space(character.space),
         "coverage": [float(distance) for distance in character.coverage_distances],
         "coverage_counts": [int(count) for count in character.coverage_counts],
+    }
+
+
+def _describe_session(session: Session) -> Result:
+    """Controls given, changes of the control a second, and how many of the 102 were visited."""
+    changes = np.count_nonzero(np.diff(session.indices))
+    return {
+        "steps": len(session.indices),
+        "changes_a_second": STEPS_A_SECOND * int(changes) / len(session.indices),
+        "visited": len(set(session.indices.tolist())),
     }
 
 
