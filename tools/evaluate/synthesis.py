@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import os
 import statistics
 import subprocess
 import sys
@@ -79,9 +80,12 @@ def _status(field: str) -> int:
 def peak_memory(work: Callable[[], object]) -> int | None:
     """By how many bytes the process grew at most while it worked; None where the system does not tell.
 
-    The greatest of a few runs: Linux counts pages for each processor and adds them up late, so that one may miss some.
+    The greatest of a few runs on one processor: Linux counts pages for each and adds them up late, so it may miss some.
     """
+    processors = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(processors)})
     peaks = [_peak_of_a_run(work) for _ in range(_RUNS)]
+    os.sched_setaffinity(0, processors)
     return max((peak for peak in peaks if peak is not None), default=None)
 
 
