@@ -139,10 +139,11 @@ def run_time(result: Result) -> Figure:
         _bars(axes, [factor * played[name][key] for name in names], names, form)
         axes.set_title(heading, loc="left")
         axes.set_ylabel(unit)
+    _percent_axis(grid[0])
     _bars(grid[-1], [played[name]["response_p50_s"] for name in names], names, "{:.2f}")
     _whiskers(grid[-1], [played[name]["response_p95_s"] for name in names])
     grid[-1].set_title("Response", loc="left")
-    grid[-1].set_ylabel("s: p50 (bar), p95 (line); 3 is no answer")
+    grid[-1].set_ylabel("s (bar: p50, line: p95)")
     return figure
 
 
