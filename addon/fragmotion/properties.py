@@ -20,6 +20,7 @@ from bpy.props import (
 
 from .core import core
 from .coverage import COLUMNS
+from .takes import Take
 
 _DEFAULTS = core.BuildOptions()
 _SOURCES = (
@@ -188,12 +189,14 @@ class BuildFigures(bpy.types.PropertyGroup):
 
 
 class CharacterSettings(bpy.types.PropertyGroup):
-    """An armature object's `fragmotion`: settings, figures and the policy file's bytes."""
+    """An armature object's `fragmotion`: settings, figures, the policy file's bytes and the takes."""
 
     build: PointerProperty(type=BuildSettings)  # type: ignore[valid-type]
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     policy: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
+    takes: CollectionProperty(type=Take)  # type: ignore[valid-type]
+    active_take: IntProperty(name="Take", description="The take that is selected in the list")  # type: ignore[valid-type]
 
 
 class ActionSettings(bpy.types.PropertyGroup):
@@ -211,6 +214,7 @@ class WindowSettings(bpy.types.PropertyGroup):
 
 
 CLASSES = (
+    Take,
     BuildSettings,
     BakeSettings,
     PolicyFigure,
