@@ -64,12 +64,30 @@ py::tuple to_tuple(Transforms transforms, int frames, int bones) {
                         to_array(std::move(transforms.rotations), {frames, bones, 4}));
 }
 
-Transforms clip_transforms(const Clip& clip, const Skeleton& skeleton) {
-  const Kinematics kinematics(skeleton);
-  const std::size_t bones = kinematics.bones();
-  if (clip.rotations.size() != 4 * bones * clip.frames) {
+void check_bones(const Clip& clip, const Skeleton& skeleton) {
+  if (clip.rotations.size() != std::size_t{4} * skeleton.size() * clip.frames) {
     throw std::invalid_argument("clip \"" + clip.name + "\" has not the skeleton's number of bones");
   }
+}
+
+/// x, y and heading of the character frame in each frame of the clip.
+std::vector<double> clip_frames(const Clip& clip, const Skeleton& skeleton) {
+  check_bones(clip, skeleton);
+  const Kinematics kinematics(skeleton);
+  std::vector<double> frames;
+  for (int f = 0; f < clip.frames; ++f) {
+    const std::size_t hips = std::size_t{4} * (std::size_t(skeleton.size()) * f + skeleton.roles.hips);
+    const CharacterFrame frame =
+        kinematics.frame(load_vector(&clip.root_positions[3 * std::size_t(f)]), load_quaternion(&clip.rotations[hips]));
+    frames.insert(frames.end(), {frame.position.x(), frame.position.y(), frame.heading});
+  }
+  return frames;
+}
+
+Transforms clip_transforms(const Clip& clip, const Skeleton& skeleton) {
+  check_bones(clip, skeleton);
+  const Kinematics kinematics(skeleton);
+  const std::size_t bones = kinematics.bones();
   Transforms world{std::vector<double>(3 * bones * clip.frames), std::vector<double>(4 * bones * clip.frames)};
   std::vector<Vector3> heads(bones);
   std::vector<Quaternion> orientations(bones);
@@ -162,6 +180,12 @@ void bind_clip(py::module_& m) {
           "world_transforms",
           [](const Clip& clip, const Skeleton& skeleton) {
             return to_tuple(without_gil([&] { return clip_transforms(clip, skeleton); }), clip.frames, skeleton.size());
+          },
+          py::arg("skeleton"))
+      .def(
+          "character_frames",
+          [](const Clip& clip, const Skeleton& skeleton) {
+            return to_array(without_gil([&] { return clip_frames(clip, skeleton); }), {clip.frames, 3});
           },
           py::arg("skeleton"));
 }

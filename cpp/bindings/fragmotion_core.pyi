@@ -136,6 +136,8 @@ class Clip:
     rotations: Doubles
     def world_transforms(self, skeleton: Skeleton) -> tuple[Doubles, Doubles]:
         """World positions [F,B,3] of the heads, m, and rotations [F,B,4]."""
+    def character_frames(self, skeleton: Skeleton) -> Doubles:
+        """[F,3]: the character frame's x, y and heading (rad, within a half turn; of the hips' thighs, not smoothed)."""
 
 class ControlSpace:
     """The 102 controls (Sec. 4): 17 velocities x turn {-1,0,1} x jump {0,1}. Control i = 6 velocity + 2 (turn + 1) + jump;

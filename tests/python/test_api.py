@@ -93,6 +93,18 @@ def test_clips_keep_what_they_are_given(skeleton: core.Skeleton) -> None:
     np.testing.assert_allclose(positions[:, 0], roots, atol=1e-12)
 
 
+@pytest.mark.parametrize("turn", [0.0, 1.2, -0.7])
+def test_clips_tell_where_the_character_stands_and_faces(skeleton: core.Skeleton, turn: float) -> None:
+    roots, rotations = walking_arrays(side=0.5, turn=turn)
+    frames = core.Clip(skeleton, "walk", 30.0, roots, rotations).character_frames(skeleton)
+    np.testing.assert_allclose(frames[:, :2], roots[:, :2], atol=1e-12)
+    np.testing.assert_allclose(np.unwrap(frames[:, 2]), turn * np.arange(len(roots)) / 30, atol=1e-9)
+    with pytest.raises(ValueError, match="number of bones"):
+        core.Clip(skeleton, "walk", 30.0, roots, rotations).character_frames(
+            make_skeleton(**{name: getattr(skeleton, name)[:5] for name in ("names", "parents", "offsets", "tips", "rest_rotations")})
+        )
+
+
 @pytest.mark.parametrize("kind", [np.float32, np.int64, "F", list])
 def test_arrays_of_other_kinds_are_converted(character: core.Character, kind: Any) -> None:
     trace = np.array([[0, 1, 0, 0], [0, 1, 1, 0], [1, 0, 0, 0]])
@@ -333,6 +345,7 @@ def long_calls(
         "from_bytes": lambda: core.Character.from_bytes(data),
         "Clip": lambda: core.Clip(skeleton, "clip", 30.0, clip.root_positions, clip.rotations),
         "world_transforms of a clip": lambda: clip.world_transforms(skeleton),
+        "character_frames": lambda: clip.character_frames(skeleton),
         "world_transforms of a take": take.world_transforms,
         "from_take": lambda: core.Clip.from_take(take),
         "Rig.clip": lambda: rig.clip("clip", 30.0, locations, rotations),
