@@ -1,77 +1,158 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A trace played by the armature's character, written to an Action."""
+"""A trace played by the armature's character, written to an Action or an NLA strip.
+
+All is computed before the file is changed, in a task that calls nothing of Blender.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
-from . import versions
-from .actions import BAKED, RATE
+from . import performing, versions
 from .building import load
-from .core import core
 from .errors import UserError, core_errors
+from .jobs import Report
+from .keys import Bone, Deviation, Place, Poses, Track, count_keys, make_layout, make_tracks, reduce_tracks
+from .motion import Motion, about_z, carried, looped, multiply
 from .movers import movers
-from .posing import check_free, reset_pose
+from .posing import check_free
 from .rigs import carriers, make_rig
 from .sampling import scene_rate
 from .skeletons import difference
-from .traces import make_trace
-from .writing import write_poses
+from .targets import Target, find_target
 
 if TYPE_CHECKING:
-    from fragmotion_core import Character, Performance, Rig
+    from fragmotion_core import Character, Doubles, Ints, Rig
 
 
-def bake(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> tuple[bpy.types.Action, Performance]:
-    """Play the trace from where the armature stands, at the scene's rate, and let the armature play the result.
+class Baked(NamedTuple):
+    """What a bake will write: tracks, the class that plays on each frame, and what to say of it."""
 
-    `settings` have BakeFields. Everything is computed before the file is changed.
-    """
+    tracks: list[Track]
+    classes: Ints
+    remark: str
+
+
+class Stage(NamedTuple):
+    """The armature as a bake finds it: among others its object's own rotation and the character frame at its origin."""
+
+    label: str
+    rig: Rig
+    layout: list[Bone]
+    place: Place
+    world: Doubles
+    turn: Doubles
+    origin: Doubles
+
+    @property
+    def hips(self) -> int:
+        """The skeleton's number of the hips."""
+        return int(self.rig.skeleton.names.index(self.rig.skeleton.roles["hips"]))
+
+
+class Options(NamedTuple):
+    """What a bake makes of a motion."""
+
+    root: str
+    anchored: bool
+    """Whether a motion in place is moved to the armature's origin."""
+    looped_frames: int
+    bound: Deviation | None
+
+
+class Prepared(NamedTuple):
+    """A bake whose settings are in order: the task that computes it, and where the result goes."""
+
+    task: Callable[[Report], Baked]
+    target: Target
+
+
+def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Prepared:
+    """Read what a bake with BakeFields needs; UserError on what cannot be baked."""
     check_free(obj)
     character = load(obj)
     context.view_layer.update()
     rig = make_rig(obj)
     _check_skeleton(obj, character, rig)
-    moving = carriers(obj, rig)
-    target = _target(obj, settings.action)
-    performance = perform(context.scene, obj, character, settings)
-    with core_errors(f"Armature '{obj.name}'"):
-        locations, rotations = rig.channels(performance.root_positions, performance.rotations)
-    times = settings.frame_start + np.arange(len(rotations), dtype=float)
-    action = target or bpy.data.actions.new(settings.action or f"{obj.name} Bake")
-    action[BAKED] = True
-    _keep_former(obj)
-    write_poses(action, obj, times, locations, rotations, moving)
-    reset_pose(obj, ("location", "scale"))
-    versions.assign(obj, action)
-    if settings.fit_end:
-        context.scene.frame_end = max(context.scene.frame_end, int(times[-1]))
-    context.view_layer.update()
-    return action, performance
+    take = performing.chosen_take(obj, settings)
+    target = find_target(context, obj, settings, take.name if take else "")
+    if settings.root == "OBJECT":
+        _check_object(obj)
+    elif settings.target == "CURRENT":
+        _check_still(obj, target.action)
+    play = performing.prepare(context, obj, character, rig, settings)
+    stage = _make_stage(obj, rig)
+    options = _make_options(context.scene, settings, recorded=take is not None and settings.as_recorded)
+    return Prepared(lambda report: _compute(stage, options, play, report), target)
 
 
-def perform(scene: bpy.types.Scene, obj: bpy.types.Object, character: Character, settings: Any) -> Performance:
-    """The player's poses at the scene's rate, from the armature's origin, first facing its -Y (Blender's front)."""
-    trace = make_trace(settings, character.space)
-    player = core.Player(character, settings.seed)
-    place = obj.matrix_world
-    player.reset(place.translation.x, place.translation.y, place.to_euler().z + math.pi)
-    with core_errors("Bake"):
-        performance: Performance = player.run(trace, scene_rate(scene))
-        return performance
-
-
-def hindrances(obj: bpy.types.Object) -> list[str]:
-    """What will show the armature otherwise than the baked keys say, in words."""
+def hindrances(obj: bpy.types.Object, own_strip: bool = False) -> list[str]:
+    """What will show the armature otherwise than the baked keys say, in words; NLA tracks do not below its own."""
     data = obj.animation_data
-    tracks = data.nla_tracks if data is not None and data.use_nla else ()
+    tracks = data.nla_tracks if data is not None and data.use_nla and not own_strip else ()
     playing = [f"NLA track '{track.name}'" for track in tracks if not track.mute]
     resting = ["the armature's Rest Position"] if obj.data.pose_position == "REST" else []
     return [*movers(obj), *playing[:1], *resting]
+
+
+def _compute(stage: Stage, options: Options, play: Callable[[Report], performing.Played], report: Report) -> Baked:
+    motion, remark = play(report)
+    if options.looped_frames:
+        motion = looped(motion, stage.hips, options.looped_frames)
+    if options.root == "IN_PLACE":
+        motion = carried(motion, stage.hips, stage.origin if options.anchored else motion.frames[0])
+    poses = _make_poses(stage, motion, on_object=options.root == "OBJECT")
+    tracks = make_tracks(stage.layout, poses)
+    if options.bound is not None:
+        report(1.0, "Reducing keys")
+        every = count_keys(tracks)
+        tracks, found = reduce_tracks(tracks, stage.rig, poses, stage.place, options.bound)
+        share = count_keys(tracks) / every
+        remark += (
+            f"; {100 * share:.0f} % of the keys kept, at most {1000 * found.distance:.1f} mm and "
+            f"{math.degrees(found.angle):.2f} degrees off"
+        )
+    return Baked(tracks, motion.classes, remark)
+
+
+def _make_poses(stage: Stage, motion: Motion, on_object: bool) -> Poses:
+    """The armature's channels, the path on its root bone or on the object."""
+    seen = carried(motion, stage.hips, stage.origin) if on_object else motion
+    with core_errors(stage.label):
+        locations, rotations = stage.rig.channels(seen.root_positions, seen.rotations)
+    if not on_object:
+        return Poses(locations, rotations)
+    return Poses(locations, rotations, *_move_object(stage, motion.frames))
+
+
+def _move_object(stage: Stage, frames: Doubles) -> tuple[Doubles, Doubles]:
+    """The object's own locations [F,3] and rotations [F,4] that carry its origin along character frames [F,3]."""
+    turns = about_z(frames[:, 2] - stage.origin[2])
+    above = np.array(Matrix(stage.place.above.tolist()).to_quaternion())
+    own = multiply(multiply(above * (1, -1, -1, -1), multiply(turns, above)), stage.turn)
+    heads = np.column_stack((frames[:, :2], np.full(len(frames), stage.world[2, 3]), np.ones(len(frames))))
+    return (heads @ np.linalg.inv(stage.place.above).T)[:, :3], own
+
+
+def _make_stage(obj: bpy.types.Object, rig: Rig) -> Stage:
+    world, basis = obj.matrix_world, obj.matrix_basis
+    place = Place(np.array(world @ basis.inverted()), np.array(basis.to_scale()))
+    origin = np.array((world.translation.x, world.translation.y, world.to_euler().z + math.pi))
+    layout = make_layout(obj, carriers(obj, rig))
+    turn = np.array(basis.to_quaternion())
+    return Stage(f"Armature '{obj.name}'", rig, layout, place, np.array(world), turn, origin)
+
+
+def _make_options(scene: bpy.types.Scene, settings: Any, recorded: bool) -> Options:
+    frames = max(round(settings.loop_seconds * scene_rate(scene)), 2) if settings.loop else 0
+    bound = Deviation(settings.reduce_distance, settings.reduce_angle) if settings.reduce else None
+    return Options(settings.root, recorded or settings.place == "ORIGIN", frames, bound)
 
 
 def _check_skeleton(obj: bpy.types.Object, character: Character, rig: Rig) -> None:
@@ -81,22 +162,22 @@ def _check_skeleton(obj: bpy.types.Object, character: Character, rig: Rig) -> No
         raise UserError(f"Armature '{obj.name}' has changed since Build: {changed}. Undo that, or press Build again")
 
 
-def _target(obj: bpy.types.Object, name: str) -> bpy.types.Action | None:
-    """The Action of that name to write to, or None for a new one."""
-    action = bpy.data.actions.get(name) if name else None
+def _check_object(obj: bpy.types.Object) -> None:
+    """UserError where keys of the object's place would not put it there."""
+    if any((*obj.delta_location, *obj.delta_rotation_euler)) or tuple(obj.delta_rotation_quaternion) != (1, 0, 0, 0):
+        raise UserError(
+            f"Armature '{obj.name}' has delta transforms, to which keys on the object would add: apply them first "
+            "(Object > Apply > Deltas), or choose Root Bone as root motion"
+        )
+
+
+def _check_still(obj: bpy.types.Object, action: bpy.types.Action | None) -> None:
+    """UserError where the Action's own keys move the object on which the character's root bone is."""
     if action is None:
-        return None
-    if action.library is not None:
-        raise UserError(f"Action '{name}' is linked from '{action.library.filepath}': choose another name")
-    if RATE in action or action.fragmotion.use:
-        raise UserError(f"Action '{name}' is a take that Build learns from: choose another name, or untick it")
-    if BAKED not in action and versions.count_curves(action) > 0:
-        raise UserError(f"Action '{name}' holds keys that no bake made, which would be lost: choose another name")
-    return action
-
-
-def _keep_former(obj: bpy.types.Object) -> None:
-    """Save the Action that the armature played so far from being lost when nothing else uses it."""
-    former, _ = versions.assignment(obj)
-    if former is not None and former.users == 1 and former.library is None:
-        former.use_fake_user = True
+        return
+    moving = [c for c in versions.curves_of(action, obj) if not c.data_path.startswith("pose.")]
+    if any(np.ptp([key.co.y for key in curve.keyframe_points] or [0]) > 0 for curve in moving):
+        raise UserError(
+            f"Action '{action.name}' moves the armature object itself ({moving[0].data_path}): choose Object as root "
+            "motion, or bake to a new Action"
+        )

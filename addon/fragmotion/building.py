@@ -19,7 +19,7 @@ from .movers import movers
 from .rigs import carriers, make_rig
 from .sampling import sample
 from .skeletons import difference
-from .traces import make_trace
+from .traces import make_traces
 
 if TYPE_CHECKING:
     from fragmotion_core import Character, Clip, Rig
@@ -53,14 +53,14 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
     context.view_layer.update()
     rig = make_rig(obj)
     carriers(obj, rig)
-    trace = make_trace(settings)
+    traces = make_traces(obj, settings)
     clips, warnings = _sample_all(context, obj, takes, rig)
     options = make_options(settings)
     teacher = settings.player if settings.trace_source == "PLAYER" else ""
 
     def task(report: Report) -> Built:
         character = core.build(
-            rig.skeleton, clips, [trace], options, lambda fraction, stage: report(_BUILD_SHARE * fraction, stage)
+            rig.skeleton, clips, traces, options, lambda fraction, stage: report(_BUILD_SHARE * fraction, stage)
         )
         report(_BUILD_SHARE, "Examining")
         return examine(character, teacher)

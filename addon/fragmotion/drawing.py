@@ -30,13 +30,36 @@ def draw_training(layout: bpy.types.UILayout, settings: BuildFields) -> None:
 
 
 def draw_bake(layout: bpy.types.UILayout, settings: BakeFields) -> None:
-    """The fields of a bake."""
+    """The fields of a bake that are changed most."""
     layout = _aligned(layout)
     _draw_trace(layout, settings, "Trace")
-    layout.prop(settings, "seed")
-    layout.prop(settings, "frame_start")
+    recorded = settings.trace_source == "TAKE" and settings.as_recorded
+    if settings.trace_source == "TAKE":
+        layout.prop(settings, "as_recorded")
+    if not recorded:
+        layout.prop(settings, "policy")
+        layout.prop(settings, "seed")
+        layout.prop(settings, "place")
+    layout.separator()
+    layout.prop(settings, "target")
+    if settings.target != "CURRENT":
+        versions.draw_named(layout, settings, "action", "New Action")
+        layout.prop(settings, "frame_start")
     layout.prop(settings, "fit_end")
-    versions.draw_named(layout, settings, "action", "New Action")
+    layout.prop(settings, "root")
+
+
+def draw_bake_options(layout: bpy.types.UILayout, settings: BakeFields) -> None:
+    """The other fields of a bake."""
+    layout = _aligned(layout)
+    layout.prop(settings, "loop")
+    if settings.loop:
+        layout.prop(settings, "loop_seconds")
+    layout.prop(settings, "reduce")
+    if settings.reduce:
+        layout.prop(settings, "reduce_distance", text="Within")
+        layout.prop(settings, "reduce_angle", text="and")
+    layout.prop(settings, "markers")
 
 
 def draw_figures(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
@@ -87,7 +110,7 @@ def _draw_trace(layout: bpy.types.UILayout, settings: BuildFields | BakeFields, 
     layout.prop(settings, "trace_source", text=label)
     if settings.trace_source == "FILE":
         layout.prop(settings, "trace_file", text="File")
-    else:
+    elif settings.trace_source == "PLAYER":
         layout.prop(settings, "player")
         layout.prop(settings, "seconds")
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
 import numpy as np
@@ -69,6 +69,27 @@ def reset_pose(obj: bpy.types.Object, channels: Iterable[str] = tuple(_REST)) ->
     obj.update_tag()
 
 
+class Pose(NamedTuple):
+    """An armature's channels, those of all its bones and the object's own."""
+
+    bones: dict[str, NDArray[np.float32]]
+    place: dict[str, tuple[float, ...]]
+
+
+def pose_of(obj: bpy.types.Object) -> Pose:
+    """The channels as they are set now."""
+    bones = {channel: _get_channel(obj, channel) for channel in _REST}
+    return Pose(bones, {channel: tuple(getattr(obj, channel)) for channel in _REST})
+
+
+def set_pose(obj: bpy.types.Object, pose: Pose) -> None:
+    """Set what `pose_of` told."""
+    for channel in _REST:
+        obj.pose.bones.foreach_set(channel, pose.bones[channel])
+        setattr(obj, channel, pose.place[channel])
+    obj.update_tag()
+
+
 @contextmanager
 def _playing(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action) -> Iterator[None]:
     """The object plays the Action alone from a resting pose; afterwards everything is as it was."""
@@ -78,8 +99,7 @@ def _playing(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.type
         versions.assignment(obj),
         context.scene.frame_current_final,
     )
-    bones = {channel: _get_channel(obj, channel) for channel in _REST}
-    place = {channel: tuple(getattr(obj, channel)) for channel in _REST}
+    pose = pose_of(obj)
     data = obj.animation_data or obj.animation_data_create()
     use_nla, position = data.use_nla, obj.data.pose_position
     try:
@@ -93,10 +113,7 @@ def _playing(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.type
         if not had_data:
             obj.animation_data_clear()
         _go_to(context.scene, frame)
-        for channel in _REST:
-            obj.pose.bones.foreach_set(channel, bones[channel])
-            setattr(obj, channel, place[channel])
-        obj.update_tag()
+        set_pose(obj, pose)
         context.view_layer.update()
 
 

@@ -6,6 +6,8 @@ The fields of a stage are written down once: the panel's settings and the stage'
 
 from __future__ import annotations
 
+import math
+
 import bpy
 from bpy.props import (
     BoolProperty,
@@ -22,11 +24,16 @@ from .core import core
 from .coverage import COLUMNS
 from .takes import Take
 
+DRIVING = "DRIVING"
+"""The choice of the policy that Build put first."""
+
 _DEFAULTS = core.BuildOptions()
 _SOURCES = (
     ("PLAYER", "Simulated", "A made-up joystick session: a stick with inertia that chases targets"),
     ("FILE", "CSV File", "A CSV file with the header velocity_x,velocity_y,turn,jump and 10 rows a second"),
 )
+_TAKES = ("TAKES", "Takes", "The ticked takes of the Takes panel")
+_TAKE = ("TAKE", "Take", "The take that is selected in the Takes panel")
 _HABITS = tuple((name, name.title(), f"A simulated player with the habits of a {name}") for name in core.PLAYERS)
 _CUTS = (
     ("gait", "At Footsteps", "Cut where a foot strikes the ground; by windows where the armature has no feet"),
@@ -43,12 +50,30 @@ POLICY_NAMES = {name: label for name, label, _ in _POLICIES}
 """What the core's policies are called in the panel."""
 
 
+_TARGETS = (
+    ("NEW", "New Action", "A new Action, named after the take"),
+    ("CURRENT", "Current Action", "The Action that plays, from the playhead on: its keys there are replaced"),
+    ("NLA", "NLA Strip", "A new Action as a strip on a new NLA track; the Action that plays is pushed down below it"),
+)
+_ROOTS = (
+    ("BONE", "Root Bone", "The root bone carries the character along its path"),
+    ("OBJECT", "Object", "The armature object itself carries the character along its path, as game engines expect"),
+    ("IN_PLACE", "In Place", "The character stays where it starts and faces one way, as on a treadmill"),
+)
+_PLACES = (
+    ("ORIGIN", "Armature's Origin", "Under the armature's origin, facing its -Y (towards the front view)"),
+    ("CHARACTER", "Where It Is", "Where the character stands now, facing as it does: goes on from the current frame"),
+)
+_MARKERS = (
+    ("NONE", "None", "No markers"),
+    ("SCENE", "Timeline", "A marker in the scene's timeline wherever another class begins"),
+    ("ACTION", "Action", "A pose marker in the Action wherever another class begins"),
+)
+
+
 class TraceFields:
     """Where a trace comes from."""
 
-    trace_source: EnumProperty(  # type: ignore[valid-type]
-        name="Trace", description="Where the joystick session comes from", items=_SOURCES, default="PLAYER"
-    )
     trace_file: StringProperty(  # type: ignore[valid-type]
         name="Trace File",
         description="CSV file: velocity_x,velocity_y (m/s), turn (-1 to 1, 1 is left), jump (0 or 1); 10 rows a second",
@@ -59,6 +84,12 @@ class TraceFields:
 class BuildFields(TraceFields):
     """What a build can be told."""
 
+    trace_source: EnumProperty(  # type: ignore[valid-type]
+        name="Trace",
+        description="Where the joystick session comes from",
+        items=(*_SOURCES, _TAKES),
+        default="PLAYER",
+    )
     longest: FloatProperty(  # type: ignore[valid-type]
         name="Longest Fragment",
         description="Longest fragment in seconds; shorter ones respond faster, longer ones move more naturally",
@@ -119,6 +150,77 @@ def _suggest_actions(_settings: object, _context: bpy.types.Context, text: str) 
 class BakeFields(TraceFields):
     """What a bake can be told."""
 
+    trace_source: EnumProperty(  # type: ignore[valid-type]
+        name="Trace",
+        description="Where the joystick session comes from",
+        items=(*_SOURCES, _TAKE),
+        default="PLAYER",
+    )
+    take: IntProperty(  # type: ignore[valid-type]
+        name="Take Number",
+        description="Which take of the Takes panel is baked, from 0; -1 is the one that is selected there",
+        default=-1,
+        min=-1,
+    )
+    as_recorded: BoolProperty(  # type: ignore[valid-type]
+        name="As Recorded",
+        description="Bake the take as it was seen, with the policy, seed and start that it was recorded with",
+        default=True,
+    )
+    policy: EnumProperty(  # type: ignore[valid-type]
+        name="Policy",
+        description="How the next class is chosen from the class that plays and the control",
+        items=((DRIVING, "Driving", "The policy that Build was told to drive with"), *_POLICIES),
+        default=DRIVING,
+    )
+    place: EnumProperty(  # type: ignore[valid-type]
+        name="Start", description="Where the character starts", items=_PLACES, default="ORIGIN"
+    )
+    target: EnumProperty(  # type: ignore[valid-type]
+        name="To", description="What the motion is baked to", items=_TARGETS, default="NEW"
+    )
+    root: EnumProperty(  # type: ignore[valid-type]
+        name="Root Motion", description="What carries the character along its path", items=_ROOTS, default="BONE"
+    )
+    reduce: BoolProperty(  # type: ignore[valid-type]
+        name="Reduce Keys",
+        description="Leave out the keys without which every bone stays, on every frame, within both bounds",
+        default=False,
+    )
+    reduce_distance: FloatProperty(  # type: ignore[valid-type]
+        name="Distance",
+        description="How far a bone's head may be from its place at most on any frame, in the world (2 mm at first)",
+        default=0.002,
+        min=0.00001,
+        soft_max=0.05,
+        step=0.1,
+        precision=4,
+        unit="LENGTH",
+    )
+    reduce_angle: FloatProperty(  # type: ignore[valid-type]
+        name="Angle",
+        description="How far a bone may be turned from its direction at most on any frame, in degrees",
+        default=math.radians(1.0),
+        min=math.radians(0.001),
+        soft_max=math.radians(10),
+        subtype="ANGLE",
+    )
+    markers: EnumProperty(  # type: ignore[valid-type]
+        name="Markers", description="Where to mark the changes of class", items=_MARKERS, default="NONE"
+    )
+    loop: BoolProperty(  # type: ignore[valid-type]
+        name="Loop",
+        description="Ease the end of the motion so that it ends as it began: the same pose at the same velocity",
+        default=False,
+    )
+    loop_seconds: FloatProperty(  # type: ignore[valid-type]
+        name="Over",
+        description="How long before its end the motion begins to turn into its beginning, in seconds",
+        default=0.5,
+        min=0.1,
+        max=10.0,
+        unit="TIME_ABSOLUTE",
+    )
     player: EnumProperty(  # type: ignore[valid-type]
         name="Player", description="Whose habits drive the character", items=_HABITS, default="walker"
     )
@@ -140,7 +242,10 @@ class BakeFields(TraceFields):
     )
     action: StringProperty(  # type: ignore[valid-type]
         name="Action",
-        description="Action to write to: this armature's keys in it are replaced. Empty or a new name makes a new one",
+        description=(
+            "Action to write to: this armature's keys in it are replaced. A new name makes a new one; empty means one "
+            "named after the take"
+        ),
         search=_suggest_actions,
         search_options={"SUGGESTION"},
     )

@@ -12,8 +12,8 @@ from mathutils import Matrix, Quaternion, Vector
 
 from . import posing, versions
 from .actions import RATE, SCENE_RATE, animated_bones
-from .core import core
 from .errors import SinglePose, UserError, core_errors
+from .keys import to_quaternions
 from .rigs import bone_path, is_tied
 
 if TYPE_CHECKING:
@@ -102,16 +102,6 @@ def _sample_object(obj: bpy.types.Object, curves: Curves, times: Doubles) -> Dou
             for location, rotation, scale in zip(locations, rotations, scales)
         ]
     )
-
-
-def to_quaternions(mode: str, values: Doubles) -> Doubles:
-    """A rotation channel's values in the mode's terms to quaternions [F,4]."""
-    if mode == "QUATERNION":
-        return values
-    rotations: Doubles = (
-        core.axis_angle_to_quaternion(values) if mode == "AXIS_ANGLE" else core.euler_to_quaternion(mode, values)
-    )
-    return rotations
 
 
 def _channel(curves: Curves, path: str, rest: tuple[float, ...], times: Doubles) -> Doubles:

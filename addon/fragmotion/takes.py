@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Takes: joystick sessions kept in the .blend with the armature object that they drove, as `obj.fragmotion.takes`.
 
-A take holds all that its replay needs: the trace, the seed, the policy and where the character stood.
+A take holds all that its replay needs: the trace, the seed, the policy and where the character stood. It may also hold
+what was shown while it was recorded, which a bake then writes as it was seen.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy as np
 from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from .errors import UserError
+from .motion import Motion
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -25,8 +27,12 @@ TRACE_RATE = 10
 """Controls a second of a trace."""
 
 _COLUMNS = 4
-_NUMBER = "<f8"
+_NUMBER, _SMALL = "<f8", "<f4"
 _LONGEST = 24 * 3600 * TRACE_RATE  # controls; what claims to be longer than a day is damaged
+_MOST_BYTES = 1 << 30  # of what was shown
+_SAME_TIME = 1e-4  # s
+_FIELDS = ("name", "date", "seconds", "quality", "policy", "seed", "start", "train", "controls", "shown", "shown_bones")
+_BESIDE_BONES = 1 + 3 + 3 + 1  # columns of what was shown: time, root position, character frame, class
 
 
 class Take(bpy.types.PropertyGroup):
@@ -62,6 +68,8 @@ class Take(bpy.types.PropertyGroup):
         name="Train on It", description="Build learns from the ticked takes where its trace is Takes", default=False
     )
     controls: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
+    shown: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
+    shown_bones: IntProperty(options={"HIDDEN"})  # type: ignore[valid-type]
 
 
 def add_take(
@@ -73,11 +81,13 @@ def add_take(
     policy: str = "",
     start: Sequence[float] = (0.0, 0.0, 0.0),
     quality: float = 0.0,
+    shown: tuple[Doubles, Motion] | None = None,
 ) -> Take:
     """Keep a trace [T,4] (10 controls a second, in the character frame) with the armature, and select it in the list.
 
     The name (default "Take") gets a number where another take has it. `start` is the character frame, as Player.frame:
-    x, y in metres and the heading in radians. UserError on what is no trace; the file is changed only afterwards.
+    x, y in metres and the heading in radians. `shown` are the poses that the user saw, where there were any, and their
+    times [F] in seconds from the first control on. UserError on what is no trace; the file is changed only afterwards.
     """
     data = _packed(trace)
     settings = obj.fragmotion
@@ -86,26 +96,76 @@ def add_take(
     take.name, take.seed, take.policy, take.start, take.quality = name, seed, policy, start, quality
     take.date = datetime.now().strftime("%Y-%m-%d %H:%M")
     _store(take, data, len(trace))
+    if shown is not None:
+        set_shown(take, *shown)
     settings.active_take = len(settings.takes) - 1
     return take
 
 
 def trace_of(take: Take) -> Doubles:
     """The take's trace [T,4], to the bit as it was given; UserError where the .blend is damaged."""
-    try:
-        unpacker = zlib.decompressobj()
-        data = unpacker.decompress(take.controls, _LONGEST * _COLUMNS * np.dtype(_NUMBER).itemsize)
-        if not unpacker.eof:
-            raise ValueError
-        trace: Doubles = np.frombuffer(data, _NUMBER).reshape(-1, _COLUMNS).astype(float)
-    except (zlib.error, ValueError):
-        raise UserError(f"Take '{take.name}' is damaged: delete it, and record or import it again") from None
+    trace: Doubles = _unpacked(take, take.controls, _NUMBER, _COLUMNS, _LONGEST * _COLUMNS * 8)
     return trace
+
+
+def shown_of(take: Take) -> tuple[Doubles, Motion] | None:
+    """The times [F] and poses that were shown while it was recorded, if kept; UserError where the .blend is damaged."""
+    if not take.shown:
+        return None
+    rows = _unpacked(take, take.shown, _SMALL, _BESIDE_BONES + 4 * take.shown_bones, _MOST_BYTES)
+    times, roots, frames, classes = rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7].astype(np.int32)
+    return times, Motion(roots, rows[:, _BESIDE_BONES:].reshape(len(rows), -1, 4), frames, classes)
+
+
+def set_shown(take: Take, times: Doubles, motion: Motion) -> None:
+    """Keep the poses that were shown at times [F] (s, ascending) while the take was recorded."""
+    rotations = np.asarray(motion.rotations)
+    columns = (times, motion.root_positions, motion.frames, motion.classes, rotations.reshape(len(rotations), -1))
+    take.shown = zlib.compress(np.column_stack(columns).astype(_SMALL).tobytes())
+    take.shown_bones = rotations.shape[1]
 
 
 def set_trace(take: Take, trace: Doubles) -> None:
     """Replace the take's trace; UserError on what is no trace."""
     _store(take, _packed(trace), len(trace))
+
+
+def duplicate_take(obj: bpy.types.Object, index: int) -> Take:
+    """A copy of a take after it in the list, selected."""
+    takes = obj.fragmotion.takes
+    copy = takes.add()
+    for key in _FIELDS:
+        setattr(copy, key, getattr(takes[index], key))
+    copy.name = unique_name(copy.name, [take.name for take in takes[:-1]])
+    takes.move(len(takes) - 1, index + 1)
+    obj.fragmotion.active_take = index + 1
+    moved: Take = takes[index + 1]
+    return moved
+
+
+def remove_take(obj: bpy.types.Object, index: int) -> None:
+    """Delete a take, and select the one that comes into its place, or the last."""
+    settings = obj.fragmotion
+    settings.takes.remove(index)
+    settings.active_take = max(min(index, len(settings.takes) - 1), 0)
+
+
+def trim_take(take: Take, start: float, end: float) -> None:
+    """Keep the seconds from `start` to `end`, to the nearest control; UserError where nothing is left.
+
+    A motion that was shown is cut likewise. Its quality was another stretch's: it is unknown then.
+    """
+    trace = trace_of(take)
+    first, last = round(max(start, 0) * TRACE_RATE), min(round(end * TRACE_RATE), len(trace))
+    if first >= last:
+        raise UserError(
+            f"Take '{take.name}' lasts {take.seconds:.1f} s: nothing is left between {start:.1f} s and {end:.1f} s"
+        )
+    shown = shown_of(take)
+    _store(take, _packed(trace[first:last]), last - first)
+    take.quality = 0
+    if shown is not None:
+        _trim_shown(take, *shown, first / TRACE_RATE, last / TRACE_RATE)
 
 
 def trained_on(obj: bpy.types.Object) -> list[Take]:
@@ -128,6 +188,18 @@ def unique_name(name: str, others: Iterable[str]) -> str:
     return unique
 
 
+def _trim_shown(take: Take, times: Doubles, motion: Motion, start: float, end: float) -> None:
+    """Keep what was shown from `start` to `end` (s), where there is anything, and begin the take there."""
+    inside = (times >= start - _SAME_TIME) & (times <= end + _SAME_TIME)
+    if not inside.any():
+        take.shown = b""
+        return
+    roots, rotations, frames, classes = motion
+    kept = Motion(roots[inside], rotations[inside], frames[inside], classes[inside])
+    set_shown(take, np.maximum(times[inside] - start, 0), kept)
+    take.start = motion.frames[inside][0]
+
+
 def _store(take: Any, data: bytes, length: int) -> None:
     take.controls, take.seconds = data, length / TRACE_RATE
 
@@ -140,6 +212,19 @@ def _packed(trace: Doubles) -> bytes:
     if not np.isfinite(values).all() or np.abs(values[:, 2]).max() > 1 or not _within_unit(values[:, 3]):
         raise UserError("A take's controls must be finite, its turn within -1 and 1, and its jump within 0 and 1")
     return zlib.compress(values.astype(_NUMBER).tobytes())
+
+
+def _unpacked(take: Take, packed: bytes, kind: str, columns: int, most: int) -> Doubles:
+    """Rows of numbers of a kind, at most so many bytes; UserError where that is not what is there."""
+    try:
+        unpacker = zlib.decompressobj()
+        data = unpacker.decompress(packed, most)
+        if not unpacker.eof:
+            raise ValueError
+        rows: Doubles = np.frombuffer(data, kind).reshape(-1, columns).astype(float)
+    except (zlib.error, ValueError):
+        raise UserError(f"Take '{take.name}' is damaged: delete it, and record or import it again") from None
+    return rows
 
 
 def _within_unit(values: Doubles) -> bool:

@@ -9,9 +9,23 @@ import bpy
 
 from .core import core
 from .errors import UserError, core_errors
+from .takes import trace_of, trained_on
 
 if TYPE_CHECKING:
     from fragmotion_core import ControlSpace, Doubles
+
+
+def make_traces(obj: bpy.types.Object, settings: Any) -> list[Doubles]:
+    """The traces [T,4] that Build learns from, as settings with BuildFields say."""
+    if settings.trace_source != "TAKES":
+        return [make_trace(settings)]
+    ticked = trained_on(obj)
+    if not ticked:
+        raise UserError(
+            f"No take of armature '{obj.name}' is ticked to train on: record or import one and tick it under Takes, or "
+            "choose Simulated as the trace"
+        )
+    return [trace_of(take) for take in ticked]
 
 
 def make_trace(settings: Any, space: ControlSpace | None = None) -> Doubles:

@@ -43,6 +43,12 @@ def assign(obj: bpy.types.Object, action: bpy.types.Action | None) -> None:
             data.action_slot = slot
 
 
+def assign_strip(strip: bpy.types.NlaStrip, action: bpy.types.Action, obj: bpy.types.Object) -> None:
+    """Let an NLA strip of the Action play its slot for the object."""
+    if SLOTTED:
+        strip.action_slot = _slot_for(action, obj)
+
+
 def assignment(obj: bpy.types.Object) -> tuple[bpy.types.Action | None, Any]:
     """What the object plays: the Action, and its slot where there are slots."""
     data = obj.animation_data

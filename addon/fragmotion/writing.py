@@ -3,20 +3,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
 from . import versions
-from .core import core
-from .rigs import bone_path, is_tied
+from .keys import Poses, Track, make_layout, make_tracks
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
 
 _LINEAR = 1  # RNA's number of the interpolation 'LINEAR'
+_OBJECT_GROUP = "Object Transforms"  # as Blender's own keying names it
+_SAME_FRAME = 0.01  # keys closer than this to a frame are on it
 
 
 def write_poses(
@@ -31,29 +32,45 @@ def write_poses(
 
     Bones are in the armature's order. The object's former keys in the Action go.
     """
+    tracks = make_tracks(make_layout(obj, moving), Poses(locations, rotations))
+    write_tracks(action, obj, times, tracks, replace=True)
+
+
+def write_tracks(
+    action: bpy.types.Action, obj: bpy.types.Object, times: Doubles, tracks: Sequence[Track], replace: bool
+) -> None:
+    """Key the tracks, frame F at times[F]. The object's former keys in the Action go: all of them with `replace`, else
+    the tracks' own from the first of the times to the last."""
     holder = versions.holder_for(action, obj)
-    holder.fcurves.clear()
-    for index, bone in enumerate(obj.data.bones):
-        if bone.name in moving and not is_tied(bone):
-            _write_channel(holder, bone, "location", times, locations[:, index])
-        channel, values = from_quaternions(obj.pose.bones[bone.name].rotation_mode, rotations[:, index])
-        _write_channel(holder, bone, channel, times, values)
+    if replace:
+        holder.fcurves.clear()
+    for track in tracks:
+        for index, values in enumerate(track.values.T):
+            curve = holder.fcurves.find(track.path, index=index)
+            if curve is None:
+                curve = versions.new_curve(holder, track.path, index, track.group or _OBJECT_GROUP)
+            _clear_span(curve, times[0], times[-1])
+            _add_keys(curve, times[track.kept], values[track.kept])
 
 
-def from_quaternions(mode: str, rotations: Doubles) -> tuple[str, Doubles]:
-    """The channel of a rotation mode, and the rotations [F,4] in its terms."""
-    if mode == "QUATERNION":
-        return "rotation_quaternion", rotations
-    if mode == "AXIS_ANGLE":
-        return "rotation_axis_angle", core.quaternion_to_axis_angle(rotations)
-    return "rotation_euler", core.quaternion_to_euler(mode, rotations)
+def _clear_span(curve: bpy.types.FCurve, first: float, last: float) -> None:
+    keys = curve.keyframe_points
+    for index in reversed(range(len(keys))):
+        if first - _SAME_FRAME < keys[index].co.x < last + _SAME_FRAME:
+            keys.remove(keys[index], fast=True)
 
 
-def _write_channel(holder: object, bone: bpy.types.Bone, channel: str, times: Doubles, values: Doubles) -> None:
-    for index in range(values.shape[1]):
-        curve = versions.new_curve(holder, bone_path(bone.name, channel), index, bone.name)
-        keys = curve.keyframe_points
-        keys.add(len(times))
-        keys.foreach_set("co", np.column_stack((times, values[:, index])).astype(np.float32).ravel())
-        keys.foreach_set("interpolation", np.full(len(times), _LINEAR, np.int32))
-        curve.update()
+def _add_keys(curve: bpy.types.FCurve, times: Doubles, values: Doubles) -> None:
+    """Linear keys beside those that the curve has."""
+    keys = curve.keyframe_points
+    former = len(keys)
+    keys.add(len(times))
+    points = np.empty(2 * len(keys), np.float32)
+    keys.foreach_get("co", points)
+    points[2 * former :] = np.column_stack((times, values)).ravel()
+    keys.foreach_set("co", points)
+    kinds = np.empty(len(keys), np.int32)
+    keys.foreach_get("interpolation", kinds)
+    kinds[former:] = _LINEAR
+    keys.foreach_set("interpolation", kinds)
+    curve.update()

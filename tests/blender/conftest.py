@@ -10,6 +10,7 @@ from pathlib import Path
 from types import ModuleType
 
 import bpy
+import making
 import pytest
 
 _ZIP = "FRAGMOTION_ADDON_ZIP"
@@ -42,3 +43,21 @@ def addon() -> Iterator[ModuleType]:
 def empty_file(addon: ModuleType) -> None:
     """Each test starts from an empty file, with the add-on enabled."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+
+
+@pytest.fixture(scope="session")
+def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The sample file after Build, saved."""
+    making.open_sample()
+    assert bpy.ops.fragmotion.tick_actions(use=True) == {"FINISHED"}
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    path = tmp_path_factory.mktemp("built") / "built.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+@pytest.fixture
+def obj(addon: ModuleType, built: Path) -> bpy.types.Object:
+    """The built armature, active, after loading the file."""
+    addon.building.forget()
+    return making.open_armature(built)

@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 
 SAMPLE = Path(__file__).parents[2] / "sample_rigs" / "fragmotion_sample.blend"
+ARMATURE = "Fragmotion Sample"
 MOCAP = Path(__file__).parents[3] / "shared" / "mocap"
 
 # name, parent, head and tail in metres; a person facing -Y
@@ -82,6 +83,19 @@ ROOT Root
 }
 """
 BVH_CHANNELS = 6 + 6 + 5 * 3
+
+
+def open_sample() -> bpy.types.Object:
+    """The sample file's armature, active."""
+    return open_armature(SAMPLE)
+
+
+def open_armature(path: Path) -> bpy.types.Object:
+    """The armature of the sample file or of one made from it, active."""
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    obj = bpy.data.objects[ARMATURE]
+    activate(obj)
+    return obj
 
 
 def waves(frames: int, channels: int, seed: int) -> np.ndarray:

@@ -11,37 +11,6 @@ import making
 import numpy as np
 import pytest
 
-ARMATURE = "Fragmotion Sample"
-
-
-def open_sample() -> bpy.types.Object:
-    """The sample file's armature, active."""
-    bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE))
-    obj = bpy.data.objects[ARMATURE]
-    making.activate(obj)
-    return obj
-
-
-@pytest.fixture(scope="module")
-def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The sample file after Build, saved."""
-    open_sample()
-    assert bpy.ops.fragmotion.tick_actions(use=True) == {"FINISHED"}
-    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
-    path = tmp_path_factory.mktemp("built") / "built.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path))
-    return path
-
-
-@pytest.fixture
-def obj(addon: ModuleType, built: Path) -> bpy.types.Object:
-    """The built armature, after loading the file."""
-    addon.building.forget()
-    bpy.ops.wm.open_mainfile(filepath=str(built))
-    armature = bpy.data.objects[ARMATURE]
-    making.activate(armature)
-    return armature
-
 
 def test_build_reports_what_it_found_and_survives_saving(addon: ModuleType, obj: bpy.types.Object) -> None:
     character = addon.building.load(obj)
@@ -88,12 +57,12 @@ def test_a_character_saved_as_a_policy_file_is_loaded_onto_the_same_bones(
     counts = (figures.captured, figures.fragments, figures.classes, figures.controls, figures.performed)
     assert bpy.ops.fragmotion.save_policy(filepath=str(tmp_path / "mine")) == {"FINISHED"}
     assert (tmp_path / "mine.policy").read_bytes() == policy
-    open_sample()
+    making.open_sample()
     assert not bpy.ops.fragmotion.save_policy.poll() and not bpy.ops.fragmotion.bake.poll()
     bpy.ops.ed.undo_push(message="before")
     path = str(tmp_path / "mine.policy")
     assert bpy.ops.fragmotion.load_policy("EXEC_DEFAULT", True, filepath=path) == {"FINISHED"}
-    obj = bpy.data.objects[ARMATURE]
+    obj = bpy.data.objects[making.ARMATURE]
     figures = obj.fragmotion.figures
     assert bytes(obj.fragmotion.policy) == policy
     assert {row.name: tuple(row.performed) for row in figures.coverage} == shown
@@ -101,7 +70,7 @@ def test_a_character_saved_as_a_policy_file_is_loaded_onto_the_same_bones(
     assert figures.examiner in addon.core.core.PLAYERS and 50 < figures.quality <= 100.001
     assert bpy.ops.fragmotion.bake(seconds=1) == {"FINISHED"}
     bpy.ops.ed.undo()
-    assert not addon.building.has_character(bpy.data.objects[ARMATURE]), "loading is not one undo step"
+    assert not addon.building.has_character(bpy.data.objects[making.ARMATURE]), "loading is not one undo step"
 
 
 def test_a_policy_file_that_does_not_fit_or_is_damaged_changes_nothing(obj: bpy.types.Object, tmp_path: Path) -> None:
@@ -144,7 +113,7 @@ def test_the_character_is_decoded_once(addon: ModuleType, obj: bpy.types.Object)
     assert addon.building.load(obj) is addon.building.load(obj)
     data = bytes(obj.fragmotion.policy)
     obj.fragmotion.policy = data[:-1] + bytes([data[-1] ^ 1])
-    with pytest.raises(addon.errors.UserError, match=f"policy kept in armature '{ARMATURE}'"):
+    with pytest.raises(addon.errors.UserError, match=f"policy kept in armature '{making.ARMATURE}'"):
         addon.building.load(obj)
 
 
@@ -159,7 +128,7 @@ def test_a_baked_action_poses_the_armature_as_the_player_does(
     fields = {"trace_source": "PLAYER", "player": "explorer", "seconds": 10, "frame_start": 5, "seed": 3}
     assert bpy.ops.fragmotion.bake(**fields) == {"FINISHED"}
     action = obj.animation_data.action
-    assert action != former and action.name == f"{ARMATURE} Bake"
+    assert action != former and action.name == f"{making.ARMATURE} Bake"
     frames = round(10 * fps / base) + 1
     assert tuple(action.frame_range) == (5, 4 + frames)
 
@@ -207,22 +176,22 @@ def test_bake_is_undone_in_one_step(obj: bpy.types.Object) -> None:
     before = making.contents()
     before.pop("playing")
     assert bpy.ops.fragmotion.bake("EXEC_DEFAULT", True, seconds=2) == {"FINISHED"}
-    assert bpy.data.objects[ARMATURE].animation_data.action.name != played
+    assert bpy.data.objects[making.ARMATURE].animation_data.action.name != played
     bpy.ops.ed.undo()
     after = making.contents()
     after.pop("playing")
     assert after == before
-    assert bpy.data.objects[ARMATURE].animation_data.action.name == played
+    assert bpy.data.objects[making.ARMATURE].animation_data.action.name == played
 
 
 def test_build_is_undone_in_one_step(addon: ModuleType, obj: bpy.types.Object) -> None:
     before = bytes(obj.fragmotion.policy)
     bpy.ops.ed.undo_push(message="before")
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", True, classes=20, seconds=5) == {"FINISHED"}
-    obj = bpy.data.objects[ARMATURE]
+    obj = bpy.data.objects[making.ARMATURE]
     assert obj.fragmotion.figures.classes == 20 and len(addon.building.load(obj).representatives) == 20
     bpy.ops.ed.undo()
-    obj = bpy.data.objects[ARMATURE]
+    obj = bpy.data.objects[making.ARMATURE]
     assert obj.fragmotion.figures.classes == 97 and bytes(obj.fragmotion.policy) == before
 
 

@@ -56,7 +56,7 @@ def test_keys_are_linear_whole_and_grouped_by_bone(addon: ModuleType) -> None:
 def test_euler_angles_stay_continuous_through_a_full_turn(addon: ModuleType) -> None:
     angles = np.linspace(0, 4 * np.pi, 100)
     turn = np.column_stack((np.cos(angles / 2), 0 * angles, 0 * angles, np.sin(angles / 2)))
-    channel, eulers = addon.writing.from_quaternions("XYZ", turn)
+    channel, eulers = addon.keys.from_quaternions("XYZ", turn)
     assert channel == "rotation_euler"
     assert np.abs(np.diff(eulers, axis=0)).max() < 0.2
     assert eulers[-1, 2] - eulers[0, 2] == pytest.approx(4 * np.pi, abs=1e-6)

@@ -7,11 +7,13 @@ from typing import ClassVar
 
 import bpy
 
-from ..baking import bake, hindrances
+from ..baking import hindrances, prepare
 from ..building import has_character
-from ..drawing import draw_bake
-from ..errors import reported
+from ..drawing import draw_bake, draw_bake_options
+from ..errors import core_errors, reported
+from ..jobs import Job
 from ..properties import BakeFields
+from ..targets import write
 from .context import active_armature, adopt_settings, poll_armature
 
 
@@ -39,17 +41,26 @@ class FRAGMOTION_OT_bake(BakeFields, bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
         adopt_settings(self, obj.fragmotion.bake, BakeFields)
-        action, played = bake(context, obj, self)
-        frames = len(played.root_positions)
+        prepared = prepare(context, obj, self)
+        job, manager = Job(f"Baking '{obj.name}'", prepared.task), context.window_manager
+        manager.progress_begin(0, 100)
+        try:
+            job.run(lambda fraction: manager.progress_update(100 * fraction))
+        finally:
+            manager.progress_end()
+        with core_errors("Bake"):
+            baked = job.result()
+        action = write(context, obj, prepared.target, baked.tracks, baked.classes, self)
+        first, frames = prepared.target.first, len(baked.classes)
         self.report(
             {"INFO"},
-            f"Baked {frames} frames ({self.frame_start}-{self.frame_start + frames - 1}) to Action '{action.name}'; "
-            f"velocity error {played.velocity_error:.2f} m/s of {played.commanded_speed:.2f} m/s",
+            f"Baked {frames} frames ({first}-{first + frames - 1}) to Action '{action.name}'; {baked.remark}",
         )
-        others = hindrances(obj)
+        others = hindrances(obj, own_strip=self.target == "NLA")
         if others:
             self.report({"WARNING"}, f"The pose will differ from the bake because of {'; '.join(others)}")
         return {"FINISHED"}
 
     def draw(self, _context: bpy.types.Context) -> None:
         draw_bake(self.layout, self)
+        draw_bake_options(self.layout, self)
