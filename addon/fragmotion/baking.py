@@ -79,7 +79,7 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
     character = load(obj)
     context.view_layer.update()
     rig = make_rig(obj)
-    _check_skeleton(obj, character, rig)
+    check_skeleton(obj, character, rig)
     take = performing.chosen_take(obj, settings)
     target = find_target(context, obj, settings, take.name if take else "")
     if settings.root == "OBJECT":
@@ -143,10 +143,11 @@ def _move_object(stage: Stage, frames: Doubles) -> tuple[Doubles, Doubles]:
 def _make_stage(obj: bpy.types.Object, rig: Rig) -> Stage:
     world, basis = obj.matrix_world, obj.matrix_basis
     place = Place(np.array(world @ basis.inverted()), np.array(basis.to_scale()))
-    origin = np.array((world.translation.x, world.translation.y, world.to_euler().z + math.pi))
     layout = make_layout(obj, carriers(obj, rig))
     turn = np.array(basis.to_quaternion())
-    return Stage(f"Armature '{obj.name}'", rig, layout, place, np.array(world), turn, origin)
+    return Stage(
+        f"Armature '{obj.name}'", rig, layout, place, np.array(world), turn, np.array(performing.origin_frame(obj))
+    )
 
 
 def _make_options(scene: bpy.types.Scene, settings: Any, recorded: bool) -> Options:
@@ -155,7 +156,7 @@ def _make_options(scene: bpy.types.Scene, settings: Any, recorded: bool) -> Opti
     return Options(settings.root, recorded or settings.place == "ORIGIN", frames, bound)
 
 
-def _check_skeleton(obj: bpy.types.Object, character: Character, rig: Rig) -> None:
+def check_skeleton(obj: bpy.types.Object, character: Character, rig: Rig) -> None:
     """UserError where the armature's bones are not those that the character was built on."""
     changed = difference(character.skeleton, rig.skeleton)
     if changed:

@@ -12,7 +12,7 @@ from .properties import POLICY_NAMES, BakeFields, BuildFields, BuildFigures
 
 def draw_build(layout: bpy.types.UILayout, settings: BuildFields) -> None:
     """The fields of a build that are changed most."""
-    layout = _aligned(layout)
+    layout = aligned(layout)
     layout.prop(settings, "longest", text="Longest")
     layout.prop(settings, "classes")
     column = layout.column(heading="Add")
@@ -22,17 +22,17 @@ def draw_build(layout: bpy.types.UILayout, settings: BuildFields) -> None:
 
 def draw_training(layout: bpy.types.UILayout, settings: BuildFields) -> None:
     """The other fields of a build."""
-    layout = _aligned(layout)
+    layout = aligned(layout)
     layout.prop(settings, "cut")
     layout.prop(settings, "policy")
-    _draw_trace(layout, settings, "Learn from")
+    draw_trace(layout, settings, "Learn from")
     layout.prop(settings, "seed")
 
 
 def draw_bake(layout: bpy.types.UILayout, settings: BakeFields) -> None:
     """The fields of a bake that are changed most."""
-    layout = _aligned(layout)
-    _draw_trace(layout, settings, "Trace")
+    layout = aligned(layout)
+    draw_trace(layout, settings, "Trace")
     recorded = settings.trace_source == "TAKE" and settings.as_recorded
     if settings.trace_source == "TAKE":
         layout.prop(settings, "as_recorded")
@@ -51,7 +51,7 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields) -> None:
 
 def draw_bake_options(layout: bpy.types.UILayout, settings: BakeFields) -> None:
     """The other fields of a bake."""
-    layout = _aligned(layout)
+    layout = aligned(layout)
     layout.prop(settings, "loop")
     if settings.loop:
         layout.prop(settings, "loop_seconds")
@@ -106,7 +106,8 @@ def _draw_row(layout: bpy.types.UILayout, label: str, value: str) -> None:
     row.label(text=value)
 
 
-def _draw_trace(layout: bpy.types.UILayout, settings: BuildFields | BakeFields, label: str) -> None:
+def draw_trace(layout: bpy.types.UILayout, settings: BuildFields | BakeFields, label: str) -> None:
+    """Where a trace comes from."""
     layout.prop(settings, "trace_source", text=label)
     if settings.trace_source == "FILE":
         layout.prop(settings, "trace_file", text="File")
@@ -115,7 +116,8 @@ def _draw_trace(layout: bpy.types.UILayout, settings: BuildFields | BakeFields, 
         layout.prop(settings, "seconds")
 
 
-def _aligned(layout: bpy.types.UILayout) -> bpy.types.UILayout:
+def aligned(layout: bpy.types.UILayout) -> bpy.types.UILayout:
+    """A column of fields whose names stand in a column of their own."""
     column = layout.column()
     column.use_property_split = True
     column.use_property_decorate = False

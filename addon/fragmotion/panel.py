@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import bpy
 
-from . import building, versions
+from . import building, panel_takes, versions
 from .actions import fits_cached, fitting
 from .drawing import draw_bake, draw_build, draw_coverage, draw_figures, draw_training
 from .operators import build as build_operator
@@ -159,5 +159,7 @@ CLASSES = (
     FRAGMOTION_PT_build,
     FRAGMOTION_PT_coverage,
     FRAGMOTION_PT_training,
+    *panel_takes.CLASSES,
     FRAGMOTION_PT_bake,
+    *panel_takes.BAKE_CLASSES,
 )

@@ -91,6 +91,11 @@ def _place(context: bpy.types.Context, obj: bpy.types.Object, rig: Rig, settings
     """Where the character starts: x, y and heading."""
     if settings.place == "CHARACTER":
         return character_frame(context, obj, rig)
+    return origin_frame(obj)
+
+
+def origin_frame(obj: bpy.types.Object) -> tuple[float, float, float]:
+    """The character frame, x, y (m) and heading (rad), under the armature's origin facing its -Y (Blender's front)."""
     place = obj.matrix_world
     return place.translation.x, place.translation.y, place.to_euler().z + math.pi
 

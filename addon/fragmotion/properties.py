@@ -74,6 +74,9 @@ _MARKERS = (
 class TraceFields:
     """Where a trace comes from."""
 
+    trace_source: EnumProperty(  # type: ignore[valid-type]
+        name="Trace", description="Where the joystick session comes from", items=_SOURCES, default="PLAYER"
+    )
     trace_file: StringProperty(  # type: ignore[valid-type]
         name="Trace File",
         description="CSV file: velocity_x,velocity_y (m/s), turn (-1 to 1, 1 is left), jump (0 or 1); 10 rows a second",

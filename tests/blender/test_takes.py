@@ -109,3 +109,155 @@ def test_a_damaged_take_says_so(addon: ModuleType, obj: bpy.types.Object, damage
     take.controls = damage(take.controls) if callable(damage) else damage
     with pytest.raises(addon.errors.UserError, match="Take 'Stroll' is damaged: delete it"):
         addon.takes.trace_of(take)
+
+
+def press(name: str, **fields: Any) -> None:
+    """A button of the Takes panel, as one undo step."""
+    assert getattr(bpy.ops.fragmotion, name)("EXEC_DEFAULT", True, **fields) == {"FINISHED"}
+
+
+def takes() -> Any:
+    """The takes of the armature that is there after undo, too."""
+    return bpy.data.objects["Rig"].fragmotion.takes
+
+
+def test_takes_are_duplicated_and_deleted_and_that_is_undone(addon: ModuleType, obj: bpy.types.Object) -> None:
+    obj.fragmotion.active_take = 0
+    bpy.ops.ed.undo_push(message="two takes")
+    press("duplicate_take")
+    assert [take.name for take in takes()] == ["Stroll", "Stroll.001", "Take"]
+    assert bpy.data.objects["Rig"].fragmotion.active_take == 1
+    original, copy = takes()[:2]
+    for field in ("date", "seconds", "quality", "policy", "seed", "train", "controls"):
+        assert getattr(copy, field) == getattr(original, field)
+    assert tuple(copy.start) == tuple(original.start)
+    press("delete_take")
+    press("delete_take")
+    assert [take.name for take in takes()] == ["Stroll"]
+    press("delete_take")
+    assert not takes() and not bpy.ops.fragmotion.delete_take.poll()
+    for names in (["Stroll"], ["Stroll", "Take"], ["Stroll", "Stroll.001", "Take"], ["Stroll", "Take"]):
+        bpy.ops.ed.undo()
+        assert [take.name for take in takes()] == names
+    bpy.data.objects["Rig"].fragmotion.active_take = 1
+    assert_kept(addon, bpy.data.objects["Rig"])
+
+
+def test_trimming_keeps_the_controls_between_start_and_end(addon: ModuleType, obj: bpy.types.Object) -> None:
+    bpy.ops.ed.undo_push(message="two takes")
+    press("trim_take", start=2.04, end=7.96)
+    assert takes()[1].seconds == pytest.approx(6)
+    np.testing.assert_array_equal(addon.takes.trace_of(takes()[1]), make_trace(120, 2)[20:80])
+    press("trim_take", start=0, end=100)
+    assert takes()[1].seconds == pytest.approx(6)
+    with pytest.raises(RuntimeError, match=r"'Take' lasts 6.0 s: nothing is left between 6.5 s and 7.0 s"):
+        bpy.ops.fragmotion.trim_take(start=6.5, end=7)
+    bpy.ops.ed.undo()
+    bpy.ops.ed.undo()
+    assert_kept(addon, bpy.data.objects["Rig"])
+
+
+def test_what_was_shown_survives_saving_and_is_trimmed_with_its_take(
+    addon: ModuleType, obj: bpy.types.Object, tmp_path: Path
+) -> None:
+    random = np.random.default_rng(3)
+    times = np.arange(150) / 30
+    motion = addon.motion.Motion(
+        random.normal(size=(150, 3)), random.normal(size=(150, 7, 4)), random.normal(size=(150, 3)), np.arange(150)
+    )
+    addon.takes.add_take(obj, make_trace(), name="Seen", shown=(times, motion))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "kept.blend"))
+    take = append(tmp_path / "kept.blend", link=False).fragmotion.takes["Seen"]
+
+    def assert_shown(first: int, last: int) -> None:
+        seen, shown = addon.takes.shown_of(take)
+        np.testing.assert_allclose(seen, times[: last - first], atol=1e-6)
+        for given, back in zip(motion, shown):
+            np.testing.assert_allclose(back, given[first:last], atol=1e-6)
+
+    assert_shown(0, 150)
+    addon.takes.trim_take(take, 1, 3)
+    assert_shown(30, 91)
+    assert tuple(take.start) == pytest.approx(tuple(motion.frames[30]), abs=1e-6)
+    take.shown = take.shown[:-3]
+    with pytest.raises(addon.errors.UserError, match="'Seen' is damaged"):
+        addon.takes.shown_of(take)
+
+
+def test_takes_go_out_to_csv_and_come_back_to_the_bit(addon: ModuleType, obj: bpy.types.Object, tmp_path: Path) -> None:
+    for index, name in enumerate(("one", "two")):
+        obj.fragmotion.active_take = index
+        assert bpy.ops.fragmotion.export_take(filepath=str(tmp_path / name)) == {"FINISHED"}
+    assert (tmp_path / "one.csv").read_text().startswith("velocity_x,velocity_y,turn,jump\n")
+    addon.takes.add_take(obj, make_trace(1))
+    with pytest.raises(RuntimeError, match="'Take.001' holds a single control"):
+        bpy.ops.fragmotion.export_take(filepath=str(tmp_path / "three"))
+    assert not (tmp_path / "three.csv").exists()
+    addon.takes.remove_take(obj, 2)
+    bpy.ops.ed.undo_push(message="two takes")
+    press("import_takes", directory=str(tmp_path), files=[{"name": "one.csv"}, {"name": "two.csv"}])
+    assert [take.name for take in takes()] == ["Stroll", "Take", "one", "two"]
+    np.testing.assert_array_equal(addon.takes.trace_of(takes()[2]), make_trace())
+    np.testing.assert_array_equal(addon.takes.trace_of(takes()[3]), make_trace(120, 2))
+    press("import_takes", filepath=str(tmp_path / "one.csv"))
+    assert takes()[4].name == "one.001"
+    bpy.ops.ed.undo()
+    bpy.ops.ed.undo()
+    assert_kept(addon, bpy.data.objects["Rig"])
+
+
+@pytest.mark.parametrize(
+    ("text", "cause"),
+    [
+        ("velocity_x,velocity_y,turn\n0,0,0\n", r"bad\.csv:1: the header is"),
+        ("velocity_x,velocity_y,turn,jump\n0,1,0,0\n0,1,0\n", r"bad\.csv:3: expected 4 values"),
+        ("velocity_x,velocity_y,turn,jump\n0,1,7,0\n", r"bad\.csv:2: turn is"),
+    ],
+)
+def test_a_malformed_file_among_those_imported_is_named_by_its_line_and_none_is_kept(
+    addon: ModuleType, obj: bpy.types.Object, tmp_path: Path, text: str, cause: str
+) -> None:
+    (tmp_path / "good.csv").write_text("velocity_x,velocity_y,turn,jump\n0,1,0,0\n0,1,0,0\n")
+    (tmp_path / "bad.csv").write_text(text)
+    with pytest.raises(RuntimeError, match=cause):
+        bpy.ops.fragmotion.import_takes(directory=str(tmp_path), files=[{"name": "good.csv"}, {"name": "bad.csv"}])
+    with pytest.raises(RuntimeError, match="No file is chosen"):
+        bpy.ops.fragmotion.import_takes(filepath="")
+    assert_kept(addon, obj)
+
+
+def test_build_learns_from_the_ticked_takes(
+    addon: ModuleType, obj: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for seed in range(3):
+        making.add_action(obj, 60, seed=seed, name=f"mocap {seed}").fragmotion.use = True
+    given = []
+    build = addon.building.core.build
+
+    def spy(skeleton: object, clips: object, traces: list[np.ndarray], *others: object) -> object:
+        given.extend(traces)
+        return build(skeleton, clips, traces, *others)
+
+    monkeypatch.setattr(addon.building.core, "build", spy)
+    fields = {"trace_source": "TAKES", "classes": 6, "mirror": False, "synthesize": False}
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT", **fields) == {"FINISHED"}
+    assert len(given) == 1
+    np.testing.assert_array_equal(given[0], make_trace(120, 2))
+    obj.fragmotion.takes[0].train = True
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT", **fields) == {"FINISHED"}
+    np.testing.assert_array_equal(given[1], make_trace())
+    np.testing.assert_array_equal(given[2], make_trace(120, 2))
+    for take in obj.fragmotion.takes:
+        take.train = False
+    with pytest.raises(RuntimeError, match="No take of armature 'Rig' is ticked to train on"):
+        bpy.ops.fragmotion.build("EXEC_DEFAULT", **fields)
+
+
+def test_the_buttons_of_takes_say_why_they_are_grey() -> None:
+    names = ("delete_take", "duplicate_take", "trim_take", "export_take")
+    assert not any(getattr(bpy.ops.fragmotion, name).poll() for name in (*names, "import_takes"))
+    making.add_armature()
+    for name in names:
+        with pytest.raises(RuntimeError, match="'Rig' has no takes: record or import one"):
+            getattr(bpy.ops.fragmotion, name)()
+    assert bpy.ops.fragmotion.import_takes.poll()

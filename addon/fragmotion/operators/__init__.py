@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from . import takes
 from .bake import FRAGMOTION_OT_bake
 from .build import FRAGMOTION_OT_build, FRAGMOTION_OT_cancel_build
 from .import_mocap import FRAGMOTION_OT_import_mocap
@@ -17,5 +18,6 @@ CLASSES = (
     FRAGMOTION_OT_cancel_build,
     FRAGMOTION_OT_save_policy,
     FRAGMOTION_OT_load_policy,
+    *takes.CLASSES,
     FRAGMOTION_OT_bake,
 )

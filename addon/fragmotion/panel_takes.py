@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Takes panel of the sidebar, and what belongs to Bake below it."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import bpy
+
+from .drawing import draw_bake_options
+from .operators.context import active_armature
+from .takes import active_take
+
+_ROWS = 4
+
+
+class FRAGMOTION_UL_takes(bpy.types.UIList):
+    """The armature's takes: a tick to train on each, its name, length, date and quality."""
+
+    bl_idname = "FRAGMOTION_UL_takes"
+
+    def draw_item(
+        self,
+        _context: bpy.types.Context,
+        layout: bpy.types.UILayout,
+        _data: object,
+        item: Any,
+        _icon: int,
+        _active_data: object,
+        _active_name: str,
+    ) -> None:
+        row = layout.row(align=True)
+        row.prop(item, "train", text="")
+        split = row.split(factor=0.55)
+        split.prop(item, "name", text="", emboss=False)
+        figures = split.row()
+        for text in (f"{item.seconds:.1f} s", _quality(item)):
+            cell = figures.row()
+            cell.alignment = "RIGHT"
+            cell.label(text=text)
+
+
+class _Sidebar:
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Fragmotion"
+
+
+class FRAGMOTION_PT_takes(_Sidebar, bpy.types.Panel):
+    """What was recorded or imported, to be replayed, baked or learned from."""
+
+    bl_idname = "FRAGMOTION_PT_takes"
+    bl_label = "Takes"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, obj = self.layout, active_armature(context)
+        if obj is None:
+            layout.label(text="No armature is active", icon="INFO")
+            return
+        settings = obj.fragmotion
+        row = layout.row()
+        row.template_list("FRAGMOTION_UL_takes", "", settings, "takes", settings, "active_take", rows=_ROWS)
+        _draw_buttons(row.column(align=True))
+        take = active_take(obj)
+        if take is None:
+            layout.label(text="Record or import a take", icon="INFO")
+            return
+        _draw_figures(layout, take)
+        _draw_uses(layout, settings.active_take)
+
+
+class FRAGMOTION_PT_bake_options(_Sidebar, bpy.types.Panel):
+    """The fields of a bake that are changed less."""
+
+    bl_idname = "FRAGMOTION_PT_bake_options"
+    bl_label = "Loop, Keys and Markers"
+    bl_parent_id = "FRAGMOTION_PT_bake"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return active_armature(context) is not None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_bake_options(self.layout, active_armature(context).fragmotion.bake)
+
+
+def _draw_buttons(column: bpy.types.UILayout) -> None:
+    for name, icon in (
+        ("import_takes", "IMPORT"),
+        ("export_take", "EXPORT"),
+        ("duplicate_take", "DUPLICATE"),
+        ("trim_take", "DRIVER_DISTANCE"),
+        ("delete_take", "TRASH"),
+    ):
+        column.operator(f"fragmotion.{name}", text="", icon=icon)
+
+
+def _quality(take: Any) -> str:
+    return f"{take.quality:.2f}" if take.quality > 0 else "-"
+
+
+def _draw_figures(layout: bpy.types.UILayout, take: Any) -> None:
+    column = layout.column(align=True)
+    row = column.row()
+    row.label(text=take.date, icon="TIME", translate=False)
+    row.label(text=f"Quality {_quality(take)}" if take.quality > 0 else "Quality not measured")
+
+
+def _draw_uses(layout: bpy.types.UILayout, index: int) -> None:
+    row = layout.row(align=True)
+    if _can_replay():
+        replay = row.operator("fragmotion.drive", text="Replay", icon="PLAY")
+        replay.source, replay.take = "TAKE", index
+    bake = row.operator("fragmotion.bake", text="Bake", icon="ACTION_TWEAK")
+    bake.trace_source, bake.take = "TAKE", index
+
+
+def _can_replay() -> bool:
+    """Whether the drive accepts a take."""
+    drive = getattr(bpy.types, "FRAGMOTION_OT_drive", None)
+    return drive is not None and "take" in drive.bl_rna.properties
+
+
+CLASSES = (FRAGMOTION_UL_takes, FRAGMOTION_PT_takes)
+BAKE_CLASSES = (FRAGMOTION_PT_bake_options,)
