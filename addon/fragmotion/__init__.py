@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import actions, building, operators, panel, properties
+from . import actions, building, operators, panel, properties, staleness, storing
 from .operators import build
 
 bl_info = {
@@ -26,11 +26,15 @@ def register() -> None:
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
     properties.register()
+    for part in (staleness, storing):
+        part.register()
 
 
 def unregister() -> None:
     """Remove all that `register` added; a build that runs is stopped."""
     build.stop()
+    for part in (storing, staleness):
+        part.unregister()
     properties.unregister()
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

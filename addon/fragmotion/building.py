@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -19,6 +18,8 @@ from .movers import movers
 from .rigs import carriers, make_rig
 from .sampling import sample
 from .skeletons import difference
+from .staleness import sources_of
+from .storing import keep_policy, key_of, read_policy
 from .traces import make_traces
 
 if TYPE_CHECKING:
@@ -38,6 +39,7 @@ class Built(NamedTuple):
     character: Character
     qualities: dict[str, float]  # percent of Optimal; the first is of the policy that drives
     examiner: str
+    sources: str = ""  # what it was built from, as staleness.sources_of tells it; empty where that is unknown
 
 
 class Prepared(NamedTuple):
@@ -55,7 +57,7 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
     carriers(obj, rig)
     traces = make_traces(obj, settings)
     clips, warnings = _sample_all(context, obj, takes, rig)
-    options = make_options(settings)
+    options, sources = make_options(settings), sources_of(obj)
     teacher = settings.player if settings.trace_source == "PLAYER" else ""
 
     def task(report: Report) -> Built:
@@ -63,7 +65,7 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
             rig.skeleton, clips, traces, options, lambda fraction, stage: report(_BUILD_SHARE * fraction, stage)
         )
         report(_BUILD_SHARE, "Examining")
-        return examine(character, teacher)
+        return examine(character, teacher)._replace(sources=sources)
 
     return Prepared(task, warnings)
 
@@ -122,9 +124,9 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
     """Store the character and its figures with the armature."""
     character, figures = built.character, obj.fragmotion.figures
     data = character.to_bytes()
-    obj.fragmotion.policy = data
+    keep_policy(obj, data)
     _cache.clear()
-    _cache[_key(data)] = character
+    _cache[key_of(obj)] = character
     figures.captured = sum(origin in _FROM_TAKES for origin in character.fragment_origins)
     figures.fragments = len(character.labels)
     figures.classes, figures.controls = character.table.shape
@@ -134,7 +136,7 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
     for policy, quality in built.qualities.items():
         row = figures.policies.add()
         row.name, row.quality = policy, quality
-    figures.examiner = built.examiner
+    figures.examiner, figures.sources = built.examiner, built.sources
     _keep_coverage(figures, character)
 
 
@@ -171,11 +173,9 @@ def has_character(obj: bpy.types.Object) -> bool:
 
 def load(obj: bpy.types.Object) -> Character:
     """The armature's character; decoded once for each content."""
-    data = obj.fragmotion.policy
-    if not data:
-        raise UserError(f"Armature '{obj.name}' has no character yet: press Build first")
-    key = _key(data)
+    key = key_of(obj)
     if key not in _cache:
+        data = read_policy(obj)
         with core_errors(f"The policy kept in armature '{obj.name}'"):
             _cache.clear()
             _cache[key] = core.Character.from_bytes(data)
@@ -185,7 +185,3 @@ def load(obj: bpy.types.Object) -> Character:
 def forget() -> None:
     """Let go of all decoded characters."""
     _cache.clear()
-
-
-def _key(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()

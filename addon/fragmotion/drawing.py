@@ -8,6 +8,7 @@ import bpy
 from . import versions
 from .coverage import COLUMNS
 from .properties import POLICY_NAMES, BakeFields, BuildFields, BuildFigures
+from .storing import BESIDE, troubles
 
 
 def draw_build(layout: bpy.types.UILayout, settings: BuildFields) -> None:
@@ -77,6 +78,19 @@ def draw_figures(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
     for policy in figures.policies:
         _draw_row(box, POLICY_NAMES.get(policy.name, policy.name), f"{policy.quality:.1f} %")
     _draw_row(box, "Measured on", figures.examiner.title())
+
+
+def draw_keeping(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """Where the policy is kept."""
+    settings = obj.fragmotion
+    column = aligned(layout)
+    column.prop(settings, "keep_policy", text="Keep")
+    if obj.name in troubles:
+        column.label(text="Not moved: see the console", icon="ERROR")
+    elif settings.keep_policy == BESIDE and settings.policy:
+        column.label(text="Written when you save", icon="INFO")
+    elif settings.policy_digest and not settings.policy:
+        column.label(text=settings.policy_file, icon="FILE", translate=False)
 
 
 def draw_coverage(layout: bpy.types.UILayout, figures: BuildFigures) -> None:

@@ -9,9 +9,10 @@ import bpy
 
 from . import building, panel_takes, versions
 from .actions import fits_cached, fitting
-from .drawing import draw_bake, draw_build, draw_coverage, draw_figures, draw_training
+from .drawing import draw_bake, draw_build, draw_coverage, draw_figures, draw_keeping, draw_training
 from .operators import build as build_operator
 from .operators.context import active_armature
+from .staleness import is_stale
 
 _ROWS = 5
 
@@ -101,7 +102,10 @@ class FRAGMOTION_PT_build(_Sidebar, bpy.types.Panel):
         if obj is None:
             return
         if building.has_character(obj):
+            if is_stale(obj):
+                layout.label(text="Actions changed since Build", icon="ERROR")
             draw_figures(layout, obj.fragmotion.figures)
+            draw_keeping(layout, obj)
         row = layout.row(align=True)
         row.operator("fragmotion.save_policy", text="Save Policy...")
         row.operator("fragmotion.load_policy", text="Load Policy...")

@@ -50,6 +50,10 @@ POLICY_NAMES = {name: label for name, label, _ in _POLICIES}
 """What the core's policies are called in the panel."""
 
 
+_KEEPING = (
+    ("PACKED", "In the .blend", "Inside the .blend file"),
+    ("BESIDE", "Beside It", "In a policy file beside the .blend, written when that is saved"),
+)
 _TARGETS = (
     ("NEW", "New Action", "A new Action, named after the take"),
     ("CURRENT", "Current Action", "The Action that plays, from the playhead on: its keys there are replaced"),
@@ -291,6 +295,7 @@ class BuildFigures(bpy.types.PropertyGroup):
     seconds: FloatProperty()  # type: ignore[valid-type]
     quality: FloatProperty()  # type: ignore[valid-type]
     examiner: StringProperty()  # type: ignore[valid-type]
+    sources: StringProperty()  # type: ignore[valid-type]
     policies: CollectionProperty(type=PolicyFigure)  # type: ignore[valid-type]
     performed: IntProperty()  # type: ignore[valid-type]
     coverage: CollectionProperty(type=CoverageFigure)  # type: ignore[valid-type]
@@ -303,6 +308,13 @@ class CharacterSettings(bpy.types.PropertyGroup):
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     policy: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
+    keep_policy: EnumProperty(  # type: ignore[valid-type]
+        name="Keep Policy", description="Where the policy is kept from the next time that you save", items=_KEEPING
+    )
+    policy_file: StringProperty(  # type: ignore[valid-type]
+        name="Policy File", description="Where the policy is kept; // is the folder of the .blend"
+    )
+    policy_digest: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
     takes: CollectionProperty(type=Take)  # type: ignore[valid-type]
     active_take: IntProperty(name="Take", description="The take that is selected in the list")  # type: ignore[valid-type]
 

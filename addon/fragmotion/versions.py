@@ -23,6 +23,11 @@ def curves_of(action: bpy.types.Action, obj: bpy.types.Object) -> list[bpy.types
     return [curve for bag in _bags(action) if slot and bag.slot_handle == slot.handle for curve in bag.fcurves]
 
 
+def all_curves(action: bpy.types.Action) -> list[bpy.types.FCurve]:
+    """All the Action's F-curves, whatever they move."""
+    return [curve for bag in _bags(action) for curve in bag.fcurves] if SLOTTED else list(action.fcurves)
+
+
 def count_curves(action: bpy.types.Action) -> int:
     """Number of all the Action's F-curves."""
     return sum(len(bag.fcurves) for bag in _bags(action)) if SLOTTED else len(action.fcurves)

@@ -15,7 +15,9 @@ from .keys import Poses, Track, make_layout, make_tracks
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
 
-_LINEAR = 1  # RNA's number of the interpolation 'LINEAR'
+LINEAR = 1
+"""RNA's number of the interpolation 'LINEAR'."""
+
 _OBJECT_GROUP = "Object Transforms"  # as Blender's own keying names it
 _SAME_FRAME = 0.01  # keys closer than this to a frame are on it
 
@@ -71,6 +73,6 @@ def _add_keys(curve: bpy.types.FCurve, times: Doubles, values: Doubles) -> None:
     keys.foreach_set("co", points)
     kinds = np.empty(len(keys), np.int32)
     keys.foreach_get("interpolation", kinds)
-    kinds[former:] = _LINEAR
+    kinds[former:] = LINEAR
     keys.foreach_set("interpolation", kinds)
     curve.update()

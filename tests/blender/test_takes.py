@@ -190,7 +190,7 @@ def test_takes_go_out_to_csv_and_come_back_to_the_bit(addon: ModuleType, obj: bp
         assert bpy.ops.fragmotion.export_take(filepath=str(tmp_path / name)) == {"FINISHED"}
     assert (tmp_path / "one.csv").read_text().startswith("velocity_x,velocity_y,turn,jump\n")
     addon.takes.add_take(obj, make_trace(1))
-    with pytest.raises(RuntimeError, match="'Take.001' holds a single control"):
+    with pytest.raises(RuntimeError, match=r"'Take\.001' holds a single control"):
         bpy.ops.fragmotion.export_take(filepath=str(tmp_path / "three"))
     assert not (tmp_path / "three.csv").exists()
     addon.takes.remove_take(obj, 2)
