@@ -6,8 +6,10 @@
 
 #include "arrays.hpp"
 #include "fragmotion/greedy.hpp"
+#include "fragmotion/naming.hpp"
 #include "fragmotion/policy_file.hpp"
 #include "fragmotion/suggest.hpp"
+#include "fragmotion/without_classes.hpp"
 
 namespace fragmotion::bindings {
 namespace {
@@ -118,6 +120,7 @@ void bind_tables(py::class_<Character, Holder>& character) {
       .def_property_readonly("match", viewed<double>(match, 1))
       .def_property_readonly("table", viewed<int>(table, 1))
       .def_property_readonly("bridges", viewed<int>(bridges, 1))
+      .def_property_readonly("class_names", &class_names)
       .def_property_readonly("coverage_counts",
                              [](const Character& c) {
                                return to_array(std::vector<int>(c.coverage.counts.begin(), c.coverage.counts.end()),
@@ -165,7 +168,13 @@ void bind_use(py::class_<Character, Holder>& character) {
             return py::make_tuple(to_array(std::move(path.classes), {count}), path.quality);
           },
           py::arg("trace"))
-      .def("percent_of_optimal", &percent, py::arg("trace"), py::arg("policy") = "");
+      .def("percent_of_optimal", &percent, py::arg("trace"), py::arg("policy") = "")
+      .def(
+          "without",
+          [](const Character& c, const std::vector<int>& excluded) {
+            return std::make_shared<Character>(without_classes(c, excluded));
+          },
+          py::arg("excluded"), py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace

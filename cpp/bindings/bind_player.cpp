@@ -114,6 +114,7 @@ void bind_player(py::module_& m) {
             p.reset({Vector2{x, y}, heading});
           },
           py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("heading") = 0.0)
+      .def("force", &Player::force, py::arg("next_class"))
       .def("step", &step, py::arg("control"), py::arg("seconds"))
       .def_property_readonly("frame",
                              [](const Player& p) {

@@ -222,6 +222,8 @@ class Character:
     """[N]: class of each fragment."""
     representatives: Ints
     """[n]: the medoid fragment of each class."""
+    class_names: list[str]
+    """[n]: what each class's representative does, as "walk forward left"; numbered from the second of a name on."""
     smoothness: Doubles
     """[n,n]: 1/(1 + Dis(last pose of Q, first pose of Q')), the first factor of Eq. 2."""
     match: Doubles
@@ -249,6 +251,9 @@ class Character:
     def percent_of_optimal(self, trace: ArrayLike, policy: str = "") -> float:
         """Quality of one of its policies (default: the one that drives) on a trace [T,4], in percent of Optimal's, both
         from Optimal's first class."""
+    def without(self, excluded: Sequence[int]) -> Character:
+        """The character that is never sent to the excluded classes: where a policy's table said one, it says the class of
+        the greatest Eq. 2 and value to come of those left. ValueError where a class does not exist or none is left."""
 
 def build(
     skeleton: Skeleton,
@@ -278,6 +283,9 @@ class Player:
     def reset(self, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
         """Stand at a place, facing `heading` (radians, counter-clockwise from +y), and draw again from the seed: after
         a reset the same steps show the same poses."""
+    def force(self, next_class: int) -> None:
+        """Play a member of this class, drawn at random, whatever the policy says: as soon as the stitch under way is
+        done, and to its end. ValueError on a class that does not exist."""
     def step(self, control: ArrayLike, seconds: float) -> tuple[Doubles, Doubles]:
         """Advance by 0 to 3600 s under a control [4] and return the pose: root position [3] m and rotations [B,4] as in
         Clip. ValueError on what is not finite."""

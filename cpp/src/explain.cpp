@@ -14,7 +14,8 @@ constexpr double kTolerance = 1e-6;
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Discounted sums of Eq. 2 after each control and class [102, classes], where the policy goes on choosing.
+}  // namespace
+
 std::vector<double> values_to_come(const Quality& quality, const Policy& policy, const std::vector<double>& model) {
   const int n = quality.classes;
   const Matrix steps = IterateOptions().discount * Eigen::Map<const Matrix>(model.data(), kPoints, kPoints);
@@ -34,8 +35,6 @@ std::vector<double> values_to_come(const Quality& quality, const Policy& policy,
   }
   return {to_come.data(), to_come.data() + to_come.size()};
 }
-
-}  // namespace
 
 Explainer::Explainer(std::shared_ptr<const Character> character, const std::string& policy)
     : character_(std::move(character)),

@@ -66,7 +66,8 @@ void Player::reset(const CharacterFrame& frame) {
   }
   from_ = class_;
   random_ = Random(seed_);
-  waiting_ = -1;
+  waiting_ = forced_ = -1;
+  held_ = false;
   stitched_ = soonest_ = 0;
   pulling_ = Vector2::Zero();
   turning_ = 0;
@@ -187,9 +188,10 @@ void Player::stitch(const Placed& old, double seconds) {
   inertia_.begin(old_now, old_later, fresh, fresh_later, kLater, seconds);
 }
 
-void Player::start(int next_class, const Control& control) {
+void Player::start(int next_class, int fragment) {
   before_ = now_;
-  now_ = place(draw(next_class, control), frame());
+  now_ = place(fragment, frame());
+  held_ = false;
   from_ = class_;
   class_ = next_class;
   const bool inertial = stitching_ == Stitching::inertialize;
@@ -198,6 +200,20 @@ void Player::start(int next_class, const Control& control) {
   stitched_ = seconds;
   soonest_ = inertial ? kSoonest : std::max(kSoonest, seconds);
   pose();
+}
+
+void Player::force(int next_class) {
+  if (next_class < 0 || next_class >= character_->classes.count) {
+    throw std::invalid_argument("class " + std::to_string(next_class) + " does not exist");
+  }
+  forced_ = next_class;
+}
+
+void Player::start_forced() {
+  const int next = std::exchange(forced_, -1);
+  waiting_ = -1;
+  start(next, members_[next][random_.below(static_cast<int>(members_[next].size()))]);
+  held_ = true;
 }
 
 bool Player::changed(const Control& wanted) const { return character_->space.distance(wanted, decided_for_) > kChange; }
@@ -215,12 +231,13 @@ int Player::decide(const Control& wanted) {
 }
 
 bool Player::leaves_early(const Control& wanted) const {
-  return now_.seconds > soonest_ - kInstant && left() > kWorthIt && waiting_ < 0 &&
+  return now_.seconds > soonest_ - kInstant && left() > kWorthIt && waiting_ < 0 && !held_ &&
          character_->pool.fragments[now_.fragment].evident.jump < kInTheAir && changed(wanted);
 }
 
 void Player::go_on(const Control& control, const Control& wanted) {
-  start(decide(wanted), wanted);
+  const int next = decide(wanted);
+  start(next, draw(next, wanted));
   if (waiting_ >= 0) return;  // the jump, too, waits for the end of the stand-in-place fragment
   jump_waits_ = false;
   decided_for_.jump = control.jump;
@@ -237,7 +254,11 @@ void Player::step(const Control& control, double seconds) {
   while (seconds > 0) {
     Control wanted = control;
     if (jump_waits_) wanted.jump = 1;
-    if (left() < kInstant || leaves_early(wanted)) go_on(control, wanted);
+    if (forced_ >= 0 && now_.seconds > soonest_ - kInstant) {
+      start_forced();
+    } else if (left() < kInstant || leaves_early(wanted)) {
+      go_on(control, wanted);
+    }
     const double wait = soonest_ - now_.seconds, part = std::min({seconds, left(), wait > kInstant ? wait : seconds});
     now_.seconds += part;
     before_.seconds += part;

@@ -63,6 +63,21 @@ TEST(StandBridges, GoBetweenFarClassesByTheShortestWay) {
   EXPECT_GT(bridged, 100);
 }
 
+TEST(StandBridges, AreOfAllowedClassesOnly) {
+  const ControlSpace space;
+  for (int seed = 1; seed <= 30; ++seed) {
+    const Line line(seed);
+    Line moving = line;  // the same, where every other class stands no more
+    std::vector<bool> allowed(12, true);
+    for (int k = 0; k < 12; k += 2) {
+      allowed[k] = false;
+      moving.pool.fragments[k].evident = {0, 1.2, 0, 0};
+    }
+    EXPECT_EQ(stand_bridges(line.pool, line.t, line.classes, space, 3, allowed),
+              stand_bridges(moving.pool, moving.t, moving.classes, space, 3));
+  }
+}
+
 TEST(StandBridges, AreNoneWhereNothingStandsOrNothingIsFar) {
   Line line(4);
   const std::vector<int> near = stand_bridges(line.pool, line.t, line.classes, ControlSpace(), 100);

@@ -64,6 +64,7 @@ TEST(Player, NeverJumps) {
     double heading = player.frame().heading, largest = 0;
     for (int i = 0; i < static_cast<int>(8 / dt); ++i) {
       if (i % static_cast<int>(0.3 / dt) == 0) control = c->space.point(random.below(ControlSpace::kPoints));
+      if (i % static_cast<int>(0.7 / dt) == 0) player.force(random.below(c->classes.count));
       player.step(control, dt);
       const std::vector<Vector3> now = joints(kinematics, player.root_position(), player.rotations());
       largest = std::max(largest, largest_distance(before, now));
@@ -197,6 +198,53 @@ TEST(Player, JumpsOnceInAStepOfAnyLength) {
   };
   const Vector3 expected = place(183);
   for (const int steps : {1, 2, 7}) EXPECT_LT((place(steps) - expected).norm(), 1e-6) << steps;
+}
+
+TEST(Player, PlaysAForcedClassToItsEndAndThenWhatThePolicySays) {
+  for (double wait = 0.05; wait < 1; wait += 0.07) {
+    Player player(Acts().character);
+    acts_of(player, {{kForward, wait}});
+    player.force(Acts::back);
+    EXPECT_EQ(acts_of(player, {{kForward, kStitch + 0.01}}).back(), Acts::back) << wait;
+    const std::vector<int> acts = acts_of(player, {{{}, 0.3}, {kForward, 0.3}, {kForward, 1}});
+    EXPECT_EQ(acts, (std::vector<int>{Acts::back, Acts::forward})) << wait;  // not left early for the standing
+  }
+}
+
+TEST(Player, ForcesAtTheSameTimeWhateverTheStep) {
+  const auto place = [](int steps) {
+    Player player(gait_character(), 2);
+    player.step(kForward, 1.03);
+    player.force(3);
+    for (int i = 0; i < steps; ++i) player.step(kForward, 1.003 / steps);
+    return player.root_position();
+  };
+  const Vector3 expected = place(101);
+  for (const int steps : {1, 2, 7, 1000}) EXPECT_LT((place(steps) - expected).norm(), 1e-6) << steps;
+}
+
+TEST(Player, ForcesAnyMemberOfAClass) {
+  const auto c = gait_character();
+  const auto members = c->classes.members();
+  const auto most = std::max_element(members.begin(), members.end(),
+                                     [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  std::vector<int> drawn;
+  Player player(c);
+  for (std::size_t i = 0; i < 30 * most->size(); ++i) {
+    player.force(static_cast<int>(most - members.begin()));
+    player.step({}, 0.2);
+    drawn.push_back(player.playing_fragment());
+  }
+  for (const int fragment : *most) EXPECT_TRUE(std::count(drawn.begin(), drawn.end(), fragment)) << fragment;
+}
+
+TEST(Player, ForcesNothingAfterAResetAndNoClassThatDoesNotExist) {
+  Player player(Acts().character);
+  player.force(Acts::jump);
+  player.reset();
+  EXPECT_EQ(acts_of(player, {{{}, 1}}), (std::vector<int>{Acts::stand}));
+  EXPECT_THROW(player.force(-1), std::invalid_argument);
+  EXPECT_THROW(player.force(4), std::invalid_argument);
 }
 
 TEST(Player, ShowsTheSameAfterAReset) {

@@ -12,8 +12,9 @@ constexpr double kBridgeDistance = 15;
 /// The stand-in-place rule (Sec. 3.3: "we insert a stand-in-place motion fragment between the two motion fragments when
 /// they are inappropriate to connect directly"): for every pair of classes the standing class that goes between, or -1.
 /// One does where the direct Dis is over `threshold` and both ways by the standing class are shorter; the one with the
-/// shortest sum is taken.
+/// shortest sum is taken. `allowed` [classes] says which classes may go between; empty: all.
 std::vector<int> stand_bridges(const FragmentPool& pool, const Trajectories& t, const Classes& classes,
-                               const ControlSpace& space, double threshold = kBridgeDistance);
+                               const ControlSpace& space, double threshold = kBridgeDistance,
+                               const std::vector<bool>& allowed = {});
 
 }  // namespace fragmotion

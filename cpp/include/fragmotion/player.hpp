@@ -54,6 +54,10 @@ class Player {
   /// unless the control is finite and `seconds` is 0 .. 3600.
   void step(const Control& control, double seconds);
 
+  /// Plays a member of this class, drawn at random, whatever the policy says: as soon as the stitch under way is done,
+  /// and to its end, from where the policy goes on. Throws std::invalid_argument on a class that does not exist.
+  void force(int next_class);
+
   const Vector3& root_position() const { return shown_.root; }
   /// [bones, 4] as in Clip.
   const std::vector<double>& rotations() const { return shown_.rotations; }
@@ -81,7 +85,8 @@ class Player {
   void sample(const Placed& placed, WorldPose& pose) const;
   void stitch(const Placed& old, double seconds);
   int draw(int next_class, const Control& control);
-  void start(int next_class, const Control& control);
+  void start(int next_class, int fragment);
+  void start_forced();
   bool changed(const Control& wanted) const;
   int decide(const Control& wanted);
   bool leaves_early(const Control& wanted) const;
@@ -109,7 +114,9 @@ class Player {
   double stitched_ = 0;  // s that the stitch under way lasts; 0: none
   double soonest_ = 0;   // s after which what plays may be left early
   int class_ = 0, from_ = 0;
-  int waiting_ = -1;  // the class that follows a stand-in-place fragment
+  int waiting_ = -1;   // the class that follows a stand-in-place fragment
+  int forced_ = -1;    // the class that force() asked for and that does not play yet
+  bool held_ = false;  // a forced fragment plays: it is not left early
   Control decided_for_;
   bool jump_pressed_ = false;
   bool jump_waits_ = false;            // pressed since the last decision that plays: a tap is not lost
