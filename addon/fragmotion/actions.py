@@ -59,6 +59,13 @@ def fitting(obj: bpy.types.Object) -> list[bpy.types.Action]:
     return [action for action in bpy.data.actions if fits_cached(action, obj)]
 
 
+def chosen(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Action | None:
+    """The Action that is chosen in the panel's list, or None where it does not fit the armature."""
+    index = context.window_manager.fragmotion.active_action
+    action = bpy.data.actions[index] if 0 <= index < len(bpy.data.actions) else None
+    return action if action is not None and fits_cached(action, obj) else None
+
+
 def forget() -> None:
     """Let go of what was found out about the file's Actions."""
     _cache.clear()

@@ -16,7 +16,7 @@ from .errors import SinglePose, UserError, core_errors
 from .jobs import Report
 from .movers import movers
 from .rigs import carriers, make_rig
-from .sampling import sample
+from .sampling import sample_parts
 from .skeletons import difference
 from .staleness import sources_of
 from .storing import keep_policy, key_of, read_policy
@@ -84,7 +84,7 @@ def _sample_all(
     clips, poses, warnings = [], [], []
     for action in takes:
         try:
-            clips.append(sample(context, obj, action, rig))
+            clips.extend(sample_parts(context, obj, action, rig))
         except SinglePose:
             poses.append(action.name)
             if len(poses) == len(takes):

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import bpy
 
-from . import building, panel_takes, versions
+from . import building, panel_left_out, panel_takes, versions
 from .actions import fits_cached, fitting
 from .drawing import draw_bake, draw_build, draw_coverage, draw_figures, draw_keeping, draw_training
 from .operators import build as build_operator
@@ -160,6 +160,7 @@ class FRAGMOTION_PT_bake(_Sidebar, bpy.types.Panel):
 CLASSES = (
     FRAGMOTION_UL_actions,
     FRAGMOTION_PT_mocap,
+    *panel_left_out.CLASSES,
     FRAGMOTION_PT_build,
     FRAGMOTION_PT_coverage,
     FRAGMOTION_PT_training,

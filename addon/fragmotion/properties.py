@@ -22,6 +22,7 @@ from bpy.props import (
 
 from .core import core
 from .coverage import COLUMNS
+from .left_out import FrameSpan
 from .takes import Take
 
 DRIVING = "DRIVING"
@@ -325,6 +326,7 @@ class ActionSettings(bpy.types.PropertyGroup):
     use: BoolProperty(  # type: ignore[valid-type]
         name="Learn from it", description="Build cuts fragments from the ticked Actions", default=False
     )
+    left_out: CollectionProperty(type=FrameSpan)  # type: ignore[valid-type]
 
 
 class WindowSettings(bpy.types.PropertyGroup):
@@ -335,6 +337,7 @@ class WindowSettings(bpy.types.PropertyGroup):
 
 CLASSES = (
     Take,
+    FrameSpan,
     BuildSettings,
     BakeSettings,
     PolicyFigure,

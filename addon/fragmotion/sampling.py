@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix, Quaternion, Vector
 
-from . import posing, versions
+from . import left_out, posing, versions
 from .actions import RATE, SCENE_RATE, animated_bones
 from .errors import SinglePose, UserError, core_errors
 from .keys import to_quaternions
@@ -36,7 +36,7 @@ def sample(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.
 
     A channel without keys or muted rests; the file is as before.
     """
-    curves = {(c.data_path, c.array_index): c for c in versions.curves_of(action, obj) if not versions.is_muted(c)}
+    curves = _playing_curves(obj, action)
     place = f"Action '{action.name}'"
     if not any(name in obj.data.bones for name in animated_bones(action, obj)):
         raise UserError(f"{place} animates no bone of armature '{obj.name}': it belongs to another rig")
@@ -51,6 +51,15 @@ def sample(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.
             return rig.clip_from_matrices(action.name, rate, matrices, worlds)
         locations, rotations = _sample_bones(obj, curves, times)
         return rig.clip(action.name, rate, locations, rotations, _sample_object(obj, curves, times))
+
+
+def sample_parts(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action, rig: Rig) -> list[Clip]:
+    """As `sample`, cut into parts around the frames that are left out of the Action."""
+    clip, spans = sample(context, obj, action, rig), left_out.spans_of(action)
+    if not spans:
+        return [clip]
+    _, times = frame_times(context.scene, action, _playing_curves(obj, action))
+    return left_out.cut(clip, rig.skeleton, times, spans)
 
 
 def scene_rate(scene: bpy.types.Scene) -> float:
@@ -72,6 +81,10 @@ def frame_times(scene: bpy.types.Scene, action: bpy.types.Action, curves: Curves
         ranges = [curve.range() for curve in curves.values()]
         first, last = min(r[0] for r in ranges), max(r[1] for r in ranges)
     return rate, first + step * np.arange(max(math.floor((last - first) / step + _SAME_FRAME), 0) + 1)
+
+
+def _playing_curves(obj: bpy.types.Object, action: bpy.types.Action) -> Curves:
+    return {(c.data_path, c.array_index): c for c in versions.curves_of(action, obj) if not versions.is_muted(c)}
 
 
 def _sample_bones(obj: bpy.types.Object, curves: Curves, times: Doubles) -> tuple[Doubles, Doubles]:

@@ -66,6 +66,7 @@ def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) ->
     panels = [cls for cls in addon.panel.CLASSES if issubclass(cls, bpy.types.Panel)]
     assert [panel.bl_label for panel in panels] == [
         "Mocap",
+        "Left Out",
         "Build",
         "Coverage",
         "Training",

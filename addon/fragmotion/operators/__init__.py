@@ -7,6 +7,7 @@ from . import takes
 from .bake import FRAGMOTION_OT_bake
 from .build import FRAGMOTION_OT_build, FRAGMOTION_OT_cancel_build
 from .import_mocap import FRAGMOTION_OT_import_mocap
+from .leave_out import FRAGMOTION_OT_leave_out, FRAGMOTION_OT_take_in
 from .load_policy import FRAGMOTION_OT_load_policy
 from .save_policy import FRAGMOTION_OT_save_policy
 from .tick_actions import FRAGMOTION_OT_tick_actions
@@ -14,6 +15,8 @@ from .tick_actions import FRAGMOTION_OT_tick_actions
 CLASSES = (
     FRAGMOTION_OT_import_mocap,
     FRAGMOTION_OT_tick_actions,
+    FRAGMOTION_OT_leave_out,
+    FRAGMOTION_OT_take_in,
     FRAGMOTION_OT_build,
     FRAGMOTION_OT_cancel_build,
     FRAGMOTION_OT_save_policy,
