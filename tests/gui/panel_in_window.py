@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import sys
 import threading
-import traceback
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
@@ -16,54 +15,14 @@ from typing import Any
 
 import bpy
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
 
 import making
+from window import FOLDER, TICK, open_tab, picture, press, run, send
 
-ZIP, FOLDER = sys.argv[sys.argv.index("--") + 1 :]
-TICK = 0.05  # s
 PATIENCE = 1200  # ticks that a build may take
 FIELDS = {"classes": 12, "seconds": 20.0}
-
-
-def view() -> dict[str, Any]:
-    """The 3D viewport, as an operator started by hand sees it."""
-    window = bpy.context.window_manager.windows[0]
-    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
-    return {"window": window, "area": area, "region": next(r for r in area.regions if r.type == "WINDOW")}
-
-
-def press(operator: Any, *mode: Any, **fields: Any) -> None:
-    """Start an operator as its button does."""
-    with bpy.context.temp_override(**view()):
-        print(operator.idname_py(), operator(*(mode or ("INVOKE_DEFAULT", True)), **fields))
-
-
-def picture(name: str) -> Iterator[None]:
-    """Let the panel be drawn, and take a picture of the window."""
-    for _ in range(4):
-        view()["area"].tag_redraw()
-        yield
-    with bpy.context.temp_override(**view()):
-        bpy.ops.screen.screenshot(filepath=f"{FOLDER}/{name}.png")
-
-
-def send(kind: str, value: str, x: int, y: int) -> Iterator[None]:
-    """One event of the mouse or the keyboard, handled before the next."""
-    view()["window"].event_simulate(type=kind, value=value, x=x, y=y)
-    yield
-
-
-def open_tab() -> Iterator[None]:
-    """Show the sidebar and click the lowest of its tabs, ours: the only one below those of a view without an object."""
-    view()["area"].spaces[0].show_region_ui = True
-    yield
-    yield
-    sidebar = next(region for region in view()["area"].regions if region.type == "UI")
-    x, y = sidebar.x + sidebar.width - 13, sidebar.y + sidebar.height - 145
-    for kind, value in (("MOUSEMOVE", "NOTHING"), ("LEFTMOUSE", "PRESS"), ("LEFTMOUSE", "RELEASE")):
-        yield from send(kind, value, x, y)
-    yield from send("MOUSEMOVE", "NOTHING", 300, 300)
 
 
 def hold_builds(core: Any) -> threading.Event:
@@ -174,22 +133,4 @@ def steps() -> Iterator[None]:
     print("SESSION PASSED")
 
 
-def tick() -> float | None:
-    """Go one step on; quit at the end."""
-    try:
-        next(session)
-    except StopIteration:
-        bpy.ops.wm.quit_blender()
-        return None
-    except BaseException:
-        traceback.print_exc()
-        bpy.ops.wm.quit_blender()
-        return None
-    return TICK
-
-
-bpy.context.preferences.view.show_splash = False
-bpy.ops.preferences.addon_install(filepath=ZIP)
-bpy.ops.preferences.addon_enable(module="fragmotion")
-session = steps()
-bpy.app.timers.register(tick, first_interval=1.0)
+run(steps())
