@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import bpy
 
-from . import actions, building, operators, panel, properties, staleness, storing
-from .operators import build
+from . import actions, building, coverage_picture, inspector, operators, panel, properties, staleness, storing
+from .operators import build, solo_class
 
 bl_info = {
     "name": "Fragmotion",
@@ -33,10 +33,13 @@ def register() -> None:
 def unregister() -> None:
     """Remove all that `register` added; a build that runs is stopped."""
     build.stop()
+    solo_class.stop()
     for part in (storing, staleness):
         part.unregister()
     properties.unregister()
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)
     building.forget()
+    inspector.forget()
+    coverage_picture.free()
     actions.forget()

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
+import numpy as np
 
-from . import actions
+from . import actions, classes
 from .core import core
 from .coverage import measure_coverage
 from .errors import SinglePose, UserError, core_errors
@@ -23,14 +24,14 @@ from .storing import keep_policy, key_of, read_policy
 from .traces import make_traces
 
 if TYPE_CHECKING:
-    from fragmotion_core import Character, Clip, Rig
+    from fragmotion_core import BuildOptions, Character, Clip, Doubles, Rig
 
 _EXAM_SECONDS = 60.0
 _EXAM_SEED = 7_001
 _EXAMINERS = ("explorer", "runner")
 _FROM_TAKES = ("captured", "mirrored")
 _BUILD_SHARE = 0.95  # of the progress; the exam has the rest
-_cache: dict[str, Character] = {}
+_cache: dict[tuple[str, tuple[int, ...]], Character] = {}  # by the policy's digest and the classes left out
 
 
 class Built(NamedTuple):
@@ -49,15 +50,31 @@ class Prepared(NamedTuple):
     warnings: list[str]
 
 
-def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Prepared:
-    """Sample the ticked Actions for a build; UserError on what cannot be built from."""
+class Material(NamedTuple):
+    """What a build has read of the file to learn from, and what the user should know of it."""
+
+    rig: Rig
+    clips: list[Clip]
+    traces: list[Doubles]
+    options: BuildOptions
+    warnings: list[str]
+
+
+def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Material:
+    """Sample the ticked Actions; UserError on what cannot be built from."""
     takes = _ticked(obj)
     context.view_layer.update()
     rig = make_rig(obj)
     carriers(obj, rig)
     traces = make_traces(obj, settings)
     clips, warnings = _sample_all(context, obj, takes, rig)
-    options, sources = make_options(settings), sources_of(obj)
+    return Material(rig, clips, traces, make_options(settings), warnings)
+
+
+def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Prepared:
+    """Sample the ticked Actions for a build; UserError on what cannot be built from."""
+    rig, clips, traces, options, warnings = gather(context, obj, settings)
+    sources = sources_of(obj)
     teacher = settings.player if settings.trace_source == "PLAYER" else ""
 
     def task(report: Report) -> Built:
@@ -125,8 +142,10 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
     character, figures = built.character, obj.fragmotion.figures
     data = character.to_bytes()
     keep_policy(obj, data)
+    obj.fragmotion.digest = key_of(obj)
     _cache.clear()
-    _cache[key_of(obj)] = character
+    _cache[obj.fragmotion.digest, ()] = character
+    classes.keep_rows(obj.fragmotion.classes, character)
     figures.captured = sum(origin in _FROM_TAKES for origin in character.fragment_origins)
     figures.fragments = len(character.labels)
     figures.classes, figures.controls = character.table.shape
@@ -141,6 +160,7 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
 
 
 def _keep_coverage(figures: Any, character: Character) -> None:
+    figures.distances = np.asarray(character.coverage_distances, np.float32).tobytes()
     figures.coverage.clear()
     for name, performed, total in measure_coverage(character.coverage_distances):
         row = figures.coverage.add()
@@ -172,8 +192,27 @@ def has_character(obj: bpy.types.Object) -> bool:
 
 
 def load(obj: bpy.types.Object) -> Character:
-    """The armature's character; decoded once for each content."""
-    key = key_of(obj)
+    """The armature's character as it drives: never sent to the classes that are left out. Made once for each choice."""
+    whole, excluded = load_whole(obj), classes.excluded(obj)
+    if not excluded:
+        return whole
+    key = (next(digest for digest, left in _cache if not left), excluded)
+    if key not in _cache:
+        with core_errors(f"Armature '{obj.name}'"):
+            left = whole.without(excluded)
+        forget()
+        _cache[key[0], ()], _cache[key] = whole, left
+    return _cache[key]
+
+
+def load_to_draw(obj: bpy.types.Object) -> Character:
+    """As `load`, quick enough for drawing: it takes Build's word for what the policy holds."""
+    return _cache.get((obj.fragmotion.digest, classes.excluded(obj))) or load(obj)
+
+
+def load_whole(obj: bpy.types.Object) -> Character:
+    """The armature's character with all its classes; decoded once for each content."""
+    key = (key_of(obj), ())
     if key not in _cache:
         data = read_policy(obj)
         with core_errors(f"The policy kept in armature '{obj.name}'"):

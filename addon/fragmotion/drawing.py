@@ -15,7 +15,9 @@ def draw_build(layout: bpy.types.UILayout, settings: BuildFields) -> None:
     """The fields of a build that are changed most."""
     layout = aligned(layout)
     layout.prop(settings, "longest", text="Longest")
-    layout.prop(settings, "classes")
+    row = layout.row(align=True)
+    row.prop(settings, "classes")
+    row.operator("fragmotion.suggest_classes", text="", icon="VIEWZOOM")
     column = layout.column(heading="Add")
     column.prop(settings, "mirror")
     column.prop(settings, "synthesize")

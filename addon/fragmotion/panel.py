@@ -7,8 +7,9 @@ from typing import ClassVar
 
 import bpy
 
-from . import building, panel_left_out, panel_takes, versions
+from . import building, panel_classes, panel_left_out, panel_takes, versions
 from .actions import fits_cached, fitting
+from .coverage_picture import draw_pictures
 from .drawing import draw_bake, draw_build, draw_coverage, draw_figures, draw_keeping, draw_training
 from .operators import build as build_operator
 from .operators.context import active_armature
@@ -125,7 +126,10 @@ class FRAGMOTION_PT_coverage(_Sidebar, bpy.types.Panel):
         return obj is not None and len(obj.fragmotion.figures.coverage) > 0 and build_operator.current is None
 
     def draw(self, context: bpy.types.Context) -> None:
-        draw_coverage(self.layout, active_armature(context).fragmotion.figures)
+        figures = active_armature(context).fragmotion.figures
+        if figures.distances:
+            draw_pictures(self.layout, figures.distances, context.region.width)
+        draw_coverage(self.layout, figures)
 
 
 class FRAGMOTION_PT_training(_Sidebar, bpy.types.Panel):
@@ -162,8 +166,10 @@ CLASSES = (
     FRAGMOTION_PT_mocap,
     *panel_left_out.CLASSES,
     FRAGMOTION_PT_build,
+    *panel_classes.BUILD_PANELS,
     FRAGMOTION_PT_coverage,
     FRAGMOTION_PT_training,
+    *panel_classes.CLASS_PANELS,
     *panel_takes.CLASSES,
     FRAGMOTION_PT_bake,
     *panel_takes.BAKE_CLASSES,

@@ -52,7 +52,7 @@ def sample_poses(
     matrices = np.empty((len(times), len(bones), 4, 4))
     worlds = np.empty((len(times), 4, 4))
     column_major = np.empty(16 * len(bones), np.float32)
-    with _playing(context, obj, action):
+    with playing(context, obj, action):
         for index, time in enumerate(times):
             _go_to(context.scene, time)
             posed = obj.evaluated_get(context.evaluated_depsgraph_get())
@@ -91,8 +91,8 @@ def set_pose(obj: bpy.types.Object, pose: Pose) -> None:
 
 
 @contextmanager
-def _playing(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action) -> Iterator[None]:
-    """The object plays the Action alone from a resting pose; afterwards everything is as it was."""
+def playing(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action | None) -> Iterator[None]:
+    """The object plays the Action (or none) alone from a resting pose; afterwards everything is as it was."""
     check_free(obj)
     had_data, played, frame = (
         obj.animation_data is not None,

@@ -20,9 +20,12 @@ from bpy.props import (
     StringProperty,
 )
 
+from .classes import ClassRow
 from .core import core
 from .coverage import COLUMNS
+from .inspector import InspectorSettings
 from .left_out import FrameSpan
+from .suggesting import NumberTried
 from .takes import Take
 
 DRIVING = "DRIVING"
@@ -300,6 +303,8 @@ class BuildFigures(bpy.types.PropertyGroup):
     policies: CollectionProperty(type=PolicyFigure)  # type: ignore[valid-type]
     performed: IntProperty()  # type: ignore[valid-type]
     coverage: CollectionProperty(type=CoverageFigure)  # type: ignore[valid-type]
+    distances: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
+    """[102] float32: ControlDis to the nearest fragment."""
 
 
 class CharacterSettings(bpy.types.PropertyGroup):
@@ -308,6 +313,8 @@ class CharacterSettings(bpy.types.PropertyGroup):
     build: PointerProperty(type=BuildSettings)  # type: ignore[valid-type]
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
+    classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]
+    tried: CollectionProperty(type=NumberTried)  # type: ignore[valid-type]
     policy: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     keep_policy: EnumProperty(  # type: ignore[valid-type]
         name="Keep Policy", description="Where the policy is kept from the next time that you save", items=_KEEPING
@@ -318,6 +325,8 @@ class CharacterSettings(bpy.types.PropertyGroup):
     policy_digest: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
     takes: CollectionProperty(type=Take)  # type: ignore[valid-type]
     active_take: IntProperty(name="Take", description="The take that is selected in the list")  # type: ignore[valid-type]
+    digest: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    """Of the policy's bytes, by which panels know it without reading it."""
 
 
 class ActionSettings(bpy.types.PropertyGroup):
@@ -333,11 +342,16 @@ class WindowSettings(bpy.types.PropertyGroup):
     """The window manager's `fragmotion`: what no file need remember."""
 
     active_action: IntProperty()  # type: ignore[valid-type]
+    active_class: IntProperty(min=0)  # type: ignore[valid-type]
+    inspector: PointerProperty(type=InspectorSettings)  # type: ignore[valid-type]
 
 
 CLASSES = (
+    ClassRow,
+    NumberTried,
     Take,
     FrameSpan,
+    InspectorSettings,
     BuildSettings,
     BakeSettings,
     PolicyFigure,

@@ -58,7 +58,7 @@ def write(
         if target.kind == "NLA":
             _add_strip(obj, action, target.first)
         else:
-            _keep_former(obj, action)
+            keep_former(obj, action)
             versions.assign(obj, action)
         _mark(context.scene, action, target, classes, settings.markers)
         if settings.fit_end:
@@ -93,7 +93,7 @@ def _check_writable(action: bpy.types.Action) -> None:
         raise UserError(f"Action '{action.name}' is a take that Build learns from: choose another name, or untick it")
 
 
-def _keep_former(obj: bpy.types.Object, action: bpy.types.Action) -> None:
+def keep_former(obj: bpy.types.Object, action: bpy.types.Action) -> None:
     """Save the Action that the armature played so far from being lost when nothing else uses it."""
     former, _ = versions.assignment(obj)
     if former not in (None, action) and former.users == 1 and former.library is None:

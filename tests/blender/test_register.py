@@ -51,13 +51,15 @@ def test_unregister_stops_a_build_with_its_thread_and_timer(addon: ModuleType, m
     assert not job.running and timers == [] and button.current is None
 
 
-def test_every_operator_has_a_tooltip_and_undoes_what_it_changes() -> None:
-    for name in dir(bpy.ops.fragmotion):
+def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleType) -> None:
+    own = [cls.bl_idname.partition(".")[2] for cls in addon.operators.CLASSES]
+    assert {"import_mocap", "build", "suggest_classes", "force_class", "leave_out", "bake"} <= set(own)
+    for name in own:
         operator = getattr(bpy.ops.fragmotion, name).get_rna_type()
         assert len(operator.description) > 20, name
         shown = [p for p in operator.properties if not (p.is_hidden or p.identifier == "rna_type")]
         assert all(p.description for p in shown), name
-        changes = name not in {"save_policy", "cancel_build", "export_take"}
+        changes = name not in {"save_policy", "cancel_build", "export_take", "solo_class", "force_class"}
         cls = getattr(bpy.types, f"FRAGMOTION_OT_{name}")
         assert ("UNDO" in cls.bl_options) == changes, name
 
@@ -65,14 +67,9 @@ def test_every_operator_has_a_tooltip_and_undoes_what_it_changes() -> None:
 def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) -> None:
     panels = [cls for cls in addon.panel.CLASSES if issubclass(cls, bpy.types.Panel)]
     assert [panel.bl_label for panel in panels] == [
-        "Mocap",
-        "Left Out",
-        "Build",
-        "Coverage",
-        "Training",
-        "Takes",
-        "Bake",
-        "Loop, Keys and Markers",
+        *("Mocap", "Left Out"),
+        *("Build", "Numbers Tried", "Coverage", "Training", "Classes", "Inspector"),
+        *("Takes", "Bake", "Loop, Keys and Markers"),
     ]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}
     assert {(panel.bl_space_type, panel.bl_region_type) for panel in panels} == {("VIEW_3D", "UI")}

@@ -6,10 +6,14 @@ from __future__ import annotations
 from . import takes
 from .bake import FRAGMOTION_OT_bake
 from .build import FRAGMOTION_OT_build, FRAGMOTION_OT_cancel_build
+from .force_class import FRAGMOTION_OT_force_class
 from .import_mocap import FRAGMOTION_OT_import_mocap
 from .leave_out import FRAGMOTION_OT_leave_out, FRAGMOTION_OT_take_in
 from .load_policy import FRAGMOTION_OT_load_policy
 from .save_policy import FRAGMOTION_OT_save_policy
+from .show_fragment import FRAGMOTION_OT_show_fragment
+from .solo_class import FRAGMOTION_OT_solo_class
+from .suggest import FRAGMOTION_OT_suggest_classes
 from .tick_actions import FRAGMOTION_OT_tick_actions
 
 CLASSES = (
@@ -17,10 +21,14 @@ CLASSES = (
     FRAGMOTION_OT_tick_actions,
     FRAGMOTION_OT_leave_out,
     FRAGMOTION_OT_take_in,
+    FRAGMOTION_OT_suggest_classes,
     FRAGMOTION_OT_build,
     FRAGMOTION_OT_cancel_build,
     FRAGMOTION_OT_save_policy,
     FRAGMOTION_OT_load_policy,
     *takes.CLASSES,
+    FRAGMOTION_OT_solo_class,
+    FRAGMOTION_OT_force_class,
+    FRAGMOTION_OT_show_fragment,
     FRAGMOTION_OT_bake,
 )

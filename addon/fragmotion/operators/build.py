@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import bpy
 
@@ -22,32 +22,20 @@ current: Job | None = None
 _timer: bpy.types.Timer | None = None  # wakes the modal operator while a build runs in the background
 
 
-class FRAGMOTION_OT_build(BuildFields, bpy.types.Operator):
-    """Build in the background; to its end at once where there is no window, and when executed."""
+class Background:
+    """An operator of one job, `current` while it runs: in the background, or at once where there is no window."""
 
-    bl_idname = "fragmotion.build"
-    bl_label = "Build"
-    bl_description = (
-        "Cut the ticked Actions into fragments, cluster them and find the policy: what to play next for each control. "
-        "Blender stays usable meanwhile; Esc or Cancel stops it"
-    )
-    bl_options: ClassVar[set[str]] = {"UNDO"}
+    verb: ClassVar[str]
+    report: Any
+    _armature: str
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        if not poll_armature(cls, context):
-            return False
-        obj = active_armature(context)
-        takes = fitting(obj)
-        if current is not None:
-            cls.poll_message_set("A build is running")
-        elif takes and not any(action.fragmotion.use for action in takes):
-            cls.poll_message_set("No Action is ticked: tick the takes to learn from, under Mocap")
-        elif not takes and not any(action.fragmotion.use for action in bpy.data.actions):
-            cls.poll_message_set(f"Armature '{obj.name}' has no Actions to learn from: import mocap first")
-        else:
-            return True
-        return False
+    def _prepare(self, context: bpy.types.Context) -> Job:
+        """Make the job, and set `_armature` to the name of the object that it is for."""
+        raise NotImplementedError
+
+    def _keep(self, obj: bpy.types.Object, result: Any) -> None:
+        """Keep what the job returned with the armature, and report it."""
+        raise NotImplementedError
 
     @reported
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
@@ -89,34 +77,18 @@ class FRAGMOTION_OT_build(BuildFields, bpy.types.Operator):
         """Blender ends the operator: another file is loaded, or Blender quits."""
         stop()
 
-    def _prepare(self, context: bpy.types.Context) -> Job:
-        obj = active_armature(context)
-        adopt_settings(self, obj.fragmotion.build, BuildFields)
-        task, self._warnings = building.prepare(context, obj, self)
-        job = Job(f"Building '{obj.name}'", task)
-        self._armature = obj.name
-        return job
-
     def _finish(self, job: Job) -> set[str]:
-        """Keep the character, or say why there is none."""
+        """Keep the result, or say why there is none."""
         try:
-            with core_errors("Build"):
-                built = job.result()
+            with core_errors(self.verb):
+                result = job.result()
         except core.Cancelled:
-            self.report({"WARNING"}, "Build was cancelled; nothing has changed")
+            self.report({"WARNING"}, f"{self.verb} was cancelled; nothing has changed")
             return {"CANCELLED"}
         obj = bpy.data.objects.get(self._armature)
         if obj is None:
-            raise UserError(f"Armature '{self._armature}' was deleted or renamed while it was built")
-        building.keep(obj, built)
-        figures = obj.fragmotion.figures
-        self.report(
-            {"INFO"},
-            f"{figures.fragments} fragments in {figures.classes} classes, built in {figures.seconds:.1f} s; "
-            f"quality {figures.quality:.0f} % of Optimal",
-        )
-        for warning in self._warnings:
-            self.report({"WARNING"}, warning)
+            raise UserError(f"Armature '{self._armature}' was deleted or renamed meanwhile")
+        self._keep(obj, result)
         return {"FINISHED"}
 
     def _show(self, context: bpy.types.Context) -> None:
@@ -128,6 +100,58 @@ class FRAGMOTION_OT_build(BuildFields, bpy.types.Operator):
         _set_current(None)
         _stop_timer()
         self._show(context)
+
+
+def poll_build(cls: Any, context: bpy.types.Context) -> bool:
+    """Whether there is something to build from and no build is running; says why not."""
+    if not poll_armature(cls, context):
+        return False
+    obj = active_armature(context)
+    takes = fitting(obj)
+    if current is not None:
+        cls.poll_message_set("A build is running")
+    elif takes and not any(action.fragmotion.use for action in takes):
+        cls.poll_message_set("No Action is ticked: tick the takes to learn from, under Mocap")
+    elif not takes and not any(action.fragmotion.use for action in bpy.data.actions):
+        cls.poll_message_set(f"Armature '{obj.name}' has no Actions to learn from: import mocap first")
+    else:
+        return True
+    return False
+
+
+class FRAGMOTION_OT_build(BuildFields, Background, bpy.types.Operator):
+    """Build in the background; to its end at once where there is no window, and when executed."""
+
+    bl_idname = "fragmotion.build"
+    bl_label = "Build"
+    bl_description = (
+        "Cut the ticked Actions into fragments, cluster them and find the policy: what to play next for each control. "
+        "Blender stays usable meanwhile; Esc or Cancel stops it"
+    )
+    bl_options: ClassVar[set[str]] = {"UNDO"}
+    verb = "Build"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return poll_build(cls, context)
+
+    def _prepare(self, context: bpy.types.Context) -> Job:
+        obj = active_armature(context)
+        adopt_settings(self, obj.fragmotion.build, BuildFields)
+        task, self._warnings = building.prepare(context, obj, self)
+        self._armature = obj.name
+        return Job(f"Building '{obj.name}'", task)
+
+    def _keep(self, obj: bpy.types.Object, built: building.Built) -> None:
+        building.keep(obj, built)
+        figures = obj.fragmotion.figures
+        self.report(
+            {"INFO"},
+            f"{figures.fragments} fragments in {figures.classes} classes, built in {figures.seconds:.1f} s; "
+            f"quality {figures.quality:.0f} % of Optimal",
+        )
+        for warning in self._warnings:
+            self.report({"WARNING"}, warning)
 
 
 class FRAGMOTION_OT_cancel_build(bpy.types.Operator):

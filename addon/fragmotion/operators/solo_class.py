@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Preview one class in the viewport."""
+
+from __future__ import annotations
+
+import time
+from typing import ClassVar
+
+import bpy
+
+from .. import classes
+from ..errors import reported
+from ..solo import Solo
+from . import build
+from .context import active_armature
+from .force_class import poll_class
+
+_RATE = 60  # steps a second
+_LONGEST = 0.25  # s that a step makes up for
+_NAVIGATION = ("MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "MIDDLEMOUSE", "WHEEL", "TRACKPAD", "NUMPAD", "TIMER", "WINDOW")
+current: Solo | None = None
+"""The preview that runs now; the panel shows it."""
+
+_timer: bpy.types.Timer | None = None
+
+
+class FRAGMOTION_OT_solo_class(bpy.types.Operator):
+    """Play the chosen class alone, fragment after fragment"""
+
+    bl_idname = "fragmotion.solo_class"
+    bl_label = "Preview Class"
+    bl_description = (
+        "Play the fragments of the chosen class on the armature, one after another, from where it stands. Esc or a "
+        "click stops, and armature and scene are as before"
+    )
+    bl_options: ClassVar[set[str]] = {"REGISTER"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if not poll_class(cls, context):
+            return False
+        running = build.current is not None or classes.session is not None
+        if bpy.app.background:
+            cls.poll_message_set("There is no window to play in")
+        elif running:
+            cls.poll_message_set("Stop the build or the drive that is running first")
+        return not (bpy.app.background or running or current)
+
+    @reported
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        global current, _timer
+        number = context.window_manager.fragmotion.active_class
+        current = Solo(context, active_armature(context), number)
+        _timer = context.window_manager.event_timer_add(1 / _RATE, window=context.window)
+        self._before = time.perf_counter()
+        context.window_manager.modal_handler_add(self)
+        context.workspace.status_text_set("Preview of a class: Esc or a click stops it")
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if current is None:
+            return {"CANCELLED"}
+        if event.value == "PRESS" and event.type in {"ESC", "LEFTMOUSE", "RIGHTMOUSE", "RET", "SPACE"}:
+            stop()
+            return {"FINISHED"}
+        if event.type == "TIMER":
+            now = time.perf_counter()
+            current.step(min(now - self._before, _LONGEST))
+            self._before = now
+        return {"PASS_THROUGH"} if event.type.startswith(_NAVIGATION) else {"RUNNING_MODAL"}
+
+    def cancel(self, _context: bpy.types.Context) -> None:
+        """Blender ends the operator: another file is loaded, or Blender quits."""
+        stop()
+
+
+def stop() -> None:
+    """End the preview that is running, and let nothing of it stay."""
+    global current, _timer
+    if _timer is not None:
+        bpy.context.window_manager.event_timer_remove(_timer)
+        bpy.context.workspace.status_text_set(None)
+    solo, current, _timer = current, None, None
+    if solo is not None:
+        solo.end()

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panels of the classes: which there are, why one is chosen, and how many to build."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import bpy
+
+from . import classes, inspector
+from .errors import UserError
+from .operators import build as build_operator
+from .operators import solo_class
+from .operators.context import active_armature
+
+_ROWS = 7
+_WIDE = 260  # pixels of a sidebar that has room for a sketch of the control beside each name
+
+
+class _SubPanel:
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Fragmotion"
+    bl_parent_id = "FRAGMOTION_PT_build"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+
+def _has_classes(context: bpy.types.Context) -> bool:
+    obj = active_armature(context)
+    return obj is not None and len(obj.fragmotion.classes) > 0 and build_operator.current is None
+
+
+class FRAGMOTION_UL_classes(bpy.types.UIList):
+    """The classes: name, control where there is room, number of fragments, and whether each is left out."""
+
+    bl_idname = "FRAGMOTION_UL_classes"
+
+    def draw_item(
+        self,
+        context: bpy.types.Context,
+        layout: bpy.types.UILayout,
+        _data: object,
+        item: Any,
+        _icon: int,
+        _active_data: object,
+        _active_name: str,
+        _index: int,
+    ) -> None:
+        wide = context.region.width > _WIDE * context.preferences.system.ui_scale
+        row = layout.row(align=True)
+        split = row.split(factor=0.6 if wide else 0.8, align=True)
+        split.active = not item.excluded
+        split.prop(item, "name", text="", emboss=False)
+        if wide:
+            split = split.split(factor=0.7, align=True)
+            split.label(text=item.sketch, translate=False)
+        count = split.row()
+        count.alignment = "RIGHT"
+        count.label(text=str(item.fragments))
+        row.prop(item, "excluded", text="", icon="HIDE_ON" if item.excluded else "HIDE_OFF", emboss=False)
+
+
+class FRAGMOTION_PT_classes(_SubPanel, bpy.types.Panel):
+    """What the character can do, class by class."""
+
+    bl_idname = "FRAGMOTION_PT_classes"
+    bl_label = "Classes"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return _has_classes(context)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, obj = self.layout, active_armature(context)
+        settings, rows = context.window_manager.fragmotion, obj.fragmotion.classes
+        layout.template_list(
+            "FRAGMOTION_UL_classes", "", obj.fragmotion, "classes", settings, "active_class", rows=_ROWS
+        )
+        left_out = len(classes.excluded(obj))
+        if left_out:
+            layout.label(text=f"{left_out} of {len(rows)} left out", icon="HIDE_ON")
+        if settings.active_class < len(rows):
+            _draw_class(layout, settings.active_class, rows[settings.active_class])
+        row = layout.row(align=True)
+        if solo_class.current is not None:
+            row.label(text="Previewing: Esc or a click stops", icon="PLAY")
+        else:
+            row.operator("fragmotion.solo_class", text="Preview", icon="PLAY")
+        row.operator("fragmotion.force_class", icon="FORWARD").number = -1
+
+
+def _draw_class(layout: bpy.types.UILayout, number: int, row: Any) -> None:
+    column = layout.column(align=True)
+    plural = "s" if row.fragments != 1 else ""
+    column.label(text=f"Class {number}: {row.fragments} fragment{plural}")
+    for part in row.described.split(", "):
+        column.label(text=part, icon="BLANK1")
+
+
+class FRAGMOTION_PT_inspector(_SubPanel, bpy.types.Panel):
+    """Why the policy plays what it plays."""
+
+    bl_idname = "FRAGMOTION_PT_inspector"
+    bl_label = "Inspector"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return _has_classes(context)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, obj = self.layout, active_armature(context)
+        manager = context.window_manager.fragmotion
+        try:
+            playing, control, live = inspector.decision(obj, manager.inspector, manager.active_class)
+            lines = inspector.explain(obj, playing, control)
+        except UserError as error:
+            layout.label(text=str(error), icon="ERROR")
+            return
+        if classes.driven(obj) is not None:
+            layout.prop(manager.inspector, "follow")
+        if not live:
+            _draw_control(layout, manager.inspector)
+        layout.label(text=f"After '{obj.fragmotion.classes[playing].name}':", translate=False)
+        _draw_heads(layout)
+        for index, line in enumerate(lines):
+            _draw_alternative(layout, manager.inspector, index, line)
+
+
+def _draw_control(layout: bpy.types.UILayout, settings: Any) -> None:
+    column = layout.column()
+    column.use_property_split = True
+    column.use_property_decorate = False
+    column.prop(settings, "velocity")
+    column.row().prop(settings, "turn", expand=True)
+    column.prop(settings, "jump")
+
+
+def _draw_heads(layout: bpy.types.UILayout) -> None:
+    row = layout.row(align=True)
+    for head in ("Smooth", "Match", "To come"):
+        row.label(text=head)
+
+
+def _draw_alternative(layout: bpy.types.UILayout, settings: Any, index: int, line: inspector.Line) -> None:
+    """A class that might come next: its name and value, what they are made of, and its nearest fragments."""
+    column = layout.box().column(align=True)
+    head = column.split(factor=0.82)
+    head.label(text=line.name, icon="RADIOBUT_ON" if line.chosen else "RADIOBUT_OFF", translate=False)
+    value = head.row()
+    value.alignment = "RIGHT"
+    value.label(text=f"{line.value:.2f}")
+    bars = column.row(align=True)
+    for name in ("smoothness", "match", "to_come"):
+        bars.prop(settings, name, index=index, text="", slider=True)
+    for fragment in line.fragments if line.chosen else line.fragments[:1]:
+        _draw_fragment(column, fragment)
+
+
+def _draw_fragment(layout: bpy.types.UILayout, fragment: inspector.FragmentShown) -> None:
+    if not fragment.action:
+        layout.label(text=fragment.text, icon="BLANK1", translate=False)
+        return
+    row = layout.row()
+    row.alignment = "LEFT"
+    icon = "MOD_MIRROR" if fragment.mirrored else "ACTION"
+    show = row.operator("fragmotion.show_fragment", text=fragment.text, icon=icon, emboss=False, translate=False)
+    show.action, show.frame = fragment.action, fragment.frame
+
+
+class FRAGMOTION_PT_tried(_SubPanel, bpy.types.Panel):
+    """What the numbers of classes that Suggest tried were good for."""
+
+    bl_idname = "FRAGMOTION_PT_tried"
+    bl_label = "Numbers Tried"
+    bl_options: ClassVar[set[str]] = set()
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        obj = active_armature(context)
+        return obj is not None and len(obj.fragmotion.tried) > 0 and build_operator.current is None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = active_armature(context).fragmotion
+        column = self.layout.column(align=True)
+        column.label(text="Velocity error, of speed:")
+        _draw_tried(column, "Classes", "Error", "Quality", True)
+        for row in settings.tried:
+            error = f"{100 * row.velocity_error:.1f} %"
+            _draw_tried(column, str(row.classes), error, f"{row.quality:.3f}", row.classes == settings.build.classes)
+
+
+def _draw_tried(layout: bpy.types.UILayout, number: str, error: str, quality: str, bright: bool) -> None:
+    row = layout.row(align=True)
+    row.active = bright
+    for text in (number, error, quality):
+        row.label(text=text)
+
+
+BUILD_PANELS = (FRAGMOTION_PT_tried,)
+CLASS_PANELS = (FRAGMOTION_UL_classes, FRAGMOTION_PT_classes, FRAGMOTION_PT_inspector)

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One class alone on its armature: fragment after fragment, each drawn at random and stitched on."""
+
+from __future__ import annotations
+
+import math
+from contextlib import ExitStack
+from typing import TYPE_CHECKING
+
+import bpy
+
+from . import building, posing
+from .baking import check_skeleton
+from .core import core
+from .rigs import make_rig
+from .writing import from_quaternions
+
+if TYPE_CHECKING:
+    from fragmotion_core import Doubles
+
+_STAND = (0.0, 0.0, 0.0, 0.0)
+_FURTHEST = 3.0  # m that a character of 1.8 m goes before it begins again where the armature stood
+_INSTANT = 1e-6  # s
+
+
+class Solo:
+    """Plays a class from where the armature stands until `end`, which puts armature and scene back."""
+
+    def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, number: int) -> None:
+        character = building.load_whole(obj)
+        context.view_layer.update()
+        self._rig, self._obj, self._number = make_rig(obj), obj, number
+        check_skeleton(obj, character, self._rig)
+        place = obj.matrix_world
+        self._place = (place.translation.x, place.translation.y, place.to_euler().z + math.pi)
+        self._reach = _FURTHEST / character.space.scale
+        self._durations = character.fragment_durations
+        self._player = core.Player(character)
+        self._begin()
+        self._stack = ExitStack()
+        self._stack.enter_context(posing.playing(context, obj, None))
+
+    @property
+    def playing(self) -> tuple[int, int]:
+        """The class and the fragment that play."""
+        number, fragment = self._player.playing
+        return int(number), int(fragment)
+
+    def step(self, seconds: float) -> None:
+        """Play on and pose the armature."""
+        while seconds > self._left:
+            self._player.step(_STAND, self._left)
+            seconds -= self._left
+            self._next()
+        root, rotations = self._player.step(_STAND, seconds)
+        self._left -= seconds
+        self._pose(*self._rig.channels(root[None], rotations[None]))
+        if math.dist(root[:2], self._place[:2]) > self._reach:
+            self._begin()
+
+    def end(self) -> None:
+        """Put armature and scene back."""
+        self._stack.close()
+
+    def _begin(self) -> None:
+        self._player.reset(*self._place)
+        self._next()
+
+    def _next(self) -> None:
+        """Go over to another fragment of the class; it is left just before its end, where the policy would choose."""
+        self._player.force(self._number)
+        self._player.step(_STAND, _INSTANT)
+        self._left = float(self._durations[self.playing[1]]) - 2 * _INSTANT
+
+    def _pose(self, locations: Doubles, rotations: Doubles) -> None:
+        for index, bone in enumerate(self._obj.data.bones):
+            posed = self._obj.pose.bones[bone.name]
+            channel, values = from_quaternions(posed.rotation_mode, rotations[:, index])
+            posed.location = locations[0, index]
+            setattr(posed, channel, values[0])
