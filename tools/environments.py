@@ -11,10 +11,11 @@ from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
-from tools.paths import BUILD, LIBSVM
+from tools.paths import BUILD, LIBSVM, SDL
 from tools.shell import Failure, run, say
 
 _LIBSVM = "libsvm-official==3.37.0"
+_SDL = ("PySDL2==0.9.17", "pysdl2-dll==2.32.0")
 _PIP = ("-m", "pip", "--disable-pip-version-check", "--retries", "5", "--timeout", "60")
 
 
@@ -100,3 +101,17 @@ def ensure_libsvm() -> None:
             if source:
                 (LIBSVM / name).write_bytes(source.read())
     stamp.write_text(f"{_LIBSVM}\n")
+
+
+def ensure_sdl() -> None:
+    """Put the wheels of SDL for this machine, which the add-on brings along, into build/sdl."""
+    stamp = SDL / "requirements.txt"
+    wanted = "".join(f"{line}\n" for line in _SDL)
+    if stamp.exists() and stamp.read_text() == wanted:
+        return
+    say(f"set-up: {' '.join(_SDL)}")
+    shutil.rmtree(SDL, ignore_errors=True)
+    SDL.mkdir(parents=True)
+    options = ("--no-deps", "--only-binary", ":all:", "--dest", str(SDL))
+    run([environment_python("3.11"), *_PIP, "download", *options, *_SDL], "pip-sdl")
+    stamp.write_text(wanted)

@@ -103,5 +103,6 @@ def set_up(needs: Needs) -> None:
 def _set_up_python_311(needs: Needs) -> None:
     environments.ensure("3.11", needs.requirements["3.11"])
     environments.ensure_libsvm()
+    environments.ensure_sdl()
     if needs.pytest_folder:
         environments.ensure_folder(PYTEST_FOLDER, "3.11", "pytest")

@@ -13,10 +13,11 @@ from pathlib import Path
 from tools import environments
 from tools.compiling import build_wheel
 from tools.machine import package_pythons
-from tools.paths import ADDON, BUILD, PACKAGES, TOP, version
+from tools.paths import ADDON, BUILD, PACKAGES, SDL, TOP, version
 from tools.shell import Failure, run
 
 _MANIFEST = "blender_manifest.toml"
+_SDL_FILES = re.compile(r"sdl2/\w+\.py$|sdl2dll/dll/libSDL2-2")
 _BLENDER_MACHINES = {"x86_64": "x64", "aarch64": "arm64"}
 
 
@@ -51,6 +52,7 @@ def pythons_inside(package: Path) -> list[str]:
 def build_extension(wheels: list[Path]) -> Path:
     """Zip the add-on with its manifest and wheels, and let Blender's own tool validate it if a bpy is here."""
     folder = _staged_addon("extension")
+    wheels = [*wheels, *sdl_wheels()]
     (folder / "wheels").mkdir()
     for path in wheels:
         shutil.copy(path, folder / "wheels")
@@ -62,14 +64,27 @@ def build_extension(wheels: list[Path]) -> Path:
 
 
 def build_legacy(wheel_311: Path) -> Path:
-    """Zip the add-on as the folder `fragmotion`, the compiled core of the Python 3.11 wheel inside."""
+    """Zip the add-on as the folder `fragmotion`, the compiled core of the Python 3.11 wheel and SDL inside."""
     folder = _staged_addon("legacy")
     (folder / _MANIFEST).unlink()
     with zipfile.ZipFile(wheel_311) as archive:
         for name in archive.namelist():
             if name.endswith(".so"):
                 archive.extract(name, folder)
+    for path in sdl_wheels():
+        _unpack_sdl(path, folder)
     return _zip(folder, legacy_path(), prefix="fragmotion/")
+
+
+def sdl_wheels() -> list[Path]:
+    """The wheels of SDL and of its Python module."""
+    return sorted(SDL.glob("*.whl"))
+
+
+def _unpack_sdl(path: Path, folder: Path) -> None:
+    """Take the Python module and the library out of a wheel of SDL; the pads need none of the rest."""
+    with zipfile.ZipFile(path) as archive:
+        archive.extractall(folder, [name for name in archive.namelist() if _SDL_FILES.match(name)])
 
 
 def _staged_addon(name: str) -> Path:

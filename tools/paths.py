@@ -12,6 +12,7 @@ LOGS = BUILD / "logs"
 ADDON = TOP / "addon" / "fragmotion"
 PACKAGES = BUILD / "packages"
 LIBSVM = BUILD / "libsvm"
+SDL = BUILD / "sdl"
 BLENDER = Path("/usr/bin/blender")  # Debian's: 3.4.1, which runs the system's Python 3.11
 
 
