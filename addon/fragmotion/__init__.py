@@ -5,7 +5,21 @@ from __future__ import annotations
 
 import bpy
 
-from . import actions, building, coverage_picture, inspector, operators, panel, properties, staleness, storing
+from . import (
+    actions,
+    building,
+    coverage_picture,
+    inspector,
+    keymaps,
+    menus,
+    operators,
+    panel,
+    preferences,
+    properties,
+    staleness,
+    storing,
+)
+from .drive import handlers, session
 from .operators import build, solo_class
 
 bl_info = {
@@ -18,7 +32,7 @@ bl_info = {
     "category": "Animation",
 }
 
-_CLASSES = (*properties.CLASSES, *operators.CLASSES, *panel.CLASSES)
+_CLASSES = (preferences.FragmotionPreferences, *properties.CLASSES, *operators.CLASSES, *panel.CLASSES)
 
 
 def register() -> None:
@@ -26,15 +40,16 @@ def register() -> None:
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
     properties.register()
-    for part in (staleness, storing):
+    for part in (staleness, storing, keymaps, menus, handlers):
         part.register()
 
 
 def unregister() -> None:
-    """Remove all that `register` added; a build that runs is stopped."""
+    """Remove all that `register` added; a build or a drive that runs is stopped."""
     build.stop()
     solo_class.stop()
-    for part in (storing, staleness):
+    session.stop()
+    for part in (handlers, menus, keymaps, storing, staleness):
         part.unregister()
     properties.unregister()
     for cls in reversed(_CLASSES):

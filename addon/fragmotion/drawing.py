@@ -7,7 +7,7 @@ import bpy
 
 from . import versions
 from .coverage import COLUMNS
-from .properties import POLICY_NAMES, BakeFields, BuildFields, BuildFigures
+from .properties import POLICY_NAMES, BakeFields, BuildFields, BuildFigures, DriveSettings
 from .storing import BESIDE, troubles
 
 
@@ -122,7 +122,7 @@ def _draw_row(layout: bpy.types.UILayout, label: str, value: str) -> None:
     row.label(text=value)
 
 
-def draw_trace(layout: bpy.types.UILayout, settings: BuildFields | BakeFields, label: str) -> None:
+def draw_trace(layout: bpy.types.UILayout, settings: BuildFields | BakeFields | DriveSettings, label: str) -> None:
     """Where a trace comes from."""
     layout.prop(settings, "trace_source", text=label)
     if settings.trace_source == "FILE":

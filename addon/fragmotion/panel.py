@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import bpy
 
-from . import building, panel_classes, panel_left_out, panel_takes, versions
+from . import building, panel_classes, panel_drive, panel_left_out, panel_takes, versions
 from .actions import fits_cached, fitting
 from .coverage_picture import draw_pictures
 from .drawing import draw_bake, draw_build, draw_coverage, draw_figures, draw_keeping, draw_training
@@ -170,6 +170,7 @@ CLASSES = (
     FRAGMOTION_PT_coverage,
     FRAGMOTION_PT_training,
     *panel_classes.CLASS_PANELS,
+    *panel_drive.CLASSES,
     *panel_takes.CLASSES,
     FRAGMOTION_PT_bake,
     *panel_takes.BAKE_CLASSES,

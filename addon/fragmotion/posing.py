@@ -25,6 +25,8 @@ _REST = {
     "rotation_axis_angle": (0, 0, 1, 0),
     "scale": (1, 1, 1),
 }
+CHANNELS = tuple(_REST)
+"""What poses a bone, or an object."""
 _BEYOND_KEYS = ("scale", "rotation_mode", "delta_location", "delta_rotation_euler", "delta_rotation_quaternion")
 
 
@@ -62,7 +64,7 @@ def sample_poses(
     return matrices, worlds
 
 
-def reset_pose(obj: bpy.types.Object, channels: Iterable[str] = tuple(_REST)) -> None:
+def reset_pose(obj: bpy.types.Object, channels: Iterable[str] = CHANNELS) -> None:
     """Let these channels of all the armature's bones rest."""
     for channel in channels:
         obj.pose.bones.foreach_set(channel, np.tile(np.array(_REST[channel], np.float32), len(obj.pose.bones)))
@@ -78,13 +80,13 @@ class Pose(NamedTuple):
 
 def pose_of(obj: bpy.types.Object) -> Pose:
     """The channels as they are set now."""
-    bones = {channel: _get_channel(obj, channel) for channel in _REST}
-    return Pose(bones, {channel: tuple(getattr(obj, channel)) for channel in _REST})
+    bones = {channel: get_channel(obj, channel) for channel in CHANNELS}
+    return Pose(bones, {channel: tuple(getattr(obj, channel)) for channel in CHANNELS})
 
 
 def set_pose(obj: bpy.types.Object, pose: Pose) -> None:
     """Set what `pose_of` told."""
-    for channel in _REST:
+    for channel in CHANNELS:
         obj.pose.bones.foreach_set(channel, pose.bones[channel])
         setattr(obj, channel, pose.place[channel])
     obj.update_tag()
@@ -123,7 +125,8 @@ def check_free(obj: bpy.types.Object) -> None:
         raise UserError(f"Armature '{obj.name}' is in the NLA's tweak mode: leave it first (Tab in the NLA editor)")
 
 
-def _get_channel(obj: bpy.types.Object, channel: str) -> NDArray[np.float32]:
+def get_channel(obj: bpy.types.Object, channel: str) -> NDArray[np.float32]:
+    """A channel of all the armature's bones, flat."""
     values = np.empty(len(_REST[channel]) * len(obj.pose.bones), np.float32)
     obj.pose.bones.foreach_get(channel, values)
     return values

@@ -39,6 +39,16 @@ _SOURCES = (
 _TAKES = ("TAKES", "Takes", "The ticked takes of the Takes panel")
 _TAKE = ("TAKE", "Take", "The take that is selected in the Takes panel")
 _HABITS = tuple((name, name.title(), f"A simulated player with the habits of a {name}") for name in core.PLAYERS)
+_RELATIVE = (
+    (
+        "VIEW",
+        "By View",
+        "Up on the stick is away from you. The character turns to where the stick points and goes there, on the spot "
+        "first where that is behind it. While you turn it yourself, or if its takes hold no good turns, it goes there "
+        "at once, sidewards or backwards if need be",
+    ),
+    ("CHARACTER", "By Character", "Up on the stick is where the character faces. It turns only as you turn it"),
+)
 _CUTS = (
     ("gait", "At Footsteps", "Cut where a foot strikes the ground; by windows where the armature has no feet"),
     ("windows", "By Windows", "Cut into windows of equal length, whatever the feet do"),
@@ -276,6 +286,60 @@ class BakeSettings(BakeFields, bpy.types.PropertyGroup):
     """The panel's settings of Bake."""
 
 
+class DriveSettings(TraceFields, bpy.types.PropertyGroup):
+    """The panel's settings of Drive."""
+
+    relative: EnumProperty(  # type: ignore[valid-type]
+        name="Stick", description="What the direction of the stick is relative to", items=_RELATIVE, default="VIEW"
+    )
+    seed: IntProperty(  # type: ignore[valid-type]
+        name="Seed",
+        description="Draws which fragment of a class plays: the same controls and the same seed, the same motion",
+        default=1,
+        min=0,
+    )
+    follow: BoolProperty(  # type: ignore[valid-type]
+        name="Follow", description="Move the view with the character; it goes back when the drive ends", default=True
+    )
+    show_velocity: BoolProperty(  # type: ignore[valid-type]
+        name="Velocity",
+        description="Arrows on the ground, half a second long: the velocity asked for (blue), the character's (orange)",
+        default=True,
+    )
+    show_path: BoolProperty(  # type: ignore[valid-type]
+        name="Path", description="The way that the character went", default=True
+    )
+    show_ideal: BoolProperty(  # type: ignore[valid-type]
+        name="Ideal Path",
+        description="The way of a ghost that does just what the controls say, since the drive or the recording began",
+        default=True,
+    )
+    show_feet: BoolProperty(  # type: ignore[valid-type]
+        name="Feet", description="Discs under the feet that stand on the ground", default=True
+    )
+    show_figures: BoolProperty(  # type: ignore[valid-type]
+        name="Figures",
+        description="Class, control, rest of the fragment, quality, response time and updates a second",
+        default=True,
+    )
+    show_stick: BoolProperty(  # type: ignore[valid-type]
+        name="On-Screen Stick",
+        description="A stick in the corner of the view, to be dragged with the mouse",
+        default=True,
+    )
+    player: EnumProperty(  # type: ignore[valid-type]
+        name="Player", description="Whose habits the trace has", items=_HABITS, default="walker"
+    )
+    seconds: FloatProperty(  # type: ignore[valid-type]
+        name="Length",
+        description="How long the simulated player plays, in seconds",
+        default=20.0,
+        min=0.5,
+        max=3600.0,
+        unit="TIME_ABSOLUTE",
+    )
+
+
 class PolicyFigure(bpy.types.PropertyGroup):
     """How one policy did, by its `name`."""
 
@@ -312,6 +376,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
 
     build: PointerProperty(type=BuildSettings)  # type: ignore[valid-type]
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
+    drive: PointerProperty(type=DriveSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]
     tried: CollectionProperty(type=NumberTried)  # type: ignore[valid-type]
@@ -354,6 +419,7 @@ CLASSES = (
     InspectorSettings,
     BuildSettings,
     BakeSettings,
+    DriveSettings,
     PolicyFigure,
     CoverageFigure,
     BuildFigures,

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+import blf
 import bpy
 
 SLOTTED = bpy.app.version >= (4, 4, 0)
@@ -69,8 +70,20 @@ def restore(obj: bpy.types.Object, played: tuple[bpy.types.Action | None, Any]) 
     if data is None:
         return
     data.action = action
-    if slot is not None:
+    if SLOTTED and action is not None:
         data.action_slot = slot
+
+
+def slot_handle(obj: bpy.types.Object) -> int:
+    """The number of the slot that the object plays, 0 for none; it stays the same in saved files."""
+    _, slot = assignment(obj)
+    return 0 if slot is None else int(slot.handle)
+
+
+def find_slot(action: bpy.types.Action | None, handle: int) -> Any:
+    """The Action's slot of that number, or None."""
+    slots = action.slots if SLOTTED and action is not None else ()
+    return next((slot for slot in slots if slot.handle == handle), None)
 
 
 def holder_for(action: bpy.types.Action, obj: bpy.types.Object) -> Any:
@@ -94,6 +107,24 @@ def new_curve(holder: Any, path: str, index: int, group: str) -> bpy.types.FCurv
     return curve
 
 
+def get_bone_selection(obj: bpy.types.Object) -> dict[str, tuple[bool, bool, bool]]:
+    """Which bones are selected: from 5.0 the pose bones are, before the armature's (with their ends)."""
+    if bpy.app.version >= (5, 0, 0):
+        return {bone.name: (bone.select, False, False) for bone in obj.pose.bones}
+    return {bone.name: (bone.select, bone.select_head, bone.select_tail) for bone in obj.data.bones}
+
+
+def set_bone_selection(obj: bpy.types.Object, selection: dict[str, tuple[bool, bool, bool]]) -> None:
+    """Select the bones as `get_bone_selection` told."""
+    bones = obj.pose.bones if bpy.app.version >= (5, 0, 0) else obj.data.bones
+    for name, (select, head, tail) in selection.items():
+        if name not in bones:
+            continue
+        bones[name].select = select
+        if bpy.app.version < (5, 0, 0):
+            bones[name].select_head, bones[name].select_tail = head, tail
+
+
 def draw_named(layout: bpy.types.UILayout, data: Any, name: str, placeholder: str) -> None:
     """A text field that says what it means while it is empty (from 4.1)."""
     if bpy.app.version >= (4, 1, 0):
@@ -108,6 +139,27 @@ def draw_progress(layout: bpy.types.UILayout, fraction: float, text: str) -> Non
         layout.progress(factor=fraction, text=text)
     else:
         layout.label(text=f"{text}: {100 * fraction:.0f} %", icon="SORTTIME")
+
+
+def draw_deflection(layout: bpy.types.UILayout, value: float) -> None:
+    """A value from -1 to 1 as a bar; as a number before 4.0."""
+    if hasattr(layout, "progress"):
+        layout.progress(factor=(value + 1) / 2, text=f"{value:+.2f}")
+    else:
+        layout.label(text=f"{value:+.2f}")
+
+
+def shader(name: str) -> str:
+    """What gpu.shader.from_builtin calls a shader for points in space: before 4.0 their names began with "3D_"."""
+    return name if bpy.app.version >= (4, 0, 0) else f"3D_{name}"
+
+
+def set_font_size(font: int, size: float) -> None:
+    """The height of blf's letters in pixels; up to 3.6 it asked for the dots in an inch as well."""
+    if bpy.app.version >= (4, 0, 0):
+        blf.size(font, size)
+    else:
+        blf.size(font, size, 72)
 
 
 def _bags(action: bpy.types.Action) -> Iterator[Any]:

@@ -15,12 +15,26 @@ def _registered() -> set[str]:
     classes = {name for name in dir(bpy.types) if "fragmotion" in name.lower()}
     operators = {name for name in dir(bpy.ops.fragmotion)}
     owners = (bpy.types.Object, bpy.types.Action, bpy.types.WindowManager, bpy.types.Scene)
-    return classes | operators | {owner.__name__ for owner in owners if hasattr(owner, "fragmotion")}
+    handlers = {
+        f"{name}: {handler.__module__}"
+        for name in dir(bpy.app.handlers)
+        if isinstance(listeners := getattr(bpy.app.handlers, name), list)
+        for handler in listeners
+        if "fragmotion" in handler.__module__
+    }
+    menus = {
+        f"{name}: {draw.__module__}"
+        for name in ("VIEW3D_MT_object_animation", "VIEW3D_MT_pose")
+        for draw in getattr(bpy.types, name)._dyn_ui_initialize()
+        if "fragmotion" in draw.__module__
+    }
+    return classes | operators | handlers | menus | {o.__name__ for o in owners if hasattr(o, "fragmotion")}
 
 
 def test_unregister_leaves_nothing_and_register_brings_it_back(addon: ModuleType) -> None:
     before = _registered()
     assert {"FRAGMOTION_PT_build", "FRAGMOTION_OT_bake", "import_mocap", "Object", "Action"} <= before
+    assert any(name.startswith("undo_pre: ") for name in before) and any("VIEW3D_MT_pose" in name for name in before)
     addon.unregister()
     try:
         assert _registered() == set()
@@ -54,14 +68,15 @@ def test_unregister_stops_a_build_with_its_thread_and_timer(addon: ModuleType, m
 def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleType) -> None:
     own = [cls.bl_idname.partition(".")[2] for cls in addon.operators.CLASSES]
     assert {"import_mocap", "build", "suggest_classes", "force_class", "leave_out", "bake"} <= set(own)
+    unchanging = {"save_policy", "cancel_build", "export_take", "solo_class", "force_class"}
+    unchanging |= {"drive", "record", "play_trace", "find_pads"}
     for name in own:
         operator = getattr(bpy.ops.fragmotion, name).get_rna_type()
         assert len(operator.description) > 20, name
         shown = [p for p in operator.properties if not (p.is_hidden or p.identifier == "rna_type")]
         assert all(p.description for p in shown), name
-        changes = name not in {"save_policy", "cancel_build", "export_take", "solo_class", "force_class"}
         cls = getattr(bpy.types, f"FRAGMOTION_OT_{name}")
-        assert ("UNDO" in cls.bl_options) == changes, name
+        assert ("UNDO" in cls.bl_options) == (name not in unchanging), name
 
 
 def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) -> None:
@@ -69,6 +84,7 @@ def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) ->
     assert [panel.bl_label for panel in panels] == [
         *("Mocap", "Left Out"),
         *("Build", "Numbers Tried", "Coverage", "Training", "Classes", "Inspector"),
+        *("Drive", "Gamepads", "Overlays", "Trace"),
         *("Takes", "Bake", "Loop, Keys and Markers"),
     ]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}

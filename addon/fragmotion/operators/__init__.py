@@ -6,6 +6,7 @@ from __future__ import annotations
 from . import takes
 from .bake import FRAGMOTION_OT_bake
 from .build import FRAGMOTION_OT_build, FRAGMOTION_OT_cancel_build
+from .drive import FRAGMOTION_OT_drive, FRAGMOTION_OT_find_pads, FRAGMOTION_OT_play_trace, FRAGMOTION_OT_record
 from .force_class import FRAGMOTION_OT_force_class
 from .import_mocap import FRAGMOTION_OT_import_mocap
 from .leave_out import FRAGMOTION_OT_leave_out, FRAGMOTION_OT_take_in
@@ -30,5 +31,9 @@ CLASSES = (
     FRAGMOTION_OT_solo_class,
     FRAGMOTION_OT_force_class,
     FRAGMOTION_OT_show_fragment,
+    FRAGMOTION_OT_drive,
+    FRAGMOTION_OT_record,
+    FRAGMOTION_OT_play_trace,
+    FRAGMOTION_OT_find_pads,
     FRAGMOTION_OT_bake,
 )

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The armature's own pose and animation, put aside while it is driven and given back exactly.
+
+They are noted on the object itself: what undo or autosave keep of the middle of a drive can be healed.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from .. import versions
+from ..posing import CHANNELS, get_channel, reset_pose
+
+NOTE = "fragmotion_put_aside"
+"""Custom property of an armature object that is being driven."""
+
+
+def put_aside(obj: bpy.types.Object) -> None:
+    """Free the armature for poses written as quaternions; nothing else moves it but drivers and constraints."""
+    obj[NOTE] = _note(obj)
+    if obj.animation_data is not None:
+        obj.animation_data.use_nla = False
+        obj.animation_data.action = None
+    obj.data.pose_position = "POSE"
+    for bone in obj.pose.bones:
+        bone.rotation_mode = "QUATERNION"
+    reset_pose(obj)
+
+
+def give_back(obj: bpy.types.Object) -> None:
+    """Undo `put_aside`: Action, slot, NLA, pose, rotation modes and the object's place are as they were."""
+    note = obj[NOTE]
+    data = obj.animation_data
+    if data is not None:
+        action = note.get("action")
+        versions.restore(obj, (action, versions.find_slot(action, note["slot"])))
+        data.use_nla = bool(note["use_nla"])
+    obj.data.pose_position = note["pose_position"]
+    for name, mode in note["modes"].items():
+        if name in obj.pose.bones:
+            obj.pose.bones[name].rotation_mode = mode
+    bpy.context.view_layer.update()  # the Action's own pose, over which the user's stands
+    for channel in CHANNELS:
+        setattr(obj, channel, list(note["place"][channel]))
+        _pose(obj, note, channel)
+    del obj[NOTE]
+    obj.update_tag()
+    bpy.context.view_layer.update()
+
+
+def heal() -> None:
+    """Give back what was put aside in a file or an undo step that was made in the middle of a drive."""
+    for obj in bpy.data.objects:
+        if NOTE in obj and obj.library is None:
+            give_back(obj)
+
+
+def _note(obj: bpy.types.Object) -> dict[str, Any]:
+    data = obj.animation_data
+    note = {
+        "use_nla": data is not None and data.use_nla,
+        "slot": versions.slot_handle(obj),
+        "pose_position": obj.data.pose_position,
+        "modes": {bone.name: bone.rotation_mode for bone in obj.pose.bones},
+        "pose": {channel: get_channel(obj, channel).tolist() for channel in CHANNELS},
+        "place": {channel: list(getattr(obj, channel)) for channel in CHANNELS},
+    }
+    if data is not None and data.action is not None:
+        note["action"] = data.action
+    return note
+
+
+def _pose(obj: bpy.types.Object, note: Any, channel: str) -> None:
+    """Give one channel back to the bones that are still there."""
+    names, values = list(note["modes"].keys()), note["pose"][channel]
+    size = len(values) // len(names)
+    for index, name in enumerate(names):
+        if name in obj.pose.bones:
+            setattr(obj.pose.bones[name], channel, list(values[size * index : size * (index + 1)]))

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All that a user can drive with, in one place."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .arbiter import Arbiter
+from .keyboard import Keyboard
+from .pads import Pad, Pads
+from .screen_stick import ScreenStick
+from .sdl import SdlMissing
+from .steering import REST, Intent
+from .tracing import TraceInput
+
+
+class Inputs:
+    """Keyboard, on-screen stick, trace and the pads that are connected. Open until `close`."""
+
+    def __init__(self, preferences: Any, rate: int) -> None:
+        self.keyboard, self.stick, self.trace = Keyboard(preferences.keys()), ScreenStick(), TraceInput(rate)
+        self._arbiter = Arbiter((self.keyboard, self.stick, self.trace))
+        self._pads: Pads | None = None
+        self._record_pressed = False
+        self.shown = REST
+        """The last intent, for drawing."""
+        self.messages: list[str] = []
+        """What the user should be told; who tells it clears it."""
+        try:
+            self._pads = Pads(preferences)
+        except SdlMissing as missing:
+            self.messages.append(str(missing))
+
+    def poll(self) -> bool:
+        """Look at the pads; say whether a record button has gone down."""
+        if self._pads is None:
+            return False
+        come, gone = self._pads.poll()
+        for pad in come:
+            self._arbiter.add(pad)
+        for pad in gone:
+            drove = self._arbiter.current is pad
+            self._arbiter.remove(pad)
+            self.messages.append(f"{pad.label} is gone{': the character stands' if drove else ''}")
+        pressed = any(pad.state.record for pad in self._pads.pads)
+        self._record_pressed, before = pressed, self._record_pressed
+        return pressed and not before
+
+    def intent(self) -> Intent:
+        """What the input says that was touched last."""
+        self.shown = self._arbiter.intent()
+        return self.shown
+
+    def play(self, trace: Any) -> None:
+        """Let a trace [T,4] drive, until it ends or another input is touched."""
+        self.trace.play(trace)
+        self._arbiter.take(self.trace)
+
+    @property
+    def label(self) -> str:
+        """The input that drives, in words."""
+        return "" if self._arbiter.current is None else self._arbiter.current.label
+
+    @property
+    def pads(self) -> list[Pad]:
+        """The pads that are connected."""
+        return [] if self._pads is None else self._pads.pads
+
+    def close(self) -> None:
+        """Let go of the pads and of SDL."""
+        if self._pads is not None:
+            self._pads.close()
+        self._pads = None

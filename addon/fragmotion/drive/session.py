@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A drive: from the inputs to the armature's pose, and back to how everything was."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from .. import classes, preferences
+from ..takes import add_take
+from . import aside, overlays, views
+from .actor import Actor
+from .follow import FollowCamera
+from .inputs import Inputs
+from .readings import Readings
+from .recording import Recording
+from .scene_state import SceneState
+from .steering import Control, Steering, view_heading
+
+if TYPE_CHECKING:
+    from fragmotion_core import Doubles
+
+RATE = 60
+"""Steps a second. All are equally long, so that a recorded trace shows the same motion when it is replayed."""
+
+_HICCUP = 0.1  # s; a longer pause does not make the character leap
+_SMOOTH = 0.05  # share of the newest in a running mean
+
+current: Session | None = None
+"""The drive that is under way; the panel shows it."""
+
+_timer: bpy.types.Timer | None = None  # wakes the modal operator that updates the drive
+
+
+class Session:
+    """An armature is driven from construction until `close`. UserError where it cannot be; then nothing has changed."""
+
+    def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, seed: int | None, policy: str) -> None:
+        context.view_layer.update()
+        self.obj, self.armature = obj, obj.name
+        self.control = Control()
+        self.seed = self.settings.seed if seed is None else seed
+        self.actor = Actor(obj, self.seed, policy)
+        self.views, self._follow = views.Views(context.area), FollowCamera()
+        self._state = SceneState(context, obj)
+        space = self.actor.space
+        self._steering = Steering(space, self.actor.turns_well(space.walk), self.actor.turns_well(space.run))
+        self.readings = Readings(self.actor, RATE)
+        self.recording: Recording | None = None
+        self._elapsed, self._steps = 0.0, 0
+        self.cost = self.interval = 0.0
+        """Our own time for an update and the time between updates, s; running means."""
+        aside.put_aside(obj)
+        self.inputs = Inputs(preferences.get(context), RATE)
+
+    @property
+    def player(self) -> Any:
+        """What plays: the core's Player where the armature has a character."""
+        return self.actor.player
+
+    @property
+    def settings(self) -> Any:
+        """The armature's, asked for anew each time: Blender frees them with it."""
+        return self.obj.fragmotion.drive
+
+    def update(self, seconds: float) -> None:
+        """Go on by the time since the last update: read the inputs, step, and pose the armature."""
+        begin = time.perf_counter()
+        if aside.NOTE not in self.obj:  # given back for a save
+            aside.put_aside(self.obj)
+        if self.inputs.poll():
+            self.toggle_recording()
+        self._elapsed += min(seconds, _HICCUP)
+        due = round(self._elapsed * RATE) - self._steps
+        pose = None
+        for _ in range(due):
+            pose = self._step()
+        if pose is None:
+            return
+        self.actor.show(*pose)
+        self._follow_actor(due / RATE)
+        self.cost = _running(self.cost, time.perf_counter() - begin)
+        self.interval = _running(self.interval, seconds)
+
+    def _step(self) -> tuple[Doubles, Doubles]:
+        control = self.control = self._control()
+        pose = self.actor.step(control, 1 / RATE)
+        self.inputs.trace.advance()
+        self.readings.step(control, pose, self.settings.show_feet)
+        self._steps += 1
+        return pose
+
+    def _control(self) -> Control:
+        by_view = self.settings.relative == "VIEW"
+        view = view_heading(self.views.rotation()) if by_view else None
+        control = self._steering.control(self.inputs.intent(), self.actor.frame[2], view)
+        return control if self.recording is None else self.recording.hold(control, RATE)
+
+    def _follow_actor(self, seconds: float) -> None:
+        area = self.views.main()
+        if self.settings.follow and area is not None:
+            self._follow.step(area.spaces.active.region_3d, self.actor.frame[:2], seconds)
+
+    def play(self, trace: Doubles, start: tuple[float, float, float] | None = None) -> None:
+        """Let a trace [T,4] drive until it ends or another input is touched, from a character frame if one is given."""
+        if start is not None:
+            self.actor.player.reset(*start)
+            self.readings = Readings(self.actor, RATE)
+        self.inputs.play(trace)
+
+    def toggle_recording(self) -> None:
+        """Begin a take, from standing as its replay does; or end it and keep it with the armature, an undo step."""
+        if self.recording is None:
+            self.actor.start_afresh()
+            self.recording = Recording(self.actor.frame)
+            self.readings = Readings(self.actor, RATE)
+        elif self._keep_recording():
+            bpy.ops.ed.undo_push(message="Record")
+
+    def _keep_recording(self) -> bool:
+        """End the recording; whether there is a take of it."""
+        recording, self.recording = self.recording, None
+        if recording is None or not len(recording.trace):
+            return False
+        judge = self.readings.judge
+        take = add_take(
+            self.obj,
+            recording.trace,
+            seed=self.seed,
+            policy=self.actor.policy,
+            start=recording.start,
+            quality=judge.mean if judge else 0.0,
+        )
+        self.inputs.messages.append(f"Recorded '{take.name}': {recording.seconds:.1f} s")
+        return True
+
+    def trouble(self) -> str:
+        """Why the drive cannot go on, empty where it can."""
+        try:
+            if self.obj.name not in self._state.objects:
+                return f"Armature '{self.armature}' is not in the scene any more"
+            if bpy.context.scene != self._state.scene:
+                return "Another scene is shown"
+            if self.obj.mode not in {"OBJECT", "POSE"}:
+                return f"Armature '{self.armature}' is being edited"
+        except ReferenceError:
+            return f"Armature '{self.armature}' was deleted"
+        return ""
+
+    def give_back(self) -> None:
+        """Let the armature have its own pose and animation until the next update: the file is saved."""
+        aside.give_back(self.obj)
+
+    def close(self) -> bool:
+        """Let go of the inputs and give everything back; whether a take was kept that no undo step holds yet.
+
+        What was deleted meanwhile, or belongs to a file that is gone, stays as it is.
+        """
+        self.inputs.close()
+        self._follow.release(views.all_views())
+        try:
+            kept = self._keep_recording()
+            self._state.restore()  # first the frame: Blender poses the armature anew where it changes
+            if aside.NOTE in self.obj:
+                aside.give_back(self.obj)
+        except ReferenceError:
+            return False
+        return kept
+
+
+def _running(mean: float, value: float) -> float:
+    return value if mean == 0 else mean + _SMOOTH * (value - mean)
+
+
+def start(context: bpy.types.Context, obj: bpy.types.Object, seed: int | None = None, policy: str = "") -> Session:
+    """Begin a drive, by default with the panel's seed and the policy that drives; the one that is under way ends."""
+    global current
+    stop()
+    current = Session(context, obj, seed, policy)
+    classes.session = current if current.actor.character else None
+    overlays.add(current)
+    return current
+
+
+def wake(context: bpy.types.Context) -> None:
+    """Send the window's modal operators as many timer events as there are steps, until the drive stops."""
+    global _timer
+    _timer = context.window_manager.event_timer_add(1 / RATE, window=context.window)
+
+
+def stop(push: bool = True) -> None:
+    """End the drive that is under way, if any. A take that it was recording becomes an undo step, if that may be."""
+    global current, _timer
+    session, current = current, None
+    classes.session = None
+    if session is None:
+        return
+    if _timer is not None:
+        bpy.context.window_manager.event_timer_remove(_timer)
+    _timer = None
+    overlays.remove()
+    if session.close() and push:
+        bpy.ops.ed.undo_push(message="Record")
+    views.tag_redraw()
+    views.tag_redraw("UI")

@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Drive the active armature in the viewport."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from typing import Any, ClassVar
+
+import bpy
+
+from .. import preferences
+from ..drive import session, views
+from ..drive.pads import Pads
+from ..drive.sdl import SdlMissing
+from ..errors import UserError, core_errors, reported
+from ..movers import movers
+from ..traces import make_trace
+from . import build
+from .context import active_armature, poll_armature
+
+_PANEL_INTERVAL = 0.2  # s between drawings of the sidebar, which holds the pads
+seen_pads: list[str] = []
+"""The gamepads that the last Find Gamepads found."""
+
+
+class FRAGMOTION_OT_drive(bpy.types.Operator):
+    """A modal operator that lets through what it does not use; pressed again it ends the drive."""
+
+    bl_idname = "fragmotion.drive"
+    bl_label = "Drive Character"
+    bl_description = (
+        "Drive the armature live with a gamepad, the keyboard, the on-screen stick or a trace; the last one touched "
+        "drives. Esc or the button ends it, and everything is as it was before. Before Build, the body only slides"
+    )
+    bl_options: ClassVar[set[str]] = set()
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if session.current is not None:
+            return True
+        if build.current is not None:
+            cls.poll_message_set("A build is running")
+            return False
+        if not poll_armature(cls, context):
+            return False
+        if bpy.app.background:
+            cls.poll_message_set("Driving needs a window")
+        return not bpy.app.background
+
+    @reported
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        if session.current is not None:
+            session.stop()
+            return {"FINISHED"}
+        obj = active_armature(context)
+        self._session = session.start(context, obj)
+        session.wake(context)
+        self._time = self._drawn = time.perf_counter()
+        context.window_manager.modal_handler_add(self)
+        self._warn(obj)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if session.current is not self._session:  # it was ended elsewhere
+            return {"CANCELLED"}
+        try:
+            return self._handle(context, event)
+        except Exception as error:  # a drive must never leave the armature half way
+            traceback.print_exc()
+            session.stop()
+            self.report({"ERROR"}, f"The drive has ended: {error}")
+            return {"CANCELLED"}
+
+    def cancel(self, _context: bpy.types.Context) -> None:
+        """Blender ends the operator: its window is closed, another file is loaded, or Blender quits."""
+        session.stop()
+
+    def _handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type == "TIMER":
+            return self._update()
+        if event.type == "ESC" and event.value == "PRESS":
+            session.stop()
+            return {"FINISHED"}
+        used = _hear(self._session, context, event)
+        return {"RUNNING_MODAL"} if used else {"PASS_THROUGH"}
+
+    def _update(self) -> set[str]:
+        trouble = self._session.trouble()
+        if trouble:
+            session.stop()
+            self.report({"WARNING"}, f"The drive has ended: {trouble}")
+            return {"CANCELLED"}
+        now = time.perf_counter()
+        with core_errors("Drive"):
+            self._session.update(now - self._time)
+        self._time = now
+        self._tell()
+        views.tag_redraw()
+        if now - self._drawn > _PANEL_INTERVAL:
+            views.tag_redraw("UI")
+            self._drawn = now
+        return {"PASS_THROUGH"}
+
+    def _tell(self) -> None:
+        for message in self._session.inputs.messages:
+            self.report({"INFO"}, message)
+        self._session.inputs.messages.clear()
+
+    def _warn(self, obj: bpy.types.Object) -> None:
+        others = movers(obj)
+        if others:
+            self.report({"WARNING"}, f"The pose will differ from the character's because of {'; '.join(others)}")
+
+
+def _hear(driven: session.Session, context: bpy.types.Context, event: bpy.types.Event) -> bool:
+    """Give an event to the inputs; whether they used it up."""
+    inputs = driven.inputs
+    if event.type == "WINDOW_DEACTIVATE":
+        inputs.keyboard.release()
+        inputs.stick.release()
+        return False
+    if event.type in {"MOUSEMOVE", "LEFTMOUSE"}:
+        return _hear_mouse(driven, event)
+    if event.value == "RELEASE":
+        inputs.keyboard.let_go(event.type)
+        return False
+    action = inputs.keyboard.action_of(event.type)
+    if action is None or event.value != "PRESS" or not _is_for_view(event):
+        return False
+    if action == "record":
+        if not event.is_repeat:
+            driven.toggle_recording()
+    else:
+        inputs.keyboard.press(event.type)
+    return True
+
+
+def _is_for_view(event: bpy.types.Event) -> bool:
+    """Whether a key is pressed over a 3D view, and is no shortcut."""
+    if event.ctrl or event.alt or event.oskey:
+        return False
+    return any(_is_inside(area, event) for area in views.all_areas())
+
+
+def _is_inside(part: Any, event: bpy.types.Event) -> bool:
+    """Whether the mouse is over an area or a region."""
+    across, up = event.mouse_x - part.x, event.mouse_y - part.y
+    return bool(0 <= across < part.width and 0 <= up < part.height)
+
+
+def _hear_mouse(driven: session.Session, event: bpy.types.Event) -> bool:
+    """Drag the on-screen stick; whether the mouse has hold of it."""
+    stick, area = driven.inputs.stick, driven.views.main()
+    if area is None or not driven.settings.show_stick:
+        return False
+    region = views.window_region(area)
+    x, y = event.mouse_x - region.x, event.mouse_y - region.y
+    if event.type == "LEFTMOUSE" and event.value == "PRESS":
+        return _is_inside(area, event) and stick.press(x, y)
+    if not stick.held:
+        return False
+    if event.type == "MOUSEMOVE":
+        stick.drag(x, y)
+    else:
+        stick.release()
+    return True
+
+
+class FRAGMOTION_OT_record(bpy.types.Operator):
+    """Start a take, or end it and keep it."""
+
+    bl_idname = "fragmotion.record"
+    bl_label = "Record"
+    bl_description = (
+        "Record what you do, 10 controls a second, as a take of the armature. The take begins where the character "
+        "stands now; press again to end it and keep it"
+    )
+    bl_options: ClassVar[set[str]] = set()
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        if session.current is None:
+            cls.poll_message_set("Nothing is driven: press Drive first")
+        return session.current is not None
+
+    @reported
+    def execute(self, _context: bpy.types.Context) -> set[str]:
+        if session.current is not None:
+            session.current.toggle_recording()
+        return {"FINISHED"}
+
+
+class FRAGMOTION_OT_play_trace(bpy.types.Operator):
+    """Let a trace drive."""
+
+    bl_idname = "fragmotion.play_trace"
+    bl_label = "Play Trace"
+    bl_description = "Let a trace drive until it ends, or until you touch another input"
+    bl_options: ClassVar[set[str]] = set()
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        if session.current is None:
+            cls.poll_message_set("Nothing is driven: press Drive first")
+        return session.current is not None
+
+    @reported
+    def execute(self, _context: bpy.types.Context) -> set[str]:
+        driven = session.current
+        if driven is None:
+            raise UserError("Nothing is driven: press Drive first")
+        driven.play(make_trace(driven.settings, driven.actor.space))
+        return {"FINISHED"}
+
+
+class FRAGMOTION_OT_find_pads(bpy.types.Operator):
+    """Look which gamepads are connected."""
+
+    bl_idname = "fragmotion.find_pads"
+    bl_label = "Find Gamepads"
+    bl_description = "List the gamepads that are connected. While you drive, the list and the sticks are live"
+    bl_options: ClassVar[set[str]] = {"INTERNAL"}
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            pads = Pads(preferences.get(context))
+        except SdlMissing as missing:
+            raise UserError(str(missing)) from missing
+        pads.poll()
+        seen_pads[:] = [pad.label for pad in pads.pads]
+        pads.close()
+        self.report({"INFO"}, f"Gamepads: {', '.join(seen_pads) or 'none found'}")
+        return {"FINISHED"}

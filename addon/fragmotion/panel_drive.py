@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Drive panel of the sidebar, with its sub-panels."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import bpy
+
+from . import versions
+from .drawing import aligned, draw_trace
+from .drive import session
+from .drive.pads import PadState
+from .operators import drive as drive_operator
+from .operators.context import active_armature
+
+
+def _armature(context: bpy.types.Context) -> Any:
+    """The armature that is driven, else the active one, if any."""
+    driven = session.current
+    return active_armature(context) if driven is None or driven.trouble() else driven.obj
+
+
+class _Sidebar:
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Fragmotion"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return _armature(context) is not None
+
+
+class FRAGMOTION_PT_drive(_Sidebar, bpy.types.Panel):
+    """One large button, and what drives."""
+
+    bl_idname = "FRAGMOTION_PT_drive"
+    bl_label = "Drive"
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        return True
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, driven, obj = self.layout, session.current, _armature(context)
+        row = layout.row()
+        row.scale_y = 1.6
+        if driven is None:
+            row.operator("fragmotion.drive", text="Drive", icon="PLAY")
+        else:
+            row.operator("fragmotion.drive", text="Stop", icon="SNAP_FACE")
+            row.operator(
+                "fragmotion.record",
+                text="Record" if driven.recording is None else f"End Take ({driven.recording.seconds:.0f} s)",
+                icon="REC" if driven.recording is None else "CHECKMARK",
+                depress=driven.recording is not None,
+            )
+            layout.label(text=f"Input: {driven.inputs.label or 'none touched yet'}")
+        if obj is not None:
+            layout.row().prop(obj.fragmotion.drive, "relative", expand=True)
+            layout.prop(obj.fragmotion.drive, "follow")
+
+
+class FRAGMOTION_PT_drive_pads(_Sidebar, bpy.types.Panel):
+    """The gamepads that are connected, and how their sticks stand."""
+
+    bl_idname = "FRAGMOTION_PT_drive_pads"
+    bl_label = "Gamepads"
+    bl_parent_id = "FRAGMOTION_PT_drive"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        layout, driven = self.layout, session.current
+        if driven is None:
+            for name in drive_operator.seen_pads:
+                layout.label(text=name, icon="CHECKMARK", translate=False)
+            if not drive_operator.seen_pads:
+                layout.label(text="None found yet", icon="INFO")
+            layout.operator("fragmotion.find_pads", icon="FILE_REFRESH")
+            return
+        for pad in driven.inputs.pads:
+            _draw_pad(layout.box().column(align=True), pad.label, pad.state)
+        if not driven.inputs.pads:
+            layout.label(text="None: connect one at any time", icon="INFO")
+
+
+class FRAGMOTION_PT_drive_overlays(_Sidebar, bpy.types.Panel):
+    """What is drawn over the view."""
+
+    bl_idname = "FRAGMOTION_PT_drive_overlays"
+    bl_label = "Overlays"
+    bl_parent_id = "FRAGMOTION_PT_drive"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = _armature(context).fragmotion.drive
+        grid = self.layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+        for name in ("show_velocity", "show_path", "show_ideal", "show_feet", "show_figures", "show_stick"):
+            grid.prop(settings, name)
+
+
+class FRAGMOTION_PT_drive_trace(_Sidebar, bpy.types.Panel):
+    """A trace as an input."""
+
+    bl_idname = "FRAGMOTION_PT_drive_trace"
+    bl_label = "Trace"
+    bl_parent_id = "FRAGMOTION_PT_drive"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = _armature(context).fragmotion.drive
+        column = aligned(self.layout)
+        draw_trace(column, settings, "Trace")
+        column.prop(settings, "seed")
+        self.layout.operator("fragmotion.play_trace", icon="PLAY")
+
+
+def _draw_pad(layout: bpy.types.UILayout, label: str, state: PadState) -> None:
+    """A pad's name, its sticks and its buttons."""
+    layout.label(text=label, translate=False)
+    for name, (x, y) in (("Left", state.left), ("Right", state.right)):
+        row = layout.split(factor=0.2, align=True)
+        row.label(text=name)
+        values = row.row(align=True)
+        versions.draw_deflection(values, x)
+        versions.draw_deflection(values, y)
+    turn = {1: "turn left", -1: "turn right"}.get(state.shoulders, "")
+    pressed = [word for word in (turn, "jump" if state.jump else "", "record" if state.record else "") if word]
+    layout.label(text=f"Buttons: {', '.join(pressed) or 'none'}")
+
+
+CLASSES = (
+    FRAGMOTION_PT_drive,
+    FRAGMOTION_PT_drive_pads,
+    FRAGMOTION_PT_drive_overlays,
+    FRAGMOTION_PT_drive_trace,
+)
