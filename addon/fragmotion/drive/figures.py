@@ -62,7 +62,7 @@ def draw(session: Session, free: Free, scale: float) -> None:
 def _title(session: Session) -> str:
     if session.recording is not None:
         return f"Recording {session.recording.seconds:.1f} s"
-    return f"Driving {session.name}: Esc ends"
+    return f"Driving {session.armature}: Esc ends"
 
 
 def _write(text: str, x: float, y: float, color: paint.Color) -> None:
