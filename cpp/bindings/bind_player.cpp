@@ -68,9 +68,11 @@ void bind_measures(py::module_& m) {
       .def_readonly("positions", &MotionMeasures::positions)
       .def_readonly("velocities", &MotionMeasures::velocities)
       .def_readonly("accelerations", &MotionMeasures::accelerations);
-  m.def("measure_takes", &measure_takes, py::arg("character"), py::call_guard<py::gil_scoped_release>());
-  m.def("measure_performance", &measure_performance, py::arg("character"), py::arg("performance"),
-        py::call_guard<py::gil_scoped_release>());
+  py::class_<MotionYardstick>(m, "MotionYardstick", py::module_local())
+      .def(py::init([](const Character& character) { return MotionYardstick(character); }), py::arg("character"),
+           py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("takes", &MotionYardstick::takes)
+      .def("of", &MotionYardstick::of, py::arg("performance"), py::call_guard<py::gil_scoped_release>());
 }
 
 void bind_yardsticks(py::module_& m) {

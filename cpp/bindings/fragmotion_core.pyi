@@ -403,11 +403,14 @@ class MotionMeasures:
     accelerations: Steps
     """m/s^2"""
 
-def measure_takes(character: Character) -> MotionMeasures:
-    """The captured takes' own measures: the yardstick."""
+class MotionYardstick:
+    """Measures performances by what the takes do themselves."""
 
-def measure_performance(character: Character, performance: Performance) -> MotionMeasures:
-    """A performance's measures; its steps are those within a quarter of a second after a change of fragment."""
+    def __init__(self, character: Character) -> None: ...
+    takes: MotionMeasures
+    """The captured takes' own measures."""
+    def of(self, performance: Performance) -> MotionMeasures:
+        """Its steps are those within a quarter of a second after a change of fragment."""
 
 # The stages of a build, each a function of arrays.
 

@@ -165,15 +165,16 @@ class Measurement {
 
 }  // namespace
 
-MotionMeasures measure_takes(const Character& character) {
+MotionYardstick::MotionYardstick(const Character& character) : skeleton_(character.pool.skeleton) {
   const std::vector<Joints> takes = takes_of(character);
-  Measurement measurement(floors_of(takes));
+  floors_ = floors_of(takes);
+  Measurement measurement(floors_);
   for (const Joints& take : takes) measurement.add(take);
-  return measurement.result();
+  takes_ = measurement.result();
 }
 
-MotionMeasures measure_performance(const Character& character, const Performance& p) {
-  JointReader reader(character.pool.skeleton);
+MotionMeasures MotionYardstick::of(const Performance& p) const {
+  JointReader reader(skeleton_);
   Joints joints;
   joints.rate = p.rate;
   const std::size_t width = p.rotations.size() / p.frames;
@@ -183,7 +184,7 @@ MotionMeasures measure_performance(const Character& character, const Performance
     since = f > 0 && p.fragments[f] != p.fragments[f - 1] ? 0 : since + 1 / p.rate;
     joints.judged.push_back(since < kStitched);
   }
-  Measurement measurement(floors_of(takes_of(character)));
+  Measurement measurement(floors_);
   measurement.add(joints);
   return measurement.result();
 }

@@ -213,7 +213,7 @@ TEST(Player, PlaysAForcedClassToItsEndAndThenWhatThePolicySays) {
 
 TEST(Player, ForcesAtTheSameTimeWhateverTheStep) {
   const auto place = [](int steps) {
-    Player player(gait_character(), 2);
+    Player player(gait_character(), {2});
     player.step(kForward, 1.03);
     player.force(3);
     for (int i = 0; i < steps; ++i) player.step(kForward, 1.003 / steps);

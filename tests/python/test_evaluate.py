@@ -36,6 +36,9 @@ RUN_TIME = {
     "jump_error",
     "response_p50_s",
     "response_p95_s",
+    "foot_skate_ratio",
+    "joint_step_ratio",
+    "sliding_contact_share",
 }
 
 
@@ -216,6 +219,13 @@ def test_run_time_is_the_players(run: Run, character: core.Character) -> None:
     assert figures["turn_error"] == pytest.approx(np.degrees(np.mean([p.turn_error for some in played for p in some])))
     assert 0 <= figures["jump_error"] <= 1
     assert 0 < figures["response_p50_s"] <= figures["response_p95_s"] <= 3
+    yardstick = core.MotionYardstick(character)
+    measured = [yardstick.of(p) for some in played for p in some]
+    assert figures["foot_skate_ratio"] == pytest.approx(
+        np.mean([m.foot_skate for m in measured]) / yardstick.takes.foot_skate
+    )
+    assert figures["joint_step_ratio"] > 0
+    assert 0 <= figures["sliding_contact_share"] <= 1
 
 
 def without_costs(value: Any) -> Any:

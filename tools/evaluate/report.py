@@ -102,6 +102,9 @@ _RUN_TIME: tuple[tuple[str, Callable[[Result], str]], ...] = (
     ("jump error, %", lambda r: number(None if r["jump_error"] is None else 100 * r["jump_error"])),
     ("response p50, s", lambda r: number(r["response_p50_s"], 2)),
     ("response p95, s", lambda r: number(r["response_p95_s"], 2)),
+    ("foot skate, x takes'", lambda r: number(r["foot_skate_ratio"], 2)),
+    ("joint step, x takes'", lambda r: number(r["joint_step_ratio"], 2)),
+    ("sliding, %", lambda r: number(None if r["sliding_contact_share"] is None else 100 * r["sliding_contact_share"])),
 )
 
 

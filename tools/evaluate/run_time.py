@@ -15,6 +15,7 @@ from tools.evaluate.loading import Session
 
 RATE = 60.0  # frames a second
 PLAYERS = 3  # random seeds
+_STILL = 1e-9  # so that takes without motion are no division by zero
 FIGURES = (
     "percent_of_optimal",
     "velocity_error",
@@ -23,6 +24,9 @@ FIGURES = (
     "jump_error",
     "response_p50_s",
     "response_p95_s",
+    "foot_skate_ratio",
+    "joint_step_ratio",
+    "sliding_contact_share",
 )
 
 
@@ -59,6 +63,17 @@ def errors(performances: list[list[core.Performance]]) -> dict[str, float | None
     }
 
 
+def looks(yardstick: core.MotionYardstick, performances: list[list[core.Performance]]) -> dict[str, float]:
+    """Foot skate over the takes' own, the worst joint step at a stitch over the takes' 99.9th percentile (of the joints'
+    places a frame), and the share of the time on the ground in which a foot slides."""
+    takes, every = yardstick.takes, [yardstick.of(p) for some in performances for p in some]
+    return {
+        "foot_skate_ratio": statistics.fmean(m.foot_skate for m in every) / max(takes.foot_skate, _STILL),
+        "joint_step_ratio": max(m.positions.worst for m in every) / max(takes.positions.p999, _STILL),
+        "sliding_contact_share": statistics.fmean(m.sliding_share for m in every),
+    }
+
+
 def responses(character: core.Character, policy: str, seed: int) -> dict[str, float]:
     """Half of all changes of velocity are answered within p50, 95 of 100 within p95, s."""
     times = [core.response_times(character, s, policy=policy) for s in range(seed, seed + PLAYERS)]
@@ -71,6 +86,7 @@ def measure_run_time(
 ) -> dict[str, dict[str, Any]]:
     """Each policy's figures, the percent of Optimal for each session among them as `by_trace`."""
     best = best_qualities(character, sessions)
+    yardstick = core.MotionYardstick(character)
     found: dict[str, dict[str, Any]] = {}
     for policy in policies:
         played = play(character, policy, sessions, seed)
@@ -79,6 +95,7 @@ def measure_run_time(
             "percent_of_optimal": statistics.fmean(percent),
             **errors(played),
             **responses(character, policy, seed),
+            **looks(yardstick, played),
             "by_trace": dict(zip((session.name for session in sessions), percent)),
         }
     return found

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+
 #include "fragmotion/performance.hpp"
 
 namespace fragmotion {
@@ -22,10 +24,20 @@ struct MotionMeasures {
   Steps accelerations;       ///< m/s^2
 };
 
-/// The captured takes' own measures: the yardstick.
-MotionMeasures measure_takes(const Character& character);
+/// Measures performances by what the takes do themselves.
+class MotionYardstick {
+ public:
+  explicit MotionYardstick(const Character& character);
 
-/// A performance's measures; its steps are those within a quarter of a second after a change of fragment.
-MotionMeasures measure_performance(const Character& character, const Performance& performance);
+  /// The captured takes' own measures.
+  const MotionMeasures& takes() const { return takes_; }
+  /// A performance's measures; its steps are those within a quarter of a second after a change of fragment.
+  MotionMeasures of(const Performance& performance) const;
+
+ private:
+  Skeleton skeleton_;
+  std::array<double, 4> floors_{};  // where left ball, left heel, right ball and right heel are lowest, m
+  MotionMeasures takes_;
+};
 
 }  // namespace fragmotion

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "fragmotion/motion_measures.hpp"
+#include "fragmotion/player.hpp"
+#include "small_character.hpp"
+
+namespace fragmotion {
+namespace {
+
+// A clip's first pose, carried forward at a speed for a second.
+Performance carried(const Clip& clip, double speed, double lift = 0) {
+  Performance p;
+  p.rate = 60;
+  p.frames = 61;
+  const std::size_t width = clip.rotations.size() / clip.frames;
+  for (int f = 0; f < p.frames; ++f) {
+    p.root_positions.insert(p.root_positions.end(), {clip.root_positions[0], clip.root_positions[1] + speed * f / 60,
+                                                     clip.root_positions[2] + lift});
+    p.rotations.insert(p.rotations.end(), clip.rotations.begin(), clip.rotations.begin() + width);
+    p.fragments.push_back(f < 20 ? 0 : 1);
+  }
+  return p;
+}
+
+TEST(MotionYardstick, FindsNoFaultInStanding) {
+  const auto character = gait_character();
+  const MotionYardstick yardstick(*character);
+  const MotionMeasures m = yardstick.of(carried(gait_clip({0, 0, 0}), 0));
+  EXPECT_EQ(m.foot_skate, 0);
+  EXPECT_EQ(m.sliding_share, 0);
+  EXPECT_EQ(m.positions.worst, 0);
+}
+
+TEST(MotionYardstick, SeesFeetThatSlide) {
+  const auto character = gait_character();
+  const MotionYardstick yardstick(*character);
+  const double scale = standard_scale(character->pool.skeleton);
+  const Clip standing = gait_clip({0, 0, 0});
+  const MotionMeasures slow = yardstick.of(carried(standing, 0.5)), fast = yardstick.of(carried(standing, 1));
+  EXPECT_GT(slow.foot_skate, 0);
+  EXPECT_LE(slow.foot_skate, 0.5 * scale + 1e-9);
+  EXPECT_NEAR(fast.foot_skate, 2 * slow.foot_skate, 1e-9);
+  EXPECT_EQ(slow.sliding_share, 1);
+  EXPECT_NEAR(fast.positions.worst, scale / 60, 1e-6);
+  EXPECT_NEAR(fast.velocities.worst, 0, 1e-6);
+}
+
+TEST(MotionYardstick, SeesThatFeetInTheAirDoNotSlideAndThatSunkenOnesPenetrate) {
+  const auto character = gait_character();
+  const MotionYardstick yardstick(*character);
+  const Clip standing = gait_clip({0, 0, 0});
+  const MotionMeasures flies = yardstick.of(carried(standing, 1, 1)), sinks = yardstick.of(carried(standing, 0, -0.1));
+  EXPECT_EQ(flies.foot_skate, 0);
+  EXPECT_EQ(flies.sliding_share, 0);
+  EXPECT_NEAR(sinks.penetration, 0.1 * standard_scale(character->pool.skeleton), 0.03);
+}
+
+TEST(MotionYardstick, MeasuresTheTakes) {
+  const MotionYardstick yardstick(*gait_character());
+  const MotionMeasures& takes = yardstick.takes();
+  EXPECT_GT(takes.foot_skate, 0);
+  EXPECT_LT(takes.foot_skate, 0.5);
+  EXPECT_LE(takes.positions.p99, takes.positions.p999);
+  EXPECT_LE(takes.positions.p999, takes.positions.worst);
+}
+
+TEST(MotionYardstick, FindsLessSkateWhereFeetAreLocked) {
+  const auto character = gait_character();
+  const MotionYardstick yardstick(*character);
+  const Trace trace = simulate_trace("walker", 60, 3, character->space);
+  PlayerOptions paper;
+  paper.stitching = Stitching::crossfade;
+  paper.lock_feet = false;
+  paper.pull = 0;
+  const double ours = yardstick.of(Player(character).run(trace, 60)).foot_skate,
+               theirs = yardstick.of(Player(character, paper).run(trace, 60)).foot_skate;
+  EXPECT_LT(ours, 0.7 * theirs);
+}
+
+}  // namespace
+}  // namespace fragmotion
