@@ -12,8 +12,8 @@ import bpy
 from . import building, posing
 from .baking import check_skeleton
 from .core import core
+from .keys import from_quaternions
 from .rigs import make_rig
-from .writing import from_quaternions
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles

@@ -19,13 +19,9 @@ Vector3 hinge(const Vector3& upper, const Vector3& lower, double heading) {
   return (bend - bend.dot(upper) / upper.squaredNorm() * upper).normalized();
 }
 
-// The turn of the lower leg about the hinge after which the leg's ends are `wanted` apart.
-Quaternion bend(const Vector3& upper, const Vector3& lower, const Vector3& axis, double wanted) {
-  const Vector3 across = lower - lower.dot(axis) * axis;
-  const double now = std::atan2(axis.dot(upper.cross(across)), upper.dot(across));
-  const double cosine =
-      (wanted * wanted - upper.squaredNorm() - lower.squaredNorm()) / (2 * upper.norm() * across.norm());
-  return Quaternion{Eigen::AngleAxisd(std::acos(std::clamp(cosine, -1.0, 1.0)) - now, axis)};
+// The angle of the knee, 0 where the leg is straight, for which its ends are so far apart.
+double opening(double upper, double lower, double apart) {
+  return std::acos(std::clamp((apart * apart - upper * upper - lower * lower) / (2 * upper * lower), -1.0, 1.0));
 }
 
 Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe) {
@@ -74,7 +70,12 @@ void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, co
                 lower = posed.heads[leg.foot] - posed.heads[leg.knee];
   const double longest = std::max((upper + lower).norm(), kStretched * (upper.norm() + lower.norm()));
   const Vector3 axis = hinge(upper, lower, heading);
-  const Quaternion knee = bend(upper, lower, axis, std::min((ankle - hip).norm(), longest));
+  const double across = (lower - lower.dot(axis) * axis).norm(), beside = lower.squaredNorm() - across * across;
+  const auto angle = [&](double apart) {
+    return opening(upper.norm(), across, std::sqrt(std::max(0.0, apart * apart - beside)));
+  };
+  const double wanted = std::min((ankle - hip).norm(), longest);
+  const Quaternion knee{Eigen::AngleAxisd(angle(wanted) - angle((upper + lower).norm()), axis)};
   const Quaternion thigh = Quaternion::FromTwoVectors(upper + knee * lower, ankle - hip), shin = thigh * knee;
   const auto store = [&](int bone, const Quaternion& parent, const Quaternion& world) {
     store_quaternion((parent.conjugate() * world).normalized(), rotations + std::ptrdiff_t{4} * bone);

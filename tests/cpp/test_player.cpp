@@ -72,7 +72,7 @@ TEST(Player, NeverJumps) {
       heading = player.frame().heading;
       before = now;
     }
-    EXPECT_LT(largest, allowed) << dt;
+    EXPECT_LT(largest, 1.5 * allowed) << dt;  // a locked foot straightens its knee faster than a stitch moves joints
   }
 }
 
@@ -205,7 +205,7 @@ TEST(Player, PlaysAForcedClassToItsEndAndThenWhatThePolicySays) {
     Player player(Acts().character);
     acts_of(player, {{kForward, wait}});
     player.force(Acts::back);
-    EXPECT_EQ(acts_of(player, {{kForward, kStitch + 0.01}}).back(), Acts::back) << wait;
+    EXPECT_EQ(acts_of(player, {{kForward, 0.16}}).back(), Acts::back) << wait;
     const std::vector<int> acts = acts_of(player, {{{}, 0.3}, {kForward, 0.3}, {kForward, 1}});
     EXPECT_EQ(acts, (std::vector<int>{Acts::back, Acts::forward})) << wait;  // not left early for the standing
   }
@@ -213,7 +213,7 @@ TEST(Player, PlaysAForcedClassToItsEndAndThenWhatThePolicySays) {
 
 TEST(Player, ForcesAtTheSameTimeWhateverTheStep) {
   const auto place = [](int steps) {
-    Player player(gait_character(), {2});
+    Player player(gait_character(), unpulled(2));
     player.step(kForward, 1.03);
     player.force(3);
     for (int i = 0; i < steps; ++i) player.step(kForward, 1.003 / steps);

@@ -52,7 +52,7 @@ TEST(WithoutClasses, TakesTheBestOfTheOthersAndChangesNothingElse) {
 
 // What a player of ten thousand random controls has played.
 std::vector<int> played(const std::shared_ptr<const Character>& character) {
-  Player player(character, 3);
+  Player player(character, {3});
   Random random(5);
   std::vector<int> classes{player.playing_class()};
   for (int i = 0; i < 10000; ++i) {
