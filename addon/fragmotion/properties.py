@@ -323,7 +323,7 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
         default=True,
     )
     show_stick: BoolProperty(  # type: ignore[valid-type]
-        name="On-Screen Stick",
+        name="Stick",
         description="A stick in the corner of the view, to be dragged with the mouse",
         default=True,
     )

@@ -124,6 +124,7 @@ def steps() -> Iterator[None]:
     press(bpy.ops.fragmotion.leave_out, "EXEC_DEFAULT", True)
     yield from picture("5 left out")
     show_only(panels, "Classes", "Inspector")
+    manager.active_class = next(number for number, row in enumerate(rows) if row.suggested.startswith("run"))
     yield from preview(solo, obj)
 
     player = addon.building.core.Player(addon.building.load(obj))

@@ -111,8 +111,8 @@ class Pads:
             return bool(library.SDL_GameControllerGetButton(device, getattr(library, f"SDL_CONTROLLER_BUTTON_{name}")))
 
         return PadState(
-            (axis("LEFTX"), -axis("LEFTY")),
-            (axis("RIGHTX"), -axis("RIGHTY")),
+            (axis("LEFTX"), 0.0 - axis("LEFTY")),
+            (axis("RIGHTX"), 0.0 - axis("RIGHTY")),
             button("LEFTSHOULDER") - button("RIGHTSHOULDER"),
             button("A"),
             button("START"),

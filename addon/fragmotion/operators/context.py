@@ -7,6 +7,8 @@ from typing import Any
 
 import bpy
 
+from ..drive import session
+
 
 def active_armature(context: bpy.types.Context) -> Any:
     """The active object where it is an armature, else the armature that deforms or carries it, if any."""
@@ -19,7 +21,9 @@ def active_armature(context: bpy.types.Context) -> Any:
 def poll_armature(cls: Any, context: bpy.types.Context) -> bool:
     """Whether an armature that can be changed is active; says why not."""
     obj = active_armature(context)
-    if obj is None:
+    if session.current is not None:
+        cls.poll_message_set(f"'{session.current.name}' is being driven: stop that first (Esc)")
+    elif obj is None:
         cls.poll_message_set("No armature is active: import mocap, or click an armature or its mesh")
     elif _is_foreign(obj) or _is_foreign(obj.data):
         cls.poll_message_set(_advise_on_foreign(obj))
