@@ -81,7 +81,7 @@ class FRAGMOTION_PT_drive_pads(_Sidebar, bpy.types.Panel):
         for pad in driven.inputs.pads:
             _draw_pad(layout.box().column(align=True), pad.label, pad.state)
         if not driven.inputs.pads:
-            layout.label(text="None: connect one at any time", icon="INFO")
+            layout.label(text="None connected", icon="INFO")
 
 
 class FRAGMOTION_PT_drive_overlays(_Sidebar, bpy.types.Panel):

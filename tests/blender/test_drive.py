@@ -114,7 +114,7 @@ def test_the_armature_shows_what_the_player_plays(
     for _ in range(10):
         before = hips(obj)
         go_on(driven, 0.3)
-        x, y, _ = driven.actor.player.frame
+        x, y, _ = driven.player.frame
         np.testing.assert_allclose(hips(obj)[:2], (x, y), atol=1e-4)
         way += np.linalg.norm(hips(obj) - before)
     assert way > 0.05
@@ -128,7 +128,7 @@ def test_the_motion_does_not_depend_on_how_often_the_screen_is_drawn(
         driven = start(session, obj)
         driven.inputs.keyboard.press("W")
         go_on(driven, 2, rate)
-        places.append(driven.actor.player.frame)
+        places.append(driven.player.frame)
     np.testing.assert_allclose(places, [places[0]] * 4, atol=0.1)
     assert places[0] == places[1] == places[3]
 
@@ -140,32 +140,68 @@ def test_a_long_pause_does_not_make_the_character_leap(session: ModuleType) -> N
     assert np.linalg.norm(hips(driven.obj)[:2]) == pytest.approx(0.1 * driven.actor.space.walk, rel=0.01)
 
 
-def test_what_is_recorded_replays_as_it_was_seen(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:
-    driven = start(session, obj)
-    keyboard, player = driven.inputs.keyboard, driven.actor.player
-    keyboard.press("W")
-    go_on(driven, 1)
+def record(driven: Any) -> list[tuple[float, float, float]]:
+    """Record some keys, and a tap on the jump button; the character frames that were seen."""
+    seen = []
     driven.toggle_recording()
-    begin, seen = player.frame, []
-    for key, seconds in (("A", 0.35), ("LEFT_SHIFT", 0.8), ("SPACE", 0.03), ("E", 1.02)):
-        keyboard.press(key)
+    for key, seconds in (("W", 0.4), ("A", 0.35), ("LEFT_SHIFT", 0.8), ("SPACE", 0.03), ("E", 1.02)):
+        driven.inputs.keyboard.press(key)
         for _ in range(round(seconds * RATE)):
             driven.update(1 / RATE)
-            seen.append(player.frame)
-        keyboard.let_go("SPACE")
+            seen.append(driven.player.frame)
+        driven.inputs.keyboard.let_go("SPACE")
     driven.toggle_recording()
+    return seen
+
+
+def test_what_is_recorded_replays_as_it_was_seen(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:
+    driven = start(session, obj)
+    go_on(driven, 0.5)
+    begin, seen = driven.player.frame, record(driven)
     (take,) = obj.fragmotion.takes
     trace = import_module(f"{addon.__name__}.takes").trace_of(take)
-    assert len(trace) == math.ceil(len(seen) / 6) == 22
+    assert len(trace) == math.ceil(len(seen) / 6) == 26
     assert trace[:, 3].sum() == 1, "the tap on the jump button is lost, or lasts"
     assert tuple(take.start) == pytest.approx(begin) and take.policy == driven.actor.character.policy
-    replay = addon.core.core.Player(driven.actor.character, take.seed)
-    replay.reset(*begin)
-    frames = replay.run(trace, RATE).frames
-    np.testing.assert_allclose(frames[1 : len(seen) + 1, :2], np.array(seen)[:, :2], atol=1e-9)
-    quality = replay.__class__(driven.actor.character, take.seed)
-    quality.reset(*begin)
-    assert take.quality == pytest.approx(quality.run(trace, RATE).quality, abs=0.01)
+    player = addon.core.core.Player(driven.actor.character, take.seed)
+    player.reset(*begin)
+    performance = player.run(trace, RATE)
+    np.testing.assert_allclose(performance.frames[1 : len(seen) + 1, :2], np.array(seen)[:, :2], atol=1e-9)
+    assert take.quality == pytest.approx(performance.quality, abs=0.01)
+
+
+def test_a_take_is_replayed_live(session: ModuleType, obj: bpy.types.Object) -> None:
+    driven = start(session, obj)
+    seen = record(driven)
+    (take,) = obj.fragmotion.takes
+    driven = session.replay(bpy.context, obj, take)
+    assert driven.inputs.label == "Trace" and driven.seed == take.seed
+    replayed = []
+    for _ in seen:
+        driven.update(1 / RATE)
+        replayed.append(driven.player.frame)
+    np.testing.assert_allclose(replayed, seen, atol=1e-4)
+    go_on(driven, 1)
+    assert driven.control == (0, 0, 0, 0) and not driven.inputs.trace.playing
+    other = session.replay(bpy.context, obj, take, seed=7, policy="greedy")
+    assert (other.seed, other.actor.policy) == (7, "greedy")
+
+
+def test_a_take_that_begins_in_motion_keeps_what_was_seen(
+    addon: ModuleType, session: ModuleType, obj: bpy.types.Object
+) -> None:
+    driven = start(session, obj)
+    driven.play(addon.core.core.simulate_trace("runner", 5.0, 3, driven.actor.space))
+    while math.hypot(*driven.readings.velocity) < 0.3:
+        assert driven.inputs.trace.playing, "the character never moves"
+        go_on(driven, 0.1)
+    before = driven.player.frame
+    seen = record(driven)
+    assert math.dist(before[:2], seen[0][:2]) < 0.1, "the character leaps where the recording begins"
+    (take,) = obj.fragmotion.takes
+    times, motion = import_module(f"{addon.__name__}.takes").shown_of(take)
+    np.testing.assert_allclose(times, np.arange(len(seen) + 1) / RATE, atol=1e-5)
+    np.testing.assert_allclose(motion.frames, [before, *seen], atol=1e-5)
 
 
 def test_a_recording_under_way_is_kept_when_the_drive_ends(session: ModuleType, obj: bpy.types.Object) -> None:
@@ -320,6 +356,21 @@ def test_an_undo_step_of_the_users_from_the_middle_of_a_drive_is_healed(session:
     assert obj.animation_data.action == bpy.data.actions["own"]
 
 
+def test_a_file_from_the_middle_of_a_drive_is_healed(session: ModuleType, tmp_path: Path) -> None:
+    """As Blender's autosave writes it, which calls no handler."""
+    obj = making.add_armature()
+    spoil(obj)
+    modes, pose = [bone.rotation_mode for bone in obj.pose.bones], everything(obj)["bones"]
+    import_module(f"{session.__package__}.aside").put_aside(obj)
+    assert [bone.rotation_mode for bone in obj.pose.bones] != modes
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "autosave.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "autosave.blend"))
+    obj = bpy.data.objects["Rig"]
+    assert [bone.rotation_mode for bone in obj.pose.bones] == modes and everything(obj)["bones"] == pose
+    assert obj.animation_data.action == bpy.data.actions["own"]
+    assert "fragmotion_put_aside" not in obj
+
+
 def test_loading_a_file_ends_the_drive(session: ModuleType) -> None:
     driven = start(session, making.add_armature())
     go_on(driven, 0.1)
@@ -386,8 +437,51 @@ def test_the_figures_say_what_plays(addon: ModuleType, session: ModuleType, obj:
     figures = import_module(f"{session.__package__}.figures")
     rows = dict(figures.rows(driven))
     assert rows["Input"] == "Keyboard" and rows["Control"] == "walk forward"
-    assert rows["Class"].startswith(f"{driven.actor.player.playing[0]}: ")
+    assert rows["Class"].startswith(f"{driven.player.playing[0]}: ")
     judge, character = driven.readings.judge, driven.actor.character
     assert 0 < judge.mean <= 1 and 0 < judge.quality <= 1
-    assert 0 <= judge.left <= character.fragment_durations[driven.actor.player.playing[1]]
+    assert 0 <= judge.left <= character.fragment_durations[driven.player.playing[1]]
     assert rows["Updates"].startswith("60 a second")
+
+
+def test_while_driving_nothing_else_may_change_the_armature(session: ModuleType, obj: bpy.types.Object) -> None:
+    assert bpy.ops.fragmotion.bake.poll() and not bpy.ops.fragmotion.record.poll()
+    start(session, obj)
+    assert not bpy.ops.fragmotion.bake.poll() and not bpy.ops.fragmotion.build.poll()
+    assert bpy.ops.fragmotion.record.poll() and bpy.ops.fragmotion.drive.poll()
+
+
+def test_the_ghost_goes_just_as_the_trace_says(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:
+    driven = start(session, obj)
+    space = driven.actor.space
+    driven.play(np.array([(0, space.walk, 0, 0)] * 10 + [(0, 0, 1, 0)] * 10 + [(space.run, 0, 0, 0)] * 10))
+    x, y, heading = driven.player.frame
+    go_on(driven, 3.05)
+    rotate = import_module(f"{session.__package__}.steering").rotate
+    ahead, aside = rotate(0, space.walk, heading), rotate(space.run, 0, heading + space.turn_rate)
+    wanted = (x + ahead[0] + aside[0], y + ahead[1] + aside[1], heading + space.turn_rate)
+    assert driven.readings.ideal.frame == pytest.approx(wanted, abs=1e-6)
+    assert driven.readings.ideal_path.points[0] == pytest.approx((x, y), abs=0.1)
+
+
+def test_the_feet_that_stand_are_seen(session: ModuleType) -> None:
+    obj = making.add_armature()
+    driven = start(session, obj)
+    go_on(driven, 0.1)
+    feet = [obj.pose.bones[name] for name in ("foot.L", "foot.R")]
+    middles = [(bone.head + bone.tail) / 2 for bone in feet]
+    wanted = [(*middle[:2], min(bone.head.z, bone.tail.z)) for middle, bone in zip(middles, feet)]
+    np.testing.assert_allclose(driven.readings.feet.planted, wanted, atol=1e-5)
+    rising = driven.actor.step(import_module(f"{session.__package__}.steering").Control(), 0.0)
+    for height in (0.0, 0.1):
+        driven.readings.feet.step(rising[0] + (0, 0, height), rising[1], 1 / RATE)
+    assert driven.readings.feet.planted == [], "nobody stands in the air"
+
+
+def test_the_time_to_answer_is_measured(session: ModuleType) -> None:
+    """A body that slides answers at once; what is measured is the window over which a velocity is taken."""
+    driven = start(session, making.add_armature())
+    go_on(driven, 1)
+    driven.inputs.keyboard.press("W")
+    go_on(driven, 1)
+    assert 0.05 < driven.readings.stopwatch.seconds < 0.15

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -13,6 +12,7 @@ from ..baking import check_skeleton
 from ..building import has_character, load
 from ..core import core
 from ..errors import core_errors
+from ..performing import origin_frame
 from ..posing import check_free
 from ..rigs import carriers, make_rig
 from .slider import Slider
@@ -45,8 +45,7 @@ class Actor:
             with core_errors("Drive"):
                 self.player = core.Player(self.character, seed, policy=policy)
         self._order = [obj.data.bones.find(bone.name) for bone in obj.pose.bones]
-        place = obj.matrix_world
-        self.player.reset(place.translation.x, place.translation.y, place.to_euler().z + math.pi)
+        self.player.reset(*origin_frame(obj))
 
     def step(self, control: Control, seconds: float) -> tuple[Doubles, Doubles]:
         """Play on, and return the pose: root position [3] and rotations [B,4]."""

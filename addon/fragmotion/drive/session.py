@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+import math
 import time
 from typing import TYPE_CHECKING, Any
 
 import bpy
 
 from .. import classes, preferences
-from ..takes import add_take
+from ..building import has_character, load
+from ..takes import Take, add_take, trace_of
 from . import aside, overlays, views
 from .actor import Actor
 from .follow import FollowCamera
@@ -26,6 +28,7 @@ RATE = 60
 """Steps a second. All are equally long, so that a recorded trace shows the same motion when it is replayed."""
 
 _HICCUP = 0.1  # s; a longer pause does not make the character leap
+_STILL = 0.2  # m/s
 _SMOOTH = 0.05  # share of the newest in a running mean
 
 current: Session | None = None
@@ -37,11 +40,10 @@ _timer: bpy.types.Timer | None = None  # wakes the modal operator that updates t
 class Session:
     """An armature is driven from construction until `close`. UserError where it cannot be; then nothing has changed."""
 
-    def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, seed: int | None, policy: str) -> None:
+    def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, seed: int, policy: str) -> None:
         context.view_layer.update()
         self.obj, self.armature = obj, obj.name
-        self.control = Control()
-        self.seed = self.settings.seed if seed is None else seed
+        self.seed = self.settings.seed if seed < 0 else seed
         self.actor = Actor(obj, self.seed, policy)
         self.views, self._follow = views.Views(context.area), FollowCamera()
         self._state = SceneState(context, obj)
@@ -57,8 +59,13 @@ class Session:
 
     @property
     def player(self) -> Any:
-        """What plays: the core's Player where the armature has a character."""
+        """What plays: a core.Player, or what slides as one."""
         return self.actor.player
+
+    @property
+    def control(self) -> Control:
+        """The control of this moment."""
+        return self.readings.control
 
     @property
     def settings(self) -> Any:
@@ -85,8 +92,10 @@ class Session:
         self.interval = _running(self.interval, seconds)
 
     def _step(self) -> tuple[Doubles, Doubles]:
-        control = self.control = self._control()
+        control = self._control()
         pose = self.actor.step(control, 1 / RATE)
+        if self.recording is not None:
+            self.recording.add(pose)
         self.inputs.trace.advance()
         self.readings.step(control, pose, self.settings.show_feet)
         self._steps += 1
@@ -96,7 +105,7 @@ class Session:
         by_view = self.settings.relative == "VIEW"
         view = view_heading(self.views.rotation()) if by_view else None
         control = self._steering.control(self.inputs.intent(), self.actor.frame[2], view)
-        return control if self.recording is None else self.recording.hold(control, RATE)
+        return control if self.recording is None else self.recording.hold(control)
 
     def _follow_actor(self, seconds: float) -> None:
         area = self.views.main()
@@ -111,10 +120,14 @@ class Session:
         self.inputs.play(trace)
 
     def toggle_recording(self) -> None:
-        """Begin a take, from standing as its replay does; or end it and keep it with the armature, an undo step."""
+        """Begin a take; or end it and keep it with the armature, an undo step.
+
+        Where the character stands still it begins as its replay will, so that the replay shows the same.
+        """
         if self.recording is None:
-            self.actor.start_afresh()
-            self.recording = Recording(self.actor.frame)
+            if math.hypot(*self.readings.velocity) < _STILL and not any(self.control):
+                self.actor.start_afresh()
+            self.recording = Recording(self.actor, RATE)
             self.readings = Readings(self.actor, RATE)
         elif self._keep_recording():
             bpy.ops.ed.undo_push(message="Record")
@@ -132,6 +145,7 @@ class Session:
             policy=self.actor.policy,
             start=recording.start,
             quality=judge.mean if judge else 0.0,
+            shown=recording.shown,
         )
         self.inputs.messages.append(f"Recorded '{take.name}': {recording.seconds:.1f} s")
         return True
@@ -174,7 +188,7 @@ def _running(mean: float, value: float) -> float:
     return value if mean == 0 else mean + _SMOOTH * (value - mean)
 
 
-def start(context: bpy.types.Context, obj: bpy.types.Object, seed: int | None = None, policy: str = "") -> Session:
+def start(context: bpy.types.Context, obj: bpy.types.Object, seed: int = -1, policy: str = "") -> Session:
     """Begin a drive, by default with the panel's seed and the policy that drives; the one that is under way ends."""
     global current
     stop()
@@ -182,6 +196,19 @@ def start(context: bpy.types.Context, obj: bpy.types.Object, seed: int | None = 
     classes.session = current if current.actor.character else None
     overlays.add(current)
     return current
+
+
+def replay(context: bpy.types.Context, obj: bpy.types.Object, take: Take, seed: int = -1, policy: str = "") -> Session:
+    """Begin a drive by a take, from where it was recorded; by default with its seed, and its policy where there is it.
+
+    UserError where the take is damaged.
+    """
+    trace, begin = trace_of(take), tuple(take.start)
+    known = load(obj).policies if has_character(obj) else []
+    chosen = policy or (take.policy if take.policy in known else "")
+    driven = start(context, obj, take.seed if seed < 0 else seed, chosen)
+    driven.play(trace, begin)
+    return driven
 
 
 def wake(context: bpy.types.Context) -> None:

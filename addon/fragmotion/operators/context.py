@@ -22,7 +22,7 @@ def poll_armature(cls: Any, context: bpy.types.Context) -> bool:
     """Whether an armature that can be changed is active; says why not."""
     obj = active_armature(context)
     if session.current is not None:
-        cls.poll_message_set(f"'{session.current.name}' is being driven: stop that first (Esc)")
+        cls.poll_message_set(f"'{session.current.armature}' is being driven: stop that first (Esc)")
     elif obj is None:
         cls.poll_message_set("No armature is active: import mocap, or click an armature or its mesh")
     elif _is_foreign(obj) or _is_foreign(obj.data):

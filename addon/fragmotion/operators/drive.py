@@ -8,6 +8,7 @@ import traceback
 from typing import Any, ClassVar
 
 import bpy
+from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from .. import preferences
 from ..drive import session, views
@@ -35,6 +36,35 @@ class FRAGMOTION_OT_drive(bpy.types.Operator):
     )
     bl_options: ClassVar[set[str]] = set()
 
+    source: EnumProperty(  # type: ignore[valid-type]
+        name="Drive by",
+        description="What drives first; touching another input takes over",
+        items=(
+            ("INPUTS", "Inputs", "The input that is touched last"),
+            ("TAKE", "Take", "A take, from where it was recorded"),
+        ),
+        default="INPUTS",
+        options={"SKIP_SAVE"},
+    )
+    take: IntProperty(  # type: ignore[valid-type]
+        name="Take",
+        description="Number of the take in the list, from 0",
+        min=0,
+        options={"SKIP_SAVE"},
+    )
+    seed: IntProperty(  # type: ignore[valid-type]
+        name="Seed",
+        description="Draws which fragment of a class plays; -1: the take's seed, or the panel's",
+        default=-1,
+        min=-1,
+        options={"SKIP_SAVE"},
+    )
+    policy: StringProperty(  # type: ignore[valid-type]
+        name="Policy",
+        description="The policy that drives; empty: the take's, or the one that Build put first",
+        options={"SKIP_SAVE"},
+    )
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if session.current is not None:
@@ -50,16 +80,24 @@ class FRAGMOTION_OT_drive(bpy.types.Operator):
 
     @reported
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        if session.current is not None:
+        if session.current is not None and self.source == "INPUTS":
             session.stop()
             return {"FINISHED"}
-        obj = active_armature(context)
-        self._session = session.start(context, obj)
+        obj = active_armature(context) if session.current is None else session.current.obj
+        self._session = self._start(context, obj)
         session.wake(context)
         self._time = self._drawn = time.perf_counter()
         context.window_manager.modal_handler_add(self)
         self._warn(obj)
         return {"RUNNING_MODAL"}
+
+    def _start(self, context: bpy.types.Context, obj: bpy.types.Object) -> session.Session:
+        if self.source == "INPUTS":
+            return session.start(context, obj, self.seed, self.policy)
+        takes = obj.fragmotion.takes
+        if self.take >= len(takes):
+            raise UserError(f"Armature '{obj.name}' has no such take: record or import one")
+        return session.replay(context, obj, takes[self.take], self.seed, self.policy)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if session.current is not self._session:  # it was ended elsewhere
