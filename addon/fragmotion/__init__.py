@@ -20,7 +20,7 @@ from . import (
     storing,
 )
 from .drive import handlers, session
-from .operators import build, solo_class
+from .operators import background, solo_class
 
 bl_info = {
     "name": "Fragmotion",
@@ -46,7 +46,7 @@ def register() -> None:
 
 def unregister() -> None:
     """Remove all that `register` added; a build or a drive that runs is stopped."""
-    build.stop()
+    background.stop()
     solo_class.stop()
     session.stop()
     for part in (handlers, menus, keymaps, storing, staleness):

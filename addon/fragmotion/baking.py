@@ -110,9 +110,8 @@ def _compute(stage: Stage, options: Options, play: Callable[[Report], performing
     poses = _make_poses(stage, motion, on_object=options.root == "OBJECT")
     tracks = make_tracks(stage.layout, poses)
     if options.bound is not None:
-        report(1.0, "Reducing keys")
         every = count_keys(tracks)
-        tracks, found = reduce_tracks(tracks, stage.rig, poses, stage.place, options.bound)
+        tracks, found = reduce_tracks(tracks, stage.rig, poses, stage.place, options.bound, report)
         share = count_keys(tracks) / every
         remark += (
             f"; {100 * share:.0f} % of the keys kept, at most {1000 * found.distance:.1f} mm and "

@@ -39,9 +39,9 @@ class Job:
         """Ask the task to stop; it does at its next report."""
         self._cancelled.set()
 
-    def wait(self) -> None:
-        """Return when the thread has ended."""
-        self._thread.join()
+    def wait(self, seconds: float | None = None) -> None:
+        """Return when the thread has ended, or after so many seconds."""
+        self._thread.join(seconds)
 
     @property
     def running(self) -> bool:

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     import bpy
     from fragmotion_core import Doubles, Ints, Rig
 
+    from .jobs import Report
+
 _ROUNDS = 8
 _AIM = 0.95  # of the bound, were deviations in proportion to a track's tolerance
 _FASTEST = 2.0  # growth of the tolerance from round to round
@@ -91,15 +93,17 @@ def make_tracks(layout: Sequence[Bone], poses: Poses) -> list[Track]:
 
 
 def reduce_tracks(
-    tracks: Sequence[Track], rig: Rig, poses: Poses, place: Place, bound: Deviation
+    tracks: Sequence[Track], rig: Rig, poses: Poses, place: Place, bound: Deviation, report: Report
 ) -> tuple[list[Track], Deviation]:
     """Tracks with so few keys that on no frame a bone is further than the bound from where it was, seen in the world.
 
     Tells how far a bone is then at most. A track's own tolerance is found by trial, as its error adds to those of the
-    bones above it.
+    bones above it. core.Cancelled where `report` says so.
     """
     best, reached, share = list(tracks), Deviation(0.0, 0.0), 1.0
-    for _ in range(_ROUNDS):
+    for turn in range(_ROUNDS):
+        if not report(turn / _ROUNDS, "Reducing keys"):
+            raise core.Cancelled("cancelled")
         reduced = [_thin(track, share * bound.distance / _size_of(place), share * bound.angle) for track in tracks]
         found = _deviation(rig, poses, _drawn_poses(reduced, poses), place)
         excess = max(found.distance / bound.distance, found.angle / bound.angle)

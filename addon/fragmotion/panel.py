@@ -11,7 +11,7 @@ from . import building, panel_classes, panel_drive, panel_left_out, panel_takes,
 from .actions import fits_cached, fitting
 from .coverage_picture import draw_pictures
 from .drawing import draw_bake, draw_build, draw_coverage, draw_figures, draw_keeping, draw_training
-from .operators import build as build_operator
+from .operators import background
 from .operators.context import active_armature
 from .staleness import is_stale
 
@@ -91,11 +91,11 @@ class FRAGMOTION_PT_build(_Sidebar, bpy.types.Panel):
     bl_label = "Build"
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout, obj, job = self.layout, active_armature(context), build_operator.current
+        layout, obj, job = self.layout, active_armature(context), background.current
         if job is not None:
             layout.label(text=job.label)
             versions.draw_progress(layout, job.fraction, job.stage)
-            layout.operator("fragmotion.cancel_build", text="Cancel", icon="CANCEL")
+            layout.operator("fragmotion.cancel", text="Cancel", icon="CANCEL")
             return
         if obj is not None:
             draw_build(layout, obj.fragmotion.build)
@@ -123,7 +123,7 @@ class FRAGMOTION_PT_coverage(_Sidebar, bpy.types.Panel):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         obj = active_armature(context)
-        return obj is not None and len(obj.fragmotion.figures.coverage) > 0 and build_operator.current is None
+        return obj is not None and len(obj.fragmotion.figures.coverage) > 0 and background.current is None
 
     def draw(self, context: bpy.types.Context) -> None:
         figures = active_armature(context).fragmotion.figures
@@ -142,7 +142,7 @@ class FRAGMOTION_PT_training(_Sidebar, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return active_armature(context) is not None and build_operator.current is None
+        return active_armature(context) is not None and background.current is None
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_training(self.layout, active_armature(context).fragmotion.build)

@@ -9,7 +9,7 @@ import bpy
 
 from . import classes, inspector
 from .errors import UserError
-from .operators import build as build_operator
+from .operators import background
 from .operators import solo_class
 from .operators.context import active_armature
 
@@ -27,7 +27,7 @@ class _SubPanel:
 
 def _has_classes(context: bpy.types.Context) -> bool:
     obj = active_armature(context)
-    return obj is not None and len(obj.fragmotion.classes) > 0 and build_operator.current is None
+    return obj is not None and len(obj.fragmotion.classes) > 0 and background.current is None
 
 
 class FRAGMOTION_UL_classes(bpy.types.UIList):
@@ -177,7 +177,7 @@ class FRAGMOTION_PT_tried(_SubPanel, bpy.types.Panel):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         obj = active_armature(context)
-        return obj is not None and len(obj.fragmotion.tried) > 0 and build_operator.current is None
+        return obj is not None and len(obj.fragmotion.tried) > 0 and background.current is None
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = active_armature(context).fragmotion

@@ -378,14 +378,25 @@ def test_a_bake_that_fails_while_it_writes_changes_nothing(
     assert digest() == before
 
 
-def test_a_bake_that_is_cancelled_changes_nothing(addon: ModuleType, obj: bpy.types.Object, take: Any) -> None:
+@pytest.mark.parametrize("stage", ["Playing", "Reducing keys"])
+def test_a_bake_that_is_cancelled_changes_nothing(
+    addon: ModuleType, obj: bpy.types.Object, take: Any, stage: str
+) -> None:
     settings = obj.fragmotion.bake
     settings.trace_source, settings.as_recorded, settings.reduce = "TAKE", False, True
     before = digest()
     job = addon.jobs.Job("test", addon.baking.prepare(bpy.context, obj, settings).task)
-    job.run(lambda _fraction: job.cancel())
+    heard = []
+
+    def stop(_fraction: float) -> None:
+        heard.append(job.stage)
+        if job.stage == stage:
+            job.cancel()
+
+    job.run(stop)
     with pytest.raises(addon.core.core.Cancelled):
         job.result()
+    assert heard.count(stage) == 1 and heard[-1] == stage, "it went on"
     assert digest() == before
 
 
@@ -438,3 +449,25 @@ def test_what_cannot_be_baked_is_said_and_changes_nothing(addon: ModuleType, obj
     refuses("plays no Action to bake into: bake to a new", target="CURRENT", trace_source="TAKE")
     take.controls = b"?"
     refuses("Take 'Stroll' is damaged", trace_source="TAKE")
+
+
+def test_esc_stops_a_bake_and_changes_nothing(
+    addon: ModuleType, obj: bpy.types.Object, take: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    button, play_on = addon.operators.background, addon.performing.prepare
+
+    def slow(*arguments: Any) -> Any:
+        play = play_on(*arguments)
+
+        def cancelled(report: Any) -> Any:
+            assert not bpy.ops.fragmotion.bake.poll() and not bpy.ops.fragmotion.build.poll()
+            assert bpy.ops.fragmotion.cancel() == {"FINISHED"}
+            return play(report)
+
+        return cancelled
+
+    monkeypatch.setattr(addon.performing, "prepare", slow)
+    before = digest()
+    assert bpy.ops.fragmotion.bake(trace_source="TAKE", target="NLA") == {"CANCELLED"}
+    assert digest() == before
+    assert button.current is None and bpy.ops.fragmotion.bake.poll()

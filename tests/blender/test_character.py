@@ -265,8 +265,8 @@ def test_a_cancelled_build_changes_nothing(addon: ModuleType, obj: bpy.types.Obj
 def test_the_cancel_button_stops_the_build(
     addon: ModuleType, obj: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    button = addon.operators.build
-    assert not bpy.ops.fragmotion.cancel_build.poll()
+    button = addon.operators.background
+    assert not bpy.ops.fragmotion.cancel.poll()
     build = addon.building.core.build
     stages = []
 
@@ -274,7 +274,7 @@ def test_the_cancel_button_stops_the_build(
         def spy(fraction: float, stage: str) -> bool:
             stages.append(stage)
             if fraction > 0.1 and not button.current._cancelled.is_set():
-                assert bpy.ops.fragmotion.cancel_build() == {"FINISHED"}
+                assert bpy.ops.fragmotion.cancel() == {"FINISHED"}
             return progress(fraction, stage)
 
         return build(skeleton, clips, traces, options, spy)

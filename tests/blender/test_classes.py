@@ -276,7 +276,7 @@ def test_a_cancelled_trial_changes_nothing(
     addon: ModuleType, obj: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def cancel(*_: object) -> None:
-        bpy.ops.fragmotion.cancel_build()
+        bpy.ops.fragmotion.cancel()
 
     monkeypatch.setattr(addon.suggesting.core, "suggest_classes", cancel)
     before = obj.fragmotion.build.classes

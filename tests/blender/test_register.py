@@ -48,7 +48,7 @@ def test_unregister_stops_a_build_with_its_thread_and_timer(addon: ModuleType, m
     manager = SimpleNamespace(
         event_timer_add=lambda step, window: timers.append(step) or step, event_timer_remove=timers.remove
     )
-    button = addon.operators.build
+    button = addon.operators.background
     monkeypatch.setattr(button, "bpy", SimpleNamespace(context=SimpleNamespace(window_manager=manager)))
     started = Event()
 
@@ -68,7 +68,7 @@ def test_unregister_stops_a_build_with_its_thread_and_timer(addon: ModuleType, m
 def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleType) -> None:
     own = [cls.bl_idname.partition(".")[2] for cls in addon.operators.CLASSES]
     assert {"import_mocap", "build", "suggest_classes", "force_class", "leave_out", "bake"} <= set(own)
-    unchanging = {"save_policy", "cancel_build", "export_take", "solo_class", "force_class"}
+    unchanging = {"save_policy", "cancel", "export_take", "solo_class", "force_class"}
     unchanging |= {"drive", "record", "play_trace", "find_pads"}
     for name in own:
         operator = getattr(bpy.ops.fragmotion, name).get_rna_type()

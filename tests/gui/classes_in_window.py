@@ -100,7 +100,7 @@ def steps() -> Iterator[None]:
     show_only(panels, *(panel.bl_label for panel in panels))  # before they are first drawn, closed
     yield from open_tab()
     press(bpy.ops.fragmotion.tick_actions, "EXEC_DEFAULT", True, use=True)
-    yield from stopped_trial(addon.building.core, import_module("fragmotion.operators.build"), obj)
+    yield from stopped_trial(addon.building.core, import_module("fragmotion.operators.background"), obj)
     press(bpy.ops.fragmotion.suggest_classes, "EXEC_DEFAULT", True)
     press(bpy.ops.fragmotion.build, "EXEC_DEFAULT", True, synthesize=False)  # with holes in the coverage
     obj = bpy.data.objects[ARMATURE]

@@ -87,7 +87,7 @@ def disable_while_building(build: Any) -> Iterator[None]:
 
 def steps() -> Iterator[None]:
     """The whole session."""
-    build = import_module("fragmotion.operators.build")
+    build = import_module("fragmotion.operators.background")
     building = import_module("fragmotion.building")
     go_on = hold_builds(building.core)
     bpy.data.objects.remove(bpy.data.objects["Cube"])
@@ -108,7 +108,7 @@ def steps() -> Iterator[None]:
     assert not building.has_character(obj), "Esc did not stop the build"
 
     press(bpy.ops.fragmotion.build, **FIELDS)
-    press(bpy.ops.fragmotion.cancel_build)
+    press(bpy.ops.fragmotion.cancel)
     yield from finish_build(build)
     assert not building.has_character(obj), "Cancel did not stop the build"
 

@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 from . import takes
+from .background import FRAGMOTION_OT_cancel
 from .bake import FRAGMOTION_OT_bake
-from .build import FRAGMOTION_OT_build, FRAGMOTION_OT_cancel_build
+from .build import FRAGMOTION_OT_build
 from .drive import FRAGMOTION_OT_drive, FRAGMOTION_OT_find_pads, FRAGMOTION_OT_play_trace, FRAGMOTION_OT_record
 from .force_class import FRAGMOTION_OT_force_class
 from .import_mocap import FRAGMOTION_OT_import_mocap
@@ -24,7 +25,7 @@ CLASSES = (
     FRAGMOTION_OT_take_in,
     FRAGMOTION_OT_suggest_classes,
     FRAGMOTION_OT_build,
-    FRAGMOTION_OT_cancel_build,
+    FRAGMOTION_OT_cancel,
     FRAGMOTION_OT_save_policy,
     FRAGMOTION_OT_load_policy,
     *takes.CLASSES,

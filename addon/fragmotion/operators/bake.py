@@ -7,18 +7,18 @@ from typing import ClassVar
 
 import bpy
 
-from ..baking import hindrances, prepare
+from ..baking import Baked, hindrances, prepare
 from ..building import has_character
 from ..drawing import draw_bake, draw_bake_options
-from ..errors import core_errors, reported
 from ..jobs import Job
 from ..properties import BakeFields
-from ..targets import write
+from ..targets import find_target, write
+from .background import Background, poll_idle
 from .context import active_armature, adopt_settings, poll_armature
 
 
-class FRAGMOTION_OT_bake(BakeFields, bpy.types.Operator):
-    """Bake a trace to an Action of the active armature."""
+class FRAGMOTION_OT_bake(BakeFields, Background, bpy.types.Operator):
+    """Bake a trace to an Action of the active armature; a short one at once."""
 
     bl_idname = "fragmotion.bake"
     bl_label = "Bake"
@@ -27,31 +27,30 @@ class FRAGMOTION_OT_bake(BakeFields, bpy.types.Operator):
         "the armature's origin, facing its -Y (towards the front view)"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+    verb = "Bake"
+    patience = 0.5
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not poll_armature(cls, context):
+        if not poll_armature(cls, context) or not poll_idle(cls):
             return False
         obj = active_armature(context)
         if not has_character(obj):
             cls.poll_message_set(f"Armature '{obj.name}' has no character yet: press Build first")
         return has_character(obj)
 
-    @reported
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def _prepare(self, context: bpy.types.Context) -> Job:
         obj = active_armature(context)
         adopt_settings(self, obj.fragmotion.bake, BakeFields)
         prepared = prepare(context, obj, self)
-        job, manager = Job(f"Baking '{obj.name}'", prepared.task), context.window_manager
-        manager.progress_begin(0, 100)
-        try:
-            job.run(lambda fraction: manager.progress_update(100 * fraction))
-        finally:
-            manager.progress_end()
-        with core_errors("Bake"):
-            baked = job.result()
-        action = write(context, obj, prepared.target, baked.tracks, baked.classes, self)
-        first, frames = prepared.target.first, len(baked.classes)
+        # Blender may replace an Action while the bake runs: only names stay valid.
+        self._armature, self._name, self._first = obj.name, prepared.target.name, prepared.target.first
+        return Job(f"Baking '{obj.name}'", prepared.task)
+
+    def _keep(self, context: bpy.types.Context, obj: bpy.types.Object, baked: Baked) -> None:
+        target = find_target(context, obj, self, self._name)._replace(first=self._first)
+        action = write(context, obj, target, baked.tracks, baked.classes, self)
+        first, frames = target.first, len(baked.classes)
         self.report(
             {"INFO"},
             f"Baked {frames} frames ({first}-{first + frames - 1}) to Action '{action.name}'; {baked.remark}",
@@ -59,7 +58,6 @@ class FRAGMOTION_OT_bake(BakeFields, bpy.types.Operator):
         others = hindrances(obj, own_strip=self.target == "NLA")
         if others:
             self.report({"WARNING"}, f"The pose will differ from the bake because of {'; '.join(others)}")
-        return {"FINISHED"}
 
     def draw(self, _context: bpy.types.Context) -> None:
         draw_bake(self.layout, self)

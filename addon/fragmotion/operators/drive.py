@@ -17,7 +17,7 @@ from ..drive.sdl import SdlMissing
 from ..errors import UserError, core_errors, reported
 from ..movers import movers
 from ..traces import make_trace
-from . import build
+from .background import poll_idle
 from .context import active_armature, poll_armature
 
 _PANEL_INTERVAL = 0.2  # s between drawings of the sidebar, which holds the pads
@@ -69,10 +69,7 @@ class FRAGMOTION_OT_drive(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         if session.current is not None:
             return True
-        if build.current is not None:
-            cls.poll_message_set("A build is running")
-            return False
-        if not poll_armature(cls, context):
+        if not poll_idle(cls) or not poll_armature(cls, context):
             return False
         if bpy.app.background:
             cls.poll_message_set("Driving needs a window")

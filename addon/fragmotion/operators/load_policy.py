@@ -12,7 +12,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from ..building import load_policy
 from ..errors import UserError, reported
-from . import build
+from .background import poll_idle
 from .context import active_armature, poll_armature
 from .save_policy import EXTENSION
 
@@ -29,10 +29,7 @@ class FRAGMOTION_OT_load_policy(ImportHelper, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if build.current is not None:
-            cls.poll_message_set("A build is running")
-            return False
-        return poll_armature(cls, context)
+        return poll_idle(cls) and poll_armature(cls, context)
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:

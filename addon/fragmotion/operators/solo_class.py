@@ -11,7 +11,7 @@ import bpy
 from .. import classes
 from ..errors import reported
 from ..solo import Solo
-from . import build
+from . import background
 from .context import active_armature
 from .force_class import poll_class
 
@@ -39,11 +39,11 @@ class FRAGMOTION_OT_solo_class(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         if not poll_class(cls, context):
             return False
-        running = build.current is not None or classes.session is not None
+        running = background.current is not None or classes.session is not None
         if bpy.app.background:
             cls.poll_message_set("There is no window to play in")
         elif running:
-            cls.poll_message_set("Stop the build or the drive that is running first")
+            cls.poll_message_set("Stop what is under way first (Esc)")
         return not (bpy.app.background or running or current)
 
     @reported

@@ -10,7 +10,8 @@ import bpy
 from .. import suggesting
 from ..jobs import Job
 from ..properties import BuildFields
-from .build import Background, poll_build
+from .background import Background
+from .build import poll_build
 from .context import active_armature, adopt_settings
 
 
@@ -36,5 +37,5 @@ class FRAGMOTION_OT_suggest_classes(BuildFields, Background, bpy.types.Operator)
         self._armature, self._before = obj.name, self.classes
         return Job("Trying class numbers", suggesting.prepare(context, obj, self))
 
-    def _keep(self, obj: bpy.types.Object, result: Any) -> None:
+    def _keep(self, _context: bpy.types.Context, obj: bpy.types.Object, result: Any) -> None:
         self.report({"INFO"}, suggesting.keep(obj, result, self._before))

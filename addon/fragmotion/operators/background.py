@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Operators whose work runs in the background, where Esc and the panel's Cancel stop it."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import bpy
+
+from ..core import core
+from ..errors import UserError, core_errors, reported
+from ..jobs import Job
+
+_TICK = 0.1  # s between looks at the job
+current: Job | None = None
+"""What runs now; the panel shows it."""
+
+_timer: bpy.types.Timer | None = None  # wakes the modal operator
+
+
+class Background:
+    """An operator of one job, `current` while it runs: in the background, or to its end at once where there is no
+    window, and when executed. A job that takes no longer than `patience` (s) is waited for."""
+
+    verb: ClassVar[str]
+    patience: ClassVar[float] = 0.0
+    report: Any
+    _armature: str
+
+    def _prepare(self, context: bpy.types.Context) -> Job:
+        """Make the job, and set `_armature` to the name of the object that it is for; UserError where it cannot be."""
+        raise NotImplementedError
+
+    def _keep(self, context: bpy.types.Context, obj: bpy.types.Object, result: Any) -> None:
+        """Keep what the job returned with the armature, and report it."""
+        raise NotImplementedError
+
+    @reported
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        if bpy.app.background:
+            return self.execute(context)
+        job = self._prepare(context)
+        _watch(context, job)
+        job.wait(self.patience)
+        if not job.running:
+            self._end(context)
+            return self._finish(context, job)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    @reported
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        job = current
+        if job is None:
+            return {"CANCELLED"}
+        if event.type == "ESC" and event.value == "PRESS":
+            job.cancel()
+            return {"RUNNING_MODAL"}
+        if event.type == "TIMER":
+            self._show(context)
+            if not job.running:
+                self._end(context)
+                return self._finish(context, job)
+        return {"PASS_THROUGH"}
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        manager = context.window_manager
+        job = self._prepare(context)
+        _set_current(job)
+        manager.progress_begin(0, 100)
+        try:
+            job.run(lambda fraction: manager.progress_update(100 * fraction))
+        finally:
+            manager.progress_end()
+            _set_current(None)
+        return self._finish(context, job)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Blender ends the operator: another file is loaded, or Blender quits."""
+        stop()
+
+    def _finish(self, context: bpy.types.Context, job: Job) -> set[str]:
+        """Keep the result, or say why there is none."""
+        try:
+            with core_errors(self.verb):
+                result = job.result()
+        except core.Cancelled:
+            self.report({"WARNING"}, f"{self.verb} was cancelled; nothing has changed")
+            return {"CANCELLED"}
+        obj = bpy.data.objects.get(self._armature)
+        if obj is None:
+            raise UserError(f"Armature '{self._armature}' was deleted or renamed meanwhile")
+        self._keep(context, obj, result)
+        return {"FINISHED"}
+
+    def _show(self, context: bpy.types.Context) -> None:
+        for area in context.screen.areas if context.screen else ():
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+    def _end(self, context: bpy.types.Context) -> None:
+        _set_current(None)
+        _stop_timer()
+        self._show(context)
+
+
+class FRAGMOTION_OT_cancel(bpy.types.Operator):
+    """Stop what is under way in the background; nothing changes in the file"""
+
+    bl_idname = "fragmotion.cancel"
+    bl_label = "Cancel"
+    bl_options: ClassVar[set[str]] = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        if current is None:
+            cls.poll_message_set("Nothing is under way")
+        return current is not None
+
+    def execute(self, _context: bpy.types.Context) -> set[str]:
+        if current is not None:
+            current.cancel()
+        return {"FINISHED"}
+
+
+def poll_idle(cls: Any) -> bool:
+    """Whether nothing runs in the background; says what does."""
+    if current is not None:
+        cls.poll_message_set(f"{current.label} is under way: wait, or cancel it (Esc)")
+    return current is None
+
+
+def stop() -> None:
+    """Cancel what is under way, return when it has stopped, and let nothing of it stay with Blender."""
+    if current is not None:
+        current.cancel()
+        if current.running:
+            current.wait()
+    _set_current(None)
+    _stop_timer()
+
+
+def _watch(context: bpy.types.Context, job: Job) -> None:
+    """Start the job, and a timer that wakes its operator."""
+    global _timer
+    _set_current(job)
+    job.start()
+    _timer = context.window_manager.event_timer_add(_TICK, window=context.window)
+
+
+def _stop_timer() -> None:
+    global _timer
+    if _timer is not None:
+        bpy.context.window_manager.event_timer_remove(_timer)
+    _timer = None
+
+
+def _set_current(job: Job | None) -> None:
+    global current
+    current = job
