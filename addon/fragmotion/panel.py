@@ -104,7 +104,7 @@ class FRAGMOTION_PT_build(_Sidebar, bpy.types.Panel):
             return
         if building.has_character(obj):
             if is_stale(obj):
-                layout.label(text="Actions changed since Build", icon="ERROR")
+                layout.label(text="Stale: Actions changed", icon="ERROR")
             draw_figures(layout, obj.fragmotion.figures)
             draw_keeping(layout, obj)
         row = layout.row(align=True)

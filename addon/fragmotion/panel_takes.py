@@ -15,7 +15,7 @@ _ROWS = 4
 
 
 class FRAGMOTION_UL_takes(bpy.types.UIList):
-    """The armature's takes: a tick to train on each, its name, length, date and quality."""
+    """The armature's takes, each with a tick to train on it, its name and its length."""
 
     bl_idname = "FRAGMOTION_UL_takes"
 
@@ -31,13 +31,11 @@ class FRAGMOTION_UL_takes(bpy.types.UIList):
     ) -> None:
         row = layout.row(align=True)
         row.prop(item, "train", text="")
-        split = row.split(factor=0.55)
+        split = row.split(factor=0.7)
         split.prop(item, "name", text="", emboss=False)
-        figures = split.row()
-        for text in (f"{item.seconds:.1f} s", _quality(item)):
-            cell = figures.row()
-            cell.alignment = "RIGHT"
-            cell.label(text=text)
+        length = split.row()
+        length.alignment = "RIGHT"
+        length.label(text=f"{item.seconds:.0f} s")
 
 
 class _Sidebar:
@@ -96,15 +94,16 @@ def _draw_buttons(column: bpy.types.UILayout) -> None:
         column.operator(f"fragmotion.{name}", text="", icon=icon)
 
 
-def _quality(take: Any) -> str:
-    return f"{take.quality:.2f}" if take.quality > 0 else "-"
-
-
 def _draw_figures(layout: bpy.types.UILayout, take: Any) -> None:
     column = layout.column(align=True)
-    row = column.row()
-    row.label(text=take.date, icon="TIME", translate=False)
-    row.label(text=f"Quality {_quality(take)}" if take.quality > 0 else "Quality not measured")
+    for label, value in (
+        ("Recorded", take.date),
+        ("Length", f"{take.seconds:.1f} s"),
+        ("Quality", f"{take.quality:.2f} of 1" if take.quality > 0 else "not measured"),
+    ):
+        row = column.split(factor=0.36)
+        row.label(text=label)
+        row.label(text=value, translate=False)
 
 
 def _draw_uses(layout: bpy.types.UILayout, index: int) -> None:

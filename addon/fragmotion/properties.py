@@ -79,8 +79,8 @@ _ROOTS = (
     ("IN_PLACE", "In Place", "The character stays where it starts and faces one way, as on a treadmill"),
 )
 _PLACES = (
-    ("ORIGIN", "Armature's Origin", "Under the armature's origin, facing its -Y (towards the front view)"),
-    ("CHARACTER", "Where It Is", "Where the character stands now, facing as it does: goes on from the current frame"),
+    ("ORIGIN", "Origin", "Under the armature's origin, facing its -Y (towards the front view)"),
+    ("CHARACTER", "Continue", "Where the character stands now, facing as it does: goes on from the current frame"),
 )
 _MARKERS = (
     ("NONE", "None", "No markers"),
