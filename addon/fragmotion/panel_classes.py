@@ -9,8 +9,7 @@ import bpy
 
 from . import classes, inspector
 from .errors import UserError
-from .operators import background
-from .operators import solo_class
+from .operators import background, solo_class
 from .operators.context import active_armature
 
 _ROWS = 7
