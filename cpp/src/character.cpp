@@ -25,6 +25,7 @@ constexpr double kTwoGaits = 1.6;   // a run is at least so much faster than a w
 constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gaits
 constexpr double kRunOverWalk = 3.3 / 1.2;
 constexpr double kBalance = -1.0 / 3;  // each of k fragments that perform one control counts k^(-1/3) in clustering
+constexpr double kJumping = 0.2;       // weight of a fragment that jumps
 constexpr double kTurning = kPi / 6;   // rad/s
 
 class Stopwatch {
@@ -134,11 +135,31 @@ void round_to_single(std::vector<Clip>& clips) {
   }
 }
 
-// What many fragments perform must not take all classes from what few do.
+// The median floor of the captured clips.
+Floors usual_floors(const std::vector<Contacts>& contacts, const std::vector<bool>& captured) {
+  const auto median = [&](int side, double FootHeights::*part) {
+    std::vector<double> heights;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      if (captured[c]) heights.push_back(contacts[c].floors[side].*part);
+    }
+    if (heights.empty()) return 0.0;
+    std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
+    return heights[heights.size() / 2];
+  };
+  Floors floors;
+  for (int side = 0; side < 2; ++side)
+    floors[side] = {median(side, &FootHeights::ball), median(side, &FootHeights::heel)};
+  return floors;
+}
+
+// What many fragments perform must not take all classes from what few do, nor jumps, half of the controls, from the
+// walking and running between them.
 std::vector<float> balanced_weights(const Character& c) {
   std::vector<float> weights;
   for (const Fragment& f : c.pool.fragments) {
-    weights.push_back(static_cast<float>(std::pow(c.coverage.counts[c.space.nearest(f.evident)], kBalance)));
+    const int control = c.space.nearest(f.evident);
+    const double share = std::pow(c.coverage.counts[control], kBalance);
+    weights.push_back(static_cast<float>(share * (c.space.point(control).jump > 0 ? kJumping : 1)));
   }
   return weights;
 }
@@ -214,11 +235,22 @@ ControlSpace control_space_of(const std::vector<Control>& evident, double scale)
 }
 
 std::vector<Contacts> contacts_of(const FragmentPool& pool, int threads) {
+  std::vector<bool> captured(pool.clips.size(), false);
+  for (const Fragment& f : pool.fragments) {
+    captured[f.clip] = f.origin == Origin::captured || f.origin == Origin::mirrored;
+  }
   std::vector<Contacts> contacts(pool.clips.size());
-  parallel_for(static_cast<int>(contacts.size()), thread_count(threads), [&](int begin, int end) {
-    const Kinematics kinematics(pool.skeleton);
-    for (int c = begin; c < end; ++c) contacts[c] = find_contacts(kinematics, pool.clips[c]);
-  });
+  const auto find = [&](bool whether, const Floors* floors) {
+    parallel_for(static_cast<int>(contacts.size()), thread_count(threads), [&](int begin, int end) {
+      const Kinematics kinematics(pool.skeleton);
+      for (int c = begin; c < end; ++c) {
+        if (captured[c] == whether) contacts[c] = find_contacts(kinematics, pool.clips[c], floors);
+      }
+    });
+  };
+  find(true, nullptr);
+  const Floors usual = usual_floors(contacts, captured);
+  find(false, &usual);
   return contacts;
 }
 
@@ -254,6 +286,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   }
   round_to_single(c.pool.clips);
   c.contacts = contacts_of(c.pool, options.threads);
+  c.legs = find_legs(kinematics, c.pool.clips);
   c.coverage = coverage(c.pool, c.space);
   c.report["fragments"] = static_cast<double>(c.pool.fragments.size());
   c.report["synthesize_seconds"] = stage.lap();

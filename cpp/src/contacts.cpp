@@ -55,15 +55,15 @@ void close_short_runs(std::vector<bool>& flags, bool value, int frames) {
   }
 }
 
-std::vector<bool> foot_contacts(const FootPath& path, const std::vector<Vector3>& hips, double rate, double scale) {
-  const double ball_floor = lowest(path.ball), heel_floor = lowest(path.heel);
+std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, const std::vector<Vector3>& hips,
+                                double rate, double scale) {
   std::vector<bool> flags(path.ball.size());
   for (int f = 0; f < static_cast<int>(flags.size()); ++f) {
     const double limit = kSpeed + kSpeedShare * speed_at(hips, f, rate) * scale;
-    const auto stands = [&](const std::vector<Vector3>& point, double floor) {
-      return (point[f].z() - floor) * scale < kHeight && speed_at(point, f, rate) * scale < limit;
+    const auto stands = [&](const std::vector<Vector3>& point, double lowest) {
+      return (point[f].z() - lowest) * scale < kHeight && speed_at(point, f, rate) * scale < limit;
     };
-    flags[f] = stands(path.ball, ball_floor) || stands(path.heel, heel_floor);
+    flags[f] = stands(path.ball, floor.ball) || stands(path.heel, floor.heel);
   }
   const int frames = static_cast<int>(std::ceil(kShortest * rate));
   close_short_runs(flags, false, frames);
@@ -73,7 +73,7 @@ std::vector<bool> foot_contacts(const FootPath& path, const std::vector<Vector3>
 
 }  // namespace
 
-Contacts find_contacts(const Kinematics& kinematics, const Clip& clip) {
+Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
   const Roles& roles = kinematics.skeleton().roles;
   if (roles.left_foot < 0 || roles.right_foot < 0) return {};
   std::vector<Vector3> hips;
@@ -81,7 +81,10 @@ Contacts find_contacts(const Kinematics& kinematics, const Clip& clip) {
   const double scale = standard_scale(kinematics.skeleton());
   const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
   Contacts contacts;
-  for (int side = 0; side < 2; ++side) contacts.feet[side] = foot_contacts(paths[side], hips, clip.rate, scale);
+  for (int side = 0; side < 2; ++side) {
+    contacts.floors[side] = floors ? (*floors)[side] : FootHeights{lowest(paths[side].ball), lowest(paths[side].heel)};
+    contacts.feet[side] = foot_contacts(paths[side], contacts.floors[side], hips, clip.rate, scale);
+  }
   return contacts;
 }
 

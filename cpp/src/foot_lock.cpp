@@ -10,19 +10,24 @@ namespace fragmotion {
 namespace {
 
 // Lengths are those of a character of 1.8 m.
-constexpr double kTooFar = 0.3;    // m from its motion at which a foot is let go
-constexpr double kRelease = 0.2;   // s in which a foot that is let go gets back to its motion
-constexpr double kSettle = 0.03;   // s: time constant of a foot that comes to rest
-constexpr double kDeepest = 0.12;  // m that the hips may sink
-constexpr double kSinking = 0.06;  // s: time constant of the hips
+constexpr double kTooFar = 0.3;       // m from its motion at which a foot is let go
+constexpr double kLanding = 0.06;     // m over the floor within which a foot is planted
+constexpr double kRelease = 0.2;      // s in which a foot that is let go gets back to its motion
+constexpr double kSettle = 0.03;      // s: time constant of a foot that comes to rest
+constexpr double kSoftGround = 0.06;  // m: a foot sinks in at most half of that
+constexpr double kDeepest = 0.12;     // m that the hips may sink
+constexpr double kSinking = 0.06;     // s: time constant of the hips
+
+// How far a foot is lifted that is so deep in the ground: softly at first.
+double lifted(double depth) {
+  if (depth < 0) return 0;
+  return depth < kSoftGround ? depth * depth / (2 * kSoftGround) : depth - kSoftGround / 2;
+}
 
 }  // namespace
 
-FootLock::FootLock(const Kinematics& kinematics)
-    : kinematics_(kinematics),
-      scale_(standard_scale(kinematics.skeleton())),
-      legs_{left_leg(kinematics.skeleton()), right_leg(kinematics.skeleton())},
-      posed_(kinematics.bones()) {
+FootLock::FootLock(const Kinematics& kinematics, const Legs& legs)
+    : kinematics_(kinematics), scale_(standard_scale(kinematics.skeleton())), legs_(legs), posed_(kinematics.bones()) {
   reset();
 }
 
@@ -67,27 +72,32 @@ Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double se
   return away;
 }
 
-void FootLock::apply(WorldPose& pose, const std::array<bool, 2>& planted, double seconds) {
+double FootLock::height(int side, const FootHeights& floor) const {
+  const Leg& leg = legs_[side];
+  const double toe = ball(kinematics_.skeleton(), leg, posed_).z(), heel = posed_.heads[leg.foot].z();
+  return std::min(toe - floor.ball, heel - floor.heel);
+}
+
+void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds) {
   if (!legs_[0].exists() || !legs_[1].exists()) return;
   const Skeleton& skeleton = kinematics_.skeleton();
   kinematics_.world(pose.root, pose.rotations.data(), posed_.heads.data(), posed_.rotations.data());
   std::array<Vector3, 2> ankles;
   double sink = 0;
-  bool moved = false;
   for (int side = 0; side < 2; ++side) {
-    const Vector2 by = away(feet_[side], ball(skeleton, legs_[side], posed_).head<2>(), planted[side], seconds);
-    ankles[side] = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), 0};
-    if (by.isZero(1e-9)) continue;
-    moved = true;
+    const double over = height(side, contacts.floors[side]);
+    const bool stands = contacts.feet[side][frame] && (feet_[side].locked || over * scale_ < kLanding);
+    const Vector2 by = away(feet_[side], ball(skeleton, legs_[side], posed_).head<2>(), stands, seconds);
+    ankles[side] = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), lifted(-over * scale_) / scale_};
+    if (by.isZero(1e-9) && over >= 0) continue;
     sink = std::max(sink, std::min(kDeepest / scale_, sinking(legs_[side], posed_, ankles[side])));
   }
   fresh_ = false;
   sunk_ += (sink - sunk_) * (1 - std::exp(-seconds / kSinking));
-  if (!moved && sunk_ < 1e-6) return;
   pose.root.z() -= sunk_;
   for (Vector3& head : posed_.heads) head.z() -= sunk_;
   for (int side = 0; side < 2; ++side) {
-    reach(skeleton, legs_[side], posed_, ankles[side], pose.heading, pose.rotations.data());
+    reach(skeleton, legs_[side], posed_, ankles[side], pose.rotations.data());
   }
 }
 

@@ -24,16 +24,22 @@ Quaternion rotation_of(const Vector3& turn) {
 
 Inertialization::Inertialization(int bones) : turns_(bones), turn_speeds_(bones) {}
 
-void Inertialization::begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh,
-                            const WorldPose& fresh_later, double later, double seconds) {
+void Inertialization::begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh,
+                            const WorldPose& fresh_later, double apart, double seconds) {
   seconds_ = seconds;
   root_ = old.root - fresh.root;
-  root_speed_ = (old_later.root - fresh_later.root - root_) / later;
+  root_speed_ = (old.root - old_before.root - (fresh_later.root - fresh.root)) / apart;
   heading_ = old.heading - fresh.heading;
-  heading_speed_ = (old_later.heading - fresh_later.heading - heading_) / later;
+  heading_speed_ = (old.heading - old_before.heading - (fresh_later.heading - fresh.heading)) / apart;
   for (std::size_t b = 0; b < turns_.size(); ++b) {
-    turns_[b] = turn_between(&old.rotations[4 * b], &fresh.rotations[4 * b]);
-    turn_speeds_[b] = (turn_between(&old_later.rotations[4 * b], &fresh_later.rotations[4 * b]) - turns_[b]) / later;
+    const double *was = &old_before.rotations[4 * b], *is = &old.rotations[4 * b], *starts = &fresh.rotations[4 * b];
+    const Vector3 offset = turn_between(is, starts);
+    // What the old bone turns in `apart`, and then the new one, both about the world of the parent.
+    const Quaternion next_old = load_quaternion(is) * load_quaternion(was).conjugate() * load_quaternion(is);
+    double next[4];
+    store_quaternion(next_old, next);
+    turns_[b] = offset;
+    turn_speeds_[b] = (turn_between(next, &fresh_later.rotations[4 * b]) - offset) / apart;
   }
 }
 

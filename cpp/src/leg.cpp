@@ -8,15 +8,22 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kStretched = 0.98;  // of a leg's length
-constexpr double kHinge = 0.1;       // a leg less bent than this (sine) bends to the front, whatever its angle
+constexpr double kStretched = 0.995;  // of a leg's length: what it reaches at most, unless it does already
+constexpr double kSoft = 0.03;        // of a leg's length, below that: where it follows less
+constexpr int kApart = 5;             // frames of the clips that are looked at: each fifth
 
-// The axis about which the knee bends: that of its bend, or, where it hardly bends, the character's left. At right
-// angles to the thigh.
-Vector3 hinge(const Vector3& upper, const Vector3& lower, double heading) {
-  const Vector3 left{-std::cos(heading), -std::sin(heading), 0};
-  const Vector3 bend = upper.cross(lower) + kHinge * upper.norm() * lower.norm() * left;
-  return (bend - bend.dot(upper) / upper.squaredNorm() * upper).normalized();
+constexpr double kTires = kStretched - kSoft;  // of a leg's length: from where it follows less
+
+double softly(double distance) {
+  return distance < kTires ? distance : kTires + kSoft * (1 - std::exp((kTires - distance) / kSoft));
+}
+
+// How far apart the ends of a leg come that are `now` apart and would be `wanted`, all in lengths of the leg. Where
+// they are wanted as they are, they stay.
+double apart(double now, double wanted) {
+  if (wanted <= kTires) return wanted;
+  const double share = now > kTires ? std::min(1.0, (wanted - kTires) / (now - kTires)) : 0;
+  return std::min(softly(wanted) + share * (now - softly(now)), std::max(now, kStretched));
 }
 
 // The angle of the knee, 0 where the leg is straight, for which its ends are so far apart.
@@ -29,7 +36,8 @@ Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe) {
   std::vector<Vector3> heads;
   std::vector<Quaternion> rotations;
   rest_pose(skeleton, heads, rotations);
-  Leg leg{thigh, -1, foot, toe, skeleton.parents[foot]};
+  const Vector3 left = heads[skeleton.roles.left_thigh] - heads[skeleton.roles.right_thigh];
+  Leg leg{thigh, -1, foot, toe, skeleton.parents[foot], rotations[thigh].conjugate() * left.normalized()};
   double most = 0;
   for (int b = leg.above_foot; b != thigh && b >= 0; b = skeleton.parents[b]) {
     const double shorter = std::min((heads[b] - heads[thigh]).norm(), (heads[foot] - heads[b]).norm());
@@ -38,16 +46,30 @@ Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe) {
   return leg;
 }
 
-}  // namespace
-
-Leg left_leg(const Skeleton& skeleton) {
-  const Roles& roles = skeleton.roles;
-  return leg_of(skeleton, roles.left_thigh, roles.left_foot, roles.left_toe);
+// What bends the leg's knee in a pose, as the thigh sees it; the longer the more it is bent.
+Vector3 bend(const Leg& leg, const PosedBones& posed) {
+  const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
+                lower = posed.heads[leg.foot] - posed.heads[leg.knee];
+  return posed.rotations[leg.thigh].conjugate() * upper.cross(lower) / (upper.norm() * lower.norm());
 }
 
-Leg right_leg(const Skeleton& skeleton) {
+}  // namespace
+
+Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips) {
+  const Skeleton& skeleton = kinematics.skeleton();
   const Roles& roles = skeleton.roles;
-  return leg_of(skeleton, roles.right_thigh, roles.right_foot, roles.right_toe);
+  Legs legs{leg_of(skeleton, roles.left_thigh, roles.left_foot, roles.left_toe),
+            leg_of(skeleton, roles.right_thigh, roles.right_foot, roles.right_toe)};
+  if (!legs[0].exists() || !legs[1].exists()) return legs;
+  PosedBones posed(kinematics.bones());
+  for (const Clip& clip : clips) {
+    for (int f = 0; f < clip.frames; f += kApart) {
+      kinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+      for (Leg& leg : legs) leg.hinge += bend(leg, posed);
+    }
+  }
+  for (Leg& leg : legs) leg.hinge.normalize();
+  return legs;
 }
 
 Vector3 ball(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed) {
@@ -64,18 +86,19 @@ double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle) {
   return std::max(0.0, -way.z() - std::sqrt(square));
 }
 
-void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double heading,
-           double* rotations) {
+void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations) {
   const Vector3 hip = posed.heads[leg.thigh], upper = posed.heads[leg.knee] - hip,
                 lower = posed.heads[leg.foot] - posed.heads[leg.knee];
-  const double longest = std::max((upper + lower).norm(), kStretched * (upper.norm() + lower.norm()));
-  const Vector3 axis = hinge(upper, lower, heading);
+  const double length = upper.norm() + lower.norm(), now = (upper + lower).norm() / length,
+               wanted = (ankle - hip).norm() / length;
+  const Vector3 hinge = posed.rotations[leg.thigh] * leg.hinge;
+  const Vector3 axis = (hinge - hinge.dot(upper) / upper.squaredNorm() * upper).normalized();
   const double across = (lower - lower.dot(axis) * axis).norm(), beside = lower.squaredNorm() - across * across;
-  const auto angle = [&](double apart) {
-    return opening(upper.norm(), across, std::sqrt(std::max(0.0, apart * apart - beside)));
+  const auto angle = [&](double distance) {
+    return opening(upper.norm(), across, std::sqrt(std::max(0.0, distance * distance - beside)));
   };
-  const double wanted = std::min((ankle - hip).norm(), longest);
-  const Quaternion knee{Eigen::AngleAxisd(angle(wanted) - angle((upper + lower).norm()), axis)};
+  const double bent = std::atan2(axis.dot(upper.cross(lower)), upper.dot(lower));
+  const Quaternion knee{Eigen::AngleAxisd(angle(length * apart(now, wanted)) - bent, axis)};
   const Quaternion thigh = Quaternion::FromTwoVectors(upper + knee * lower, ankle - hip), shin = thigh * knee;
   const auto store = [&](int bone, const Quaternion& parent, const Quaternion& world) {
     store_quaternion((parent.conjugate() * world).normalized(), rotations + std::ptrdiff_t{4} * bone);

@@ -14,14 +14,14 @@ namespace {
 constexpr double kRate = 60, kHeight = 0.025, kSliding = 0.1, kStitched = 0.25;
 constexpr double kNeverLow = std::numeric_limits<double>::infinity();
 
-using Floors = std::array<double, 4>;  // heights of left ball, left heel, right ball, right heel
+using PointFloors = std::array<double, 4>;  // heights of left ball, left heel, right ball, right heel
 
 // A motion as the places of its joints, for a character of 1.8 m.
 struct Joints {
   double rate = 0;
   int bones = 0, frames = 0;
   std::vector<Vector3> places;                 // [frames, bones]
-  std::array<std::vector<Vector3>, 4> points;  // of the feet, as Floors; empty without feet
+  std::array<std::vector<Vector3>, 4> points;  // of the feet, as PointFloors; empty without feet
   std::vector<bool> judged;                    // frames whose steps count
 
   const Vector3& place(int frame, int bone) const { return places[static_cast<std::size_t>(frame) * bones + bone]; }
@@ -85,8 +85,8 @@ std::vector<Joints> takes_of(const Character& character) {
 }
 
 // The median over the takes of where each point is lowest.
-Floors floors_of(const std::vector<Joints>& takes) {
-  Floors floors;
+PointFloors floors_of(const std::vector<Joints>& takes) {
+  PointFloors floors;
   floors.fill(kNeverLow);
   for (std::size_t point = 0; point < floors.size(); ++point) {
     std::vector<double> lowest;
@@ -103,7 +103,7 @@ Floors floors_of(const std::vector<Joints>& takes) {
 
 class Measurement {
  public:
-  explicit Measurement(const Floors& floors) : floors_(floors) {}
+  explicit Measurement(const PointFloors& floors) : floors_(floors) {}
 
   void add(const Joints& joints) {
     for (std::size_t point = 0; point < floors_.size(); ++point) add_point(joints, point);
@@ -158,7 +158,7 @@ class Measurement {
     return {at(0.99), at(0.999), at(1)};
   }
 
-  Floors floors_;
+  PointFloors floors_;
   double skate_ = 0, count_ = 0, low_ = 0, sliding_ = 0, depth_ = 0;
   std::vector<float> positions_, velocities_, accelerations_;
 };

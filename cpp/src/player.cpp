@@ -16,7 +16,8 @@ constexpr double kInstant = 1e-9;   // s: no time
 constexpr double kChange = 1;       // ControlDis between controls that is "a lot"
 constexpr double kWorthIt = 0.05;   // s that must be left of a fragment for leaving it early
 constexpr double kInTheAir = 0.5;   // evident jump above which a fragment is played to its end
-constexpr double kJoinsWell = 1.3;  // times the Dis of the fragment that joins best
+constexpr double kJoinsWell = 1.3;  // times the Dis of the fragment that joins best, and
+constexpr double kJoinsNear = 0.3;  // m, summed as Dis, more
 constexpr double kPull = 0.4;       // of speed and turn rate: the most that the root is pulled
 constexpr double kPulling = 0.1;    // s: time constant of the pull
 constexpr double kLongest = 3600;   // s that a step may last
@@ -43,7 +44,7 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
       lock_feet_(options.lock_feet),
       pull_(options.pull),
       inertia_(kinematics_.bones()),
-      foot_lock_(kinematics_) {
+      foot_lock_(kinematics_, character_->legs) {
   if (!(pull_ >= 0 && pull_ <= 1)) throw std::invalid_argument("the pull must be 0 to 1");
   if (!(stitch_ >= 0 && stitch_ <= 1)) throw std::invalid_argument("the stitching time must be 0 to 1 s");
   last_pose_.resize(character_->first_poses.size() / character_->pool.fragments.size());
@@ -145,7 +146,7 @@ void Player::plant(double seconds) {
   const Clip& clip = character_->pool.clips[f.clip];
   const long at = std::lround(f.begin + now_.seconds * clip.rate);
   const auto frame = static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(clip.frames) - 1));
-  foot_lock_.apply(shown_, {contacts.feet[0][frame], contacts.feet[1][frame]}, seconds);
+  foot_lock_.apply(shown_, contacts, frame, seconds);
 }
 
 double Player::left() const {
@@ -167,25 +168,25 @@ int Player::draw(int next_class, const Control& control) {
     fitting_.emplace_back(tip_distance(last_pose_.data(), first, stride), fragment);
     least = std::min(least, fitting_.back().first);
   }
-  const auto joins = [&](const auto& each) { return each.first <= kJoinsWell * least; };
+  const auto joins = [&](const auto& each) { return each.first <= kJoinsWell * least + kJoinsNear; };
   const auto end = std::partition(fitting_.begin(), fitting_.end(), joins);
   return fitting_[random_.below(static_cast<int>(end - fitting_.begin()))].second;
 }
 
 // Begins a stitch of `seconds` from the old fragment, as it is shown, to the one that plays now.
 void Player::stitch(const Placed& old, double seconds) {
-  constexpr double kLater = 1.0 / 60;  // s over which speeds are measured
-  auto& [old_now, old_later, fresh, fresh_later] = scratch_;
+  constexpr double kApart = 1.0 / 60;  // s over which speeds are measured, within both fragments
+  auto& [old_before, old_now, fresh, fresh_later] = scratch_;
   old_now = pose_;
-  Placed later = old;
-  later.seconds += kLater;
-  sample(later, old_later);
-  if (later.seconds < stitched_) inertia_.apply(later.seconds, old_later);
+  Placed at = old;
+  at.seconds -= kApart;
+  sample(at, old_before);
+  if (at.seconds < stitched_) inertia_.apply(std::max(0.0, at.seconds), old_before);
   sample(now_, fresh);
-  later = now_;
-  later.seconds += kLater;
-  sample(later, fresh_later);
-  inertia_.begin(old_now, old_later, fresh, fresh_later, kLater, seconds);
+  at = now_;
+  at.seconds += kApart;
+  sample(at, fresh_later);
+  inertia_.begin(old_before, old_now, fresh, fresh_later, kApart, seconds);
 }
 
 void Player::start(int next_class, int fragment) {

@@ -295,6 +295,7 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     check(character);
     character.coverage = coverage(character.pool, character.space);
     character.contacts = contacts_of(character.pool);
+    character.legs = find_legs(Kinematics(character.pool.skeleton), character.pool.clips);
     character.first_poses = trajectories(character.pool, 2).first;
     return character;
   } catch (const std::invalid_argument& error) {

@@ -17,8 +17,10 @@ namespace {
 constexpr double kJumpHeight = 9.81 * 0.5 * 0.5 / 8;  // m, of a 1.8 m character: in the air for half a second
 constexpr double kSimilar = 0.12;                     // m a bone tip: fragments this near may be interpolated
 constexpr int kCandidates = 24;                       // neighbours of a control that interpolation tries in pairs
+constexpr double kHurry = 1.2;                        // the most by which steps are hurried, or slowed down
 constexpr double kStandSeconds = 0.5;
 constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
+constexpr double kAlike = 1e-6;                              // of effort
 constexpr double kClosed = 3;                                // m: Dis between the ends of a cycle
 
 // A pose seen from its character frame: the hips' height, and rotations with the hips' relative to the frame.
@@ -96,17 +98,42 @@ void add_standing(FragmentPool& pool, const SynthesisOptions& options) {
   pool.fragments.push_back(fragment);
 }
 
-// The strides of a motion as its path is changed: what the balls of the feet do about their middle is turned and scaled
+// One round of a gait, each pose seen from its character frame, and the way from each to the next.
+struct Round {
+  std::vector<BodyPose> poses;
+  CharacterFrame end;  // where the next round begins
+
+  int frames() const { return static_cast<int>(poses.size()); }
+};
+
+// Frames begin .. end of a clip. Where the last is not as the first, the second half leads to that.
+Round round_of(const Kinematics& kinematics, const Clip& clip, int begin, int end) {
+  Round round;
+  for (int f = begin; f < end; ++f) round.poses.push_back(body_pose(kinematics, clip, f));
+  const BodyPose first = round.poses.front(), last = body_pose(kinematics, clip, end);
+  round.end = last.frame;
+  for (int f = 0; f < round.frames(); ++f) {
+    const double weight = ease_in_ease_out(2.0 * f / round.frames() - 1);
+    BodyPose& pose = round.poses[f];
+    pose.height += weight * (first.height - last.height);
+    for (std::size_t b = 0; b < pose.rotations.size(); b += 4) {
+      const Quaternion missing = load_quaternion(&first.rotations[b]) * load_quaternion(&last.rotations[b]).conjugate();
+      const Quaternion by = Quaternion::Identity().slerp(weight, missing);
+      store_quaternion((by * load_quaternion(&pose.rotations[b])).normalized(), &pose.rotations[b]);
+    }
+  }
+  return round;
+}
+
+// The strides of a gait as its path is changed: what the balls of the feet do about their middle is turned and scaled
 // like the path, so that a foot that stood still on the old path does so on the new one.
 class Strides {
  public:
-  Strides(const Kinematics& kinematics, const Clip& clip, int begin, int end)
-      : kinematics_(kinematics),
-        legs_{left_leg(kinematics.skeleton()), right_leg(kinematics.skeleton())},
-        posed_(kinematics.bones()) {
-    for (int f = begin; f <= end; ++f) {
-      pose(body_pose(kinematics, clip, f));
-      for (int side = 0; exist() && side < 2; ++side) middles_[side] += balls(side) / (end - begin + 1);
+  Strides(const Kinematics& kinematics, const Legs& legs, const Round& round)
+      : kinematics_(kinematics), legs_(legs), posed_(kinematics.bones()) {
+    for (const BodyPose& body : round.poses) {
+      pose(body);
+      for (int side = 0; exist() && side < 2; ++side) middles_[side] += balls(side) / round.frames();
     }
   }
 
@@ -116,7 +143,7 @@ class Strides {
     for (int side = 0; side < 2; ++side) {
       const Vector2 stride = balls(side) - middles_[side], by = scale * turned(stride, direction) - stride;
       const Vector3 ankle = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), 0};
-      reach(kinematics_.skeleton(), legs_[side], posed_, ankle, 0, body.rotations.data());
+      reach(kinematics_.skeleton(), legs_[side], posed_, ankle, body.rotations.data());
     }
   }
 
@@ -128,15 +155,17 @@ class Strides {
   Vector2 balls(int side) const { return ball(kinematics_.skeleton(), legs_[side], posed_).head<2>(); }
 
   const Kinematics& kinematics_;
-  std::array<Leg, 2> legs_;
+  const Legs& legs_;
   std::array<Vector2, 2> middles_{Vector2::Zero(), Vector2::Zero()};
   PosedBones posed_;
 };
 
-// Keeps planted feet of a clip where they are; `contacts` are those of another clip whose frame `first` is its frame 0.
-void plant_feet(const Kinematics& kinematics, Clip& clip, const Contacts& contacts, int first) {
+// Keeps planted feet of a clip where they are. Its frames go round and round frames begin .. end of another clip, whose
+// contacts these are.
+void plant_feet(const Kinematics& kinematics, const Legs& legs, Clip& clip, const Contacts& contacts, int begin,
+                int end) {
   if (contacts.feet[0].empty()) return;
-  FootLock lock(kinematics);
+  FootLock lock(kinematics, legs);
   WorldPose pose;
   pose.rotations.resize(std::size_t{4} * kinematics.bones());
   for (int f = 0; f < clip.frames; ++f) {
@@ -144,10 +173,26 @@ void plant_feet(const Kinematics& kinematics, Clip& clip, const Contacts& contac
     pose.root = load_vector(root);
     pose.heading = clip.headings[f];
     std::copy_n(rotations, pose.rotations.size(), pose.rotations.begin());
-    lock.apply(pose, {contacts.feet[0][first + f], contacts.feet[1][first + f]}, f > 0 ? 1 / clip.rate : 0);
+    lock.apply(pose, contacts, begin + f % (end - begin), f > 0 ? 1 / clip.rate : 0);
     store_vector(pose.root, root);
     std::copy(pose.rotations.begin(), pose.rotations.end(), rotations);
   }
+}
+
+// Frames begin .. end of a clip, as a clip of their own.
+Clip part(const Clip& clip, int begin, int end) {
+  Clip result;
+  result.name = clip.name;
+  result.rate = clip.rate;
+  result.frames = end - begin + 1;
+  const std::ptrdiff_t bones = static_cast<std::ptrdiff_t>(clip.rotations.size()) / clip.frames;
+  const auto copy = [&](const std::vector<double>& from, std::ptrdiff_t width) {
+    return std::vector<double>(from.begin() + width * begin, from.begin() + width * (end + 1));
+  };
+  result.root_positions = copy(clip.root_positions, 3);
+  result.headings = copy(clip.headings, 1);
+  result.rotations = copy(clip.rotations, bones);
+  return result;
 }
 
 // Fills the holes of a pool's control space.
@@ -159,6 +204,7 @@ class Synthesizer {
         usual_(usual),
         options_(options),
         kinematics_(pool.skeleton),
+        legs_(find_legs(kinematics_, pool.clips)),
         trajectories_(trajectories(pool)),
         originals_(static_cast<int>(pool.fragments.size())) {
     find_cycles();
@@ -187,15 +233,19 @@ class Synthesizer {
 
   int tail(const Clip& clip) const { return static_cast<int>(std::lround(options_.tail * clip.rate)); }
 
-  // Adds the clip's frames 0 .. end as a fragment.
-  void add(Clip clip, int end, Origin origin) {
-    Fragment fragment;
-    fragment.clip = static_cast<int>(pool_.clips.size());
-    fragment.end = end;
-    fragment.origin = origin;
-    fragment.evident = evident_control(body_motion(kinematics_, clip), clip.rate, 0, end, usual_, space_);
+  // Adds a clip whose frames ends[i] .. ends[i + 1] are fragments.
+  void add(Clip clip, const std::vector<int>& ends, Origin origin) {
+    const BodyMotion motion = body_motion(kinematics_, clip);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      Fragment fragment;
+      fragment.clip = static_cast<int>(pool_.clips.size());
+      fragment.begin = ends[i];
+      fragment.end = ends[i + 1];
+      fragment.origin = origin;
+      fragment.evident = evident_control(motion, clip.rate, ends[i], ends[i + 1], usual_, space_);
+      pool_.fragments.push_back(fragment);
+    }
     pool_.clips.push_back(make_clip(pool_.skeleton, std::move(clip)));
-    pool_.fragments.push_back(fragment);
   }
 
   std::vector<int> nearest_originals(const Control& control) const {
@@ -248,7 +298,7 @@ class Synthesizer {
       const int frames = tail(pool_.clips[a.clip]);
       Clip clip = interpolated(kinematics_, pool_, a, b, pairs[i].weight, frames);
       const int end = clip.frames - 1 - frames;
-      add(std::move(clip), end, Origin::interpolated);
+      add(std::move(clip), {0, end}, Origin::interpolated);
     }
   }
 
@@ -288,35 +338,49 @@ class Synthesizer {
     double effort = cycle.gap + 0.5 * std::abs(control.turn - ev.turn) + 2 * std::max(0.0, ev.jump - control.jump);
     if (wants) {
       effort += std::abs(angle_between(ev, control)) / (kPi / 4);
-      effort += std::abs(std::log(speed(control) / speed(ev))) / std::log(1.5);
+      const double faster = std::log(speed(control) / speed(ev)) / std::log(1.5);
+      effort += faster > 0 ? faster * faster : -faster;
     }
     return effort;
   }
 
+  // The cycle that performs the control with the least effort, the first of those that are alike but for rounding.
+  const Cycle* cheapest(const Control& control) const {
+    const Cycle* best = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Cycle& cycle : cycles_) {
+      const double cost = effort(cycle, control);
+      if (cost < least - kAlike) least = cost, best = &cycle;
+    }
+    return best;
+  }
+
   // Transforms the cheapest cycle for the control, in pieces that follow each other as in the take.
   void transform(const Control& control) {
-    const auto cheaper = [&](const Cycle& a, const Cycle& b) { return effort(a, control) < effort(b, control); };
-    const auto best = std::min_element(cycles_.begin(), cycles_.end(), cheaper);
-    if (best == cycles_.end() || std::isinf(effort(*best, control))) return;
+    const Cycle* best = cheapest(control);
+    if (!best) return;
     const Clip& clip = pool_.clips[best->clip];
     Transform change;
     change.turn = (control.turn - best->evident.turn) * space_.turn_rate();
-    if (speed(best->evident) > kMoving / space_.scale()) {
-      change.speed = speed(control) / speed(best->evident);
-      if (speed(control) > 0) change.direction = angle_between(best->evident, control);
-    }
-    const bool jumps = control.jump > best->evident.jump;
-    if (jumps) change.rise = kJumpHeight / space_.scale();
-    const int longest = static_cast<int>(options_.longest * clip.rate + 1e-6), length = best->end - best->begin;
-    const int pieces = (length + longest - 1) / longest;
-    const Contacts contacts = find_contacts(kinematics_, clip);
-    std::vector<std::pair<Clip, int>> made;  // with their fragments' ends; added at last, since that moves `clip`
+    const bool moves = speed(best->evident) > kMoving / space_.scale();
+    const double faster = moves ? speed(control) / speed(best->evident) : 1;
+    if (moves && speed(control) > 0) change.direction = angle_between(best->evident, control);
+    const int length = best->end - best->begin;
+    const double usual = length / (options_.longest * clip.rate);  // pieces, each as long as may be
+    const int pieces = std::max(1, static_cast<int>(std::ceil(usual / kHurry - 1e-6)));
+    change.tempo = std::max(usual / pieces, std::clamp(std::sqrt(faster), 1 / kHurry, kHurry));
+    change.speed = faster / change.tempo;
+    const int longest = static_cast<int>(options_.longest * clip.rate * change.tempo + 1e-6);
+    const Clip made = transformed(kinematics_, legs_, clip, find_contacts(kinematics_, clip), best->begin, best->end,
+                                  length + longest + tail(clip), change);
+    std::vector<int> ends;
+    for (int piece = 0; piece <= pieces; ++piece) ends.push_back(length * piece / pieces);
+    if (control.jump <= best->evident.jump) return add(part(made, 0, length + tail(clip)), ends, Origin::transformed);
     for (int piece = 0; piece < pieces; ++piece) {
-      const int begin = best->begin + length * piece / pieces;
-      const int end = jumps ? std::min(clip.frames - 1, begin + longest) : best->begin + length * (piece + 1) / pieces;
-      made.emplace_back(transformed(kinematics_, clip, contacts, begin, end, tail(clip), change), end - begin);
+      Clip jump = part(made, ends[piece], ends[piece] + longest + tail(clip));
+      raise(jump, longest, kJumpHeight / space_.scale());
+      add(std::move(jump), {0, longest}, Origin::transformed);
     }
-    for (auto& [piece, end] : made) add(std::move(piece), end, Origin::transformed);
   }
 
   FragmentPool& pool_;
@@ -324,6 +388,7 @@ class Synthesizer {
   double usual_;
   SynthesisOptions options_;
   Kinematics kinematics_;
+  Legs legs_;
   Trajectories trajectories_;
   int originals_;
   std::vector<Cycle> cycles_;
@@ -331,28 +396,42 @@ class Synthesizer {
 
 }  // namespace
 
-Clip transformed(const Kinematics& kinematics, const Clip& clip, const Contacts& contacts, int begin, int end, int tail,
-                 const Transform& transform) {
-  const bool other_path = transform.direction != 0 || transform.speed != 1;
-  Strides strides(kinematics, clip, begin, end);
+Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
+                 int end, int frames, const Transform& transform) {
+  const bool other_path = transform.direction != 0 || transform.speed != 1, plants = other_path || transform.turn != 0;
+  const Round round = round_of(kinematics, clip, begin, end);
+  Strides strides(kinematics, legs, round);
   Clip result;
   result.name = clip.name + " transformed";
-  result.rate = clip.rate;
-  const int last = std::min(clip.frames - 1, end + tail);
-  Vector2 position = frame_at(clip, begin).position, before = position;
-  for (int f = begin; f <= last; ++f) {
-    BodyPose pose = body_pose(kinematics, clip, f);
+  result.rate = clip.rate * transform.tempo;
+  const int length = round.frames(), before = plants ? length : 0;  // a round more, in which the feet find their places
+  const CharacterFrame start = round.poses[0].frame;
+  const double bend = round.end.heading - start.heading;  // of the path, each round
+  Vector2 position = Vector2::Zero(), origin = Vector2::Zero();
+  for (int f = -before; f <= frames; ++f) {
+    const int at = (f + before) % length, rounds = (f + before) / length - (before > 0 ? 1 : 0);
+    BodyPose pose = round.poses[at];
     if (other_path) strides.change(pose, transform.direction, transform.speed);
-    const double seconds = (f - begin) / clip.rate, phase = static_cast<double>(f - begin) / (end - begin);
-    const double turn = transform.turn * seconds;
-    const double middle = transform.turn * std::max(0.0, seconds - 0.5 / clip.rate);
-    position += transform.speed * turned(pose.frame.position - before, transform.direction + middle);
-    before = pose.frame.position;
-    if (phase < 1) pose.height += 4 * transform.rise * phase * (1 - phase);
-    append(kinematics, result, {position, pose.frame.heading + turn}, pose);
+    if (f == 0) origin = position;
+    const double seconds = f / result.rate, heading = pose.frame.heading + rounds * bend;
+    append(kinematics, result, {position, heading + transform.turn * seconds}, pose);
+    const Vector2 next = at + 1 < length ? round.poses[at + 1].frame.position : round.end.position;
+    const double middle = transform.turn * (seconds + 0.5 / result.rate);
+    position += transform.speed * turned(next - pose.frame.position, transform.direction + middle + rounds * bend);
   }
-  if (other_path || transform.turn != 0) plant_feet(kinematics, result, contacts, begin);
-  return result;
+  for (int f = 0; f < result.frames; ++f) {
+    Eigen::Map<Vector2>(&result.root_positions[std::size_t{3} * f]) += start.position - origin;
+  }
+  if (!plants) return result;
+  plant_feet(kinematics, legs, result, contacts, begin, end);
+  return part(result, before, result.frames - 1);
+}
+
+void raise(Clip& clip, int end, double height) {
+  for (int f = 0; f < end; ++f) {
+    const double phase = static_cast<double>(f) / end;
+    clip.root_positions[std::size_t{3} * f + 2] += 4 * height * phase * (1 - phase);
+  }
 }
 
 Clip interpolated(const Kinematics& kinematics, const FragmentPool& pool, const Fragment& a, const Fragment& b,

@@ -7,7 +7,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLater = 1e-4, kSeconds = 0.3;
+constexpr double kApart = 1e-4, kSeconds = 0.3;
 
 Quaternion random_rotation(Random& random, double angle) {
   const Vector3 axis{random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
@@ -51,16 +51,16 @@ TEST(Inertialization, BeginsWithTheOldMotionAndItsSpeedAndEndsWithTheNewOne) {
   for (int n = 0; n < 100; ++n) {
     const Motion old(random), fresh(random);
     Inertialization inertia(2);
-    inertia.begin(old.at(0), old.at(kLater), fresh.at(0), fresh.at(kLater), kLater, kSeconds);
+    inertia.begin(old.at(-kApart), old.at(0), fresh.at(0), fresh.at(kApart), kApart, kSeconds);
     const auto shown = [&](double time) {
       WorldPose pose = fresh.at(time);
       inertia.apply(time, pose);
       return pose;
     };
     EXPECT_LT(largest_difference(shown(0), old.at(0)), 1e-7);
-    EXPECT_LT(largest_difference(shown(kLater), old.at(kLater)), 1e-6);
+    EXPECT_LT(largest_difference(shown(kApart), old.at(kApart)), 1e-6);
     EXPECT_EQ(largest_difference(shown(kSeconds), fresh.at(kSeconds)), 0);
-    EXPECT_LT(largest_difference(shown(kSeconds - kLater), fresh.at(kSeconds - kLater)), 1e-5);
+    EXPECT_LT(largest_difference(shown(kSeconds - kApart), fresh.at(kSeconds - kApart)), 1e-5);
   }
 }
 
@@ -68,7 +68,7 @@ TEST(Inertialization, NeverSteps) {
   Random random(2);
   const Motion old(random), fresh(random);
   Inertialization inertia(2);
-  inertia.begin(old.at(0), old.at(kLater), fresh.at(0), fresh.at(kLater), kLater, kSeconds);
+  inertia.begin(old.at(-kApart), old.at(0), fresh.at(0), fresh.at(kApart), kApart, kSeconds);
   WorldPose before = old.at(0);
   for (double time = 0; time < 2 * kSeconds; time += 1e-3) {
     WorldPose now = fresh.at(time);

@@ -10,23 +10,24 @@ namespace {
 
 TEST(Leg, IsFoundByItsRoles) {
   const Skeleton skeleton = humanoid();
-  for (const Leg& leg : {left_leg(skeleton), right_leg(skeleton)}) {
+  for (const Leg& leg : find_legs(Kinematics(skeleton), {})) {
     ASSERT_TRUE(leg.exists());
     EXPECT_TRUE(skeleton.is_below(leg.foot, leg.knee));
     EXPECT_TRUE(skeleton.is_below(leg.knee, leg.thigh));
   }
   Skeleton footless = skeleton;
   footless.roles.left_foot = -1;
-  EXPECT_FALSE(left_leg(footless).exists());
+  EXPECT_FALSE(find_legs(Kinematics(footless), {})[0].exists());
 }
 
 TEST(Reach, BringsTheFootThereAndLeavesItsRotation) {
   const Skeleton skeleton = humanoid();
   const Kinematics kinematics(skeleton);
   const Clip clip = gait_clip({1.2, 0, 0});
+  const Legs legs = find_legs(kinematics, {clip});
   Random random(5);
   for (int n = 0; n < 200; ++n) {
-    const Leg leg = n % 2 == 0 ? left_leg(skeleton) : right_leg(skeleton);
+    const Leg& leg = legs[n % 2];
     const int f = random.below(clip.frames);
     PosedBones posed(skeleton.size()), after(skeleton.size());
     kinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
@@ -35,7 +36,7 @@ TEST(Reach, BringsTheFootThereAndLeavesItsRotation) {
                            0.1 * Vector3{random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
     const auto begin = clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size() * f;
     std::vector<double> rotations(begin, begin + std::ptrdiff_t{4} * skeleton.size());
-    reach(skeleton, leg, posed, wanted, clip.headings[f], rotations.data());
+    reach(skeleton, leg, posed, wanted, rotations.data());
     kinematics.world(load_vector(&clip.root_positions[3 * f]), rotations.data(), after.heads.data(),
                      after.rotations.data());
     EXPECT_LT((after.heads[leg.foot] - wanted).norm(), 1e-6) << n;
@@ -48,12 +49,12 @@ TEST(Reach, ComesAsNearAsTheLegIsLong) {
   const Skeleton skeleton = humanoid();
   const Kinematics kinematics(skeleton);
   const Clip clip = gait_clip({1.2, 0, 0});
-  const Leg leg = left_leg(skeleton);
+  const Leg leg = find_legs(kinematics, {clip})[0];
   PosedBones posed(skeleton.size()), after(skeleton.size());
   kinematics.world(clip, 0, posed.heads.data(), posed.rotations.data());
   std::vector<double> rotations(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
   const Vector3 far = posed.heads[leg.thigh] + Vector3{0.3, 2, -1};
-  reach(skeleton, leg, posed, far, 0, rotations.data());
+  reach(skeleton, leg, posed, far, rotations.data());
   kinematics.world(load_vector(clip.root_positions.data()), rotations.data(), after.heads.data(),
                    after.rotations.data());
   const Vector3 leg_now = after.heads[leg.foot] - after.heads[leg.thigh], way = far - after.heads[leg.thigh];

@@ -40,30 +40,50 @@ double lowest_tip(const Clip& clip, int frame) {
   return lowest;
 }
 
-TEST(Transformed, ByNothingIsTheSource) {
+// A gait's cycle: frames after which its pose comes again.
+int cycle_of(const Gait& gait, const Clip& clip) { return static_cast<int>(std::lround(gait.cycle * clip.rate)); }
+
+TEST(Transformed, ByNothingIsTheSourceRoundAndRound) {
   Gait gait;
   gait.turn = 0.5;
   gait.heading = 1;
   const Clip clip = moved(kSkeleton, gait_clip(gait), {{2, -1}, 0.5});
-  const Clip same = transformed(kKinematics, clip, find_contacts(kKinematics, clip), 20, 40, 9, {});
-  ASSERT_EQ(same.frames, 30);
+  const int cycle = cycle_of(gait, clip), frames = std::min(2 * cycle + 7, clip.frames - 21);
+  const Clip same = transformed(kKinematics, find_legs(kKinematics, {clip}), clip, find_contacts(kKinematics, clip), 20,
+                                20 + cycle, frames, {});
+  ASSERT_EQ(same.frames, frames + 1);
   EXPECT_EQ(same.rate, clip.rate);
   for (int f = 0; f < same.frames; ++f) {
     const Vector3 root = load_vector(&clip.root_positions[3 * (20 + f)]);
-    EXPECT_LT((load_vector(&same.root_positions[3 * f]) - root).norm(), 1e-12);
-    EXPECT_NEAR(same.headings[f], clip.headings[20 + f], 1e-12);
+    EXPECT_LT((load_vector(&same.root_positions[3 * f]) - root).norm(), 1e-3) << f;
+    EXPECT_NEAR(same.headings[f], clip.headings[20 + f], 1e-3);
     for (int b = 0; b < kSkeleton.size(); ++b) {
       const Quaternion q = load_quaternion(&same.rotations[std::size_t{4} * (f * kSkeleton.size() + b)]);
       const Quaternion p = load_quaternion(&clip.rotations[std::size_t{4} * ((20 + f) * kSkeleton.size() + b)]);
-      EXPECT_GT(std::abs(q.dot(p)), 1 - 1e-12);
+      EXPECT_LT(q.angularDistance(p), 0.01);
     }
   }
 }
 
-TEST(Transformed, EndsWithTheClipWhereItsTailIsLonger) {
-  const Clip clip = gait_clip({});
-  EXPECT_EQ(transformed(kKinematics, clip, find_contacts(kKinematics, clip), 70, clip.frames - 1, 30, {}).frames,
-            clip.frames - 70);
+TEST(Transformed, LeadsBackToItsBeginning) {
+  const Clip clip = gait_clip({1.2, 0, 0});
+  const Legs legs = find_legs(kKinematics, {clip});
+  Transform change;
+  change.direction = 0.7;
+  change.speed = 1.3;
+  for (const int length : {26, 28, 33}) {  // no cycles
+    const Clip made =
+        transformed(kKinematics, legs, clip, find_contacts(kKinematics, clip), 20, 20 + length, length, change);
+    BodyTips tips(kSkeleton);
+    const int stride = padded(tips.points());
+    std::vector<float> first(std::size_t{3} * stride), last(first);
+    for (const auto& [frame, rows] : {std::pair{0, &first}, std::pair{length, &last}}) {
+      tips.pose(load_vector(&made.root_positions[3 * frame]),
+                &made.rotations[std::size_t{4} * kSkeleton.size() * frame]);
+      tips.write(frame_at(made, frame), rows->data(), stride, 0);
+    }
+    EXPECT_LT(tip_distance(first.data(), last.data(), stride) / tips.points(), 0.01) << length;
+  }
 }
 
 TEST(Transformed, DoesToTheEvidentControlWhatItSays) {
@@ -76,16 +96,18 @@ TEST(Transformed, DoesToTheEvidentControlWhatItSays) {
     gait.turn = random.uniform() - 0.5;
     const Clip clip = gait_clip(gait);
     const double usual = usual_of({clip});
-    const int begin = random.below(40), end = begin + 5 + random.below(10);
+    const int begin = random.below(30), end = begin + cycle_of(gait, clip);
     Transform change;
     change.direction = n % 4 == 0 ? 2 * random.uniform() - 1 : 0;
     change.speed = n % 4 == 1 ? 0.5 + random.uniform() : 1;
     change.turn = n % 4 == 2 ? 2 * random.uniform() - 1 : 0;
-    change.rise = n % 4 == 3 ? 0.1 + 0.3 * random.uniform() : 0;
-    const Clip made = transformed(kKinematics, clip, {}, begin, end, 5, change);
+    change.tempo = n % 4 == 3 ? 0.8 + 0.4 * random.uniform() : 1;
+    const Clip made =
+        transformed(kKinematics, find_legs(kKinematics, {clip}), clip, {}, begin, end, end - begin, change);
     const Control before = evident_of(clip, begin, end, usual, space),
                   after = evident_of(made, 0, end - begin, usual, space);
-    const Vector2 expected = Eigen::Rotation2Dd(change.direction) * Vector2(before.x, before.y) * change.speed;
+    const Vector2 expected =
+        Eigen::Rotation2Dd(change.direction) * Vector2(before.x, before.y) * change.speed * change.tempo;
     EXPECT_NEAR(after.x, expected.x(), 0.15) << n;  // the path is transformed; the limbs swing as before
     EXPECT_NEAR(after.y, expected.y(), 0.15) << n;
     if (change.turn == 0) {
@@ -94,15 +116,23 @@ TEST(Transformed, DoesToTheEvidentControlWhatItSays) {
       const Vector2 goes = frame_at(made, end - begin).position - frame_at(made, 0).position;
       EXPECT_LT((goes - Eigen::Rotation2Dd(change.direction) * went * change.speed).norm(), 1e-9);
     }
-    EXPECT_NEAR(after.turn, before.turn + change.turn / space.turn_rate(), 1e-6) << n;
-    double rise = 0;
-    for (int f = 0; f <= end - begin; ++f)
-      rise = std::max(rise, made.root_positions[3 * f + 2] - clip.root_positions[3 * (begin + f) + 2]);
-    EXPECT_LE(rise, change.rise + 1e-9);
-    EXPECT_GE(rise, 0.9 * change.rise - 1e-9);
-    EXPECT_NEAR(made.root_positions[2], clip.root_positions[3 * begin + 2], 1e-9);
-    EXPECT_NEAR(made.root_positions[3 * (end - begin) + 2], clip.root_positions[3 * end + 2], 1e-9);
+    EXPECT_NEAR(after.turn, change.tempo * before.turn + change.turn / space.turn_rate(), 1e-6) << n;
   }
+}
+
+TEST(Raise, IsAParabola) {
+  Clip clip = gait_clip({1.2, 0, 0});
+  const Clip before = clip;
+  raise(clip, 12, 0.3);
+  double rise = 0;
+  for (int f = 0; f < clip.frames; ++f) {
+    const double by = clip.root_positions[3 * f + 2] - before.root_positions[3 * f + 2];
+    rise = std::max(rise, by);
+    if (f == 0 || f >= 12) {
+      EXPECT_NEAR(by, 0, 1e-12);
+    }
+  }
+  EXPECT_NEAR(rise, 0.3, 1e-9);
 }
 
 // The pool with a clip's frames 0 .. end as one more fragment.
@@ -116,8 +146,8 @@ Trajectories with(FragmentPool pool, const Clip& clip, int end) {
 }
 
 // The greatest speed of a ball of the foot that stands, m/s.
-double slide(const Clip& clip, const Contacts& contacts, int first) {
-  const Leg legs[] = {left_leg(kKinematics.skeleton()), right_leg(kKinematics.skeleton())};
+double slide(const Clip& clip, const Contacts& contacts, int begin, int end) {
+  const Legs legs = find_legs(kKinematics, {clip});
   PosedBones posed(kKinematics.bones());
   double most = 0;
   for (int side = 0; side < 2; ++side) {
@@ -125,7 +155,7 @@ double slide(const Clip& clip, const Contacts& contacts, int first) {
     for (int f = 0, standing = 0; f < clip.frames; ++f) {
       kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
       const Vector3 now = ball(kKinematics.skeleton(), legs[side], posed);
-      standing = contacts.feet[side][first + f] ? standing + 1 : 0;
+      standing = contacts.feet[side][begin + f % (end - begin)] ? standing + 1 : 0;
       if (standing > 4) most = std::max(most, (now - before).head<2>().norm() * clip.rate);
       before = now;
     }
@@ -141,8 +171,8 @@ TEST(Transformed, KeepsPlantedFeetWhereTheyAre) {
     change.direction = direction;
     change.speed = 0.8;
     change.turn = 0.5;
-    const Clip planted = transformed(kKinematics, clip, contacts, 15, 45, 5, change);
-    EXPECT_LT(slide(planted, contacts, 15), 0.15) << direction;
+    const Clip planted = transformed(kKinematics, find_legs(kKinematics, {clip}), clip, contacts, 15, 45, 35, change);
+    EXPECT_LT(slide(planted, contacts, 15, 45), 0.15) << direction;
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "fragmotion/contacts.hpp"
 #include "fragmotion/coverage.hpp"
+#include "fragmotion/leg.hpp"
 #include "fragmotion/policy.hpp"
 #include "fragmotion/progress.hpp"
 #include "fragmotion/trace.hpp"
@@ -25,6 +26,7 @@ struct Character {
   std::vector<double> control_model;
   Coverage coverage;
   std::vector<Contacts> contacts;        ///< Of each clip of the pool.
+  Legs legs;                             ///< As they bend in the clips.
   std::vector<float> first_poses;        ///< Trajectories::first of the fragments.
   std::map<std::string, double> report;  ///< Figures of the build: counts, and seconds of each stage. Not saved.
 

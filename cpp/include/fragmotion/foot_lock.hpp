@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "fragmotion/contacts.hpp"
 #include "fragmotion/inertialization.hpp"
 #include "fragmotion/leg.hpp"
 
@@ -14,13 +15,14 @@ namespace fragmotion {
 /// made.
 class FootLock {
  public:
-  explicit FootLock(const Kinematics& kinematics);
+  FootLock(const Kinematics& kinematics, const Legs& legs);
 
   /// Both feet are free, and where their motion has them.
   void reset();
 
-  /// Moves the legs of the pose that is shown `seconds` after the last one; `planted`: left, right.
-  void apply(WorldPose& pose, const std::array<bool, 2>& planted, double seconds);
+  /// Moves the legs of the pose that is shown `seconds` after the last one, and is, or is to become, a frame with these
+  /// contacts. A foot that stands in that frame is planted once it is near the ground.
+  void apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds);
 
   bool locked(int side) const { return feet_[side].locked; }
 
@@ -34,13 +36,14 @@ class FootLock {
     double free = 0;                                                   // s since then
   };
 
+  double height(int side, const FootHeights& floor) const;
   Vector2 away(Foot& foot, const Vector2& moved, bool planted, double seconds) const;
   void lock(Foot& foot, const Vector2& shown, double seconds) const;
   void release(Foot& foot, const Vector2& held, const Vector2& speed) const;
 
   Kinematics kinematics_;
   double scale_;
-  std::array<Leg, 2> legs_;
+  Legs legs_;
   std::array<Foot, 2> feet_;
   bool fresh_ = true;  // no pose was shown yet
   double sunk_ = 0;    // m that the hips are lowered

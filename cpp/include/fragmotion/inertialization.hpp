@@ -25,9 +25,10 @@ class Inertialization {
   /// Nothing to fade.
   void clear() { seconds_ = 0; }
 
-  /// From `old` to `fresh`, each given now and `later` seconds on, over `seconds`.
-  void begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh, const WorldPose& fresh_later,
-             double later, double seconds);
+  /// From `old` to `fresh` over `seconds`. The old motion is also given `apart` seconds before, the new one `apart`
+  /// seconds later: speeds are those inside either.
+  void begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh, const WorldPose& fresh_later,
+             double apart, double seconds);
 
   /// Adds what is left `time` seconds after the beginning.
   void apply(double time, WorldPose& pose) const;

@@ -3,6 +3,7 @@
 
 #include "fragmotion/contacts.hpp"
 #include "fragmotion/evident.hpp"
+#include "fragmotion/leg.hpp"
 
 namespace fragmotion {
 
@@ -11,14 +12,19 @@ namespace fragmotion {
 struct Transform {
   double direction = 0;  ///< Turns the direction of travel against the body, rad, left is positive.
   double speed = 1;      ///< Scales the path.
+  double tempo = 1;      ///< The steps follow each other so much faster.
   double turn = 0;       ///< Turns path and body at this rate, rad/s.
-  double rise = 0;       ///< Height of a parabola through the air, m.
 };
 
-/// Frames begin .. end of a clip, and up to `tail` more, with the path transformed; frame 0 is where `begin` was. The
-/// strides are turned and scaled with the path, and feet that `contacts` (of the clip) say are planted stay planted.
-Clip transformed(const Kinematics& kinematics, const Clip& clip, const Contacts& contacts, int begin, int end, int tail,
-                 const Transform& transform);
+/// `frames` + 1 frames that go round and round frames begin .. end of a clip, a gait's cycle, with the path
+/// transformed; frame 0 is where `begin` was. Where the cycle does not end as it began, its second half leads there.
+/// The strides are turned and scaled with the path, and feet that `contacts` (of the clip) say are planted stay
+/// planted.
+Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
+                 int end, int frames, const Transform& transform);
+
+/// Lifts frames 0 .. end of a clip in a parabola of so many metres.
+void raise(Clip& clip, int end, double height);
 
 /// A motion between two fragments: each pose, and the path, interpolated at equal phases with weight (1 - w, w). Its
 /// last frame but `tail` is the fragments' end. Both at the rate of `a`'s clip.
