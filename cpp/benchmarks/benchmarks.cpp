@@ -27,7 +27,8 @@ void measure_cluster(benchmark::State& state) {
 
 void measure_quality(benchmark::State& state) {
   const Workload& w = workload();
-  for (auto _ : state) benchmark::DoNotOptimize(quality_table(w.pool, w.trajectories, w.classes, w.built->space));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(quality_table(w.pool.fragments, w.trajectories, w.classes, w.built->space));
 }
 
 void measure_optimal(benchmark::State& state) {

@@ -68,10 +68,11 @@ void dump_skeleton(const Skeleton& skeleton, const Writer& write) {
 }
 
 // The clips behind one another; a fragment's range is in frames of the whole.
-void dump_motion(const FragmentPool& pool, const Writer& write) {
+void dump_motion(const PackedPool& pool, const Writer& write) {
   std::vector<double> roots, rotations, headings, evident;
   std::vector<int> starts, ranges;
-  for (const Clip& clip : pool.clips) {
+  for (const PackedClip& packed : pool.clips) {
+    const Clip clip = unpack(packed);
     starts.push_back(static_cast<int>(headings.size()));
     roots.insert(roots.end(), clip.root_positions.begin(), clip.root_positions.end());
     rotations.insert(rotations.end(), clip.rotations.begin(), clip.rotations.end());

@@ -63,15 +63,15 @@ LargePool::LargePool(const Workload& w, int count) {
     varied.append(from.trajectory(base), from.stride / from.tips, from.stride, trajectories.whole);
     varied.append(from.first_pose(base), 1, from.pose_stride, trajectories.first);
     varied.append(from.last_pose(base), 1, from.pose_stride, trajectories.last);
-    pool.fragments.push_back(w.pool.fragments[base]);
-    pool.fragments.back().evident = varied(w.pool.fragments[base].evident);
+    fragments.push_back(w.pool.fragments[base]);
+    fragments.back().evident = varied(w.pool.fragments[base].evident);
   }
 }
 
 Policy built_policy(const LargePool& large, const Workload& w) {
   const ControlSpace& space = w.built->space;
   const auto quality = [&](const Classes& classes) {
-    return quality_table(large.pool, large.trajectories, classes, space);
+    return quality_table(large.fragments, large.trajectories, classes, space);
   };
   const ClassScore serves_trace = [&](const Classes& classes) {
     return optimal_path(quality(classes), w.controls).quality;

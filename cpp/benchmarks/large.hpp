@@ -5,11 +5,11 @@
 
 namespace fragmotion::benchmarks {
 
-/// Any number of made fragments: the workload's, each in variations. The pool has no clips.
+/// Any number of made fragments: the workload's, each in variations.
 struct LargePool {
   LargePool(const Workload& w, int count);
 
-  FragmentPool pool;
+  std::vector<Fragment> fragments;
   Trajectories trajectories;
 };
 

@@ -38,7 +38,7 @@ Workload make_workload() {
   w.trajectories = trajectories(w.pool);
   w.weights.assign(kFragments, 1);
   w.classes = cluster(w.trajectories, w.weights, clustering());
-  w.quality = quality_table(w.pool, w.trajectories, w.classes, w.built->space);
+  w.quality = quality_table(w.pool.fragments, w.trajectories, w.classes, w.built->space);
   w.features = class_features(w.trajectories, w.classes);
   return w;
 }

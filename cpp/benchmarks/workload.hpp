@@ -19,7 +19,7 @@ struct Workload {
   std::vector<int> controls;               ///< The trace in the character's control space.
   std::shared_ptr<const Character> built;  ///< From all of the takes.
 
-  FragmentPool pool;  ///< The first kFragments of `built`; the stages are measured on these.
+  PackedPool pool;  ///< The first kFragments of `built`; the stages are measured on these.
   Trajectories trajectories;
   std::vector<float> weights;
   Classes classes;

@@ -76,7 +76,7 @@ void bind_fragments(py::class_<Character, Holder>& character) {
       .def_property_readonly("clip_names",
                              [](const Character& c) {
                                std::vector<std::string> names;
-                               for (const Clip& clip : c.pool.clips) names.push_back(clip.name);
+                               for (const PackedClip& clip : c.pool.clips) names.push_back(clip.name);
                                return names;
                              })
       .def_property_readonly("fragment_clips",

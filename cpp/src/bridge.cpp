@@ -6,13 +6,13 @@
 
 namespace fragmotion {
 
-std::vector<int> stand_bridges(const FragmentPool& pool, const Trajectories& t, const Classes& classes,
+std::vector<int> stand_bridges(const std::vector<Fragment>& fragments, const Trajectories& t, const Classes& classes,
                                const ControlSpace& space, double threshold, const std::vector<bool>& allowed) {
   const std::vector<int>& representatives = classes.representatives;
   const int still = space.nearest({});
   std::vector<int> standing;
   for (int k = 0; k < classes.count; ++k) {
-    const bool stands = space.nearest(pool.fragments[representatives[k]].evident) == still;
+    const bool stands = space.nearest(fragments[representatives[k]].evident) == still;
     if (stands && (allowed.empty() || allowed[k])) standing.push_back(k);
   }
   std::vector<int> bridges;

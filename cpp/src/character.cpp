@@ -126,7 +126,7 @@ ControlSpace perform(FragmentPool& pool, const Kinematics& kinematics, double& u
   return space;
 }
 
-// Policy files keep poses in single precision; so does a character that was just built, so that both play the same.
+// Fragments that differ by less than single precision are the same.
 void round_to_single(std::vector<Clip>& clips) {
   for (Clip& clip : clips) {
     for (double& value : clip.root_positions) value = static_cast<float>(value);
@@ -167,7 +167,7 @@ std::vector<float> balanced_weights(const Character& c) {
 // Scores classes by the quality of Optimal's paths over the traces.
 ClassScore serves_traces(const Character& c, const Trajectories& t, const std::vector<std::vector<int>>& traces) {
   return [&](const Classes& classes) {
-    const Quality quality = quality_table(c.pool, t, classes, c.space);
+    const Quality quality = quality_table(c.pool.fragments, t, classes, c.space);
     double sum = 0;
     for (const std::vector<int>& trace : traces) sum += optimal_path(quality, trace).quality;
     return sum;
@@ -273,26 +273,27 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   Stopwatch stage;
   report(progress, 0, "Cutting fragments");
   const Kinematics kinematics(make_skeleton(skeleton));
-  c.pool = captured_pool(kinematics, clips, options);
-  c.report["captured"] = static_cast<double>(c.pool.fragments.size());
+  FragmentPool pool = captured_pool(kinematics, clips, options);
+  c.report["captured"] = static_cast<double>(pool.fragments.size());
   double usual = 0;
-  c.space = perform(c.pool, kinematics, usual);
+  c.space = perform(pool, kinematics, usual);
   c.report["cut_seconds"] = stage.lap();
   report(progress, 0.5, "Synthesizing fragments");
   if (options.synthesize) {
     SynthesisOptions synthesis;
     synthesis.longest = options.cut.longest;
-    synthesize(c.pool, c.space, usual, synthesis);
+    synthesize(pool, c.space, usual, synthesis);
   }
-  round_to_single(c.pool.clips);
-  c.contacts = contacts_of(c.pool, options.threads);
-  c.legs = find_legs(kinematics, c.pool.clips);
-  c.coverage = coverage(c.pool, c.space);
+  round_to_single(pool.clips);
+  c.contacts = contacts_of(pool, options.threads);
+  c.legs = find_legs(kinematics, pool.clips);
+  c.pool = pack(pool, options.threads);
+  c.coverage = coverage(c.pool.fragments, c.space);
   c.report["fragments"] = static_cast<double>(c.pool.fragments.size());
   c.report["synthesize_seconds"] = stage.lap();
   report(progress, 0.9, "Measuring fragments");
-  material.trajectories = trajectories(c.pool, kPoses, options.threads);
-  c.first_poses = material.trajectories.first;
+  material.trajectories = trajectories(pool, kPoses, options.threads);
+  c.first_poses = first_poses(c.pool);
   for (const Trace& trace : traces) material.traces.push_back(snap(c.space, trace));
   c.report["measure_seconds"] = stage.lap();
   return material;
@@ -311,8 +312,8 @@ void learn(const Material& material, const BuildOptions& options, const Progress
       cluster(t, balanced_weights(c), clustering, serves_traces(c, t, material.traces), part_of(progress, 0, 0.5));
   c.report["classes"] = c.classes.count;
   c.report["cluster_seconds"] = stage.lap();
-  c.quality = quality_table(c.pool, t, c.classes, c.space);
-  c.bridges = stand_bridges(c.pool, t, c.classes, c.space);
+  c.quality = quality_table(c.pool.fragments, t, c.classes, c.space);
+  c.bridges = stand_bridges(c.pool.fragments, t, c.classes, c.space);
   c.report["quality_seconds"] = stage.lap();
   c.control_model = control_model(material.traces, kAnyPlayer);
   c.policies.clear();

@@ -6,10 +6,10 @@
 
 namespace fragmotion {
 
-Coverage coverage(const FragmentPool& pool, const ControlSpace& space) {
+Coverage coverage(const std::vector<Fragment>& fragments, const ControlSpace& space) {
   Coverage result;
   result.distances.fill(std::numeric_limits<double>::infinity());
-  for (const Fragment& fragment : pool.fragments) {
+  for (const Fragment& fragment : fragments) {
     ++result.counts[space.nearest(fragment.evident)];
     for (int c = 0; c < ControlSpace::kPoints; ++c) {
       result.distances[c] = std::min(result.distances[c], space.distance(fragment.evident, space.point(c)));

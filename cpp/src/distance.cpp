@@ -7,7 +7,6 @@
 #include "fragmotion/pose.hpp"
 
 namespace fragmotion {
-namespace {}  // namespace
 
 BodyTips::BodyTips(const Skeleton& skeleton)
     : kinematics_(skeleton),
@@ -42,7 +41,8 @@ __attribute__((target_clones("avx2", "default"))) float tip_distance(const float
   return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
 
-Trajectories trajectories(const FragmentPool& pool, int poses, int threads) {
+template <typename AnyClip>
+Trajectories trajectories(const Pool<AnyClip>& pool, int poses, int threads) {
   const int points = BodyTips(pool.skeleton).points();
   Trajectories t;
   t.count = static_cast<int>(pool.fragments.size());
@@ -55,13 +55,13 @@ Trajectories trajectories(const FragmentPool& pool, int poses, int threads) {
   parallel_for(t.count, thread_count(threads), [&](int begin, int end) {
     BodyTips tips(pool.skeleton);
     std::vector<double> rotations(std::size_t{4} * pool.skeleton.size());
-    const auto sample = [&](const Clip& clip, double frame) {
+    const auto sample = [&](const AnyClip& clip, double frame) {
       tips.pose(sample_pose(clip, frame, rotations.data()), rotations.data());
       return frame_at(clip, frame);
     };
     for (int i = begin; i < end; ++i) {
       const Fragment& f = pool.fragments[i];
-      const Clip& clip = pool.clips[f.clip];
+      const AnyClip& clip = pool.clips[f.clip];
       CharacterFrame start;
       for (int pose = 0; pose < poses; ++pose) {
         const double at = f.begin + (f.end - f.begin) * static_cast<double>(pose) / (poses - 1);
@@ -79,6 +79,11 @@ Trajectories trajectories(const FragmentPool& pool, int poses, int threads) {
   });
   return t;
 }
+
+template Trajectories trajectories(const FragmentPool& pool, int poses, int threads);
+template Trajectories trajectories(const PackedPool& pool, int poses, int threads);
+
+std::vector<float> first_poses(const PackedPool& pool) { return trajectories(pool, 2).first; }
 
 float fragment_distance(const Trajectories& t, int f, int g) {
   return tip_distance(t.trajectory(f), t.trajectory(g), t.stride);

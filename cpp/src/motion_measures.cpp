@@ -63,7 +63,7 @@ class JointReader {
 };
 
 std::vector<Joints> takes_of(const Character& character) {
-  const FragmentPool& pool = character.pool;
+  const PackedPool& pool = character.pool;
   std::vector<bool> captured(pool.clips.size(), false);
   for (const Fragment& f : pool.fragments) captured[f.clip] = captured[f.clip] || f.origin == Origin::captured;
   JointReader reader(pool.skeleton);
@@ -71,7 +71,7 @@ std::vector<Joints> takes_of(const Character& character) {
   std::vector<Joints> takes;
   for (std::size_t c = 0; c < pool.clips.size(); ++c) {
     if (!captured[c]) continue;
-    const Clip& clip = pool.clips[c];
+    const PackedClip& clip = pool.clips[c];
     Joints joints;
     joints.rate = kRate;
     for (int f = 0; f * clip.rate / kRate <= clip.frames - 1; ++f) {

@@ -93,7 +93,7 @@ Player::Placed Player::place(int fragment, const CharacterFrame& frame) const {
 
 void Player::sample(const Placed& placed, WorldPose& pose) const {
   const Fragment& f = character_->pool.fragments[placed.fragment];
-  const Clip& clip = character_->pool.clips[f.clip];
+  const PackedClip& clip = character_->pool.clips[f.clip];
   const CharacterFrame world{placed.offset, placed.heading};
   const double at = f.begin + placed.seconds * clip.rate;
   pose.root = world.to_world(sample_pose(clip, at, pose.rotations.data()));
@@ -143,7 +143,7 @@ void Player::plant(double seconds) {
   const Fragment& f = character_->pool.fragments[now_.fragment];
   const Contacts& contacts = character_->contacts[f.clip];
   if (!lock_feet_ || contacts.feet[0].empty()) return;
-  const Clip& clip = character_->pool.clips[f.clip];
+  const PackedClip& clip = character_->pool.clips[f.clip];
   const long at = std::lround(f.begin + now_.seconds * clip.rate);
   const auto frame = static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(clip.frames) - 1));
   foot_lock_.apply(shown_, contacts, frame, seconds);

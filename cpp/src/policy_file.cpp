@@ -18,7 +18,7 @@ namespace {
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "policy files are little-endian");
 
 constexpr char kMagic[9] = "FRAGMOTN";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
 constexpr double kShortest = 1e-3, kLongest = 3600;  // s that a fragment may last: a player must get to its end
 
@@ -53,9 +53,9 @@ class Writer {
     raw(value.data(), value.size());
   }
   template <typename T, typename Each>
-  void list(const std::vector<T>& values, std::size_t /*least*/, const Each& each) {
+  void list(std::vector<T>& values, std::size_t /*least*/, const Each& each) {
     number<std::uint64_t>(values.size());
-    for (const T& value : values) each(value);
+    for (T& value : values) each(value);
   }
 };
 
@@ -132,16 +132,55 @@ void exchange_control(Archive& a, C& c) {
   for (auto* value : {&c.x, &c.y, &c.turn, &c.jump}) a.template number<double>(*value);
 }
 
-template <typename Archive, typename P>
-void exchange_pool(Archive& a, P& pool) {
+template <typename Archive>
+void exchange_clip(Archive& a, PackedClip& clip) {
+  a.text(clip.name);
+  a.template number<double>(clip.rate);
+  a.template number<std::int32_t>(clip.frames);
+  for (auto* values : {&clip.origin, &clip.steps}) {
+    for (double& value : *values) a.template number<double>(value);
+  }
+  a.template numbers<std::int32_t>(clip.least);
+  a.template numbers<std::uint8_t>(clip.bits);
+  a.template numbers<std::uint8_t>(clip.poses);
+}
+
+// One byte a frame: 1 where the left foot stands, and 2 where the right one does.
+template <typename Archive>
+void exchange_contacts(Archive& a, Contacts& contacts) {
+  auto& [left, right] = contacts.feet;
+  std::vector<std::uint8_t> standing;
+  for (std::size_t f = 0; f < left.size(); ++f) standing.push_back((left[f] ? 1 : 0) | (right[f] ? 2 : 0));
+  a.template numbers<std::uint8_t>(standing);
+  for (auto& floor : contacts.floors) {
+    a.template number<double>(floor.ball);
+    a.template number<double>(floor.heel);
+  }
+  if (!Archive::kReads) return;
+  for (const std::uint8_t feet : standing) {
+    left.push_back((feet & 1) != 0);
+    right.push_back((feet & 2) != 0);
+  }
+}
+
+// The legs are found anew by their roles; how their knees bend is kept.
+template <typename Archive>
+void exchange_legs(Archive& a, const Skeleton& skeleton, Legs& legs) {
+  if (Archive::kReads) legs = find_legs(Kinematics(skeleton), {});
+  for (Leg& leg : legs) exchange_vector(a, leg.hinge);
+}
+
+template <typename Archive>
+void exchange_pool(Archive& a, PackedPool& pool) {
   exchange_skeleton(a, pool.skeleton);
-  a.list(pool.clips, 32, [&](auto& clip) {
-    a.text(clip.name);
-    a.template number<double>(clip.rate);
-    a.template number<std::int32_t>(clip.frames);
-    a.template numbers<float>(clip.root_positions);
-    a.template numbers<float>(clip.rotations);
-    a.template numbers<float>(clip.headings);
+  PoseGrid grid = pool.clips.empty() ? PoseGrid() : *pool.clips[0].grid;
+  a.template number<std::int32_t>(grid.bones);
+  a.template numbers<float>(grid.usual);
+  a.template numbers<float>(grid.steps);
+  const auto shared = std::make_shared<const PoseGrid>(std::move(grid));
+  a.list(pool.clips, 104, [&](auto& clip) {
+    if (Archive::kReads) clip.grid = shared;
+    exchange_clip(a, clip);
   });
   a.list(pool.fragments, 45, [&](auto& f) {
     for (auto* value : {&f.clip, &f.begin, &f.end}) a.template number<std::int32_t>(*value);
@@ -179,6 +218,8 @@ void exchange(Archive& a, Character& c) {
   });
   a.template numbers<std::int32_t>(c.bridges);
   a.template numbers<double>(c.control_model);
+  a.list(c.contacts, 8, [&](auto& contacts) { exchange_contacts(a, contacts); });
+  exchange_legs(a, c.pool.skeleton, c.legs);
 }
 
 void require(bool holds, const char* what) {
@@ -199,13 +240,10 @@ bool all_finite(const std::vector<double>& values) {
   return true;
 }
 
-void check_pool(FragmentPool& pool) {
+void check_pool(PackedPool& pool) {
   require(pool.skeleton.roles.hips >= 0, "roles");  // make_skeleton would find new ones
   make_skeleton(pool.skeleton);
-  for (const Clip& clip : pool.clips) {
-    require(!clip.headings.empty(), "headings");  // make_clip would find new ones
-    make_clip(pool.skeleton, clip);
-  }
+  for (const PackedClip& clip : pool.clips) check(clip, pool.skeleton);
   for (const Fragment& f : pool.fragments) {
     require(f.clip >= 0 && f.clip < static_cast<int>(pool.clips.size()) && f.begin >= 0 && f.begin < f.end &&
                 f.end < pool.clips[f.clip].frames && f.origin <= Origin::transformed,
@@ -253,6 +291,15 @@ void check(Character& c) {
   }
   require(c.bridges.size() == n * n && all_within(c.bridges, -1, c.classes.count), "stand-in-place classes");
   check_model(c.control_model);
+  require(c.contacts.size() == c.pool.clips.size(), "contacts");
+  for (std::size_t i = 0; i < c.contacts.size(); ++i) {
+    const std::size_t frames = c.contacts[i].feet[0].size();
+    require(frames == 0 || frames == static_cast<std::size_t>(c.pool.clips[i].frames), "contacts");
+    for (const FootHeights& floor : c.contacts[i].floors) {
+      require(std::isfinite(floor.ball) && std::isfinite(floor.heel), "contacts");
+    }
+  }
+  for (const Leg& leg : c.legs) require(std::abs(leg.hinge.norm() - 1) < 1e-6, "legs");
 }
 
 }  // namespace
@@ -293,10 +340,8 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     exchange(reader, character);
     if (!reader.done()) throw std::invalid_argument("it has bytes too many");
     check(character);
-    character.coverage = coverage(character.pool, character.space);
-    character.contacts = contacts_of(character.pool);
-    character.legs = find_legs(Kinematics(character.pool.skeleton), character.pool.clips);
-    character.first_poses = trajectories(character.pool, 2).first;
+    character.coverage = coverage(character.pool.fragments, character.space);
+    character.first_poses = first_poses(character.pool);
     return character;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(name + " is refused: " + error.what());

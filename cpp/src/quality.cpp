@@ -3,7 +3,7 @@
 
 namespace fragmotion {
 
-Quality quality_table(const FragmentPool& pool, const Trajectories& t, const Classes& classes,
+Quality quality_table(const std::vector<Fragment>& fragments, const Trajectories& t, const Classes& classes,
                       const ControlSpace& space) {
   const int n = classes.count;
   Quality quality;
@@ -17,7 +17,7 @@ Quality quality_table(const FragmentPool& pool, const Trajectories& t, const Cla
   }
   for (const int to : classes.representatives) {
     for (int c = 0; c < ControlSpace::kPoints; ++c) {
-      quality.match.push_back(1 / (1 + space.distance(pool.fragments[to].evident, space.point(c))));
+      quality.match.push_back(1 / (1 + space.distance(fragments[to].evident, space.point(c))));
     }
   }
   return quality;

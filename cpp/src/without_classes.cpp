@@ -56,8 +56,8 @@ Character without_classes(const Character& character, const std::vector<int>& ex
   Character result = character;
   for (Policy& policy : result.policies) avoid(allowed, character, policy);
   for (const int k : excluded) std::fill_n(&result.quality.match[static_cast<std::size_t>(k) * kPoints], kPoints, 0.0);
-  result.bridges =
-      stand_bridges(result.pool, trajectories(result.pool, 2), result.classes, result.space, kBridgeDistance, allowed);
+  result.bridges = stand_bridges(result.pool.fragments, trajectories(result.pool, 2), result.classes, result.space,
+                                 kBridgeDistance, allowed);
   return result;
 }
 

@@ -40,7 +40,7 @@ TEST(StandBridges, GoBetweenFarClassesByTheShortestWay) {
   for (int seed = 1; seed <= 30; ++seed) {
     const Line line(seed);
     const double threshold = 3;
-    const std::vector<int> bridges = stand_bridges(line.pool, line.t, line.classes, space, threshold);
+    const std::vector<int> bridges = stand_bridges(line.pool.fragments, line.t, line.classes, space, threshold);
     ASSERT_EQ(bridges.size(), 144U);
     for (int from = 0; from < 12; ++from) {
       for (int to = 0; to < 12; ++to) {
@@ -73,17 +73,17 @@ TEST(StandBridges, AreOfAllowedClassesOnly) {
       allowed[k] = false;
       moving.pool.fragments[k].evident = {0, 1.2, 0, 0};
     }
-    EXPECT_EQ(stand_bridges(line.pool, line.t, line.classes, space, 3, allowed),
-              stand_bridges(moving.pool, moving.t, moving.classes, space, 3));
+    EXPECT_EQ(stand_bridges(line.pool.fragments, line.t, line.classes, space, 3, allowed),
+              stand_bridges(moving.pool.fragments, moving.t, moving.classes, space, 3));
   }
 }
 
 TEST(StandBridges, AreNoneWhereNothingStandsOrNothingIsFar) {
   Line line(4);
-  const std::vector<int> near = stand_bridges(line.pool, line.t, line.classes, ControlSpace(), 100);
+  const std::vector<int> near = stand_bridges(line.pool.fragments, line.t, line.classes, ControlSpace(), 100);
   EXPECT_EQ(std::count(near.begin(), near.end(), -1), 144);
   for (Fragment& f : line.pool.fragments) f.evident = {0, 1.2, 0, 0};
-  const std::vector<int> none = stand_bridges(line.pool, line.t, line.classes, ControlSpace(), 0.1);
+  const std::vector<int> none = stand_bridges(line.pool.fragments, line.t, line.classes, ControlSpace(), 0.1);
   EXPECT_EQ(std::count(none.begin(), none.end(), -1), 144);
 }
 

@@ -225,7 +225,7 @@ TEST(Coverage, CountsEveryFragmentOnceAndMeasuresTheNearest) {
                         random.uniform()};
     pool.fragments.push_back(fragment);
   }
-  const Coverage found = coverage(pool, space);
+  const Coverage found = coverage(pool.fragments, space);
   EXPECT_EQ(std::accumulate(found.counts.begin(), found.counts.end(), 0), 60);
   for (int c = 0; c < ControlSpace::kPoints; ++c) {
     int count = 0;

@@ -33,7 +33,8 @@ double largest_distance(const std::vector<Vector3>& a, const std::vector<Vector3
 // The speed of the fastest joint of all takes, m/s.
 double top_speed(const Character& c, const Kinematics& kinematics) {
   double top = 0;
-  for (const Clip& clip : c.pool.clips) {
+  for (const PackedClip& packed : c.pool.clips) {
+    const Clip clip = unpack(packed);
     std::vector<Vector3> before;
     for (int f = 0; f < clip.frames; ++f) {
       const std::size_t width = std::size_t{4} * kinematics.bones();

@@ -302,7 +302,7 @@ TEST(QualityTable, IsEq2ForTheRepresentatives) {
   options.classes = 12;
   const Classes classes = cluster(t, std::vector<float>(t.count, 1), options);
   const ControlSpace space(1.1, 3, 1, 0.9, {1.5, 0.5, 2});
-  const Quality quality = quality_table(pool, t, classes, space);
+  const Quality quality = quality_table(pool.fragments, t, classes, space);
   ASSERT_EQ(quality.classes, 12);
   for (int from = 0; from < 12; ++from) {
     for (int to = 0; to < 12; ++to) {

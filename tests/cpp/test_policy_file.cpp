@@ -54,7 +54,7 @@ std::uint64_t fnv1a(const std::string& payload) {
   return hash;
 }
 
-// A file around a payload: magic, version 2, length, payload, checksum.
+// A file around a payload: magic, version, length, payload, checksum.
 std::string file_around(const std::string& payload) {
   std::string bytes = tiny_file().substr(0, 12);
   const std::uint64_t numbers[] = {payload.size(), fnv1a(payload)};
@@ -82,7 +82,8 @@ TEST(PolicyFile, BringsEverythingBack) {
   const Character back = from_bytes(to_bytes(c));
   EXPECT_EQ(back.pool.skeleton.names, c.pool.skeleton.names);
   EXPECT_EQ(back.pool.clips.size(), c.pool.clips.size());
-  EXPECT_EQ(back.pool.clips[3].rotations, c.pool.clips[3].rotations);
+  EXPECT_EQ(back.pool.clips[3].poses, c.pool.clips[3].poses);
+  EXPECT_EQ(back.contacts[3].feet, c.contacts[3].feet);
   EXPECT_EQ(back.classes.labels, c.classes.labels);
   EXPECT_EQ(back.classes.representatives, c.classes.representatives);
   EXPECT_EQ(back.quality.smoothness, c.quality.smoothness);
@@ -196,17 +197,38 @@ TEST(PolicyFile, BelievesNoCount) {
   EXPECT_LT(largest_allocation, std::size_t{64} * tiny_file().size());
 }
 
+// Spoils the grid that all clips share.
+template <typename Spoil>
+std::function<void(Character&)> regrid(Spoil spoil) {
+  return [=](Character& c) {
+    PoseGrid grid = *c.pool.clips[0].grid;
+    spoil(grid);
+    for (PackedClip& clip : c.pool.clips) clip.grid = std::make_shared<const PoseGrid>(grid);
+  };
+}
+
 TEST(PolicyFile, RefusesCharactersThatDoNotFitTogether) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const struct {
     const char* label;
     std::function<void(Character&)> spoil;
   } cases[] = {
-      {"no headings", [](Character& c) { c.pool.clips[0].headings.clear(); }},
-      {"too few headings", [](Character& c) { c.pool.clips[0].headings.pop_back(); }},
-      {"too few rotations", [](Character& c) { c.pool.clips[0].rotations.pop_back(); }},
-      {"zero rotation", [](Character& c) { std::fill_n(c.pool.clips[0].rotations.begin(), 4, 0.0); }},
-      {"position not finite", [=](Character& c) { c.pool.clips[0].root_positions[0] = nan; }},
+      {"no poses", [](Character& c) { c.pool.clips[0].poses.clear(); }},
+      {"too few poses", [](Character& c) { c.pool.clips[0].poses.pop_back(); }},
+      {"too many bits", [](Character& c) { c.pool.clips[0].bits[4] = 25; }},
+      {"other bits", [](Character& c) { c.pool.clips[0].bits[5] += 9; }},
+      {"too few bits", [](Character& c) { c.pool.clips[0].bits.pop_back(); }},
+      {"too few turns", [](Character& c) { c.pool.clips[0].least.pop_back(); }},
+      {"turn without end", [](Character& c) { c.pool.clips[0].least[0] = 1 << 30; }},
+      {"position not finite", [=](Character& c) { c.pool.clips[0].origin[0] = nan; }},
+      {"position too far", [=](Character& c) { c.pool.clips[0].steps[1] = 1e300; }},
+      {"no step", [=](Character& c) { c.pool.clips[0].steps[3] = 0; }},
+      {"zero rotation", regrid([](PoseGrid& grid) { grid.usual[0] = 0; })},
+      {"no step of a turn", regrid([](PoseGrid& grid) { grid.steps[1] = 0; })},
+      {"too few steps", regrid([](PoseGrid& grid) { grid.steps.pop_back(); })},
+      {"bones of others", regrid([](PoseGrid& grid) { ++grid.bones; })},
+      {"contacts of others", [](Character& c) { c.contacts.pop_back(); }},
+      {"too few contacts", [](Character& c) { c.contacts[0].feet.fill({true}); }},
       {"no rate", [](Character& c) { c.pool.clips[1].rate = 0; }},
       {"fragments of no time", [](Character& c) { c.pool.clips[1].rate = 1e300; }},
       {"fragments without end", [](Character& c) { c.pool.clips[1].rate = 1e-300; }},

@@ -239,7 +239,7 @@ TEST(Synthesize, OnlyAddsAndBringsControlsNearer) {
     EXPECT_EQ(after.fragments[i].begin, before.fragments[i].begin);
     EXPECT_EQ(after.fragments[i].evident.y, before.fragments[i].evident.y);
   }
-  const Coverage was = coverage(before, space), is = coverage(after, space);
+  const Coverage was = coverage(before.fragments, space), is = coverage(after.fragments, space);
   double sum_was = 0, sum_is = 0;
   for (int c = 0; c < ControlSpace::kPoints; ++c) {
     EXPECT_LE(is.distances[c], was.distances[c]);
@@ -275,7 +275,7 @@ TEST(Synthesize, LetsEveryCharacterStand) {
   run.y = 3;
   const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
   const FragmentPool pool = synthesized({gait_clip(run)}, space, {});
-  EXPECT_LT(coverage(pool, space).distances[space.nearest({})], 1e-6);
+  EXPECT_LT(coverage(pool.fragments, space).distances[space.nearest({})], 1e-6);
 }
 
 TEST(Synthesize, IsDeterministic) {

@@ -13,7 +13,7 @@ constexpr double kBridgeDistance = 15;
 /// they are inappropriate to connect directly"): for every pair of classes the standing class that goes between, or -1.
 /// One does where the direct Dis is over `threshold` and both ways by the standing class are shorter; the one with the
 /// shortest sum is taken. `allowed` [classes] says which classes may go between; empty: all.
-std::vector<int> stand_bridges(const FragmentPool& pool, const Trajectories& t, const Classes& classes,
+std::vector<int> stand_bridges(const std::vector<Fragment>& fragments, const Trajectories& t, const Classes& classes,
                                const ControlSpace& space, double threshold = kBridgeDistance,
                                const std::vector<bool>& allowed = {});
 

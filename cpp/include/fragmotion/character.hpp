@@ -8,6 +8,7 @@
 #include "fragmotion/contacts.hpp"
 #include "fragmotion/coverage.hpp"
 #include "fragmotion/leg.hpp"
+#include "fragmotion/packed_clip.hpp"
 #include "fragmotion/policy.hpp"
 #include "fragmotion/progress.hpp"
 #include "fragmotion/trace.hpp"
@@ -16,7 +17,7 @@ namespace fragmotion {
 
 /// What a policy file holds and a player plays: fragments, their classes and the control policy table.
 struct Character {
-  FragmentPool pool;
+  PackedPool pool;
   ControlSpace space;
   Classes classes;
   Quality quality;

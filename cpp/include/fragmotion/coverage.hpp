@@ -13,6 +13,6 @@ struct Coverage {
   std::array<double, ControlSpace::kPoints> distances{};  ///< ControlDis to the nearest fragment's evident control.
 };
 
-Coverage coverage(const FragmentPool& pool, const ControlSpace& space);
+Coverage coverage(const std::vector<Fragment>& fragments, const ControlSpace& space);
 
 }  // namespace fragmotion

@@ -5,6 +5,7 @@
 
 #include "fragmotion/fragment.hpp"
 #include "fragmotion/leg.hpp"
+#include "fragmotion/packed_clip.hpp"
 
 namespace fragmotion {
 
@@ -56,8 +57,12 @@ struct Trajectories {
   const float* last_pose(int i) const { return &last[static_cast<std::size_t>(i) * 3 * pose_stride]; }
 };
 
-/// Samples every fragment of the pool at `poses` times.
-Trajectories trajectories(const FragmentPool& pool, int poses = kPoses, int threads = 0);
+/// Samples every fragment of the pool, packed or not, at `poses` times.
+template <typename AnyClip>
+Trajectories trajectories(const Pool<AnyClip>& pool, int poses = kPoses, int threads = 0);
+
+/// Trajectories::first of a pool.
+std::vector<float> first_poses(const PackedPool& pool);
 
 /// Dis(f, g) of two fragments: summed over corresponding poses.
 float fragment_distance(const Trajectories& t, int f, int g);

@@ -26,13 +26,16 @@ struct Fragment {
 };
 
 /// All fragments, with the clips that hold their poses.
-struct FragmentPool {
+template <typename AnyClip>
+struct Pool {
   Skeleton skeleton;
-  std::vector<Clip> clips;
+  std::vector<AnyClip> clips;
   std::vector<Fragment> fragments;
 
   double seconds(const Fragment& fragment) const { return (fragment.end - fragment.begin) / clips[fragment.clip].rate; }
 };
+
+using FragmentPool = Pool<Clip>;
 
 struct CutOptions {
   bool at_gait_events = true;  ///< At foot strikes, where the skeleton has feet; else by windows.

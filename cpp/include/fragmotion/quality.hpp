@@ -19,7 +19,7 @@ struct Quality {
 };
 
 /// The table for the representatives of the classes.
-Quality quality_table(const FragmentPool& pool, const Trajectories& t, const Classes& classes,
+Quality quality_table(const std::vector<Fragment>& fragments, const Trajectories& t, const Classes& classes,
                       const ControlSpace& space);
 
 }  // namespace fragmotion
