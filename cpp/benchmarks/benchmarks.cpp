@@ -83,13 +83,19 @@ void measure_large(benchmark::State& state) {
   state.counters["peak_bytes"] = 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-void measure_player_frame(benchmark::State& state) {
+// A frame of the run time: decide, sample, stitch, lock the feet or not, and the places and rotations of all bones.
+void measure_player_frame(benchmark::State& state, bool lock_feet) {
   const Workload& w = workload();
-  Player player(w.built);
+  PlayerOptions options;
+  options.lock_feet = lock_feet;
+  Player player(w.built, options);
+  const Kinematics kinematics(w.pool.skeleton);
+  PosedBones posed(kinematics.bones());
   std::size_t frame = 0;
   for (auto _ : state) {
     player.step(w.trace[frame++ / kFramesPerControl % w.trace.size()], 1 / kFrameRate);
-    benchmark::DoNotOptimize(player.rotations().data());
+    kinematics.world(player.root_position(), player.rotations().data(), posed.heads.data(), posed.rotations.data());
+    benchmark::DoNotOptimize(posed.heads.data());
   }
 }
 
@@ -101,7 +107,11 @@ BENCHMARK(measure_svm)->Name("svm")->Unit(benchmark::kMillisecond)->UseRealTime(
 BENCHMARK(measure_iterate)->Name("iterate")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(measure_whole)->Name("whole build")->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(measure_decision)->Name("decision")->Unit(benchmark::kNanosecond)->UseRealTime();
-BENCHMARK(measure_player_frame)->Name("player frame")->Unit(benchmark::kMicrosecond)->UseRealTime();
+BENCHMARK_CAPTURE(measure_player_frame, free, false)->Name("player frame")->Unit(benchmark::kNanosecond)->UseRealTime();
+BENCHMARK_CAPTURE(measure_player_frame, locked, true)
+    ->Name("player frame, feet locked")
+    ->Unit(benchmark::kNanosecond)
+    ->UseRealTime();
 BENCHMARK(measure_large)
     ->Name("large build")
     ->Arg(12500)

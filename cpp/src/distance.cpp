@@ -19,11 +19,15 @@ void BodyTips::pose(const Vector3& root, const double* rotations) {
 }
 
 void BodyTips::write(const CharacterFrame& frame, float* rows, int stride, int offset) const {
+  const double c = scale_ * std::cos(frame.heading), s = scale_ * std::sin(frame.heading);
+  float *to_x = rows + offset, *to_y = to_x + stride, *to_z = to_y + stride;
   for (int i = 0; i < points(); ++i) {
     const int b = bones_[i];
     const Vector3 tip = posed_.heads[b] + posed_.rotations[b] * kinematics_.skeleton().tips[b];
-    const Vector3 local = frame.to_local(tip) * scale_;
-    for (int axis = 0; axis < 3; ++axis) rows[axis * stride + offset + i] = static_cast<float>(local[axis]);
+    const double x = tip.x() - frame.position.x(), y = tip.y() - frame.position.y();
+    to_x[i] = static_cast<float>(c * x + s * y);
+    to_y[i] = static_cast<float>(c * y - s * x);
+    to_z[i] = static_cast<float>(scale_ * tip.z());
   }
 }
 

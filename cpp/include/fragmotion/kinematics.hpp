@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "fragmotion/clip.hpp"
@@ -18,13 +19,13 @@ struct CharacterFrame {
   Quaternion rotation() const { return Quaternion{Eigen::AngleAxisd(heading, Vector3::UnitZ())}; }
 };
 
-/// Forward kinematics of one skeleton. Keeps what does not change from pose to pose.
+/// Forward kinematics of one skeleton. Keeps what does not change from pose to pose; copies share it.
 class Kinematics {
  public:
   explicit Kinematics(const Skeleton& skeleton);
 
-  const Skeleton& skeleton() const { return skeleton_; }
-  int bones() const { return skeleton_.size(); }
+  const Skeleton& skeleton() const { return parts_->skeleton; }
+  int bones() const { return skeleton().size(); }
 
   /// The character frame of hips at `position` with world rotation `rotation`. Facing is told by the line from the left
   /// thigh to the right; without thighs by Blender's convention that a character at rest faces -y.
@@ -40,15 +41,20 @@ class Kinematics {
   }
 
   /// The character frame of the rest pose.
-  const CharacterFrame& rest_frame() const { return rest_frame_; }
+  const CharacterFrame& rest_frame() const { return parts_->rest_frame; }
 
  private:
-  Skeleton skeleton_;
-  Vector3 right_;  // from the left thigh to the right one, in the hips' frame
-  CharacterFrame rest_frame_;
-  std::vector<bool> carried_;  // bones outside the tree of the hips
-  std::vector<Vector3> rest_heads_;
-  std::vector<Quaternion> rest_rotations_;
+  struct Parts {
+    Skeleton skeleton;
+    Vector3 right;  // from the left thigh to the right one, in the hips' frame
+    CharacterFrame rest_frame;
+    std::vector<int> carried, below;  // bones outside the tree of the hips, and those in it but for the hips
+    std::vector<Vector3> rest_heads;  // of all bones, in the character frame
+    std::vector<Quaternion> rest_rotations;
+  };
+  void carry(const Vector3& root_position, const Quaternion& hips, Vector3* heads, Quaternion* orientations) const;
+
+  std::shared_ptr<const Parts> parts_;
 };
 
 }  // namespace fragmotion
