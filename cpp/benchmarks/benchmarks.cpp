@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
+#include "fragmotion/crowd.hpp"
 #include "fragmotion/iterate.hpp"
 #include "fragmotion/player.hpp"
 #include "fragmotion/random.hpp"
@@ -13,6 +14,7 @@ namespace fragmotion::benchmarks {
 namespace {
 
 constexpr double kFrameRate = 60;
+constexpr int kCrowd = 10000;
 constexpr int kFramesPerControl = static_cast<int>(kFrameRate / kTraceRate);
 
 void measure_trajectories(benchmark::State& state) {
@@ -99,6 +101,23 @@ void measure_player_frame(benchmark::State& state, bool lock_feet) {
   }
 }
 
+// A step of a crowd that goes as many ways as there are controls.
+void measure_crowd(benchmark::State& state) {
+  const Workload& w = workload();
+  Crowd crowd(w.built, kCrowd, {}, static_cast<int>(state.range(0)));
+  std::vector<Control> controls(kCrowd);
+  std::vector<double> roots(std::size_t{3} * kCrowd), rotations(std::size_t{4} * kCrowd * crowd.bones());
+  std::size_t frame = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    const std::size_t now = frame++ / kFramesPerControl;
+    for (int i = 0; i < kCrowd; ++i) controls[i] = w.trace[(now + 7 * i) % w.trace.size()];
+    state.ResumeTiming();
+    crowd.step(controls.data(), 1 / kFrameRate, roots.data(), rotations.data());
+    benchmark::DoNotOptimize(rotations.data());
+  }
+}
+
 BENCHMARK(measure_trajectories)->Name("trajectories")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(measure_cluster)->Name("cluster")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(measure_quality)->Name("quality table")->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -112,6 +131,8 @@ BENCHMARK_CAPTURE(measure_player_frame, locked, true)
     ->Name("player frame, feet locked")
     ->Unit(benchmark::kNanosecond)
     ->UseRealTime();
+BENCHMARK(measure_crowd)->Name("crowd step")->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(measure_crowd)->Name("crowd step, two threads")->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(measure_large)
     ->Name("large build")
     ->Arg(12500)

@@ -81,7 +81,7 @@ double FootLock::height(int side, const FootHeights& floor) const {
 void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds) {
   if (!legs_[0].exists() || !legs_[1].exists()) return;
   const Skeleton& skeleton = kinematics_.skeleton();
-  kinematics_.world(pose.root, pose.rotations.data(), posed_.heads.data(), posed_.rotations.data());
+  kinematics_.world(pose.root, pose.rotations.data(), bones_, posed_.heads.data(), posed_.rotations.data());
   std::array<Vector3, 2> ankles;
   double sink = 0;
   for (int side = 0; side < 2; ++side) {

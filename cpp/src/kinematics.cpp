@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/kinematics.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -91,14 +92,28 @@ void Kinematics::carry(const Vector3& root_position, const Quaternion& hips, Vec
   }
 }
 
+std::vector<int> Kinematics::chains(const std::vector<int>& ends) const {
+  std::vector<int> bones;
+  for (const int b : parts_->below) {
+    const auto above = [&](int end) { return end >= 0 && skeleton().is_below(end, b); };
+    if (std::any_of(ends.begin(), ends.end(), above)) bones.push_back(b);
+  }
+  return bones;
+}
+
 void Kinematics::world(const Vector3& root_position, const double* rotations, Vector3* heads,
                        Quaternion* orientations) const {
+  world(root_position, rotations, parts_->below, heads, orientations);
+}
+
+void Kinematics::world(const Vector3& root_position, const double* rotations, const std::vector<int>& bones,
+                       Vector3* heads, Quaternion* orientations) const {
   const Skeleton& skeleton = parts_->skeleton;
   const int hips = skeleton.roles.hips;
   heads[hips] = root_position;
   orientations[hips] = load_quaternion(rotations + std::ptrdiff_t{4} * hips);
   if (!parts_->carried.empty()) carry(root_position, orientations[hips], heads, orientations);
-  for (const int b : parts_->below) {
+  for (const int b : bones) {
     const int parent = skeleton.parents[b];
     attach(heads[parent], orientations[parent], skeleton.offsets[b], rotations + std::ptrdiff_t{4} * b, heads[b],
            orientations[b]);

@@ -22,37 +22,43 @@ constexpr double kPull = 0.4;       // of speed and turn rate: the most that the
 constexpr double kPulling = 0.1;    // s: time constant of the pull
 constexpr double kLongest = 3600;   // s that a step may last
 
-void check_step(const Control& control, double seconds) {
-  for (const double value : {control.x, control.y, control.turn, control.jump}) {
-    if (!std::isfinite(value)) throw std::invalid_argument("the control holds what is not a number");
-  }
-  if (!(seconds >= 0 && seconds <= kLongest)) throw std::invalid_argument("a step must last 0 s to an hour");
-}
-
 }  // namespace
 
+Player::Stage::Stage(const Character& character)
+    : kinematics(character.pool.skeleton),
+      members(character.classes.members()),
+      tips(character.pool.skeleton),
+      last_pose(character.first_poses.size() / character.pool.fragments.size()) {
+  fitting.reserve(character.pool.fragments.size());
+  for (WorldPose& pose : poses) pose.rotations.resize(std::size_t{4} * kinematics.bones());
+}
+
 Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options)
+    : Player(character, options, std::make_shared<Stage>(*character)) {}
+
+Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options, std::shared_ptr<Stage> stage)
     : character_(std::move(character)),
       policy_(&character_->policy(options.policy)),
-      kinematics_(character_->pool.skeleton),
-      members_(character_->classes.members()),
-      tips_(kinematics_.skeleton()),
+      stage_(std::move(stage)),
       seed_(options.seed),
       random_(options.seed),
       stitch_(options.stitch),
       stitching_(options.stitching),
       lock_feet_(options.lock_feet),
       pull_(options.pull),
-      inertia_(kinematics_.bones()),
-      foot_lock_(kinematics_, character_->legs) {
+      inertia_(stage_->kinematics.bones()),
+      foot_lock_(stage_->kinematics, character_->legs) {
   if (!(pull_ >= 0 && pull_ <= 1)) throw std::invalid_argument("the pull must be 0 to 1");
   if (!(stitch_ >= 0 && stitch_ <= 1)) throw std::invalid_argument("the stitching time must be 0 to 1 s");
-  last_pose_.resize(character_->first_poses.size() / character_->pool.fragments.size());
-  fitting_.reserve(character_->pool.fragments.size());
-  pose_.rotations.resize(std::size_t{4} * kinematics_.bones());
-  shown_ = pose_;
-  scratch_.fill(pose_);
+  pose_ = shown_ = stage_->poses[0];
   reset();
+}
+
+void Player::check_step(const Control& control, double seconds) {
+  for (const double value : {control.x, control.y, control.turn, control.jump}) {
+    if (!std::isfinite(value)) throw std::invalid_argument("the control holds what is not a number");
+  }
+  if (!(seconds >= 0 && seconds <= kLongest)) throw std::invalid_argument("a step must last 0 s to an hour");
 }
 
 void Player::reset(const CharacterFrame& frame) {
@@ -98,7 +104,7 @@ void Player::sample(const Placed& placed, WorldPose& pose) const {
   const double at = f.begin + placed.seconds * clip.rate;
   pose.root = world.to_world(sample_pose(clip, at, pose.rotations.data()));
   pose.heading = placed.heading + frame_at(clip, at).heading;
-  double* hips = &pose.rotations[std::size_t{4} * kinematics_.skeleton().roles.hips];
+  double* hips = &pose.rotations[std::size_t{4} * stage_->kinematics.skeleton().roles.hips];
   store_quaternion(world.rotation() * load_quaternion(hips), hips);
 }
 
@@ -116,9 +122,10 @@ void Player::pull(const Control& control, double seconds) {
   pulling_ += share * (pull_ * wanted - pulling_);
   turning_ += share * (pull_ * turn - turning_);
   const Vector2 root = pose_.root.head<2>(), way = seconds * (Eigen::Rotation2Dd(pose_.heading) * pulling_);
+  const Eigen::Matrix2d turned = Eigen::Rotation2Dd(seconds * turning_).toRotationMatrix();
   for (Placed* placed : {&now_, &before_}) {
     placed->heading += seconds * turning_;
-    placed->offset = root + way + Eigen::Rotation2Dd(seconds * turning_) * (placed->offset - root);
+    placed->offset = root + way + turned * (placed->offset - root);
   }
 }
 
@@ -127,10 +134,11 @@ void Player::pose() {
   sample(now_, pose_);
   if (now_.seconds >= stitched_) return;
   if (stitching_ == Stitching::inertialize) return inertia_.apply(now_.seconds, pose_);
-  WorldPose& old = scratch_[0];
+  WorldPose& old = stage_->poses[0];
   sample(before_, old);
   const double weight = ease_in_ease_out(now_.seconds / stitched_);
-  blend_rotations(old.rotations.data(), pose_.rotations.data(), weight, kinematics_.bones(), pose_.rotations.data());
+  blend_rotations(old.rotations.data(), pose_.rotations.data(), weight, stage_->kinematics.bones(),
+                  pose_.rotations.data());
   pose_.root = old.root + weight * (pose_.root - old.root);
   pose_.heading = old.heading + weight * (pose_.heading - old.heading);
 }
@@ -157,26 +165,28 @@ int Player::draw(int next_class, const Control& control) {
   const Character& c = *character_;
   const auto error = [&](int fragment) { return c.space.distance(c.pool.fragments[fragment].evident, control); };
   const double allowed = error(c.classes.representatives[next_class]);
-  const int stride = static_cast<int>(last_pose_.size()) / 3;
-  tips_.pose(pose_.root, pose_.rotations.data());
-  tips_.write(frame(), last_pose_.data(), stride, 0);
+  std::vector<float>& last = stage_->last_pose;
+  std::vector<std::pair<float, int>>& fitting = stage_->fitting;
+  const int stride = static_cast<int>(last.size()) / 3;
+  stage_->tips.pose(pose_.root, pose_.rotations.data());
+  stage_->tips.write(frame(), last.data(), stride, 0);
   float least = std::numeric_limits<float>::infinity();
-  fitting_.clear();
-  for (const int fragment : members_[next_class]) {
+  fitting.clear();
+  for (const int fragment : stage_->members[next_class]) {
     if (error(fragment) > allowed) continue;
-    const float* first = &c.first_poses[last_pose_.size() * fragment];
-    fitting_.emplace_back(tip_distance(last_pose_.data(), first, stride), fragment);
-    least = std::min(least, fitting_.back().first);
+    const float* first = &c.first_poses[last.size() * fragment];
+    fitting.emplace_back(tip_distance(last.data(), first, stride), fragment);
+    least = std::min(least, fitting.back().first);
   }
   const auto joins = [&](const auto& each) { return each.first <= kJoinsWell * least + kJoinsNear; };
-  const auto end = std::partition(fitting_.begin(), fitting_.end(), joins);
-  return fitting_[random_.below(static_cast<int>(end - fitting_.begin()))].second;
+  const auto end = std::partition(fitting.begin(), fitting.end(), joins);
+  return fitting[random_.below(static_cast<int>(end - fitting.begin()))].second;
 }
 
 // Begins a stitch of `seconds` from the old fragment, as it is shown, to the one that plays now.
 void Player::stitch(const Placed& old, double seconds) {
   constexpr double kApart = 1.0 / 60;  // s over which speeds are measured, within both fragments
-  auto& [old_before, old_now, fresh, fresh_later] = scratch_;
+  auto& [old_before, old_now, fresh, fresh_later] = stage_->poses;
   old_now = pose_;
   Placed at = old;
   at.seconds -= kApart;
@@ -213,7 +223,7 @@ void Player::force(int next_class) {
 void Player::start_forced() {
   const int next = std::exchange(forced_, -1);
   waiting_ = -1;
-  start(next, members_[next][random_.below(static_cast<int>(members_[next].size()))]);
+  start(next, stage_->members[next][random_.below(static_cast<int>(stage_->members[next].size()))]);
   held_ = true;
 }
 

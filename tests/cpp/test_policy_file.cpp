@@ -1,43 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <limits>
-#include <new>
 
+#include "allocations.hpp"
 #include "fragmotion/player.hpp"
 #include "fragmotion/policy_file.hpp"
 #include "mocap_files.hpp"
 #include "small_character.hpp"
-
-namespace {
-
-std::atomic<std::size_t> largest_allocation{0};
-
-void* allocate(std::size_t size) {
-  std::size_t largest = largest_allocation;
-  while (size > largest && !largest_allocation.compare_exchange_weak(largest, size)) {
-  }
-  return std::malloc(size == 0 ? 1 : size);
-}
-
-}  // namespace
-
-// Watches how much memory anything in this program asks for at once. Not inlined, or GCC takes free() for a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  void* memory = allocate(size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
-  return allocate(size);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, const std::nothrow_t& /*tag*/) noexcept { std::free(memory); }
 
 namespace fragmotion {
 namespace {

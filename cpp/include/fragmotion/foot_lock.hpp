@@ -48,6 +48,7 @@ class FootLock {
   bool fresh_ = true;  // no pose was shown yet
   double sunk_ = 0;    // m that the hips are lowered
   PosedBones posed_;
+  std::vector<int> bones_ = kinematics_.chains({legs_[0].foot, legs_[0].toe, legs_[1].foot, legs_[1].toe});
 };
 
 }  // namespace fragmotion

@@ -35,10 +35,17 @@ class Kinematics {
   /// `rotations` is one pose's [bones, 4] as in Clip; the outputs hold `bones()` values.
   void world(const Vector3& root_position, const double* rotations, Vector3* heads, Quaternion* orientations) const;
 
+  /// Only the hips, the bones above them and those of `bones`, which hang on each other and on the hips, in order.
+  void world(const Vector3& root_position, const double* rotations, const std::vector<int>& bones, Vector3* heads,
+             Quaternion* orientations) const;
+
   void world(const Clip& clip, int index, Vector3* heads, Quaternion* orientations) const {
     world(load_vector(&clip.root_positions[3 * index]), &clip.rotations[std::size_t{4} * bones() * index], heads,
           orientations);
   }
+
+  /// The bones between the hips and those given, and these.
+  std::vector<int> chains(const std::vector<int>& ends) const;
 
   /// The character frame of the rest pose.
   const CharacterFrame& rest_frame() const { return parts_->rest_frame; }

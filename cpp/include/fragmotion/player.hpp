@@ -45,13 +45,15 @@ class Player {
  public:
   /// Throws std::invalid_argument on an option that is out of its range.
   explicit Player(std::shared_ptr<const Character> character, const PlayerOptions& options = {});
+  Player(const Player&) = delete;
+  Player(Player&&) = default;
 
   /// Stands at `frame`, in the class that best performs standing still, and draws again from the seed: after a reset
   /// the same steps show the same poses.
   void reset(const CharacterFrame& frame = {});
 
-  /// Plays on for `seconds` under a control, which need not be one of the 102 points. Throws std::invalid_argument
-  /// unless the control is finite and `seconds` is 0 .. 3600.
+  /// Plays on for `seconds` under a control, which need not be one of the 102 points. Allocates nothing. Throws
+  /// std::invalid_argument unless the control is finite and `seconds` is 0 .. 3600.
   void step(const Control& control, double seconds);
 
   /// Plays a member of this class, drawn at random, whatever the policy says: as soon as the stitch under way is done,
@@ -73,6 +75,20 @@ class Player {
   const Character& character() const { return *character_; }
 
  private:
+  friend class Crowd;
+
+  // What players that step in turn share: what never changes, and what a step keeps nothing in.
+  struct Stage {
+    explicit Stage(const Character& character);
+
+    Kinematics kinematics;
+    std::vector<std::vector<int>> members;
+    BodyTips tips;
+    std::vector<float> last_pose;                // tips of what is shown
+    std::vector<std::pair<float, int>> fitting;  // fragments by their distance from it
+    std::array<WorldPose, 4> poses;
+  };
+
   // A fragment that plays, placed in the world: its clip turned by `heading` about z and moved by `offset`.
   struct Placed {
     int fragment = 0;
@@ -81,6 +97,9 @@ class Player {
     Vector2 offset = Vector2::Zero();
   };
 
+  Player(std::shared_ptr<const Character> character, const PlayerOptions& options, std::shared_ptr<Stage> stage);
+
+  static void check_step(const Control& control, double seconds);
   Placed place(int fragment, const CharacterFrame& frame) const;
   void sample(const Placed& placed, WorldPose& pose) const;
   void stitch(const Placed& old, double seconds);
@@ -98,11 +117,7 @@ class Player {
 
   std::shared_ptr<const Character> character_;
   const Policy* policy_;
-  Kinematics kinematics_;
-  std::vector<std::vector<int>> members_;
-  BodyTips tips_;
-  std::vector<float> last_pose_;                // scratch of draw(): tips of what is shown
-  std::vector<std::pair<float, int>> fitting_;  // scratch of draw(): fragments by their distance from it
+  std::shared_ptr<Stage> stage_;
   std::uint64_t seed_;
   Random random_;
   double stitch_;
@@ -126,7 +141,6 @@ class Player {
   FootLock foot_lock_;
   WorldPose pose_;  // before feet are locked
   WorldPose shown_;
-  std::array<WorldPose, 4> scratch_;
 };
 
 }  // namespace fragmotion

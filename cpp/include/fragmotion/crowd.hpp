@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fragmotion/player.hpp"
+
+namespace fragmotion {
+
+/// Many players of one character that step together. Player i shows, to the bit, what a Player of the same options with
+/// the seed `options.seed` + i shows that is stepped alone, whatever the number of threads.
+class Crowd {
+ public:
+  /// `threads`: of a step; 0: as many as the machine has. Throws std::invalid_argument on an option that is out of its
+  /// range and on a count under 0.
+  Crowd(std::shared_ptr<const Character> character, int count, const PlayerOptions& options = {}, int threads = 0);
+
+  int size() const { return static_cast<int>(players_.size()); }
+  int bones() const { return bones_; }
+  Player& operator[](int player) { return players_[player]; }
+  const Player& operator[](int player) const { return players_[player]; }
+
+  /// Steps each player under its control, [size()], as Player::step; throws before any has moved. What is shown then is
+  /// written to `roots` [size(), 3], m, and `rotations` [size(), bones(), 4] as in Clip, unless they are null.
+  /// Allocates nothing on one thread.
+  void step(const Control* controls, double seconds, double* roots = nullptr, double* rotations = nullptr);
+
+ private:
+  void step(int player, const Control& control, double seconds, double* roots, double* rotations);
+
+  int bones_, parts_;
+  std::vector<Player> players_;  // those of a part share a stage
+};
+
+}  // namespace fragmotion
