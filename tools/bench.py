@@ -33,6 +33,8 @@ _REPEATS = 3
 _FRAMES = 200  # of the NumPy player
 _DECISIONS = 200  # of NumPy
 _LARGE = "large build"
+_FRAME_GOALS = (("player frame", 1e-6), ("player frame, feet locked", 2e-6))  # s
+_CROWDS = ("crowd step", "crowd step, two threads")  # 10,000 players
 
 
 @dataclass(frozen=True)
@@ -198,7 +200,7 @@ def _player_frame(data: Arrays) -> tuple[float, str]:
     seconds, _ = timed(
         lambda: [reference.player_frame(motion, at, at + 20, 0.5, 0.3, offset) for at in frames],
     )
-    return seconds / _FRAMES, "a frame in the middle of a stitch; the core's is the mean of all frames"
+    return seconds / _FRAMES, "a frame in the middle of a stitch; the core's: all frames, and the places of all bones"
 
 
 def _body(data: Arrays) -> reference.Body:
@@ -240,15 +242,18 @@ def compare(core: dict[str, float], data: Arrays) -> tuple[list[Row], dict[str, 
     return rows, remarks
 
 
-def goals(rows: list[Row], growth: Growth) -> list[Goal]:
+def goals(rows: list[Row], measured: Measured) -> list[Goal]:
     """The project's goals, for two cores, beside what was measured."""
-    core = {row.name: row for row in rows}
+    core, growth = {row.name: row for row in rows}, measured.growth
     return [
         Goal("whole build", core["whole build"].seconds, 0.2, _duration),
         Goal("whole build against the reference", core["whole build"].ratio, 5, "{:.1f}x".format, more=True),
         Goal("iterate", core["iterate"].seconds, 0.05, _duration),
         Goal("optimal", core["optimal"].seconds, 0.002, _duration),
         Goal("decision", core["decision"].seconds, 50e-9, _duration),
+        *(Goal(name, measured.seconds[name], limit, _nanoseconds) for name, limit in _FRAME_GOALS),
+        Goal("step of a crowd of 10000", measured.seconds[_CROWDS[0]], 1 / 60, _duration),
+        Goal("crowd's gain by a second thread", _gain(measured), 1.8, "{:.2f}x".format, more=True),
         Goal(f"{growth.fragments[-1]} fragments", growth.seconds[-1], 60, _duration),
         Goal(f"memory of {growth.fragments[-1]} fragments", growth.peak_bytes[-1], 1e9, _megabytes),
         Goal("exponent of CPU time over fragments", growth.exponent, 1.1, "{:.2f}".format),
@@ -273,7 +278,7 @@ def show(rows: list[Row], remarks: dict[str, str], measured: Measured, data: Arr
     print(f"\nWhole build: {whole['fragments']:.0f} fragments ({whole['captured']:.0f} not synthesized), {cpu} of CPU")
     print(f"The fastest one's stages: {parts}")
     show_growth(measured.growth)
-    show_goals(goals(rows, measured.growth))
+    show_goals(goals(rows, measured))
 
 
 def show_growth(growth: Growth) -> None:
@@ -290,6 +295,15 @@ def show_goals(listed: list[Goal]) -> None:
     for goal in listed:
         limit = f"at {'least' if goal.more else 'most'} {goal.shown(goal.limit)}"
         print(f"{goal.name:<38} {goal.shown(goal.figure):>10}  {limit:<18} {'met' if goal.met else 'NOT MET'}")
+
+
+def _gain(measured: Measured) -> float:
+    one, two = (measured.seconds[name] for name in _CROWDS)
+    return one / two
+
+
+def _nanoseconds(seconds: float) -> str:
+    return f"{seconds * 1e9:.0f} ns"
 
 
 def _megabytes(count: float) -> str:

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
+#include "fragmotion/crowd.hpp"
 #include "fragmotion/motion_measures.hpp"
 #include "fragmotion/player.hpp"
 #include "fragmotion/response.hpp"
@@ -56,6 +57,85 @@ PlayerOptions to_options(std::uint64_t seed, double stitch, const std::string& p
           lock_feet, pull};
 }
 
+// An array to write to: a new one, or the caller's, which must be just so.
+py::array_t<double> target(const py::object& given, const std::string& name, const std::vector<py::ssize_t>& shape) {
+  if (given.is_none()) return py::array_t<double>(shape);
+  const bool fits = py::isinstance<py::array_t<double, py::array::c_style>>(given);
+  if (!fits || !given.cast<py::array>().writeable()) {
+    throw std::invalid_argument(name + " must be a writable array of float64 in C order");
+  }
+  auto array = given.cast<py::array_t<double>>();
+  check_shape(array, name, shape);
+  return array;
+}
+
+py::tuple step_many(Crowd& crowd, const Doubles& controls, double seconds, const py::object& roots,
+                    const py::object& rotations) {
+  const py::ssize_t count = crowd.size();
+  check_shape(controls, "controls", {count, 4});
+  std::vector<Control> wanted;
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const double* row = controls.data(i, 0);
+    wanted.push_back({row[0], row[1], row[2], row[3]});
+  }
+  py::array_t<double> to_roots = target(roots, "roots", {count, 3}),
+                      to_rotations = target(rotations, "rotations", {count, crowd.bones(), 4});
+  double *first_root = to_roots.mutable_data(), *first_rotation = to_rotations.mutable_data();
+  without_gil([&] { crowd.step(wanted.data(), seconds, first_root, first_rotation); });
+  return py::make_tuple(to_roots, to_rotations);
+}
+
+Player& player_of(Crowd& crowd, int player) {
+  if (player < 0 || player >= crowd.size()) {
+    throw std::invalid_argument("player " + std::to_string(player) + " does not exist");
+  }
+  return crowd[player];
+}
+
+py::array_t<double> frames_of(const Crowd& crowd) {
+  std::vector<double> frames;
+  for (int i = 0; i < crowd.size(); ++i) {
+    const CharacterFrame frame = crowd[i].frame();
+    frames.insert(frames.end(), {frame.position.x(), frame.position.y(), frame.heading});
+  }
+  return to_array(std::move(frames), {crowd.size(), 3});
+}
+
+py::array_t<int> playing_of(const Crowd& crowd) {
+  std::vector<int> playing;
+  for (int i = 0; i < crowd.size(); ++i) {
+    playing.insert(playing.end(), {crowd[i].playing_class(), crowd[i].playing_fragment()});
+  }
+  return to_array(std::move(playing), {crowd.size(), 2});
+}
+
+void bind_crowd(py::module_& m) {
+  py::class_<Crowd>(m, "Crowd", py::module_local())
+      .def(py::init([](std::shared_ptr<Character> character, int count, std::uint64_t seed, double stitch,
+                       const std::string& policy, const std::string& stitching, bool lock_feet, double pull,
+                       int threads) {
+             return Crowd(std::move(character), count, to_options(seed, stitch, policy, stitching, lock_feet, pull),
+                          threads);
+           }),
+           py::arg("character").none(false), py::arg("count"), py::arg("seed") = 1, py::arg("stitch") = kStitch,
+           py::arg("policy") = "", py::arg("stitching") = "inertialize", py::arg("lock_feet") = true,
+           py::arg("pull") = 1.0, py::arg("threads") = 0)
+      .def("__len__", &Crowd::size)
+      .def("step_many", &step_many, py::arg("controls"), py::arg("seconds"), py::arg("roots") = py::none(),
+           py::arg("rotations") = py::none())
+      .def(
+          "reset",
+          [](Crowd& crowd, int player, double x, double y, double heading) {
+            player_of(crowd, player).reset({Vector2{x, y}, heading});
+          },
+          py::arg("player"), py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("heading") = 0.0)
+      .def(
+          "force", [](Crowd& crowd, int player, int next_class) { player_of(crowd, player).force(next_class); },
+          py::arg("player"), py::arg("next_class"))
+      .def_property_readonly("frames", &frames_of)
+      .def_property_readonly("playing", &playing_of);
+}
+
 void bind_measures(py::module_& m) {
   py::class_<Steps>(m, "Steps", py::module_local())
       .def_readonly("p99", &Steps::p99)
@@ -103,6 +183,7 @@ void bind_player(py::module_& m) {
   bind_performance(m);
   bind_measures(m);
   bind_yardsticks(m);
+  bind_crowd(m);
   py::class_<Player>(m, "Player", py::module_local())
       .def(py::init([](std::shared_ptr<Character> character, std::uint64_t seed, double stitch,
                        const std::string& policy, const std::string& stitching, bool lock_feet, double pull) {

@@ -297,6 +297,43 @@ class Player:
         """Reset is not called. Play a trace [T,4] (10 controls a second) from now, sampled at `rate` (any, also 29.97): frames
         0 .. round(T/10 * rate)."""
 
+class Crowd:
+    """Many players of one character that step together. Player i shows, to the bit, what a Player of the seed `seed` + i
+    shows that is stepped alone."""
+
+    def __init__(
+        self,
+        character: Character,
+        count: int,
+        seed: int = 1,
+        stitch: float = 0.2,
+        policy: str = "",
+        stitching: str = "inertialize",
+        lock_feet: bool = True,
+        pull: float = 1.0,
+        threads: int = 0,
+    ) -> None:
+        """As Player; `threads`: of a step (0: as many as the machine has), which change no bit of what is shown."""
+    def __len__(self) -> int: ...
+    def step_many(
+        self,
+        controls: ArrayLike,
+        seconds: float,
+        roots: Doubles | None = None,
+        rotations: Doubles | None = None,
+    ) -> tuple[Doubles, Doubles]:
+        """Advance each player by 0 to 3600 s under its control [count,4] and return the poses: root positions [count,3] m
+        and rotations [count,B,4]. Arrays that are given are written to and returned: float64, in C order. ValueError
+        on what is not finite or of another shape, before any player has moved."""
+    def reset(self, player: int, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
+        """Player.reset of one of them."""
+    def force(self, player: int, next_class: int) -> None:
+        """Player.force of one of them."""
+    frames: Doubles
+    """[count,3]: x, y, heading of the character frames now."""
+    playing: Ints
+    """[count,2]: class and fragment that play now."""
+
 class Performance:
     """What a player did."""
 

@@ -54,7 +54,8 @@ def test_quality_equals_numpy(character: core.Character) -> None:
     smoothness = 1 / (1 + dis(last[medoids][:, None], first[medoids][None]))
     difference = weights * (character.evident[medoids][:, None] - character.space.points[None])
     match = 1 / (1 + np.linalg.norm(difference, axis=-1))
-    np.testing.assert_allclose(character.smoothness, smoothness, rtol=1e-5)
+    # The character's poses are packed, those that the build measured were not.
+    np.testing.assert_allclose(character.smoothness, smoothness, atol=2e-3)
     np.testing.assert_allclose(character.match, match, rtol=1e-12)
     quality = character.smoothness[:, :, None] * character.match[None]
     assert quality.min() > 0 and quality.max() <= 1
