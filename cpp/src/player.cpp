@@ -100,12 +100,15 @@ Player::Placed Player::place(int fragment, const CharacterFrame& frame) const {
 void Player::sample(const Placed& placed, WorldPose& pose) const {
   const Fragment& f = character_->pool.fragments[placed.fragment];
   const PackedClip& clip = character_->pool.clips[f.clip];
-  const CharacterFrame world{placed.offset, placed.heading};
   const double at = f.begin + placed.seconds * clip.rate;
-  pose.root = world.to_world(sample_pose(clip, at, pose.rotations.data()));
+  const Vector3 root = sample_pose(clip, at, pose.rotations.data());
+  // By half the angle, for the quaternion as well as for the plane.
+  const double w = std::cos(placed.heading / 2), z = std::sin(placed.heading / 2), c = w * w - z * z, s = 2 * w * z;
+  pose.root = {placed.offset.x() + c * root.x() - s * root.y(), placed.offset.y() + s * root.x() + c * root.y(),
+               root.z()};
   pose.heading = placed.heading + frame_at(clip, at).heading;
   double* hips = &pose.rotations[std::size_t{4} * stage_->kinematics.skeleton().roles.hips];
-  store_quaternion(world.rotation() * load_quaternion(hips), hips);
+  store_quaternion(Quaternion{w, 0, 0, z} * load_quaternion(hips), hips);
 }
 
 CharacterFrame Player::frame() const { return {pose_.root.head<2>(), pose_.heading}; }
