@@ -49,12 +49,12 @@ void bind_performance(py::module_& m) {
 }
 
 PlayerOptions to_options(std::uint64_t seed, double stitch, const std::string& policy, const std::string& stitching,
-                         bool lock_feet, double pull) {
+                         bool lock_feet, double pull, double promptness) {
   if (stitching != "inertialize" && stitching != "crossfade") {
     throw std::invalid_argument("there is no stitching \"" + stitching + "\"; there are inertialize and crossfade");
   }
-  return {seed,      stitch, policy, stitching == "crossfade" ? Stitching::crossfade : Stitching::inertialize,
-          lock_feet, pull};
+  return {seed,      stitch, policy,    stitching == "crossfade" ? Stitching::crossfade : Stitching::inertialize,
+          lock_feet, pull,   promptness};
 }
 
 // An array to write to: a new one, or the caller's, which must be just so.
@@ -113,13 +113,13 @@ void bind_crowd(py::module_& m) {
   py::class_<Crowd>(m, "Crowd", py::module_local())
       .def(py::init([](std::shared_ptr<Character> character, int count, std::uint64_t seed, double stitch,
                        const std::string& policy, const std::string& stitching, bool lock_feet, double pull,
-                       int threads) {
-             return Crowd(std::move(character), count, to_options(seed, stitch, policy, stitching, lock_feet, pull),
-                          threads);
+                       double promptness, int threads) {
+             return Crowd(std::move(character), count,
+                          to_options(seed, stitch, policy, stitching, lock_feet, pull, promptness), threads);
            }),
            py::arg("character").none(false), py::arg("count"), py::arg("seed") = 1, py::arg("stitch") = kStitch,
            py::arg("policy") = "", py::arg("stitching") = "inertialize", py::arg("lock_feet") = true,
-           py::arg("pull") = 1.0, py::arg("threads") = 0)
+           py::arg("pull") = 1.0, py::arg("promptness") = 0.5, py::arg("threads") = 0)
       .def("__len__", &Crowd::size)
       .def("step_many", &step_many, py::arg("controls"), py::arg("seconds"), py::arg("roots") = py::none(),
            py::arg("rotations") = py::none())
@@ -167,14 +167,15 @@ void bind_yardsticks(py::module_& m) {
   m.def(
       "response_times",
       [](const std::shared_ptr<Character>& character, std::uint64_t seed, double stitch, const std::string& policy,
-         const std::string& stitching, bool lock_feet, double pull) {
-        const PlayerOptions options = to_options(seed, stitch, policy, stitching, lock_feet, pull);
+         const std::string& stitching, bool lock_feet, double pull, double promptness) {
+        const PlayerOptions options = to_options(seed, stitch, policy, stitching, lock_feet, pull, promptness);
         std::vector<double> times = without_gil([&] { return response_times(character, options); });
         const auto count = static_cast<py::ssize_t>(times.size());
         return to_array(std::move(times), {count});
       },
       py::arg("character").none(false), py::arg("seed") = 1, py::arg("stitch") = kStitch, py::arg("policy") = "",
-      py::arg("stitching") = "inertialize", py::arg("lock_feet") = true, py::arg("pull") = 1.0);
+      py::arg("stitching") = "inertialize", py::arg("lock_feet") = true, py::arg("pull") = 1.0,
+      py::arg("promptness") = 0.5);
 }
 
 }  // namespace
@@ -186,11 +187,14 @@ void bind_player(py::module_& m) {
   bind_crowd(m);
   py::class_<Player>(m, "Player", py::module_local())
       .def(py::init([](std::shared_ptr<Character> character, std::uint64_t seed, double stitch,
-                       const std::string& policy, const std::string& stitching, bool lock_feet, double pull) {
-             return Player(std::move(character), to_options(seed, stitch, policy, stitching, lock_feet, pull));
+                       const std::string& policy, const std::string& stitching, bool lock_feet, double pull,
+                       double promptness) {
+             return Player(std::move(character),
+                           to_options(seed, stitch, policy, stitching, lock_feet, pull, promptness));
            }),
            py::arg("character").none(false), py::arg("seed") = 1, py::arg("stitch") = kStitch, py::arg("policy") = "",
-           py::arg("stitching") = "inertialize", py::arg("lock_feet") = true, py::arg("pull") = 1.0)
+           py::arg("stitching") = "inertialize", py::arg("lock_feet") = true, py::arg("pull") = 1.0,
+           py::arg("promptness") = 0.5)
       .def(
           "reset",
           [](Player& p, double x, double y, double heading) {

@@ -12,11 +12,11 @@ namespace {
 // Lengths are those of a character of 1.8 m.
 constexpr double kTooFar = 0.3;       // m from its motion at which a foot is let go
 constexpr double kLanding = 0.06;     // m over the floor within which a foot is planted
-constexpr double kRelease = 0.2;      // s in which a foot that is let go gets back to its motion
+constexpr double kRelease = 0.3;      // s in which a foot that is let go gets back to its motion
 constexpr double kSettle = 0.03;      // s: time constant of a foot that comes to rest
 constexpr double kSoftGround = 0.06;  // m: a foot sinks in at most half of that
 constexpr double kDeepest = 0.12;     // m that the hips may sink
-constexpr double kSinking = 0.06;     // s: time constant of the hips
+constexpr double kSinking = 0.1;     // s: time constant of the hips
 
 // How far a foot is lifted that is so deep in the ground: softly at first.
 double lifted(double depth) {

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/inertialization.hpp"
 
+#include <cmath>
+
 #include "fragmotion/pose.hpp"
 
 namespace fragmotion {
 namespace {
+
+constexpr double kFades = 2.4;  // (1 + kFades) exp(-kFades) is three tenths
+constexpr double kLasts = 4;    // times that, until nothing is seen of it
 
 // The rotation from b to a as axis * tan(angle / 4): free of trigonometry, and smooth up to a whole turn.
 Vector3 turn_between(const double* a, const double* b) {
@@ -29,7 +34,8 @@ Inertialization::Inertialization(int bones) : turns_(bones), turn_speeds_(bones)
 
 void Inertialization::begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh,
                             const WorldPose& fresh_later, double apart, double seconds) {
-  seconds_ = seconds;
+  damping_ = kFades / seconds;
+  end_ = kLasts * seconds;
   root_ = old.root - fresh.root;
   root_speed_ = (old.root - old_before.root - (fresh_later.root - fresh.root)) / apart;
   heading_ = old.heading - fresh.heading;
@@ -47,8 +53,8 @@ void Inertialization::begin(const WorldPose& old_before, const WorldPose& old, c
 }
 
 void Inertialization::apply(double time, WorldPose& pose) const {
-  if (time >= seconds_) return;
-  const double phase = time / seconds_, offset = 1 - ease_in_ease_out(phase), speed = time * (1 - phase) * (1 - phase);
+  if (!active(time)) return;
+  const double left = std::exp(-damping_ * time), offset = (1 + damping_ * time) * left, speed = time * left;
   pose.root += offset * root_ + speed * root_speed_;
   pose.heading += offset * heading_ + speed * heading_speed_;
   for (std::size_t b = 0; b < turns_.size(); ++b) {

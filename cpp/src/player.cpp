@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kInstant = 1e-9;   // s: no time
 constexpr double kChange = 1;       // ControlDis between controls that is "a lot"
+constexpr double kHaste = 10;       // m/s, as Dis, by default
+constexpr double kLook = 0.05;      // s between the moments at which a fragment may be left early
 constexpr double kWorthIt = 0.05;   // s that must be left of a fragment for leaving it early
 constexpr double kInTheAir = 0.5;   // evident jump above which a fragment is played to its end
 constexpr double kJoinsWell = 1.3;  // times the Dis of the fragment that joins best, and
@@ -46,9 +48,11 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
       stitching_(options.stitching),
       lock_feet_(options.lock_feet),
       pull_(options.pull),
+      promptness_(options.promptness),
       inertia_(stage_->kinematics.bones()),
       foot_lock_(stage_->kinematics, character_->legs) {
   if (!(pull_ >= 0 && pull_ <= 1)) throw std::invalid_argument("the pull must be 0 to 1");
+  if (!(promptness_ >= 0 && promptness_ <= 1)) throw std::invalid_argument("the promptness must be 0 to 1");
   if (!(stitch_ >= 0 && stitch_ <= 1)) throw std::invalid_argument("the stitching time must be 0 to 1 s");
   pose_ = shown_ = stage_->poses[0];
   reset();
@@ -75,7 +79,8 @@ void Player::reset(const CharacterFrame& frame) {
   random_ = Random(seed_);
   waiting_ = forced_ = -1;
   held_ = false;
-  stitched_ = soonest_ = 0;
+  faded_ = soonest_ = 0;
+  exit_ = -1;
   pulling_ = Vector2::Zero();
   turning_ = 0;
   inertia_.clear();
@@ -135,11 +140,11 @@ void Player::pull(const Control& control, double seconds) {
 // What plays, stitched to what played.
 void Player::pose() {
   sample(now_, pose_);
-  if (now_.seconds >= stitched_) return;
   if (stitching_ == Stitching::inertialize) return inertia_.apply(now_.seconds, pose_);
+  if (now_.seconds >= faded_) return;
   WorldPose& old = stage_->poses[0];
   sample(before_, old);
-  const double weight = ease_in_ease_out(now_.seconds / stitched_);
+  const double weight = ease_in_ease_out(now_.seconds / faded_);
   blend_rotations(old.rotations.data(), pose_.rotations.data(), weight, stage_->kinematics.bones(),
                   pose_.rotations.data());
   pose_.root = old.root + weight * (pose_.root - old.root);
@@ -164,15 +169,17 @@ double Player::left() const {
   return character_->pool.seconds(character_->pool.fragments[now_.fragment]) - now_.seconds;
 }
 
-int Player::draw(int next_class, const Control& control) {
+// The members that perform the control as well as the representative or better, with how far they are from a pose;
+// tells the least.
+float Player::find_fitting(int next_class, const Control& control, const WorldPose& pose) const {
   const Character& c = *character_;
   const auto error = [&](int fragment) { return c.space.distance(c.pool.fragments[fragment].evident, control); };
   const double allowed = error(c.classes.representatives[next_class]);
   std::vector<float>& last = stage_->last_pose;
   std::vector<std::pair<float, int>>& fitting = stage_->fitting;
   const int stride = static_cast<int>(last.size()) / 3;
-  stage_->tips.pose(pose_.root, pose_.rotations.data());
-  stage_->tips.write(frame(), last.data(), stride, 0);
+  stage_->tips.pose(pose.root, pose.rotations.data());
+  stage_->tips.write({pose.root.head<2>(), pose.heading}, last.data(), stride, 0);
   float least = std::numeric_limits<float>::infinity();
   fitting.clear();
   for (const int fragment : stage_->members[next_class]) {
@@ -181,25 +188,31 @@ int Player::draw(int next_class, const Control& control) {
     fitting.emplace_back(tip_distance(last.data(), first, stride), fragment);
     least = std::min(least, fitting.back().first);
   }
+  return least;
+}
+
+int Player::draw(int next_class, const Control& control) {
+  const float least = find_fitting(next_class, control, pose_);
+  std::vector<std::pair<float, int>>& fitting = stage_->fitting;
   const auto joins = [&](const auto& each) { return each.first <= kJoinsWell * least + kJoinsNear; };
   const auto end = std::partition(fitting.begin(), fitting.end(), joins);
   return fitting[random_.below(static_cast<int>(end - fitting.begin()))].second;
 }
 
-// Begins a stitch of `seconds` from the old fragment, as it is shown, to the one that plays now.
-void Player::stitch(const Placed& old, double seconds) {
+// Begins a stitch from the old fragment, as it is shown, to the one that plays now.
+void Player::stitch(const Placed& old) {
   constexpr double kApart = 1.0 / 60;  // s over which speeds are measured, within both fragments
   auto& [old_before, old_now, fresh, fresh_later] = stage_->poses;
   old_now = pose_;
   Placed at = old;
   at.seconds -= kApart;
   sample(at, old_before);
-  if (at.seconds < stitched_) inertia_.apply(std::max(0.0, at.seconds), old_before);
+  inertia_.apply(std::max(0.0, at.seconds), old_before);
   sample(now_, fresh);
   at = now_;
   at.seconds += kApart;
   sample(at, fresh_later);
-  inertia_.begin(old_before, old_now, fresh, fresh_later, kApart, seconds);
+  inertia_.begin(old_before, old_now, fresh, fresh_later, kApart, stitch_);
 }
 
 void Player::start(int next_class, int fragment) {
@@ -209,10 +222,10 @@ void Player::start(int next_class, int fragment) {
   from_ = class_;
   class_ = next_class;
   const bool inertial = stitching_ == Stitching::inertialize;
-  const double seconds = inertial ? stitch_ : std::min(stitch_, left());
-  if (inertial && seconds > 0) stitch(before_, seconds);
-  stitched_ = seconds;
-  soonest_ = inertial ? kSoonest : std::max(kSoonest, seconds);
+  if (inertial && stitch_ > 0) stitch(before_);
+  exit_ = -1;
+  faded_ = inertial ? 0 : std::min(stitch_, left());
+  soonest_ = std::max(kSoonest, faded_);
   pose();
 }
 
@@ -244,9 +257,33 @@ int Player::decide(const Control& wanted) {
   return bridge;
 }
 
-bool Player::leaves_early(const Control& wanted) const {
-  return now_.seconds > soonest_ - kInstant && left() > kWorthIt && waiting_ < 0 && !held_ &&
-         character_->pool.fragments[now_.fragment].evident.jump < kInTheAir && changed(wanted);
+// The moment at which what plays is best left for what the table tells now: every second of waiting counts as much as
+// so many metres between the poses that are joined.
+double Player::find_exit(const Control& wanted) const {
+  const double haste = kHaste * promptness_ / std::max(1 - promptness_, kInstant);
+  const int next = (*policy_)(class_, character_->space.nearest(wanted));
+  WorldPose& pose = stage_->poses[0];
+  const double rest = left();
+  double best = 0, least = std::numeric_limits<double>::infinity();
+  for (double wait = 0;; wait = std::min(wait + kLook, rest)) {
+    Placed then = now_;
+    then.seconds += wait;
+    sample(then, pose);
+    if (stitching_ == Stitching::inertialize) inertia_.apply(then.seconds, pose);
+    const double cost = find_fitting(next, wanted, pose) + haste * wait;
+    if (cost < least) least = cost, best = wait;
+    if (wait >= rest) return now_.seconds + best;
+  }
+}
+
+bool Player::leaves_early(const Control& wanted) {
+  if (now_.seconds <= soonest_ - kInstant || left() <= kWorthIt || waiting_ >= 0 || held_) return false;
+  if (character_->pool.fragments[now_.fragment].evident.jump >= kInTheAir || !changed(wanted)) return false;
+  if (exit_ < 0 || character_->space.distance(wanted, planned_for_) > 0) {
+    exit_ = find_exit(wanted);
+    planned_for_ = wanted;
+  }
+  return now_.seconds > exit_ - kInstant;
 }
 
 void Player::go_on(const Control& control, const Control& wanted) {
@@ -273,7 +310,8 @@ void Player::step(const Control& control, double seconds) {
     } else if (left() < kInstant || leaves_early(wanted)) {
       go_on(control, wanted);
     }
-    const double wait = soonest_ - now_.seconds, part = std::min({seconds, left(), wait > kInstant ? wait : seconds});
+    const auto until = [&](double time) { return time - now_.seconds > kInstant ? time - now_.seconds : seconds; };
+    const double part = std::min({seconds, left(), until(soonest_), until(exit_)});
     now_.seconds += part;
     before_.seconds += part;
     pull(control, part);

@@ -18,7 +18,7 @@ enum class Stitching {
   crossfade     ///< The paper's: the old fragment goes on in its take while both are interpolated.
 };
 
-/// Seconds that a stitch lasts, unless told.
+/// Seconds that a stitch takes, unless told: a crossfade all, inertialization most of its way (inertialization.hpp).
 constexpr double kStitch = 0.2;
 
 /// Seconds that a fragment is played at least before a change of the control may end it.
@@ -26,21 +26,24 @@ constexpr double kSoonest = 0.1;
 
 struct PlayerOptions {
   std::uint64_t seed = 1;
-  double stitch = kStitch;  ///< s, 0 .. 1; cut short by shorter fragments.
+  double stitch = kStitch;  ///< s, 0 .. 1; shorter fragments cut a crossfade short.
   std::string policy{};     ///< One of the character's; empty: the one that drives.
   Stitching stitching = Stitching::inertialize;
   bool lock_feet = true;  ///< Planted feet stay where they are (foot_lock.hpp).
   /// How much the root is pulled to the command, over what its fragments do, 0 .. 1; at 1 by up to two fifths of the
   /// fragment's speed and of the turn rate.
   double pull = 1;
+  /// How soon a fragment is left when the control changes a lot, 0 .. 1: at 0 at the moment of it from which the next
+  /// one is joined best, at 1 at once.
+  double promptness = 0.5;
 };
 
 /// The run time (Sec. 3.3, Fig. 3). At a fragment's end the table tells the next class. A member of it, drawn at random
 /// (Sec. 3.1) among those that perform the control as well as the representative or better and join well, is placed
 /// where the character stands, and stitched on with ease-in-ease-out weights. A fragment is left early, unless in the
-/// air, when the control changes a lot. A stand-in-place fragment is played to its end; then comes the class that it
-/// leads to, or, where the control has changed a lot meanwhile, what the table tells from standing. A jump that is
-/// pressed, however shortly, is asked of the table at the next decision.
+/// air, when the control changes a lot: soon, where the next one joins well. A stand-in-place fragment is played to its
+/// end; then comes the class that it leads to, or, where the control has changed a lot meanwhile, what the table tells
+/// from standing. A jump that is pressed, however shortly, is asked of the table at the next decision.
 class Player {
  public:
   /// Throws std::invalid_argument on an option that is out of its range.
@@ -102,13 +105,15 @@ class Player {
   static void check_step(const Control& control, double seconds);
   Placed place(int fragment, const CharacterFrame& frame) const;
   void sample(const Placed& placed, WorldPose& pose) const;
-  void stitch(const Placed& old, double seconds);
+  void stitch(const Placed& old);
+  float find_fitting(int next_class, const Control& control, const WorldPose& pose) const;
   int draw(int next_class, const Control& control);
+  double find_exit(const Control& wanted) const;
   void start(int next_class, int fragment);
   void start_forced();
   bool changed(const Control& wanted) const;
   int decide(const Control& wanted);
-  bool leaves_early(const Control& wanted) const;
+  bool leaves_early(const Control& wanted);
   void go_on(const Control& control, const Control& wanted);
   void pull(const Control& control, double seconds);
   void pose();
@@ -123,16 +128,18 @@ class Player {
   double stitch_;
   Stitching stitching_;
   bool lock_feet_;
-  double pull_;
+  double pull_, promptness_;
 
   Placed now_, before_;
-  double stitched_ = 0;  // s that the stitch under way lasts; 0: none
-  double soonest_ = 0;   // s after which what plays may be left early
+  double faded_ = 0;    // s after which the old fragment has faded; 0: it does not fade
+  double soonest_ = 0;  // s after which what plays may be left early
   int class_ = 0, from_ = 0;
   int waiting_ = -1;   // the class that follows a stand-in-place fragment
   int forced_ = -1;    // the class that force() asked for and that does not play yet
   bool held_ = false;  // a forced fragment plays: it is not left early
   Control decided_for_;
+  Control planned_for_;
+  double exit_ = -1;  // s after which what plays is left early for planned_for_; below 0: nothing is planned
   bool jump_pressed_ = false;
   bool jump_waits_ = false;            // pressed since the last decision that plays: a tap is not lost
   Vector2 pulling_ = Vector2::Zero();  // m/s, in the character frame
