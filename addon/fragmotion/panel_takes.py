@@ -108,17 +108,10 @@ def _draw_figures(layout: bpy.types.UILayout, take: Any) -> None:
 
 def _draw_uses(layout: bpy.types.UILayout, index: int) -> None:
     row = layout.row(align=True)
-    if _can_replay():
-        replay = row.operator("fragmotion.drive", text="Replay", icon="PLAY")
-        replay.source, replay.take = "TAKE", index
+    replay = row.operator("fragmotion.drive", text="Replay", icon="PLAY")
+    replay.source, replay.take = "TAKE", index
     bake = row.operator("fragmotion.bake", text="Bake", icon="ACTION_TWEAK")
     bake.trace_source, bake.take = "TAKE", index
-
-
-def _can_replay() -> bool:
-    """Whether the drive accepts a take."""
-    drive = getattr(bpy.types, "FRAGMOTION_OT_drive", None)
-    return drive is not None and "take" in drive.bl_rna.properties
 
 
 CLASSES = (FRAGMOTION_UL_takes, FRAGMOTION_PT_takes)

@@ -16,22 +16,12 @@ import pytest
 _ZIP = "FRAGMOTION_ADDON_ZIP"
 
 
-def _install(package: str) -> str:
-    """Install and enable the zip with Blender's own operators, and return the name of the add-on's module."""
-    if bpy.app.version >= (4, 2, 0):
-        bpy.ops.extensions.package_install_files(filepath=package, repo="user_default", enable_on_install=True)
-        return "bl_ext.user_default.fragmotion"
-    bpy.ops.preferences.addon_install(filepath=package)
-    bpy.ops.preferences.addon_enable(module="fragmotion")
-    return "fragmotion"
-
-
 @pytest.fixture(scope="session")
 def addon() -> Iterator[ModuleType]:
     """The add-on's package as it runs in this Blender: installed from the zip, and enabled."""
     if _ZIP not in os.environ:
         pytest.exit(f"{_ZIP} is not set: run these tests by `python3 dev.py test`", returncode=1)
-    name = _install(os.environ[_ZIP])
+    name = making.install(os.environ[_ZIP])
     assert name in bpy.context.preferences.addons, f"{name} was installed but is not enabled"
     module = importlib.import_module(name)
     assert module.__file__ and Path(os.environ["BLENDER_USER_RESOURCES"]) in Path(module.__file__).parents

@@ -85,6 +85,16 @@ ROOT Root
 BVH_CHANNELS = 6 + 6 + 5 * 3
 
 
+def install(package: str) -> str:
+    """Install and enable the add-on's zip with Blender's own operators, and return the name of its module."""
+    if bpy.app.version >= (4, 2, 0):
+        bpy.ops.extensions.package_install_files(filepath=package, repo="user_default", enable_on_install=True)
+        return "bl_ext.user_default.fragmotion"
+    bpy.ops.preferences.addon_install(filepath=package)
+    bpy.ops.preferences.addon_enable(module="fragmotion")
+    return "fragmotion"
+
+
 def open_sample() -> bpy.types.Object:
     """The sample file's armature, active."""
     return open_armature(SAMPLE)

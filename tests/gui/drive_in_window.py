@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Run in a Blender with a window by test_drive.py: drive the sample character with a pad, the keyboard and the mouse.
+"""Run in a Blender with a window by test_windows.py: import takes, build, drive with a pad, the keyboard and the mouse,
+record, bake, undo, save, reload, replay.
 
-Arguments after `--`: the add-on's zip (the legacy one), the folder for pictures.
+Arguments after `--`: the add-on's zip, the folder for takes, files and pictures.
 """
 
 from __future__ import annotations
@@ -9,8 +10,7 @@ from __future__ import annotations
 import math
 import sys
 import time
-from collections.abc import Iterator
-from importlib import import_module
+from collections.abc import Generator, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -23,20 +23,21 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
 
 import making
 import window
+from sample_takes import export_takes
 
-NAME = "fragmotion"
 RATE = 60
 LEFT_X, LEFT_Y, RIGHT_X = 0, 1, 2
 JUMP, START = 0, 6
 MIDDLE = (600, 450)  # of the viewport
-# Heights in the window of the sidebar's headers and of a tick, each as it stands when it is clicked (3.4.1).
-BUILD, MOCAP, TRACE, OVERLAYS, GAMEPADS, FOLLOW = 583, 804, 543, 569, 595, 627
+VIEW = math.radians(45)  # its heading, counter-clockwise from +Y
+DRAWS = 10  # of the panels, of which the quickest counts
 
-window.install()
-session = import_module(f"{NAME}.drive.session")
-overlays = import_module(f"{NAME}.drive.overlays")
-button = import_module(f"{NAME}.operators.drive")
-sdl = import_module(f"{NAME}.drive.sdl").load()
+session = window.module("drive.session")
+overlays = window.module("drive.overlays")
+button = window.module("operators.drive")
+takes = window.module("takes")
+sdl = window.module("drive.sdl").load()
+costs = window.watch_panels()
 
 
 class Clock:
@@ -74,22 +75,6 @@ class VirtualPad:
         assert sdl.SDL_JoystickDetachVirtual(numbers.index(number)) == 0
 
 
-class TEST_OT_count_timers(bpy.types.Operator):
-    """Count the timer events that the window's modal operators get, until Esc."""
-
-    bl_idname = "test.count_timers"
-    bl_label = "Count Timers"
-    count = 0
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, _context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        TEST_OT_count_timers.count += event.type == "TIMER"
-        return {"FINISHED"} if event.type == "ESC" else {"PASS_THROUGH"}
-
-
 def state(obj: bpy.types.Object) -> dict[str, Any]:
     """What a drive must give back."""
     channels = ("location", "rotation_quaternion", "rotation_euler", "rotation_axis_angle", "scale")
@@ -106,14 +91,13 @@ def state(obj: bpy.types.Object) -> dict[str, Any]:
     }
 
 
-def sample() -> bpy.types.Object:
-    """The sample file's armature with a character, in an awkward state; the view looks north-west from above."""
-    bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE), load_ui=False)
-    obj = next(o for o in bpy.data.objects if o.type == "ARMATURE")
-    making.activate(obj)
-    with bpy.context.temp_override(**window.view()):
-        bpy.ops.fragmotion.tick_actions(use=True)
-        bpy.ops.fragmotion.build("EXEC_DEFAULT")
+def build_character(folder: Path) -> bpy.types.Object:
+    """An armature with imported takes and a character, in an awkward state; the view looks north-west from above."""
+    export_takes(folder)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, load_ui=False)
+    window.press(bpy.ops.fragmotion.import_mocap, "EXEC_DEFAULT", True, directory=str(folder))
+    window.press(bpy.ops.fragmotion.build, "EXEC_DEFAULT", True)
+    obj = bpy.context.view_layer.objects.active
     bpy.context.scene.frame_set(37)
     for bone in obj.pose.bones:
         bone.location.x += 0.01
@@ -123,18 +107,6 @@ def sample() -> bpy.types.Object:
     space.region_3d.view_rotation = Euler((math.radians(60), 0, VIEW)).to_quaternion()
     space.region_3d.view_location, space.region_3d.view_distance = (0, 0, 0.8), 9
     return obj
-
-
-VIEW = math.radians(45)  # heading of the view, counter-clockwise from +Y
-
-
-def fold(*headers: int) -> Iterator[None]:
-    """Click headers of the sidebar's panels, where they are known to stand."""
-    if bpy.app.version >= (3, 5, 0):
-        return
-    for height in headers:
-        yield from window.click(1180, height)
-        yield from window.drawn()
 
 
 def wait(seconds: float) -> Iterator[None]:
@@ -163,7 +135,7 @@ def lead(pad: VirtualPad, right: float, up: float, seconds: float) -> Iterator[N
     wanted *= pace * seconds / np.linalg.norm(wanted)
     length, asked = np.linalg.norm(way), np.linalg.norm(wanted)
     off = math.degrees(math.acos(way @ wanted / length / asked))
-    print(f"stick ({right:+.1f}, {up:+.1f}): went {length:.2f} m of {asked:.2f} m, {off:.0f} degrees off")
+    window.tell(f"stick ({right:+.1f}, {up:+.1f}): went {length:.2f} m of {asked:.2f} m, {off:.0f} degrees off")
     assert off < 15 and 0.75 < length / asked < 1.25
 
 
@@ -171,22 +143,33 @@ def assert_nothing_is_left() -> Iterator[None]:
     """No timer, no drawing, no SDL device after a drive."""
     assert session.current is None and overlays._handlers == [] and session._timer is None
     assert sdl.SDL_WasInit(0) == 0, "SDL is open"
-    TEST_OT_count_timers.count = 0
-    for _ in range(25):
-        yield
-    assert TEST_OT_count_timers.count < 3, "a timer goes on"  # Blender's own may come once
+    yield from window.count_timers()
+    assert window.TEST_OT_count_timers.count < 3, "a timer goes on"  # Blender's own may come once
 
 
 def measure() -> None:
-    """Print what an update costs, without the drawing; the best second of ten."""
+    """Tell what an update costs, without the drawing; the best second of ten."""
     driven, costs = session.current, []
     for _ in range(10):
         begin = time.perf_counter()
         for _ in range(RATE):
             driven.update(1 / RATE)
         costs.append((time.perf_counter() - begin) / RATE)
-    print(f"our own time: {1000 * min(costs):.2f} ms an update of {len(driven.obj.pose.bones)} bones, goal 2 ms")
+    window.tell(f"our own time: {1000 * min(costs):.2f} ms an update of {len(driven.obj.pose.bones)} bones, goal 2 ms")
     assert min(costs) < 0.02
+
+
+def measure_panels(moment: str) -> Iterator[None]:
+    """Tell what drawing each of the panels costs, all being open; the best of some."""
+    window.show_all()
+    for times in costs.values():
+        times.clear()
+    for _ in range(DRAWS):
+        window.sidebar()["region"].tag_redraw()
+        yield from window.seconds(0.1)
+    best = {label: min(times) for label, times in costs.items() if times}
+    window.tell(f"ms a draw {moment}, goal 1 ms: " + ", ".join(f"{k} {1000 * best[k]:.2f}" for k in best))
+    assert max(best.values()) < 0.01
 
 
 def session_of_tests() -> Iterator[None]:
@@ -194,16 +177,18 @@ def session_of_tests() -> Iterator[None]:
     clock = Clock()
     button.time, session._HICCUP = clock, 0.5
     bpy.context.preferences.system.viewport_aa = "OFF"  # drawn by software, it takes most of the time
-    obj = sample()
+    obj = build_character(Path(window.FOLDER) / "takes")
     yield from window.open_tab()
-    yield from fold(BUILD, MOCAP)
+    yield from measure_panels("at rest")
+    window.show_only("Drive", "Overlays", "Takes")
     yield from window.picture("1 before")
     before = state(obj)
     yield from drive_with_all_inputs(obj, clock)
     assert {**state(obj), "view": before["view"]} == before, "the scene is not as it was"
     assert state(obj)["view"] == before["view"], "the view does not stand where it stood"
+    obj = yield from bake_and_undo(obj, before)
+    obj = yield from reload(obj)
     yield from replay(obj)
-    assert state(obj) == before
     with bpy.context.temp_override(**window.view()):
         bpy.ops.test.count_timers("INVOKE_DEFAULT")
     yield from assert_nothing_is_left()
@@ -224,13 +209,29 @@ def drive_with_all_inputs(obj: bpy.types.Object, clock: Clock) -> Iterator[None]
     measure()
     assert driven.inputs.label == driven.inputs.pads[0].label
     yield from window.picture("2 walking")
+    yield from steer(pad, clock)
+    yield from window.picture("3 running")
+    yield from record(driven, pad)
+    yield from use_keys(driven)
+    yield from drag_stick(driven)
+    yield from use_the_panel(driven)
+    yield from window.send("ESC", "PRESS", *MIDDLE)
+    assert session.current is None, "Esc does not end the drive"
 
+
+def steer(pad: VirtualPad, clock: Clock) -> Iterator[None]:
+    """The stick goes all around, and the time by more quickly."""
     clock.step = 0.3
     for right, up in ((0, 0.57), (0.57, 0), (-1, 0), (0, 1), (0.7, -0.7)):
         yield from lead(pad, right, up, 3)
     clock.step = 0
-    yield from window.picture("3 running")
-    pad.push(0, 0.57, buttons=(START,))
+
+
+def record(driven: Any, pad: VirtualPad) -> Iterator[None]:
+    """A take that the pad's Start begins while the character stands; the pad vanishes, and the key ends it."""
+    pad.push()
+    yield from wait(2)
+    pad.push(buttons=(START,))
     yield from wait(0.1)
     pad.push(0, 0.57)
     assert driven.recording is not None, "the pad's Start does not record"
@@ -243,29 +244,16 @@ def drive_with_all_inputs(obj: bpy.types.Object, clock: Clock) -> Iterator[None]
     assert driven.inputs.pads == [] and driven.readings.control == (0, 0, 0, 0), "a pad that is gone drives"
     yield from window.send("R", "PRESS", *MIDDLE)
     yield from window.send("R", "RELEASE", *MIDDLE)
-    (take,) = obj.fragmotion.takes
+    (take,) = driven.obj.fragmotion.takes
     assert take.seconds > 1.9 and driven.recording is None
 
+
+def use_keys(driven: Any) -> Iterator[None]:
+    """W goes forward."""
     yield from window.send("W", "PRESS", *MIDDLE)
     yield from wait(0.3)
     assert driven.inputs.label == "Keyboard" and driven.readings.control.forward != 0
     yield from window.send("W", "RELEASE", *MIDDLE)
-    yield from drag_stick(driven)
-    yield from use_the_panel(driven)
-    yield from window.send("ESC", "PRESS", *MIDDLE)
-    assert session.current is None, "Esc does not end the drive"
-
-
-def replay(obj: bpy.types.Object) -> Iterator[None]:
-    """The take's button lets it drive, until Esc."""
-    window.press(bpy.ops.fragmotion.drive, source="TAKE", take=0)
-    trace = import_module(f"{NAME}.takes").trace_of(obj.fragmotion.takes[0])
-    yield from wait(1)
-    driven = session.current
-    assert driven.inputs.label == "Trace" and driven.recording is None
-    np.testing.assert_array_equal(driven.control, trace[(driven._steps - 1) * 10 // RATE])
-    yield from window.send("ESC", "PRESS", *MIDDLE)
-    assert session.current is None
 
 
 def drag_stick(driven: Any) -> Iterator[None]:
@@ -286,13 +274,62 @@ def drag_stick(driven: Any) -> Iterator[None]:
 
 def use_the_panel(driven: Any) -> Iterator[None]:
     """While one drives, the sidebar can be used."""
-    yield from fold(TRACE, OVERLAYS, GAMEPADS)
+    yield from measure_panels("while driving")
+    window.show_only("Drive", "Gamepads", "Overlays", "Trace", "Takes")
     yield from window.picture("6 panels")
-    if bpy.app.version < (3, 5, 0):
-        yield from window.click(1120, FOLLOW)
-        assert not driven.settings.follow, "the panel does not answer"
-        yield from window.click(1120, FOLLOW)
+    yield from window.click_button("follow")
+    assert not driven.settings.follow, "the panel does not answer"
+    yield from window.click_button("follow")
     assert driven.settings.follow and session.current is driven
+
+
+def bake_and_undo(obj: bpy.types.Object, before: dict[str, Any]) -> Generator[None, None, bpy.types.Object]:
+    """The take's button bakes what was seen, and one undo takes it back."""
+    (take,) = obj.fragmotion.takes
+    _, motion = takes.shown_of(take)
+    window.show_only("Takes")
+    yield from window.click_button("fragmotion.bake")
+    yield from window.until(lambda: obj.animation_data.action.name == take.name, "the bake of the take")
+    scene = bpy.context.scene
+    last = round(obj.animation_data.action.frame_range[1])
+    shown = making.play(obj, obj.animation_data.action, last)
+    hips = shown.matrix_world @ shown.pose.bones["hips"].head
+    assert math.dist(hips[:2], motion.frames[-1][:2]) < 0.3, "the bake does not end where the character stood"
+    scene.frame_set(last // 2)
+    yield from window.picture("7 baked")
+    bpy.ops.ed.undo()
+    obj = bpy.context.view_layer.objects.active
+    assert state(obj) == before, "one undo does not take the bake back"
+    return obj
+
+
+def reload(obj: bpy.types.Object) -> Generator[None, None, bpy.types.Object]:
+    """The file is saved and loaded: the takes, the character and the settings are there."""
+    (take,), name, path = obj.fragmotion.takes, obj.name, f"{window.FOLDER}/driven.blend"
+    kept = (take.name, take.seconds, takes.trace_of(take).tolist(), obj.fragmotion.policy)
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
+    yield
+    obj = bpy.data.objects[name]
+    (take,) = obj.fragmotion.takes
+    assert (take.name, take.seconds, takes.trace_of(take).tolist(), obj.fragmotion.policy) == kept
+    return obj
+
+
+def replay(obj: bpy.types.Object) -> Iterator[None]:
+    """The take's button lets it drive as it was recorded, until Esc; and the scene is as before."""
+    before, (take,) = state(obj), obj.fragmotion.takes
+    trace, (_, motion) = takes.trace_of(take), takes.shown_of(take)
+    window.show_only("Takes")
+    yield from window.click_button("fragmotion.drive")
+    yield from wait(1)
+    driven = session.current
+    assert driven.inputs.label == "Trace" and driven.recording is None
+    np.testing.assert_array_equal(driven.control, trace[(driven._steps - 1) * 10 // RATE])
+    np.testing.assert_allclose(driven.actor.frame, motion.frames[driven._steps], atol=1e-3)
+    yield from window.picture("8 replay")
+    yield from window.send("ESC", "PRESS", *MIDDLE)
+    assert session.current is None and state(obj) == before
 
 
 def end_otherwise(obj: bpy.types.Object) -> Iterator[None]:
@@ -316,7 +353,7 @@ def end_otherwise(obj: bpy.types.Object) -> Iterator[None]:
     window.press(bpy.ops.fragmotion.drive)
     yield from window.send("W", "PRESS", *MIDDLE)
     yield from wait(1)
-    yield from window.picture("7 sliding")
+    yield from window.picture("9 sliding")
     yield from window.send("W", "RELEASE", *MIDDLE)
     bpy.data.objects.remove(obj)
     for _ in range(10):
@@ -327,10 +364,10 @@ def end_otherwise(obj: bpy.types.Object) -> Iterator[None]:
     bones = [bone.matrix_basis.copy() for bone in obj.pose.bones]
     window.press(bpy.ops.fragmotion.drive)
     yield from wait(0.5)
-    bpy.ops.preferences.addon_disable(module=NAME)
+    window.show_all()  # all that the add-on has registered
+    bpy.ops.preferences.addon_disable(module=window.ADDON)
     assert [bone.matrix_basis for bone in obj.pose.bones] == bones
     yield from assert_nothing_is_left()
 
 
-bpy.utils.register_class(TEST_OT_count_timers)
 window.run(session_of_tests())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Run in a Blender with a window by test_panel.py: import, build, cancel, bake and disable while the panel is drawn.
+"""Run in a Blender with a window by test_windows.py: import, build, cancel, bake and disable while the panel is drawn.
 
 Arguments after `--`: the add-on's zip, the folder for takes and pictures.
 """
@@ -9,7 +9,6 @@ from __future__ import annotations
 import sys
 import threading
 from collections.abc import Iterator
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -19,9 +18,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
 
 import making
-from window import FOLDER, TICK, open_tab, picture, press, run, send
+import window
+from window import FOLDER, TEST_OT_count_timers, count_timers, open_tab, picture, press, run, send, until
 
-PATIENCE = 1200  # ticks that a build may take
 FIELDS = {"classes": 12, "seconds": 20.0}
 
 
@@ -41,45 +40,17 @@ def hold_builds(core: Any) -> threading.Event:
 
 def finish_build(build: Any) -> Iterator[None]:
     """Wait for the build that runs."""
-    for _ in range(PATIENCE):
-        if build.current is None:
-            return
-        yield
-    raise AssertionError("the build did not end")
-
-
-class TEST_OT_count_timers(bpy.types.Operator):
-    """Count the timer events that the window's modal operators get, until Esc."""
-
-    bl_idname = "test.count_timers"
-    bl_label = "Count Timers"
-    count = 0
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, _context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        TEST_OT_count_timers.count += event.type == "TIMER"
-        return {"FINISHED"} if event.type == "ESC" else {"PASS_THROUGH"}
-
-
-def count_timers() -> Iterator[None]:
-    """Count anew the timer events of half a second."""
-    TEST_OT_count_timers.count = 0
-    for _ in range(round(0.5 / TICK)):
-        yield
+    yield from until(lambda: build.current is None, "the end of the build")
 
 
 def disable_while_building(build: Any) -> Iterator[None]:
     """Switching the add-on off stops the build's thread and its timer."""
-    bpy.utils.register_class(TEST_OT_count_timers)
     press(bpy.ops.test.count_timers)
     press(bpy.ops.fragmotion.build, **FIELDS)
     assert build.current.running
     yield from count_timers()
     assert TEST_OT_count_timers.count > 0, "the timers of a build are not heard"
-    bpy.ops.preferences.addon_disable(module="fragmotion")
+    bpy.ops.preferences.addon_disable(module=window.ADDON)
     assert all(thread.name != "Fragmotion" for thread in threading.enumerate()), "the build goes on"
     yield from count_timers()
     assert TEST_OT_count_timers.count == 0, "the build's timer goes on"
@@ -87,8 +58,8 @@ def disable_while_building(build: Any) -> Iterator[None]:
 
 def steps() -> Iterator[None]:
     """The whole session."""
-    build = import_module("fragmotion.operators.background")
-    building = import_module("fragmotion.building")
+    build = window.module("operators.background")
+    building = window.module("building")
     go_on = hold_builds(building.core)
     bpy.data.objects.remove(bpy.data.objects["Cube"])
     yield from open_tab()

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+"""Sessions by hand in a window of Debian's Blender, each a script that runs inside it and takes pictures."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+FOLDER = Path(__file__).parent
+FIGURE = "FIGURE "  # as window.tell marks what is to be read
+PATIENCE = 500  # s
+WINDOW = ("--factory-startup", "--enable-event-simulate", "--window-geometry", "0", "0", "1600", "900")
+PICTURES = {
+    "panel": ("1 empty", "2 imported", "3 building", "4 built", "5 baked"),
+    "classes": (
+        *("0 trying", "1 suggested", "2 coverage", "3 classes", "4 inspector", "5 left out", "6 preview", "7 driving"),
+    ),
+    "drive": (
+        *("1 before", "2 walking", "3 running", "4 recording", "5 stick", "6 panels", "7 baked", "8 replay"),
+        "9 sliding",
+    ),
+}
+
+
+@pytest.mark.parametrize("session", PICTURES)
+def test_a_session_by_hand(session: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    blender = shutil.which("blender")
+    assert blender, "Debian's Blender is not installed"
+    script = (FOLDER / f"{session}_in_window.py", "--", os.environ["FRAGMOTION_ADDON_ZIP"], tmp_path)
+    command = [blender, *WINDOW, "--python", *script]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
+    figures = [line.removeprefix(FIGURE) for line in done.stdout.splitlines() if line.startswith(FIGURE)]
+    with capsys.disabled():
+        print("", *figures, sep="\n")
+    assert "SESSION PASSED" in done.stdout, done.stdout[-3000:] + done.stderr[-3000:]
+    assert sorted(path.stem for path in tmp_path.glob("*.png")) == sorted(PICTURES[session])
