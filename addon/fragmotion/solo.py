@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _STAND = (0.0, 0.0, 0.0, 0.0)
 _FURTHEST = 3.0  # m that a character of 1.8 m goes before it begins again where the armature stood
 _INSTANT = 1e-6  # s
+_POSED = ("location", "rotation_quaternion", "rotation_euler", "rotation_axis_angle")
 
 
 class Solo:
@@ -34,6 +35,7 @@ class Solo:
         place = obj.matrix_world
         self._place = (place.translation.x, place.translation.y, place.to_euler().z + math.pi)
         self._reach = _FURTHEST / character.space.scale
+        self._order = [obj.data.bones.find(bone.name) for bone in obj.pose.bones]
         self._durations = character.fragment_durations
         self._player = core.Player(character)
         self._begin()
@@ -73,8 +75,12 @@ class Solo:
         self._left = float(self._durations[self.playing[1]]) - 2 * _INSTANT
 
     def _pose(self, locations: Doubles, rotations: Doubles) -> None:
-        for index, bone in enumerate(self._obj.data.bones):
-            posed = self._obj.pose.bones[bone.name]
-            channel, values = from_quaternions(posed.rotation_mode, rotations[:, index])
-            posed.location = locations[0, index]
-            setattr(posed, channel, values[0])
+        """Write a pose to all bones at once, of which Blender is told once."""
+        values = {channel: posing.get_channel(self._obj, channel).reshape(len(self._order), -1) for channel in _POSED}
+        values["location"][:] = locations[0, self._order]
+        for row, (bone, turn) in enumerate(zip(self._obj.pose.bones, rotations[0, self._order])):
+            channel, turned = from_quaternions(bone.rotation_mode, turn[None])
+            values[channel][row] = turned[0]
+        for channel, rows in values.items():
+            self._obj.pose.bones.foreach_set(channel, rows.ravel())
+        self._obj.update_tag()

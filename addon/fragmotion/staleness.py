@@ -32,11 +32,12 @@ def is_stale(obj: bpy.types.Object) -> bool:
     if not built:
         return False
     actions, until = ticked(obj), time.perf_counter() + _PATIENCE
+    digests = []
     for action in actions:
-        _digest(action)
+        digests.append(_digest(action))
         if time.perf_counter() > until and any(_key(other) not in _digests for other in actions):
             return False
-    return bool(sources_of(obj) != built)
+    return bool(_joined(digests) != built)
 
 
 def register() -> None:

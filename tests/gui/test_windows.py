@@ -30,8 +30,8 @@ PICTURES = {
 def test_a_session_by_hand(session: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     blender = shutil.which("blender")
     assert blender, "Debian's Blender is not installed"
-    script = (FOLDER / f"{session}_in_window.py", "--", os.environ["FRAGMOTION_ADDON_ZIP"], tmp_path)
-    command = [blender, *WINDOW, "--python", *script]
+    script = str(FOLDER / f"{session}_in_window.py")
+    command = [blender, *WINDOW, "--python", script, "--", os.environ["FRAGMOTION_ADDON_ZIP"], str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
     figures = [line.removeprefix(FIGURE) for line in done.stdout.splitlines() if line.startswith(FIGURE)]
     with capsys.disabled():

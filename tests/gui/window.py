@@ -10,7 +10,6 @@ import traceback
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 from importlib import import_module
-from types import ModuleType
 from typing import Any
 
 import bpy
@@ -25,7 +24,7 @@ _parents: dict[str, str] = {}
 ADDON = making.install(ZIP)
 
 
-def module(name: str) -> ModuleType:
+def module(name: str) -> Any:
     """One of the add-on's modules."""
     return import_module(f"{ADDON}.{name}")
 

@@ -9,6 +9,7 @@ from typing import ClassVar
 import bpy
 
 from .. import classes
+from ..drive import views
 from ..errors import reported
 from ..solo import Solo
 from . import background
@@ -67,6 +68,7 @@ class FRAGMOTION_OT_solo_class(bpy.types.Operator):
             now = time.perf_counter()
             current.step(min(now - self._before, _LONGEST))
             self._before = now
+            views.tag_redraw()
         return {"PASS_THROUGH"} if event.type.startswith(_NAVIGATION) else {"RUNNING_MODAL"}
 
     def cancel(self, _context: bpy.types.Context) -> None:
