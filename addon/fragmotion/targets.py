@@ -60,7 +60,7 @@ def write(
         else:
             keep_former(obj, action)
             versions.assign(obj, action)
-        _mark(context.scene, action, target, classes, settings.markers)
+        _mark(context.scene, obj, action, target, classes, settings.markers)
         if settings.fit_end:
             context.scene.frame_end = max(context.scene.frame_end, int(times[-1]))
         context.view_layer.update()
@@ -120,19 +120,32 @@ def _add_track(obj: bpy.types.Object, action: bpy.types.Action, first: int) -> b
     return strip
 
 
-def _mark(scene: bpy.types.Scene, action: bpy.types.Action, target: Target, classes: Ints, markers: str) -> None:
-    """Markers where the class changes; an Action's own former ones on these frames go."""
+def _mark(
+    scene: bpy.types.Scene,
+    obj: bpy.types.Object,
+    action: bpy.types.Action,
+    target: Target,
+    classes: Ints,
+    markers: str,
+) -> None:
+    """Markers named after the classes where these change; an Action's own former ones on these frames go."""
     last = target.first + len(classes) - 1
     for marker in list(action.pose_markers):
         if target.kind != "CURRENT" or target.first <= marker.frame <= last:
             action.pose_markers.remove(marker)
     changes = np.flatnonzero(np.diff(classes, prepend=-1))
     for index in changes if markers != "NONE" else ():
-        name, frame = f"Class {classes[index]}", target.first + int(index)
+        name, frame = _name_of(obj, int(classes[index])), target.first + int(index)
         if markers == "SCENE":
             scene.timeline_markers.new(name, frame=frame)
         else:
             action.pose_markers.new(name).frame = frame
+
+
+def _name_of(obj: bpy.types.Object, number: int) -> str:
+    """A class as the user calls it; a take may have been recorded with a character of more classes."""
+    rows = obj.fragmotion.classes
+    return str(rows[number].name) if number < len(rows) else f"Class {number}"
 
 
 @contextmanager

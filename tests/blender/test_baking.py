@@ -320,16 +320,18 @@ def character_frame(obj: bpy.types.Object, frame: int) -> tuple[float, float, fl
     return hips[0], hips[1], np.arctan2(right[1] - left[1], right[0] - left[0])
 
 
-def changes_of_class(oracle: Oracle) -> list[tuple[int, str]]:
+def changes_of_class(oracle: Oracle, names: list[str]) -> list[tuple[int, str]]:
     classes = oracle.performance.classes
-    return [(FIRST + i, f"Class {c}") for i, c in enumerate(classes) if i == 0 or classes[i - 1] != c]
+    return [(FIRST + i, names[c]) for i, c in enumerate(classes) if i == 0 or classes[i - 1] != c]
 
 
 def test_markers_stand_where_the_class_changes(
     addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any
 ) -> None:
-    expected = changes_of_class(play(addon, obj, trace))
-    assert len(expected) > 5
+    oracle = play(addon, obj, trace)
+    obj.fragmotion.classes[oracle.performance.classes[60]].name = "my own wave"
+    expected = changes_of_class(oracle, [row.name for row in obj.fragmotion.classes])
+    assert len(expected) > 5 and "my own wave" in dict(expected).values()
     scene = bpy.context.scene
     bake_take(action="none")
     assert not scene.timeline_markers and not obj.animation_data.action.pose_markers
