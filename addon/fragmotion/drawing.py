@@ -65,6 +65,11 @@ def draw_bake_options(layout: bpy.types.UILayout, settings: BakeFields) -> None:
     layout.prop(settings, "markers")
 
 
+def draw_summary(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
+    """The last build in a line: the classes, and the quality of Optimal's."""
+    layout.label(text=f"{figures.classes} classes, {figures.quality:.0f} %", icon="CHECKMARK")
+
+
 def draw_figures(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
     """What the last build found."""
     box = layout.box().column(align=True)

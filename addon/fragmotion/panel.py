@@ -10,7 +10,7 @@ import bpy
 from . import building, panel_classes, panel_drive, panel_left_out, panel_takes, versions
 from .actions import fits_cached, fitting
 from .coverage_picture import draw_pictures
-from .drawing import draw_bake, draw_build, draw_coverage, draw_figures, draw_keeping, draw_training
+from .drawing import draw_bake, draw_build, draw_coverage, draw_figures, draw_keeping, draw_summary, draw_training
 from .operators import background
 from .operators.context import active_armature
 from .staleness import is_stale
@@ -100,30 +100,45 @@ class FRAGMOTION_PT_build(_Sidebar, bpy.types.Panel):
         if obj is not None:
             draw_build(layout, obj.fragmotion.build)
         layout.operator("fragmotion.build", icon="SHADERFX")
-        if obj is None:
+        if obj is None or not building.has_character(obj):
             return
-        if building.has_character(obj):
-            if is_stale(obj):
-                layout.label(text="Stale: Actions changed", icon="ERROR")
-            draw_figures(layout, obj.fragmotion.figures)
-            draw_keeping(layout, obj)
-        row = layout.row(align=True)
-        row.operator("fragmotion.save_policy", text="Save Policy...")
-        row.operator("fragmotion.load_policy", text="Load Policy...")
+        if is_stale(obj):
+            layout.label(text="Stale: Actions changed", icon="ERROR")
+        draw_summary(layout, obj.fragmotion.figures)
 
 
-class FRAGMOTION_PT_coverage(_Sidebar, bpy.types.Panel):
-    """Which controls the character performs well."""
-
-    bl_idname = "FRAGMOTION_PT_coverage"
-    bl_label = "Coverage"
+class _BuildSubPanel(_Sidebar):
     bl_parent_id = "FRAGMOTION_PT_build"
     bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        obj = active_armature(context)
-        return obj is not None and len(obj.fragmotion.figures.coverage) > 0 and background.current is None
+        return active_armature(context) is not None and background.current is None
+
+
+class FRAGMOTION_PT_figures(_BuildSubPanel, bpy.types.Panel):
+    """What the last build found."""
+
+    bl_idname = "FRAGMOTION_PT_figures"
+    bl_label = "Figures"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and building.has_character(active_armature(context))
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_figures(self.layout, active_armature(context).fragmotion.figures)
+
+
+class FRAGMOTION_PT_coverage(_BuildSubPanel, bpy.types.Panel):
+    """Which controls the character performs well."""
+
+    bl_idname = "FRAGMOTION_PT_coverage"
+    bl_label = "Coverage"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and len(active_armature(context).fragmotion.figures.coverage) > 0
 
     def draw(self, context: bpy.types.Context) -> None:
         figures = active_armature(context).fragmotion.figures
@@ -132,20 +147,29 @@ class FRAGMOTION_PT_coverage(_Sidebar, bpy.types.Panel):
         draw_coverage(self.layout, figures)
 
 
-class FRAGMOTION_PT_training(_Sidebar, bpy.types.Panel):
+class FRAGMOTION_PT_training(_BuildSubPanel, bpy.types.Panel):
     """What the policy learns from, and how."""
 
     bl_idname = "FRAGMOTION_PT_training"
     bl_label = "Training"
-    bl_parent_id = "FRAGMOTION_PT_build"
-    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return active_armature(context) is not None and background.current is None
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_training(self.layout, active_armature(context).fragmotion.build)
+
+
+class FRAGMOTION_PT_policy(_BuildSubPanel, bpy.types.Panel):
+    """Where the policy is kept, and its way to and from other files."""
+
+    bl_idname = "FRAGMOTION_PT_policy"
+    bl_label = "Policy File"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        obj = active_armature(context)
+        if building.has_character(obj):
+            draw_keeping(self.layout, obj)
+        row = self.layout.row(align=True)
+        row.operator("fragmotion.save_policy", text="Save...")
+        row.operator("fragmotion.load_policy", text="Load...")
 
 
 class FRAGMOTION_PT_bake(_Sidebar, bpy.types.Panel):
@@ -167,9 +191,11 @@ CLASSES = (
     *panel_left_out.CLASSES,
     FRAGMOTION_PT_build,
     *panel_classes.BUILD_PANELS,
-    FRAGMOTION_PT_coverage,
     FRAGMOTION_PT_training,
+    FRAGMOTION_PT_figures,
     *panel_classes.CLASS_PANELS,
+    FRAGMOTION_PT_coverage,
+    FRAGMOTION_PT_policy,
     *panel_drive.CLASSES,
     *panel_takes.CLASSES,
     FRAGMOTION_PT_bake,

@@ -13,7 +13,7 @@ from .operators import background, solo_class
 from .operators.context import active_armature
 
 _ROWS = 7
-_WIDE = 260  # pixels of a sidebar that has room for a sketch of the control beside each name
+_WIDE = 260  # pixels of a sidebar that has room for more than a name beside it
 
 
 class _SubPanel:
@@ -27,6 +27,10 @@ class _SubPanel:
 def _has_classes(context: bpy.types.Context) -> bool:
     obj = active_armature(context)
     return obj is not None and len(obj.fragmotion.classes) > 0 and background.current is None
+
+
+def _is_wide(context: bpy.types.Context) -> bool:
+    return bool(context.region.width > _WIDE * context.preferences.system.ui_scale)
 
 
 class FRAGMOTION_UL_classes(bpy.types.UIList):
@@ -45,7 +49,7 @@ class FRAGMOTION_UL_classes(bpy.types.UIList):
         _active_name: str,
         _index: int,
     ) -> None:
-        wide = context.region.width > _WIDE * context.preferences.system.ui_scale
+        wide = _is_wide(context)
         row = layout.row(align=True)
         split = row.split(factor=0.6 if wide else 0.8, align=True)
         split.active = not item.excluded
@@ -91,6 +95,7 @@ class FRAGMOTION_PT_classes(_SubPanel, bpy.types.Panel):
 def _draw_class(layout: bpy.types.UILayout, number: int, row: Any) -> None:
     column = layout.column(align=True)
     plural = "s" if row.fragments != 1 else ""
+    column.label(text=row.name, translate=False)
     column.label(text=f"Class {number}: {row.fragments} fragment{plural}")
     for part in row.described.split(", "):
         column.label(text=part, icon="BLANK1")
@@ -122,7 +127,7 @@ class FRAGMOTION_PT_inspector(_SubPanel, bpy.types.Panel):
         layout.label(text=f"After '{obj.fragmotion.classes[playing].name}':", translate=False)
         _draw_heads(layout)
         for index, line in enumerate(lines):
-            _draw_alternative(layout, manager.inspector, index, line)
+            _draw_alternative(layout, manager.inspector, index, line, _is_wide(context))
 
 
 def _draw_control(layout: bpy.types.UILayout, settings: Any) -> None:
@@ -140,14 +145,16 @@ def _draw_heads(layout: bpy.types.UILayout) -> None:
         row.label(text=head)
 
 
-def _draw_alternative(layout: bpy.types.UILayout, settings: Any, index: int, line: inspector.Line) -> None:
-    """A class that might come next: its name and value, what they are made of, and its nearest fragments."""
+def _draw_alternative(layout: bpy.types.UILayout, settings: Any, index: int, line: inspector.Line, wide: bool) -> None:
+    """A class that might come next: its name, what its value is made of, and its nearest fragments; where there is
+    room, the value."""
     column = layout.box().column(align=True)
-    head = column.split(factor=0.82)
+    head = column.split(factor=0.82) if wide else column
     head.label(text=line.name, icon="RADIOBUT_ON" if line.chosen else "RADIOBUT_OFF", translate=False)
-    value = head.row()
-    value.alignment = "RIGHT"
-    value.label(text=f"{line.value:.2f}")
+    if wide:
+        value = head.row()
+        value.alignment = "RIGHT"
+        value.label(text=f"{line.value:.2f}")
     bars = column.row(align=True)
     for name in ("smoothness", "match", "to_come"):
         bars.prop(settings, name, index=index, text="", slider=True)

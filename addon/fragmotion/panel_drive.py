@@ -49,7 +49,7 @@ class FRAGMOTION_PT_drive(_Sidebar, bpy.types.Panel):
             row.operator("fragmotion.drive", text="Drive", icon="PLAY")
         else:
             row.operator("fragmotion.drive", text="Stop", icon="SNAP_FACE")
-            row.operator(
+            layout.operator(
                 "fragmotion.record",
                 text="Record" if driven.recording is None else f"End Take ({driven.recording.seconds:.0f} s)",
                 icon="REC" if driven.recording is None else "CHECKMARK",

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 import bpy
 
-from .drawing import draw_bake_options
+from .drawing import aligned, draw_bake_options
 from .operators.context import active_armature
 from .takes import active_take
 
@@ -64,7 +64,7 @@ class FRAGMOTION_PT_takes(_Sidebar, bpy.types.Panel):
             layout.label(text="Record or import a take", icon="INFO")
             return
         _draw_figures(layout, take)
-        _draw_uses(layout, settings.active_take)
+        _draw_uses(layout, settings)
 
 
 class FRAGMOTION_PT_bake_options(_Sidebar, bpy.types.Panel):
@@ -106,10 +106,17 @@ def _draw_figures(layout: bpy.types.UILayout, take: Any) -> None:
         row.label(text=value, translate=False)
 
 
-def _draw_uses(layout: bpy.types.UILayout, index: int) -> None:
+def _draw_uses(layout: bpy.types.UILayout, settings: Any) -> None:
+    drive, index = settings.drive, settings.active_take
+    column = aligned(layout)
+    column.prop(drive, "replay", text="Replay")
+    if drive.replay != "RECORDED":
+        column.prop(drive, "seed")
     row = layout.row(align=True)
     replay = row.operator("fragmotion.drive", text="Replay", icon="PLAY")
     replay.source, replay.take = "TAKE", index
+    if drive.replay != "RECORDED":
+        replay.policy, replay.seed = drive.replay, drive.seed
     bake = row.operator("fragmotion.bake", text="Bake", icon="ACTION_TWEAK")
     bake.trace_source, bake.take = "TAKE", index
 

@@ -298,6 +298,12 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
         default=1,
         min=0,
     )
+    replay: EnumProperty(  # type: ignore[valid-type]
+        name="Replay With",
+        description="The policy that replays a take",
+        items=(("RECORDED", "As Recorded", "The policy and the seed that the take was recorded with"), *_POLICIES),
+        default="RECORDED",
+    )
     follow: BoolProperty(  # type: ignore[valid-type]
         name="Follow", description="Move the view with the character; it goes back when the drive ends", default=True
     )
