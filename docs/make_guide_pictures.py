@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: MIT
+"""Make the pictures of docs/guide.md and the README's picture of the panels, with the sample rig. It needs a screen:
+
+xvfb-run -s "-screen 0 1600x900x24" blender --factory-startup --enable-event-simulate --window-geometry 0 0 1600 900 \
+    --python docs/make_guide_pictures.py -- build/packages/LEGACY.zip docs/guide
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+from mathutils import Euler
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "gui"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "blender"))
+
+import making
+import window
+from sample_takes import export_takes
+
+DOCS = Path(__file__).resolve().parent
+FORWARD, TO_THE_RIGHT = "W", "D"
+MIDDLE = (600, 450)  # of the viewport
+VIEW = Euler((math.radians(70), 0, math.radians(35)))
+
+
+def crop(name: str, region: Any, fit: bool = False, target: Path | None = None) -> Iterator[None]:
+    """A picture of a region of the window; with `fit`, without the plain ground at its lower end."""
+    yield from window.picture(name)
+    path = f"{window.FOLDER}/{name}.png"
+    image = bpy.data.images.load(path)
+    width, height = image.size
+    pixels = np.empty(width * height * 4, np.float32)
+    image.pixels.foreach_get(pixels)
+    part = pixels.reshape(height, width, 4)[region.y : region.y + region.height, region.x : region.x + region.width]
+    if fit:
+        drawn = np.flatnonzero(np.ptp(part[:, : part.shape[1] - 40, :3], axis=1).max(axis=1) > 0.02)
+        part = part[max(drawn[0] - 6, 0) :]
+    bpy.data.images.remove(image)
+    save(part, target or Path(path))
+
+
+def save(pixels: Any, path: Path) -> None:
+    """Write pixels [H,W,4] as a PNG."""
+    image = bpy.data.images.new("part", pixels.shape[1], pixels.shape[0])
+    image.pixels.foreach_set(np.ascontiguousarray(pixels).ravel())
+    image.filepath_raw, image.file_format = str(path), "PNG"
+    image.save()
+    bpy.data.images.remove(image)
+    print(f"{path}: {path.stat().st_size / 1000:.0f} kB")
+
+
+def panels(name: str, *labels: str) -> Iterator[None]:
+    """A picture of these panels."""
+    window.show_only(*labels)
+    yield from crop(name, window.sidebar()["region"], fit=True)
+
+
+def imported(folder: Path) -> Iterator[None]:
+    """The sample's takes, as a user imports them."""
+    export_takes(folder)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, load_ui=False)
+    yield from window.open_tab()
+    window.press(bpy.ops.fragmotion.import_mocap, "EXEC_DEFAULT", True, directory=str(folder))
+    yield from panels("mocap", "Mocap")
+
+
+def open_character() -> Iterator[None]:
+    """The sample character, built, in a view that shows it."""
+    bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE), load_ui=False)
+    yield
+    making.activate(bpy.data.objects[making.ARMATURE])
+    window.press(bpy.ops.fragmotion.tick_actions, "EXEC_DEFAULT", True, use=True)
+    space = window.view()["area"].spaces[0]
+    space.shading.type, space.overlay.show_extras, space.overlay.show_cursor = "SOLID", False, False
+    space.region_3d.view_perspective, space.region_3d.view_rotation = "PERSP", VIEW.to_quaternion()
+    space.region_3d.view_location, space.region_3d.view_distance = (0, 0, 0.7), 7.5
+
+
+def character() -> bpy.types.Object:
+    """The sample character."""
+    return bpy.data.objects[making.ARMATURE]
+
+
+def pictures_of_building() -> Iterator[None]:
+    """Build and what it found."""
+    window.press(bpy.ops.fragmotion.build, "EXEC_DEFAULT", True, synthesize=False)
+    yield from panels("coverage", "Coverage")
+    window.press(bpy.ops.fragmotion.build, "EXEC_DEFAULT", True, synthesize=True)
+    yield from panels("build", "Build", "Figures")
+    manager, rows = bpy.context.window_manager.fragmotion, character().fragmotion.classes
+    manager.active_class = next(number for number, row in enumerate(rows) if row.suggested.startswith("run"))
+    yield from panels("classes", "Classes")
+    yield from panels("inspector", "Inspector")
+    window.show_only("Mocap", "Build", "Drive", "Takes")
+    yield from crop("panel", window.sidebar()["area"], target=DOCS / "panel.png")
+    Path(f"{window.FOLDER}/panel.png").unlink()
+
+
+def hold(key: str, seconds: float, **modifiers: bool) -> Iterator[None]:
+    """Hold a key while the drive goes on for so long, of its own time."""
+    driven = window.module("drive.session").current
+    end = driven._elapsed + seconds
+    yield from window.send(key, "PRESS", *MIDDLE, **modifiers)
+    yield from window.until(lambda: driven._elapsed >= end, "the drive to go on")
+    yield from window.send(key, "RELEASE", *MIDDLE)
+
+
+def pictures_of_driving() -> Iterator[None]:
+    """A drive with a recording, and the take that it leaves."""
+    window.show_only("Drive", "Gamepads", "Overlays")
+    window.press(bpy.ops.fragmotion.drive)
+    yield from window.send("R", "PRESS", *MIDDLE)
+    yield from window.send("R", "RELEASE", *MIDDLE)
+    yield from hold(FORWARD, 3)
+    yield from hold(TO_THE_RIGHT, 1.5)
+    yield from window.send(TO_THE_RIGHT, "PRESS", *MIDDLE)
+    yield from window.drawn()
+    yield from crop("driving", window.view()["region"])
+    yield from crop("drive", window.sidebar()["region"], fit=True)
+    yield from window.send("ESC", "PRESS", *MIDDLE)
+    take = character().fragmotion.takes[0]
+    take.name = "To the right"
+    yield from panels("takes", "Takes")
+
+
+def pictures_of_baking() -> Iterator[None]:
+    """Bake, of that take."""
+    bake = character().fragmotion.bake
+    bake.trace_source, bake.loop, bake.reduce = "TAKE", True, True
+    yield from panels("bake", "Bake", "Loop, Keys and Markers")
+
+
+def steps() -> Iterator[None]:
+    """All the pictures, in the default width of the sidebar."""
+    bpy.context.preferences.system.use_region_overlap = False
+    Path(window.FOLDER).mkdir(exist_ok=True)
+    takes = Path(bpy.app.tempdir) / "mocap"
+    yield from imported(takes)
+    yield from open_character()
+    yield from pictures_of_building()
+    yield from pictures_of_driving()
+    yield from pictures_of_baking()
+    window.show_all()  # all that the add-on unregisters
+
+
+window.run(steps())
