@@ -137,6 +137,16 @@ def pictures_of_baking() -> Iterator[None]:
     yield from panels("bake", "Bake", "Loop, Keys and Markers")
 
 
+def pictures_of_a_crowd() -> Iterator[None]:
+    """Copies that have been on their way for some seconds."""
+    window.press(bpy.ops.fragmotion.populate, "EXEC_DEFAULT", True, count=8, seconds=6.0, player="walker")
+    bpy.context.scene.frame_set(90)
+    space = window.view()["area"].spaces[0]
+    space.overlay.show_bones = False
+    space.region_3d.view_distance, space.region_3d.view_location = 13, (0, 0, 0.7)
+    yield from crop("crowd", window.view()["region"])
+
+
 def steps() -> Iterator[None]:
     """All the pictures, in the default width of the sidebar."""
     bpy.context.preferences.system.use_region_overlap = False
@@ -147,6 +157,7 @@ def steps() -> Iterator[None]:
     yield from pictures_of_building()
     yield from pictures_of_driving()
     yield from pictures_of_baking()
+    yield from pictures_of_a_crowd()
     window.show_all()  # all that the add-on unregisters
 
 

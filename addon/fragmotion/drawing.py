@@ -7,7 +7,7 @@ import bpy
 
 from . import versions
 from .coverage import COLUMNS
-from .properties import POLICY_NAMES, BakeFields, BuildFields, BuildFigures, DriveSettings
+from .properties import POLICY_NAMES, BakeFields, BuildFields, BuildFigures, DriveSettings, PopulateFields
 from .storing import BESIDE, troubles
 
 
@@ -63,6 +63,17 @@ def draw_bake_options(layout: bpy.types.UILayout, settings: BakeFields) -> None:
         layout.prop(settings, "reduce_distance", text="Within")
         layout.prop(settings, "reduce_angle", text="and")
     layout.prop(settings, "markers")
+
+
+def draw_populate(layout: bpy.types.UILayout, settings: PopulateFields) -> None:
+    """The fields of a crowd."""
+    layout = aligned(layout)
+    for name in ("count", "layout", "spacing", "traces"):
+        layout.prop(settings, name)
+    if settings.traces == "PLAYERS":
+        layout.prop(settings, "player")
+        layout.prop(settings, "seconds")
+    layout.prop(settings, "seed")
 
 
 def draw_summary(layout: bpy.types.UILayout, figures: BuildFigures) -> None:

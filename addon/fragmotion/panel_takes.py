@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 import bpy
 
-from .drawing import aligned, draw_bake_options
+from .drawing import aligned, draw_bake_options, draw_populate
 from .operators.context import active_armature
 from .takes import active_take
 
@@ -83,6 +83,23 @@ class FRAGMOTION_PT_bake_options(_Sidebar, bpy.types.Panel):
         draw_bake_options(self.layout, active_armature(context).fragmotion.bake)
 
 
+class FRAGMOTION_PT_populate(_Sidebar, bpy.types.Panel):
+    """A crowd of the armature's copies."""
+
+    bl_idname = "FRAGMOTION_PT_populate"
+    bl_label = "Populate"
+    bl_parent_id = "FRAGMOTION_PT_bake"
+    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return active_armature(context) is not None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_populate(self.layout, active_armature(context).fragmotion.populate)
+        self.layout.operator("fragmotion.populate", icon="COMMUNITY")
+
+
 def _draw_buttons(column: bpy.types.UILayout) -> None:
     for name, icon in (
         ("import_takes", "IMPORT"),
@@ -122,4 +139,4 @@ def _draw_uses(layout: bpy.types.UILayout, settings: Any) -> None:
 
 
 CLASSES = (FRAGMOTION_UL_takes, FRAGMOTION_PT_takes)
-BAKE_CLASSES = (FRAGMOTION_PT_bake_options,)
+BAKE_CLASSES = (FRAGMOTION_PT_bake_options, FRAGMOTION_PT_populate)

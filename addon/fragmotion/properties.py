@@ -87,6 +87,16 @@ _MARKERS = (
     ("SCENE", "Timeline", "A marker in the scene's timeline wherever another class begins"),
     ("ACTION", "Action", "A pose marker in the Action wherever another class begins"),
 )
+_LAYOUTS = (
+    ("SQUARE", "Square", "A grid around the armature; all face as it does"),
+    ("RING", "Ring", "A circle around the armature that faces outwards"),
+)
+_CROWD_TRACES = (
+    ("PLAYERS", "Simulated", "A simulated player for each copy"),
+    ("TAKES", "Ticked Takes", "The ticked takes of the Takes panel, in turn, each copy with a seed of its own"),
+)
+MIXED = "MIXED"
+"""The choice of all simulated players in turn."""
 
 
 class TraceFields:
@@ -278,8 +288,51 @@ class BakeFields(TraceFields):
     )
 
 
+class PopulateFields:
+    """What a crowd can be told."""
+
+    count: IntProperty(  # type: ignore[valid-type]
+        name="Copies", description="How many copies of the armature to add", default=8, min=1, soft_max=100, max=1000
+    )
+    layout: EnumProperty(  # type: ignore[valid-type]
+        name="Layout", description="How the copies stand around the armature", items=_LAYOUTS, default="SQUARE"
+    )
+    spacing: FloatProperty(  # type: ignore[valid-type]
+        name="Spacing",
+        description="How far the copies stand from each other at least when they start",
+        default=2.0,
+        min=0.01,
+        soft_max=20.0,
+        unit="LENGTH",
+    )
+    traces: EnumProperty(  # type: ignore[valid-type]
+        name="Traces", description="What drives the copies", items=_CROWD_TRACES, default="PLAYERS"
+    )
+    player: EnumProperty(  # type: ignore[valid-type]
+        name="Player",
+        description="Whose habits drive the copies",
+        items=((MIXED, "Mixed", "All the habits, in turn"), *_HABITS),
+        default=MIXED,
+    )
+    seconds: FloatProperty(  # type: ignore[valid-type]
+        name="Length",
+        description="How long the simulated players play, in seconds",
+        default=20.0,
+        min=0.5,
+        max=3600.0,
+        unit="TIME_ABSOLUTE",
+    )
+    seed: IntProperty(  # type: ignore[valid-type]
+        name="Seed", description="Of the first copy; the others count on: no two do the same", default=1, min=0
+    )
+
+
 class BuildSettings(BuildFields, bpy.types.PropertyGroup):
     """The panel's settings of Build."""
+
+
+class PopulateSettings(PopulateFields, bpy.types.PropertyGroup):
+    """The panel's settings of Populate."""
 
 
 class BakeSettings(BakeFields, bpy.types.PropertyGroup):
@@ -382,6 +435,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
 
     build: PointerProperty(type=BuildSettings)  # type: ignore[valid-type]
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
+    populate: PointerProperty(type=PopulateSettings)  # type: ignore[valid-type]
     drive: PointerProperty(type=DriveSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]
@@ -425,6 +479,7 @@ CLASSES = (
     InspectorSettings,
     BuildSettings,
     BakeSettings,
+    PopulateSettings,
     DriveSettings,
     PolicyFigure,
     CoverageFigure,

@@ -83,9 +83,9 @@ def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) ->
     panels = [cls for cls in addon.panel.CLASSES if issubclass(cls, bpy.types.Panel)]
     assert [panel.bl_label for panel in panels] == [
         *("Mocap", "Left Out"),
-        *("Build", "Numbers Tried", "Coverage", "Training", "Classes", "Inspector"),
+        *("Build", "Numbers Tried", "Training", "Figures", "Classes", "Inspector", "Coverage", "Policy File"),
         *("Drive", "Gamepads", "Overlays", "Trace"),
-        *("Takes", "Bake", "Loop, Keys and Markers"),
+        *("Takes", "Bake", "Loop, Keys and Markers", "Populate"),
     ]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}
     assert {(panel.bl_space_type, panel.bl_region_type) for panel in panels} == {("VIEW_3D", "UI")}

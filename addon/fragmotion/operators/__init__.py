@@ -12,6 +12,7 @@ from .force_class import FRAGMOTION_OT_force_class
 from .import_mocap import FRAGMOTION_OT_import_mocap
 from .leave_out import FRAGMOTION_OT_leave_out, FRAGMOTION_OT_take_in
 from .load_policy import FRAGMOTION_OT_load_policy
+from .populate import FRAGMOTION_OT_populate
 from .save_policy import FRAGMOTION_OT_save_policy
 from .show_fragment import FRAGMOTION_OT_show_fragment
 from .solo_class import FRAGMOTION_OT_solo_class
@@ -37,4 +38,5 @@ CLASSES = (
     FRAGMOTION_OT_play_trace,
     FRAGMOTION_OT_find_pads,
     FRAGMOTION_OT_bake,
+    FRAGMOTION_OT_populate,
 )

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import bpy
 
@@ -32,12 +32,7 @@ class FRAGMOTION_OT_bake(BakeFields, Background, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not poll_armature(cls, context) or not poll_idle(cls):
-            return False
-        obj = active_armature(context)
-        if not has_character(obj):
-            cls.poll_message_set(f"Armature '{obj.name}' has no character yet: press Build first")
-        return has_character(obj)
+        return poll_bake(cls, context)
 
     def _prepare(self, context: bpy.types.Context) -> Job:
         obj = active_armature(context)
@@ -62,3 +57,13 @@ class FRAGMOTION_OT_bake(BakeFields, Background, bpy.types.Operator):
     def draw(self, _context: bpy.types.Context) -> None:
         draw_bake(self.layout, self)
         draw_bake_options(self.layout, self)
+
+
+def poll_bake(cls: Any, context: bpy.types.Context) -> bool:
+    """Whether a character that can be baked is active; says why not."""
+    if not poll_armature(cls, context) or not poll_idle(cls):
+        return False
+    obj = active_armature(context)
+    if not has_character(obj):
+        cls.poll_message_set(f"Armature '{obj.name}' has no character yet: press Build first")
+    return has_character(obj)
