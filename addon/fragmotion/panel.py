@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 import bpy
 
 from . import building, panel_classes, panel_drive, panel_left_out, panel_takes, versions
@@ -13,6 +11,7 @@ from .coverage_picture import draw_pictures
 from .drawing import draw_bake, draw_build, draw_coverage, draw_figures, draw_keeping, draw_summary, draw_training
 from .operators import background
 from .operators.context import active_armature
+from .sidebar import Sidebar, SubPanel
 from .staleness import is_stale
 
 _ROWS = 5
@@ -44,13 +43,7 @@ class FRAGMOTION_UL_actions(bpy.types.UIList):
         return [flag if obj and fits_cached(action, obj) else 0 for flag, action in zip(named, actions)], []
 
 
-class _Sidebar:
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Fragmotion"
-
-
-class FRAGMOTION_PT_mocap(_Sidebar, bpy.types.Panel):
+class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
     """What the character learns from."""
 
     bl_idname = "FRAGMOTION_PT_mocap"
@@ -84,7 +77,7 @@ class FRAGMOTION_PT_mocap(_Sidebar, bpy.types.Panel):
         row.operator("fragmotion.tick_actions", text="None").use = False
 
 
-class FRAGMOTION_PT_build(_Sidebar, bpy.types.Panel):
+class FRAGMOTION_PT_build(Sidebar, bpy.types.Panel):
     """From takes to a character."""
 
     bl_idname = "FRAGMOTION_PT_build"
@@ -107,13 +100,12 @@ class FRAGMOTION_PT_build(_Sidebar, bpy.types.Panel):
         draw_summary(layout, obj.fragmotion.figures)
 
 
-class _BuildSubPanel(_Sidebar):
+class _BuildSubPanel(SubPanel):
     bl_parent_id = "FRAGMOTION_PT_build"
-    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return active_armature(context) is not None and background.current is None
+        return super().poll(context) and background.current is None
 
 
 class FRAGMOTION_PT_figures(_BuildSubPanel, bpy.types.Panel):
@@ -172,7 +164,7 @@ class FRAGMOTION_PT_policy(_BuildSubPanel, bpy.types.Panel):
         row.operator("fragmotion.load_policy", text="Load...")
 
 
-class FRAGMOTION_PT_bake(_Sidebar, bpy.types.Panel):
+class FRAGMOTION_PT_bake(Sidebar, bpy.types.Panel):
     """From a trace to an Action."""
 
     bl_idname = "FRAGMOTION_PT_bake"

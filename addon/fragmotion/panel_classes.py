@@ -11,17 +11,14 @@ from . import classes, inspector
 from .errors import UserError
 from .operators import background, solo_class
 from .operators.context import active_armature
+from .sidebar import SubPanel
 
 _ROWS = 7
 _WIDE = 260  # pixels of a sidebar that has room for more than a name beside it
 
 
-class _SubPanel:
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Fragmotion"
+class _SubPanel(SubPanel):
     bl_parent_id = "FRAGMOTION_PT_build"
-    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
 
 
 def _has_classes(context: bpy.types.Context) -> bool:

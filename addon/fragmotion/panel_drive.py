@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any
 
 import bpy
 
@@ -13,6 +13,7 @@ from .drive import session
 from .drive.pads import PadState
 from .operators import drive as drive_operator
 from .operators.context import active_armature
+from .sidebar import Sidebar, SubPanel
 
 
 def _armature(context: bpy.types.Context) -> Any:
@@ -21,25 +22,19 @@ def _armature(context: bpy.types.Context) -> Any:
     return active_armature(context) if driven is None or driven.trouble() else driven.obj
 
 
-class _Sidebar:
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Fragmotion"
+class _DriveSubPanel(SubPanel):
+    bl_parent_id = "FRAGMOTION_PT_drive"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return _armature(context) is not None
 
 
-class FRAGMOTION_PT_drive(_Sidebar, bpy.types.Panel):
+class FRAGMOTION_PT_drive(Sidebar, bpy.types.Panel):
     """One large button, and what drives."""
 
     bl_idname = "FRAGMOTION_PT_drive"
     bl_label = "Drive"
-
-    @classmethod
-    def poll(cls, _context: bpy.types.Context) -> bool:
-        return True
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, driven, obj = self.layout, session.current, _armature(context)
@@ -61,13 +56,11 @@ class FRAGMOTION_PT_drive(_Sidebar, bpy.types.Panel):
             layout.prop(obj.fragmotion.drive, "follow")
 
 
-class FRAGMOTION_PT_drive_pads(_Sidebar, bpy.types.Panel):
+class FRAGMOTION_PT_drive_pads(_DriveSubPanel, bpy.types.Panel):
     """The gamepads that are connected, and how their sticks stand."""
 
     bl_idname = "FRAGMOTION_PT_drive_pads"
     bl_label = "Gamepads"
-    bl_parent_id = "FRAGMOTION_PT_drive"
-    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
 
     def draw(self, _context: bpy.types.Context) -> None:
         layout, driven = self.layout, session.current
@@ -84,13 +77,11 @@ class FRAGMOTION_PT_drive_pads(_Sidebar, bpy.types.Panel):
             layout.label(text="None connected", icon="INFO")
 
 
-class FRAGMOTION_PT_drive_overlays(_Sidebar, bpy.types.Panel):
+class FRAGMOTION_PT_drive_overlays(_DriveSubPanel, bpy.types.Panel):
     """What is drawn over the view."""
 
     bl_idname = "FRAGMOTION_PT_drive_overlays"
     bl_label = "Overlays"
-    bl_parent_id = "FRAGMOTION_PT_drive"
-    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = _armature(context).fragmotion.drive
@@ -99,13 +90,11 @@ class FRAGMOTION_PT_drive_overlays(_Sidebar, bpy.types.Panel):
             grid.prop(settings, name)
 
 
-class FRAGMOTION_PT_drive_trace(_Sidebar, bpy.types.Panel):
+class FRAGMOTION_PT_drive_trace(_DriveSubPanel, bpy.types.Panel):
     """A trace as an input."""
 
     bl_idname = "FRAGMOTION_PT_drive_trace"
     bl_label = "Trace"
-    bl_parent_id = "FRAGMOTION_PT_drive"
-    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = _armature(context).fragmotion.drive

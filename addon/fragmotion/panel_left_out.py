@@ -3,29 +3,23 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 import bpy
 
 from .actions import chosen
 from .operators.context import active_armature
+from .sidebar import SubPanel
 
 
-class FRAGMOTION_PT_left_out(bpy.types.Panel):
+class FRAGMOTION_PT_left_out(SubPanel, bpy.types.Panel):
     """Frames of the chosen take that Build leaves out."""
 
     bl_idname = "FRAGMOTION_PT_left_out"
     bl_label = "Left Out"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Fragmotion"
     bl_parent_id = "FRAGMOTION_PT_mocap"
-    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        obj = active_armature(context)
-        return obj is not None and chosen(context, obj) is not None
+        return super().poll(context) and chosen(context, active_armature(context)) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, action = self.layout, chosen(context, active_armature(context))

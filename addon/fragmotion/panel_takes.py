@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any
 
 import bpy
 
 from .drawing import aligned, draw_bake_options, draw_populate
 from .operators.context import active_armature
+from .sidebar import Sidebar, SubPanel
 from .takes import active_take
 
 _ROWS = 4
@@ -38,13 +39,7 @@ class FRAGMOTION_UL_takes(bpy.types.UIList):
         length.label(text=f"{item.seconds:.0f} s")
 
 
-class _Sidebar:
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Fragmotion"
-
-
-class FRAGMOTION_PT_takes(_Sidebar, bpy.types.Panel):
+class FRAGMOTION_PT_takes(Sidebar, bpy.types.Panel):
     """What was recorded or imported, to be replayed, baked or learned from."""
 
     bl_idname = "FRAGMOTION_PT_takes"
@@ -67,33 +62,23 @@ class FRAGMOTION_PT_takes(_Sidebar, bpy.types.Panel):
         _draw_uses(layout, settings)
 
 
-class FRAGMOTION_PT_bake_options(_Sidebar, bpy.types.Panel):
+class FRAGMOTION_PT_bake_options(SubPanel, bpy.types.Panel):
     """The fields of a bake that are changed less."""
 
     bl_idname = "FRAGMOTION_PT_bake_options"
     bl_label = "Loop, Keys and Markers"
     bl_parent_id = "FRAGMOTION_PT_bake"
-    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return active_armature(context) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_bake_options(self.layout, active_armature(context).fragmotion.bake)
 
 
-class FRAGMOTION_PT_populate(_Sidebar, bpy.types.Panel):
+class FRAGMOTION_PT_populate(SubPanel, bpy.types.Panel):
     """A crowd of the armature's copies."""
 
     bl_idname = "FRAGMOTION_PT_populate"
     bl_label = "Populate"
     bl_parent_id = "FRAGMOTION_PT_bake"
-    bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return active_armature(context) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_populate(self.layout, active_armature(context).fragmotion.populate)

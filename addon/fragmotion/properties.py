@@ -7,6 +7,7 @@ The fields of a stage are written down once: the panel's settings and the stage'
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import bpy
 from bpy.props import (
@@ -99,12 +100,46 @@ MIXED = "MIXED"
 """The choice of all simulated players in turn."""
 
 
+def _player(description: str, default: str, *others: tuple[str, str, str]) -> Any:
+    """Whose habits a simulated player has."""
+    return EnumProperty(name="Player", description=description, items=(*others, *_HABITS), default=default)
+
+
+def _length(default: float, least: float = 0.5, who: str = "the simulated player plays") -> Any:
+    return FloatProperty(
+        name="Length",
+        description=f"How long {who}, in seconds",
+        default=default,
+        min=least,
+        max=3600.0,
+        unit="TIME_ABSOLUTE",
+    )
+
+
+def _seed(description: str) -> Any:
+    return IntProperty(name="Seed", description=description, default=1, min=0)
+
+
+def _policy(description: str, default: str, *others: tuple[str, str, str], name: str = "Policy") -> Any:
+    return EnumProperty(name=name, description=description, items=(*others, *_POLICIES), default=default)
+
+
+def _trace_source(*others: tuple[str, str, str]) -> Any:
+    return EnumProperty(
+        name="Trace",
+        description="Where the joystick session comes from",
+        items=(*_SOURCES, *others),
+        default="PLAYER",
+    )
+
+
+_CHOOSING = "How the next class is chosen from the class that plays and the control"
+
+
 class TraceFields:
     """Where a trace comes from."""
 
-    trace_source: EnumProperty(  # type: ignore[valid-type]
-        name="Trace", description="Where the joystick session comes from", items=_SOURCES, default="PLAYER"
-    )
+    trace_source: _trace_source()  # type: ignore[valid-type]
     trace_file: StringProperty(  # type: ignore[valid-type]
         name="Trace File",
         description="CSV file: velocity_x,velocity_y (m/s), turn (-1 to 1, 1 is left), jump (0 or 1); 10 rows a second",
@@ -115,12 +150,7 @@ class TraceFields:
 class BuildFields(TraceFields):
     """What a build can be told."""
 
-    trace_source: EnumProperty(  # type: ignore[valid-type]
-        name="Trace",
-        description="Where the joystick session comes from",
-        items=(*_SOURCES, _TAKES),
-        default="PLAYER",
-    )
+    trace_source: _trace_source(_TAKES)  # type: ignore[valid-type]
     longest: FloatProperty(  # type: ignore[valid-type]
         name="Longest Fragment",
         description="Longest fragment in seconds; shorter ones respond faster, longer ones move more naturally",
@@ -142,9 +172,7 @@ class BuildFields(TraceFields):
         min=2,
         soft_max=500,
     )
-    seed: IntProperty(  # type: ignore[valid-type]
-        name="Seed", description="Same takes and same seed: same character", default=1, min=0
-    )
+    seed: _seed("Same takes and same seed: same character")  # type: ignore[valid-type]
     mirror: BoolProperty(  # type: ignore[valid-type]
         name="Mirror",
         description="Learn from the mirror image of every take too (left and right bones by name)",
@@ -155,23 +183,9 @@ class BuildFields(TraceFields):
         description="Synthesize fragments for the directions and speeds that the takes lack",
         default=_DEFAULTS.synthesize,
     )
-    policy: EnumProperty(  # type: ignore[valid-type]
-        name="Policy",
-        description="How the next class is chosen from the class that plays and the control",
-        items=_POLICIES,
-        default=_DEFAULTS.policies[0],
-    )
-    player: EnumProperty(  # type: ignore[valid-type]
-        name="Player", description="Whose habits the policy learns from", items=_HABITS, default="explorer"
-    )
-    seconds: FloatProperty(  # type: ignore[valid-type]
-        name="Length",
-        description="How long the simulated player plays, in seconds",
-        default=60.0,
-        min=1.0,
-        max=3600.0,
-        unit="TIME_ABSOLUTE",
-    )
+    policy: _policy(_CHOOSING, _DEFAULTS.policies[0])  # type: ignore[valid-type]
+    player: _player("Whose habits the policy learns from", "explorer")  # type: ignore[valid-type]
+    seconds: _length(60.0, 1.0)  # type: ignore[valid-type]
 
 
 def _suggest_actions(_settings: object, _context: bpy.types.Context, text: str) -> list[str]:
@@ -181,12 +195,7 @@ def _suggest_actions(_settings: object, _context: bpy.types.Context, text: str) 
 class BakeFields(TraceFields):
     """What a bake can be told."""
 
-    trace_source: EnumProperty(  # type: ignore[valid-type]
-        name="Trace",
-        description="Where the joystick session comes from",
-        items=(*_SOURCES, _TAKE),
-        default="PLAYER",
-    )
+    trace_source: _trace_source(_TAKE)  # type: ignore[valid-type]
     take: IntProperty(  # type: ignore[valid-type]
         name="Take Number",
         description="Which take of the Takes panel is baked, from 0; -1 is the one that is selected there",
@@ -198,12 +207,7 @@ class BakeFields(TraceFields):
         description="Bake the take as it was seen, with the policy, seed and start that it was recorded with",
         default=True,
     )
-    policy: EnumProperty(  # type: ignore[valid-type]
-        name="Policy",
-        description="How the next class is chosen from the class that plays and the control",
-        items=((DRIVING, "Driving", "The policy that Build was told to drive with"), *_POLICIES),
-        default=DRIVING,
-    )
+    policy: _policy(_CHOOSING, DRIVING, (DRIVING, "Driving", "The policy that Build was told to drive with"))  # type: ignore[valid-type]
     place: EnumProperty(  # type: ignore[valid-type]
         name="Start", description="Where the character starts", items=_PLACES, default="ORIGIN"
     )
@@ -252,17 +256,8 @@ class BakeFields(TraceFields):
         max=10.0,
         unit="TIME_ABSOLUTE",
     )
-    player: EnumProperty(  # type: ignore[valid-type]
-        name="Player", description="Whose habits drive the character", items=_HABITS, default="walker"
-    )
-    seconds: FloatProperty(  # type: ignore[valid-type]
-        name="Length",
-        description="How long the simulated player plays, in seconds",
-        default=20.0,
-        min=0.5,
-        max=3600.0,
-        unit="TIME_ABSOLUTE",
-    )
+    player: _player("Whose habits drive the character", "walker")  # type: ignore[valid-type]
+    seconds: _length(20.0)  # type: ignore[valid-type]
     frame_start: IntProperty(  # type: ignore[valid-type]
         name="Start Frame", description="Scene frame of the first key", default=1
     )
@@ -280,12 +275,7 @@ class BakeFields(TraceFields):
         search=_suggest_actions,
         search_options={"SUGGESTION"},
     )
-    seed: IntProperty(  # type: ignore[valid-type]
-        name="Seed",
-        description="Draws the simulated player's targets and which fragment of a class plays",
-        default=1,
-        min=0,
-    )
+    seed: _seed("Draws the simulated player's targets and which fragment of a class plays")  # type: ignore[valid-type]
 
 
 class PopulateFields:
@@ -308,23 +298,9 @@ class PopulateFields:
     traces: EnumProperty(  # type: ignore[valid-type]
         name="Traces", description="What drives the copies", items=_CROWD_TRACES, default="PLAYERS"
     )
-    player: EnumProperty(  # type: ignore[valid-type]
-        name="Player",
-        description="Whose habits drive the copies",
-        items=((MIXED, "Mixed", "All the habits, in turn"), *_HABITS),
-        default=MIXED,
-    )
-    seconds: FloatProperty(  # type: ignore[valid-type]
-        name="Length",
-        description="How long the simulated players play, in seconds",
-        default=20.0,
-        min=0.5,
-        max=3600.0,
-        unit="TIME_ABSOLUTE",
-    )
-    seed: IntProperty(  # type: ignore[valid-type]
-        name="Seed", description="Of the first copy; the others count on: no two do the same", default=1, min=0
-    )
+    player: _player("Whose habits drive the copies", MIXED, (MIXED, "Mixed", "All the habits, in turn"))  # type: ignore[valid-type]
+    seconds: _length(20.0, who="the simulated players play")  # type: ignore[valid-type]
+    seed: _seed("Of the first copy; the others count on: no two do the same")  # type: ignore[valid-type]
 
 
 class BuildSettings(BuildFields, bpy.types.PropertyGroup):
@@ -345,17 +321,12 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
     relative: EnumProperty(  # type: ignore[valid-type]
         name="Stick", description="What the direction of the stick is relative to", items=_RELATIVE, default="VIEW"
     )
-    seed: IntProperty(  # type: ignore[valid-type]
-        name="Seed",
-        description="Draws which fragment of a class plays: the same controls and the same seed, the same motion",
-        default=1,
-        min=0,
-    )
-    replay: EnumProperty(  # type: ignore[valid-type]
+    seed: _seed("Draws which fragment of a class plays: the same controls and the same seed, the same motion")  # type: ignore[valid-type]
+    replay: _policy(  # type: ignore[valid-type]
+        "The policy that replays a take",
+        "RECORDED",
+        ("RECORDED", "As Recorded", "The policy and the seed that the take was recorded with"),
         name="Replay With",
-        description="The policy that replays a take",
-        items=(("RECORDED", "As Recorded", "The policy and the seed that the take was recorded with"), *_POLICIES),
-        default="RECORDED",
     )
     follow: BoolProperty(  # type: ignore[valid-type]
         name="Follow", description="Move the view with the character; it goes back when the drive ends", default=True
@@ -386,17 +357,8 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
         description="A stick in the corner of the view, to be dragged with the mouse",
         default=True,
     )
-    player: EnumProperty(  # type: ignore[valid-type]
-        name="Player", description="Whose habits the trace has", items=_HABITS, default="walker"
-    )
-    seconds: FloatProperty(  # type: ignore[valid-type]
-        name="Length",
-        description="How long the simulated player plays, in seconds",
-        default=20.0,
-        min=0.5,
-        max=3600.0,
-        unit="TIME_ABSOLUTE",
-    )
+    player: _player("Whose habits the trace has", "walker")  # type: ignore[valid-type]
+    seconds: _length(20.0)  # type: ignore[valid-type]
 
 
 class PolicyFigure(bpy.types.PropertyGroup):

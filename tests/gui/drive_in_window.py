@@ -330,6 +330,11 @@ def replay(obj: bpy.types.Object) -> Iterator[None]:
     yield from window.picture("8 replay")
     yield from window.send("ESC", "PRESS", *MIDDLE)
     assert session.current is None and state(obj) == before
+    obj.fragmotion.drive.replay, obj.fragmotion.drive.seed = "greedy", 7
+    yield from window.drawn()
+    yield from window.click_button("fragmotion.drive")
+    assert (session.current.actor.policy, session.current.seed) == ("greedy", 7)
+    yield from window.send("ESC", "PRESS", *MIDDLE)
 
 
 def end_otherwise(obj: bpy.types.Object) -> Iterator[None]:

@@ -202,7 +202,17 @@ def _hear_mouse(driven: session.Session, event: bpy.types.Event) -> bool:
     return True
 
 
-class FRAGMOTION_OT_record(bpy.types.Operator):
+class _WhileDriving:
+    bl_options: ClassVar[set[str]] = set()
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        if session.current is None:
+            cls.poll_message_set("Nothing is driven: press Drive first")  # type: ignore[attr-defined]
+        return session.current is not None
+
+
+class FRAGMOTION_OT_record(_WhileDriving, bpy.types.Operator):
     """Start a take, or end it and keep it."""
 
     bl_idname = "fragmotion.record"
@@ -211,13 +221,6 @@ class FRAGMOTION_OT_record(bpy.types.Operator):
         "Record what you do, 10 controls a second, as a take of the armature. The take begins where the character "
         "stands now; press again to end it and keep it"
     )
-    bl_options: ClassVar[set[str]] = set()
-
-    @classmethod
-    def poll(cls, _context: bpy.types.Context) -> bool:
-        if session.current is None:
-            cls.poll_message_set("Nothing is driven: press Drive first")
-        return session.current is not None
 
     @reported
     def execute(self, _context: bpy.types.Context) -> set[str]:
@@ -226,19 +229,12 @@ class FRAGMOTION_OT_record(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FRAGMOTION_OT_play_trace(bpy.types.Operator):
+class FRAGMOTION_OT_play_trace(_WhileDriving, bpy.types.Operator):
     """Let a trace drive."""
 
     bl_idname = "fragmotion.play_trace"
     bl_label = "Play Trace"
     bl_description = "Let a trace drive until it ends, or until you touch another input"
-    bl_options: ClassVar[set[str]] = set()
-
-    @classmethod
-    def poll(cls, _context: bpy.types.Context) -> bool:
-        if session.current is None:
-            cls.poll_message_set("Nothing is driven: press Drive first")
-        return session.current is not None
 
     @reported
     def execute(self, _context: bpy.types.Context) -> set[str]:
