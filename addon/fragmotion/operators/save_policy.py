@@ -3,21 +3,20 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import ClassVar
 
 import bpy
 from bpy.props import StringProperty
-from bpy_extras.io_utils import ExportHelper
 
 from ..building import has_character, save_policy
-from ..errors import UserError, reported
+from ..errors import reported
 from .context import active_armature
+from .saving import Saving
 
 EXTENSION = ".policy"
 
 
-class FRAGMOTION_OT_save_policy(ExportHelper, bpy.types.Operator):
+class FRAGMOTION_OT_save_policy(Saving, bpy.types.Operator):
     """Save the character as a policy file, for another .blend or a program of yours"""
 
     bl_idname = "fragmotion.save_policy"
@@ -36,17 +35,12 @@ class FRAGMOTION_OT_save_policy(ExportHelper, bpy.types.Operator):
             return False
         return True
 
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        name = bpy.path.clean_name(active_armature(context).name)
-        self.filepath = str(Path(bpy.data.filepath).parent / f"{name}{EXTENSION}")
-        result: set[str] = super().invoke(context, event)
-        return result
+    def _suggestion(self, context: bpy.types.Context) -> str:
+        return str(active_armature(context).name)
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        if not self.filepath:
-            raise UserError("No file is chosen")
-        path = Path(bpy.path.ensure_ext(bpy.path.abspath(self.filepath), EXTENSION))
+        path = self._path()
         save_policy(active_armature(context), path)
         self.report({"INFO"}, f"Saved '{path}' ({path.stat().st_size / 1e6:.1f} MB)")
         return {"FINISHED"}

@@ -8,13 +8,14 @@ from typing import Any, ClassVar
 
 import bpy
 from bpy.props import CollectionProperty, FloatProperty, StringProperty
-from bpy_extras.io_utils import ExportHelper, ImportHelper
+from bpy_extras.io_utils import ImportHelper
 
 from ..core import core
 from ..errors import UserError, core_errors, reported
 from ..performing import measure_quality, origin_frame
 from ..takes import TRACE_RATE, active_take, add_take, duplicate_take, remove_take, trace_of, trim_take
 from .context import active_armature, poll_armature
+from .saving import Saving
 
 EXTENSION = ".csv"
 _FEWEST_ROWS = 2  # of a trace file
@@ -100,7 +101,7 @@ class FRAGMOTION_OT_trim_take(_OnTake, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FRAGMOTION_OT_export_take(_OnTake, ExportHelper, bpy.types.Operator):
+class FRAGMOTION_OT_export_take(_OnTake, Saving, bpy.types.Operator):
     """Write the selected take's controls to a CSV file: velocity_x,velocity_y (m/s),turn,jump; 10 rows a second"""
 
     bl_idname = "fragmotion.export_take"
@@ -110,17 +111,12 @@ class FRAGMOTION_OT_export_take(_OnTake, ExportHelper, bpy.types.Operator):
     filename_ext = EXTENSION
     filter_glob: StringProperty(default=f"*{EXTENSION}", options={"HIDDEN"})  # type: ignore[valid-type]
 
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        name = bpy.path.clean_name(_selected(context).name)
-        self.filepath = str(Path(bpy.data.filepath).parent / f"{name}{EXTENSION}")
-        result: set[str] = super().invoke(context, event)
-        return result
+    def _suggestion(self, context: bpy.types.Context) -> str:
+        return str(_selected(context).name)
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        if not self.filepath:
-            raise UserError("No file is chosen")
-        path = Path(bpy.path.ensure_ext(bpy.path.abspath(self.filepath), EXTENSION))
+        path = self._path()
         take = _selected(context)
         trace = trace_of(take)
         if len(trace) < _FEWEST_ROWS:
