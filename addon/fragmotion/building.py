@@ -24,7 +24,7 @@ from .storing import keep_policy, key_of, read_policy
 from .traces import make_traces
 
 if TYPE_CHECKING:
-    from fragmotion_core import BuildOptions, Character, Clip, Doubles, Rig
+    from fragmotion_core import BuildOptions, Character, Clip, Doubles, Player, Rig
 
 _EXAM_SECONDS = 60.0
 _EXAM_SEED = 7_001
@@ -203,6 +203,14 @@ def load(obj: bpy.types.Object) -> Character:
         forget()
         _cache[key[0], ()], _cache[key] = whole, left
     return _cache[key]
+
+
+def make_player(obj: bpy.types.Object, character: Character, seed: int, policy: str = "") -> Player:
+    """What plays the character, with the armature's settings of how it moves."""
+    feel = obj.fragmotion.feel
+    return core.Player(
+        character, seed, policy=policy, promptness=feel.promptness, pull=feel.pull, lock_feet=feel.lock_feet
+    )
 
 
 def load_to_draw(obj: bpy.types.Object) -> Character:

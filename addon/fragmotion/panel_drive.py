@@ -104,6 +104,20 @@ class FRAGMOTION_PT_drive_trace(_DriveSubPanel, bpy.types.Panel):
         self.layout.operator("fragmotion.play_trace", icon="PLAY")
 
 
+class FRAGMOTION_PT_drive_feel(_DriveSubPanel, bpy.types.Panel):
+    """How the character moves; Bake and Populate go by it, too."""
+
+    bl_idname = "FRAGMOTION_PT_drive_feel"
+    bl_label = "Feel"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = _armature(context).fragmotion.feel
+        column = aligned(self.layout)
+        column.active = session.current is None
+        for name in ("promptness", "pull", "lock_feet"):
+            column.prop(settings, name)
+
+
 def _draw_pad(layout: bpy.types.UILayout, label: str, state: PadState) -> None:
     """A pad's name, its sticks and its buttons."""
     layout.label(text=label, translate=False)
@@ -120,6 +134,7 @@ def _draw_pad(layout: bpy.types.UILayout, label: str, state: PadState) -> None:
 
 CLASSES = (
     FRAGMOTION_PT_drive,
+    FRAGMOTION_PT_drive_feel,
     FRAGMOTION_PT_drive_pads,
     FRAGMOTION_PT_drive_overlays,
     FRAGMOTION_PT_drive_trace,

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import bpy
 import numpy as np
 
-from .building import has_character, load
-from .core import core
+from .building import has_character, load, make_player
 from .errors import UserError, core_errors
 from .jobs import Report
 from .motion import Motion, resampled
@@ -56,7 +55,7 @@ def prepare(
         if shown is not None and recorded.shown_bones == len(character.skeleton.names):
             return lambda _report: Played(resampled(*shown, rate), "as it was recorded")
     trace = make_trace(settings, character.space) if take is None else trace_of(take)
-    player = _make_player(character, recorded, settings)
+    player = _player_for(obj, character, recorded, settings)
     player.reset(*(_place(context, obj, rig, settings) if recorded is None else recorded.start))
 
     def play(report: Report) -> Played:
@@ -74,17 +73,17 @@ def measure_quality(obj: bpy.types.Object, take: Take) -> float:
     character = load(obj)
     policy = take.policy if take.policy in character.policies else ""
     with core_errors(f"Take '{take.name}'"):
-        player = core.Player(character, take.seed, policy=policy)
+        player = make_player(obj, character, take.seed, policy)
         return float(player.run(trace_of(take), _JUDGING_RATE).quality)
 
 
-def _make_player(character: Character, recorded: Take | None, settings: Any) -> Any:
+def _player_for(obj: bpy.types.Object, character: Character, recorded: Take | None, settings: Any) -> Any:
     if recorded is not None:
         policy, seed = recorded.policy, recorded.seed
     else:
         policy, seed = settings.policy if settings.policy != DRIVING else "", settings.seed
     with core_errors("Bake"):
-        return core.Player(character, seed, policy=policy)
+        return make_player(obj, character, seed, policy)
 
 
 def _place(context: bpy.types.Context, obj: bpy.types.Object, rig: Rig, settings: Any) -> tuple[float, float, float]:

@@ -361,6 +361,32 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
     seconds: _length(20.0)  # type: ignore[valid-type]
 
 
+class FeelSettings(bpy.types.PropertyGroup):
+    """How the character moves when it is driven and baked, whatever its policy."""
+
+    promptness: FloatProperty(  # type: ignore[valid-type]
+        name="Promptness",
+        description="How soon the character answers when the stick moves a lot: at 0 it waits, half a second at most, "
+        "for the moment where what it does next joins on best; at 1 it answers at once, and its feet may slide",
+        default=0.5,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    pull: FloatProperty(  # type: ignore[valid-type]
+        name="Pull",
+        description="How much the body is pulled to what the stick says, over what its takes do: at 0 it moves as the "
+        "actor did, at 1 it goes and turns up to two fifths faster, slower or aside",
+        default=1.0,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
+    lock_feet: BoolProperty(  # type: ignore[valid-type]
+        name="Planted Feet", description="Feet that stand stay where they are, and legs follow", default=True
+    )
+
+
 class PolicyFigure(bpy.types.PropertyGroup):
     """How one policy did, by its `name`."""
 
@@ -399,6 +425,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
     populate: PointerProperty(type=PopulateSettings)  # type: ignore[valid-type]
     drive: PointerProperty(type=DriveSettings)  # type: ignore[valid-type]
+    feel: PointerProperty(type=FeelSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]
     tried: CollectionProperty(type=NumberTried)  # type: ignore[valid-type]
@@ -443,6 +470,7 @@ CLASSES = (
     BakeSettings,
     PopulateSettings,
     DriveSettings,
+    FeelSettings,
     PolicyFigure,
     CoverageFigure,
     BuildFigures,

@@ -25,7 +25,6 @@ constexpr double kTwoGaits = 1.6;   // a run is at least so much faster than a w
 constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gaits
 constexpr double kRunOverWalk = 3.3 / 1.2;
 constexpr double kBalance = -1.0 / 3;  // each of k fragments that perform one control counts k^(-1/3) in clustering
-constexpr double kJumping = 0.2;       // weight of a fragment that jumps
 constexpr double kTurning = kPi / 6;   // rad/s
 
 class Stopwatch {
@@ -152,14 +151,11 @@ Floors usual_floors(const std::vector<Contacts>& contacts, const std::vector<boo
   return floors;
 }
 
-// What many fragments perform must not take all classes from what few do, nor jumps, half of the controls, from the
-// walking and running between them.
+// What many fragments perform must not take all classes from what few do.
 std::vector<float> balanced_weights(const Character& c) {
   std::vector<float> weights;
   for (const Fragment& f : c.pool.fragments) {
-    const int control = c.space.nearest(f.evident);
-    const double share = std::pow(c.coverage.counts[control], kBalance);
-    weights.push_back(static_cast<float>(share * (c.space.point(control).jump > 0 ? kJumping : 1)));
+    weights.push_back(static_cast<float>(std::pow(c.coverage.counts[c.space.nearest(f.evident)], kBalance)));
   }
   return weights;
 }

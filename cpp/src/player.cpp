@@ -245,12 +245,29 @@ void Player::start_forced() {
 
 bool Player::changed(const Control& wanted) const { return character_->space.distance(wanted, decided_for_) > kChange; }
 
+// The class that the table tells; where a jump was pressed and that class does not jump, since the transition is
+// thought too bad, the one of the table's that jumps and suits best, for a button that does nothing is worse.
+int Player::tell(const Control& wanted) const {
+  const Character& c = *character_;
+  const auto jumps = [&](int k) { return c.pool.fragments[c.classes.representatives[k]].evident.jump > kInTheAir; };
+  const int control = c.space.nearest(wanted);
+  int told = (*policy_)(class_, control);
+  if (!jump_waits_ || jumps(told)) return told;
+  double best = 0;
+  for (int k = 0; k < c.classes.count; ++k) {
+    if (!jumps(k) || c.quality(class_, k, control) <= best || !policy_->leads_to(k)) continue;
+    best = c.quality(class_, k, control);
+    told = k;
+  }
+  return told;
+}
+
 int Player::decide(const Control& wanted) {
   const Character& c = *character_;
   const int waiting = std::exchange(waiting_, -1);
   if (waiting >= 0 && !changed(wanted)) return waiting;
   decided_for_ = wanted;
-  const int next = (*policy_)(class_, c.space.nearest(wanted));
+  const int next = tell(wanted);
   const int bridge = c.bridges[static_cast<std::size_t>(class_) * c.classes.count + next];
   if (bridge < 0) return next;
   waiting_ = next;
@@ -261,7 +278,7 @@ int Player::decide(const Control& wanted) {
 // so many metres between the poses that are joined.
 double Player::find_exit(const Control& wanted) const {
   const double haste = kHaste * promptness_ / std::max(1 - promptness_, kInstant);
-  const int next = (*policy_)(class_, character_->space.nearest(wanted));
+  const int next = tell(wanted);
   WorldPose& pose = stage_->poses[0];
   const double rest = left();
   double best = 0, least = std::numeric_limits<double>::infinity();

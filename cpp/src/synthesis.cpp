@@ -14,10 +14,12 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kJumpHeight = 9.81 * 0.5 * 0.5 / 8;  // m, of a 1.8 m character: in the air for half a second
-constexpr double kSimilar = 0.12;                     // m a bone tip: fragments this near may be interpolated
-constexpr int kCandidates = 24;                       // neighbours of a control that interpolation tries in pairs
-constexpr double kHurry = 1.2;                        // the most by which steps are hurried, or slowed down
+constexpr double kJumpHeight = 0.22;  // m, of a 1.8 m character
+constexpr double kCrouch = 0.16;      // of a hop's time: before it, and after it
+constexpr double kTuck = 0.35;        // of the body's height: how much further the feet are lifted
+constexpr double kSimilar = 0.12;     // m a bone tip: fragments this near may be interpolated
+constexpr int kCandidates = 24;       // neighbours of a control that interpolation tries in pairs
+constexpr double kHurry = 1.2;        // the most by which steps are hurried, or slowed down
 constexpr double kStandSeconds = 0.5;
 constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
 constexpr double kAlike = 1e-6;                              // of effort
@@ -195,6 +197,15 @@ Clip part(const Clip& clip, int begin, int end) {
   return result;
 }
 
+// The height of a hop by its phase, of its greatest: a crouch, a parabola that takes off as fast as the crouch ends,
+// and a crouch again.
+double hop_at(double phase) {
+  constexpr double kFlight = 1 - 2 * kCrouch, kDip = 4 * kCrouch / (kPi * kFlight);
+  const double air = (phase - kCrouch) / kFlight;
+  if (air > 0 && air < 1) return 4 * air * (1 - air);
+  return -kDip * std::sin(kPi * std::min(phase, 1 - phase) / kCrouch);
+}
+
 // Fills the holes of a pool's control space.
 class Synthesizer {
  public:
@@ -212,7 +223,9 @@ class Synthesizer {
 
   void fill() {
     std::vector<int> missing;
-    for (int c = 0; c < ControlSpace::kPoints; ++c) missing.push_back(std::max(0, options_.wanted - performers(c)));
+    for (int c = 0; c < ControlSpace::kPoints; ++c) {
+      missing.push_back(wanted(space_.point(c)) ? std::max(0, options_.wanted - performers(c)) : 0);
+    }
     for (int c = 0; c < ControlSpace::kPoints; ++c) {
       if (missing[c] == 0) continue;
       interpolate(space_.point(c), missing[c]);
@@ -224,6 +237,9 @@ class Synthesizer {
   double distance(int fragment, const Control& control) const {
     return space_.distance(pool_.fragments[fragment].evident, control);
   }
+
+  // A hop that turns is not worth a class of its own.
+  static bool wanted(const Control& control) { return control.jump == 0 || control.turn == 0; }
 
   int performers(int c) const {
     int count = 0;
@@ -329,13 +345,14 @@ class Synthesizer {
     }
   }
 
-  // What it costs a cycle's looks to be made to perform a control.
+  // What it costs a cycle's looks to be made to perform a control. Whether it jumps makes no difference: what hops is
+  // made of what goes, so that the one follows the other.
   double effort(const Cycle& cycle, const Control& control) const {
     const Control& ev = cycle.evident;
     const double moving = kMoving / space_.scale();
     const bool moves = speed(ev) > moving, wants = speed(control) > moving;
     if (moves != wants) return std::numeric_limits<double>::infinity();
-    double effort = cycle.gap + 0.5 * std::abs(control.turn - ev.turn) + 2 * std::max(0.0, ev.jump - control.jump);
+    double effort = cycle.gap + 0.5 * std::abs(control.turn - ev.turn) + 2 * ev.jump;
     if (wants) {
       effort += std::abs(angle_between(ev, control)) / (kPi / 4);
       const double faster = std::log(speed(control) / speed(ev)) / std::log(1.5);
@@ -378,7 +395,7 @@ class Synthesizer {
     if (control.jump <= best->evident.jump) return add(part(made, 0, length + tail(clip)), ends, Origin::transformed);
     for (int piece = 0; piece < pieces; ++piece) {
       Clip jump = part(made, ends[piece], ends[piece] + longest + tail(clip));
-      raise(jump, longest, kJumpHeight / space_.scale());
+      hop(kinematics_, legs_, jump, longest, kJumpHeight / space_.scale());
       add(std::move(jump), {0, longest}, Origin::transformed);
     }
   }
@@ -427,10 +444,21 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
   return part(result, before, result.frames - 1);
 }
 
-void raise(Clip& clip, int end, double height) {
+void hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, int end, double height) {
+  PosedBones posed(kinematics.bones());
   for (int f = 0; f < end; ++f) {
-    const double phase = static_cast<double>(f) / end;
-    clip.root_positions[std::size_t{3} * f + 2] += 4 * height * phase * (1 - phase);
+    const double rise = height * hop_at(static_cast<double>(f) / end), lift = std::max(0.0, rise) * (1 + kTuck);
+    double* root = &clip.root_positions[std::size_t{3} * f];
+    double* rotations = &clip.rotations[std::size_t{4} * kinematics.bones() * f];
+    kinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    root[2] += rise;
+    for (const Leg& leg : legs) {
+      if (!leg.exists()) continue;
+      const Vector3 ankle = posed.heads[leg.foot] + lift * Vector3::UnitZ();
+      PosedBones risen = posed;
+      for (Vector3& head : risen.heads) head.z() += rise;
+      reach(kinematics.skeleton(), leg, risen, ankle, rotations);
+    }
   }
 }
 

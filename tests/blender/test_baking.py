@@ -50,11 +50,17 @@ def take(addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray) -> Any:
 
 
 def play(
-    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, rate: float = RATE, start: Any = None, policy: str = ""
+    addon: ModuleType,
+    obj: bpy.types.Object,
+    trace: np.ndarray,
+    rate: float = RATE,
+    start: Any = None,
+    policy: str = "",
+    **feel: Any,
 ) -> Oracle:
     """The trace played from the armature's place in the fixture `obj`."""
     core, character = addon.core.core, addon.building.load(obj)
-    player = core.Player(character, SEED, policy=policy)
+    player = core.Player(character, SEED, policy=policy, **feel)
     player.reset(*(start or (2, -1, 0.7 + np.pi)))
     performance = player.run(trace, rate)
     clip = core.Clip(character.skeleton, "played", rate, performance.root_positions, performance.rotations)
@@ -142,6 +148,18 @@ def test_the_object_carries_the_character_and_its_root_bone_rests(
     root = seen_at(obj, range(FIRST, FIRST + 100, 9), [character.skeleton.names[0]])[0][:, 0]
     frames = play(addon, obj, trace).performance.frames[:100:9]
     np.testing.assert_allclose(root[:, :2], frames[:, :2], atol=1e-3)
+
+
+@pytest.mark.parametrize("feel", [{"promptness": 1.0}, {"pull": 0.25}, {"lock_feet": False}])
+def test_a_bake_moves_as_the_armature_is_set_to(addon: ModuleType, obj: bpy.types.Object, feel: dict[str, Any]) -> None:
+    trace = np.repeat([(0, 1.2, 0, 0), (0, -1.2, 0, 0), (1.2, 0, 0, 0), (0, 3.0, 0, 0), (0, 1.2, 1, 0)], 9, axis=0)
+    addon.takes.add_take(obj, trace, seed=SEED, start=(2, -1, 0.7 + np.pi))
+    usual, oracle = play(addon, obj, trace), play(addon, obj, trace, **feel)
+    assert np.abs(oracle.heads - usual.heads).max() > 1e-3, "it makes no difference here"
+    for name, value in feel.items():
+        setattr(obj.fragmotion.feel, name, value)
+    bake_take()
+    assert_seen(obj, oracle)
 
 
 @pytest.mark.parametrize(("fps", "base"), [(24, 1.001), (60, 1.0), (12, 1.0)])

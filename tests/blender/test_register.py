@@ -84,7 +84,7 @@ def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) ->
     assert [panel.bl_label for panel in panels] == [
         *("Mocap", "Left Out"),
         *("Build", "Numbers Tried", "Training", "Figures", "Classes", "Inspector", "Coverage", "Policy File"),
-        *("Drive", "Gamepads", "Overlays", "Trace"),
+        *("Drive", "Feel", "Gamepads", "Overlays", "Trace"),
         *("Takes", "Bake", "Loop, Keys and Markers", "Populate"),
     ]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}

@@ -120,19 +120,37 @@ TEST(Transformed, DoesToTheEvidentControlWhatItSays) {
   }
 }
 
-TEST(Raise, IsAParabola) {
-  Clip clip = gait_clip({1.2, 0, 0});
-  const Clip before = clip;
-  raise(clip, 12, 0.3);
-  double rise = 0;
+TEST(Hop, CrouchesFliesAndIsCaughtWithTheFeetNeverBelowWhereTheyWere) {
+  Clip clip = gait_clip({1.2, 0, 0}), before = clip;
+  const Legs legs = find_legs(kKinematics, {clip});
+  hop(kKinematics, legs, clip, 30, 0.3);
+  double highest = 0, lowest = 0, fastest = 0;
+  PosedBones was(kSkeleton.size()), is(kSkeleton.size());
+  double last = 0;
   for (int f = 0; f < clip.frames; ++f) {
     const double by = clip.root_positions[3 * f + 2] - before.root_positions[3 * f + 2];
-    rise = std::max(rise, by);
-    if (f == 0 || f >= 12) {
-      EXPECT_NEAR(by, 0, 1e-12);
+    highest = std::max(highest, by);
+    lowest = std::min(lowest, by);
+    if (f > 0) fastest = std::max(fastest, std::abs(by - last));
+    last = by;
+    kKinematics.world(before, f, was.heads.data(), was.rotations.data());
+    kKinematics.world(clip, f, is.heads.data(), is.rotations.data());
+    for (const Leg& leg : legs) {
+      const double lift = is.heads[leg.foot].z() - was.heads[leg.foot].z();
+      EXPECT_GT(lift, -1e-3) << f;
+      EXPECT_NEAR((is.heads[leg.foot] - was.heads[leg.foot]).head<2>().norm(), 0, 0.02);
+      if (by <= 0) {
+        EXPECT_NEAR(lift, 0, 0.01) << f;
+      }
+    }
+    if (f >= 30) {
+      EXPECT_EQ(by, 0);
     }
   }
-  EXPECT_NEAR(rise, 0.3, 1e-9);
+  EXPECT_NEAR(highest, 0.3, 0.01);
+  EXPECT_LT(lowest, -0.03);
+  EXPECT_GT(lowest, -0.15);
+  EXPECT_LT(fastest, 1.2 * 4 * 0.3 / (0.68 * 30));  // no faster than the parabola: nothing jumps from frame to frame
 }
 
 // The pool with a clip's frames 0 .. end as one more fragment.

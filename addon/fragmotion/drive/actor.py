@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..baking import check_skeleton
-from ..building import has_character, load
+from ..building import has_character, load, make_player
 from ..core import core
 from ..errors import core_errors
 from ..performing import origin_frame
@@ -43,7 +43,7 @@ class Actor:
         else:
             check_skeleton(obj, self.character, self._rig)
             with core_errors("Drive"):
-                self.player = core.Player(self.character, seed, policy=policy)
+                self.player = make_player(obj, self.character, seed, policy)
         self._order = [obj.data.bones.find(bone.name) for bone in obj.pose.bones]
         self.player.reset(*origin_frame(obj))
 
@@ -56,7 +56,7 @@ class Actor:
         """Whether it turns about as fast as it is told while it goes ahead at a speed in m/s."""
         if self.character is None:
             return True
-        turned = sum(_turned(core.Player(self.character), pace, turn) for turn in (1, -1))
+        turned = sum(_turned(make_player(self._obj, self.character, 1), pace, turn) for turn in (1, -1))
         return bool(turned / 2 > _TURNS_WELL * self.space.turn_rate * _TRIAL)
 
     def start_afresh(self) -> None:

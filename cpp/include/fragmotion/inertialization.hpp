@@ -15,10 +15,10 @@ struct WorldPose {
 };
 
 /// A stitch that keeps pose and velocity (D. Bollo, "Inertialization: high-performance animation transitions in Gears
-/// of War", GDC 2018): the new motion is shown with the old one's offset and relative speed, which fade like a critically
-/// damped spring. (Against Bollo's polynomials and the paper's ease-in-ease-out weights of the same smoothness at the
-/// beginning, it is at its fastest little more than half as fast.) It needs nothing of the old motion once it has begun,
-/// so it may begin anew at any time.
+/// of War", GDC 2018): the new motion is shown with the old one's offset and relative speed, which fade like a
+/// critically damped spring. (Against Bollo's polynomials and the paper's ease-in-ease-out weights of the same
+/// smoothness at the beginning, it is at its fastest little more than half as fast.) It needs nothing of the old motion
+/// once it has begun, so it may begin anew at any time.
 class Inertialization {
  public:
   explicit Inertialization(int bones);
@@ -29,8 +29,8 @@ class Inertialization {
   /// Whether anything is left `time` seconds after the beginning.
   bool active(double time) const { return time < end_; }
 
-  /// From `old` to `fresh`: after `seconds` three tenths of the offset are left, after four times that nothing. The old motion is also given `apart` seconds before, the new one `apart`
-  /// seconds later: speeds are those inside either.
+  /// From `old` to `fresh`: after `seconds` three tenths of the offset are left, after four times that nothing. The old
+  /// motion is also given `apart` seconds before, the new one `apart` seconds later: speeds are those inside either.
   void begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh, const WorldPose& fresh_later,
              double apart, double seconds);
 

@@ -43,7 +43,7 @@ struct PlayerOptions {
 /// where the character stands, and stitched on with ease-in-ease-out weights. A fragment is left early, unless in the
 /// air, when the control changes a lot: soon, where the next one joins well. A stand-in-place fragment is played to its
 /// end; then comes the class that it leads to, or, where the control has changed a lot meanwhile, what the table tells
-/// from standing. A jump that is pressed, however shortly, is asked of the table at the next decision.
+/// from standing. A jump that is pressed, however shortly, comes with the next decision, if the table knows any.
 class Player {
  public:
   /// Throws std::invalid_argument on an option that is out of its range.
@@ -112,6 +112,7 @@ class Player {
   void start(int next_class, int fragment);
   void start_forced();
   bool changed(const Control& wanted) const;
+  int tell(const Control& wanted) const;
   int decide(const Control& wanted);
   bool leaves_early(const Control& wanted);
   void go_on(const Control& control, const Control& wanted);

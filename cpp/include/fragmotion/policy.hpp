@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "fragmotion/optimal.hpp"
@@ -16,6 +17,8 @@ struct Policy {
   int operator()(int from, int control) const {
     return next[static_cast<std::size_t>(from) * ControlSpace::kPoints + control];
   }
+  /// Whether it ever leads to a class.
+  bool leads_to(int k) const { return std::find(next.begin(), next.end(), k) != next.end(); }
 };
 
 /// The sum of Eq. 2 along the path that the policy takes from class `start` over a trace of control indices.

@@ -23,8 +23,9 @@ struct Transform {
 Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
                  int end, int frames, const Transform& transform);
 
-/// Lifts frames 0 .. end of a clip in a parabola of so many metres.
-void raise(Clip& clip, int end, double height);
+/// Makes a hop of frames 0 .. end of a clip: the body goes down over the feet, through the air in a parabola of so many
+/// metres with the feet drawn up, and is caught by the knees.
+void hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, int end, double height);
 
 /// A motion between two fragments: each pose, and the path, interpolated at equal phases with weight (1 - w, w). Its
 /// last frame but `tail` is the fragments' end. Both at the rate of `a`'s clip.
