@@ -20,6 +20,7 @@ constexpr double kWorthIt = 0.05;   // s that must be left of a fragment for lea
 constexpr double kInTheAir = 0.5;   // evident jump above which a fragment is played to its end
 constexpr double kJoinsWell = 1.3;  // times the Dis of the fragment that joins best, and
 constexpr double kJoinsNear = 0.3;  // m, summed as Dis, more
+constexpr double kAsWell = 0.5;     // of the way from the least error to the representative's
 constexpr double kPull = 0.4;       // of speed and turn rate: the most that the root is pulled
 constexpr double kPulling = 0.1;    // s: time constant of the pull
 constexpr double kLongest = 3600;   // s that a step may last
@@ -169,12 +170,15 @@ double Player::left() const {
   return character_->pool.seconds(character_->pool.fragments[now_.fragment]) - now_.seconds;
 }
 
-// The members that perform the control as well as the representative or better, with how far they are from a pose;
+// The members that perform the control nearly as well as any of them does, with how far they are from a pose;
 // tells the least.
 float Player::find_fitting(int next_class, const Control& control, const WorldPose& pose) const {
   const Character& c = *character_;
   const auto error = [&](int fragment) { return c.space.distance(c.pool.fragments[fragment].evident, control); };
-  const double allowed = error(c.classes.representatives[next_class]);
+  double best = error(c.classes.representatives[next_class]);
+  const double usual = best;
+  for (const int fragment : stage_->members[next_class]) best = std::min(best, error(fragment));
+  const double allowed = best + kAsWell * (usual - best);
   std::vector<float>& last = stage_->last_pose;
   std::vector<std::pair<float, int>>& fitting = stage_->fitting;
   const int stride = static_cast<int>(last.size()) / 3;

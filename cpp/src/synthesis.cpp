@@ -350,9 +350,10 @@ class Synthesizer {
   double effort(const Cycle& cycle, const Control& control) const {
     const Control& ev = cycle.evident;
     const double moving = kMoving / space_.scale();
-    const bool moves = speed(ev) > moving, wants = speed(control) > moving;
-    if (moves != wants) return std::numeric_limits<double>::infinity();
+    const bool moves = speed(ev) > moving, wants = speed(control) > moving, steps = wants || control.turn != 0;
+    if (moves != steps) return std::numeric_limits<double>::infinity();
     double effort = cycle.gap + 0.5 * std::abs(control.turn - ev.turn) + 2 * ev.jump;
+    if (steps && !wants) effort += speed(ev) / space_.walk();  // it steps in place
     if (wants) {
       effort += std::abs(angle_between(ev, control)) / (kPi / 4);
       const double faster = std::log(speed(control) / speed(ev)) / std::log(1.5);

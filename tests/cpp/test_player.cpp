@@ -112,6 +112,58 @@ std::vector<int> what_plays(double rate, const Control& control, double seconds)
   return played;
 }
 
+TEST(Player, JumpsWheneverItIsAskedTo) {
+  const Character& c = *gait_character();
+  for (const int point : {2, 8, 56}) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      Player player(gait_character(), unpulled(seed));
+      Control control = c.space.point(point);
+      for (int i = 0; i < 60 + static_cast<int>(seed); ++i) player.step(control, 1.0 / 60);
+      control.jump = 1;
+      player.step(control, 0.1);
+      control.jump = 0;
+      bool jumps = false;
+      for (int i = 0; i < 60; ++i) {
+        jumps = jumps || c.pool.fragments[player.playing_fragment()].evident.jump > 0.5;
+        player.step(control, 1.0 / 60);
+      }
+      EXPECT_TRUE(jumps) << point << " seed " << seed;
+    }
+  }
+}
+
+// The distance between the poses that are joined where a change of the control ends a fragment early, and the time that
+// it took, each summed.
+std::pair<double, double> joined(double promptness) {
+  PlayerOptions options = unpulled(5);
+  options.promptness = promptness;
+  options.stitch = 0;
+  Player player(gait_character(), options);
+  Random random(7);
+  double apart = 0, waited = 0;
+  for (int n = 0; n < 200; ++n) {
+    const Control control = gait_character()->space.point(2 + 6 * random.below(17));
+    const int before = player.playing_fragment();
+    for (int i = 0; i < 60 && player.playing_fragment() == before; ++i) {
+      const std::vector<double> rotations = player.rotations();
+      player.step(control, 1.0 / 60);
+      waited += 1.0 / 60;
+      if (player.playing_fragment() == before) continue;
+      for (std::size_t k = 0; k < rotations.size(); k += 4) {
+        apart += load_quaternion(&rotations[k]).angularDistance(load_quaternion(&player.rotations()[k]));
+      }
+    }
+  }
+  return {apart, waited};
+}
+
+TEST(Player, PromptnessIsPaidForWithWorseStitches) {
+  const auto [rough, soon] = joined(1);
+  const auto [smooth, late] = joined(0);
+  EXPECT_LT(soon, late);
+  EXPECT_LT(smooth, rough);
+}
+
 TEST(Player, PlaysTheSameFragmentsWhateverTheStep) {
   for (const int point : {2, 8, 56, 14, 1, 33}) {
     const Control control = gait_character()->space.point(point);
