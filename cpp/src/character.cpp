@@ -25,6 +25,7 @@ constexpr double kTwoGaits = 1.6;   // a run is at least so much faster than a w
 constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gaits
 constexpr double kRunOverWalk = 3.3 / 1.2;
 constexpr double kBalance = -1.0 / 3;  // each of k fragments that perform one control counts k^(-1/3) in clustering
+constexpr double kTurningHop = 0.1;    // weight of a hop that turns
 constexpr double kTurning = kPi / 6;   // rad/s
 
 class Stopwatch {
@@ -151,11 +152,15 @@ Floors usual_floors(const std::vector<Contacts>& contacts, const std::vector<boo
   return floors;
 }
 
-// What many fragments perform must not take all classes from what few do.
+// What many fragments perform must not take all classes from what few do, and hops that turn may be in a class with
+// those that do not: the player draws them there.
 std::vector<float> balanced_weights(const Character& c) {
   std::vector<float> weights;
   for (const Fragment& f : c.pool.fragments) {
-    weights.push_back(static_cast<float>(std::pow(c.coverage.counts[c.space.nearest(f.evident)], kBalance)));
+    const int nearest = c.space.nearest(f.evident);
+    const Control control = c.space.point(nearest);
+    const double share = std::pow(c.coverage.counts[nearest], kBalance);
+    weights.push_back(static_cast<float>(share * (control.jump > 0 && control.turn != 0 ? kTurningHop : 1)));
   }
   return weights;
 }

@@ -223,9 +223,7 @@ class Synthesizer {
 
   void fill() {
     std::vector<int> missing;
-    for (int c = 0; c < ControlSpace::kPoints; ++c) {
-      missing.push_back(wanted(space_.point(c)) ? std::max(0, options_.wanted - performers(c)) : 0);
-    }
+    for (int c = 0; c < ControlSpace::kPoints; ++c) missing.push_back(std::max(0, options_.wanted - performers(c)));
     for (int c = 0; c < ControlSpace::kPoints; ++c) {
       if (missing[c] == 0) continue;
       interpolate(space_.point(c), missing[c]);
@@ -237,9 +235,6 @@ class Synthesizer {
   double distance(int fragment, const Control& control) const {
     return space_.distance(pool_.fragments[fragment].evident, control);
   }
-
-  // A hop that turns is not worth a class of its own.
-  static bool wanted(const Control& control) { return control.jump == 0 || control.turn == 0; }
 
   int performers(int c) const {
     int count = 0;
