@@ -23,6 +23,7 @@ constexpr double kJoinsNear = 0.3;  // m, summed as Dis, more
 constexpr double kAsWell = 0.5;     // of the way from the least error to the representative's
 constexpr double kPull = 0.4;       // of speed and turn rate: the most that the root is pulled
 constexpr double kPulling = 0.1;    // s: time constant of the pull
+constexpr double kStill = 0.2;      // m/s of a 1.8 m character, and of the turn rate, below which it stands
 constexpr double kLongest = 3600;   // s that a step may last
 
 }  // namespace
@@ -51,7 +52,8 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
       pull_(options.pull),
       promptness_(options.promptness),
       inertia_(stage_->kinematics.bones()),
-      foot_lock_(stage_->kinematics, character_->legs) {
+      foot_lock_(stage_->kinematics, character_->legs),
+      breathing_(stage_->kinematics.skeleton()) {
   if (!(pull_ >= 0 && pull_ <= 1)) throw std::invalid_argument("the pull must be 0 to 1");
   if (!(promptness_ >= 0 && promptness_ <= 1)) throw std::invalid_argument("the promptness must be 0 to 1");
   if (!(stitch_ >= 0 && stitch_ <= 1)) throw std::invalid_argument("the stitching time must be 0 to 1 s");
@@ -86,6 +88,7 @@ void Player::reset(const CharacterFrame& frame) {
   turning_ = 0;
   inertia_.clear();
   foot_lock_.reset();
+  breathing_.reset();
   jump_waits_ = jump_pressed_ = false;
   decided_for_ = {};
   now_ = place(character_->classes.representatives[class_], frame);
@@ -152,12 +155,18 @@ void Player::pose() {
   pose_.heading = old.heading + weight * (pose_.heading - old.heading);
 }
 
-// The pose with planted feet where they are, `seconds` after the last one.
+bool Player::stands(const Control& evident) const {
+  return std::hypot(evident.x, evident.y) * character_->space.scale() < kStill && std::abs(evident.turn) < kStill &&
+         evident.jump < kInTheAir;
+}
+
+// The pose that breathes, with planted feet where they are, `seconds` after the last one.
 void Player::plant(double seconds) {
   shown_.root = pose_.root;
   shown_.heading = pose_.heading;
   std::copy(pose_.rotations.begin(), pose_.rotations.end(), shown_.rotations.begin());
   const Fragment& f = character_->pool.fragments[now_.fragment];
+  breathing_.apply(stage_->kinematics.skeleton(), shown_, stands(f.evident), seconds);
   const Contacts& contacts = character_->contacts[f.clip];
   if (!lock_feet_ || contacts.feet[0].empty()) return;
   const PackedClip& clip = character_->pool.clips[f.clip];

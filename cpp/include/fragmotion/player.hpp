@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "fragmotion/breathing.hpp"
 #include "fragmotion/distance.hpp"
 #include "fragmotion/foot_lock.hpp"
 #include "fragmotion/inertialization.hpp"
@@ -118,6 +119,7 @@ class Player {
   void go_on(const Control& control, const Control& wanted);
   void pull(const Control& control, double seconds);
   void pose();
+  bool stands(const Control& evident) const;
   void plant(double seconds);
   double left() const;
 
@@ -147,6 +149,7 @@ class Player {
   double turning_ = 0;                 // rad/s
   Inertialization inertia_;
   FootLock foot_lock_;
+  Breathing breathing_;
   WorldPose pose_;  // before feet are locked
   WorldPose shown_;
 };
