@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kStretched = 0.995;  // of a leg's length: what it reaches at most, unless it does already
 constexpr double kSoft = 0.03;        // of a leg's length, below that: where it follows less
-constexpr int kApart = 5;             // frames of the clips that are looked at: each fifth
+constexpr double kStraight = 0.1;     // rad: a knee that is bent less than that resists being bent backward
+constexpr double kNear = 0.02;  // of a leg's length: wanted so near to where it is, a foot may go as the knee does
+constexpr int kApart = 5;       // frames of the clips that are looked at: each fifth
 
 constexpr double kTires = kStretched - kSoft;  // of a leg's length: from where it follows less
 
@@ -25,6 +27,9 @@ double apart(double now, double wanted) {
   const double share = now > kTires ? std::min(1.0, (wanted - kTires) / (now - kTires)) : 0;
   return std::min(softly(wanted) + share * (now - softly(now)), std::max(now, kStretched));
 }
+
+// A knee's bend, which never goes backward: a stitch may overshoot.
+double forward(double bend) { return bend > kStraight ? bend : kStraight * std::exp(bend / kStraight - 1); }
 
 // The angle of the knee, 0 where the leg is straight, for which its ends are so far apart.
 double opening(double upper, double lower, double apart) {
@@ -89,16 +94,21 @@ double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle) {
 void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations) {
   const Vector3 hip = posed.heads[leg.thigh], upper = posed.heads[leg.knee] - hip,
                 lower = posed.heads[leg.foot] - posed.heads[leg.knee];
-  const double length = upper.norm() + lower.norm(), now = (upper + lower).norm() / length,
-               wanted = (ankle - hip).norm() / length;
+  const double length = upper.norm() + lower.norm(), now = (upper + lower).norm() / length;
   const Vector3 hinge = posed.rotations[leg.thigh] * leg.hinge;
   const Vector3 axis = (hinge - hinge.dot(upper) / upper.squaredNorm() * upper).normalized();
   const double across = (lower - lower.dot(axis) * axis).norm(), beside = lower.squaredNorm() - across * across;
   const auto angle = [&](double distance) {
     return opening(upper.norm(), across, std::sqrt(std::max(0.0, distance * distance - beside)));
   };
-  const double bent = std::atan2(axis.dot(upper.cross(lower)), upper.dot(lower));
-  const Quaternion knee{Eigen::AngleAxisd(angle(length * apart(now, wanted)) - bent, axis)};
+  const auto distance = [&](double bend) {
+    const double in_plane = upper.squaredNorm() + across * across + 2 * upper.norm() * across * std::cos(bend);
+    return std::sqrt(in_plane + beside) / length;
+  };
+  const double bent = std::atan2(axis.dot(upper.cross(lower)), upper.dot(lower)), natural = distance(forward(bent));
+  double wanted = (ankle - hip).norm() / length;
+  wanted += std::max(0.0, 1 - std::abs(wanted - now) / kNear) * (natural - now);
+  const Quaternion knee{Eigen::AngleAxisd(angle(length * apart(natural, wanted)) - bent, axis)};
   const Quaternion thigh = Quaternion::FromTwoVectors(upper + knee * lower, ankle - hip), shin = thigh * knee;
   const auto store = [&](int bone, const Quaternion& parent, const Quaternion& world) {
     store_quaternion((parent.conjugate() * world).normalized(), rotations + std::ptrdiff_t{4} * bone);

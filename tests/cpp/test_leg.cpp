@@ -45,6 +45,32 @@ TEST(Reach, BringsTheFootThereAndLeavesItsRotation) {
   }
 }
 
+TEST(Reach, NeverBendsAKneeBackwardNorSnapsIt) {
+  const Skeleton skeleton = humanoid();
+  const Kinematics kinematics(skeleton);
+  const Clip clip = gait_clip({0, 0, 0});
+  const Leg leg = find_legs(kinematics, {gait_clip({1.2, 0, 0})})[0];
+  PosedBones posed(skeleton.size()), after(skeleton.size());
+  Vector3 before = Vector3::Zero();
+  for (int n = 0; n <= 60; ++n) {
+    std::vector<double> rotations(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
+    const Quaternion bend{Eigen::AngleAxisd(0.3 - 0.01 * n, leg.hinge)};  // from forward to as far backward
+    store_quaternion(bend * load_quaternion(&rotations[4 * leg.knee]), &rotations[4 * leg.knee]);
+    const Vector3 root = load_vector(clip.root_positions.data());
+    kinematics.world(root, rotations.data(), posed.heads.data(), posed.rotations.data());
+    const Vector3 ankle = posed.heads[leg.foot];
+    reach(skeleton, leg, posed, ankle, rotations.data());
+    kinematics.world(root, rotations.data(), after.heads.data(), after.rotations.data());
+    const Vector3 hip = after.heads[leg.thigh], knee = after.heads[leg.knee], foot = after.heads[leg.foot];
+    EXPECT_GE((after.rotations[leg.thigh] * leg.hinge).dot((knee - hip).cross(foot - knee)), 0) << n;
+    EXPECT_LT((foot - ankle).norm(), 0.03) << n;
+    if (n > 0) {
+      EXPECT_LT((knee - before).norm(), 0.01) << n;
+    }
+    before = knee;
+  }
+}
+
 TEST(Reach, ComesAsNearAsTheLegIsLong) {
   const Skeleton skeleton = humanoid();
   const Kinematics kinematics(skeleton);
