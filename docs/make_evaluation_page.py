@@ -99,6 +99,11 @@ def run_time(result: Result) -> str:
     return markdown(report.run_time_table(result))
 
 
+def stitchings(result: Result) -> str:
+    """The ways to play."""
+    return markdown(report.stitchings_table(result))
+
+
 def coverage(result: Result) -> str:
     """Kinds of controls, and the furthest hole."""
     holes = sum(distance > report.HOLE for distance in result["coverage"])
@@ -176,6 +181,7 @@ _MADE: dict[str, Callable[[Result], str]] = {
         svm_least,
         limits,
         run_time,
+        stitchings,
         coverage,
         classes,
         minutes,

@@ -205,6 +205,21 @@ def test_means_are_over_pairs_of_different_players(run: Run) -> None:
             assert percents["by_trace"][test] == pytest.approx(matrix[different[:, i], i].mean())
 
 
+def test_ways_to_play_are_measured_beside_the_takes(run: Run, character: core.Character) -> None:
+    found = run.result["stitchings"]
+    takes = core.MotionYardstick(character).takes
+    assert list(found)[0] == "the takes" and found["the takes"]["foot_skate"] == takes.foot_skate
+    assert found["the takes"]["joint_step"] == takes.positions.p999
+    traces = [trace(run, "test", test) for test in run.result["test"]]
+    plain = {"stitching": "crossfade", "lock_feet": False, "pull": 0.0, "promptness": 1.0}
+    yardstick = core.MotionYardstick(character)
+    measured = [yardstick.of(core.Player(character, SEED, **plain).run(t, 60)) for t in traces]
+    figures = found["plain, as in the paper"]
+    assert figures["foot_skate"] == pytest.approx(np.mean([m.foot_skate for m in measured]))
+    assert figures["joint_step"] == pytest.approx(max(m.positions.worst for m in measured))
+    assert found["promptness 1"]["response_p95_s"] <= found["promptness 0"]["response_p95_s"]
+
+
 def test_run_time_is_the_players(run: Run, character: core.Character) -> None:
     traces = [trace(run, "test", test) for test in run.result["test"]]
     played = [[core.Player(character, SEED + i, policy="iterate").run(t, 60) for i in range(3)] for t in traces]

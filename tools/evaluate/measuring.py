@@ -89,6 +89,7 @@ def _measure_controllers(character: core.Character, sessions: Sessions, seed: in
         "controllers": {name: _controller(name, quality, synthesis, played) for name in CONTROLLERS},
         "adaptability": {name: _without(quality[name], "by_trace") for name in TABLES},
         "bound": measure_bound(factors, sessions.test),
+        "stitchings": run_time.measure_stitchings(character, sessions.test, seed),
         "run_time_by_trace": {name: played[name]["by_trace"] for name in TABLES},
     }
 

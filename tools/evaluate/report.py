@@ -118,6 +118,25 @@ def run_time_table(result: Result) -> Table:
     return Table(heading, ["controller", *(head for head, _ in _RUN_TIME)], rows)
 
 
+_STITCHINGS: tuple[tuple[str, Callable[[Result], str]], ...] = (
+    ("foot skate, m/s", lambda r: number(r["foot_skate"], 3)),
+    ("sliding, %", lambda r: number(100 * r["sliding_share"])),
+    ("deepest foot, mm", lambda r: number(1000 * r["penetration"], 0)),
+    ("joint step, m", lambda r: number(r["joint_step"], 3)),
+    ("velocity step, m/s", lambda r: number(r["velocity_step_p99"], 2)),
+    ("acceleration step, m/s\u00b2", lambda r: number(r["acceleration_step_p99"], 0)),
+    ("velocity error, %", lambda r: number(r.get("velocity_error_percent"))),
+    ("response p50, s", lambda r: number(r.get("response_p50_s"), 2)),
+    ("response p95, s", lambda r: number(r.get("response_p95_s"), 2)),
+)
+
+
+def stitchings_table(result: Result) -> Table:
+    """The default table, played in different ways."""
+    rows = [[name, *(cell(figures) for _, cell in _STITCHINGS)] for name, figures in result["stitchings"].items()]
+    return Table("How it is played: what is seen, and what is felt", ["", *(head for head, _ in _STITCHINGS)], rows)
+
+
 def coverage_table(result: Result) -> Table:
     """How many of the controls of each kind have a fragment near."""
     rows = []
@@ -163,8 +182,10 @@ def minutes_table(result: Result) -> Table:
 
 def tables(result: Result) -> Iterable[Table]:
     """All tables that the run has figures for."""
-    for make in (synthesis_table, trace_table, adaptability_table, matrix_table, run_time_table, coverage_table):
+    for make in (synthesis_table, trace_table, adaptability_table, matrix_table, run_time_table):
         yield make(result)
+    yield stitchings_table(result)
+    yield coverage_table(result)
     if "classes_curve" in result:
         yield classes_table(result)
         yield minutes_table(result)

@@ -64,8 +64,8 @@ def errors(performances: list[list[core.Performance]]) -> dict[str, float | None
 
 
 def looks(yardstick: core.MotionYardstick, performances: list[list[core.Performance]]) -> dict[str, float]:
-    """Foot skate over the takes' own, the worst joint step at a stitch over the takes' 99.9th percentile (of the joints'
-    places a frame), and the share of the time on the ground in which a foot slides."""
+    """Foot skate over the takes' own, the worst joint step at a stitch over the takes' 99.9th percentile (of places, a
+    frame), and the share of the time on the ground in which a foot slides."""
     takes, every = yardstick.takes, [yardstick.of(p) for some in performances for p in some]
     return {
         "foot_skate_ratio": statistics.fmean(m.foot_skate for m in every) / max(takes.foot_skate, _STILL),
@@ -79,6 +79,48 @@ def responses(character: core.Character, policy: str, seed: int) -> dict[str, fl
     times = [core.response_times(character, s, policy=policy) for s in range(seed, seed + PLAYERS)]
     p50, p95 = np.percentile(np.concatenate(times), [50, 95])
     return {"response_p50_s": float(p50), "response_p95_s": float(p95)}
+
+
+STITCHINGS: dict[str, dict[str, Any]] = {
+    "promptness 0": {"promptness": 0.0},
+    "promptness 0.5 (default)": {},
+    "promptness 1": {"promptness": 1.0},
+    "feet not planted": {"lock_feet": False},
+    "plain, as in the paper": {"stitching": "crossfade", "lock_feet": False, "pull": 0.0, "promptness": 1.0},
+}
+"""Ways to play one and the same table."""
+
+
+def measure_stitchings(
+    character: core.Character, sessions: Sequence[Session], seed: int
+) -> dict[str, dict[str, float]]:
+    """What a viewer sees and what a player feels, by the way of playing; the takes' own figures first."""
+    yardstick = core.MotionYardstick(character)
+    found = {"the takes": _look([yardstick.takes])}
+    for name, options in STITCHINGS.items():
+        played = [core.Player(character, seed, **options).run(session.controls, RATE) for session in sessions]
+        p50, p95 = np.percentile(core.response_times(character, seed, **options), [50, 95])
+        found[name] = {
+            **_look([yardstick.of(performance) for performance in played]),
+            "velocity_error_percent": float(errors([played])["velocity_error_percent"] or 0),
+            "response_p50_s": float(p50),
+            "response_p95_s": float(p95),
+        }
+    return found
+
+
+def _look(measured: Sequence[core.MotionMeasures]) -> dict[str, float]:
+    """Foot skate (m/s), sliding (share), the deepest foot (m), and joint steps: of places (m; the takes' 99.9th
+    percentile, else the worst), and the 99th percentiles of velocities (m/s) and accelerations (m/s^2)."""
+    takes = len(measured) == 1
+    return {
+        "foot_skate": statistics.fmean(m.foot_skate for m in measured),
+        "sliding_share": statistics.fmean(m.sliding_share for m in measured),
+        "penetration": max(m.penetration for m in measured),
+        "joint_step": measured[0].positions.p999 if takes else max(m.positions.worst for m in measured),
+        "velocity_step_p99": statistics.fmean(m.velocities.p99 for m in measured),
+        "acceleration_step_p99": statistics.fmean(m.accelerations.p99 for m in measured),
+    }
 
 
 def measure_run_time(
