@@ -208,7 +208,7 @@ def test_means_are_over_pairs_of_different_players(run: Run) -> None:
 def test_ways_to_play_are_measured_beside_the_takes(run: Run, character: core.Character) -> None:
     found = run.result["stitchings"]
     takes = core.MotionYardstick(character).takes
-    assert list(found)[0] == "the takes" and found["the takes"]["foot_skate"] == takes.foot_skate
+    assert next(iter(found)) == "the takes" and found["the takes"]["foot_skate"] == takes.foot_skate
     assert found["the takes"]["joint_step"] == takes.positions.p999
     traces = [trace(run, "test", test) for test in run.result["test"]]
     plain = {"stitching": "crossfade", "lock_feet": False, "pull": 0.0, "promptness": 1.0}
