@@ -15,8 +15,11 @@ constexpr double kLanding = 0.06;     // m over the floor within which a foot is
 constexpr double kRelease = 0.3;      // s in which a foot that is let go gets back to its motion
 constexpr double kSettle = 0.03;      // s: time constant of a foot that comes to rest
 constexpr double kSoftGround = 0.06;  // m: a foot sinks in at most half of that
+constexpr double kPatience = 0.3;     // s that both feet stand before one steps to where its motion has it
+constexpr double kAstray = 0.07;      // m from there, at least
+constexpr double kStepHeight = 0.04;  // m
 constexpr double kDeepest = 0.12;     // m that the hips may sink
-constexpr double kSinking = 0.1;     // s: time constant of the hips
+constexpr double kSinking = 0.1;      // s: time constant of the hips
 
 // How far a foot is lifted that is so deep in the ground: softly at first.
 double lifted(double depth) {
@@ -34,7 +37,7 @@ FootLock::FootLock(const Kinematics& kinematics, const Legs& legs)
 void FootLock::reset() {
   feet_ = {};
   feet_[0].free = feet_[1].free = kRelease;
-  sunk_ = 0;
+  sunk_ = stood_ = 0;
   fresh_ = true;
 }
 
@@ -44,8 +47,26 @@ void FootLock::lock(Foot& foot, const Vector2& shown, double seconds) const {
   foot.drift = seconds > 0 && !fresh_ ? Vector2{(shown - foot.shown) / seconds} : Vector2::Zero();
 }
 
+// A body that has come to stand does not stay in the middle of a stride.
+void FootLock::settle(double seconds) {
+  stood_ = feet_[0].locked && feet_[1].locked ? stood_ + seconds : 0;
+  if (stood_ < kPatience) return;
+  const auto astray = [&](const Foot& foot) { return (foot.place - foot.moved).norm() * scale_; };
+  Foot& foot = astray(feet_[0]) > astray(feet_[1]) ? feet_[0] : feet_[1];
+  if (astray(foot) < kAstray) return;
+  release(foot, foot.place - foot.moved, Vector2::Zero());
+  foot.steps = true;
+}
+
+// The height of a foot that steps to where its motion has it.
+double FootLock::step_height(const Foot& foot) const {
+  if (!foot.steps || foot.free >= kRelease) return 0;
+  const double phase = foot.free / kRelease;
+  return 4 * phase * (1 - phase) * kStepHeight / scale_;
+}
+
 void FootLock::release(Foot& foot, const Vector2& held, const Vector2& speed) const {
-  foot.locked = false;
+  foot.locked = foot.steps = false;
   foot.offset = held;
   foot.offset_speed = foot.drift - speed;
   foot.free = 0;
@@ -61,7 +82,8 @@ Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double se
     const double phase = foot.free / kRelease;
     away = (1 - ease_in_ease_out(phase)) * foot.offset + foot.free * (1 - phase) * (1 - phase) * foot.offset_speed;
   }
-  if (planted && !foot.locked && away.norm() * scale_ < kTooFar) lock(foot, moved + away, seconds);
+  const bool stepping = foot.steps && foot.free < kRelease;
+  if (planted && !foot.locked && !stepping && away.norm() * scale_ < kTooFar) lock(foot, moved + away, seconds);
   if (foot.locked) {
     foot.place += kSettle * (1 - std::exp(-seconds / kSettle)) * foot.drift;
     foot.drift *= std::exp(-seconds / kSettle);
@@ -84,11 +106,13 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
   kinematics_.world(pose.root, pose.rotations.data(), bones_, posed_.heads.data(), posed_.rotations.data());
   std::array<Vector3, 2> ankles;
   double sink = 0;
+  settle(seconds);
   for (int side = 0; side < 2; ++side) {
     const double over = height(side, contacts.floors[side]);
     const bool stands = contacts.feet[side][frame] && (feet_[side].locked || over * scale_ < kLanding);
     const Vector2 by = away(feet_[side], ball(skeleton, legs_[side], posed_).head<2>(), stands, seconds);
-    ankles[side] = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), lifted(-over * scale_) / scale_};
+    const double lift = lifted(-over * scale_) / scale_ + step_height(feet_[side]);
+    ankles[side] = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), lift};
     if (by.isZero(1e-9) && over >= 0) continue;
     sink = std::max(sink, std::min(kDeepest / scale_, sinking(legs_[side], posed_, ankles[side])));
   }

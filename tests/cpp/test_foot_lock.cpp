@@ -69,6 +69,38 @@ TEST(FootLock, LetsAFootGoThatIsTooFarBehind) {
   EXPECT_LT((body.shown(30, true) - free.shown(30, false)).head<2>().norm(), 0.4);
 }
 
+TEST(FootLock, StepsOutOfAStrideThatItStandsIn) {
+  Carried body;
+  Contacts both;
+  both.feet = {std::vector<bool>(1, true), std::vector<bool>(1, true)};
+  both.floors.fill({1, 1});
+  double highest = 0;
+  Vector3 before = Vector3::Zero();
+  for (int f = 0; f < 120; ++f) {
+    WorldPose pose{load_vector(body.clip.root_positions.data()), body.clip.headings[0], {}};
+    pose.root.y() += f < 6 ? 0.03 * f : 0.15;  // it goes on for a bit and stands
+    pose.rotations.assign(body.clip.rotations.begin(),
+                          body.clip.rotations.begin() + std::ptrdiff_t{4} * body.skeleton.size());
+    PosedBones moved(body.skeleton.size()), posed(body.skeleton.size());
+    body.kinematics.world(pose.root, pose.rotations.data(), moved.heads.data(), moved.rotations.data());
+    body.lock.apply(pose, both, 0, f == 0 ? 0 : kFrame);
+    body.kinematics.world(pose.root, pose.rotations.data(), posed.heads.data(), posed.rotations.data());
+    const Vector3 now = ball(body.skeleton, body.legs[0], posed), free = ball(body.skeleton, body.legs[0], moved);
+    highest = std::max(highest, now.z() - free.z());
+    if (f > 0) {
+      EXPECT_LT((now - before).norm(), 0.03) << f;
+    }
+    if (f == 15) {
+      EXPECT_GT((now - free).head<2>().norm(), 0.1);
+    }
+    if (f == 119) {
+      EXPECT_LT((now - free).head<2>().norm(), 0.02);
+    }
+    before = now;
+  }
+  EXPECT_GT(highest, 0.02);
+}
+
 TEST(FootLock, LeavesASkeletonWithoutLegsAsItIs) {
   Skeleton skeleton = humanoid();
   skeleton.roles.left_thigh = skeleton.roles.right_thigh = -1;

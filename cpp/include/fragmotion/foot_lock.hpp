@@ -11,8 +11,8 @@ namespace fragmotion {
 
 /// Keeps planted feet where they are: the ball of a foot that is planted comes to rest and stays there, the leg follows
 /// (leg.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion smoothly; the
-/// hips sink where a leg would be too short. Does nothing to a skeleton without legs. Allocates nothing once it is
-/// made.
+/// hips sink where a leg would be too short. A body that has stood for a while in the middle of a stride steps out of
+/// it. Does nothing to a skeleton without legs. Allocates nothing once it is made.
 class FootLock {
  public:
   FootLock(const Kinematics& kinematics, const Legs& legs);
@@ -30,8 +30,9 @@ class FootLock {
   // Places of a ball on the ground, m, and speeds, m/s.
   struct Foot {
     bool locked = false;
-    Vector2 moved = Vector2::Zero(), shown = Vector2::Zero();          // last, by its motion and as it was shown
-    Vector2 place = Vector2::Zero(), drift = Vector2::Zero();          // of the lock; the drift comes to rest
+    bool steps = false;                                        // it was let go to step to where its motion has it
+    Vector2 moved = Vector2::Zero(), shown = Vector2::Zero();  // last, by its motion and as it was shown
+    Vector2 place = Vector2::Zero(), drift = Vector2::Zero();  // of the lock; the drift comes to rest
     Vector2 offset = Vector2::Zero(), offset_speed = Vector2::Zero();  // from the motion, when it was let go
     double free = 0;                                                   // s since then
   };
@@ -39,6 +40,8 @@ class FootLock {
   double height(int side, const FootHeights& floor) const;
   Vector2 away(Foot& foot, const Vector2& moved, bool planted, double seconds) const;
   void lock(Foot& foot, const Vector2& shown, double seconds) const;
+  void settle(double seconds);
+  double step_height(const Foot& foot) const;
   void release(Foot& foot, const Vector2& held, const Vector2& speed) const;
 
   Kinematics kinematics_;
@@ -46,6 +49,7 @@ class FootLock {
   Legs legs_;
   std::array<Foot, 2> feet_;
   bool fresh_ = true;  // no pose was shown yet
+  double stood_ = 0;   // s that both feet are locked
   double sunk_ = 0;    // m that the hips are lowered
   PosedBones posed_;
   std::vector<int> bones_ = kinematics_.chains({legs_[0].foot, legs_[0].toe, legs_[1].foot, legs_[1].toe});
