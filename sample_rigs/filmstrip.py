@@ -51,7 +51,7 @@ def render_filmstrip(
     with stage.stage() as scene, _playing(armature, action):
         span = frame_range or _span(armature)
         numbers = sorted({round(f) for f in np.linspace(span[0], span[1], max(frames, 2))})
-        moments = [_freeze(armature, scene, frame) for frame in numbers]
+        moments = [freeze(armature, scene, frame) for frame in numbers]
         size = _stature(armature)
         stage.add_ground(scene, size)
         height = max([0.98 * size] + [_top(moment) for moment in moments])
@@ -114,7 +114,7 @@ def _span(armature: bpy.types.Object) -> tuple[float, float]:
     return scene.frame_start, scene.frame_end
 
 
-def _freeze(armature: bpy.types.Object, scene: bpy.types.Scene, frame: int) -> Moment:
+def freeze(armature: bpy.types.Object, scene: bpy.types.Scene, frame: int) -> Moment:
     """Copy the deformed meshes (or sticks for the bones) at a frame to the stage."""
     bpy.context.scene.frame_set(frame)
     depsgraph = bpy.context.evaluated_depsgraph_get()

@@ -84,6 +84,7 @@ def material(name: str, colour: tuple[float, float, float]) -> bpy.types.Materia
     shader = made.node_tree.nodes["Principled BSDF"]
     shader.inputs["Base Color"].default_value = (*colour, 1.0)
     shader.inputs["Roughness"].default_value = 0.7
+    made.diffuse_color = (*colour, 1.0)  # which Workbench shows
     return made
 
 
