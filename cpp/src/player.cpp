@@ -17,6 +17,7 @@ constexpr double kChange = 1;       // ControlDis between controls that is "a lo
 constexpr double kHaste = 10;       // m/s, as Dis, by default
 constexpr double kLook = 0.05;      // s between the moments at which a fragment may be left early
 constexpr double kWorthIt = 0.05;   // s that must be left of a fragment for leaving it early
+constexpr double kHop = 0.9;        // evident jump of what is no run
 constexpr double kInTheAir = 0.5;   // evident jump above which a fragment is played to its end
 constexpr double kJoinsWell = 1.3;  // times the Dis of the fragment that joins best, and
 constexpr double kJoinsNear = 0.3;  // m, summed as Dis, more
@@ -258,17 +259,20 @@ void Player::start_forced() {
 
 bool Player::changed(const Control& wanted) const { return character_->space.distance(wanted, decided_for_) > kChange; }
 
-// The class that the table tells; where a jump was pressed and that class does not jump, since the transition is
-// thought too bad, the one of the table's that jumps and suits best, for a button that does nothing is worse.
+// The class that the table tells. Where a jump was pressed and that class does not jump, or the other way round, since
+// the transition is thought too bad or too good for it, the one of the table's that suits best and does: nothing is
+// worse than a button that does nothing, and a hop that nobody asked for.
 int Player::tell(const Control& wanted) const {
   const Character& c = *character_;
-  const auto jumps = [&](int k) { return c.pool.fragments[c.classes.representatives[k]].evident.jump > kInTheAir; };
+  const auto jump = [&](int k) { return c.pool.fragments[c.classes.representatives[k]].evident.jump; };
+  const bool hops = wanted.jump > kInTheAir;
+  const auto obeys = [&](int k) { return hops ? !jump_waits_ || jump(k) > kInTheAir : jump(k) < kHop; };
   const int control = c.space.nearest(wanted);
   int told = (*policy_)(class_, control);
-  if (!jump_waits_ || jumps(told)) return told;
+  if (obeys(told)) return told;
   double best = 0;
   for (int k = 0; k < c.classes.count; ++k) {
-    if (!jumps(k) || c.quality(class_, k, control) <= best || !policy_->leads_to(k)) continue;
+    if (!obeys(k) || c.quality(class_, k, control) <= best || !policy_->leads_to(k)) continue;
     best = c.quality(class_, k, control);
     told = k;
   }

@@ -132,6 +132,18 @@ TEST(Player, JumpsWheneverItIsAskedTo) {
   }
 }
 
+TEST(Player, NeverHopsUnasked) {
+  const Character& c = *gait_character();
+  for (int point = 0; point < ControlSpace::kPoints; point += 2) {
+    Player player(gait_character(), unpulled(3));
+    for (int i = 0; i < 180; ++i) {
+      player.step(c.space.point(point), 1.0 / 60);
+      const int shown = c.classes.representatives[player.playing_class()];
+      ASSERT_LT(c.pool.fragments[shown].evident.jump, 0.9) << point << " at " << i;
+    }
+  }
+}
+
 // The distance between the poses that are joined where a change of the control ends a fragment early, and the time that
 // it took, each summed.
 std::pair<double, double> joined(double promptness) {
