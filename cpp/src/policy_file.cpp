@@ -163,13 +163,6 @@ void exchange_contacts(Archive& a, Contacts& contacts) {
   }
 }
 
-// The legs are found anew by their roles; how their knees bend is kept.
-template <typename Archive>
-void exchange_legs(Archive& a, const Skeleton& skeleton, Legs& legs) {
-  if (Archive::kReads) legs = find_legs(Kinematics(skeleton), {});
-  for (Leg& leg : legs) exchange_vector(a, leg.hinge);
-}
-
 template <typename Archive>
 void exchange_pool(Archive& a, PackedPool& pool) {
   exchange_skeleton(a, pool.skeleton);
@@ -219,7 +212,7 @@ void exchange(Archive& a, Character& c) {
   a.template numbers<std::int32_t>(c.bridges);
   a.template numbers<double>(c.control_model);
   a.list(c.contacts, 8, [&](auto& contacts) { exchange_contacts(a, contacts); });
-  exchange_legs(a, c.pool.skeleton, c.legs);
+  for (Leg& leg : c.legs) exchange_vector(a, leg.hinge);  // the bones are found anew by their roles
 }
 
 void require(bool holds, const char* what) {
@@ -340,6 +333,9 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     exchange(reader, character);
     if (!reader.done()) throw std::invalid_argument("it has bytes too many");
     check(character);
+    Legs legs = find_legs(Kinematics(character.pool.skeleton), {});
+    for (std::size_t side = 0; side < legs.size(); ++side) legs[side].hinge = character.legs[side].hinge;
+    character.legs = legs;
     character.coverage = coverage(character.pool.fragments, character.space);
     character.first_poses = first_poses(character.pool);
     return character;
