@@ -90,9 +90,10 @@ TEST(Allocations, AreNoneInACrowdsStepsOnOneThread) {
 
 // A player of a crowd is small: what players share is not its own.
 TEST(Allocations, GrowByFewKilobytesAPlayer) {
-  const auto bytes = [](int count) {
-    std::size_t before = allocated_bytes;
-    const Crowd crowd(gait_character(), count, {}, 1);
+  const auto character = gait_character();
+  const auto bytes = [&](int count) {
+    const std::size_t before = allocated_bytes;
+    const Crowd crowd(character, count, {}, 1);
     return allocated_bytes - before;
   };
   EXPECT_LT((bytes(2000) - bytes(1000)) / 1000, 8000U);
