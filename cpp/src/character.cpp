@@ -58,7 +58,7 @@ std::pair<double, double> two_means(const std::vector<double>& sorted) {
 std::pair<double, double> gait_speeds(const std::vector<Control>& evident, double scale) {
   std::vector<double> speeds;
   for (const Control& ev : evident) {
-    const double speed = std::hypot(ev.x, ev.y) * scale;
+    const double speed = ev.speed() * scale;
     if (speed > kMoving && ev.jump < 0.5) speeds.push_back(speed);
   }
   if (speeds.empty()) return {1.2, 3.3};

@@ -138,4 +138,19 @@ Clip clip_from_take(const Skeleton& skeleton, const Take& take) {
   return make_clip(skeleton, std::move(clip));
 }
 
+Clip part(const Clip& clip, int begin, int end) {
+  Clip result;
+  result.name = clip.name;
+  result.rate = clip.rate;
+  result.frames = end - begin + 1;
+  const std::ptrdiff_t bones = static_cast<std::ptrdiff_t>(clip.rotations.size()) / clip.frames;
+  const auto copy = [&](const std::vector<double>& from, std::ptrdiff_t width) {
+    return std::vector<double>(from.begin() + width * begin, from.begin() + width * (end + 1));
+  };
+  result.root_positions = copy(clip.root_positions, 3);
+  result.headings = copy(clip.headings, 1);
+  result.rotations = copy(clip.rotations, bones);
+  return result;
+}
+
 }  // namespace fragmotion

@@ -98,7 +98,7 @@ void judge(Performance& p, const Character& character, const Trace& trace) {
     p.velocity_error += weight * (velocity - Vector2{control.x, control.y}).norm();
     p.turn_error += weight * std::abs(speed.z() - control.turn * character.space.turn_rate());
     p.jump_error += jumps != (control.jump > kJumps) ? weight : 0;
-    p.commanded_speed += weight * std::hypot(control.x, control.y);
+    p.commanded_speed += weight * control.speed();
   }
 }
 

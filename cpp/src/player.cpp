@@ -128,7 +128,7 @@ void Player::pull(const Control& control, double seconds) {
   const Control& ev = character_->pool.fragments[now_.fragment].evident;
   const ControlSpace& space = character_->space;
   Vector2 wanted{control.x - ev.x, control.y - ev.y};
-  const double most = kPull * std::hypot(ev.x, ev.y);
+  const double most = kPull * ev.speed();
   if (wanted.norm() > most) wanted *= most / wanted.norm();
   const double turn = std::clamp(control.turn - ev.turn, -kPull, kPull) * space.turn_rate();
   const double share = 1 - std::exp(-seconds / kPulling);
@@ -157,7 +157,7 @@ void Player::pose() {
 }
 
 bool Player::stands(const Control& evident) const {
-  return std::hypot(evident.x, evident.y) * character_->space.scale() < kStill && std::abs(evident.turn) < kStill &&
+  return evident.speed() * character_->space.scale() < kStill && std::abs(evident.turn) < kStill &&
          evident.jump < kInTheAir;
 }
 

@@ -6,17 +6,15 @@
 #include <limits>
 #include <utility>
 
+#include "fragmotion/blend.hpp"
+#include "fragmotion/contacts.hpp"
 #include "fragmotion/distance.hpp"
-#include "fragmotion/foot_lock.hpp"
-#include "fragmotion/mirror.hpp"
-#include "fragmotion/pose.hpp"
+#include "fragmotion/transform.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr double kJumpHeight = 0.22;  // m, of a 1.8 m character
-constexpr double kCrouch = 0.16;      // of a hop's time: before it, and after it
-constexpr double kTuck = 0.35;        // of the body's height: how much further the feet are lifted
 constexpr double kSimilar = 0.12;     // m a bone tip: fragments this near may be interpolated
 constexpr int kCandidates = 24;       // neighbours of a control that interpolation tries in pairs
 constexpr double kHurry = 1.2;        // the most by which steps are hurried, or slowed down
@@ -25,67 +23,12 @@ constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
 constexpr double kAlike = 1e-6;                              // of effort
 constexpr double kClosed = 3;                                // m: Dis between the ends of a cycle
 
-// A pose seen from its character frame: the hips' height, and rotations with the hips' relative to the frame.
-struct BodyPose {
-  CharacterFrame frame;
-  double height = 0;
-  std::vector<double> rotations;
-};
-
-BodyPose body_pose(const Kinematics& kinematics, const Clip& clip, double at) {
-  BodyPose pose;
-  pose.rotations.resize(std::size_t{4} * kinematics.bones());
-  const Vector3 root = sample_pose(clip, at, pose.rotations.data());
-  double* hips = &pose.rotations[std::size_t{4} * kinematics.skeleton().roles.hips];
-  pose.frame = frame_at(clip, at);
-  pose.height = root.z();
-  store_quaternion(pose.frame.rotation().inverse() * load_quaternion(hips), hips);
-  return pose;
-}
-
-void append(const Kinematics& kinematics, Clip& clip, const CharacterFrame& frame, const BodyPose& pose) {
-  const Vector3 root{frame.position.x(), frame.position.y(), pose.height};
-  clip.root_positions.insert(clip.root_positions.end(), root.data(), root.data() + 3);
-  clip.headings.push_back(frame.heading);
-  clip.rotations.insert(clip.rotations.end(), pose.rotations.begin(), pose.rotations.end());
-  double* hips =
-      &clip.rotations[std::size_t{4} * (clip.frames * kinematics.bones() + kinematics.skeleton().roles.hips)];
-  store_quaternion(frame.rotation() * load_quaternion(hips), hips);
-  ++clip.frames;
-}
-
-Vector2 turned(const Vector2& v, double angle) { return Eigen::Rotation2Dd(angle) * v; }
-
 double angle_between(const Control& a, const Control& b) {
   return std::remainder(std::atan2(b.y, b.x) - std::atan2(a.y, a.x), 2 * kPi);
 }
 
 Control mix(const Control& a, const Control& b, double w) {
   return {a.x + w * (b.x - a.x), a.y + w * (b.y - a.y), a.turn + w * (b.turn - a.turn), a.jump + w * (b.jump - a.jump)};
-}
-
-double speed(const Control& control) { return std::hypot(control.x, control.y); }
-
-double lowest_tip(const Kinematics& kinematics, const Clip& clip, int frame) {
-  std::vector<Vector3> heads(kinematics.bones());
-  std::vector<Quaternion> orientations(kinematics.bones());
-  kinematics.world(clip, frame, heads.data(), orientations.data());
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const int b : measured_bones(kinematics.skeleton())) {
-    lowest = std::min(lowest, (heads[b] + orientations[b] * kinematics.skeleton().tips[b]).z());
-  }
-  return lowest;
-}
-
-void add_to_mean(BodyPose& mean, const BodyPose& pose) {
-  mean.height += pose.height;
-  if (mean.rotations.empty()) mean.rotations.resize(pose.rotations.size(), 0);
-  for (std::size_t b = 0; b < pose.rotations.size(); b += 4) {
-    using Vector4 = Eigen::Vector4d;
-    const Eigen::Map<const Vector4> q(&pose.rotations[b]);
-    Eigen::Map<Vector4> sum(&mean.rotations[b]);
-    sum += sum.dot(q) < 0 ? Vector4{-q} : Vector4{q};
-  }
 }
 
 // Adds a fragment that stands in place.
@@ -98,112 +41,6 @@ void add_standing(FragmentPool& pool, const SynthesisOptions& options) {
   const int frames = fragment.end + 1 + static_cast<int>(std::lround(options.tail * rate));
   pool.clips.push_back(make_clip(pool.skeleton, standing(Kinematics(pool.skeleton), pool, frames, rate)));
   pool.fragments.push_back(fragment);
-}
-
-// One round of a gait, each pose seen from its character frame, and the way from each to the next.
-struct Round {
-  std::vector<BodyPose> poses;
-  CharacterFrame end;  // where the next round begins
-
-  int frames() const { return static_cast<int>(poses.size()); }
-};
-
-// Frames begin .. end of a clip. Where the last is not as the first, the second half leads to that.
-Round round_of(const Kinematics& kinematics, const Clip& clip, int begin, int end) {
-  Round round;
-  for (int f = begin; f < end; ++f) round.poses.push_back(body_pose(kinematics, clip, f));
-  const BodyPose first = round.poses.front(), last = body_pose(kinematics, clip, end);
-  round.end = last.frame;
-  for (int f = 0; f < round.frames(); ++f) {
-    const double weight = ease_in_ease_out(2.0 * f / round.frames() - 1);
-    BodyPose& pose = round.poses[f];
-    pose.height += weight * (first.height - last.height);
-    for (std::size_t b = 0; b < pose.rotations.size(); b += 4) {
-      const Quaternion missing = load_quaternion(&first.rotations[b]) * load_quaternion(&last.rotations[b]).conjugate();
-      const Quaternion by = Quaternion::Identity().slerp(weight, missing);
-      store_quaternion((by * load_quaternion(&pose.rotations[b])).normalized(), &pose.rotations[b]);
-    }
-  }
-  return round;
-}
-
-// The strides of a gait as its path is changed: what the balls of the feet do about their middle is turned and scaled
-// like the path, so that a foot that stood still on the old path does so on the new one.
-class Strides {
- public:
-  Strides(const Kinematics& kinematics, const Legs& legs, const Round& round)
-      : kinematics_(kinematics), legs_(legs), posed_(kinematics.bones()) {
-    for (const BodyPose& body : round.poses) {
-      pose(body);
-      for (int side = 0; exist() && side < 2; ++side) middles_[side] += balls(side) / round.frames();
-    }
-  }
-
-  void change(BodyPose& body, double direction, double scale) {
-    if (!exist()) return;
-    pose(body);
-    for (int side = 0; side < 2; ++side) {
-      const Vector2 stride = balls(side) - middles_[side], by = scale * turned(stride, direction) - stride;
-      const Vector3 ankle = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), 0};
-      reach(kinematics_.skeleton(), legs_[side], posed_, ankle, body.rotations.data());
-    }
-  }
-
- private:
-  bool exist() const { return legs_[0].exists() && legs_[1].exists(); }
-  void pose(const BodyPose& body) {
-    kinematics_.world({0, 0, body.height}, body.rotations.data(), posed_.heads.data(), posed_.rotations.data());
-  }
-  Vector2 balls(int side) const { return ball(kinematics_.skeleton(), legs_[side], posed_).head<2>(); }
-
-  const Kinematics& kinematics_;
-  const Legs& legs_;
-  std::array<Vector2, 2> middles_{Vector2::Zero(), Vector2::Zero()};
-  PosedBones posed_;
-};
-
-// Keeps planted feet of a clip where they are. Its frames go round and round frames begin .. end of another clip, whose
-// contacts these are.
-void plant_feet(const Kinematics& kinematics, const Legs& legs, Clip& clip, const Contacts& contacts, int begin,
-                int end) {
-  if (contacts.feet[0].empty()) return;
-  FootLock lock(kinematics, legs);
-  WorldPose pose;
-  pose.rotations.resize(std::size_t{4} * kinematics.bones());
-  for (int f = 0; f < clip.frames; ++f) {
-    double *root = &clip.root_positions[std::size_t{3} * f], *rotations = &clip.rotations[pose.rotations.size() * f];
-    pose.root = load_vector(root);
-    pose.heading = clip.headings[f];
-    std::copy_n(rotations, pose.rotations.size(), pose.rotations.begin());
-    lock.apply(pose, contacts, begin + f % (end - begin), f > 0 ? 1 / clip.rate : 0);
-    store_vector(pose.root, root);
-    std::copy(pose.rotations.begin(), pose.rotations.end(), rotations);
-  }
-}
-
-// Frames begin .. end of a clip, as a clip of their own.
-Clip part(const Clip& clip, int begin, int end) {
-  Clip result;
-  result.name = clip.name;
-  result.rate = clip.rate;
-  result.frames = end - begin + 1;
-  const std::ptrdiff_t bones = static_cast<std::ptrdiff_t>(clip.rotations.size()) / clip.frames;
-  const auto copy = [&](const std::vector<double>& from, std::ptrdiff_t width) {
-    return std::vector<double>(from.begin() + width * begin, from.begin() + width * (end + 1));
-  };
-  result.root_positions = copy(clip.root_positions, 3);
-  result.headings = copy(clip.headings, 1);
-  result.rotations = copy(clip.rotations, bones);
-  return result;
-}
-
-// The height of a hop by its phase, of its greatest: a crouch, a parabola that takes off as fast as the crouch ends,
-// and a crouch again.
-double hop_at(double phase) {
-  constexpr double kFlight = 1 - 2 * kCrouch, kDip = 4 * kCrouch / (kPi * kFlight);
-  const double air = (phase - kCrouch) / kFlight;
-  if (air > 0 && air < 1) return 4 * air * (1 - air);
-  return -kDip * std::sin(kPi * std::min(phase, 1 - phase) / kCrouch);
 }
 
 // Fills the holes of a pool's control space.
@@ -345,13 +182,13 @@ class Synthesizer {
   double effort(const Cycle& cycle, const Control& control) const {
     const Control& ev = cycle.evident;
     const double moving = kMoving / space_.scale();
-    const bool moves = speed(ev) > moving, wants = speed(control) > moving, steps = wants || control.turn != 0;
+    const bool moves = ev.speed() > moving, wants = control.speed() > moving, steps = wants || control.turn != 0;
     if (moves != steps) return std::numeric_limits<double>::infinity();
     double effort = cycle.gap + 0.5 * std::abs(control.turn - ev.turn) + 2 * ev.jump;
-    if (steps && !wants) effort += speed(ev) / space_.walk();  // it steps in place
+    if (steps && !wants) effort += ev.speed() / space_.walk();  // it steps in place
     if (wants) {
       effort += std::abs(angle_between(ev, control)) / (kPi / 4);
-      const double faster = std::log(speed(control) / speed(ev)) / std::log(1.5);
+      const double faster = std::log(control.speed() / ev.speed()) / std::log(1.5);
       effort += faster > 0 ? faster * faster : -faster;
     }
     return effort;
@@ -375,9 +212,9 @@ class Synthesizer {
     const Clip& clip = pool_.clips[best->clip];
     Transform change;
     change.turn = (control.turn - best->evident.turn) * space_.turn_rate();
-    const bool moves = speed(best->evident) > kMoving / space_.scale();
-    const double faster = moves ? speed(control) / speed(best->evident) : 1;
-    if (moves && speed(control) > 0) change.direction = angle_between(best->evident, control);
+    const bool moves = best->evident.speed() > kMoving / space_.scale();
+    const double faster = moves ? control.speed() / best->evident.speed() : 1;
+    if (moves && control.speed() > 0) change.direction = angle_between(best->evident, control);
     const int length = best->end - best->begin;
     const double usual = length / (options_.longest * clip.rate);  // pieces, each as long as may be
     const int pieces = std::max(1, static_cast<int>(std::ceil(usual / kHurry - 1e-6)));
@@ -408,114 +245,6 @@ class Synthesizer {
 };
 
 }  // namespace
-
-Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
-                 int end, int frames, const Transform& transform) {
-  const bool other_path = transform.direction != 0 || transform.speed != 1, plants = other_path || transform.turn != 0;
-  const Round round = round_of(kinematics, clip, begin, end);
-  Strides strides(kinematics, legs, round);
-  Clip result;
-  result.name = clip.name + " transformed";
-  result.rate = clip.rate * transform.tempo;
-  const int length = round.frames(), before = plants ? length : 0;  // a round more, in which the feet find their places
-  const CharacterFrame start = round.poses[0].frame;
-  const double bend = round.end.heading - start.heading;  // of the path, each round
-  Vector2 position = Vector2::Zero(), origin = Vector2::Zero();
-  for (int f = -before; f <= frames; ++f) {
-    const int at = (f + before) % length, rounds = (f + before) / length - (before > 0 ? 1 : 0);
-    BodyPose pose = round.poses[at];
-    if (other_path) strides.change(pose, transform.direction, transform.speed);
-    if (f == 0) origin = position;
-    const double seconds = f / result.rate, heading = pose.frame.heading + rounds * bend;
-    append(kinematics, result, {position, heading + transform.turn * seconds}, pose);
-    const Vector2 next = at + 1 < length ? round.poses[at + 1].frame.position : round.end.position;
-    const double middle = transform.turn * (seconds + 0.5 / result.rate);
-    position += transform.speed * turned(next - pose.frame.position, transform.direction + middle + rounds * bend);
-  }
-  for (int f = 0; f < result.frames; ++f) {
-    Eigen::Map<Vector2>(&result.root_positions[std::size_t{3} * f]) += start.position - origin;
-  }
-  if (!plants) return result;
-  plant_feet(kinematics, legs, result, contacts, begin, end);
-  return part(result, before, result.frames - 1);
-}
-
-void hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, int end, double height) {
-  PosedBones posed(kinematics.bones());
-  for (int f = 0; f < end; ++f) {
-    const double rise = height * hop_at(static_cast<double>(f) / end), lift = std::max(0.0, rise) * (1 + kTuck);
-    double* root = &clip.root_positions[std::size_t{3} * f];
-    double* rotations = &clip.rotations[std::size_t{4} * kinematics.bones() * f];
-    kinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
-    root[2] += rise;
-    for (const Leg& leg : legs) {
-      if (!leg.exists()) continue;
-      const Vector3 ankle = posed.heads[leg.foot] + lift * Vector3::UnitZ();
-      PosedBones risen = posed;
-      for (Vector3& head : risen.heads) head.z() += rise;
-      reach(kinematics.skeleton(), leg, risen, ankle, rotations);
-    }
-  }
-}
-
-Clip interpolated(const Kinematics& kinematics, const FragmentPool& pool, const Fragment& a, const Fragment& b,
-                  double w, int tail) {
-  const Clip &clip_a = pool.clips[a.clip], &clip_b = pool.clips[b.clip];
-  const double seconds = (1 - w) * pool.seconds(a) + w * pool.seconds(b);
-  const int end = std::max(1, static_cast<int>(std::lround(seconds * clip_a.rate)));
-  const CharacterFrame start_a = frame_at(clip_a, a.begin), start_b = frame_at(clip_b, b.begin);
-  Clip result;
-  result.name = clip_a.name + " + " + clip_b.name;
-  result.rate = clip_a.rate;
-  for (int f = 0; f <= end + tail; ++f) {
-    const double phase = static_cast<double>(f) / end;
-    BodyPose pose = body_pose(kinematics, clip_a, a.begin + phase * (a.end - a.begin));
-    const BodyPose other = body_pose(kinematics, clip_b, b.begin + phase * (b.end - b.begin));
-    blend_rotations(pose.rotations.data(), other.rotations.data(), w, kinematics.bones(), pose.rotations.data());
-    pose.height += w * (other.height - pose.height);
-    const auto moved = [](const CharacterFrame& start, const CharacterFrame& now) {
-      return turned(now.position - start.position, -start.heading);
-    };
-    const auto headed = [](const CharacterFrame& start, const CharacterFrame& now) {
-      return now.heading - start.heading;
-    };
-    append(kinematics, result,
-           {(1 - w) * moved(start_a, pose.frame) + w * moved(start_b, other.frame),
-            (1 - w) * headed(start_a, pose.frame) + w * headed(start_b, other.frame)},
-           pose);
-  }
-  return result;
-}
-
-Clip standing(const Kinematics& kinematics, const FragmentPool& pool, int frames, double rate) {
-  std::vector<int> slowest(pool.fragments.size());
-  for (std::size_t i = 0; i < slowest.size(); ++i) slowest[i] = static_cast<int>(i);
-  std::stable_sort(slowest.begin(), slowest.end(),
-                   [&](int a, int b) { return speed(pool.fragments[a].evident) < speed(pool.fragments[b].evident); });
-  slowest.resize(std::min(slowest.size(), std::max<std::size_t>(10, slowest.size() / 5)));
-  BodyPose mean;
-  double floor = 0, count = 0;
-  for (const int i : slowest) {
-    const Fragment& fragment = pool.fragments[i];
-    for (int f = fragment.begin; f < fragment.end; ++f) {
-      add_to_mean(mean, body_pose(kinematics, pool.clips[fragment.clip], f));
-      floor += lowest_tip(kinematics, pool.clips[fragment.clip], f);
-      ++count;
-    }
-  }
-  for (int b = 0; b < 4 * kinematics.bones(); b += 4) {
-    store_quaternion(load_quaternion(&mean.rotations[b]).normalized(), &mean.rotations[b]);
-  }
-  mean.height /= count;
-  Clip clip;
-  clip.name = "standing";
-  clip.rate = rate;
-  append(kinematics, clip, {}, mean);
-  mean.height += floor / count - lowest_tip(kinematics, clip, 0);
-  clip.root_positions[2] = mean.height;
-  while (clip.frames < frames) append(kinematics, clip, {}, mean);
-  return clip;
-}
 
 void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, const SynthesisOptions& options) {
   const auto stands = [&](const Fragment& f) { return space.distance(f.evident, {}) <= options.tolerance; };

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "fragmotion/blend.hpp"
 #include "fragmotion/coverage.hpp"
 #include "fragmotion/distance.hpp"
 #include "fragmotion/leg.hpp"
 #include "fragmotion/mirror.hpp"
 #include "fragmotion/pose.hpp"
 #include "fragmotion/synthesis.hpp"
+#include "fragmotion/transform.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

@@ -29,4 +29,7 @@ Clip make_clip(const Skeleton& skeleton, Clip clip);
 /// and rest rotations as in the take. Throws std::invalid_argument naming the bone that is missing or differs.
 Clip clip_from_take(const Skeleton& skeleton, const Take& take);
 
+/// Frames begin .. end of a clip, as a clip of their own.
+Clip part(const Clip& clip, int begin, int end);
+
 }  // namespace fragmotion

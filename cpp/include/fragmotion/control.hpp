@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "fragmotion/types.hpp"
 
@@ -16,6 +17,8 @@ struct Control {
   double y = 0;     ///< Velocity forward, m/s.
   double turn = 0;  ///< Turn rate over ControlSpace::turn_rate; +1 is left, counter-clockwise from above.
   double jump = 0;  ///< 1: jumping.
+
+  double speed() const { return std::hypot(x, y); }
 };
 
 /// The weights of ControlDis (Eq. 2). Defaults: going 0.5 m/s too fast (at 1.8 m stature) weighs as much as the whole

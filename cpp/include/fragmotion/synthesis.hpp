@@ -1,40 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fragmotion/contacts.hpp"
 #include "fragmotion/evident.hpp"
-#include "fragmotion/leg.hpp"
+#include "fragmotion/fragment.hpp"
 
 namespace fragmotion {
-
-/// "Simple transforming of the original fragments" (Sec. 4): how the path of a fragment is changed; the body goes
-/// along.
-struct Transform {
-  double direction = 0;  ///< Turns the direction of travel against the body, rad, left is positive.
-  double speed = 1;      ///< Scales the path.
-  double tempo = 1;      ///< The steps follow each other so much faster.
-  double turn = 0;       ///< Turns path and body at this rate, rad/s.
-};
-
-/// `frames` + 1 frames that go round and round frames begin .. end of a clip, a gait's cycle, with the path
-/// transformed; frame 0 is where `begin` was. Where the cycle does not end as it began, its second half leads there.
-/// The strides are turned and scaled with the path, and feet that `contacts` (of the clip) say are planted stay
-/// planted.
-Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
-                 int end, int frames, const Transform& transform);
-
-/// Makes a hop of frames 0 .. end of a clip: the body goes down over the feet, through the air in a parabola of so many
-/// metres with the feet drawn up, and is caught by the knees.
-void hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, int end, double height);
-
-/// A motion between two fragments: each pose, and the path, interpolated at equal phases with weight (1 - w, w). Its
-/// last frame but `tail` is the fragments' end. Both at the rate of `a`'s clip.
-Clip interpolated(const Kinematics& kinematics, const FragmentPool& pool, const Fragment& a, const Fragment& b,
-                  double w, int tail);
-
-/// A character that stands for `frames` frames: the mean pose of the pool's slowest fragments, on the ground that they
-/// stand on. Symmetric where the pool holds the fragments' mirror images.
-Clip standing(const Kinematics& kinematics, const FragmentPool& pool, int frames, double rate);
 
 struct SynthesisOptions {
   double tolerance = 0.3;  ///< A fragment performs a control when ControlDis(Ev, control) is at most this.

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "body_pose.hpp"
+#include "fragmotion/foot_lock.hpp"
+#include "fragmotion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kCrouch = 0.16;  // of a hop's time: before it, and after it
+constexpr double kTuck = 0.35;    // of the body's height: how much further the feet are lifted
+
+// One round of a gait, each pose seen from its character frame, and the way from each to the next.
+struct Round {
+  std::vector<BodyPose> poses;
+  CharacterFrame end;  // where the next round begins
+
+  int frames() const { return static_cast<int>(poses.size()); }
+};
+
+// Frames begin .. end of a clip. Where the last is not as the first, the second half leads to that.
+Round round_of(const Kinematics& kinematics, const Clip& clip, int begin, int end) {
+  Round round;
+  for (int f = begin; f < end; ++f) round.poses.push_back(body_pose(kinematics, clip, f));
+  const BodyPose first = round.poses.front(), last = body_pose(kinematics, clip, end);
+  round.end = last.frame;
+  for (int f = 0; f < round.frames(); ++f) {
+    const double weight = ease_in_ease_out(2.0 * f / round.frames() - 1);
+    BodyPose& pose = round.poses[f];
+    pose.height += weight * (first.height - last.height);
+    for (std::size_t b = 0; b < pose.rotations.size(); b += 4) {
+      const Quaternion missing = load_quaternion(&first.rotations[b]) * load_quaternion(&last.rotations[b]).conjugate();
+      const Quaternion by = Quaternion::Identity().slerp(weight, missing);
+      store_quaternion((by * load_quaternion(&pose.rotations[b])).normalized(), &pose.rotations[b]);
+    }
+  }
+  return round;
+}
+
+// The strides of a gait as its path is changed: what the balls of the feet do about their middle is turned and scaled
+// like the path, so that a foot that stood still on the old path does so on the new one.
+class Strides {
+ public:
+  Strides(const Kinematics& kinematics, const Legs& legs, const Round& round)
+      : kinematics_(kinematics), legs_(legs), posed_(kinematics.bones()) {
+    for (const BodyPose& body : round.poses) {
+      pose(body);
+      for (int side = 0; exist() && side < 2; ++side) middles_[side] += balls(side) / round.frames();
+    }
+  }
+
+  void change(BodyPose& body, double direction, double scale) {
+    if (!exist()) return;
+    pose(body);
+    for (int side = 0; side < 2; ++side) {
+      const Vector2 stride = balls(side) - middles_[side], by = scale * turned(stride, direction) - stride;
+      const Vector3 ankle = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), 0};
+      reach(kinematics_.skeleton(), legs_[side], posed_, ankle, body.rotations.data());
+    }
+  }
+
+ private:
+  bool exist() const { return legs_[0].exists() && legs_[1].exists(); }
+  void pose(const BodyPose& body) {
+    kinematics_.world({0, 0, body.height}, body.rotations.data(), posed_.heads.data(), posed_.rotations.data());
+  }
+  Vector2 balls(int side) const { return ball(kinematics_.skeleton(), legs_[side], posed_).head<2>(); }
+
+  const Kinematics& kinematics_;
+  const Legs& legs_;
+  std::array<Vector2, 2> middles_{Vector2::Zero(), Vector2::Zero()};
+  PosedBones posed_;
+};
+
+// Keeps planted feet of a clip where they are. Its frames go round and round frames begin .. end of another clip, whose
+// contacts these are.
+void plant_feet(const Kinematics& kinematics, const Legs& legs, Clip& clip, const Contacts& contacts, int begin,
+                int end) {
+  if (contacts.feet[0].empty()) return;
+  FootLock lock(kinematics, legs);
+  WorldPose pose;
+  pose.rotations.resize(std::size_t{4} * kinematics.bones());
+  for (int f = 0; f < clip.frames; ++f) {
+    double *root = &clip.root_positions[std::size_t{3} * f], *rotations = &clip.rotations[pose.rotations.size() * f];
+    pose.root = load_vector(root);
+    pose.heading = clip.headings[f];
+    std::copy_n(rotations, pose.rotations.size(), pose.rotations.begin());
+    lock.apply(pose, contacts, begin + f % (end - begin), f > 0 ? 1 / clip.rate : 0);
+    store_vector(pose.root, root);
+    std::copy(pose.rotations.begin(), pose.rotations.end(), rotations);
+  }
+}
+
+// The height of a hop by its phase, of its greatest: a crouch, a parabola that takes off as fast as the crouch ends,
+// and a crouch again.
+double hop_at(double phase) {
+  constexpr double kFlight = 1 - 2 * kCrouch, kDip = 4 * kCrouch / (kPi * kFlight);
+  const double air = (phase - kCrouch) / kFlight;
+  if (air > 0 && air < 1) return 4 * air * (1 - air);
+  return -kDip * std::sin(kPi * std::min(phase, 1 - phase) / kCrouch);
+}
+
+}  // namespace
+
+Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
+                 int end, int frames, const Transform& transform) {
+  const bool other_path = transform.direction != 0 || transform.speed != 1, plants = other_path || transform.turn != 0;
+  const Round round = round_of(kinematics, clip, begin, end);
+  Strides strides(kinematics, legs, round);
+  Clip result;
+  result.name = clip.name + " transformed";
+  result.rate = clip.rate * transform.tempo;
+  const int length = round.frames(), before = plants ? length : 0;  // a round more, in which the feet find their places
+  const CharacterFrame start = round.poses[0].frame;
+  const double bend = round.end.heading - start.heading;  // of the path, each round
+  Vector2 position = Vector2::Zero(), origin = Vector2::Zero();
+  for (int f = -before; f <= frames; ++f) {
+    const int at = (f + before) % length, rounds = (f + before) / length - (before > 0 ? 1 : 0);
+    BodyPose pose = round.poses[at];
+    if (other_path) strides.change(pose, transform.direction, transform.speed);
+    if (f == 0) origin = position;
+    const double seconds = f / result.rate, heading = pose.frame.heading + rounds * bend;
+    append(kinematics, result, {position, heading + transform.turn * seconds}, pose);
+    const Vector2 next = at + 1 < length ? round.poses[at + 1].frame.position : round.end.position;
+    const double middle = transform.turn * (seconds + 0.5 / result.rate);
+    position += transform.speed * turned(next - pose.frame.position, transform.direction + middle + rounds * bend);
+  }
+  for (int f = 0; f < result.frames; ++f) {
+    Eigen::Map<Vector2>(&result.root_positions[std::size_t{3} * f]) += start.position - origin;
+  }
+  if (!plants) return result;
+  plant_feet(kinematics, legs, result, contacts, begin, end);
+  return part(result, before, result.frames - 1);
+}
+
+void hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, int end, double height) {
+  PosedBones posed(kinematics.bones());
+  for (int f = 0; f < end; ++f) {
+    const double rise = height * hop_at(static_cast<double>(f) / end), lift = std::max(0.0, rise) * (1 + kTuck);
+    double* root = &clip.root_positions[std::size_t{3} * f];
+    double* rotations = &clip.rotations[std::size_t{4} * kinematics.bones() * f];
+    kinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    root[2] += rise;
+    for (const Leg& leg : legs) {
+      if (!leg.exists()) continue;
+      const Vector3 ankle = posed.heads[leg.foot] + lift * Vector3::UnitZ();
+      PosedBones risen = posed;
+      for (Vector3& head : risen.heads) head.z() += rise;
+      reach(kinematics.skeleton(), leg, risen, ankle, rotations);
+    }
+  }
+}
+
+}  // namespace fragmotion
