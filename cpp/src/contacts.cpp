@@ -71,6 +71,18 @@ std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, 
   return flags;
 }
 
+// The frames from which on a foot stands, or does not.
+std::vector<int> changes(const Contacts& contacts, bool stands) {
+  std::vector<int> frames;
+  for (int f = 1; f < static_cast<int>(contacts.feet[0].size()); ++f) {
+    for (const std::vector<bool>& foot : contacts.feet) {
+      const bool changes = foot[f] == stands && foot[f - 1] != stands;
+      if (changes && (frames.empty() || frames.back() != f)) frames.push_back(f);
+    }
+  }
+  return frames;
+}
+
 }  // namespace
 
 Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
@@ -88,14 +100,8 @@ Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Flo
   return contacts;
 }
 
-std::vector<int> foot_strikes(const Contacts& contacts) {
-  std::vector<int> strikes;
-  for (int f = 1; f < static_cast<int>(contacts.feet[0].size()); ++f) {
-    for (const std::vector<bool>& foot : contacts.feet) {
-      if (foot[f] && !foot[f - 1] && (strikes.empty() || strikes.back() != f)) strikes.push_back(f);
-    }
-  }
-  return strikes;
-}
+std::vector<int> foot_strikes(const Contacts& contacts) { return changes(contacts, true); }
+
+std::vector<int> foot_lifts(const Contacts& contacts) { return changes(contacts, false); }
 
 }  // namespace fragmotion

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace fragmotion {
 
@@ -10,6 +11,24 @@ const char* origin_name(Origin origin) {
   static constexpr const char* kNames[] = {"captured", "mirrored", "interpolated", "transformed"};
   return kNames[static_cast<int>(origin)];
 }
+
+namespace {
+
+// Adds those of the frames that lie between cuts more than `longer` apart and no nearer to them than `shortest`.
+void add_cuts(std::vector<int>& cuts, const std::vector<int>& frames, int shortest, int longer) {
+  std::vector<int> all{cuts.front()};
+  for (std::size_t i = 1; i < cuts.size(); ++i) {
+    if (cuts[i] - cuts[i - 1] > longer) {
+      for (const int frame : frames) {
+        if (frame - all.back() >= shortest && cuts[i] - frame >= shortest) all.push_back(frame);
+      }
+    }
+    all.push_back(cuts[i]);
+  }
+  cuts = std::move(all);
+}
+
+}  // namespace
 
 void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const CutOptions& options) {
   const Clip& source = pool.clips[clip];
@@ -20,13 +39,11 @@ void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const
                                 std::to_string(options.longest) + " s holds no whole frame of clip \"" + source.name +
                                 "\" at " + std::to_string(source.rate) + " frames a second");
   }
-  std::vector<int> cuts{0};
+  std::vector<int> cuts{0, source.frames - 1};
   if (options.at_gait_events) {
-    for (const int strike : foot_strikes(contacts)) {
-      if (strike - cuts.back() >= shortest && source.frames - 1 - strike >= shortest) cuts.push_back(strike);
-    }
+    add_cuts(cuts, foot_strikes(contacts), shortest, shortest);
+    add_cuts(cuts, foot_lifts(contacts), shortest, longest);
   }
-  cuts.push_back(source.frames - 1);
   for (std::size_t i = 1; i < cuts.size(); ++i) {
     const int length = cuts[i] - cuts[i - 1];
     if (length < shortest) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -92,6 +93,21 @@ TEST(CutFragments, CutsAtTheStrikesOfTheFeet) {
     int nearest = 1000;
     for (const Fragment& f : pool.fragments) nearest = std::min(nearest, std::abs(f.begin - strike));
     EXPECT_LE(nearest, 5) << "no cut near the strike at frame " << strike;
+  }
+}
+
+TEST(CutFragments, CutsLongStepsWhereAFootLeavesTheGroundAndNotInMidSwing) {
+  Gait gait;
+  gait.rate = 60;
+  gait.cycle = 1.2;  // steps of 0.6 s
+  const Clip clip = gait_clip(gait);
+  const Contacts contacts = find_contacts(Kinematics(humanoid()), clip);
+  std::vector<int> events = foot_strikes(contacts), lifts = foot_lifts(contacts);
+  events.insert(events.end(), lifts.begin(), lifts.end());
+  const FragmentPool pool = gait_pool({clip});
+  ASSERT_GT(pool.fragments.size(), 6U);
+  for (std::size_t i = 1; i < pool.fragments.size(); ++i) {
+    EXPECT_EQ(std::count(events.begin(), events.end(), pool.fragments[i].begin), 1) << pool.fragments[i].begin;
   }
 }
 

@@ -29,4 +29,7 @@ Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Flo
 /// The frames in which a foot strikes the ground, in order: the gait events between fragments.
 std::vector<int> foot_strikes(const Contacts& contacts);
 
+/// The frames in which a foot leaves the ground, in order.
+std::vector<int> foot_lifts(const Contacts& contacts);
+
 }  // namespace fragmotion
