@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -20,6 +21,7 @@ constexpr int kCandidates = 24;       // neighbours of a control that interpolat
 constexpr double kHurry = 1.2;        // the most by which steps are hurried, or slowed down
 constexpr double kStandSeconds = 0.5;
 constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
+constexpr double kBackward = 1;                              // of effort: to be played backward
 constexpr double kAlike = 1e-6;                              // of effort
 constexpr double kClosed = 3;                                // m: Dis between the ends of a cycle
 
@@ -153,11 +155,19 @@ class Synthesizer {
   int trajectory_points() const { return kPoses * static_cast<int>(measured_bones(pool_.skeleton).size()); }
 
   // Fragments that follow each other in a take and end nearly as they began: played again and again, they are a gait.
+  // Played backward, they go where they came from.
   struct Cycle {
     int clip = 0, begin = 0, end = 0;  // frames
     Control evident;
     double gap = 0;  // Dis from its last pose to its first
+
+    bool backward() const { return end < begin; }
   };
+
+  static Cycle backward(const Cycle& cycle) {
+    const Control& ev = cycle.evident;
+    return {cycle.clip, cycle.end, cycle.begin, {-ev.x, -ev.y, -ev.turn, ev.jump}, cycle.gap};
+  }
 
   void find_cycles() {
     for (int first = 0; first < originals_; ++first) {
@@ -172,7 +182,9 @@ class Synthesizer {
         cycle.evident = mix(cycle.evident, f.evident, share);
         if (seconds > kLongestCycle) break;
         cycle.gap = transition_distance(trajectories_, last, first);
-        if (seconds > kShortestCycle && cycle.gap < kClosed) cycles_.push_back(cycle);
+        if (seconds < kShortestCycle || cycle.gap > kClosed) continue;
+        cycles_.push_back(cycle);
+        cycles_.push_back(backward(cycle));
       }
     }
   }
@@ -185,6 +197,7 @@ class Synthesizer {
     const bool moves = ev.speed() > moving, wants = control.speed() > moving, steps = wants || control.turn != 0;
     if (moves != steps) return std::numeric_limits<double>::infinity();
     double effort = cycle.gap + 0.5 * std::abs(control.turn - ev.turn) + 2 * ev.jump;
+    if (cycle.backward()) effort += kBackward;
     if (steps && !wants) effort += ev.speed() / space_.walk();  // it steps in place
     if (wants) {
       effort += std::abs(angle_between(ev, control)) / (kPi / 4);
@@ -215,7 +228,7 @@ class Synthesizer {
     const bool moves = best->evident.speed() > kMoving / space_.scale();
     const double faster = moves ? control.speed() / best->evident.speed() : 1;
     if (moves && control.speed() > 0) change.direction = angle_between(best->evident, control);
-    const int length = best->end - best->begin;
+    const int length = std::abs(best->end - best->begin);
     const double usual = length / (options_.longest * clip.rate);  // pieces, each as long as may be
     const int pieces = std::max(1, static_cast<int>(std::ceil(usual / kHurry - 1e-6)));
     change.tempo = std::max(usual / pieces, std::clamp(std::sqrt(faster), 1 / kHurry, kHurry));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "body_pose.hpp"
 #include "fragmotion/foot_lock.hpp"
@@ -22,10 +23,15 @@ struct Round {
   int frames() const { return static_cast<int>(poses.size()); }
 };
 
+// The frame of a clip that is number `f` of a motion that goes round and round frames begin .. end of it.
+int frame_of(int f, int begin, int end) { return begin < end ? begin + f % (end - begin) : begin - f % (begin - end); }
+
 // Frames begin .. end of a clip. Where the last is not as the first, the second half leads to that.
 Round round_of(const Kinematics& kinematics, const Clip& clip, int begin, int end) {
   Round round;
-  for (int f = begin; f < end; ++f) round.poses.push_back(body_pose(kinematics, clip, f));
+  for (int f = 0; f < std::abs(end - begin); ++f) {
+    round.poses.push_back(body_pose(kinematics, clip, frame_of(f, begin, end)));
+  }
   const BodyPose first = round.poses.front(), last = body_pose(kinematics, clip, end);
   round.end = last.frame;
   for (int f = 0; f < round.frames(); ++f) {
@@ -89,7 +95,7 @@ void plant_feet(const Kinematics& kinematics, const Legs& legs, Clip& clip, cons
     pose.root = load_vector(root);
     pose.heading = clip.headings[f];
     std::copy_n(rotations, pose.rotations.size(), pose.rotations.begin());
-    lock.apply(pose, contacts, begin + f % (end - begin), f > 0 ? 1 / clip.rate : 0);
+    lock.apply(pose, contacts, frame_of(f, begin, end), f > 0 ? 1 / clip.rate : 0);
     store_vector(pose.root, root);
     std::copy(pose.rotations.begin(), pose.rotations.end(), rotations);
   }

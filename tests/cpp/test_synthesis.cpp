@@ -88,6 +88,26 @@ TEST(Transformed, LeadsBackToItsBeginning) {
   }
 }
 
+TEST(Transformed, BackwardIsTheSourceBackward) {
+  Gait gait;
+  gait.turn = 0.5;
+  const Clip clip = gait_clip(gait);
+  const int cycle = cycle_of(gait, clip);
+  const Clip back = transformed(kKinematics, find_legs(kKinematics, {clip}), clip, find_contacts(kKinematics, clip),
+                                20 + cycle, 20, cycle, {});
+  ASSERT_EQ(back.frames, cycle + 1);
+  for (int f = 0; f < back.frames; ++f) {
+    const int source = 20 + cycle - f;
+    EXPECT_LT((load_vector(&back.root_positions[3 * f]) - load_vector(&clip.root_positions[3 * source])).norm(), 1e-3);
+    EXPECT_NEAR(back.headings[f], clip.headings[source], 1e-3) << f;
+    const std::size_t width = std::size_t{4} * kSkeleton.size();
+    for (std::size_t b = 0; b < width; b += 4) {
+      const Quaternion q = load_quaternion(&back.rotations[f * width + b]);
+      EXPECT_LT(q.angularDistance(load_quaternion(&clip.rotations[source * width + b])), 0.01);
+    }
+  }
+}
+
 TEST(Transformed, DoesToTheEvidentControlWhatItSays) {
   const ControlSpace space;
   Random random(1);
@@ -288,6 +308,41 @@ TEST(Synthesize, SaysTruelyWhatItsFragmentsAre) {
     EXPECT_NEAR(space.distance(found, f.evident), 0, 1e-6);
   }
   EXPECT_GT(made, 50);
+}
+
+// The greatest speed of a knee, m/s.
+double fastest_knee(const Clip& clip, int begin, int end) {
+  const Legs legs = find_legs(kKinematics, {clip});
+  PosedBones posed(kKinematics.bones());
+  std::array<Vector3, 2> before;
+  double most = 0;
+  for (int f = begin; f <= end; ++f) {
+    kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    for (int side = 0; side < 2; ++side) {
+      const Vector3 now = posed.heads[legs[side].knee];
+      if (f > begin) most = std::max(most, (now - before[side]).norm() * clip.rate);
+      before[side] = now;
+    }
+  }
+  return most;
+}
+
+TEST(Synthesize, RunsBackwardWithoutKneesThatSnap) {
+  Gait run;
+  run.y = 3;
+  run.cycle = 0.8;
+  run.rate = 60;
+  const Clip clip = gait_clip(run);
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  const FragmentPool pool = synthesized({clip}, space, {});
+  const double own = fastest_knee(pool.clips[0], 0, pool.clips[0].frames - 1);
+  int found = 0;
+  for (const Fragment& f : pool.fragments) {
+    if (f.origin != Origin::transformed || f.evident.y > -2.5 || f.evident.jump > 0.5) continue;
+    ++found;
+    EXPECT_LT(fastest_knee(pool.clips[f.clip], f.begin, f.end), 1.1 * own);
+  }
+  EXPECT_GT(found, 1);
 }
 
 TEST(Synthesize, LetsEveryCharacterStand) {
