@@ -12,13 +12,16 @@ namespace {
 // Lengths are those of a character of 1.8 m.
 constexpr double kTooFar = 0.3;       // m from its motion at which a foot is let go
 constexpr double kLanding = 0.06;     // m over the floor within which a foot is planted
-constexpr double kRelease = 0.3;      // s in which a foot that is let go gets back to its motion
+constexpr double kStrained = 0.05;    // m that the hips would have to sink for a foot: from there it steps on
+constexpr double kRelease = 0.3;      // s in which a foot that is let go gets back to its motion, most of the way
+constexpr double kHaste = 3.5;        // (1 + kHaste) exp(-kHaste) of the way is left then
+constexpr double kForgets = 4;        // times that, until nothing is seen of it
 constexpr double kSettle = 0.03;      // s: time constant of a foot that comes to rest
 constexpr double kSoftGround = 0.06;  // m: a foot sinks in at most half of that
 constexpr double kPatience = 0.3;     // s that both feet stand before one steps to where its motion has it
 constexpr double kAstray = 0.07;      // m from there, at least
 constexpr double kStepHeight = 0.04;  // m
-constexpr double kDeepest = 0.12;     // m that the hips may sink
+constexpr double kDeepest = 0.08;     // m that the hips may sink
 constexpr double kSinking = 0.1;      // s: time constant of the hips
 
 // How far a foot is lifted that is so deep in the ground: softly at first.
@@ -54,8 +57,7 @@ void FootLock::settle(double seconds) {
   const auto astray = [&](const Foot& foot) { return (foot.place - foot.moved).norm() * scale_; };
   Foot& foot = astray(feet_[0]) > astray(feet_[1]) ? feet_[0] : feet_[1];
   if (astray(foot) < kAstray) return;
-  release(foot, foot.place - foot.moved, Vector2::Zero());
-  foot.steps = true;
+  step_on(foot, foot.place - foot.moved);
 }
 
 // The height of a foot that steps to where its motion has it.
@@ -65,22 +67,28 @@ double FootLock::step_height(const Foot& foot) const {
   return 4 * phase * (1 - phase) * kStepHeight / scale_;
 }
 
-void FootLock::release(Foot& foot, const Vector2& held, const Vector2& speed) const {
+void FootLock::release(Foot& foot, const Vector2& held) const {
   foot.locked = foot.steps = false;
   foot.offset = held;
-  foot.offset_speed = foot.drift - speed;
+  foot.offset_speed = foot.drift - foot.speed;
   foot.free = 0;
+}
+
+void FootLock::step_on(Foot& foot, const Vector2& held) const {
+  release(foot, held);
+  foot.steps = true;
 }
 
 // How far the foot is shown from where its motion has it.
 Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double seconds) const {
-  const Vector2 speed = seconds > 0 && !fresh_ ? Vector2{(moved - foot.moved) / seconds} : Vector2::Zero();
+  foot.speed = seconds > 0 && !fresh_ ? Vector2{(moved - foot.moved) / seconds} : Vector2::Zero();
   foot.moved = moved;
   foot.free += seconds;
   Vector2 away = Vector2::Zero();
-  if (foot.free < kRelease) {
-    const double phase = foot.free / kRelease;
-    away = (1 - ease_in_ease_out(phase)) * foot.offset + foot.free * (1 - phase) * (1 - phase) * foot.offset_speed;
+  if (foot.free < kForgets * kRelease) {
+    constexpr double kDamping = kHaste / kRelease;
+    const Vector2 rate = foot.offset_speed + kDamping * foot.offset;
+    away = std::exp(-kDamping * foot.free) * (foot.offset + foot.free * rate);
   }
   const bool stepping = foot.steps && foot.free < kRelease;
   if (planted && !foot.locked && !stepping && away.norm() * scale_ < kTooFar) lock(foot, moved + away, seconds);
@@ -88,7 +96,11 @@ Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double se
     foot.place += kSettle * (1 - std::exp(-seconds / kSettle)) * foot.drift;
     foot.drift *= std::exp(-seconds / kSettle);
     away = foot.place - moved;
-    if (!planted || away.norm() * scale_ > kTooFar) release(foot, away, speed);
+    if (!planted) {
+      release(foot, away);
+    } else if (away.norm() * scale_ > kTooFar) {
+      step_on(foot, away);
+    }
   }
   foot.shown = moved + away;
   return away;
@@ -114,7 +126,9 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     const double lift = lifted(-over * scale_) / scale_ + step_height(feet_[side]);
     ankles[side] = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), lift};
     if (by.isZero(1e-9) && over >= 0) continue;
-    sink = std::max(sink, std::min(kDeepest / scale_, sinking(legs_[side], posed_, ankles[side])));
+    const double strain = sinking(legs_[side], posed_, ankles[side]);
+    if (feet_[side].locked && strain * scale_ > kStrained) step_on(feet_[side], by);
+    sink = std::max(sink, std::min(kDeepest / scale_, strain));
   }
   fresh_ = false;
   sunk_ += (sink - sunk_) * (1 - std::exp(-seconds / kSinking));

@@ -11,8 +11,9 @@ namespace fragmotion {
 
 /// Keeps planted feet where they are: the ball of a foot that is planted comes to rest and stays there, the leg follows
 /// (leg.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion smoothly; the
-/// hips sink where a leg would be too short. A body that has stood for a while in the middle of a stride steps out of
-/// it. Does nothing to a skeleton without legs. Allocates nothing once it is made.
+/// hips sink where a leg would be a little too short, and the foot steps on where it would be much too short. A body
+/// that has stood for a while in the middle of a stride steps out of it. Does nothing to a skeleton without legs.
+/// Allocates nothing once it is made.
 class FootLock {
  public:
   FootLock(const Kinematics& kinematics, const Legs& legs);
@@ -32,6 +33,7 @@ class FootLock {
     bool locked = false;
     bool steps = false;                                        // it was let go to step to where its motion has it
     Vector2 moved = Vector2::Zero(), shown = Vector2::Zero();  // last, by its motion and as it was shown
+    Vector2 speed = Vector2::Zero();                           // of its motion
     Vector2 place = Vector2::Zero(), drift = Vector2::Zero();  // of the lock; the drift comes to rest
     Vector2 offset = Vector2::Zero(), offset_speed = Vector2::Zero();  // from the motion, when it was let go
     double free = 0;                                                   // s since then
@@ -42,7 +44,8 @@ class FootLock {
   void lock(Foot& foot, const Vector2& shown, double seconds) const;
   void settle(double seconds);
   double step_height(const Foot& foot) const;
-  void release(Foot& foot, const Vector2& held, const Vector2& speed) const;
+  void release(Foot& foot, const Vector2& held) const;
+  void step_on(Foot& foot, const Vector2& held) const;
 
   Kinematics kinematics_;
   double scale_;
