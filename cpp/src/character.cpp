@@ -294,7 +294,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   c.report["synthesize_seconds"] = stage.lap();
   report(progress, 0.9, "Measuring fragments");
   material.trajectories = trajectories(pool, kPoses, options.threads);
-  c.first_poses = first_poses(c.pool);
+  c.openings = openings(c.pool, options.threads);
   for (const Trace& trace : traces) material.traces.push_back(snap(c.space, trace));
   c.report["measure_seconds"] = stage.lap();
   return material;

@@ -87,7 +87,24 @@ Trajectories trajectories(const Pool<AnyClip>& pool, int poses, int threads) {
 template Trajectories trajectories(const FragmentPool& pool, int poses, int threads);
 template Trajectories trajectories(const PackedPool& pool, int poses, int threads);
 
-std::vector<float> first_poses(const PackedPool& pool) { return trajectories(pool, 2).first; }
+std::vector<float> openings(const PackedPool& pool, int threads) {
+  const int points = BodyTips(pool.skeleton).points(), stride = padded(2 * points);
+  std::vector<float> openings(pool.fragments.size() * 3 * stride, 0);
+  parallel_for(static_cast<int>(pool.fragments.size()), thread_count(threads), [&](int begin, int end) {
+    BodyTips tips(pool.skeleton);
+    std::vector<double> rotations(std::size_t{4} * pool.skeleton.size());
+    for (int i = begin; i < end; ++i) {
+      const Fragment& f = pool.fragments[i];
+      const PackedClip& clip = pool.clips[f.clip];
+      for (int later = 0; later < 2; ++later) {
+        tips.pose(sample_pose(clip, f.begin + later * kOpening * clip.rate, rotations.data()), rotations.data());
+        tips.write(frame_at(clip, f.begin), &openings[static_cast<std::size_t>(i) * 3 * stride], stride,
+                   later * points);
+      }
+    }
+  });
+  return openings;
+}
 
 float fragment_distance(const Trajectories& t, int f, int g) {
   return tip_distance(t.trajectory(f), t.trajectory(g), t.stride);

@@ -33,7 +33,7 @@ Player::Stage::Stage(const Character& character)
     : kinematics(character.pool.skeleton),
       members(character.classes.members()),
       tips(character.pool.skeleton),
-      last_pose(character.first_poses.size() / character.pool.fragments.size()) {
+      onward(character.openings.size() / character.pool.fragments.size()) {
   fitting.reserve(character.pool.fragments.size());
   for (WorldPose& pose : poses) pose.rotations.resize(std::size_t{4} * kinematics.bones());
 }
@@ -180,33 +180,57 @@ double Player::left() const {
   return character_->pool.seconds(character_->pool.fragments[now_.fragment]) - now_.seconds;
 }
 
-// The members that perform the control nearly as well as any of them does, with how far they are from a pose;
-// tells the least.
-float Player::find_fitting(int next_class, const Control& control, const WorldPose& pose) const {
+// What plays as it is shown at a time since its first pose.
+void Player::sample_shown(Placed placed, double seconds, WorldPose& pose) const {
+  placed.seconds = seconds;
+  sample(placed, pose);
+  if (stitching_ == Stitching::inertialize) inertia_.apply(std::max(0.0, seconds), pose);
+}
+
+// The tips of what plays, at a time since its first pose, and of how it would go on for kOpening: as it did for as long
+// until then.
+void Player::find_onward(double seconds) const {
+  WorldPose& pose = stage_->poses[0];
+  std::vector<float>& onward = stage_->onward;
+  const int stride = static_cast<int>(onward.size()) / 3, points = stage_->tips.points();
+  sample_shown(now_, seconds, pose);
+  const CharacterFrame frame{pose.root.head<2>(), pose.heading};
+  stage_->tips.pose(pose.root, pose.rotations.data());
+  stage_->tips.write(frame, onward.data(), stride, 0);
+  sample_shown(now_, seconds - kOpening, pose);
+  stage_->tips.pose(pose.root, pose.rotations.data());
+  stage_->tips.write(frame, onward.data(), stride, points);
+  for (int axis = 0; axis < 3; ++axis) {
+    float *is = &onward[static_cast<std::size_t>(axis) * stride], *goes_on = is + points;
+    for (int i = 0; i < points; ++i) goes_on[i] = 2 * is[i] - goes_on[i];
+  }
+}
+
+// The members that perform the control nearly as well as any of them does, with how far their beginnings are from how
+// what plays would go on after a time since its first pose; tells the least.
+float Player::find_fitting(int next_class, const Control& control, double seconds) const {
   const Character& c = *character_;
   const auto error = [&](int fragment) { return c.space.distance(c.pool.fragments[fragment].evident, control); };
   double best = error(c.classes.representatives[next_class]);
   const double usual = best;
   for (const int fragment : stage_->members[next_class]) best = std::min(best, error(fragment));
   const double allowed = best + kAsWell * (usual - best);
-  std::vector<float>& last = stage_->last_pose;
+  find_onward(seconds);
+  const std::vector<float>& onward = stage_->onward;
   std::vector<std::pair<float, int>>& fitting = stage_->fitting;
-  const int stride = static_cast<int>(last.size()) / 3;
-  stage_->tips.pose(pose.root, pose.rotations.data());
-  stage_->tips.write({pose.root.head<2>(), pose.heading}, last.data(), stride, 0);
   float least = std::numeric_limits<float>::infinity();
   fitting.clear();
   for (const int fragment : stage_->members[next_class]) {
     if (error(fragment) > allowed) continue;
-    const float* first = &c.first_poses[last.size() * fragment];
-    fitting.emplace_back(tip_distance(last.data(), first, stride), fragment);
+    const float* opening = &c.openings[onward.size() * fragment];
+    fitting.emplace_back(tip_distance(onward.data(), opening, static_cast<int>(onward.size()) / 3) / 2, fragment);
     least = std::min(least, fitting.back().first);
   }
   return least;
 }
 
 int Player::draw(int next_class, const Control& control) {
-  const float least = find_fitting(next_class, control, pose_);
+  const float least = find_fitting(next_class, control, now_.seconds);
   std::vector<std::pair<float, int>>& fitting = stage_->fitting;
   const auto joins = [&](const auto& each) { return each.first <= kJoinsWell * least + kJoinsNear; };
   const auto end = std::partition(fitting.begin(), fitting.end(), joins);
@@ -218,14 +242,11 @@ void Player::stitch(const Placed& old) {
   constexpr double kApart = 1.0 / 60;  // s over which speeds are measured, within both fragments
   auto& [old_before, old_now, fresh, fresh_later] = stage_->poses;
   old_now = pose_;
-  Placed at = old;
-  at.seconds -= kApart;
-  sample(at, old_before);
-  inertia_.apply(std::max(0.0, at.seconds), old_before);
+  sample_shown(old, old.seconds - kApart, old_before);
   sample(now_, fresh);
-  at = now_;
-  at.seconds += kApart;
-  sample(at, fresh_later);
+  Placed later = now_;
+  later.seconds += kApart;
+  sample(later, fresh_later);
   inertia_.begin(old_before, old_now, fresh, fresh_later, kApart, stitch_);
 }
 
@@ -296,15 +317,10 @@ int Player::decide(const Control& wanted) {
 double Player::find_exit(const Control& wanted) const {
   const double haste = kHaste * promptness_ / std::max(1 - promptness_, kInstant);
   const int next = tell(wanted);
-  WorldPose& pose = stage_->poses[0];
   const double rest = left();
   double best = 0, least = std::numeric_limits<double>::infinity();
   for (double wait = 0;; wait = std::min(wait + kLook, rest)) {
-    Placed then = now_;
-    then.seconds += wait;
-    sample(then, pose);
-    if (stitching_ == Stitching::inertialize) inertia_.apply(then.seconds, pose);
-    const double cost = find_fitting(next, wanted, pose) + haste * wait;
+    const double cost = find_fitting(next, wanted, now_.seconds + wait) + haste * wait;
     if (cost < least) least = cost, best = wait;
     if (wait >= rest) return now_.seconds + best;
   }

@@ -337,7 +337,7 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     for (std::size_t side = 0; side < legs.size(); ++side) legs[side].hinge = character.legs[side].hinge;
     character.legs = legs;
     character.coverage = coverage(character.pool.fragments, character.space);
-    character.first_poses = first_poses(character.pool);
+    character.openings = openings(character.pool);
     return character;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(name + " is refused: " + error.what());

@@ -172,6 +172,26 @@ TEST(Trajectories, CountTheMotionOfTheRoot) {
   EXPECT_GT(fragment_distance(t, 0, t.count - 1), 16 * points * 0.05);  // 5 cm a tip and pose at the least
 }
 
+TEST(Openings, AreTheFirstPoseAndTheOneATenthOfASecondLaterAsSeenFromThere) {
+  const FragmentPool pool = gait_pool(gait_takes());
+  const PackedPool packed = pack(pool);
+  const std::vector<float> made = openings(packed);
+  const int points = trajectories(pool).tips, stride = padded(2 * points);
+  ASSERT_EQ(made.size(), pool.fragments.size() * 3 * stride);
+  BodyTips tips(pool.skeleton);
+  std::vector<double> rotations(std::size_t{4} * pool.skeleton.size());
+  Rows expected(std::size_t{3} * stride, 0);
+  for (std::size_t i = 0; i < pool.fragments.size(); ++i) {
+    const Fragment& f = pool.fragments[i];
+    const Clip& clip = pool.clips[f.clip];
+    for (const double later : {0.0, 0.1}) {
+      tips.pose(sample_pose(clip, f.begin + later * clip.rate, rotations.data()), rotations.data());
+      tips.write(frame_at(clip, f.begin), expected.data(), stride, later > 0 ? points : 0);
+    }
+    EXPECT_LT(tip_distance(expected.data(), &made[i * 3 * stride], stride) / (2 * points), 1e-3) << i;
+  }
+}
+
 TEST(FragmentDistance, DoesNotSeeWhereTheTakesStandOrFace) {
   FragmentPool pool = small_pool();
   const Trajectories before = trajectories(pool);

@@ -28,7 +28,7 @@ struct Character {
   Coverage coverage;
   std::vector<Contacts> contacts;        ///< Of each clip of the pool.
   Legs legs;                             ///< As they bend in the clips.
-  std::vector<float> first_poses;        ///< Trajectories::first of the fragments.
+  std::vector<float> openings;           ///< openings() of the fragments.
   std::map<std::string, double> report;  ///< Figures of the build: counts, and seconds of each stage. Not saved.
 
   /// The policy of that name, or the one that drives where the name is empty. Throws std::invalid_argument listing

@@ -61,8 +61,12 @@ struct Trajectories {
 template <typename AnyClip>
 Trajectories trajectories(const Pool<AnyClip>& pool, int poses = kPoses, int threads = 0);
 
-/// Trajectories::first of a pool.
-std::vector<float> first_poses(const PackedPool& pool);
+/// How much of its motion decides how well a fragment joins on to another, s.
+constexpr double kOpening = 0.1;
+
+/// The first pose of each fragment and the one kOpening later, both in the character frame of the first: [fragments,
+/// 3, padded(2 * tips)], as Dis sees them. The distance between two says how alike places and speeds are.
+std::vector<float> openings(const PackedPool& pool, int threads = 0);
 
 /// Dis(f, g) of two fragments: summed over corresponding poses.
 float fragment_distance(const Trajectories& t, int f, int g);

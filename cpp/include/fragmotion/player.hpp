@@ -88,7 +88,7 @@ class Player {
     Kinematics kinematics;
     std::vector<std::vector<int>> members;
     BodyTips tips;
-    std::vector<float> last_pose;                // tips of what is shown
+    std::vector<float> onward;                   // tips of what is shown, and of how it would go on
     std::vector<std::pair<float, int>> fitting;  // fragments by their distance from it
     std::array<WorldPose, 4> poses;
   };
@@ -107,7 +107,9 @@ class Player {
   Placed place(int fragment, const CharacterFrame& frame) const;
   void sample(const Placed& placed, WorldPose& pose) const;
   void stitch(const Placed& old);
-  float find_fitting(int next_class, const Control& control, const WorldPose& pose) const;
+  void sample_shown(Placed placed, double seconds, WorldPose& pose) const;
+  void find_onward(double seconds) const;
+  float find_fitting(int next_class, const Control& control, double seconds) const;
   int draw(int next_class, const Control& control);
   double find_exit(const Control& wanted) const;
   void start(int next_class, int fragment);
