@@ -351,6 +351,8 @@ class Performance:
     """[F]"""
     fragments: Ints
     """[F]"""
+    entered: Ints
+    """[F]: fragments begun since the first frame; one may follow itself."""
     quality: float
     """Time-weighted mean of Eq. 2 over what was played, 0..1."""
     velocity_error: float
@@ -451,7 +453,7 @@ class MotionYardstick:
     takes: MotionMeasures
     """The captured takes' own measures."""
     def of(self, performance: Performance) -> MotionMeasures:
-        """Its steps are those within a quarter of a second after a change of fragment."""
+        """Its steps are those within a quarter of a second after a fragment began."""
 
 # The stages of a build, each a function of arrays.
 

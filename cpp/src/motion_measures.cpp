@@ -181,7 +181,7 @@ MotionMeasures MotionYardstick::of(const Performance& p) const {
   double since = kStitched;
   for (int f = 0; f < p.frames; ++f) {
     reader.add(joints, load_vector(&p.root_positions[std::size_t{3} * f]), &p.rotations[width * f]);
-    since = f > 0 && p.fragments[f] != p.fragments[f - 1] ? 0 : since + 1 / p.rate;
+    since = f > 0 && p.entered[f] != p.entered[f - 1] ? 0 : since + 1 / p.rate;
     joints.judged.push_back(since < kStitched);
   }
   Measurement measurement(floors_);

@@ -253,6 +253,7 @@ void Player::stitch(const Placed& old) {
 void Player::start(int next_class, int fragment) {
   before_ = now_;
   now_ = place(fragment, frame());
+  ++entered_;
   held_ = false;
   from_ = class_;
   class_ = next_class;
@@ -375,6 +376,7 @@ Performance Player::run(const Trace& trace, double rate, const Progress& progres
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
   if (!(rate > 0 && rate <= 1000)) throw std::invalid_argument("the frame rate must be over 0 and at most 1000");
   Performance p;
+  const int entered = entered_;
   p.rate = rate;
   p.frames = static_cast<int>(std::lround(static_cast<double>(trace.size()) / kTraceRate * rate)) + 1;
   for (int f = 0; f < p.frames; ++f) {
@@ -387,6 +389,7 @@ Performance Player::run(const Trace& trace, double rate, const Progress& progres
     p.path.insert(p.path.end(), {now.position.x(), now.position.y(), now.heading});
     p.classes.push_back(class_);
     p.fragments.push_back(now_.fragment);
+    p.entered.push_back(entered_ - entered);
     if (f > 0) p.quality += quality(character_->space.nearest(control)) / (p.frames - 1);
   }
   judge(p, *character_, trace);

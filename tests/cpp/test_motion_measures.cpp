@@ -18,7 +18,8 @@ Performance carried(const Clip& clip, double speed, double lift = 0) {
     p.root_positions.insert(p.root_positions.end(), {clip.root_positions[0], clip.root_positions[1] + speed * f / 60,
                                                      clip.root_positions[2] + lift});
     p.rotations.insert(p.rotations.end(), clip.rotations.begin(), clip.rotations.begin() + width);
-    p.fragments.push_back(f < 20 ? 0 : 1);
+    p.fragments.push_back(0);
+    p.entered.push_back(f < 20 ? 0 : 1);
   }
   return p;
 }
@@ -54,6 +55,14 @@ TEST(MotionYardstick, SeesThatFeetInTheAirDoNotSlideAndThatSunkenOnesPenetrate) 
   EXPECT_EQ(flies.foot_skate, 0);
   EXPECT_EQ(flies.sliding_share, 0);
   EXPECT_NEAR(sinks.penetration, 0.1 * standard_scale(character->pool.skeleton), 0.03);
+}
+
+TEST(MotionYardstick, LooksAtStitchesOfAFragmentToItself) {
+  const auto character = std::make_shared<const Character>(tiny_character({tiny_clip(1.5)}));
+  const Performance p = Player(character).run(Trace(20, Control{}), 60);
+  EXPECT_EQ(p.fragments.front(), p.fragments.back());
+  const MotionYardstick yardstick(*character);
+  EXPECT_GT(yardstick.of(p).positions.worst, 0.5 * yardstick.takes().positions.worst);
 }
 
 TEST(MotionYardstick, MeasuresTheTakes) {

@@ -423,6 +423,17 @@ TEST(Performance, IsWhatStepsWouldHaveShown) {
   }
 }
 
+TEST(Performance, KnowsThatAFragmentFollowsItself) {
+  const auto character = std::make_shared<const Character>(tiny_character({tiny_clip(1.5)}));
+  ASSERT_EQ(character->pool.fragments.size(), 1);
+  Player player(character);
+  const Trace trace(20, Control{});
+  for (int run = 0; run < 2; ++run) {
+    const Performance p = player.run(trace, 60);
+    for (int f = 1; f < p.frames; ++f) EXPECT_EQ(p.entered[f], (f - 1 + 30 * run) / 30) << f;
+  }
+}
+
 TEST(Performance, MeasuresQualityAndSpeed) {
   for (const double rate : {24.0, 60.0}) {
     const Performance p = performed(3, rate);

@@ -32,7 +32,7 @@ class Motion(NamedTuple):
 
 def of_performance(name: str, performance: core.Performance) -> Motion:
     """What a player did."""
-    stitches = np.flatnonzero(np.diff(performance.fragments)) + 1
+    stitches = np.flatnonzero(np.diff(performance.entered)) + 1
     p = performance
     return Motion(name, p.rate, p.root_positions, p.rotations, p.frames, stitches)
 

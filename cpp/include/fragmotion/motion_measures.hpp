@@ -31,7 +31,7 @@ class MotionYardstick {
 
   /// The captured takes' own measures.
   const MotionMeasures& takes() const { return takes_; }
-  /// A performance's measures; its steps are those within a quarter of a second after a change of fragment.
+  /// A performance's measures; its steps are those within a quarter of a second after a fragment began.
   MotionMeasures of(const Performance& performance) const;
 
  private:

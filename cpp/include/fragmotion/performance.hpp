@@ -17,6 +17,7 @@ struct Performance {
   std::vector<double> path;            ///< [frames, 3]: character frame x, y in m and heading in rad, unwrapped
   std::vector<int> classes;            ///< [frames]
   std::vector<int> fragments;          ///< [frames]
+  std::vector<int> entered;            ///< [frames]: fragments begun since the first frame; one may follow itself
   double quality = 0;                  ///< Eq. 2 for what plays and the control then, 0..1.
   double velocity_error = 0;           ///< |velocity - commanded|, seen from the character frame, m/s.
   double turn_error = 0;               ///< |turn rate - commanded|, rad/s.

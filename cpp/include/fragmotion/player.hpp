@@ -139,6 +139,7 @@ class Player {
   double faded_ = 0;    // s after which the old fragment has faded; 0: it does not fade
   double soonest_ = 0;  // s after which what plays may be left early
   int class_ = 0, from_ = 0;
+  int entered_ = 0;    // fragments begun
   int waiting_ = -1;   // the class that follows a stand-in-place fragment
   int forced_ = -1;    // the class that force() asked for and that does not play yet
   bool held_ = false;  // a forced fragment plays: it is not left early
