@@ -46,7 +46,8 @@ void bind_performance(py::module_& m) {
       .def_readonly("velocity_error", &Performance::velocity_error)
       .def_readonly("turn_error", &Performance::turn_error)
       .def_readonly("jump_error", &Performance::jump_error)
-      .def_readonly("commanded_speed", &Performance::commanded_speed);
+      .def_readonly("commanded_speed", &Performance::commanded_speed)
+      .def_readonly("drift", &Performance::drift);
 }
 
 PlayerOptions to_options(std::uint64_t seed, double stitch, const std::string& policy, const std::string& stitching,

@@ -363,6 +363,9 @@ class Performance:
     """Share of the frames in which a jump was commanded and none played, or none and one did."""
     commanded_speed: float
     """Mean commanded speed, m/s."""
+    drift: float
+    """How far the root gets in a second from where the trace, followed exactly, would have led it, m/s: mean over all spans
+    of two seconds, from the place and heading at the beginning of each."""
 
 def optimal_performance(character: Character, trace: ArrayLike, rate: float, shortest: float = 0.1) -> float:
     """The greatest `Performance.quality` that a player could reach who knew the whole trace: it may play a class for any

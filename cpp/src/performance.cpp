@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // frames
 constexpr double kAround = 0.5;     // s over which speeds are measured
+constexpr double kSpan = 2;         // s over which the root drifts
 constexpr double kJumps = 0.5;
 
 // The slope a frame of the least-squares line through frames first .. last of a path.
@@ -25,6 +26,33 @@ Vector3 slope(const std::vector<double>& path, int first, int last) {
     square += (f - middle) * (f - middle);
   }
   return sum / square;
+}
+
+// Where a trace that is followed exactly leads from the origin: the character frame of each frame.
+std::vector<CharacterFrame> exact_path(const Performance& p, const Trace& trace, double turn_rate) {
+  std::vector<CharacterFrame> path(1);
+  for (int f = 1; f < p.frames; ++f) {
+    const Control& control = trace[control_at(f, p.rate, trace.size())];
+    const double angle = control.turn * turn_rate / p.rate;
+    CharacterFrame next = path.back();
+    next.position += Eigen::Rotation2Dd(next.heading + angle / 2) * Vector2{control.x, control.y} / p.rate;
+    next.heading += angle;
+    path.push_back(next);
+  }
+  return path;
+}
+
+double drift(const Performance& p, const std::vector<CharacterFrame>& exact) {
+  if (p.frames < 2) return 0;
+  const int span = std::clamp(static_cast<int>(std::lround(kSpan * p.rate)), 1, p.frames - 1), spans = p.frames - span;
+  const auto place = [&](int f) { return Vector2{p.path[std::size_t{3} * f], p.path[std::size_t{3} * f + 1]}; };
+  double sum = 0;
+  for (int f = 0; f < spans; ++f) {
+    const double turned = p.path[std::size_t{3} * f + 2] - exact[f].heading;
+    const Vector2 led = Eigen::Rotation2Dd(turned) * (exact[f + span].position - exact[f].position);
+    sum += (place(f + span) - place(f) - led).norm();
+  }
+  return sum / spans * p.rate / span;
 }
 
 // Dynamic programming over frames, from the last to the first (Eq. 1 with classes that last).
@@ -100,6 +128,7 @@ void judge(Performance& p, const Character& character, const Trace& trace) {
     p.jump_error += jumps != (control.jump > kJumps) ? weight : 0;
     p.commanded_speed += weight * control.speed();
   }
+  p.drift = drift(p, exact_path(p, trace, character.space.turn_rate()));
 }
 
 double optimal_performance(const Character& character, const Trace& trace, double rate, double shortest) {

@@ -97,6 +97,36 @@ TEST(Judge, MeasuresAPathAgainstItsTrace) {
   EXPECT_NEAR(p.jump_error, 1, 1e-12);
 }
 
+// Goes as the control says from a place on, in circles, `drift` m/s to the north too.
+Performance circling(const Control& control, double turn_rate, double seconds, double drift) {
+  Performance p;
+  p.rate = kRate;
+  p.frames = static_cast<int>(std::lround(seconds * kRate)) + 1;
+  const double turning = control.turn * turn_rate;
+  for (int f = 0; f < p.frames; ++f) {
+    const double t = f / kRate, heading = 1 + turning * t;
+    const Vector2 swept{std::sin(heading) - std::sin(1), std::cos(1) - std::cos(heading)},
+        place = Vector2{control.x * swept.x() - control.y * swept.y(), control.x * swept.y() + control.y * swept.x()} /
+                turning;
+    p.path.insert(p.path.end(), {3 + place.x(), place.y() - 2 + drift * t, heading});
+    p.fragments.push_back(0);
+  }
+  return p;
+}
+
+TEST(Judge, MeasuresHowFarTheRootDriftsFromTheExactPath) {
+  const Character c = tiny_character();
+  for (const Control& control : {Control{0.4, 2, 1, 0}, Control{-1, 0.3, -1, 0}}) {
+    for (const double drift : {0.0, 0.1, 0.4}) {
+      for (const double seconds : {0.5, 2.0, 10.0}) {
+        Performance p = circling(control, c.space.turn_rate(), seconds, drift);
+        judge(p, c, Trace(static_cast<std::size_t>(10 * seconds), control));
+        EXPECT_NEAR(p.drift, drift, 1e-3) << drift << " m/s in " << seconds << " s";
+      }
+    }
+  }
+}
+
 TEST(Judge, SeesNoErrorInTheSwayOfAGait) {
   const Character c = tiny_character();
   Performance p;
@@ -108,6 +138,7 @@ TEST(Judge, SeesNoErrorInTheSwayOfAGait) {
   }
   judge(p, c, Trace(50, Control{0, 1.2, 0, 0}));
   EXPECT_LT(p.velocity_error, 0.1);  // frame by frame it would be 0.16
+  EXPECT_LT(p.drift, 0.01);
 }
 
 }  // namespace

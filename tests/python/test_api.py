@@ -473,7 +473,7 @@ def test_player_gives_every_frame_of_any_rate(character: core.Character, rate: f
     np.testing.assert_allclose(np.linalg.norm(performance.rotations, axis=-1), 1, atol=1e-6)
     np.testing.assert_allclose(performance.frames[:, :2], performance.root_positions[:, :2], atol=1e-9)
     assert 0 < performance.quality <= 1
-    assert performance.velocity_error >= 0 and performance.commanded_speed > 0
+    assert performance.velocity_error >= 0 and performance.commanded_speed > 0 and performance.drift > 0
     assert performance.classes.dtype == np.int32
     np.testing.assert_array_equal(character.labels[performance.fragments], performance.classes)
 

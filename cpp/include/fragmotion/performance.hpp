@@ -23,12 +23,15 @@ struct Performance {
   double turn_error = 0;               ///< |turn rate - commanded|, rad/s.
   double jump_error = 0;  ///< Share of the time in which a jump was commanded and none played, or none and one did.
   double commanded_speed = 0;  ///< m/s
+  /// How far the root gets in a second from where the trace, followed exactly, would have led it, m/s: mean over all
+  /// spans of two seconds, from the place and heading at the beginning of each.
+  double drift = 0;
 };
 
 /// The index of the control that leads to frame `frame` of a performance of a trace of so many controls.
 std::size_t control_at(int frame, double rate, std::size_t controls);
 
-/// Fills the errors and the commanded speed of a performance of a trace.
+/// Fills the errors, the commanded speed and the drift of a performance of a trace.
 void judge(Performance& performance, const Character& character, const Trace& trace);
 
 /// The yardstick of Performance::quality: the greatest mean over time of Eq. 2 that a player could reach on a trace who
