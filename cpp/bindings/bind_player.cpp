@@ -143,13 +143,17 @@ void bind_measures(py::module_& m) {
       .def_readonly("p99", &Steps::p99)
       .def_readonly("p999", &Steps::p999)
       .def_readonly("worst", &Steps::worst);
+  py::class_<Excess>(m, "Excess", py::module_local())
+      .def_readonly("share", &Excess::share)
+      .def_readonly("worst", &Excess::worst);
   py::class_<MotionMeasures>(m, "MotionMeasures", py::module_local())
       .def_readonly("foot_skate", &MotionMeasures::foot_skate)
       .def_readonly("sliding_share", &MotionMeasures::sliding_share)
       .def_readonly("penetration", &MotionMeasures::penetration)
       .def_readonly("positions", &MotionMeasures::positions)
       .def_readonly("velocities", &MotionMeasures::velocities)
-      .def_readonly("accelerations", &MotionMeasures::accelerations);
+      .def_readonly("accelerations", &MotionMeasures::accelerations)
+      .def_readonly("turns", &MotionMeasures::turns);
   py::class_<MotionYardstick>(m, "MotionYardstick", py::module_local())
       .def(py::init([](const Character& character) { return MotionYardstick(character); }), py::arg("character"),
            py::call_guard<py::gil_scoped_release>())

@@ -433,6 +433,15 @@ class Steps:
     p999: float
     worst: float
 
+class Excess:
+    """How far joints turn beyond the least and the greatest that the takes and their mirror images show of them, about
+    each of the axes about which a joint turns most, less and least."""
+
+    share: float
+    """Of all joints in all frames, those beyond by more than a degree."""
+    worst: float
+    """rad"""
+
 class MotionMeasures:
     """What a viewer finds fault with, for a character of 1.8 m."""
 
@@ -448,6 +457,8 @@ class MotionMeasures:
     """m/s"""
     accelerations: Steps
     """m/s^2"""
+    turns: Excess
+    """Of the takes: each beyond all others."""
 
 class MotionYardstick:
     """Measures performances by what the takes do themselves."""

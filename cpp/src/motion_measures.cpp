@@ -165,12 +165,14 @@ class Measurement {
 
 }  // namespace
 
-MotionYardstick::MotionYardstick(const Character& character) : skeleton_(character.pool.skeleton) {
+MotionYardstick::MotionYardstick(const Character& character)
+    : skeleton_(character.pool.skeleton), limits_(character.pool) {
   const std::vector<Joints> takes = takes_of(character);
   floors_ = floors_of(takes);
   Measurement measurement(floors_);
   for (const Joints& take : takes) measurement.add(take);
   takes_ = measurement.result();
+  takes_.turns = limits_.takes();
 }
 
 MotionMeasures MotionYardstick::of(const Performance& p) const {
@@ -186,7 +188,9 @@ MotionMeasures MotionYardstick::of(const Performance& p) const {
   }
   Measurement measurement(floors_);
   measurement.add(joints);
-  return measurement.result();
+  MotionMeasures measures = measurement.result();
+  measures.turns = limits_.of(p.rotations);
+  return measures;
 }
 
 }  // namespace fragmotion

@@ -31,6 +31,7 @@ TEST(MotionYardstick, FindsNoFaultInStanding) {
   EXPECT_EQ(m.foot_skate, 0);
   EXPECT_EQ(m.sliding_share, 0);
   EXPECT_EQ(m.positions.worst, 0);
+  EXPECT_EQ(m.turns.share, 0);
 }
 
 TEST(MotionYardstick, SeesFeetThatSlide) {
@@ -55,6 +56,16 @@ TEST(MotionYardstick, SeesThatFeetInTheAirDoNotSlideAndThatSunkenOnesPenetrate) 
   EXPECT_EQ(flies.foot_skate, 0);
   EXPECT_EQ(flies.sliding_share, 0);
   EXPECT_NEAR(sinks.penetration, 0.1 * standard_scale(character->pool.skeleton), 0.03);
+}
+
+TEST(MotionYardstick, SeesAKneeThatBendsBackward) {
+  const auto character = gait_character();
+  Clip standing = gait_clip({0, 0, 0});
+  const int bones = character->pool.skeleton.size(), shin = character->pool.skeleton.find("shin.L");
+  store_quaternion(Quaternion{Eigen::AngleAxisd(-0.5, Vector3::UnitX())}, &standing.rotations[std::size_t{4} * shin]);
+  const Excess turns = MotionYardstick(*character).of(carried(standing, 0)).turns;
+  EXPECT_GT(turns.worst, 0.5);
+  EXPECT_NEAR(turns.share, 1.0 / (bones - 1), 1e-9);  // of all joints but the hips
 }
 
 TEST(MotionYardstick, LooksAtStitchesOfAFragmentToItself) {

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "fragmotion/joint_limits.hpp"
 #include "fragmotion/performance.hpp"
 
 namespace fragmotion {
@@ -22,6 +23,7 @@ struct MotionMeasures {
   Steps positions;           ///< m
   Steps velocities;          ///< m/s
   Steps accelerations;       ///< m/s^2
+  Excess turns;              ///< Beyond what joints do in the takes; of a take, in all others.
 };
 
 /// Measures performances by what the takes do themselves.
@@ -37,6 +39,7 @@ class MotionYardstick {
  private:
   Skeleton skeleton_;
   std::array<double, 4> floors_{};  // where left ball, left heel, right ball and right heel are lowest, m
+  JointLimits limits_;
   MotionMeasures takes_;
 };
 
