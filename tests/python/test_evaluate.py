@@ -17,29 +17,17 @@ import numpy as np
 import pytest
 from conftest import NAMES, OFFSETS, PARENTS, TIPS, build_options, walking_arrays
 
-from tools.evaluate import curves, inputs, loading, synthesis
+from tools.evaluate import curves, inputs, loading, run_time, synthesis
 from tools.evaluate.__main__ import main
 from tools.evaluate.controllers import summarise, unseen
 from tools.evaluate.loading import Session, Sessions
-from tools.evaluate.report import Table, text
+from tools.evaluate.report import Table, run_time_table, text
 from tools.paths import TOP
 from tools.shell import Failure
 
 CLASSES = 12
 SEED = 5
 NAMED = ("greedy", "svm", "iterate", "anticipate", "optimal")
-RUN_TIME = {
-    "percent_of_optimal",
-    "velocity_error",
-    "velocity_error_percent",
-    "turn_error",
-    "jump_error",
-    "response_p50_s",
-    "response_p95_s",
-    "foot_skate_ratio",
-    "joint_step_ratio",
-    "sliding_contact_share",
-}
 
 
 def y_up(points: Any) -> Any:
@@ -140,7 +128,7 @@ def test_the_json_file_is_laid_out_as_documented(run: Run) -> None:
         assert set(figures) == {"percent_of_optimal", "synthesis_seconds", "peak_bytes", "online", "run_time"}
         assert set(figures["percent_of_optimal"]) == {"mean", "sd", "min", "by_trace"}
         assert set(figures["percent_of_optimal"]["by_trace"]) == set(core.PLAYERS) == set(result["bound"])
-        assert set(figures["run_time"]) == RUN_TIME
+        assert set(figures["run_time"]) == set(run_time.FIGURES)
         assert figures["synthesis_seconds"] > 0 and figures["online"] == (name != "optimal")
     assert len(result["coverage"]) == len(result["coverage_counts"]) == 102
     assert sum(result["coverage_counts"]) == result["fragments"]
@@ -214,9 +202,12 @@ def test_ways_to_play_are_measured_beside_the_takes(run: Run, character: core.Ch
     plain = {"stitching": "crossfade", "lock_feet": False, "pull": 0.0, "promptness": 1.0}
     yardstick = core.MotionYardstick(character)
     measured = [yardstick.of(core.Player(character, SEED, **plain).run(t, 60)) for t in traces]
+    assert found["the takes"]["beyond_limits_share"] == takes.turns.share
     figures = found["plain, as in the paper"]
     assert figures["foot_skate"] == pytest.approx(np.mean([m.foot_skate for m in measured]))
     assert figures["joint_step"] == pytest.approx(max(m.positions.worst for m in measured))
+    assert figures["beyond_limits_share"] == pytest.approx(np.mean([m.turns.share for m in measured]))
+    assert figures["beyond_limits_degrees"] == pytest.approx(np.degrees(max(m.turns.worst for m in measured)))
     assert found["promptness 1"]["response_p95_s"] <= found["promptness 0"]["response_p95_s"]
 
 
@@ -231,6 +222,8 @@ def test_run_time_is_the_players(run: Run, character: core.Character) -> None:
     speed = np.mean([p.commanded_speed for some in played for p in some])
     assert figures["velocity_error"] == pytest.approx(velocity)
     assert figures["velocity_error_percent"] == pytest.approx(100 * velocity / speed)
+    drift = np.mean([p.drift for some in played for p in some])
+    assert figures["drift_percent"] == pytest.approx(100 * drift / speed)
     assert figures["turn_error"] == pytest.approx(np.degrees(np.mean([p.turn_error for some in played for p in some])))
     assert 0 <= figures["jump_error"] <= 1
     assert 0 < figures["response_p50_s"] <= figures["response_p95_s"] <= 3
@@ -241,6 +234,14 @@ def test_run_time_is_the_players(run: Run, character: core.Character) -> None:
     )
     assert figures["joint_step_ratio"] > 0
     assert 0 <= figures["sliding_contact_share"] <= 1
+    assert figures["beyond_limits_share"] == pytest.approx(np.mean([m.turns.share for m in measured]))
+    assert figures["beyond_limits_degrees"] == pytest.approx(np.degrees(max(m.turns.worst for m in measured)))
+
+
+def test_every_figure_of_the_run_time_is_shown(run: Run) -> None:
+    table = run_time_table(run.result)
+    assert len(table.header) == 1 + len(run_time.FIGURES)
+    assert all(len(row) == len(table.header) for row in table.rows)
 
 
 def without_costs(value: Any) -> Any:

@@ -94,17 +94,24 @@ def matrix_table(result: Result) -> Table:
     return Table(f"{TITLES[name]}, percent of Optimal", ["learned from \\ tested on", *result["test"]], rows)
 
 
+def _percent(share: float | None) -> float | None:
+    return None if share is None else 100 * share
+
+
 _RUN_TIME: tuple[tuple[str, Callable[[Result], str]], ...] = (
     ("of Optimal, %", lambda r: number(r["percent_of_optimal"])),
     ("velocity error, m/s", lambda r: number(r["velocity_error"], 2)),
     ("velocity error, %", lambda r: number(r["velocity_error_percent"])),
     ("turn error, deg/s", lambda r: number(r["turn_error"])),
-    ("jump error, %", lambda r: number(None if r["jump_error"] is None else 100 * r["jump_error"])),
+    ("jump error, %", lambda r: number(_percent(r["jump_error"]))),
     ("response p50, s", lambda r: number(r["response_p50_s"], 2)),
     ("response p95, s", lambda r: number(r["response_p95_s"], 2)),
     ("foot skate, x takes'", lambda r: number(r["foot_skate_ratio"], 2)),
     ("joint step, x takes'", lambda r: number(r["joint_step_ratio"], 2)),
-    ("sliding, %", lambda r: number(None if r["sliding_contact_share"] is None else 100 * r["sliding_contact_share"])),
+    ("sliding, %", lambda r: number(_percent(r["sliding_contact_share"]))),
+    ("drift, %", lambda r: number(r["drift_percent"])),
+    ("beyond limits, %", lambda r: number(_percent(r["beyond_limits_share"]), 2)),
+    ("furthest, deg", lambda r: number(r["beyond_limits_degrees"], 0)),
 )
 
 
@@ -125,7 +132,10 @@ _STITCHINGS: tuple[tuple[str, Callable[[Result], str]], ...] = (
     ("joint step, m", lambda r: number(r["joint_step"], 3)),
     ("velocity step, m/s", lambda r: number(r["velocity_step_p99"], 2)),
     ("acceleration step, m/s\u00b2", lambda r: number(r["acceleration_step_p99"], 0)),
+    ("beyond limits, %", lambda r: number(100 * r["beyond_limits_share"], 2)),
+    ("furthest, deg", lambda r: number(r["beyond_limits_degrees"], 0)),
     ("velocity error, %", lambda r: number(r.get("velocity_error_percent"))),
+    ("drift, %", lambda r: number(r.get("drift_percent"))),
     ("response p50, s", lambda r: number(r.get("response_p50_s"), 2)),
     ("response p95, s", lambda r: number(r.get("response_p95_s"), 2)),
 )

@@ -27,6 +27,9 @@ FIGURES = (
     "foot_skate_ratio",
     "joint_step_ratio",
     "sliding_contact_share",
+    "drift_percent",
+    "beyond_limits_share",
+    "beyond_limits_degrees",
 )
 
 
@@ -51,13 +54,16 @@ def play(
 
 
 def errors(performances: list[list[core.Performance]]) -> dict[str, float | None]:
-    """Mean errors of velocity (m/s, and percent of the mean commanded speed), turn (degrees/s) and jump (share)."""
+    """Mean errors of velocity (m/s, and percent of the mean commanded speed), turn (degrees/s) and jump (share), and
+    the root's drift from the exact path (percent of the mean commanded speed)."""
     every = [performance for some in performances for performance in some]
     velocity = statistics.fmean(p.velocity_error for p in every)
+    drift = statistics.fmean(p.drift for p in every)
     speed = statistics.fmean(p.commanded_speed for p in every)
     return {
         "velocity_error": velocity,
         "velocity_error_percent": 100 * velocity / speed if speed > 0 else None,
+        "drift_percent": 100 * drift / speed if speed > 0 else None,
         "turn_error": math.degrees(statistics.fmean(p.turn_error for p in every)),
         "jump_error": statistics.fmean(p.jump_error for p in every),
     }
@@ -65,12 +71,21 @@ def errors(performances: list[list[core.Performance]]) -> dict[str, float | None
 
 def looks(yardstick: core.MotionYardstick, performances: list[list[core.Performance]]) -> dict[str, float]:
     """Foot skate over the takes' own, the worst joint step at a stitch over the takes' 99.9th percentile (of places, a
-    frame), and the share of the time on the ground in which a foot slides."""
+    frame), the share of the time on the ground in which a foot slides, and turns beyond the takes' limits."""
     takes, every = yardstick.takes, [yardstick.of(p) for some in performances for p in some]
     return {
         "foot_skate_ratio": statistics.fmean(m.foot_skate for m in every) / max(takes.foot_skate, _STILL),
         "joint_step_ratio": max(m.positions.worst for m in every) / max(takes.positions.p999, _STILL),
         "sliding_contact_share": statistics.fmean(m.sliding_share for m in every),
+        **_turns(every),
+    }
+
+
+def _turns(measured: Sequence[core.MotionMeasures]) -> dict[str, float]:
+    """The share of all joints in all frames that turn beyond what the takes show of them, and the worst."""
+    return {
+        "beyond_limits_share": statistics.fmean(m.turns.share for m in measured),
+        "beyond_limits_degrees": math.degrees(max(m.turns.worst for m in measured)),
     }
 
 
@@ -100,9 +115,10 @@ def measure_stitchings(
     for name, options in STITCHINGS.items():
         played = [core.Player(character, seed, **options).run(session.controls, RATE) for session in sessions]
         p50, p95 = np.percentile(core.response_times(character, seed, **options), [50, 95])
+        follows = errors([played])
         found[name] = {
             **_look([yardstick.of(performance) for performance in played]),
-            "velocity_error_percent": float(errors([played])["velocity_error_percent"] or 0),
+            **{key: float(follows[key] or 0) for key in ("velocity_error_percent", "drift_percent")},
             "response_p50_s": float(p50),
             "response_p95_s": float(p95),
         }
@@ -110,8 +126,8 @@ def measure_stitchings(
 
 
 def _look(measured: Sequence[core.MotionMeasures]) -> dict[str, float]:
-    """Foot skate (m/s), sliding (share), the deepest foot (m), and joint steps: of places (m; the takes' 99.9th
-    percentile, else the worst), and the 99th percentiles of velocities (m/s) and accelerations (m/s^2)."""
+    """Foot skate (m/s), sliding (share), the deepest foot (m), joint steps: of places (m; the takes' 99.9th percentile,
+    else the worst), and the 99th percentiles of velocities (m/s) and accelerations (m/s^2), and turns beyond limits."""
     takes = len(measured) == 1
     return {
         "foot_skate": statistics.fmean(m.foot_skate for m in measured),
@@ -120,6 +136,7 @@ def _look(measured: Sequence[core.MotionMeasures]) -> dict[str, float]:
         "joint_step": measured[0].positions.p999 if takes else max(m.positions.worst for m in measured),
         "velocity_step_p99": statistics.fmean(m.velocities.p99 for m in measured),
         "acceleration_step_p99": statistics.fmean(m.accelerations.p99 for m in measured),
+        **_turns(measured),
     }
 
 
