@@ -206,12 +206,23 @@ void Player::find_onward(double seconds) const {
   }
 }
 
+// Whether a fragment hops, or does not, as is wanted.
+bool Player::obeys(int fragment, const Control& wanted) const {
+  const double jump = character_->pool.fragments[fragment].evident.jump;
+  return wanted.jump > kInTheAir ? jump > kInTheAir : jump < kHop;
+}
+
 // The members that perform the control nearly as well as any of them does, with how far their beginnings are from how
-// what plays would go on after a time since its first pose; tells the least.
+// what plays would go on after a time since its first pose; tells the least. Where the representative hops, or does
+// not, as is wanted, they do so too.
 float Player::find_fitting(int next_class, const Control& control, double seconds) const {
   const Character& c = *character_;
-  const auto error = [&](int fragment) { return c.space.distance(c.pool.fragments[fragment].evident, control); };
-  double best = error(c.classes.representatives[next_class]);
+  const int meant = c.classes.representatives[next_class];
+  const auto error = [&](int fragment) {
+    if (obeys(meant, control) && !obeys(fragment, control)) return std::numeric_limits<double>::infinity();
+    return c.space.distance(c.pool.fragments[fragment].evident, control);
+  };
+  double best = error(meant);
   const double usual = best;
   for (const int fragment : stage_->members[next_class]) best = std::min(best, error(fragment));
   const double allowed = best + kAsWell * (usual - best);
@@ -286,15 +297,14 @@ bool Player::changed(const Control& wanted) const { return character_->space.dis
 // worse than a button that does nothing, and a hop that nobody asked for.
 int Player::tell(const Control& wanted) const {
   const Character& c = *character_;
-  const auto jump = [&](int k) { return c.pool.fragments[c.classes.representatives[k]].evident.jump; };
-  const bool hops = wanted.jump > kInTheAir;
-  const auto obeys = [&](int k) { return hops ? !jump_waits_ || jump(k) > kInTheAir : jump(k) < kHop; };
+  const bool free = wanted.jump > kInTheAir && !jump_waits_;
+  const auto suits = [&](int k) { return free || obeys(c.classes.representatives[k], wanted); };
   const int control = c.space.nearest(wanted);
   int told = (*policy_)(class_, control);
-  if (obeys(told)) return told;
+  if (suits(told)) return told;
   double best = 0;
   for (int k = 0; k < c.classes.count; ++k) {
-    if (!obeys(k) || c.quality(class_, k, control) <= best || !policy_->leads_to(k)) continue;
+    if (!suits(k) || c.quality(class_, k, control) <= best || !policy_->leads_to(k)) continue;
     best = c.quality(class_, k, control);
     told = k;
   }

@@ -265,6 +265,29 @@ TEST(Player, JumpsOnceInAStepOfAnyLength) {
   for (const int steps : {1, 2, 7}) EXPECT_LT((place(steps) - expected).norm(), 1e-6) << steps;
 }
 
+// The act that is drawn for a control where a class has two, whose fragments visibly do this.
+int drawn_act(int of_class, const Control& its_own, int other, const Control& others, const Control& control) {
+  const Acts acts;
+  const std::vector<int>& shown = acts.character->classes.representatives;
+  acts.character->classes.labels[shown[other]] = of_class;
+  acts.character->pool.fragments[shown[of_class]].evident = its_own;
+  acts.character->pool.fragments[shown[other]].evident = others;
+  Player player(acts.character);
+  player.step(control, 0.7);
+  return static_cast<int>(std::find(shown.begin(), shown.end(), player.playing_fragment()) - shown.begin());
+}
+
+TEST(Player, DrawsWhatHopsAsIsWantedHoweverWellAnotherMemberGoes) {
+  const Control hop{0, 0, 0, 1}, walk{0, 1.2, 0, 0}, run{0, 3.3, 0, 0}, leap{0, 3.3, 0, 1};
+  EXPECT_EQ(drawn_act(Acts::jump, hop, Acts::forward, run, leap), Acts::jump);
+  EXPECT_EQ(drawn_act(Acts::forward, walk, Acts::jump, leap, run), Acts::forward);
+}
+
+TEST(Player, DrawsALightRunForABouncyOne) {
+  const Control bouncy{0, 3.3, 0, 0.7}, light{0, 3.3, 0, 0.2}, run{0, 3.3, 0, 0};
+  EXPECT_EQ(drawn_act(Acts::forward, bouncy, Acts::back, light, run), Acts::back);
+}
+
 TEST(Player, PlaysAForcedClassToItsEndAndThenWhatThePolicySays) {
   for (double wait = 0.05; wait < 1; wait += 0.07) {
     Player player(Acts().character);

@@ -109,6 +109,7 @@ class Player {
   void stitch(const Placed& old);
   void sample_shown(Placed placed, double seconds, WorldPose& pose) const;
   void find_onward(double seconds) const;
+  bool obeys(int fragment, const Control& wanted) const;
   float find_fitting(int next_class, const Control& control, double seconds) const;
   int draw(int next_class, const Control& control);
   double find_exit(const Control& wanted) const;
