@@ -62,30 +62,27 @@ class FRAGMOTION_OT_duplicate_take(_OnTake, bpy.types.Operator):
         return {"FINISHED"}
 
 
+def _cut(name: str, dropped: str, default: float, least: float) -> Any:
+    """A time in a take, to the tenth of a second that a control lasts."""
+    return FloatProperty(
+        name=name,
+        description=f"What comes {dropped} is dropped; seconds from the take's beginning, to the nearest tenth",
+        default=default,
+        min=least,
+        step=10,
+        precision=1,
+        unit="TIME_ABSOLUTE",
+    )
+
+
 class FRAGMOTION_OT_trim_take(_OnTake, bpy.types.Operator):
     """Keep only a part of the selected take. What the character did in that part is kept, too"""
 
     bl_idname = "fragmotion.trim_take"
     bl_label = "Trim Take"
 
-    start: FloatProperty(  # type: ignore[valid-type]
-        name="Start",
-        description="What comes before is dropped; seconds from the take's beginning, to the nearest tenth",
-        default=0.0,
-        min=0.0,
-        step=10,
-        precision=1,
-        unit="TIME_ABSOLUTE",
-    )
-    end: FloatProperty(  # type: ignore[valid-type]
-        name="End",
-        description="What comes after is dropped; seconds from the take's beginning, to the nearest tenth",
-        default=60.0,
-        min=0.1,
-        step=10,
-        precision=1,
-        unit="TIME_ABSOLUTE",
-    )
+    start: _cut("Start", "before", 0.0, 0.0)  # type: ignore[valid-type]
+    end: _cut("End", "after", 60.0, 0.1)  # type: ignore[valid-type]
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         self.start, self.end = 0.0, _selected(context).seconds
