@@ -10,6 +10,7 @@ import bpy
 from ..core import core
 from ..errors import UserError, core_errors, reported
 from ..jobs import Job
+from .context import active_armature, adopt_settings
 
 _TICK = 0.1  # s between looks at the job
 current: Job | None = None
@@ -20,15 +21,17 @@ _timer: bpy.types.Timer | None = None  # wakes the modal operator
 
 class Background:
     """An operator of one job, `current` while it runs: in the background, or to its end at once where there is no
-    window, and when executed. A job that takes no longer than `patience` (s) is waited for."""
+    window, and when executed. A job that takes no longer than `patience` (s) is waited for. Fields that the caller did
+    not set are the panel's: those of the active armature's `settings`."""
 
     verb: ClassVar[str]
+    settings: ClassVar[str]
     patience: ClassVar[float] = 0.0
     report: Any
     _armature: str
 
-    def _prepare(self, context: bpy.types.Context) -> Job:
-        """Make the job, and set `_armature` to the name of the object that it is for; UserError where it cannot be."""
+    def _prepare(self, context: bpy.types.Context, obj: bpy.types.Object) -> Job:
+        """Make the job for the armature; UserError where it cannot be."""
         raise NotImplementedError
 
     def _keep(self, context: bpy.types.Context, obj: bpy.types.Object, result: Any) -> None:
@@ -39,7 +42,7 @@ class Background:
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         if bpy.app.background:
             return self.execute(context)
-        job = self._prepare(context)
+        job = self._make_job(context)
         _watch(context, job)
         job.wait(self.patience)
         if not job.running:
@@ -66,7 +69,7 @@ class Background:
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         manager = context.window_manager
-        job = self._prepare(context)
+        job = self._make_job(context)
         _set_current(job)
         manager.progress_begin(0, 100)
         try:
@@ -79,6 +82,12 @@ class Background:
     def cancel(self, context: bpy.types.Context) -> None:
         """Blender ends the operator: another file is loaded, or Blender quits."""
         stop()
+
+    def _make_job(self, context: bpy.types.Context) -> Job:
+        obj = active_armature(context)
+        adopt_settings(self, getattr(obj.fragmotion, self.settings))
+        self._armature = obj.name
+        return self._prepare(context, obj)
 
     def _finish(self, context: bpy.types.Context, job: Job) -> set[str]:
         """Keep the result, or say why there is none."""

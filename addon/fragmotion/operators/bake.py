@@ -14,10 +14,26 @@ from ..jobs import Job
 from ..properties import BakeFields
 from ..targets import find_target, write
 from .background import Background, poll_idle
-from .context import active_armature, adopt_settings, poll_armature
+from .context import active_armature, poll_armature
 
 
-class FRAGMOTION_OT_bake(BakeFields, Background, bpy.types.Operator):
+class Baking(Background):
+    """An operator that bakes the active armature's character, a short motion at once."""
+
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+    patience = 0.5
+
+    @classmethod
+    def poll(cls: Any, context: bpy.types.Context) -> bool:
+        if not poll_armature(cls, context) or not poll_idle(cls):
+            return False
+        obj = active_armature(context)
+        if not has_character(obj):
+            cls.poll_message_set(f"Armature '{obj.name}' has no character yet: press Build first")
+        return has_character(obj)
+
+
+class FRAGMOTION_OT_bake(BakeFields, Baking, bpy.types.Operator):
     """Bake a trace to an Action of the active armature; a short one at once."""
 
     bl_idname = "fragmotion.bake"
@@ -26,20 +42,13 @@ class FRAGMOTION_OT_bake(BakeFields, Background, bpy.types.Operator):
         "Play a trace with the armature's character and write it to an Action at the scene's frame rate. It starts at "
         "the armature's origin, facing its -Y (towards the front view)"
     )
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     verb = "Bake"
-    patience = 0.5
+    settings = "bake"
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return poll_bake(cls, context)
-
-    def _prepare(self, context: bpy.types.Context) -> Job:
-        obj = active_armature(context)
-        adopt_settings(self, obj.fragmotion.bake, BakeFields)
+    def _prepare(self, context: bpy.types.Context, obj: bpy.types.Object) -> Job:
         prepared = prepare(context, obj, self)
         # Blender may replace an Action while the bake runs: only names stay valid.
-        self._armature, self._name, self._first = obj.name, prepared.target.name, prepared.target.first
+        self._name, self._first = prepared.target.name, prepared.target.first
         return Job(f"Baking '{obj.name}'", prepared.task)
 
     def _keep(self, context: bpy.types.Context, obj: bpy.types.Object, baked: Baked) -> None:
@@ -57,13 +66,3 @@ class FRAGMOTION_OT_bake(BakeFields, Background, bpy.types.Operator):
     def draw(self, _context: bpy.types.Context) -> None:
         draw_bake(self.layout, self)
         draw_bake_options(self.layout, self)
-
-
-def poll_bake(cls: Any, context: bpy.types.Context) -> bool:
-    """Whether a character that can be baked is active; says why not."""
-    if not poll_armature(cls, context) or not poll_idle(cls):
-        return False
-    obj = active_armature(context)
-    if not has_character(obj):
-        cls.poll_message_set(f"Armature '{obj.name}' has no character yet: press Build first")
-    return has_character(obj)

@@ -12,25 +12,31 @@ from ..actions import fitting
 from ..jobs import Job
 from ..properties import BuildFields
 from .background import Background, poll_idle
-from .context import active_armature, adopt_settings, poll_armature
+from .context import active_armature, poll_armature
 
 
-def poll_build(cls: Any, context: bpy.types.Context) -> bool:
-    """Whether there is something to build from and nothing is under way; says why not."""
-    if not poll_armature(cls, context) or not poll_idle(cls):
+class Building(Background):
+    """An operator that builds from the ticked Actions."""
+
+    bl_options: ClassVar[set[str]] = {"UNDO"}
+    settings = "build"
+
+    @classmethod
+    def poll(cls: Any, context: bpy.types.Context) -> bool:
+        if not poll_armature(cls, context) or not poll_idle(cls):
+            return False
+        obj = active_armature(context)
+        takes = fitting(obj)
+        if takes and not any(action.fragmotion.use for action in takes):
+            cls.poll_message_set("No Action is ticked: tick the takes to learn from, under Mocap")
+        elif not takes and not any(action.fragmotion.use for action in bpy.data.actions):
+            cls.poll_message_set(f"Armature '{obj.name}' has no Actions to learn from: import mocap first")
+        else:
+            return True
         return False
-    obj = active_armature(context)
-    takes = fitting(obj)
-    if takes and not any(action.fragmotion.use for action in takes):
-        cls.poll_message_set("No Action is ticked: tick the takes to learn from, under Mocap")
-    elif not takes and not any(action.fragmotion.use for action in bpy.data.actions):
-        cls.poll_message_set(f"Armature '{obj.name}' has no Actions to learn from: import mocap first")
-    else:
-        return True
-    return False
 
 
-class FRAGMOTION_OT_build(BuildFields, Background, bpy.types.Operator):
+class FRAGMOTION_OT_build(BuildFields, Building, bpy.types.Operator):
     """Build in the background; to its end at once where there is no window, and when executed."""
 
     bl_idname = "fragmotion.build"
@@ -39,18 +45,10 @@ class FRAGMOTION_OT_build(BuildFields, Background, bpy.types.Operator):
         "Cut the ticked Actions into fragments, cluster them and find the policy: what to play next for each control. "
         "Blender stays usable meanwhile; Esc or Cancel stops it"
     )
-    bl_options: ClassVar[set[str]] = {"UNDO"}
     verb = "Build"
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return poll_build(cls, context)
-
-    def _prepare(self, context: bpy.types.Context) -> Job:
-        obj = active_armature(context)
-        adopt_settings(self, obj.fragmotion.build, BuildFields)
+    def _prepare(self, context: bpy.types.Context, obj: bpy.types.Object) -> Job:
         task, self._warnings = building.prepare(context, obj, self)
-        self._armature = obj.name
         return Job(f"Building '{obj.name}'", task)
 
     def _keep(self, _context: bpy.types.Context, obj: bpy.types.Object, built: building.Built) -> None:

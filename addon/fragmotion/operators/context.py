@@ -49,9 +49,9 @@ def _advise_on_foreign(obj: bpy.types.Object) -> str:
     )
 
 
-def adopt_settings(operator: Any, settings: Any, fields: type) -> None:
+def adopt_settings(operator: Any, settings: Any) -> None:
     """Give the operator the panel's settings for every field that its caller did not set."""
-    names = {name for base in fields.__mro__ for name in getattr(base, "__annotations__", {})}
+    names = {name for base in type(settings).__mro__ for name in getattr(base, "__annotations__", {})}
     for name in names:
         if not operator.properties.is_property_set(name):
             setattr(operator, name, getattr(settings, name))

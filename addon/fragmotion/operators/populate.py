@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
 import bpy
 
 from ..baking import Baked
@@ -12,12 +10,10 @@ from ..drawing import draw_populate
 from ..jobs import Job
 from ..populating import populate, prepare
 from ..properties import PopulateFields
-from .background import Background
-from .bake import poll_bake
-from .context import active_armature, adopt_settings
+from .bake import Baking
 
 
-class FRAGMOTION_OT_populate(PopulateFields, Background, bpy.types.Operator):
+class FRAGMOTION_OT_populate(PopulateFields, Baking, bpy.types.Operator):
     """Copies of the active armature with its meshes, each baked with a trace of its own"""
 
     bl_idname = "fragmotion.populate"
@@ -26,18 +22,10 @@ class FRAGMOTION_OT_populate(PopulateFields, Background, bpy.types.Operator):
         "Add copies of the armature and its meshes around it, and bake each with a trace of its own to an Action "
         "of its own, on the root bone. Meshes and armature data are shared; what else matters is set under Bake"
     )
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
     verb = "Populate"
-    patience = 0.5
+    settings = "populate"
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return poll_bake(cls, context)
-
-    def _prepare(self, context: bpy.types.Context) -> Job:
-        obj = active_armature(context)
-        adopt_settings(self, obj.fragmotion.populate, PopulateFields)
-        self._armature = obj.name
+    def _prepare(self, context: bpy.types.Context, obj: bpy.types.Object) -> Job:
         return Job(f"Populating with '{obj.name}'", prepare(context, obj, self))
 
     def _keep(self, context: bpy.types.Context, obj: bpy.types.Object, crowd: list[Baked]) -> None:
