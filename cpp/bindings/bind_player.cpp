@@ -10,6 +10,8 @@
 namespace fragmotion::bindings {
 namespace {
 
+using SharedCharacter = std::shared_ptr<Character>;
+
 py::tuple step(Player& player, const Doubles& control, double seconds) {
   player.step(to_control(control), seconds);
   const Vector3& root = player.root_position();
@@ -50,13 +52,33 @@ void bind_performance(py::module_& m) {
       .def_readonly("drift", &Performance::drift);
 }
 
-PlayerOptions to_options(std::uint64_t seed, double stitch, const std::string& policy, const std::string& stitching,
-                         bool lock_feet, double pull, double promptness) {
-  if (stitching != "inertialize" && stitching != "crossfade") {
-    throw std::invalid_argument("there is no stitching \"" + stitching + "\"; there are inertialize and crossfade");
+Stitching to_stitching(const std::string& name) {
+  if (name != "inertialize" && name != "crossfade") {
+    throw std::invalid_argument("there is no stitching \"" + name + "\"; there are inertialize and crossfade");
   }
-  return {seed,      stitch, policy,    stitching == "crossfade" ? Stitching::crossfade : Stitching::inertialize,
-          lock_feet, pull,   promptness};
+  return name == "crossfade" ? Stitching::crossfade : Stitching::inertialize;
+}
+
+template <typename... T>
+struct Types {};
+
+// A function of `First...`, a player's options one by one, and `Last...`, made of one that takes them as PlayerOptions.
+template <typename... First, typename... Last, typename Function>
+auto with_options(Types<First...> /*before*/, Types<Last...> /*after*/, Function function) {
+  return [function](First... first, std::uint64_t seed, double stitch, const std::string& policy,
+                    const std::string& stitching, bool lock_feet, double pull, double promptness, Last... last) {
+    const PlayerOptions options{seed, stitch, policy, to_stitching(stitching), lock_feet, pull, promptness};
+    return function(std::move(first)..., options, std::move(last)...);
+  };
+}
+
+// Calls `define` with the arguments of a player's options, in the order of `with_options`.
+template <typename Define>
+void for_option_arguments(const Define& define) {
+  const PlayerOptions defaults;
+  define(py::arg("seed") = defaults.seed, py::arg("stitch") = defaults.stitch, py::arg("policy") = defaults.policy,
+         py::arg("stitching") = "inertialize", py::arg("lock_feet") = defaults.lock_feet,
+         py::arg("pull") = defaults.pull, py::arg("promptness") = defaults.promptness);
 }
 
 // An array to write to: a new one, or the caller's, which must be just so.
@@ -112,17 +134,15 @@ py::array_t<int> playing_of(const Crowd& crowd) {
 }
 
 void bind_crowd(py::module_& m) {
-  py::class_<Crowd>(m, "Crowd", py::module_local())
-      .def(py::init([](std::shared_ptr<Character> character, int count, std::uint64_t seed, double stitch,
-                       const std::string& policy, const std::string& stitching, bool lock_feet, double pull,
-                       double promptness, int threads) {
-             return Crowd(std::move(character), count,
-                          to_options(seed, stitch, policy, stitching, lock_feet, pull, promptness), threads);
-           }),
-           py::arg("character").none(false), py::arg("count"), py::arg("seed") = 1, py::arg("stitch") = kStitch,
-           py::arg("policy") = "", py::arg("stitching") = "inertialize", py::arg("lock_feet") = true,
-           py::arg("pull") = 1.0, py::arg("promptness") = 0.5, py::arg("threads") = 0)
-      .def("__len__", &Crowd::size)
+  py::class_<Crowd> crowd(m, "Crowd", py::module_local());
+  for_option_arguments([&](const auto&... options) {
+    crowd.def(py::init(with_options(Types<SharedCharacter, int>{}, Types<int>{},
+                                    [](SharedCharacter character, int count, const PlayerOptions& given, int threads) {
+                                      return Crowd(std::move(character), count, given, threads);
+                                    })),
+              py::arg("character").none(false), py::arg("count"), options..., py::arg("threads") = 0);
+  });
+  crowd.def("__len__", &Crowd::size)
       .def("step_many", &step_many, py::arg("controls"), py::arg("seconds"), py::arg("roots") = py::none(),
            py::arg("rotations") = py::none())
       .def(
@@ -170,18 +190,16 @@ void bind_yardsticks(py::module_& m) {
         return optimal_performance(character, controls, rate, shortest);
       },
       py::arg("character"), py::arg("trace"), py::arg("rate"), py::arg("shortest") = kSoonest);
-  m.def(
-      "response_times",
-      [](const std::shared_ptr<Character>& character, std::uint64_t seed, double stitch, const std::string& policy,
-         const std::string& stitching, bool lock_feet, double pull, double promptness) {
-        const PlayerOptions options = to_options(seed, stitch, policy, stitching, lock_feet, pull, promptness);
-        std::vector<double> times = without_gil([&] { return response_times(character, options); });
-        const auto count = static_cast<py::ssize_t>(times.size());
-        return to_array(std::move(times), {count});
-      },
-      py::arg("character").none(false), py::arg("seed") = 1, py::arg("stitch") = kStitch, py::arg("policy") = "",
-      py::arg("stitching") = "inertialize", py::arg("lock_feet") = true, py::arg("pull") = 1.0,
-      py::arg("promptness") = 0.5);
+  for_option_arguments([&](const auto&... options) {
+    m.def("response_times",
+          with_options(Types<SharedCharacter>{}, Types<>{},
+                       [](const SharedCharacter& character, const PlayerOptions& given) {
+                         std::vector<double> times = without_gil([&] { return response_times(character, given); });
+                         const auto count = static_cast<py::ssize_t>(times.size());
+                         return to_array(std::move(times), {count});
+                       }),
+          py::arg("character").none(false), options...);
+  });
 }
 
 }  // namespace
@@ -191,16 +209,15 @@ void bind_player(py::module_& m) {
   bind_measures(m);
   bind_yardsticks(m);
   bind_crowd(m);
-  py::class_<Player>(m, "Player", py::module_local())
-      .def(py::init([](std::shared_ptr<Character> character, std::uint64_t seed, double stitch,
-                       const std::string& policy, const std::string& stitching, bool lock_feet, double pull,
-                       double promptness) {
-             return Player(std::move(character),
-                           to_options(seed, stitch, policy, stitching, lock_feet, pull, promptness));
-           }),
-           py::arg("character").none(false), py::arg("seed") = 1, py::arg("stitch") = kStitch, py::arg("policy") = "",
-           py::arg("stitching") = "inertialize", py::arg("lock_feet") = true, py::arg("pull") = 1.0,
-           py::arg("promptness") = 0.5)
+  py::class_<Player> player(m, "Player", py::module_local());
+  for_option_arguments([&](const auto&... options) {
+    player.def(py::init(with_options(Types<SharedCharacter>{}, Types<>{},
+                                     [](SharedCharacter character, const PlayerOptions& given) {
+                                       return Player(std::move(character), given);
+                                     })),
+               py::arg("character").none(false), options...);
+  });
+  player
       .def(
           "reset",
           [](Player& p, double x, double y, double heading) {
