@@ -84,6 +84,12 @@ def build_options(**settings: object) -> core.BuildOptions:
     return options
 
 
+def small_build(
+    skeleton: core.Skeleton, clips: list[core.Clip], traces: list[Array], progress: core.Progress
+) -> core.Character:
+    return core.build(skeleton, clips, traces, build_options(classes=10), progress)
+
+
 @pytest.fixture(scope="session")
 def skeleton() -> core.Skeleton:
     return make_skeleton()
@@ -102,7 +108,9 @@ def traces() -> list[Array]:
 @pytest.fixture(scope="session")
 def character(skeleton: core.Skeleton, clips: list[core.Clip], traces: list[Array]) -> core.Character:
     """A made character of 30 classes with every policy."""
-    return core.build(skeleton, clips, traces, build_options(classes=30, policies=["anticipate", "iterate", "svm", "greedy"]))
+    return core.build(
+        skeleton, clips, traces, build_options(classes=30, policies=["anticipate", "iterate", "svm", "greedy"])
+    )
 
 
 class Bandai(NamedTuple):

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: MIT
+"""What a player plays: every frame, the same by steps as at once."""
+
+from __future__ import annotations
+
+import fragmotion_core as core
+import numpy as np
+import pytest
+from conftest import NAMES, Array, small_build
+
+
+@pytest.mark.parametrize("rate", [24, 25, 29.97, 30, 60, 120])
+def test_player_gives_every_frame_of_any_rate(character: core.Character, rate: float) -> None:
+    performance = core.Player(character).run(core.simulate_trace("explorer", 7, 1), rate)
+    frames = round(7 * rate) + 1
+    bones = len(NAMES)
+    assert performance.rate == rate
+    shapes = {"root_positions": (frames, 3), "rotations": (frames, bones, 4), "frames": (frames, 3)}
+    shapes |= {"classes": (frames,), "fragments": (frames,), "entered": (frames,)} if hasattr(dict, "__or__") else {}
+    for name, shape in shapes.items():
+        assert getattr(performance, name).shape == shape
+    np.testing.assert_allclose(np.linalg.norm(performance.rotations, axis=-1), 1, atol=1e-6)
+    np.testing.assert_allclose(performance.frames[:, :2], performance.root_positions[:, :2], atol=1e-9)
+    assert 0 < performance.quality <= 1
+    assert performance.velocity_error >= 0 and performance.commanded_speed > 0 and performance.drift > 0
+    assert performance.classes.dtype == np.int32
+    np.testing.assert_array_equal(character.labels[performance.fragments], performance.classes)
+
+
+def test_player_steps_as_it_runs(character: core.Character) -> None:
+    one, two = core.Player(character, seed=2), core.Player(character, seed=2)
+    for player in (one, two):
+        player.reset(2, -1, 0.5)
+        np.testing.assert_allclose(player.frame, (2, -1, 0.5), atol=1e-9)
+    performance = one.run(np.tile([0, 1.2, 0, 0], (20, 1)), 30)
+    for f in range(1, 61):
+        root, rotations = two.step([0, 1.2, 0, 0], 1 / 30)
+        np.testing.assert_allclose(root, performance.root_positions[f], atol=1e-9)
+        np.testing.assert_allclose(rotations, performance.rotations[f], atol=1e-9)
+    assert two.playing == (performance.classes[-1], performance.fragments[-1])
+
+
+def test_player_keeps_its_character_alive(skeleton: core.Skeleton, clips: list[core.Clip], traces: list[Array]) -> None:
+    player = core.Player(small_build(skeleton, clips, traces, lambda *_: True))
+    for _ in range(50):
+        root, _ = player.step([0, 1.2, 0, 0], 0.05)
+    assert np.isfinite(root).all()
+
+
+def test_player_plays_each_of_the_policies(character: core.Character, traces: list[Array]) -> None:
+    for policy in character.policies:
+        assert 0 < character.percent_of_optimal(traces[0], policy) <= 100 + 1e-9
+        assert core.Player(character, policy=policy).run(traces[0][:50], 30).quality > 0
+    assert character.percent_of_optimal(traces[0]) == character.percent_of_optimal(traces[0], character.policies[0])
