@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -84,6 +85,20 @@ ROOT Root
 """
 BVH_CHANNELS = 6 + 6 + 5 * 3
 
+WALK, RUN, TURN = 1.2, 3.0, 1.2  # m/s, m/s, rad/s
+GAITS = (  # velocity forward and to the left, turn rate to the left
+    (0, 0, 0),
+    (WALK, 0, 0),
+    (-WALK, 0, 0),
+    (0, WALK, 0),
+    (0, -WALK, 0),
+    (RUN, 0, 0),
+    (WALK, 0, TURN),
+    (WALK, 0, -TURN),
+    (0, 0, TURN),
+    (0, 0, -TURN),
+)
+
 
 def install(package: str) -> str:
     """Install and enable the add-on's zip with Blender's own operators, and return the name of its module."""
@@ -120,9 +135,36 @@ def write_bvh(path: Path, frames: int = 40, seed: int = 1, frame_time: float = 1
     rows = 40 * waves(frames, BVH_CHANNELS, seed)
     rows[:, 6:9] = (1, 95, 3) + 5 * waves(frames, 3, seed + 1)
     rows[:, 2] += 3 * np.arange(frames)
+    return _write_motion(path, rows, frame_time)
+
+
+def _write_motion(path: Path, rows: np.ndarray, frame_time: float) -> Path:
     motion = "\n".join(" ".join(f"{value:.6f}" for value in row) for row in rows)
-    path.write_text(f"{BVH_HIERARCHY}MOTION\nFrames: {frames}\nFrame Time: {frame_time:.7f}\n{motion}\n")
+    path.write_text(f"{BVH_HIERARCHY}MOTION\nFrames: {len(rows)}\nFrame Time: {frame_time:.7f}\n{motion}\n")
     return path
+
+
+def write_gaits(folder: Path) -> None:
+    """Takes of a walker that goes where it is told: standing, ways in four directions, a run, curves and turns."""
+    for index, gait in enumerate(GAITS):
+        _write_motion(folder / f"gait {index}.bvh", _walk(*gait), 1 / 30)
+
+
+def _walk(forward: float, left: float, turn: float, frames: int = 91) -> np.ndarray:
+    """A stiff-legged gait that faces z at first: BVH_HIERARCHY's channels [frames, BVH_CHANNELS] at 30 frames a second,
+    two steps a second."""
+    time = np.arange(frames) / 30
+    heading, stride = turn * time, 2 * np.pi * time
+    velocity = (left + 1j * forward) * np.exp(-1j * heading)  # x + iz
+    moving = min(1.0, math.hypot(forward, left) / WALK)
+    rows = np.zeros((frames, BVH_CHANNELS))
+    path = 100 * np.cumsum(velocity) / 30
+    rows[:, 6:9] = np.column_stack([path.real, 95 + 2 * moving * np.cos(2 * stride), path.imag])
+    rows[:, 11] = np.degrees(heading)
+    for thigh, foot, side in ((16, 18, 1), (22, 24, -1)):
+        rows[:, thigh] = side * 23 * moving * np.sin(stride)
+        rows[:, foot] = -rows[:, thigh]
+    return rows
 
 
 def add_armature(bones: Iterable[Any] = BODY, name: str = "Rig", connected: Sequence[str] = ()) -> bpy.types.Object:

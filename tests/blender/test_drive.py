@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -28,13 +28,12 @@ def session(addon: ModuleType) -> Iterator[ModuleType]:
 
 @pytest.fixture(scope="module")
 def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A file with a small character."""
+    """A file with a small character, which goes where it is told."""
     folder = tmp_path_factory.mktemp("built")
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    for seed in (1, 2, 3):
-        making.write_bvh(folder / f"take {seed}.bvh", frames=150, seed=seed)
+    making.write_gaits(folder)
     assert bpy.ops.fragmotion.import_mocap(directory=str(folder)) == {"FINISHED"}
-    assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=12, seconds=20.0) == {"FINISHED"}
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=24, seconds=20.0, synthesize=False) == {"FINISHED"}
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "built.blend"))
     return folder / "built.blend"
 
@@ -63,6 +62,11 @@ def hips(obj: bpy.types.Object) -> np.ndarray:
     """Where Blender shows the hips' head, m."""
     posed = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     return np.array(posed.matrix_world @ posed.pose.bones["hips" if "hips" in obj.pose.bones else "Hips"].head)
+
+
+def way(places: Sequence[Sequence[float]]) -> float:
+    """How long the way is that goes through these places (x and y come first), m."""
+    return float(np.linalg.norm(np.diff(np.array(places)[:, :2], axis=0), axis=1).sum())
 
 
 def everything(obj: bpy.types.Object) -> dict[str, Any]:
@@ -110,14 +114,37 @@ def test_the_armature_shows_what_the_player_plays(
 ) -> None:
     driven = start(session, obj)
     driven.play(addon.core.core.simulate_trace("runner", 5.0, 3, driven.actor.space))
-    way = 0.0
+    places = [hips(obj)]
     for _ in range(10):
-        before = hips(obj)
         go_on(driven, 0.3)
         x, y, _ = driven.player.frame
-        np.testing.assert_allclose(hips(obj)[:2], (x, y), atol=1e-4)
-        way += np.linalg.norm(hips(obj) - before)
-    assert way > 0.05
+        places.append(hips(obj))
+        np.testing.assert_allclose(places[-1][:2], (x, y), atol=1e-4)
+    assert way(places) > 6, "a runner in three seconds"
+
+
+@pytest.mark.parametrize(
+    ("keys", "velocity"),  # x and y in m/s, heading in rad/s; it faces -y
+    [
+        ("W", (0, -making.WALK, 0)),
+        ("S", (0, making.WALK, 0)),
+        ("A", (making.WALK, 0, 0)),
+        ("D", (-making.WALK, 0, 0)),
+        (("W", "LEFT_SHIFT"), (0, -making.RUN, 0)),
+        ("Q", (0, 0, making.TURN)),
+        ("E", (0, 0, -making.TURN)),
+    ],
+)
+def test_the_character_goes_where_it_is_told(
+    session: ModuleType, obj: bpy.types.Object, keys: Sequence[str], velocity: tuple[float, float, float]
+) -> None:
+    driven = start(session, obj)
+    for key in keys:
+        driven.inputs.keyboard.press(key)
+    go_on(driven, 1)
+    begin = np.array(driven.player.frame)
+    go_on(driven, 2)
+    np.testing.assert_allclose((driven.player.frame - begin) / 2, velocity, atol=0.1)
 
 
 def test_the_motion_does_not_depend_on_how_often_the_screen_is_drawn(
@@ -129,6 +156,7 @@ def test_the_motion_does_not_depend_on_how_often_the_screen_is_drawn(
         driven.inputs.keyboard.press("W")
         go_on(driven, 2, rate)
         places.append(driven.player.frame)
+    assert places[0][1] < -1.8, "two seconds of a walk forward"
     np.testing.assert_allclose(places, [places[0]] * 4, atol=0.1)
     assert places[0] == places[1] == places[3]
 
@@ -166,6 +194,7 @@ def test_what_is_recorded_replays_as_it_was_seen(addon: ModuleType, session: Mod
     player = addon.core.core.Player(driven.actor.character, take.seed)
     player.reset(*begin)
     performance = player.run(trace, RATE)
+    assert way(seen) > 3, "the character stood while it was recorded"
     np.testing.assert_allclose(performance.frames[1 : len(seen) + 1, :2], np.array(seen)[:, :2], atol=1e-9)
     assert take.quality == pytest.approx(performance.quality, abs=0.01)
 
@@ -180,6 +209,7 @@ def test_a_take_is_replayed_live(session: ModuleType, obj: bpy.types.Object) -> 
     for _ in seen:
         driven.update(1 / RATE)
         replayed.append(driven.player.frame)
+    assert way(replayed) > 3
     np.testing.assert_allclose(replayed, seen, atol=1e-4)
     go_on(driven, 1)
     assert driven.control == (0, 0, 0, 0) and not driven.inputs.trace.playing
@@ -187,14 +217,13 @@ def test_a_take_is_replayed_live(session: ModuleType, obj: bpy.types.Object) -> 
     assert (other.seed, other.actor.policy) == (7, "greedy")
 
 
-def test_a_take_that_begins_in_motion_keeps_what_was_seen(addon: ModuleType, session: ModuleType) -> None:
-    obj = making.open_sample()  # the small character hardly moves
-    bpy.ops.fragmotion.tick_actions(use=True)
-    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+def test_a_take_that_begins_in_motion_keeps_what_was_seen(
+    addon: ModuleType, session: ModuleType, obj: bpy.types.Object
+) -> None:
     driven = start(session, obj)
     driven.inputs.keyboard.press("W")
     go_on(driven, 2)
-    assert math.hypot(*driven.readings.velocity) > 0.8
+    assert math.hypot(*driven.readings.velocity) == pytest.approx(making.WALK, abs=0.1)
     before = driven.player.frame
     seen = record(driven)
     assert math.dist(before[:2], seen[0][:2]) < 0.1, "the character leaps where the recording begins"
@@ -437,7 +466,7 @@ def test_the_figures_say_what_plays(addon: ModuleType, session: ModuleType, obj:
     figures = import_module(f"{session.__package__}.figures")
     rows = dict(figures.rows(driven))
     assert rows["Input"] == "Keyboard" and rows["Control"] == "walk forward"
-    assert rows["Class"].startswith(f"{driven.player.playing[0]}: ")
+    assert rows["Class"].startswith(f"{driven.player.playing[0]}: walk forward")
     judge, character = driven.readings.judge, driven.actor.character
     assert 0 < judge.mean <= 1 and 0 < judge.quality <= 1
     assert 0 <= judge.left <= character.fragment_durations[driven.player.playing[1]]
