@@ -3,12 +3,17 @@
 
 from __future__ import annotations
 
+import textwrap
+
 import bpy
 
 from . import versions
 from .coverage import COLUMNS
 from .properties import POLICY_NAMES, BakeFields, BuildFields, BuildFigures, DriveSettings, PopulateFields
 from .storing import BESIDE, troubles
+
+# pixels of a sidebar at the scale 1: what no text can use, an icon with the room around it, and a letter on average
+_FRAME, _ICON, _LETTER = 30, 30, 6.3
 
 
 def draw_build(layout: bpy.types.UILayout, settings: BuildFields) -> None:
@@ -146,6 +151,17 @@ def draw_trace(layout: bpy.types.UILayout, settings: BuildFields | BakeFields | 
     elif settings.trace_source == "PLAYER":
         layout.prop(settings, "player")
         layout.prop(settings, "seconds")
+
+
+def draw_wrapped(
+    layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "NONE", share: float = 1.0
+) -> None:
+    """A text in as many lines as it takes in this share of the sidebar's width, the first with the icon."""
+    width = context.region.width / context.preferences.system.ui_scale - _FRAME
+    room = share * width - (_ICON if icon != "NONE" else 0)
+    for line in textwrap.wrap(text, max(int(room / _LETTER), 10)):
+        layout.label(text=line, icon=icon, translate=False)
+        icon = "BLANK1" if icon != "NONE" else icon
 
 
 def aligned(layout: bpy.types.UILayout) -> bpy.types.UILayout:

@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 import bpy
 
 from . import classes, inspector
+from .drawing import draw_wrapped
 from .errors import UserError
 from .operators import background, solo_class
 from .operators.context import active_armature
@@ -31,7 +32,7 @@ def _is_wide(context: bpy.types.Context) -> bool:
 
 
 class FRAGMOTION_UL_classes(bpy.types.UIList):
-    """The classes: name, control where there is room, number of fragments, and whether each is left out."""
+    """The classes: name, whether each is left out and, where there is room, its control and number of fragments."""
 
     bl_idname = "FRAGMOTION_UL_classes"
 
@@ -46,18 +47,20 @@ class FRAGMOTION_UL_classes(bpy.types.UIList):
         _active_name: str,
         _index: int,
     ) -> None:
-        wide = _is_wide(context)
         row = layout.row(align=True)
-        split = row.split(factor=0.6 if wide else 0.8, align=True)
-        split.active = not item.excluded
-        split.prop(item, "name", text="", emboss=False)
-        if wide:
-            split = split.split(factor=0.7, align=True)
-            split.label(text=item.sketch, translate=False)
-        count = split.row()
-        count.alignment = "RIGHT"
-        count.label(text=str(item.fragments))
+        shown = row.split(factor=0.6, align=True) if _is_wide(context) else row.row(align=True)
+        shown.active = not item.excluded
+        shown.prop(item, "name", text="", emboss=False)
+        if _is_wide(context):
+            _draw_beside(shown.split(factor=0.7, align=True), item)
         row.prop(item, "excluded", text="", icon="HIDE_ON" if item.excluded else "HIDE_OFF", emboss=False)
+
+
+def _draw_beside(layout: bpy.types.UILayout, item: Any) -> None:
+    layout.label(text=item.sketch, translate=False)
+    count = layout.row()
+    count.alignment = "RIGHT"
+    count.label(text=str(item.fragments))
 
 
 class FRAGMOTION_PT_classes(_SubPanel, bpy.types.Panel):
@@ -80,7 +83,7 @@ class FRAGMOTION_PT_classes(_SubPanel, bpy.types.Panel):
         if left_out:
             layout.label(text=f"{left_out} of {len(rows)} left out", icon="HIDE_ON")
         if settings.active_class < len(rows):
-            _draw_class(layout, settings.active_class, rows[settings.active_class])
+            _draw_class(layout, context, settings.active_class, rows[settings.active_class])
         row = layout.row(align=True)
         if solo_class.current is not None:
             row.label(text="Previewing: Esc or a click stops", icon="PLAY")
@@ -89,10 +92,10 @@ class FRAGMOTION_PT_classes(_SubPanel, bpy.types.Panel):
         row.operator("fragmotion.force_class", icon="FORWARD").number = -1
 
 
-def _draw_class(layout: bpy.types.UILayout, number: int, row: Any) -> None:
+def _draw_class(layout: bpy.types.UILayout, context: bpy.types.Context, number: int, row: Any) -> None:
     column = layout.column(align=True)
     plural = "s" if row.fragments != 1 else ""
-    column.label(text=row.name, translate=False)
+    draw_wrapped(column, context, row.name)
     column.label(text=f"Class {number}: {row.fragments} fragment{plural}")
     for part in row.described.split(", "):
         column.label(text=part, icon="BLANK1")
@@ -121,10 +124,10 @@ class FRAGMOTION_PT_inspector(_SubPanel, bpy.types.Panel):
             layout.prop(manager.inspector, "follow")
         if not live:
             _draw_control(layout, manager.inspector)
-        layout.label(text=f"After '{obj.fragmotion.classes[playing].name}':", translate=False)
+        draw_wrapped(layout.column(align=True), context, f"After '{obj.fragmotion.classes[playing].name}':")
         _draw_heads(layout)
         for index, line in enumerate(lines):
-            _draw_alternative(layout, manager.inspector, index, line, _is_wide(context))
+            _draw_alternative(layout, context, index, line)
 
 
 def _draw_control(layout: bpy.types.UILayout, settings: Any) -> None:
@@ -142,19 +145,21 @@ def _draw_heads(layout: bpy.types.UILayout) -> None:
         row.label(text=head)
 
 
-def _draw_alternative(layout: bpy.types.UILayout, settings: Any, index: int, line: inspector.Line, wide: bool) -> None:
+def _draw_alternative(layout: bpy.types.UILayout, context: bpy.types.Context, index: int, line: inspector.Line) -> None:
     """A class that might come next: its name, what its value is made of, and its nearest fragments; where there is
     room, the value."""
     column = layout.box().column(align=True)
-    head = column.split(factor=0.82) if wide else column
-    head.label(text=line.name, icon="RADIOBUT_ON" if line.chosen else "RADIOBUT_OFF", translate=False)
+    wide, share = _is_wide(context), 0.82
+    head = column.split(factor=share) if wide else column
+    icon = "RADIOBUT_ON" if line.chosen else "RADIOBUT_OFF"
+    draw_wrapped(head.column(align=True), context, line.name, icon, share if wide else 1.0)
     if wide:
         value = head.row()
         value.alignment = "RIGHT"
         value.label(text=f"{line.value:.2f}")
     bars = column.row(align=True)
     for name in ("smoothness", "match", "to_come"):
-        bars.prop(settings, name, index=index, text="", slider=True)
+        bars.prop(context.window_manager.fragmotion.inspector, name, index=index, text="", slider=True)
     for fragment in line.fragments if line.chosen else line.fragments[:1]:
         _draw_fragment(column, fragment)
 

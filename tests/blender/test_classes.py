@@ -284,6 +284,22 @@ def test_a_cancelled_trial_changes_nothing(
     assert obj.fragmotion.build.classes == before and not obj.fragmotion.tried
 
 
+@pytest.mark.parametrize("scale", [1.0, 2.0])
+def test_a_long_name_is_shown_whole_in_a_narrow_sidebar(addon: ModuleType, scale: float) -> None:
+    lines: list[tuple[str, str]] = []
+    layout = SimpleNamespace(label=lambda text, icon, translate: lines.append((text, icon)))
+    region = SimpleNamespace(width=220 * scale)  # as Blender opens the sidebar
+    preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=scale))
+    context = SimpleNamespace(region=region, preferences=preferences)
+    for name, broken in (("walk forward", 1), ("running jump back right turning left 2", 2)):
+        for icon, next_icon in (("NONE", "NONE"), ("RADIOBUT_ON", "BLANK1")):
+            lines.clear()
+            addon.drawing.draw_wrapped(layout, context, name, icon)
+            assert " ".join(text for text, _ in lines) == name
+            assert [shown for _, shown in lines] == [icon, next_icon][:broken]
+            assert max(len(text) for text, _ in lines) <= (25 if icon == "RADIOBUT_ON" else 30), "the room there is"
+
+
 # --- the picture of the coverage --------------------------------------------------------------------------------------
 
 
