@@ -120,6 +120,10 @@ def _seed(description: str) -> Any:
     return IntProperty(name="Seed", description=description, default=1, min=0)
 
 
+def _factor(name: str, description: str, default: float) -> Any:
+    return FloatProperty(name=name, description=description, default=default, min=0.0, max=1.0, subtype="FACTOR")
+
+
 def _policy(description: str, default: str, *others: tuple[str, str, str], name: str = "Policy") -> Any:
     return EnumProperty(name=name, description=description, items=(*others, *_POLICIES), default=default)
 
@@ -364,23 +368,17 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
 class FeelSettings(bpy.types.PropertyGroup):
     """How the character moves when it is driven and baked, whatever its policy."""
 
-    promptness: FloatProperty(  # type: ignore[valid-type]
-        name="Promptness",
-        description="How soon the character answers when the stick moves a lot: at 0 it waits, half a second at most, "
-        "for the moment where what it does next joins on best; at 1 it answers at once, and its feet may slide",
-        default=0.5,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
+    promptness: _factor(  # type: ignore[valid-type]
+        "Promptness",
+        "How soon the character answers when the stick moves a lot: at 0 it waits, half a second at most, for the "
+        "moment where what it does next joins on best; at 1 it answers at once, and its feet may slide",
+        0.5,
     )
-    pull: FloatProperty(  # type: ignore[valid-type]
-        name="Pull",
-        description="How much the body is pulled to what the stick says, over what its takes do: at 0 it moves as the "
-        "actor did, at 1 it goes and turns up to two fifths faster, slower or aside",
-        default=1.0,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
+    pull: _factor(  # type: ignore[valid-type]
+        "Pull",
+        "How much the body is pulled to what the stick says, over what its takes do: at 0 it moves as the actor did, "
+        "at 1 it goes and turns up to two fifths faster, slower or aside",
+        1.0,
     )
     lock_feet: BoolProperty(  # type: ignore[valid-type]
         name="Planted Feet", description="Feet that stand stay where they are, and legs follow", default=True

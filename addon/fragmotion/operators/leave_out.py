@@ -13,19 +13,24 @@ from ..left_out import choose_span
 from .context import active_armature, poll_armature
 
 
-def poll_take(cls: Any, context: bpy.types.Context) -> bool:
-    """Whether a take that can be changed is chosen in the panel's list; says why not."""
-    if not poll_armature(cls, context):
-        return False
-    action = chosen(context, active_armature(context))
-    if action is None:
-        cls.poll_message_set("No take is chosen in the list under Mocap")
-    elif action.library is not None:
-        cls.poll_message_set(f"Action '{action.name}' is linked from another file")
-    return action is not None and action.library is None
+class _OnTake:
+    """An operator on the take that is chosen in the panel's list."""
+
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls: Any, context: bpy.types.Context) -> bool:
+        if not poll_armature(cls, context):
+            return False
+        action = chosen(context, active_armature(context))
+        if action is None:
+            cls.poll_message_set("No take is chosen in the list under Mocap")
+        elif action.library is not None:
+            cls.poll_message_set(f"Action '{action.name}' is linked from another file")
+        return action is not None and action.library is None
 
 
-class FRAGMOTION_OT_leave_out(bpy.types.Operator):
+class FRAGMOTION_OT_leave_out(_OnTake, bpy.types.Operator):
     """Leave out the preview range, else the frames of the selected keys, else the current frame"""
 
     bl_idname = "fragmotion.leave_out"
@@ -34,11 +39,6 @@ class FRAGMOTION_OT_leave_out(bpy.types.Operator):
         "Leave frames of the take out of Build, such as a calibration pose: the timeline's preview range, else the "
         "frames of the selected keys, else the current frame. The numbers can be changed in the list"
     )
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return poll_take(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
@@ -53,20 +53,15 @@ class FRAGMOTION_OT_leave_out(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FRAGMOTION_OT_take_in(bpy.types.Operator):
+class FRAGMOTION_OT_take_in(_OnTake, bpy.types.Operator):
     """Let Build learn from these frames again"""
 
     bl_idname = "fragmotion.take_in"
     bl_label = "Take In Frames"
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
     index: IntProperty(  # type: ignore[valid-type]
         name="Number", description="Which of the take's left-out ranges, from 0", default=0, min=0
     )
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return poll_take(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         action = chosen(context, active_armature(context))
