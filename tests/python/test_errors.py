@@ -33,6 +33,7 @@ def test_errors_are_value_errors_that_name_the_cause(
         ("wise", lambda: character.percent_of_optimal(traces[0], "wise")),
         ("wise", lambda: core.Player(character, policy="wise")),
         ("stitching", lambda: core.Player(character, stitch=3)),
+        ('there is no stitching "glue"', lambda: core.Player(character, stitching="glue")),
         ("shape", lambda: core.Player(character).step([0, 1, 0], 0.1)),
         ("not a number", lambda: core.Player(character).step([0, np.nan, 0, 0], 0.1)),
         ("not a number", lambda: core.Player(character).step([0, 1, 0, np.inf], 0.1)),
