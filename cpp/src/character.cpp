@@ -26,6 +26,7 @@ constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gai
 constexpr double kRunOverWalk = 3.3 / 1.2;
 constexpr double kBalance = -1.0 / 3;  // each of k fragments that perform one control counts k^(-1/3) in clustering
 constexpr double kTurningHop = 0.1;    // weight of a hop that turns
+constexpr double kHopAhead = 4;        // weight of a hop on the spot or straight ahead
 constexpr double kTurning = kPi / 6;   // rad/s
 
 class Stopwatch {
@@ -152,15 +153,18 @@ Floors usual_floors(const std::vector<Contacts>& contacts, const std::vector<boo
   return floors;
 }
 
-// What many fragments perform must not take all classes from what few do, and hops that turn may be in a class with
-// those that do not: the player draws them there.
+// What many fragments perform must not take all classes from what few do. Hops that turn may be in a class with those
+// that do not, where the player draws them; those that are pressed for most, on the spot and ahead, should not be in
+// one with those to the side.
 std::vector<float> balanced_weights(const Character& c) {
   std::vector<float> weights;
   for (const Fragment& f : c.pool.fragments) {
     const int nearest = c.space.nearest(f.evident);
     const Control control = c.space.point(nearest);
     const double share = std::pow(c.coverage.counts[nearest], kBalance);
-    weights.push_back(static_cast<float>(share * (control.jump > 0 && control.turn != 0 ? kTurningHop : 1)));
+    const bool turns = control.turn != 0, ahead = control.x == 0 && control.y >= 0;
+    const double wanted = control.jump == 0 ? 1 : turns ? kTurningHop : ahead ? kHopAhead : 1;
+    weights.push_back(static_cast<float>(share * wanted));
   }
   return weights;
 }

@@ -304,8 +304,10 @@ int Player::tell(const Control& wanted) const {
   if (suits(told)) return told;
   double best = 0;
   for (int k = 0; k < c.classes.count; ++k) {
-    if (!suits(k) || c.quality(class_, k, control) <= best || !policy_->leads_to(k)) continue;
-    best = c.quality(class_, k, control);
+    const double match = c.quality.match[static_cast<std::size_t>(k) * ControlSpace::kPoints + control],
+                 worth = c.quality(class_, k, control) * match;
+    if (!suits(k) || worth <= best || !policy_->leads_to(k)) continue;
+    best = worth;
     told = k;
   }
   return told;

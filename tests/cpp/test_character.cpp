@@ -116,6 +116,23 @@ TEST(Build, IsTheSameCharacterTenTimesAsLarge) {
   }
 }
 
+TEST(Build, HasClassesForHopsOnTheSpotAndAhead) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    BuildOptions options;
+    options.classes = 50;
+    options.seed = seed;
+    options.policies = {"greedy"};
+    const Character c = build(humanoid(), gait_takes(), some_traces(), options);
+    for (const double speed : {0.0, c.space.walk(), c.space.run()}) {
+      double least = 9;
+      for (const int fragment : c.classes.representatives) {
+        least = std::min(least, c.space.distance(c.pool.fragments[fragment].evident, {0, speed, 0, 1}));
+      }
+      EXPECT_LT(least, 1) << "hopping at " << speed << " m/s, seed " << seed;
+    }
+  }
+}
+
 TEST(Build, RefusesWhatItCannotBuildFrom) {
   const std::vector<Clip> takes = some_takes();
   const auto error = [&](const std::vector<Clip>& clips, const std::vector<Trace>& traces,
