@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/contacts.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fragmotion {
 namespace {
 
 constexpr double kHeight = 0.045, kSpeed = 0.5, kSpeedShare = 0.2, kShortest = 0.06;
+constexpr double kDeeper = 0.02;  // of a path's points, that may be under its floor
 
 // The path of a foot's lower end (the ball: the toe's head, else the foot's tip) and of its heel (the foot's head).
 struct FootPath {
@@ -34,12 +36,6 @@ std::array<FootPath, 2> foot_paths(const Kinematics& kinematics, const Clip& cli
 double speed_at(const std::vector<Vector3>& path, int f, double rate) {
   const int last = static_cast<int>(path.size()) - 1, a = std::max(0, f - 1), b = std::min(last, f + 1);
   return (path[b] - path[a]).norm() * rate / (b - a);
-}
-
-double lowest(const std::vector<Vector3>& path) {
-  double z = path.front().z();
-  for (const Vector3& p : path) z = std::min(z, p.z());
-  return z;
 }
 
 // Flips runs of `value` shorter than `frames`, those at the ends of the clip excepted.
@@ -85,6 +81,14 @@ std::vector<int> changes(const Contacts& contacts, bool stands) {
 
 }  // namespace
 
+double floor_of(const std::vector<Vector3>& path) {
+  std::vector<double> heights;
+  for (const Vector3& p : path) heights.push_back(p.z());
+  const auto floor = heights.begin() + static_cast<std::ptrdiff_t>(kDeeper * static_cast<double>(heights.size() - 1));
+  std::nth_element(heights.begin(), floor, heights.end());
+  return *floor;
+}
+
 Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
   const Roles& roles = kinematics.skeleton().roles;
   if (roles.left_foot < 0 || roles.right_foot < 0) return {};
@@ -94,7 +98,8 @@ Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Flo
   const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
   Contacts contacts;
   for (int side = 0; side < 2; ++side) {
-    contacts.floors[side] = floors ? (*floors)[side] : FootHeights{lowest(paths[side].ball), lowest(paths[side].heel)};
+    contacts.floors[side] =
+        floors ? (*floors)[side] : FootHeights{floor_of(paths[side].ball), floor_of(paths[side].heel)};
     contacts.feet[side] = foot_contacts(paths[side], contacts.floors[side], hips, clip.rate, scale);
   }
   return contacts;

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fragmotion/tears.hpp"
+
 namespace fragmotion {
 
 const char* origin_name(Origin origin) {
@@ -28,19 +30,11 @@ void add_cuts(std::vector<int>& cuts, const std::vector<int>& frames, int shorte
   cuts = std::move(all);
 }
 
-}  // namespace
-
-void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const CutOptions& options) {
-  const Clip& source = pool.clips[clip];
-  const int shortest = std::max(1, static_cast<int>(std::ceil(options.shortest * source.rate - 1e-6)));
-  const int longest = static_cast<int>(std::floor(options.longest * source.rate + 1e-6));
-  if (longest < shortest) {
-    throw std::invalid_argument("a fragment of " + std::to_string(options.shortest) + " to " +
-                                std::to_string(options.longest) + " s holds no whole frame of clip \"" + source.name +
-                                "\" at " + std::to_string(source.rate) + " frames a second");
-  }
-  std::vector<int> cuts{0, source.frames - 1};
-  if (options.at_gait_events) {
+// Cuts frames begin .. end of a clip.
+void cut_part(FragmentPool& pool, int clip, int begin, int end, const Contacts& contacts, int shortest, int longest,
+              bool at_gait_events) {
+  std::vector<int> cuts{begin, end};
+  if (at_gait_events) {
     add_cuts(cuts, foot_strikes(contacts), shortest, shortest);
     add_cuts(cuts, foot_lifts(contacts), shortest, longest);
   }
@@ -57,6 +51,25 @@ void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const
       pool.fragments.push_back(fragment);
     }
   }
+}
+
+}  // namespace
+
+void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const CutOptions& options) {
+  const Clip& source = pool.clips[clip];
+  const int shortest = std::max(1, static_cast<int>(std::ceil(options.shortest * source.rate - 1e-6)));
+  const int longest = static_cast<int>(std::floor(options.longest * source.rate + 1e-6));
+  if (longest < shortest) {
+    throw std::invalid_argument("a fragment of " + std::to_string(options.shortest) + " to " +
+                                std::to_string(options.longest) + " s holds no whole frame of clip \"" + source.name +
+                                "\" at " + std::to_string(source.rate) + " frames a second");
+  }
+  int begin = 0;
+  for (const int tear : tears(pool.skeleton, source)) {
+    cut_part(pool, clip, begin, tear - 1, contacts, shortest, longest, options.at_gait_events);
+    begin = tear;
+  }
+  cut_part(pool, clip, begin, source.frames - 1, contacts, shortest, longest, options.at_gait_events);
 }
 
 }  // namespace fragmotion

@@ -84,19 +84,17 @@ std::vector<Joints> takes_of(const Character& character) {
   return takes;
 }
 
-// The median over the takes of where each point is lowest.
+// The median over the takes of where each point stands.
 PointFloors floors_of(const std::vector<Joints>& takes) {
   PointFloors floors;
   floors.fill(kNeverLow);
   for (std::size_t point = 0; point < floors.size(); ++point) {
-    std::vector<double> lowest;
+    std::vector<double> heights;
     for (const Joints& take : takes) {
-      double z = kNeverLow;
-      for (const Vector3& p : take.points[point]) z = std::min(z, p.z());
-      lowest.push_back(z);
+      heights.push_back(take.points[point].empty() ? kNeverLow : floor_of(take.points[point]));
     }
-    std::nth_element(lowest.begin(), lowest.begin() + lowest.size() / 2, lowest.end());
-    floors[point] = lowest[lowest.size() / 2];
+    std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
+    floors[point] = heights[heights.size() / 2];
   }
   return floors;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fragmotion/tears.hpp"
 #include "mocap_files.hpp"
 #include "walker.hpp"
 
@@ -111,6 +112,39 @@ TEST(CutFragments, CutsLongStepsWhereAFootLeavesTheGroundAndNotInMidSwing) {
   }
 }
 
+// A walk whose first frame is a pose with raised arms, and that goes on two metres aside at frame 50.
+Clip torn_clip() {
+  Clip clip = gait_clip({});
+  const Skeleton skeleton = humanoid();
+  for (int b = 0; b < skeleton.size(); ++b) {
+    if (skeleton.names[b].find("upper_arm") == std::string::npos) continue;
+    const Quaternion raised = Quaternion(Eigen::AngleAxisd(kPi / 2, Vector3::UnitX()));
+    store_quaternion((load_quaternion(&clip.rotations[std::size_t{4} * b]) * raised).normalized(),
+                     &clip.rotations[std::size_t{4} * b]);
+  }
+  for (int f = 50; f < clip.frames; ++f) clip.root_positions[std::size_t{3} * f] += 2;
+  return make_clip(skeleton, clip);
+}
+
+TEST(Tears, AreWhereNoBodyGetsFromOneFrameToTheNext) {
+  EXPECT_EQ(tears(humanoid(), torn_clip()), (std::vector<int>{1, 50}));
+  EXPECT_TRUE(tears(humanoid(), gait_clip({})).empty());
+  EXPECT_EQ(tears(humanoid(10), moved(humanoid(10), torn_clip(), {})), (std::vector<int>{1}));  // a giant's step
+}
+
+TEST(CutFragments, NeverGoOverATear) {
+  for (const bool gait : {true, false}) {
+    CutOptions options;
+    options.at_gait_events = gait;
+    const FragmentPool pool = gait_pool({torn_clip()}, 1, options);
+    EXPECT_GT(pool.fragments.size(), 4U);
+    expect_whole_fragments(pool, options);
+    for (const Fragment& f : pool.fragments) {
+      for (const int tear : {1, 50}) EXPECT_TRUE(f.end < tear || f.begin >= tear) << f.begin << " " << f.end;
+    }
+  }
+}
+
 TEST(CutFragments, WindowsHaveOneLength) {
   CutOptions options;
   options.at_gait_events = false;
@@ -171,6 +205,19 @@ TEST(FindContacts, FindsThePlantedFeet) {
     EXPECT_GT(frames, 100);
     EXPECT_EQ(wrong, 0) << rate << " frames/s, of " << frames;
   }
+}
+
+TEST(FindContacts, DoNotTakeABadFrameForTheFloor) {
+  Clip clip = gait_clip({});
+  const Contacts usual = find_contacts(Kinematics(humanoid()), clip);
+  clip.root_positions[3 * 40 + 2] -= 0.2;
+  const Contacts with_bad_frame = find_contacts(Kinematics(humanoid()), clip);
+  int different = 0;
+  for (int f = 0; f < clip.frames; ++f) {
+    for (int side = 0; side < 2; ++side) different += usual.feet[side][f] != with_bad_frame.feet[side][f] ? 1 : 0;
+  }
+  EXPECT_LT(different, 12);  // near the frame, as the foot is fast there
+  EXPECT_NEAR(usual.floors[0].ball, with_bad_frame.floors[0].ball, 5e-3);
 }
 
 TEST(FindContacts, AreTheSameForAGiant) {

@@ -21,9 +21,13 @@ struct Contacts {
   Floors floors;
 };
 
+/// Where a point of a foot stands: the height over which it is all but 2 % of the time, so that neither a hard landing
+/// nor a bad frame is taken for the floor.
+double floor_of(const std::vector<Vector3>& path);
+
 /// A foot stands while its lower end is within 4.5 cm of its floor and nearly still: slower than 0.5 m/s plus a fifth
 /// of the hips' speed (lengths of a character of 1.8 m). Gaps and contacts shorter than 0.06 s are closed. The floor is
-/// where ball and heel are lowest in the clip, unless one is given: a short clip need not touch it.
+/// floor_of() ball and heel in the clip, unless one is given: a short clip need not touch it.
 Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors = nullptr);
 
 /// The frames in which a foot strikes the ground, in order: the gait events between fragments.

@@ -46,7 +46,8 @@ struct CutOptions {
 /// Cuts clip `clip` of the pool into fragments (Sec. 4: 100 to 500 ms) and appends them. A step
 /// that is longer than `longest` is cut where a foot leaves the ground, too, as in the middle of a swing the one foot
 /// is where the other is in the next. What is still longer is divided into equal parts, or into parts of `longest`
-/// without the rest where equal ones would be shorter than `shortest`; cuts nearer than `shortest` are dropped. Throws
+/// without the rest where equal ones would be shorter than `shortest`; cuts nearer than `shortest` are dropped. No
+/// fragment goes over one of the clip's tears(). Throws
 /// std::invalid_argument on a range with no whole number of frames for this clip's rate.
 void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const CutOptions& options);
 

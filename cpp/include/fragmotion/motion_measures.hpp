@@ -15,7 +15,7 @@ struct Steps {
 };
 
 /// What a viewer finds fault with. Lengths are those of a character of 1.8 m. Feet are judged by ball and heel (heads
-/// of toe and foot), whose height is that over where they are lowest in the takes.
+/// of toe and foot), whose height is that over where they stand in the takes.
 struct MotionMeasures {
   double foot_skate = 0;     ///< Mean horizontal speed of balls and heels, weighted by 2 - 2^(height / 2.5 cm), m/s.
   double sliding_share = 0;  ///< Share of the time with a point under 2.5 cm in which it goes faster than 0.1 m/s.
@@ -38,7 +38,7 @@ class MotionYardstick {
 
  private:
   Skeleton skeleton_;
-  std::array<double, 4> floors_{};  // where left ball, left heel, right ball and right heel are lowest, m
+  std::array<double, 4> floors_{};  // where left ball, left heel, right ball and right heel stand, m
   JointLimits limits_;
   MotionMeasures takes_;
 };
