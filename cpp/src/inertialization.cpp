@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/inertialization.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fragmotion/pose.hpp"
@@ -9,13 +10,12 @@ namespace fragmotion {
 namespace {
 
 constexpr double kFades = 2.4;  // (1 + kFades) exp(-kFades) is three tenths
+constexpr double kCalms = 12;   // 1/s: at least so fast fade speeds, which carry a pose too far in a long stitch
 constexpr double kLasts = 4;    // times that, until nothing is seen of it
 
-// The rotation from b to a as axis * tan(angle / 4): free of trigonometry, and smooth up to a whole turn.
-Vector3 turn_between(const double* a, const double* b) {
-  const Quaternion q = load_quaternion(a) * load_quaternion(b).conjugate();
-  return q.w() < 0 ? Vector3{-q.vec() / (1 - q.w())} : Vector3{q.vec() / (1 + q.w())};
-}
+// A rotation as axis * tan(angle / 4): free of trigonometry, and smooth up to a whole turn. Of a quaternion and its
+// negative, which are the same rotation, one is the long way round.
+Vector3 turn_of(const Quaternion& q) { return q.vec() / (1 + q.w()); }
 
 // Turns a rotation further. Number by number, so that nothing waits for numbers that were just stored in other parts.
 inline void add_turn(const Vector3& turn, double* wxyz) {
@@ -42,19 +42,21 @@ void Inertialization::begin(const WorldPose& old_before, const WorldPose& old, c
   heading_speed_ = (old.heading - old_before.heading - (fresh_later.heading - fresh.heading)) / apart;
   for (std::size_t b = 0; b < turns_.size(); ++b) {
     const double *was = &old_before.rotations[4 * b], *is = &old.rotations[4 * b], *starts = &fresh.rotations[4 * b];
-    const Vector3 offset = turn_between(is, starts);
+    Quaternion offset = load_quaternion(is) * load_quaternion(starts).conjugate();
+    if (offset.w() < 0) offset.coeffs() *= -1;
     // What the old bone turns in `apart`, and then the new one, both about the world of the parent.
     const Quaternion next_old = load_quaternion(is) * load_quaternion(was).conjugate() * load_quaternion(is);
-    double next[4];
-    store_quaternion(next_old, next);
-    turns_[b] = offset;
-    turn_speeds_[b] = (turn_between(next, &fresh_later.rotations[4 * b]) - offset) / apart;
+    Quaternion next = next_old * load_quaternion(&fresh_later.rotations[4 * b]).conjugate();
+    if (next.dot(offset) < 0) next.coeffs() *= -1;
+    turns_[b] = turn_of(offset);
+    turn_speeds_[b] = (turn_of(next) - turns_[b]) / apart;
   }
 }
 
 void Inertialization::apply(double time, WorldPose& pose) const {
   if (!active(time)) return;
-  const double left = std::exp(-damping_ * time), offset = (1 + damping_ * time) * left, speed = time * left;
+  const double offset = (1 + damping_ * time) * std::exp(-damping_ * time),
+               speed = time * std::exp(-std::max(damping_, kCalms) * time);
   pose.root += offset * root_ + speed * root_speed_;
   pose.heading += offset * heading_ + speed * heading_speed_;
   for (std::size_t b = 0; b < turns_.size(); ++b) {

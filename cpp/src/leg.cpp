@@ -11,6 +11,7 @@ namespace {
 constexpr double kStretched = 0.995;  // of a leg's length: what it reaches at most, unless it does already
 constexpr double kSoft = 0.03;        // of a leg's length, below that: where it follows less
 constexpr double kStraight = 0.1;     // rad: a knee that is bent less than that resists being bent backward
+constexpr double kFolded = 2.5;       // rad: a knee that is bent more resists, too
 constexpr double kNear = 0.02;  // of a leg's length: wanted so near to where it is, a foot may go as the knee does
 constexpr int kApart = 5;       // frames of the clips that are looked at: each fifth
 
@@ -28,8 +29,12 @@ double apart(double now, double wanted) {
   return std::min(softly(wanted) + share * (now - softly(now)), std::max(now, kStretched));
 }
 
-// A knee's bend, which never goes backward: a stitch may overshoot.
-double forward(double bend) { return bend > kStraight ? bend : kStraight * std::exp(bend / kStraight - 1); }
+// A knee's bend, which neither goes backward nor folds up the leg: a stitch may overshoot.
+double bearable(double bend) {
+  if (bend < -kPi / 2) bend += 2 * kPi;  // it is folded further than flat, rather than bent backward
+  if (bend > kFolded) return kFolded + kStraight * (1 - std::exp((kFolded - bend) / kStraight));
+  return bend > kStraight ? bend : kStraight * std::exp(bend / kStraight - 1);
+}
 
 // The angle of the knee, 0 where the leg is straight, for which its ends are so far apart.
 double opening(double upper, double lower, double apart) {
@@ -105,7 +110,7 @@ void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, co
     const double in_plane = upper.squaredNorm() + across * across + 2 * upper.norm() * across * std::cos(bend);
     return std::sqrt(in_plane + beside) / length;
   };
-  const double bent = std::atan2(axis.dot(upper.cross(lower)), upper.dot(lower)), natural = distance(forward(bent));
+  const double bent = std::atan2(axis.dot(upper.cross(lower)), upper.dot(lower)), natural = distance(bearable(bent));
   double wanted = (ankle - hip).norm() / length;
   wanted += std::max(0.0, 1 - std::abs(wanted - now) / kNear) * (natural - now);
   const Quaternion knee{Eigen::AngleAxisd(angle(length * apart(natural, wanted)) - bent, axis)};

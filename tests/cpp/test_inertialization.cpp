@@ -74,6 +74,41 @@ TEST(Inertialization, LeavesThreeTenthsOfAnOffsetAfterItsTime) {
   EXPECT_NEAR(fresh.heading, 0.15, 0.005);
 }
 
+// A bone that turns about x at a speed, from an angle on.
+WorldPose turned(double angle) {
+  WorldPose pose{Vector3::Zero(), 0, std::vector<double>(8)};
+  for (int i = 0; i < 8; i += 4) {
+    store_quaternion(Quaternion{Eigen::AngleAxisd(angle, Vector3::UnitX())}, &pose.rotations[i]);
+  }
+  return pose;
+}
+
+TEST(Inertialization, GoesOneWayRoundFromWhatIsTurnedByHalf) {
+  constexpr double kSpeed = 3;  // rad/s
+  Inertialization inertia(2);
+  inertia.begin(turned(kPi - 1e-6 - kSpeed * kApart), turned(kPi - 1e-6), turned(0), turned(0), kApart, kSeconds);
+  WorldPose before = turned(kPi - 1e-6);
+  for (int f = 1; f < 60; ++f) {
+    WorldPose pose = turned(0);
+    inertia.apply(f / 60.0, pose);
+    EXPECT_LT(largest_difference(before, pose), 0.3) << f;
+    before = pose;
+  }
+}
+
+TEST(Inertialization, CarriesAPoseNoFurtherInALongStitch) {
+  constexpr double kSpeed = 15;  // rad/s
+  for (const double seconds : {0.1, 0.2, 0.5, 1.0}) {
+    Inertialization inertia(2);
+    inertia.begin(turned(-kSpeed * kApart), turned(0), turned(0), turned(0), kApart, seconds);
+    for (int f = 0; f < 60; ++f) {
+      WorldPose pose = turned(0);
+      inertia.apply(f / 60.0, pose);
+      EXPECT_LT(largest_difference(turned(0), pose), 0.55) << seconds;
+    }
+  }
+}
+
 TEST(Inertialization, NeverSteps) {
   Random random(2);
   const Motion old(random), fresh(random);

@@ -71,6 +71,26 @@ TEST(Reach, NeverBendsAKneeBackwardNorSnapsIt) {
   }
 }
 
+TEST(Reach, NeitherFoldsUpAKneeNorSnapsItWhereAStitchOvershoots) {
+  const Skeleton skeleton = humanoid();
+  const Kinematics kinematics(skeleton);
+  const Clip clip = gait_clip({0, 0, 0});
+  const Leg leg = find_legs(kinematics, {gait_clip({1.2, 0, 0})})[0];
+  PosedBones posed(skeleton.size()), after(skeleton.size());
+  for (int n = 0; n <= 100; ++n) {  // from bent to folded further than flat
+    std::vector<double> rotations(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
+    const Quaternion bend{Eigen::AngleAxisd(2.3 + 0.01 * n, leg.hinge)};
+    store_quaternion(bend * load_quaternion(&rotations[4 * leg.knee]), &rotations[4 * leg.knee]);
+    const Vector3 root = load_vector(clip.root_positions.data());
+    kinematics.world(root, rotations.data(), posed.heads.data(), posed.rotations.data());
+    reach(skeleton, leg, posed, posed.heads[leg.foot], rotations.data());
+    kinematics.world(root, rotations.data(), after.heads.data(), after.rotations.data());
+    const Vector3 hip = after.heads[leg.thigh], foot = after.heads[leg.foot];
+    EXPECT_GT((foot - hip).norm(), 0.2) << n;
+    EXPECT_LT((foot - hip).norm(), 0.4) << n;
+  }
+}
+
 TEST(Reach, ComesAsNearAsTheLegIsLong) {
   const Skeleton skeleton = humanoid();
   const Kinematics kinematics(skeleton);
