@@ -146,17 +146,16 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
 void hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, int end, double height) {
   PosedBones posed(kinematics.bones());
   for (int f = 0; f < end; ++f) {
-    const double rise = height * hop_at(static_cast<double>(f) / end), lift = std::max(0.0, rise) * (1 + kTuck);
+    const double rise = height * hop_at(static_cast<double>(f) / end);
+    const double tuck = std::max(0.0, rise) * (1 + kTuck) - rise;  // of the feet, towards the hips
     double* root = &clip.root_positions[std::size_t{3} * f];
     double* rotations = &clip.rotations[std::size_t{4} * kinematics.bones() * f];
     kinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
     root[2] += rise;
     for (const Leg& leg : legs) {
       if (!leg.exists()) continue;
-      const Vector3 ankle = posed.heads[leg.foot] + lift * Vector3::UnitZ();
-      PosedBones risen = posed;
-      for (Vector3& head : risen.heads) head.z() += rise;
-      reach(kinematics.skeleton(), leg, risen, ankle, rotations);
+      const Vector3 ankle = posed.heads[leg.foot] + tuck * Vector3::UnitZ();
+      reach(kinematics.skeleton(), leg, posed, ankle, rotations);
     }
   }
 }
