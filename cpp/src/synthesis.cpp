@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "fragmotion/blend.hpp"
@@ -218,6 +219,12 @@ class Synthesizer {
     return best;
   }
 
+  const Contacts& contacts(int clip) {
+    const auto [found, fresh] = contacts_.try_emplace(clip);
+    if (fresh) found->second = find_contacts(kinematics_, pool_.clips[clip]);
+    return found->second;
+  }
+
   // Transforms the cheapest cycle for the control, in pieces that follow each other as in the take.
   void transform(const Control& control) {
     const Cycle* best = cheapest(control);
@@ -234,7 +241,7 @@ class Synthesizer {
     change.tempo = std::max(usual / pieces, std::clamp(std::sqrt(faster), 1 / kHurry, kHurry));
     change.speed = faster / change.tempo;
     const int longest = static_cast<int>(options_.longest * clip.rate * change.tempo + 1e-6);
-    const Clip made = transformed(kinematics_, legs_, clip, find_contacts(kinematics_, clip), best->begin, best->end,
+    const Clip made = transformed(kinematics_, legs_, clip, contacts(best->clip), best->begin, best->end,
                                   length + longest + tail(clip), change);
     std::vector<int> ends;
     for (int piece = 0; piece <= pieces; ++piece) ends.push_back(length * piece / pieces);
@@ -255,6 +262,7 @@ class Synthesizer {
   Trajectories trajectories_;
   int originals_;
   std::vector<Cycle> cycles_;
+  std::map<int, Contacts> contacts_;  // of the clips that were transformed
 };
 
 }  // namespace
