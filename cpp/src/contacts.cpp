@@ -19,11 +19,12 @@ std::array<FootPath, 2> foot_paths(const Kinematics& kinematics, const Clip& cli
   const Skeleton& skeleton = kinematics.skeleton();
   const Roles& roles = skeleton.roles;
   const int feet[] = {roles.left_foot, roles.right_foot}, toes[] = {roles.left_toe, roles.right_toe};
+  const std::vector<int> bones = kinematics.chains({feet[0], feet[1], toes[0], toes[1]});
   std::vector<Vector3> heads(kinematics.bones());
   std::vector<Quaternion> rotations(kinematics.bones());
   std::array<FootPath, 2> paths;
   for (int f = 0; f < clip.frames; ++f) {
-    kinematics.world(clip, f, heads.data(), rotations.data());
+    kinematics.world(clip, f, bones, heads.data(), rotations.data());
     for (int side = 0; side < 2; ++side) {
       const int foot = feet[side], toe = toes[side];
       paths[side].ball.push_back(toe >= 0 ? heads[toe] : Vector3{heads[foot] + rotations[foot] * skeleton.tips[foot]});

@@ -40,8 +40,12 @@ class Kinematics {
              Quaternion* orientations) const;
 
   void world(const Clip& clip, int index, Vector3* heads, Quaternion* orientations) const {
-    world(load_vector(&clip.root_positions[3 * index]), &clip.rotations[std::size_t{4} * bones() * index], heads,
-          orientations);
+    world(clip, index, parts_->below, heads, orientations);
+  }
+  void world(const Clip& clip, int index, const std::vector<int>& bones, Vector3* heads,
+             Quaternion* orientations) const {
+    world(load_vector(&clip.root_positions[3 * index]), &clip.rotations[std::size_t{4} * this->bones() * index], bones,
+          heads, orientations);
   }
 
   /// The bones between the hips and those given, and these.
