@@ -30,7 +30,7 @@ inline void add_turn(const Vector3& turn, double* wxyz) {
 
 }  // namespace
 
-Inertialization::Inertialization(int bones) : turns_(bones), turn_speeds_(bones) {}
+Inertialization::Inertialization(int bones) : bones_(bones) {}
 
 void Inertialization::begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh,
                             const WorldPose& fresh_later, double apart, double seconds) {
@@ -40,7 +40,7 @@ void Inertialization::begin(const WorldPose& old_before, const WorldPose& old, c
   root_speed_ = (old.root - old_before.root - (fresh_later.root - fresh.root)) / apart;
   heading_ = old.heading - fresh.heading;
   heading_speed_ = (old.heading - old_before.heading - (fresh_later.heading - fresh.heading)) / apart;
-  for (std::size_t b = 0; b < turns_.size(); ++b) {
+  for (std::size_t b = 0; b < bones_.size(); ++b) {
     const double *was = &old_before.rotations[4 * b], *is = &old.rotations[4 * b], *starts = &fresh.rotations[4 * b];
     Quaternion offset = load_quaternion(is) * load_quaternion(starts).conjugate();
     if (offset.w() < 0) offset.coeffs() *= -1;
@@ -48,8 +48,8 @@ void Inertialization::begin(const WorldPose& old_before, const WorldPose& old, c
     const Quaternion next_old = load_quaternion(is) * load_quaternion(was).conjugate() * load_quaternion(is);
     Quaternion next = next_old * load_quaternion(&fresh_later.rotations[4 * b]).conjugate();
     if (next.dot(offset) < 0) next.coeffs() *= -1;
-    turns_[b] = turn_of(offset);
-    turn_speeds_[b] = (turn_of(next) - turns_[b]) / apart;
+    const Vector3 turn = turn_of(offset);
+    bones_[b] = {turn, (turn_of(next) - turn) / apart};
   }
 }
 
@@ -59,8 +59,8 @@ void Inertialization::apply(double time, WorldPose& pose) const {
                speed = time * std::exp(-std::max(damping_, kCalms) * time);
   pose.root += offset * root_ + speed * root_speed_;
   pose.heading += offset * heading_ + speed * heading_speed_;
-  for (std::size_t b = 0; b < turns_.size(); ++b) {
-    add_turn(offset * turns_[b] + speed * turn_speeds_[b], &pose.rotations[4 * b]);
+  for (std::size_t b = 0; b < bones_.size(); ++b) {
+    add_turn(offset * bones_[b].turn + speed * bones_[b].speed, &pose.rotations[4 * b]);
   }
 }
 

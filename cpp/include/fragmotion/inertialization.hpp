@@ -38,10 +38,15 @@ class Inertialization {
   void apply(double time, WorldPose& pose) const;
 
  private:
+  // How far a bone is turned from its motion, as modified Rodrigues parameters, and that a second.
+  struct Offset {
+    Vector3 turn = Vector3::Zero(), speed = Vector3::Zero();
+  };
+
   double damping_ = 0, end_ = 0;  // 1/s, s
   Vector3 root_ = Vector3::Zero(), root_speed_ = Vector3::Zero();
   double heading_ = 0, heading_speed_ = 0;
-  std::vector<Vector3> turns_, turn_speeds_;  // [bones] modified Rodrigues parameters, and a second
+  std::vector<Offset> bones_;
 };
 
 }  // namespace fragmotion
