@@ -11,9 +11,13 @@ namespace {
 constexpr double kStretched = 0.995;  // of a leg's length: what it reaches at most, unless it does already
 constexpr double kSoft = 0.03;        // of a leg's length, below that: where it follows less
 constexpr double kStraight = 0.1;     // rad: a knee that is bent less than that resists being bent backward
-constexpr double kFolded = 2.5;       // rad: a knee that is bent more resists, too
-constexpr double kNear = 0.02;  // of a leg's length: wanted so near to where it is, a foot may go as the knee does
-constexpr int kApart = 5;       // frames of the clips that are looked at: each fifth
+constexpr double kFolded = 2.5;       // rad: a knee that is bent more resists being folded up
+constexpr double kNear = 0.02;      // of a leg's length: wanted so near to where it is, a foot may go as the knee does
+constexpr double kOpposite = 1e-6;  // 1 + cosine of an angle, below which half of it is not to be had from that
+constexpr double kTiny = 1e-12;     // m^2
+constexpr int kApart = 5;           // frames of the clips that are looked at: each fifth
+
+const double kBendsWell = std::cos(kStraight), kFoldsWell = std::cos(kFolded);
 
 constexpr double kTires = kStretched - kSoft;  // of a leg's length: from where it follows less
 
@@ -29,17 +33,70 @@ double apart(double now, double wanted) {
   return std::min(softly(wanted) + share * (now - softly(now)), std::max(now, kStretched));
 }
 
-// A knee's bend, which neither goes backward nor folds up the leg: a stitch may overshoot.
-double bearable(double bend) {
-  if (bend < -kPi / 2) bend += 2 * kPi;  // it is folded further than flat, rather than bent backward
-  if (bend > kFolded) return kFolded + kStraight * (1 - std::exp((kFolded - bend) / kStraight));
-  return bend > kStraight ? bend : kStraight * std::exp(bend / kStraight - 1);
+double square(double value) { return value * value; }
+
+// The rotation about a unit axis by an angle that is told by its cosine and its sine.
+Quaternion rotation(const Vector3& axis, double cosine, double sine) {
+  if (1 + cosine <= kOpposite) return Quaternion{Eigen::AngleAxisd(std::atan2(sine, cosine), axis)};
+  const double w = std::sqrt((1 + cosine) / 2), along = sine / (2 * w);
+  return {w, along * axis.x(), along * axis.y(), along * axis.z()};
 }
 
-// The angle of the knee, 0 where the leg is straight, for which its ends are so far apart.
-double opening(double upper, double lower, double apart) {
-  return std::acos(std::clamp((apart * apart - upper * upper - lower * lower) / (2 * upper * lower), -1.0, 1.0));
+// The least rotation that brings one direction to another.
+Quaternion turn_between(const Vector3& from, const Vector3& to) {
+  const double product = std::sqrt(from.squaredNorm() * to.squaredNorm()), w = product + from.dot(to);
+  if (w <= kOpposite * product) return Quaternion::FromTwoVectors(from, to);
+  const Vector3 axis = from.cross(to);
+  return Quaternion{w, axis.x(), axis.y(), axis.z()}.normalized();
 }
+
+// A knee that is bent about a hinge.
+class Knee {
+ public:
+  Knee(const Vector3& upper, const Vector3& lower, const Vector3& hinge)
+      : upper_(upper.squaredNorm()),
+        axis_((hinge - hinge.dot(upper) / upper_ * upper).normalized()),
+        beside_(square(lower.dot(axis_))),
+        across_(std::max(kTiny, lower.squaredNorm() - beside_)),
+        length_(std::sqrt(upper_) + std::sqrt(beside_ + across_)),
+        twice_(2 * std::sqrt(upper_ * across_)),
+        cosine_(2 * upper.dot(lower) / twice_),
+        sine_(2 * axis_.dot(upper.cross(lower)) / twice_) {}
+
+  // How far apart the leg's ends come that would be `wanted`, m.
+  double ends(double wanted) const {
+    const double now = distance(cosine_), natural = bends_well() ? now : distance(std::cos(bearable()));
+    wanted /= length_;
+    wanted += std::max(0.0, 1 - std::abs(wanted - now) / kNear) * (natural - now);
+    return length_ * apart(natural, wanted);
+  }
+
+  // What turns the lower leg for the leg's ends to be so far apart.
+  Quaternion bent_by(double ends) const {
+    const double cosine = std::clamp((ends * ends - beside_ - across_ - upper_) / twice_, -1.0, 1.0),
+                 sine = std::sqrt((1 - cosine) * (1 + cosine));
+    return rotation(axis_, cosine * cosine_ + sine * sine_, sine * cosine_ - cosine * sine_);
+  }
+
+ private:
+  bool bends_well() const { return sine_ > 0 && cosine_ < kBendsWell && cosine_ > kFoldsWell; }
+
+  // The knee's bend, rad, which neither goes backward nor folds up the leg: a stitch may overshoot.
+  double bearable() const {
+    double bend = std::atan2(sine_, cosine_);
+    if (bend < -kPi / 2) bend += 2 * kPi;  // it is folded further than flat, rather than bent backward
+    if (bend > kFolded) return kFolded + kStraight * (1 - std::exp((kFolded - bend) / kStraight));
+    return kStraight * std::exp(bend / kStraight - 1);
+  }
+
+  // Between the leg's ends, in lengths of the leg, by the cosine of the bend.
+  double distance(double cosine) const { return std::sqrt(upper_ + across_ + beside_ + twice_ * cosine) / length_; }
+
+  double upper_;  // squares of lengths, m: of the upper leg, and of the lower one along the axis and across it
+  Vector3 axis_;
+  double beside_, across_;
+  double length_, twice_, cosine_, sine_;
+};
 
 Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe) {
   if (thigh < 0 || foot < 0 || !skeleton.is_below(foot, thigh)) return {};
@@ -71,10 +128,11 @@ Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips) {
   Legs legs{leg_of(skeleton, roles.left_thigh, roles.left_foot, roles.left_toe),
             leg_of(skeleton, roles.right_thigh, roles.right_foot, roles.right_toe)};
   if (!legs[0].exists() || !legs[1].exists()) return legs;
+  const std::vector<int> bones = kinematics.chains({legs[0].foot, legs[1].foot});
   PosedBones posed(kinematics.bones());
   for (const Clip& clip : clips) {
     for (int f = 0; f < clip.frames; f += kApart) {
-      kinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+      kinematics.world(clip, f, bones, posed.heads.data(), posed.rotations.data());
       for (Leg& leg : legs) leg.hinge += bend(leg, posed);
     }
   }
@@ -97,31 +155,18 @@ double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle) {
 }
 
 void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations) {
-  const Vector3 hip = posed.heads[leg.thigh], upper = posed.heads[leg.knee] - hip,
-                lower = posed.heads[leg.foot] - posed.heads[leg.knee];
-  const double length = upper.norm() + lower.norm(), now = (upper + lower).norm() / length;
-  const Vector3 hinge = posed.rotations[leg.thigh] * leg.hinge;
-  const Vector3 axis = (hinge - hinge.dot(upper) / upper.squaredNorm() * upper).normalized();
-  const double across = (lower - lower.dot(axis) * axis).norm(), beside = lower.squaredNorm() - across * across;
-  const auto angle = [&](double distance) {
-    return opening(upper.norm(), across, std::sqrt(std::max(0.0, distance * distance - beside)));
-  };
-  const auto distance = [&](double bend) {
-    const double in_plane = upper.squaredNorm() + across * across + 2 * upper.norm() * across * std::cos(bend);
-    return std::sqrt(in_plane + beside) / length;
-  };
-  const double bent = std::atan2(axis.dot(upper.cross(lower)), upper.dot(lower)), natural = distance(bearable(bent));
-  double wanted = (ankle - hip).norm() / length;
-  wanted += std::max(0.0, 1 - std::abs(wanted - now) / kNear) * (natural - now);
-  const Quaternion knee{Eigen::AngleAxisd(angle(length * apart(natural, wanted)) - bent, axis)};
-  const Quaternion thigh = Quaternion::FromTwoVectors(upper + knee * lower, ankle - hip), shin = thigh * knee;
+  const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
+                lower = posed.heads[leg.foot] - posed.heads[leg.knee], way = ankle - posed.heads[leg.thigh];
+  const Knee knee(upper, lower, posed.rotations[leg.thigh] * leg.hinge);
+  const Quaternion bend = knee.bent_by(knee.ends(way.norm()));
+  const Quaternion thigh = turn_between(upper + bend * lower, way);
   const auto store = [&](int bone, const Quaternion& parent, const Quaternion& world) {
     store_quaternion((parent.conjugate() * world).normalized(), rotations + std::ptrdiff_t{4} * bone);
   };
   const auto above = [&](int bone) { return posed.rotations[skeleton.parents[bone]]; };
   store(leg.thigh, above(leg.thigh), thigh * posed.rotations[leg.thigh]);
-  store(leg.knee, thigh * above(leg.knee), shin * posed.rotations[leg.knee]);
-  store(leg.foot, shin * above(leg.foot), posed.rotations[leg.foot]);
+  store(leg.knee, above(leg.knee), bend * posed.rotations[leg.knee]);
+  store(leg.foot, thigh * (bend * above(leg.foot)), posed.rotations[leg.foot]);
 }
 
 }  // namespace fragmotion
