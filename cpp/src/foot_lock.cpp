@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fragmotion/pose.hpp"
 
@@ -32,10 +33,17 @@ double lifted(double depth) {
 
 }  // namespace
 
+FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs)
+    : kinematics(kinematics),
+      legs(legs),
+      scale(standard_scale(kinematics.skeleton())),
+      bones(kinematics.chains({legs[0].foot, legs[0].toe, legs[1].foot, legs[1].toe})),
+      posed(kinematics.bones()) {}
+
 FootLock::FootLock(const Kinematics& kinematics, const Legs& legs)
-    : kinematics_(kinematics), scale_(standard_scale(kinematics.skeleton())), legs_(legs), posed_(kinematics.bones()) {
-  reset();
-}
+    : FootLock(std::make_shared<Body>(kinematics, legs)) {}
+
+FootLock::FootLock(std::shared_ptr<Body> body) : body_(std::move(body)) { reset(); }
 
 void FootLock::reset() {
   feet_ = {};
@@ -54,7 +62,7 @@ void FootLock::lock(Foot& foot, const Vector2& shown, double seconds) const {
 void FootLock::settle(double seconds) {
   stood_ = feet_[0].locked && feet_[1].locked ? stood_ + seconds : 0;
   if (stood_ < kPatience) return;
-  const auto astray = [&](const Foot& foot) { return (foot.place - foot.moved).norm() * scale_; };
+  const auto astray = [&](const Foot& foot) { return (foot.place - foot.moved).norm() * body_->scale; };
   Foot& foot = astray(feet_[0]) > astray(feet_[1]) ? feet_[0] : feet_[1];
   if (astray(foot) < kAstray) return;
   step_on(foot, foot.place - foot.moved);
@@ -64,7 +72,7 @@ void FootLock::settle(double seconds) {
 double FootLock::step_height(const Foot& foot) const {
   if (!foot.steps || foot.free >= kRelease) return 0;
   const double phase = foot.free / kRelease;
-  return 4 * phase * (1 - phase) * kStepHeight / scale_;
+  return 4 * phase * (1 - phase) * kStepHeight / body_->scale;
 }
 
 void FootLock::release(Foot& foot, const Vector2& held) const {
@@ -91,14 +99,14 @@ Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double se
     away = std::exp(-kDamping * foot.free) * (foot.offset + foot.free * rate);
   }
   const bool stepping = foot.steps && foot.free < kRelease;
-  if (planted && !foot.locked && !stepping && away.norm() * scale_ < kTooFar) lock(foot, moved + away, seconds);
+  if (planted && !foot.locked && !stepping && away.norm() * body_->scale < kTooFar) lock(foot, moved + away, seconds);
   if (foot.locked) {
     foot.place += kSettle * (1 - std::exp(-seconds / kSettle)) * foot.drift;
     foot.drift *= std::exp(-seconds / kSettle);
     away = foot.place - moved;
     if (!planted) {
       release(foot, away);
-    } else if (away.norm() * scale_ > kTooFar) {
+    } else if (away.norm() * body_->scale > kTooFar) {
       step_on(foot, away);
     }
   }
@@ -107,35 +115,37 @@ Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double se
 }
 
 double FootLock::height(int side, const FootHeights& floor) const {
-  const Leg& leg = legs_[side];
-  const double toe = ball(kinematics_.skeleton(), leg, posed_).z(), heel = posed_.heads[leg.foot].z();
+  const Leg& leg = body_->legs[side];
+  const PosedBones& posed = body_->posed;
+  const double toe = ball(body_->kinematics.skeleton(), leg, posed).z(), heel = posed.heads[leg.foot].z();
   return std::min(toe - floor.ball, heel - floor.heel);
 }
 
 void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds) {
-  if (!legs_[0].exists() || !legs_[1].exists()) return;
-  const Skeleton& skeleton = kinematics_.skeleton();
-  kinematics_.world(pose.root, pose.rotations.data(), bones_, posed_.heads.data(), posed_.rotations.data());
+  auto& [kinematics, legs, scale, bones, posed] = *body_;
+  if (!legs[0].exists() || !legs[1].exists()) return;
+  const Skeleton& skeleton = kinematics.skeleton();
+  kinematics.world(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
   std::array<Vector3, 2> ankles;
   double sink = 0;
   settle(seconds);
   for (int side = 0; side < 2; ++side) {
     const double over = height(side, contacts.floors[side]);
-    const bool stands = contacts.feet[side][frame] && (feet_[side].locked || over * scale_ < kLanding);
-    const Vector2 by = away(feet_[side], ball(skeleton, legs_[side], posed_).head<2>(), stands, seconds);
-    const double lift = lifted(-over * scale_) / scale_ + step_height(feet_[side]);
-    ankles[side] = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), lift};
+    const bool stands = contacts.feet[side][frame] && (feet_[side].locked || over * scale < kLanding);
+    const Vector2 by = away(feet_[side], ball(skeleton, legs[side], posed).head<2>(), stands, seconds);
+    const double lift = lifted(-over * scale) / scale + step_height(feet_[side]);
+    ankles[side] = posed.heads[legs[side].foot] + Vector3{by.x(), by.y(), lift};
     if (by.isZero(1e-9) && over >= 0) continue;
-    const double strain = sinking(legs_[side], posed_, ankles[side]);
-    if (feet_[side].locked && strain * scale_ > kStrained) step_on(feet_[side], by);
-    sink = std::max(sink, std::min(kDeepest / scale_, strain));
+    const double strain = sinking(legs[side], posed, ankles[side]);
+    if (feet_[side].locked && strain * scale > kStrained) step_on(feet_[side], by);
+    sink = std::max(sink, std::min(kDeepest / scale, strain));
   }
   fresh_ = false;
   sunk_ += (sink - sunk_) * (1 - std::exp(-seconds / kSinking));
   pose.root.z() -= sunk_;
-  for (Vector3& head : posed_.heads) head.z() -= sunk_;
+  for (Vector3& head : posed.heads) head.z() -= sunk_;
   for (int side = 0; side < 2; ++side) {
-    reach(skeleton, legs_[side], posed_, ankles[side], pose.rotations.data());
+    reach(skeleton, legs[side], posed, ankles[side], pose.rotations.data());
   }
 }
 

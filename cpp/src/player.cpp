@@ -31,6 +31,7 @@ constexpr double kLongest = 3600;   // s that a step may last
 
 Player::Stage::Stage(const Character& character)
     : kinematics(character.pool.skeleton),
+      body(std::make_shared<FootLock::Body>(kinematics, character.legs)),
       members(character.classes.members()),
       tips(character.pool.skeleton),
       onward(character.openings.size() / character.pool.fragments.size()) {
@@ -53,7 +54,7 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
       pull_(options.pull),
       promptness_(options.promptness),
       inertia_(stage_->kinematics.bones()),
-      foot_lock_(stage_->kinematics, character_->legs),
+      foot_lock_(stage_->body),
       breathing_(stage_->kinematics.skeleton()) {
   if (!(pull_ >= 0 && pull_ <= 1)) throw std::invalid_argument("the pull must be 0 to 1");
   if (!(promptness_ >= 0 && promptness_ <= 1)) throw std::invalid_argument("the promptness must be 0 to 1");

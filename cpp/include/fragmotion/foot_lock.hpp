@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "fragmotion/contacts.hpp"
 #include "fragmotion/inertialization.hpp"
@@ -16,7 +17,19 @@ namespace fragmotion {
 /// Allocates nothing once it is made.
 class FootLock {
  public:
+  /// What the foot locks of one body share that are applied in turn: what never changes, and room to work in.
+  struct Body {
+    Body(const Kinematics& kinematics, const Legs& legs);
+
+    Kinematics kinematics;
+    Legs legs;
+    double scale;
+    std::vector<int> bones;  // of the legs
+    PosedBones posed;
+  };
+
   FootLock(const Kinematics& kinematics, const Legs& legs);
+  explicit FootLock(std::shared_ptr<Body> body);
 
   /// Both feet are free, and where their motion has them.
   void reset();
@@ -47,15 +60,11 @@ class FootLock {
   void release(Foot& foot, const Vector2& held) const;
   void step_on(Foot& foot, const Vector2& held) const;
 
-  Kinematics kinematics_;
-  double scale_;
-  Legs legs_;
+  std::shared_ptr<Body> body_;
   std::array<Foot, 2> feet_;
   bool fresh_ = true;  // no pose was shown yet
   double stood_ = 0;   // s that both feet are locked
   double sunk_ = 0;    // m that the hips are lowered
-  PosedBones posed_;
-  std::vector<int> bones_ = kinematics_.chains({legs_[0].foot, legs_[0].toe, legs_[1].foot, legs_[1].toe});
 };
 
 }  // namespace fragmotion

@@ -86,6 +86,7 @@ class Player {
     explicit Stage(const Character& character);
 
     Kinematics kinematics;
+    std::shared_ptr<FootLock::Body> body;
     std::vector<std::vector<int>> members;
     BodyTips tips;
     std::vector<float> onward;                   // tips of what is shown, and of how it would go on
