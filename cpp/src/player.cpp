@@ -59,7 +59,7 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
   if (!(pull_ >= 0 && pull_ <= 1)) throw std::invalid_argument("the pull must be 0 to 1");
   if (!(promptness_ >= 0 && promptness_ <= 1)) throw std::invalid_argument("the promptness must be 0 to 1");
   if (!(stitch_ >= 0 && stitch_ <= 1)) throw std::invalid_argument("the stitching time must be 0 to 1 s");
-  pose_ = shown_ = stage_->poses[0];
+  shown_ = stage_->poses[0];
   reset();
 }
 
@@ -122,7 +122,7 @@ void Player::sample(const Placed& placed, WorldPose& pose) const {
   store_quaternion(Quaternion{w, 0, 0, z} * load_quaternion(hips), hips);
 }
 
-CharacterFrame Player::frame() const { return {pose_.root.head<2>(), pose_.heading}; }
+CharacterFrame Player::frame() const { return {shown_.root.head<2>(), shown_.heading}; }
 
 // Moves and turns what plays, so that it does more of what the control says.
 void Player::pull(const Control& control, double seconds) {
@@ -135,7 +135,7 @@ void Player::pull(const Control& control, double seconds) {
   const double share = 1 - std::exp(-seconds / kPulling);
   pulling_ += share * (pull_ * wanted - pulling_);
   turning_ += share * (pull_ * turn - turning_);
-  const Vector2 root = pose_.root.head<2>(), way = seconds * (Eigen::Rotation2Dd(pose_.heading) * pulling_);
+  const Vector2 root = shown_.root.head<2>(), way = seconds * (Eigen::Rotation2Dd(shown_.heading) * pulling_);
   const Eigen::Matrix2d turned = Eigen::Rotation2Dd(seconds * turning_).toRotationMatrix();
   for (Placed* placed : {&now_, &before_}) {
     placed->heading += seconds * turning_;
@@ -143,18 +143,18 @@ void Player::pull(const Control& control, double seconds) {
   }
 }
 
-// What plays, stitched to what played.
+// Shows what plays, stitched to what played.
 void Player::pose() {
-  sample(now_, pose_);
-  if (stitching_ == Stitching::inertialize) return inertia_.apply(now_.seconds, pose_);
+  sample(now_, shown_);
+  if (stitching_ == Stitching::inertialize) return inertia_.apply(now_.seconds, shown_);
   if (now_.seconds >= faded_) return;
   WorldPose& old = stage_->poses[0];
   sample(before_, old);
   const double weight = ease_in_ease_out(now_.seconds / faded_);
-  blend_rotations(old.rotations.data(), pose_.rotations.data(), weight, stage_->kinematics.bones(),
-                  pose_.rotations.data());
-  pose_.root = old.root + weight * (pose_.root - old.root);
-  pose_.heading = old.heading + weight * (pose_.heading - old.heading);
+  blend_rotations(old.rotations.data(), shown_.rotations.data(), weight, stage_->kinematics.bones(),
+                  shown_.rotations.data());
+  shown_.root = old.root + weight * (shown_.root - old.root);
+  shown_.heading = old.heading + weight * (shown_.heading - old.heading);
 }
 
 bool Player::stands(const Control& evident) const {
@@ -162,11 +162,8 @@ bool Player::stands(const Control& evident) const {
          evident.jump < kInTheAir;
 }
 
-// The pose that breathes, with planted feet where they are, `seconds` after the last one.
+// Lets the pose breathe and keeps planted feet where they are, `seconds` after the last one.
 void Player::plant(double seconds) {
-  shown_.root = pose_.root;
-  shown_.heading = pose_.heading;
-  std::copy(pose_.rotations.begin(), pose_.rotations.end(), shown_.rotations.begin());
   const Fragment& f = character_->pool.fragments[now_.fragment];
   breathing_.apply(stage_->kinematics.skeleton(), shown_, stands(f.evident), seconds);
   const Contacts& contacts = character_->contacts[f.clip];
@@ -253,7 +250,7 @@ int Player::draw(int next_class, const Control& control) {
 void Player::stitch(const Placed& old) {
   constexpr double kApart = 1.0 / 60;  // s over which speeds are measured, within both fragments
   auto& [old_before, old_now, fresh, fresh_later] = stage_->poses;
-  old_now = pose_;
+  sample_shown(old, old.seconds, old_now);
   sample_shown(old, old.seconds - kApart, old_before);
   sample(now_, fresh);
   Placed later = now_;
@@ -382,6 +379,7 @@ void Player::step(const Control& control, double seconds) {
     seconds -= part;
     pose();
   }
+  if (whole == 0) pose();
   plant(whole);
 }
 

@@ -53,6 +53,22 @@ double allowed_step(const Character& c, const Kinematics& kinematics, double sec
   return (1.2 * top_speed(c, kinematics) + 1.5 * reach / 0.1) * seconds;
 }
 
+TEST(Player, ShowsTheSameAfterAStepOfNoTime) {
+  for (const Stitching stitching : {Stitching::inertialize, Stitching::crossfade}) {
+    PlayerOptions options;
+    options.stitching = stitching;
+    Player player(gait_character(), options);
+    for (int i = 0; i < 120; ++i) {
+      player.step(kForward, 1.0 / 60);
+      const Vector3 root = player.root_position();
+      const std::vector<double> rotations = player.rotations();
+      player.step(kForward, 0);
+      EXPECT_LT((player.root_position() - root).norm(), 1e-9) << i;
+      for (std::size_t r = 0; r < rotations.size(); ++r) EXPECT_NEAR(player.rotations()[r], rotations[r], 1e-9) << i;
+    }
+  }
+}
+
 TEST(Player, NeverJumps) {
   const auto c = gait_character();
   const Kinematics kinematics(c->pool.skeleton);

@@ -155,7 +155,6 @@ class Player {
   Inertialization inertia_;
   FootLock foot_lock_;
   Breathing breathing_;
-  WorldPose pose_;  // before feet are locked
   WorldPose shown_;
 };
 
