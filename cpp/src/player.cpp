@@ -15,7 +15,6 @@ namespace {
 constexpr double kInstant = 1e-9;   // s: no time
 constexpr double kChange = 1;       // ControlDis between controls that is "a lot"
 constexpr double kHaste = 10;       // m/s, as Dis, by default
-constexpr double kLook = 0.05;      // s between the moments at which a fragment may be left early
 constexpr double kWorthIt = 0.05;   // s that must be left of a fragment for leaving it early
 constexpr double kHop = 0.9;        // evident jump of what is no run
 constexpr double kInTheAir = 0.5;   // evident jump above which a fragment is played to its end
@@ -27,13 +26,15 @@ constexpr double kPulling = 0.1;    // s: time constant of the pull
 constexpr double kStill = 0.2;      // m/s of a 1.8 m character, and of the turn rate, below which it stands
 constexpr double kLongest = 3600;   // s that a step may last
 
+constexpr double kLook = kOpening / 2;  // s between the moments at which a fragment may be left early
+
 }  // namespace
 
 Player::Stage::Stage(const Character& character)
     : kinematics(character.pool.skeleton),
       body(std::make_shared<FootLock::Body>(kinematics, character.legs)),
       members(character.classes.members()),
-      tips(character.pool.skeleton),
+      tips{BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton)},
       onward(character.openings.size() / character.pool.fragments.size()) {
   fitting.reserve(character.pool.fragments.size());
   for (WorldPose& pose : poses) pose.rotations.resize(std::size_t{4} * kinematics.bones());
@@ -185,19 +186,21 @@ void Player::sample_shown(Placed placed, double seconds, WorldPose& pose) const 
   if (stitching_ == Stitching::inertialize) inertia_.apply(std::max(0.0, seconds), pose);
 }
 
-// The tips of what plays, at a time since its first pose, and of how it would go on for kOpening: as it did for as long
-// until then.
-void Player::find_onward(double seconds) const {
+// Poses what plays as it is shown at a time since its first pose.
+CharacterFrame Player::pose_tips(double seconds, BodyTips& tips) const {
   WorldPose& pose = stage_->poses[0];
-  std::vector<float>& onward = stage_->onward;
-  const int stride = static_cast<int>(onward.size()) / 3, points = stage_->tips.points();
   sample_shown(now_, seconds, pose);
-  const CharacterFrame frame{pose.root.head<2>(), pose.heading};
-  stage_->tips.pose(pose.root, pose.rotations.data());
-  stage_->tips.write(frame, onward.data(), stride, 0);
-  sample_shown(now_, seconds - kOpening, pose);
-  stage_->tips.pose(pose.root, pose.rotations.data());
-  stage_->tips.write(frame, onward.data(), stride, points);
+  tips.pose(pose.root, pose.rotations.data());
+  return {pose.root.head<2>(), pose.heading};
+}
+
+// The tips of what plays, seen from its frame, and of how it would go on for kOpening: as it did for as long until
+// then.
+void Player::find_onward(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const {
+  std::vector<float>& onward = stage_->onward;
+  const int stride = static_cast<int>(onward.size()) / 3, points = now.points();
+  now.write(frame, onward.data(), stride, 0);
+  before.write(frame, onward.data(), stride, points);
   for (int axis = 0; axis < 3; ++axis) {
     float *is = &onward[static_cast<std::size_t>(axis) * stride], *goes_on = is + points;
     for (int i = 0; i < points; ++i) goes_on[i] = 2 * is[i] - goes_on[i];
@@ -210,10 +213,9 @@ bool Player::obeys(int fragment, const Control& wanted) const {
   return wanted.jump > kInTheAir ? jump > kInTheAir : jump < kHop;
 }
 
-// The members that perform the control nearly as well as any of them does, with how far their beginnings are from how
-// what plays would go on after a time since its first pose; tells the least. Where the representative hops, or does
+// Finds the members that perform the control nearly as well as any of them does. Where the representative hops, or does
 // not, as is wanted, they do so too.
-float Player::find_fitting(int next_class, const Control& control, double seconds) const {
+void Player::find_fitting(int next_class, const Control& control) const {
   const Character& c = *character_;
   const int meant = c.classes.representatives[next_class];
   const auto error = [&](int fragment) {
@@ -224,22 +226,31 @@ float Player::find_fitting(int next_class, const Control& control, double second
   const double usual = best;
   for (const int fragment : stage_->members[next_class]) best = std::min(best, error(fragment));
   const double allowed = best + kAsWell * (usual - best);
-  find_onward(seconds);
-  const std::vector<float>& onward = stage_->onward;
-  std::vector<std::pair<float, int>>& fitting = stage_->fitting;
-  float least = std::numeric_limits<float>::infinity();
-  fitting.clear();
+  stage_->fitting.clear();
   for (const int fragment : stage_->members[next_class]) {
     if (error(fragment) > allowed) continue;
-    const float* opening = &c.openings[onward.size() * fragment];
-    fitting.emplace_back(tip_distance(onward.data(), opening, static_cast<int>(onward.size()) / 3) / 2, fragment);
-    least = std::min(least, fitting.back().first);
+    stage_->fitting.emplace_back(0.0F, fragment);
+  }
+}
+
+// How far the beginnings of the fragments found are from how what plays would go on; tells the least.
+float Player::measure_fitting() const {
+  const std::vector<float>& onward = stage_->onward;
+  float least = std::numeric_limits<float>::infinity();
+  for (auto& [distance, fragment] : stage_->fitting) {
+    const float* opening = &character_->openings[onward.size() * fragment];
+    distance = tip_distance(onward.data(), opening, static_cast<int>(onward.size()) / 3) / 2;
+    least = std::min(least, distance);
   }
   return least;
 }
 
 int Player::draw(int next_class, const Control& control) {
-  const float least = find_fitting(next_class, control, now_.seconds);
+  auto& [before, now, unused] = stage_->tips;
+  find_fitting(next_class, control);
+  pose_tips(now_.seconds - kOpening, before);
+  find_onward(pose_tips(now_.seconds, now), before, now);
+  const float least = measure_fitting();
   std::vector<std::pair<float, int>>& fitting = stage_->fitting;
   const auto joins = [&](const auto& each) { return each.first <= kJoinsWell * least + kJoinsNear; };
   const auto end = std::partition(fitting.begin(), fitting.end(), joins);
@@ -324,17 +335,26 @@ int Player::decide(const Control& wanted) {
 }
 
 // The moment at which what plays is best left for what the table tells now: every second of waiting counts as much as
-// so many metres between the poses that are joined.
+// so many metres between the poses that are joined, and no later moment is looked at once that alone is too much. What
+// is shown kOpening before a moment is known from the last but one.
 double Player::find_exit(const Control& wanted) const {
   const double haste = kHaste * promptness_ / std::max(1 - promptness_, kInstant);
-  const int next = tell(wanted);
   const double rest = left();
+  find_fitting(tell(wanted), wanted);
+  auto& [long_before, before, now] = stage_->tips;
+  pose_tips(now_.seconds - kOpening, long_before);
+  pose_tips(now_.seconds - kLook, before);
   double best = 0, least = std::numeric_limits<double>::infinity();
-  for (double wait = 0;; wait = std::min(wait + kLook, rest)) {
-    const double cost = find_fitting(next, wanted, now_.seconds + wait) + haste * wait;
+  for (double wait = 0; haste * wait < least; wait = std::min(wait + kLook, rest)) {
+    if (wait == rest) pose_tips(now_.seconds + wait - kOpening, long_before);
+    find_onward(pose_tips(now_.seconds + wait, now), long_before, now);
+    const double cost = measure_fitting() + haste * wait;
     if (cost < least) least = cost, best = wait;
-    if (wait >= rest) return now_.seconds + best;
+    if (wait >= rest) break;
+    std::swap(long_before, before);
+    std::swap(before, now);
   }
+  return now_.seconds + best;
 }
 
 bool Player::leaves_early(const Control& wanted) {

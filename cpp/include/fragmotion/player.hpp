@@ -88,7 +88,7 @@ class Player {
     Kinematics kinematics;
     std::shared_ptr<FootLock::Body> body;
     std::vector<std::vector<int>> members;
-    BodyTips tips;
+    std::array<BodyTips, 3> tips;
     std::vector<float> onward;                   // tips of what is shown, and of how it would go on
     std::vector<std::pair<float, int>> fitting;  // fragments by their distance from it
     std::array<WorldPose, 4> poses;
@@ -109,9 +109,11 @@ class Player {
   void sample(const Placed& placed, WorldPose& pose) const;
   void stitch(const Placed& old);
   void sample_shown(Placed placed, double seconds, WorldPose& pose) const;
-  void find_onward(double seconds) const;
+  CharacterFrame pose_tips(double seconds, BodyTips& tips) const;
+  void find_onward(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const;
   bool obeys(int fragment, const Control& wanted) const;
-  float find_fitting(int next_class, const Control& control, double seconds) const;
+  void find_fitting(int next_class, const Control& control) const;
+  float measure_fitting() const;
   int draw(int next_class, const Control& control);
   double find_exit(const Control& wanted) const;
   void start(int next_class, int fragment);
