@@ -107,8 +107,9 @@ def stitchings(result: Result) -> str:
 def coverage(result: Result) -> str:
     """Kinds of controls, and the furthest hole."""
     holes = sum(distance > report.HOLE for distance in result["coverage"])
+    are = "is a hole" if holes == 1 else "are holes"
     return (
-        f"{markdown(report.coverage_table(result))}\n\nIn this run {holes} of the 102 controls are holes; the furthest "
+        f"{markdown(report.coverage_table(result))}\n\nIn this run {holes} of the 102 controls {are}; the furthest "
         f"has its nearest fragment at {max(result['coverage']):.2f}."
     )
 

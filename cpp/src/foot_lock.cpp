@@ -20,7 +20,7 @@ constexpr double kForgets = 4;        // times that, until nothing is seen of it
 constexpr double kSettle = 0.03;      // s: time constant of a foot that comes to rest
 constexpr double kSoftGround = 0.06;  // m: a foot sinks in at most half of that
 constexpr double kPatience = 0.3;     // s that both feet stand before one steps to where its motion has it
-constexpr double kAstray = 0.07;      // m from there, at least
+constexpr double kAstray = 0.07;      // m from its motion at least, for a foot to step there rather than slide
 constexpr double kStepHeight = 0.04;  // m
 constexpr double kDeepest = 0.08;     // m that the hips may sink
 constexpr double kSinking = 0.1;      // s: time constant of the hips
@@ -65,7 +65,7 @@ void FootLock::settle(double seconds) {
   const auto astray = [&](const Foot& foot) { return (foot.place - foot.moved).norm() * body_->scale; };
   Foot& foot = astray(feet_[0]) > astray(feet_[1]) ? feet_[0] : feet_[1];
   if (astray(foot) < kAstray) return;
-  step_on(foot, foot.place - foot.moved);
+  release(foot, foot.place - foot.moved);
 }
 
 // The height of a foot that steps to where its motion has it.
@@ -76,15 +76,11 @@ double FootLock::step_height(const Foot& foot) const {
 }
 
 void FootLock::release(Foot& foot, const Vector2& held) const {
-  foot.locked = foot.steps = false;
+  foot.locked = false;
+  foot.steps = held.norm() * body_->scale > kAstray;
   foot.offset = held;
   foot.offset_speed = foot.drift - foot.speed;
   foot.free = 0;
-}
-
-void FootLock::step_on(Foot& foot, const Vector2& held) const {
-  release(foot, held);
-  foot.steps = true;
 }
 
 // How far the foot is shown from where its motion has it.
@@ -104,11 +100,7 @@ Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double se
     foot.place += kSettle * (1 - std::exp(-seconds / kSettle)) * foot.drift;
     foot.drift *= std::exp(-seconds / kSettle);
     away = foot.place - moved;
-    if (!planted) {
-      release(foot, away);
-    } else if (away.norm() * body_->scale > kTooFar) {
-      step_on(foot, away);
-    }
+    if (!planted || away.norm() * body_->scale > kTooFar) release(foot, away);
   }
   foot.shown = moved + away;
   return away;
@@ -137,7 +129,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     ankles[side] = posed.heads[legs[side].foot] + Vector3{by.x(), by.y(), lift};
     if (by.isZero(1e-9) && over >= 0) continue;
     const double strain = sinking(legs[side], posed, ankles[side]);
-    if (feet_[side].locked && strain * scale > kStrained) step_on(feet_[side], by);
+    if (feet_[side].locked && strain * scale > kStrained) release(feet_[side], by);
     sink = std::max(sink, std::min(kDeepest / scale, strain));
   }
   fresh_ = false;

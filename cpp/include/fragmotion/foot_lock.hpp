@@ -11,10 +11,10 @@
 namespace fragmotion {
 
 /// Keeps planted feet where they are: the ball of a foot that is planted comes to rest and stays there, the leg follows
-/// (leg.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion smoothly; the
-/// hips sink where a leg would be a little too short, and the foot steps on where it would be much too short. A body
-/// that has stood for a while in the middle of a stride steps out of it. Does nothing to a skeleton without legs.
-/// Allocates nothing once it is made.
+/// (leg.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion smoothly, with
+/// a step where that is far; the hips sink where a leg would be a little too short, and the foot steps on where it
+/// would be much too short. A body that has stood for a while in the middle of a stride steps out of it. Does nothing
+/// to a skeleton without legs. Allocates nothing once it is made.
 class FootLock {
  public:
   /// What the foot locks of one body share that are applied in turn: what never changes, and room to work in.
@@ -58,7 +58,6 @@ class FootLock {
   void settle(double seconds);
   double step_height(const Foot& foot) const;
   void release(Foot& foot, const Vector2& held) const;
-  void step_on(Foot& foot, const Vector2& held) const;
 
   std::shared_ptr<Body> body_;
   std::array<Foot, 2> feet_;
