@@ -16,42 +16,48 @@ const char* origin_name(Origin origin) {
 
 namespace {
 
-// Adds those of the frames that lie between cuts more than `longer` apart and no nearer to them than `shortest`.
-void add_cuts(std::vector<int>& cuts, const std::vector<int>& frames, int shortest, int longer) {
-  std::vector<int> all{cuts.front()};
-  for (std::size_t i = 1; i < cuts.size(); ++i) {
-    if (cuts[i] - cuts[i - 1] > longer) {
+// Cuts a clip between gait events, if there are any. Lengths are in frames.
+struct Cutter {
+  FragmentPool& pool;
+  int clip, shortest, longest;
+  std::vector<int> strikes{}, lifts{};
+
+  // Adds those of the frames that lie between cuts more than `longer` apart and no nearer to them than `shortest`.
+  void add_cuts(std::vector<int>& cuts, const std::vector<int>& frames, int longer) const {
+    std::vector<int> all{cuts.front()};
+    for (std::size_t i = 1; i < cuts.size(); ++i) {
       for (const int frame : frames) {
+        if (cuts[i] - cuts[i - 1] <= longer) break;
         if (frame - all.back() >= shortest && cuts[i] - frame >= shortest) all.push_back(frame);
       }
+      all.push_back(cuts[i]);
     }
-    all.push_back(cuts[i]);
+    cuts = std::move(all);
   }
-  cuts = std::move(all);
-}
 
-// Cuts frames begin .. end of a clip.
-void cut_part(FragmentPool& pool, int clip, int begin, int end, const Contacts& contacts, int shortest, int longest,
-              bool at_gait_events) {
-  std::vector<int> cuts{begin, end};
-  if (at_gait_events) {
-    add_cuts(cuts, foot_strikes(contacts), shortest, shortest);
-    add_cuts(cuts, foot_lifts(contacts), shortest, longest);
-  }
-  for (std::size_t i = 1; i < cuts.size(); ++i) {
-    const int length = cuts[i] - cuts[i - 1];
-    if (length < shortest) continue;
+  // Divides frames begin .. end, between which there is no cut.
+  void divide(int begin, int end) const {
+    const int length = end - begin;
+    if (length < shortest) return;
     int parts = (length + longest - 1) / longest, whole = length;
     if (length / parts < shortest) whole = --parts * longest;  // the rest is dropped
     for (int part = 0; part < parts; ++part) {
       Fragment fragment;
       fragment.clip = clip;
-      fragment.begin = cuts[i - 1] + whole * part / parts;
-      fragment.end = cuts[i - 1] + whole * (part + 1) / parts;
+      fragment.begin = begin + whole * part / parts;
+      fragment.end = begin + whole * (part + 1) / parts;
       pool.fragments.push_back(fragment);
     }
   }
-}
+
+  // Cuts frames begin .. end.
+  void cut(int begin, int end) const {
+    std::vector<int> cuts{begin, end};
+    add_cuts(cuts, strikes, shortest);
+    add_cuts(cuts, lifts, longest);
+    for (std::size_t i = 1; i < cuts.size(); ++i) divide(cuts[i - 1], cuts[i]);
+  }
+};
 
 }  // namespace
 
@@ -64,12 +70,14 @@ void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const
                                 std::to_string(options.longest) + " s holds no whole frame of clip \"" + source.name +
                                 "\" at " + std::to_string(source.rate) + " frames a second");
   }
+  Cutter cutter{pool, clip, shortest, longest};
+  if (options.at_gait_events) cutter.strikes = foot_strikes(contacts), cutter.lifts = foot_lifts(contacts);
   int begin = 0;
   for (const int tear : tears(pool.skeleton, source)) {
-    cut_part(pool, clip, begin, tear - 1, contacts, shortest, longest, options.at_gait_events);
+    cutter.cut(begin, tear - 1);
     begin = tear;
   }
-  cut_part(pool, clip, begin, source.frames - 1, contacts, shortest, longest, options.at_gait_events);
+  cutter.cut(begin, source.frames - 1);
 }
 
 }  // namespace fragmotion
