@@ -70,6 +70,7 @@ def render_filmstrip(
 
 _CHANNELS = ("location", "rotation_quaternion", "rotation_euler", "rotation_axis_angle", "scale")
 
+
 @contextlib.contextmanager
 def _playing(armature: bpy.types.Object, action: bpy.types.Action | None) -> Iterator[None]:
     """Let the armature play the action; afterwards its action, pose and the frame are as before."""
@@ -132,6 +133,7 @@ def freeze(armature: bpy.types.Object, scene: bpy.types.Scene, frame: int) -> Mo
 
 def _skins(armature: bpy.types.Object) -> list[bpy.types.Object]:
     """Visible meshes that the armature deforms or carries."""
+
     def moved(thing: bpy.types.Object) -> bool:
         modified = any(m.type == "ARMATURE" and m.object == armature for m in thing.modifiers)
         return modified or (thing.parent == armature and thing.parent_type == "BONE")

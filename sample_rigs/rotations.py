@@ -78,6 +78,7 @@ def to_quaternions(rotation: Array) -> Array:
 
 def _products(m: Array) -> Array:
     """Four times the outer product q q^T [N, 4, 4] of each rotation's quaternion."""
+
     def pair(i: int, j: int) -> Array:
         return m[:, i, j] + m[:, j, i]
 

@@ -37,10 +37,10 @@ class Skeleton:
         tips: ArrayLike,
         roles: dict[str, str] | None = None,
     ) -> None:
-        """rest_rotations [B,4] relative to the parent, offsets [B,3] m of the head in the parent's frame, tips [B,3] m of
-        the tail in the bone's own frame; bone 0 is relative to the world. `roles` (role -> bone name) overrides what the
-        names tell; the roles are hips, head, left_hand, right_hand, left_foot, right_foot, left_toe, right_toe,
-        left_thigh, right_thigh."""
+        """rest_rotations [B,4] relative to the parent, offsets [B,3] m of the head in the parent's frame, tips [B,3] m
+        of the tail in the bone's own frame; bone 0 is relative to the world. `roles` (role -> bone name) overrides
+        what the names tell; the roles are hips, head, left_hand, right_hand, left_foot, right_foot, left_toe,
+        right_toe, left_thigh, right_thigh."""
     names: list[str]
     parents: list[int]
     rest_rotations: Doubles
@@ -75,8 +75,8 @@ def read_asf_amc(asf: str | PathLike[str], amc: str | PathLike[str], rate: float
     """Read an Acclaim skeleton and a motion on it; AMC holds no frame rate."""
 
 def euler_to_quaternion(order: str, angles: ArrayLike) -> Doubles:
-    """[F,3] radians in the order X, Y, Z of the channels (whatever `order` is) to [F,4]. `order` is Blender's: in 'XYZ' the
-    rotation about X comes first, about fixed axes."""
+    """[F,3] radians in the order X, Y, Z of the channels (whatever `order` is) to [F,4]. `order` is Blender's: in
+    'XYZ' the rotation about X comes first, about fixed axes."""
 
 def quaternion_to_euler(order: str, rotations: ArrayLike) -> Doubles:
     """Inverse of euler_to_quaternion [F,4] -> [F,3]; successive frames are kept continuous."""
@@ -88,8 +88,8 @@ def quaternion_to_axis_angle(rotations: ArrayLike) -> Doubles:
     """[F,4] to [F,4] as (angle, x, y, z)."""
 
 class Rig:
-    """An armature as an animation package stores it: rest matrices, and per frame each bone's channels (a location and a
-    rotation relative to its rest in its parent). Turns channels into clips, and poses back into channels."""
+    """An armature as an animation package stores it: rest matrices, and per frame each bone's channels (a location and
+    a rotation relative to its rest in its parent). Turns channels into clips, and poses back into channels."""
 
     def __init__(
         self,
@@ -108,24 +108,29 @@ class Rig:
         the hips keep their rest pose."""
     skeleton: Skeleton
     """In world metres."""
-    def clip(self, name: str, rate: float, locations: ArrayLike, rotations: ArrayLike, worlds: ArrayLike | None = None) -> Clip:
-        """Channels [F,B,3], [F,B,4] (quaternions; need not be unit) to a clip; `worlds` [F,4,4] where the object moves."""
+    def clip(
+        self, name: str, rate: float, locations: ArrayLike, rotations: ArrayLike, worlds: ArrayLike | None = None
+    ) -> Clip:
+        """Channels [F,B,3], [F,B,4] (quaternions; need not be unit) to a clip; `worlds` [F,4,4] where the object
+        moves."""
     def clip_from_matrices(self, name: str, rate: float, matrices: ArrayLike, worlds: ArrayLike | None = None) -> Clip:
         """Armature-space pose matrices [F,B,4,4] (row-major; uniform scale is dropped) to a clip."""
     def channels(self, root_positions: ArrayLike, rotations: ArrayLike) -> tuple[Doubles, Doubles]:
         """A clip's or performance's poses to channels: locations [F,B,3] in the armature's units and rotations [F,B,4],
         successive quaternions on the same side. Bones above the hips follow the character frame."""
     def take_channels(self, take: Take) -> tuple[Doubles, Doubles]:
-        """A take's transforms as channels of this rig, bones matched by name; every one of the rig's bones that the take
-        lacks rests. The rig must have been made from a take's skeleton (same rest heads), its world matrix a uniform
-        scale. Raises ValueError naming the take's bones that the rig lacks."""
+        """A take's transforms as channels of this rig, bones matched by name; every one of the rig's bones that the
+        take lacks rests. The rig must have been made from a take's skeleton (same rest heads), its world matrix a
+        uniform scale. Raises ValueError naming the take's bones that the rig lacks."""
 
 class Clip:
     """One take on a skeleton at a fixed rate."""
 
-    def __init__(self, skeleton: Skeleton, name: str, rate: float, root_positions: ArrayLike, rotations: ArrayLike) -> None:
-        """root_positions [F,3]: world position of the hips' head; rotations [F,B,4]: the hips' in the world, every other
-        bone's relative to its parent (bones above the hips are ignored)."""
+    def __init__(
+        self, skeleton: Skeleton, name: str, rate: float, root_positions: ArrayLike, rotations: ArrayLike
+    ) -> None:
+        """root_positions [F,3]: world position of the hips' head; rotations [F,B,4]: the hips' in the world, every
+        other bone's relative to its parent (bones above the hips are ignored)."""
     @staticmethod
     def from_take(take: Take, skeleton: Skeleton | None = None) -> Clip:
         """The take on its own skeleton, or on `skeleton` with the same bone names. Only the hips translate: what other
@@ -137,11 +142,12 @@ class Clip:
     def world_transforms(self, skeleton: Skeleton) -> tuple[Doubles, Doubles]:
         """World positions [F,B,3] of the heads, m, and rotations [F,B,4]."""
     def character_frames(self, skeleton: Skeleton) -> Doubles:
-        """[F,3]: the character frame's x, y and heading (rad, within a half turn; of the hips' thighs, not smoothed)."""
+        """[F,3]: the character frame's x, y and heading (rad, within a half turn; of the hips' thighs, not
+        smoothed)."""
 
 class ControlSpace:
-    """The 102 controls (Sec. 4): 17 velocities x turn {-1,0,1} x jump {0,1}. Control i = 6 velocity + 2 (turn + 1) + jump;
-    velocity 0 stands, 1-8 walk, 9-16 run, both counter-clockwise from forward."""
+    """The 102 controls (Sec. 4): 17 velocities x turn {-1,0,1} x jump {0,1}. Control i = 6 velocity + 2 (turn + 1) +
+    jump; velocity 0 stands, 1-8 walk, 9-16 run, both counter-clockwise from forward."""
 
     def __init__(self, walk: float = 1.2, run: float = 3.3, turn_rate: float = ..., scale: float = 1.0) -> None:
         """Speeds in m/s, turn rate in rad/s (default 70 degrees/s), scale: 1.8 m / stature."""
@@ -190,7 +196,8 @@ class BuildOptions:
     """Clusterings, of which the one that serves Optimal best on the traces is taken (default 8)."""
     seed: int
     policies: list[str]
-    """Of POLICIES; the first one drives, the others are there to be compared (default anticipate, iterate, svm, greedy)."""
+    """Of POLICIES; the first one drives, the others are there to be compared (default anticipate, iterate, svm,
+    greedy)."""
     policy: str
     """The first of `policies`; setting it puts that policy in front."""
     threads: int
@@ -252,8 +259,9 @@ class Character:
         """Quality of one of its policies (default: the one that drives) on a trace [T,4], in percent of Optimal's, both
         from Optimal's first class."""
     def without(self, excluded: Sequence[int]) -> Character:
-        """The character that is never sent to the excluded classes: where a policy's table said one, it says the class of
-        the greatest Eq. 2 and value to come of those left. ValueError where a class does not exist or none is left."""
+        """The character that is never sent to the excluded classes: where a policy's table said one, it says the class
+        of the greatest Eq. 2 and value to come of those left. ValueError where a class does not exist or none is
+        left."""
 
 def build(
     skeleton: Skeleton,
@@ -278,10 +286,10 @@ class Player:
         pull: float = 1.0,
         promptness: float = 0.5,
     ) -> None:
-        """`stitch`: seconds that a stitch takes, 0 .. 1; `policy`: one of the character's (default: the one that drives);
-        `stitching`: "inertialize" or the paper's "crossfade"; `lock_feet`: planted feet stay where they are; `pull`: how
-        much the root is pulled to the command, 0 .. 1; `promptness`: how soon a fragment is left when the control changes a
-        lot, 0 (where the next one joins best) .. 1 (at once)."""
+        """`stitch`: seconds that a stitch takes, 0 .. 1; `policy`: one of the character's (default: the one that
+        drives); `stitching`: "inertialize" or the paper's "crossfade"; `lock_feet`: planted feet stay where they are;
+        `pull`: how much the root is pulled to the command, 0 .. 1; `promptness`: how soon a fragment is left when the
+        control changes a lot, 0 (where the next one joins best) .. 1 (at once)."""
     def reset(self, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
         """Stand at a place, facing `heading` (radians, counter-clockwise from +y), and draw again from the seed: after
         a reset the same steps show the same poses."""
@@ -296,12 +304,12 @@ class Player:
     playing: tuple[int, int]
     """Class and fragment that play now."""
     def run(self, trace: ArrayLike, rate: float, progress: Progress | None = None) -> Performance:
-        """Reset is not called. Play a trace [T,4] (10 controls a second) from now, sampled at `rate` (any, also 29.97): frames
-        0 .. round(T/10 * rate)."""
+        """Reset is not called. Play a trace [T,4] (10 controls a second) from now, sampled at `rate` (any, also
+        29.97): frames 0 .. round(T/10 * rate)."""
 
 class Crowd:
-    """Many players of one character that step together. Player i shows, to the bit, what a Player of the seed `seed` + i
-    shows that is stepped alone."""
+    """Many players of one character that step together. Player i shows, to the bit, what a Player of the seed `seed` +
+    i shows that is stepped alone."""
 
     def __init__(
         self,
@@ -325,9 +333,9 @@ class Crowd:
         roots: Doubles | None = None,
         rotations: Doubles | None = None,
     ) -> tuple[Doubles, Doubles]:
-        """Advance each player by 0 to 3600 s under its control [count,4] and return the poses: root positions [count,3] m
-        and rotations [count,B,4]. Arrays that are given are written to and returned: float64, in C order. ValueError
-        on what is not finite or of another shape, before any player has moved."""
+        """Advance each player by 0 to 3600 s under its control [count,4] and return the poses: root positions
+        [count,3] m and rotations [count,B,4]. Arrays that are given are written to and returned: float64, in C order.
+        ValueError on what is not finite or of another shape, before any player has moved."""
     def reset(self, player: int, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
         """Player.reset of one of them."""
     def force(self, player: int, next_class: int) -> None:
@@ -356,7 +364,8 @@ class Performance:
     quality: float
     """Time-weighted mean of Eq. 2 over what was played, 0..1."""
     velocity_error: float
-    """Mean over frames of the distance of the hips' velocity from the commanded one, both in the character frame, m/s."""
+    """Mean over frames of the distance of the hips' velocity from the commanded one, both in the character frame,
+    m/s."""
     turn_error: float
     """Mean over frames of the difference of the turn rate from the commanded one, rad/s."""
     jump_error: float
@@ -364,12 +373,12 @@ class Performance:
     commanded_speed: float
     """Mean commanded speed, m/s."""
     drift: float
-    """How far the root gets in a second from where the trace, followed exactly, would have led it, m/s: mean over all spans
-    of two seconds, from the place and heading at the beginning of each."""
+    """How far the root gets in a second from where the trace, followed exactly, would have led it, m/s: mean over all
+    spans of two seconds, from the place and heading at the beginning of each."""
 
 def optimal_performance(character: Character, trace: ArrayLike, rate: float, shortest: float = 0.1) -> float:
-    """The greatest `Performance.quality` that a player could reach who knew the whole trace: it may play a class for any
-    time from `shortest` seconds to the longest of its fragments."""
+    """The greatest `Performance.quality` that a player could reach who knew the whole trace: it may play a class for
+    any time from `shortest` seconds to the longest of its fragments."""
 
 def response_times(
     character: Character,
@@ -381,8 +390,8 @@ def response_times(
     pull: float = 1.0,
     promptness: float = 0.5,
 ) -> Doubles:
-    """[272] seconds from each step of the command between two of the 17 velocities until the velocity over the last 0.1 s
-    has made 90 % of the way; 3 where it takes longer."""
+    """[272] seconds from each step of the command between two of the 17 velocities until the velocity over the last
+    0.1 s has made 90 % of the way; 3 where it takes longer."""
 
 class ClassesTried:
     """What a number of classes is good for: means over a minute of each simulated player."""
@@ -485,7 +494,8 @@ def cluster(
     progress: Progress | None = None,
 ) -> tuple[Ints, Ints, float]:
     """k-means of points [N,K,3] under Dis, the sum of K distances; weights [N] > 0 say how much each counts. Returns
-    labels [N], representatives [n] (medoids) and the inertia, the weighted sum of squares of Dis to the class's mean."""
+    labels [N], representatives [n] (medoids) and the inertia, the weighted sum of squares of Dis to the class's
+    mean."""
 
 def optimal_path(smoothness: ArrayLike, match: ArrayLike, trace: ArrayLike) -> tuple[Ints, float]:
     """The best path in hindsight (Eqs. 1, 3, 4) for the factors of Eq. 2, [n,n] and [n,102], over a trace of control
@@ -498,8 +508,8 @@ def greedy_table(smoothness: ArrayLike, match: ArrayLike) -> Ints:
     """[n,102]: argmax of Eq. 2 (Sec. 4, "Greedy")."""
 
 def control_model(traces: Sequence[ArrayLike], stays: float = 8.5, goes_anywhere: float = 1.5) -> Doubles:
-    """[102,102]: P(next control | control): the transitions of traces of control indices, and for every control a prior of
-    `stays` counts of itself and `goes_anywhere` counts spread over all controls; rows sum to 1."""
+    """[102,102]: P(next control | control): the transitions of traces of control indices, and for every control a
+    prior of `stays` counts of itself and `goes_anywhere` counts spread over all controls; rows sum to 1."""
 
 def anticipate_table(smoothness: ArrayLike, match: ArrayLike, traces: Sequence[ArrayLike]) -> Ints:
     """[n,102] by value iteration with control_model(traces): the default policy."""
@@ -527,5 +537,5 @@ def svm_table(
     gamma: float = 0.0,
     threads: int = 0,
 ) -> tuple[Ints, float, float, float]:
-    """[n,102] by C-SVC with the RBF kernel (Eqs. 5, 6), and its C, gamma (0: by cross-validation) and the accuracy of the
-    cross-validation (0 where both were given)."""
+    """[n,102] by C-SVC with the RBF kernel (Eqs. 5, 6), and its C, gamma (0: by cross-validation) and the accuracy of
+    the cross-validation (0 where both were given)."""

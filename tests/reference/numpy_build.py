@@ -244,7 +244,7 @@ def greedy_table(smoothness: Floats, match: Floats) -> Ints:
 
 
 def control_model(traces: list[Ints], stays: float, goes_anywhere: float) -> Floats:
-    """[102,102]: P(next control | control) from counts and a prior: `stays` of itself, `goes_anywhere` spread over all."""
+    """[102,102]: P(next control | control) from counts and a prior: `stays` of itself, `goes_anywhere` over all."""
     counts = stays * np.eye(CONTROLS) + np.full((CONTROLS, CONTROLS), goes_anywhere / CONTROLS)
     for trace in traces:
         np.add.at(counts, (trace[:-1], trace[1:]), 1)
