@@ -25,12 +25,7 @@ double lowest_tip(const Kinematics& kinematics, const Clip& clip, int frame) {
 void add_to_mean(BodyPose& mean, const BodyPose& pose) {
   mean.height += pose.height;
   if (mean.rotations.empty()) mean.rotations.resize(pose.rotations.size(), 0);
-  for (std::size_t b = 0; b < pose.rotations.size(); b += 4) {
-    using Vector4 = Eigen::Vector4d;
-    const Eigen::Map<const Vector4> q(&pose.rotations[b]);
-    Eigen::Map<Vector4> sum(&mean.rotations[b]);
-    sum += sum.dot(q) < 0 ? Vector4{-q} : Vector4{q};
-  }
+  for (std::size_t b = 0; b < pose.rotations.size(); b += 4) add_rotation(&pose.rotations[b], &mean.rotations[b]);
 }
 
 }  // namespace

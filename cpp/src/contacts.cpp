@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fragmotion/leg.hpp"
+
 namespace fragmotion {
 namespace {
 
 constexpr double kHeight = 0.045, kSpeed = 0.5, kSpeedShare = 0.2, kShortest = 0.06;
 constexpr double kDeeper = 0.02;  // of a path's points, that may be under its floor
 
-// The path of a foot's lower end (the ball: the toe's head, else the foot's tip) and of its heel (the foot's head).
+// The path of a foot's ball, its lower end, and of its heel, the foot's head.
 struct FootPath {
   std::vector<Vector3> ball, heel;
 };
@@ -20,15 +22,13 @@ std::array<FootPath, 2> foot_paths(const Kinematics& kinematics, const Clip& cli
   const Roles& roles = skeleton.roles;
   const int feet[] = {roles.left_foot, roles.right_foot}, toes[] = {roles.left_toe, roles.right_toe};
   const std::vector<int> bones = kinematics.chains({feet[0], feet[1], toes[0], toes[1]});
-  std::vector<Vector3> heads(kinematics.bones());
-  std::vector<Quaternion> rotations(kinematics.bones());
+  PosedBones posed(kinematics.bones());
   std::array<FootPath, 2> paths;
   for (int f = 0; f < clip.frames; ++f) {
-    kinematics.world(clip, f, bones, heads.data(), rotations.data());
+    kinematics.world(clip, f, bones, posed.heads.data(), posed.rotations.data());
     for (int side = 0; side < 2; ++side) {
-      const int foot = feet[side], toe = toes[side];
-      paths[side].ball.push_back(toe >= 0 ? heads[toe] : Vector3{heads[foot] + rotations[foot] * skeleton.tips[foot]});
-      paths[side].heel.push_back(heads[foot]);
+      paths[side].ball.push_back(ball(skeleton, feet[side], toes[side], posed));
+      paths[side].heel.push_back(posed.heads[feet[side]]);
     }
   }
   return paths;

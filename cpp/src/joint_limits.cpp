@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "fragmotion/pose.hpp"
+
 namespace fragmotion {
 namespace {
 
@@ -66,8 +68,7 @@ void find_means(Seen& seen, std::vector<JointAxes>& joints) {
   std::vector<Eigen::Vector4d> sums(joints.size(), Eigen::Vector4d::Zero());
   seen.each_pose([&](std::size_t, const double* rotations) {
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      const Eigen::Map<const Eigen::Vector4d> q(rotations + std::ptrdiff_t{4} * joints[j].bone);
-      sums[j] += sums[j].dot(q) < 0 ? Eigen::Vector4d{-q} : Eigen::Vector4d{q};
+      add_rotation(rotations + std::ptrdiff_t{4} * joints[j].bone, sums[j].data());
     }
   });
   for (std::size_t j = 0; j < joints.size(); ++j) joints[j].mean = load_quaternion(sums[j].data()).normalized();

@@ -140,9 +140,9 @@ Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips) {
   return legs;
 }
 
-Vector3 ball(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed) {
-  if (leg.toe >= 0) return posed.heads[leg.toe];
-  return posed.heads[leg.foot] + posed.rotations[leg.foot] * skeleton.tips[leg.foot];
+Vector3 ball(const Skeleton& skeleton, int foot, int toe, const PosedBones& posed) {
+  if (toe >= 0) return posed.heads[toe];
+  return posed.heads[foot] + posed.rotations[foot] * skeleton.tips[foot];
 }
 
 double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle) {

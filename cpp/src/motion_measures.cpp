@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fragmotion/kinematics.hpp"
+#include "fragmotion/leg.hpp"
 #include "fragmotion/pose.hpp"
 
 namespace fragmotion {
@@ -33,13 +33,12 @@ class JointReader {
       : kinematics_(skeleton),
         scale_(standard_scale(skeleton)),
         measured_(measured_bones(skeleton)),
-        heads_(kinematics_.bones()),
-        orientations_(kinematics_.bones()) {}
+        posed_(kinematics_.bones()) {}
 
   void add(Joints& joints, const Vector3& root, const double* rotations) {
-    kinematics_.world(root, rotations, heads_.data(), orientations_.data());
+    kinematics_.world(root, rotations, posed_.heads.data(), posed_.rotations.data());
     joints.bones = static_cast<int>(measured_.size());
-    for (const int b : measured_) joints.places.push_back(heads_[b] * scale_);
+    for (const int b : measured_) joints.places.push_back(posed_.heads[b] * scale_);
     const Roles& roles = kinematics_.skeleton().roles;
     if (roles.left_foot >= 0 && roles.right_foot >= 0) {
       add_foot(joints, 0, roles.left_foot, roles.left_toe);
@@ -50,16 +49,14 @@ class JointReader {
 
  private:
   void add_foot(Joints& joints, int at, int foot, int toe) {
-    const Vector3 tip = heads_[foot] + orientations_[foot] * kinematics_.skeleton().tips[foot];
-    joints.points[at].push_back((toe >= 0 ? heads_[toe] : tip) * scale_);
-    joints.points[at + 1].push_back(heads_[foot] * scale_);
+    joints.points[at].push_back(ball(kinematics_.skeleton(), foot, toe, posed_) * scale_);
+    joints.points[at + 1].push_back(posed_.heads[foot] * scale_);
   }
 
   Kinematics kinematics_;
   double scale_;
   std::vector<int> measured_;
-  std::vector<Vector3> heads_;
-  std::vector<Quaternion> orientations_;
+  PosedBones posed_;
 };
 
 std::vector<Joints> takes_of(const Character& character) {

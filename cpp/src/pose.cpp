@@ -25,6 +25,12 @@ struct Between {
 
 }  // namespace
 
+void add_rotation(const double* rotation, double* sum) {
+  const Eigen::Map<const Eigen::Vector4d> q(rotation);
+  Eigen::Map<Eigen::Vector4d> all(sum);
+  all += all.dot(q) < 0 ? Eigen::Vector4d{-q} : Eigen::Vector4d{q};
+}
+
 void blend_rotations(const double* a, const double* b, double weight, int bones, double* out) {
   for (int i = 0; i < 4 * bones; i += 4) {
     store_quaternion(load_quaternion(a + i).slerp(weight, load_quaternion(b + i)), out + i);

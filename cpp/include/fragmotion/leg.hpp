@@ -32,8 +32,11 @@ struct PosedBones {
   explicit PosedBones(int bones) : heads(bones), rotations(bones) {}
 };
 
-/// The ball of a leg's foot: the toe's head, or the foot's tip.
-Vector3 ball(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed);
+/// The ball of a foot: the toe's head, or, where there is no toe (-1), the foot's tip.
+Vector3 ball(const Skeleton& skeleton, int foot, int toe, const PosedBones& posed);
+inline Vector3 ball(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed) {
+  return ball(skeleton, leg.foot, leg.toe, posed);
+}
 
 /// How far the hips must sink for the leg to reach `ankle`, m: 0 where it does, infinite where no sinking helps.
 double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle);

@@ -8,6 +8,9 @@ namespace fragmotion {
 /// Rotations a and b [bones, 4] interpolated on the shorter arc: out = slerp(a, b, weight). `out` may be a or b.
 void blend_rotations(const double* a, const double* b, double weight, int bones, double* out);
 
+/// Adds a rotation to a sum of rotations, each w, x, y, z, on the side of the sum: normalised, the sum is their mean.
+void add_rotation(const double* rotation, double* sum);
+
 /// The clip's pose at frame `at` (fractional; held at the clip's ends): writes rotations [bones, 4], returns the root
 /// position, m.
 Vector3 sample_pose(const Clip& clip, double at, double* rotations);
