@@ -45,25 +45,35 @@ TEST(Reach, BringsTheFootThereAndLeavesItsRotation) {
   }
 }
 
-TEST(Reach, NeverBendsAKneeBackwardNorSnapsIt) {
-  const Skeleton skeleton = humanoid();
-  const Kinematics kinematics(skeleton);
-  const Clip clip = gait_clip({0, 0, 0});
-  const Leg leg = find_legs(kinematics, {gait_clip({1.2, 0, 0})})[0];
-  PosedBones posed(skeleton.size()), after(skeleton.size());
-  Vector3 before = Vector3::Zero();
-  for (int n = 0; n <= 60; ++n) {
+// A standing leg whose knee is bent further by an angle, before it reaches for where its foot is, and after.
+struct BentLeg {
+  Skeleton skeleton = humanoid();
+  Kinematics kinematics{skeleton};
+  Clip clip = gait_clip({0, 0, 0});
+  Leg leg = find_legs(kinematics, {gait_clip({1.2, 0, 0})})[0];
+  PosedBones posed{skeleton.size()}, after{skeleton.size()};
+
+  void bend(double angle) {
     std::vector<double> rotations(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
-    const Quaternion bend{Eigen::AngleAxisd(0.3 - 0.01 * n, leg.hinge)};  // from forward to as far backward
+    const Quaternion bend{Eigen::AngleAxisd(angle, leg.hinge)};
     store_quaternion(bend * load_quaternion(&rotations[4 * leg.knee]), &rotations[4 * leg.knee]);
     const Vector3 root = load_vector(clip.root_positions.data());
     kinematics.world(root, rotations.data(), posed.heads.data(), posed.rotations.data());
-    const Vector3 ankle = posed.heads[leg.foot];
-    reach(skeleton, leg, posed, ankle, rotations.data());
+    reach(skeleton, leg, posed, posed.heads[leg.foot], rotations.data());
     kinematics.world(root, rotations.data(), after.heads.data(), after.rotations.data());
-    const Vector3 hip = after.heads[leg.thigh], knee = after.heads[leg.knee], foot = after.heads[leg.foot];
-    EXPECT_GE((after.rotations[leg.thigh] * leg.hinge).dot((knee - hip).cross(foot - knee)), 0) << n;
-    EXPECT_LT((foot - ankle).norm(), 0.03) << n;
+  }
+};
+
+TEST(Reach, NeverBendsAKneeBackwardNorSnapsIt) {
+  BentLeg bent;
+  const Leg& leg = bent.leg;
+  Vector3 before = Vector3::Zero();
+  for (int n = 0; n <= 60; ++n) {
+    bent.bend(0.3 - 0.01 * n);  // from forward to as far backward
+    const std::vector<Vector3>& heads = bent.after.heads;
+    const Vector3 hip = heads[leg.thigh], knee = heads[leg.knee], foot = heads[leg.foot];
+    EXPECT_GE((bent.after.rotations[leg.thigh] * leg.hinge).dot((knee - hip).cross(foot - knee)), 0) << n;
+    EXPECT_LT((foot - bent.posed.heads[leg.foot]).norm(), 0.03) << n;
     if (n > 0) {
       EXPECT_LT((knee - before).norm(), 0.01) << n;
     }
@@ -72,20 +82,10 @@ TEST(Reach, NeverBendsAKneeBackwardNorSnapsIt) {
 }
 
 TEST(Reach, NeitherFoldsUpAKneeNorSnapsItWhereAStitchOvershoots) {
-  const Skeleton skeleton = humanoid();
-  const Kinematics kinematics(skeleton);
-  const Clip clip = gait_clip({0, 0, 0});
-  const Leg leg = find_legs(kinematics, {gait_clip({1.2, 0, 0})})[0];
-  PosedBones posed(skeleton.size()), after(skeleton.size());
-  for (int n = 0; n <= 100; ++n) {  // from bent to folded further than flat
-    std::vector<double> rotations(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
-    const Quaternion bend{Eigen::AngleAxisd(2.3 + 0.01 * n, leg.hinge)};
-    store_quaternion(bend * load_quaternion(&rotations[4 * leg.knee]), &rotations[4 * leg.knee]);
-    const Vector3 root = load_vector(clip.root_positions.data());
-    kinematics.world(root, rotations.data(), posed.heads.data(), posed.rotations.data());
-    reach(skeleton, leg, posed, posed.heads[leg.foot], rotations.data());
-    kinematics.world(root, rotations.data(), after.heads.data(), after.rotations.data());
-    const Vector3 hip = after.heads[leg.thigh], foot = after.heads[leg.foot];
+  BentLeg bent;
+  for (int n = 0; n <= 100; ++n) {
+    bent.bend(2.3 + 0.01 * n);  // from bent to folded further than flat
+    const Vector3 hip = bent.after.heads[bent.leg.thigh], foot = bent.after.heads[bent.leg.foot];
     EXPECT_GT((foot - hip).norm(), 0.2) << n;
     EXPECT_LT((foot - hip).norm(), 0.4) << n;
   }

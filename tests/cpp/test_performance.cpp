@@ -9,6 +9,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kRate = 60;
+const Control kForward{0, 1.2, 0, 0};
 
 TEST(OptimalPerformance, IsNeverReachedByAPlayer) {
   const auto character = gait_character();
@@ -139,6 +140,58 @@ TEST(Judge, SeesNoErrorInTheSwayOfAGait) {
   judge(p, c, Trace(50, Control{0, 1.2, 0, 0}));
   EXPECT_LT(p.velocity_error, 0.1);  // frame by frame it would be 0.16
   EXPECT_LT(p.drift, 0.01);
+}
+
+TEST(Performance, IsWhatStepsWouldHaveShown) {
+  const Trace trace(40, kForward);
+  Player one(gait_character(), {6}), two(gait_character(), {6});
+  one.reset({{1, 1}, 1});
+  two.reset({{1, 1}, 1});
+  const Performance p = one.run(trace, 30);
+  for (int f = 0; f < p.frames; ++f) {
+    if (f > 0) two.step(kForward, 1.0 / 30);
+    EXPECT_LT((load_vector(&p.root_positions[3 * f]) - two.root_position()).norm(), 1e-9);
+    EXPECT_NEAR(p.path[3 * f + 2], two.frame().heading, 1e-9);
+    EXPECT_EQ(p.classes[f], two.playing_class());
+    EXPECT_EQ(gait_character()->classes.labels[p.fragments[f]], p.classes[f]);
+  }
+}
+
+TEST(Performance, KnowsThatAFragmentFollowsItself) {
+  const auto character = std::make_shared<const Character>(tiny_character({tiny_clip(1.5)}));
+  ASSERT_EQ(character->pool.fragments.size(), 1);
+  Player player(character);
+  const Trace trace(20, Control{});
+  for (int run = 0; run < 2; ++run) {
+    const Performance p = player.run(trace, 60);
+    for (int f = 1; f < p.frames; ++f) EXPECT_EQ(p.entered[f], (f - 1 + 30 * run) / 30) << f;
+  }
+}
+
+TEST(Performance, MeasuresQualityAndSpeed) {
+  for (const double rate : {24.0, 60.0}) {
+    const Performance p =
+        Player(gait_character(), {3}).run(simulate_trace("explorer", 20, 4, gait_character()->space), rate);
+    EXPECT_GT(p.quality, 0);
+    EXPECT_LE(p.quality, 1);
+    EXPECT_GE(p.velocity_error, 0);
+    EXPECT_TRUE(std::isfinite(p.velocity_error));
+  }
+  Player player(gait_character());
+  EXPECT_NEAR(player.run(Trace(50, kForward), 30).commanded_speed, 1.2, 0.05);
+}
+
+TEST(Performance, PathIsUnwrapped) {
+  Gait gait;
+  gait.turn = 1.2;
+  BuildOptions options;
+  options.classes = 3;
+  options.mirror = options.synthesize = false;
+  options.policies = {"greedy"};
+  Player player(std::make_shared<const Character>(build(humanoid(), {gait_clip(gait)}, {Trace(2)}, options)));
+  const Performance p = player.run(Trace(100, Control{0, 1.2, 1, 0}), 30);  // ten seconds in a circle
+  for (int f = 1; f < p.frames; ++f) EXPECT_LT(std::abs(p.path[3 * f + 2] - p.path[3 * f - 1]), 1);
+  EXPECT_NEAR(p.path[3 * (p.frames - 1) + 2], 12, 1);
 }
 
 }  // namespace
