@@ -50,4 +50,13 @@ def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def obj(addon: ModuleType, built: Path) -> bpy.types.Object:
     """The built armature, active, after loading the file."""
     addon.building.forget()
-    return making.open_armature(built)
+    bpy.ops.wm.open_mainfile(filepath=str(built))
+    return bpy.context.view_layer.objects.active
+
+
+@pytest.fixture
+def session(addon: ModuleType) -> Iterator[ModuleType]:
+    """The add-on's module of drives; nothing is driven afterwards."""
+    module = importlib.import_module(f"{addon.__name__}.drive.session")
+    yield module
+    module.stop()
