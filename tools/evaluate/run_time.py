@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import statistics
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import fragmotion_core as core
@@ -89,9 +89,9 @@ def _turns(measured: Sequence[core.MotionMeasures]) -> dict[str, float]:
     }
 
 
-def responses(character: core.Character, policy: str, seed: int) -> dict[str, float]:
-    """Half of all changes of velocity are answered within p50, 95 of 100 within p95, s."""
-    times = [core.response_times(character, s, policy=policy) for s in range(seed, seed + PLAYERS)]
+def responses(character: core.Character, seeds: Iterable[int], **options: Any) -> dict[str, float]:
+    """Half of all changes of velocity are answered within p50, 95 of 100 within p95, s, by players of these seeds."""
+    times = [core.response_times(character, seed, **options) for seed in seeds]
     p50, p95 = np.percentile(np.concatenate(times), [50, 95])
     return {"response_p50_s": float(p50), "response_p95_s": float(p95)}
 
@@ -111,29 +111,26 @@ def measure_stitchings(
 ) -> dict[str, dict[str, float]]:
     """What a viewer sees and what a player feels, by the way of playing; the takes' own figures first."""
     yardstick = core.MotionYardstick(character)
-    found = {"the takes": _look([yardstick.takes])}
+    found = {"the takes": _look([yardstick.takes], yardstick.takes.positions.p999)}
     for name, options in STITCHINGS.items():
         played = [core.Player(character, seed, **options).run(session.controls, RATE) for session in sessions]
-        p50, p95 = np.percentile(core.response_times(character, seed, **options), [50, 95])
-        follows = errors([played])
+        measured, follows = [yardstick.of(performance) for performance in played], errors([played])
         found[name] = {
-            **_look([yardstick.of(performance) for performance in played]),
+            **_look(measured, max(m.positions.worst for m in measured)),
             **{key: float(follows[key] or 0) for key in ("velocity_error_percent", "drift_percent")},
-            "response_p50_s": float(p50),
-            "response_p95_s": float(p95),
+            **responses(character, [seed], **options),
         }
     return found
 
 
-def _look(measured: Sequence[core.MotionMeasures]) -> dict[str, float]:
-    """Foot skate (m/s), sliding (share), the deepest foot (m), joint steps: of places (m; the takes' 99.9th percentile,
-    else the worst), and the 99th percentiles of velocities (m/s) and accelerations (m/s^2), and turns beyond limits."""
-    takes = len(measured) == 1
+def _look(measured: Sequence[core.MotionMeasures], joint_step: float) -> dict[str, float]:
+    """Foot skate (m/s), sliding (share), the deepest foot (m), joint steps: of places (m), and the 99th percentiles of
+    velocities (m/s) and accelerations (m/s^2), and turns beyond limits."""
     return {
         "foot_skate": statistics.fmean(m.foot_skate for m in measured),
         "sliding_share": statistics.fmean(m.sliding_share for m in measured),
         "penetration": max(m.penetration for m in measured),
-        "joint_step": measured[0].positions.p999 if takes else max(m.positions.worst for m in measured),
+        "joint_step": joint_step,
         "velocity_step_p99": statistics.fmean(m.velocities.p99 for m in measured),
         "acceleration_step_p99": statistics.fmean(m.accelerations.p99 for m in measured),
         **_turns(measured),
@@ -153,7 +150,7 @@ def measure_run_time(
         found[policy] = {
             "percent_of_optimal": statistics.fmean(percent),
             **errors(played),
-            **responses(character, policy, seed),
+            **responses(character, range(seed, seed + PLAYERS), policy=policy),
             **looks(yardstick, played),
             "by_trace": dict(zip((session.name for session in sessions), percent)),
         }
