@@ -33,7 +33,9 @@ Crowd::Crowd(std::shared_ptr<const Character> character, int count, const Player
 void Crowd::step(const Control* controls, double seconds, double* roots, double* rotations) {
   for (int i = 0; i < size(); ++i) Player::check_step(controls[i], seconds);
   const auto step_parts = [&](int begin, int end) {
-    for (int i = first_of(begin, parts_, size()); i < first_of(end, parts_, size()); ++i) {
+    const int last = first_of(end, parts_, size()) - 1;
+    for (int i = first_of(begin, parts_, size()); i <= last; ++i) {
+      players_[std::min(i + 1, last)].fetch();
       step(i, controls[i], seconds, roots, rotations);
     }
   };

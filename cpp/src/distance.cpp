@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "fragmotion/machine.hpp"
 #include "fragmotion/parallel.hpp"
 #include "fragmotion/pose.hpp"
 
@@ -31,9 +32,8 @@ void BodyTips::write(const CharacterFrame& frame, float* rows, int stride, int o
   }
 }
 
-// GCC builds this for both instruction sets and the loader picks. Eight partial sums make the order of additions, and
-// so the bits, the same in both.
-__attribute__((target_clones("avx2", "default"))) float tip_distance(const float* a, const float* b, int stride) {
+// Eight partial sums make the order of additions, and so the bits, the same with any instructions.
+FRAGMOTION_VECTORISED float tip_distance(const float* a, const float* b, int stride) {
   float sums[kLanes] = {};
   for (int i = 0; i < stride; i += kLanes) {
     for (int lane = 0; lane < kLanes; ++lane) {

@@ -97,8 +97,9 @@ Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double se
   const bool stepping = foot.steps && foot.free < kRelease;
   if (planted && !foot.locked && !stepping && away.norm() * body_->scale < kTooFar) lock(foot, moved + away, seconds);
   if (foot.locked) {
-    foot.place += kSettle * (1 - std::exp(-seconds / kSettle)) * foot.drift;
-    foot.drift *= std::exp(-seconds / kSettle);
+    const double goes_on = std::exp(-seconds / kSettle);
+    foot.place += kSettle * (1 - goes_on) * foot.drift;
+    foot.drift *= goes_on;
     away = foot.place - moved;
     if (!planted || away.norm() * body_->scale > kTooFar) release(foot, away);
   }

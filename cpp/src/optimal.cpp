@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "fragmotion/machine.hpp"
 #include "raise.hpp"
 #include "transposed.hpp"
 
@@ -18,8 +19,7 @@ void check_controls(const std::vector<int>& trace) {
   }
 }
 
-__attribute__((target_clones("avx2", "default"))) void raise(double* best, const double* row, int count, double match,
-                                                             double value) {
+FRAGMOTION_VECTORISED void raise(double* best, const double* row, int count, double match, double value) {
   for (int i = 0; i < count; ++i) {
     const double candidate = row[i] * match + value;
     best[i] = candidate > best[i] ? candidate : best[i];

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fragmotion/parallel.hpp"
+#include "fragmotion/pose.hpp"
 
 namespace fragmotion {
 namespace {
@@ -63,11 +64,10 @@ Quaternion mean_rotation(const std::vector<Clip>& clips, int bone, int bones) {
   Eigen::Vector4d sum = Eigen::Vector4d::Zero();
   for (const Clip& clip : clips) {
     for (int f = 0; f < clip.frames; ++f) {
-      const Quaternion q = load_quaternion(&clip.rotations[4 * (static_cast<std::size_t>(f) * bones + bone)]);
-      sum += q.coeffs().dot(sum) < 0 ? Eigen::Vector4d{-q.coeffs()} : q.coeffs();
+      add_rotation(&clip.rotations[4 * (static_cast<std::size_t>(f) * bones + bone)], sum.data());
     }
   }
-  return sum.norm() < 0.5 ? Quaternion::Identity() : Quaternion{sum.normalized()};
+  return sum.norm() < 0.5 ? Quaternion::Identity() : load_quaternion(sum.data()).normalized();
 }
 
 // axis * tan(angle / 4), where the angle is at most half a turn.
@@ -344,8 +344,7 @@ Clip unpack(const PackedClip& packed) {
   return clip;
 }
 
-__attribute__((target_clones("avx2", "default"))) Vector3 sample_pose(const PackedClip& clip, double at,
-                                                                      double* rotations) {
+FRAGMOTION_VECTORISED Vector3 sample_pose(const PackedClip& clip, double at, double* rotations) {
   const PoseGrid& grid = *clip.grid;
   const Between between(clip, at);
   double root[kRootNumbers];

@@ -37,7 +37,8 @@ Player::Stage::Stage(const Character& character)
       tips{BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton)},
       onward(character.openings.size() / character.pool.fragments.size()) {
   fitting.reserve(character.pool.fragments.size());
-  for (WorldPose& pose : poses) pose.rotations.resize(std::size_t{4} * kinematics.bones());
+  shown.rotations.resize(std::size_t{4} * kinematics.bones());
+  poses.fill(shown);
 }
 
 Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options)
@@ -60,8 +61,13 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
   if (!(pull_ >= 0 && pull_ <= 1)) throw std::invalid_argument("the pull must be 0 to 1");
   if (!(promptness_ >= 0 && promptness_ <= 1)) throw std::invalid_argument("the promptness must be 0 to 1");
   if (!(stitch_ >= 0 && stitch_ <= 1)) throw std::invalid_argument("the stitching time must be 0 to 1 s");
-  shown_ = stage_->poses[0];
   reset();
+}
+
+// Lets its memory be on its way to the processor: that of a crowd is more than the processor keeps at hand.
+void Player::fetch() const {
+  prefetch(this, 1);
+  inertia_.fetch();
 }
 
 void Player::check_step(const Control& control, double seconds) {
@@ -123,7 +129,7 @@ void Player::sample(const Placed& placed, WorldPose& pose) const {
   store_quaternion(Quaternion{w, 0, 0, z} * load_quaternion(hips), hips);
 }
 
-CharacterFrame Player::frame() const { return {shown_.root.head<2>(), shown_.heading}; }
+CharacterFrame Player::frame() const { return {root_.head<2>(), heading_}; }
 
 // Moves and turns what plays, so that it does more of what the control says.
 void Player::pull(const Control& control, double seconds) {
@@ -136,7 +142,7 @@ void Player::pull(const Control& control, double seconds) {
   const double share = 1 - std::exp(-seconds / kPulling);
   pulling_ += share * (pull_ * wanted - pulling_);
   turning_ += share * (pull_ * turn - turning_);
-  const Vector2 root = shown_.root.head<2>(), way = seconds * (Eigen::Rotation2Dd(shown_.heading) * pulling_);
+  const Vector2 root = root_.head<2>(), way = seconds * (Eigen::Rotation2Dd(heading_) * pulling_);
   const Eigen::Matrix2d turned = Eigen::Rotation2Dd(seconds * turning_).toRotationMatrix();
   for (Placed* placed : {&now_, &before_}) {
     placed->heading += seconds * turning_;
@@ -146,16 +152,25 @@ void Player::pull(const Control& control, double seconds) {
 
 // Shows what plays, stitched to what played.
 void Player::pose() {
-  sample(now_, shown_);
-  if (stitching_ == Stitching::inertialize) return inertia_.apply(now_.seconds, shown_);
-  if (now_.seconds >= faded_) return;
+  WorldPose& shown = stage_->shown;
+  sample(now_, shown);
+  if (stitching_ == Stitching::inertialize) {
+    inertia_.apply(now_.seconds, shown);
+  } else if (now_.seconds < faded_) {
+    crossfade(ease_in_ease_out(now_.seconds / faded_), shown);
+  }
+  root_ = shown.root;
+  heading_ = shown.heading;
+}
+
+// Goes so far from what played before to the pose.
+void Player::crossfade(double weight, WorldPose& pose) const {
   WorldPose& old = stage_->poses[0];
   sample(before_, old);
-  const double weight = ease_in_ease_out(now_.seconds / faded_);
-  blend_rotations(old.rotations.data(), shown_.rotations.data(), weight, stage_->kinematics.bones(),
-                  shown_.rotations.data());
-  shown_.root = old.root + weight * (shown_.root - old.root);
-  shown_.heading = old.heading + weight * (shown_.heading - old.heading);
+  blend_rotations(old.rotations.data(), pose.rotations.data(), weight, stage_->kinematics.bones(),
+                  pose.rotations.data());
+  pose.root = old.root + weight * (pose.root - old.root);
+  pose.heading = old.heading + weight * (pose.heading - old.heading);
 }
 
 bool Player::stands(const Control& evident) const {
@@ -166,13 +181,14 @@ bool Player::stands(const Control& evident) const {
 // Lets the pose breathe and keeps planted feet where they are, `seconds` after the last one.
 void Player::plant(double seconds) {
   const Fragment& f = character_->pool.fragments[now_.fragment];
-  breathing_.apply(stage_->kinematics.skeleton(), shown_, stands(f.evident), seconds);
+  breathing_.apply(stage_->kinematics.skeleton(), stage_->shown, stands(f.evident), seconds);
   const Contacts& contacts = character_->contacts[f.clip];
   if (!lock_feet_ || contacts.feet[0].empty()) return;
   const PackedClip& clip = character_->pool.clips[f.clip];
   const long at = std::lround(f.begin + now_.seconds * clip.rate);
   const auto frame = static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(clip.frames) - 1));
-  foot_lock_.apply(shown_, contacts, frame, seconds);
+  foot_lock_.apply(stage_->shown, contacts, frame, seconds);
+  root_ = stage_->shown.root;
 }
 
 double Player::left() const {
@@ -415,8 +431,8 @@ Performance Player::run(const Trace& trace, double rate, const Progress& progres
     const Control& control = trace[control_at(f, rate, trace.size())];
     if (f > 0) step(control, 1 / rate);
     const CharacterFrame now = frame();
-    p.root_positions.insert(p.root_positions.end(), shown_.root.data(), shown_.root.data() + 3);
-    p.rotations.insert(p.rotations.end(), shown_.rotations.begin(), shown_.rotations.end());
+    p.root_positions.insert(p.root_positions.end(), root_.data(), root_.data() + 3);
+    p.rotations.insert(p.rotations.end(), rotations().begin(), rotations().end());
     p.path.insert(p.path.end(), {now.position.x(), now.position.y(), now.heading});
     p.classes.push_back(class_);
     p.fragments.push_back(now_.fragment);

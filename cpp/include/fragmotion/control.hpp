@@ -18,7 +18,7 @@ struct Control {
   double turn = 0;  ///< Turn rate over ControlSpace::turn_rate; +1 is left, counter-clockwise from above.
   double jump = 0;  ///< 1: jumping.
 
-  double speed() const { return std::hypot(x, y); }
+  double speed() const { return std::sqrt(x * x + y * y); }
 };
 
 /// The weights of ControlDis (Eq. 2). Defaults: going 0.5 m/s too fast (at 1.8 m stature) weighs as much as the whole

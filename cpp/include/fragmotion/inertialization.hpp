@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "fragmotion/machine.hpp"
 #include "fragmotion/types.hpp"
 
 namespace fragmotion {
@@ -12,6 +13,11 @@ struct WorldPose {
   Vector3 root = Vector3::Zero();
   double heading = 0;
   std::vector<double> rotations;
+};
+
+/// How far bones are turned from their motion, as modified Rodrigues parameters, and that a second: x, y and z apart.
+struct BoneOffsets {
+  float turn[3][kBoneBlock] = {}, turning[3][kBoneBlock] = {};
 };
 
 /// A stitch that keeps pose and velocity (D. Bollo, "Inertialization: high-performance animation transitions in Gears
@@ -34,19 +40,18 @@ class Inertialization {
   void begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh, const WorldPose& fresh_later,
              double apart, double seconds);
 
+  /// Lets its memory be on its way to the processor.
+  void fetch() const { prefetch(blocks_.data(), blocks_.size()); }
+
   /// Adds what is left `time` seconds after the beginning.
   void apply(double time, WorldPose& pose) const;
 
  private:
-  // How far a bone is turned from its motion, as modified Rodrigues parameters, and that a second.
-  struct Offset {
-    Vector3 turn = Vector3::Zero(), speed = Vector3::Zero();
-  };
-
   double damping_ = 0, end_ = 0;  // 1/s, s
   Vector3 root_ = Vector3::Zero(), root_speed_ = Vector3::Zero();
   double heading_ = 0, heading_speed_ = 0;
-  std::vector<Offset> bones_;
+  int bones_;
+  std::vector<BoneOffsets> blocks_;
 };
 
 }  // namespace fragmotion

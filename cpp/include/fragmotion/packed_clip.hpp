@@ -8,11 +8,9 @@
 #include <vector>
 
 #include "fragmotion/fragment.hpp"
+#include "fragmotion/machine.hpp"
 
 namespace fragmotion {
-
-/// Bones are kept in blocks of so many, x, y and z apart, for the sake of vector instructions.
-constexpr int kBoneBlock = 8;
 
 /// What the packed clips of one skeleton share. A bone's rotation is kept as the turn from its usual one, as axis *
 /// tan(angle / 4) in whole steps. The steps are as wide as keeps every bone's rotation, in its parent and in the world,

@@ -64,9 +64,9 @@ class Player {
   /// and to its end, from where the policy goes on. Throws std::invalid_argument on a class that does not exist.
   void force(int next_class);
 
-  const Vector3& root_position() const { return shown_.root; }
+  const Vector3& root_position() const { return root_; }
   /// [bones, 4] as in Clip.
-  const std::vector<double>& rotations() const { return shown_.rotations; }
+  const std::vector<double>& rotations() const { return stage_->shown.rotations; }
   CharacterFrame frame() const;
   int playing_class() const { return class_; }
   int playing_fragment() const { return now_.fragment; }
@@ -91,6 +91,7 @@ class Player {
     std::array<BodyTips, 3> tips;
     std::vector<float> onward;                   // tips of what is shown, and of how it would go on
     std::vector<std::pair<float, int>> fitting;  // fragments by their distance from it
+    WorldPose shown;                             // by the player that stepped last
     std::array<WorldPose, 4> poses;
   };
 
@@ -104,6 +105,7 @@ class Player {
 
   Player(std::shared_ptr<const Character> character, const PlayerOptions& options, std::shared_ptr<Stage> stage);
 
+  void fetch() const;
   static void check_step(const Control& control, double seconds);
   Placed place(int fragment, const CharacterFrame& frame) const;
   void sample(const Placed& placed, WorldPose& pose) const;
@@ -125,6 +127,7 @@ class Player {
   void go_on(const Control& control, const Control& wanted);
   void pull(const Control& control, double seconds);
   void pose();
+  void crossfade(double weight, WorldPose& pose) const;
   bool stands(const Control& evident) const;
   void plant(double seconds);
   double left() const;
@@ -157,7 +160,8 @@ class Player {
   Inertialization inertia_;
   FootLock foot_lock_;
   Breathing breathing_;
-  WorldPose shown_;
+  Vector3 root_ = Vector3::Zero();  // as it is shown
+  double heading_ = 0;
 };
 
 }  // namespace fragmotion
