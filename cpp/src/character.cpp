@@ -24,10 +24,10 @@ namespace {
 constexpr double kTwoGaits = 1.6;   // a run is at least so much faster than a walk
 constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gaits
 constexpr double kRunOverWalk = 3.3 / 1.2;
-constexpr double kBalance = -1.0 / 3;  // each of k fragments that perform one control counts k^(-1/3) in clustering
-constexpr double kTurningHop = 0.1;    // weight of a hop that turns
-constexpr double kHopAhead = 4;        // weight of a hop on the spot or straight ahead
-constexpr double kTurning = kPi / 6;   // rad/s
+constexpr double kBalance = -0.75;    // each of k fragments that perform one control counts k^(-3/4) in clustering
+constexpr double kSideHop = 0.2;      // weight of a hop that goes to a side,
+constexpr double kTurningHop = 0.02;  // and of one that turns
+constexpr double kTurning = kPi / 6;  // rad/s
 
 class Stopwatch {
  public:
@@ -163,10 +163,17 @@ std::vector<float> balanced_weights(const Character& c) {
     const Control control = c.space.point(nearest);
     const double share = std::pow(c.coverage.counts[nearest], kBalance);
     const bool turns = control.turn != 0, ahead = control.x == 0 && control.y >= 0;
-    const double wanted = control.jump == 0 ? 1 : turns ? kTurningHop : ahead ? kHopAhead : 1;
+    const double wanted = control.jump == 0 ? 1 : turns ? kTurningHop : ahead ? 1 : kSideHop;
     weights.push_back(static_cast<float>(share * wanted));
   }
   return weights;
+}
+
+// Which fragments hop: 1 each.
+std::vector<char> hops(const std::vector<Fragment>& fragments) {
+  std::vector<char> hops;
+  for (const Fragment& f : fragments) hops.push_back(f.evident.jump > 0.5 ? 1 : 0);
+  return hops;
 }
 
 // Scores classes by the quality of Optimal's paths over the traces.
@@ -313,8 +320,8 @@ void learn(const Material& material, const BuildOptions& options, const Progress
   clustering.restarts = options.restarts;
   clustering.seed = options.seed;
   clustering.threads = options.threads;
-  c.classes =
-      cluster(t, balanced_weights(c), clustering, serves_traces(c, t, material.traces), part_of(progress, 0, 0.5));
+  c.classes = cluster(t, balanced_weights(c), clustering, serves_traces(c, t, material.traces),
+                      part_of(progress, 0, 0.5), hops(c.pool.fragments));
   c.report["classes"] = c.classes.count;
   c.report["cluster_seconds"] = stage.lap();
   c.quality = quality_table(c.pool.fragments, t, c.classes, c.space);

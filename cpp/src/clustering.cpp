@@ -70,9 +70,10 @@ std::vector<int> even_sample(int pool, int count) {
   return fragments;
 }
 
-std::vector<float> some(const std::vector<float>& weights, const std::vector<int>& fragments) {
-  std::vector<float> chosen;
-  for (const int i : fragments) chosen.push_back(weights[i]);
+template <typename T>
+std::vector<T> some(const std::vector<T>& values, const std::vector<int>& fragments) {
+  std::vector<T> chosen;
+  for (const int i : fragments) chosen.push_back(values[i]);
   return chosen;
 }
 
@@ -92,12 +93,13 @@ Trajectories some(const Trajectories& t, const std::vector<int>& fragments) {
 // Finds classes at two resolutions: first among the sums of poses, then, from there, among the poses.
 class Clustering {
  public:
-  Clustering(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options)
+  Clustering(const Trajectories& t, const std::vector<float>& weights, const std::vector<char>& kinds,
+             const ClusterOptions& options)
       : classes_(options.classes),
         iterations_(options.iterations),
         few_(t.count / kHardlyAny),
-        fine_{t.count, t.stride, t.whole.data(), weights.data()},
-        coarse_{t.count, 0, nullptr, weights.data()},
+        fine_{t.count, t.stride, t.whole.data(), weights.data(), kinds.data()},
+        coarse_{t.count, 0, nullptr, weights.data(), kinds.data()},
         sums_(summed_poses(t, thread_count(options.threads), coarse_.stride)),
         rounding_(rounding(t)) {
     coarse_.rows = sums_.data();
@@ -140,13 +142,15 @@ class Clustering {
 // Finds classes among an even sample first where the pool is large.
 class SampledClustering {
  public:
-  SampledClustering(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options)
+  SampledClustering(const Trajectories& t, const std::vector<float>& weights, const std::vector<char>& kinds,
+                    const ClusterOptions& options)
       : pool_(t.count),
         fragments_(even_sample(t.count, kSampled * options.classes)),
         sample_(some(t, fragments_)),
         weights_(some(weights, fragments_)),
-        among_sample_(sample_, weights_, options),
-        among_all_(t, weights, options) {}
+        kinds_(some(kinds, fragments_)),
+        among_sample_(sample_, weights_, kinds_, options),
+        among_all_(t, weights, kinds, options) {}
 
   Classes operator()(Random random, int threads) const {
     const Classes found = among_sample_(random, threads);
@@ -160,6 +164,7 @@ class SampledClustering {
   std::vector<int> fragments_;
   Trajectories sample_;
   std::vector<float> weights_;
+  std::vector<char> kinds_;
   Clustering among_sample_, among_all_;
 };
 
@@ -230,13 +235,14 @@ std::vector<std::vector<int>> Classes::members() const {
 }
 
 Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
-                const ClassScore& score, const Progress& progress) {
+                const ClassScore& score, const Progress& progress, std::vector<char> kinds) {
   check(t, weights);
   check_count(t, options.classes);
+  if (kinds.empty()) kinds.assign(t.count, 0);
   if (t.count / kSampled < options.classes) {
-    return best_run(Clustering(t, weights, options), options, score, progress);
+    return best_run(Clustering(t, weights, kinds, options), options, score, progress);
   }
-  return best_run(SampledClustering(t, weights, options), options, score, progress);
+  return best_run(SampledClustering(t, weights, kinds, options), options, score, progress);
 }
 
 }  // namespace fragmotion

@@ -36,6 +36,7 @@ KMeans::KMeans(const Points& points, int classes, int threads)
       threads_(threads),
       width_(std::size_t{3} * points.stride),
       means_(n_ * width_),
+      kinds_(n_, 0),
       labels_(points.count, 0),
       averaged_(points.count, -1),
       upper_(points.count, kInfinite) {}
@@ -80,10 +81,13 @@ std::vector<double> KMeans::cumulated_squares() const {
 // The triangle inequality tells of most points that they are not nearer to the candidate than to their mean.
 void KMeans::measure(Candidate& candidate, int begin, int end) const {
   const float* to_means = &lower_[static_cast<std::size_t>(candidate.point) * n_];
+  const auto distance = [&](int i) {
+    return tip_distance(points_.row(i), points_.row(candidate.point), points_.stride) +
+           apart(points_.kinds[i], points_.kinds[candidate.point]);
+  };
   for (int i = begin; i < end; ++i) {
     const float least = to_means[labels_[i]] * (1 - kSlack) - upper_[i] * (1 + kSlack);
-    candidate.distances[i] =
-        least >= upper_[i] ? least : tip_distance(points_.row(i), points_.row(candidate.point), points_.stride);
+    candidate.distances[i] = least >= upper_[i] ? least : distance(i);
   }
 }
 
@@ -98,6 +102,7 @@ double KMeans::inertia_with(const Candidate& candidate) const {
 
 void KMeans::add_mean(const Candidate& candidate, int k) {
   std::copy_n(points_.row(candidate.point), width_, mean(k));
+  kinds_[k] = points_.kinds[candidate.point];
   for (int i = 0; i < points_.count; ++i) {
     const float d = lower(i, k) = candidate.distances[i];
     if (d < upper_[i]) upper_[i] = d, labels_[i] = k;
@@ -166,9 +171,13 @@ bool KMeans::refill_empty_classes() {
 bool KMeans::move_means() {
   const bool refilled = refill_empty_classes();
   const std::vector<float> before = means_;
+  const std::vector<char> kinds_before = kinds_;
   average();
   std::vector<float> shift(n_);
-  for (int k = 0; k < n_; ++k) shift[k] = tip_distance(&before[k * width_], mean(k), points_.stride) * (1 + kSlack);
+  for (int k = 0; k < n_; ++k) {
+    const float far = tip_distance(&before[k * width_], mean(k), points_.stride) + apart(kinds_before[k], kinds_[k]);
+    shift[k] = far * (1 + kSlack);
+  }
   parallel_for(points_.count, threads_, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       upper_[i] = upper_[i] * (1 + kSlack) + shift[labels_[i]];
@@ -191,7 +200,19 @@ void KMeans::average() {
   }
   averaged_ = labels_;
   for (int k = 0; k < n_; ++k) masses[k] *= changed[k];
+  average_kinds(masses);
   parallel_for(static_cast<int>(width_), threads_, [&](int begin, int end) { average_columns(masses, begin, end); });
+}
+
+// Of the classes whose mass is not 0: each is of the kind that most of it is of.
+void KMeans::average_kinds(const std::vector<double>& masses) {
+  std::vector<double> ones(n_, 0);
+  for (int i = 0; i < points_.count; ++i) {
+    if (labels_[i] >= 0) ones[labels_[i]] += points_.weights[i] * points_.kinds[i];
+  }
+  for (int k = 0; k < n_; ++k) {
+    if (masses[k] > 0) kinds_[k] = ones[k] > masses[k] / 2 ? 1 : 0;
+  }
 }
 
 // Of the classes whose mass is not 0.

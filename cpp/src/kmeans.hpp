@@ -9,12 +9,14 @@
 
 namespace fragmotion {
 
-/// Fragments as points of a space in which tip_distance is a norm, each with what it counts (> 0).
+/// Fragments as points of a space in which tip_distance is a norm, each with what it counts (> 0). Points of two kinds
+/// are further apart than any two of one kind.
 struct Points {
   int count = 0;
   int stride = 0;
   const float* rows = nullptr;     ///< [count, 3, stride]
   const float* weights = nullptr;  ///< [count]
+  const char* kinds = nullptr;     ///< [count]: 0 or 1
 
   const float* row(int i) const { return rows + static_cast<std::size_t>(i) * 3 * stride; }
 };
@@ -46,12 +48,17 @@ class KMeans {
   std::vector<int> medoids() const;
 
  private:
+  static constexpr float kKindsApart = 1e6F;  // m
+
   struct Candidate;
 
   float* mean(int k) { return &means_[k * width_]; }
   const float* mean(int k) const { return &means_[k * width_]; }
   float& lower(int i, int k) { return lower_[static_cast<std::size_t>(i) * n_ + k]; }
-  float distance(int i, int k) const { return tip_distance(points_.row(i), mean(k), points_.stride); }
+  float distance(int i, int k) const {
+    return tip_distance(points_.row(i), mean(k), points_.stride) + apart(points_.kinds[i], kinds_[k]);
+  }
+  static float apart(char kind, char other) { return kind == other ? 0 : kKindsApart; }
 
   std::vector<double> cumulated_squares() const;
   void measure(Candidate& candidate, int begin, int end) const;
@@ -60,6 +67,7 @@ class KMeans {
 
   bool refill_empty_classes();
   void average();
+  void average_kinds(const std::vector<double>& masses);
   void average_columns(const std::vector<double>& masses, int begin, int end);
   bool move_means();
   int assign();
@@ -69,6 +77,7 @@ class KMeans {
   int n_, threads_;
   std::size_t width_;
   std::vector<float> means_;   // [n, 3, stride]
+  std::vector<char> kinds_;    // [n] of means
   std::vector<int> labels_;    // [points]
   std::vector<int> averaged_;  // [points] the labels whose means these are, -1 none
   std::vector<float> upper_;   // [points] at least the distance to the own mean

@@ -20,6 +20,7 @@ constexpr double kJumpHeight = 0.22;  // m, of a 1.8 m character
 constexpr double kSimilar = 0.12;     // m a bone tip: fragments this near may be interpolated
 constexpr int kCandidates = 24;       // neighbours of a control that interpolation tries in pairs
 constexpr double kHurry = 1.2;        // the most by which steps are hurried, or slowed down
+constexpr double kShuffle = 1.2;      // how much more often feet step sideways, where strides are short
 constexpr double kStandSeconds = 0.5;
 constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
 constexpr double kBackward = 1;                              // of effort: to be played backward
@@ -238,7 +239,8 @@ class Synthesizer {
     const int length = std::abs(best->end - best->begin);
     const double usual = length / (options_.longest * clip.rate);  // pieces, each as long as may be
     const int pieces = std::max(1, static_cast<int>(std::ceil(usual / kHurry - 1e-6)));
-    change.tempo = std::max(usual / pieces, std::clamp(std::sqrt(faster), 1 / kHurry, kHurry));
+    const double sideways = std::abs(std::sin(change.direction)), hurry = 1 + sideways * (kShuffle - 1);
+    change.tempo = std::max(usual / pieces, hurry * std::clamp(std::sqrt(faster), 1 / kHurry, kHurry));
     change.speed = faster / change.tempo;
     const int longest = static_cast<int>(options_.longest * clip.rate * change.tempo + 1e-6);
     const Clip made = transformed(kinematics_, legs_, clip, contacts(best->clip), best->begin, best->end,

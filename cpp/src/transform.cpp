@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "body_pose.hpp"
 #include "fragmotion/foot_lock.hpp"
@@ -13,6 +14,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kCrouch = 0.16;  // of a hop's time: before it, and after it
+constexpr double kWidest = 0.2;   // m of a 1.8 m character that each foot is set out so as not to cross the other
 constexpr double kTuck = 0.35;    // of the body's height: how much further the feet are lifted
 
 // One round of a gait, each pose seen from its character frame, and the way from each to the next.
@@ -48,22 +50,25 @@ Round round_of(const Kinematics& kinematics, const Clip& clip, int begin, int en
 }
 
 // The strides of a gait as its path is changed: what the balls of the feet do about their middle is turned and scaled
-// like the path, so that a foot that stood still on the old path does so on the new one.
+// like the path, so that a foot that stood still on the old path does so on the new one. Where the feet would cross, as
+// strides do that are turned sideways, their middles go apart.
 class Strides {
  public:
-  Strides(const Kinematics& kinematics, const Legs& legs, const Round& round)
-      : kinematics_(kinematics), legs_(legs), posed_(kinematics.bones()) {
+  Strides(const Kinematics& kinematics, const Legs& legs, const Round& round, const Transform& transform)
+      : kinematics_(kinematics), legs_(legs), transform_(transform), posed_(kinematics.bones()) {
+    if (!exist()) return;
     for (const BodyPose& body : round.poses) {
       pose(body);
-      for (int side = 0; exist() && side < 2; ++side) middles_[side] += balls(side) / round.frames();
+      for (int side = 0; side < 2; ++side) middles_[side] += balls(side) / round.frames();
     }
+    set_apart(round);
   }
 
-  void change(BodyPose& body, double direction, double scale) {
+  void change(BodyPose& body) {
     if (!exist()) return;
     pose(body);
     for (int side = 0; side < 2; ++side) {
-      const Vector2 stride = balls(side) - middles_[side], by = scale * turned(stride, direction) - stride;
+      const Vector2 by = changed(side) - balls(side);
       const Vector3 ankle = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), 0};
       reach(kinematics_.skeleton(), legs_[side], posed_, ankle, body.rotations.data());
     }
@@ -75,10 +80,27 @@ class Strides {
     kinematics_.world({0, 0, body.height}, body.rotations.data(), posed_.heads.data(), posed_.rotations.data());
   }
   Vector2 balls(int side) const { return ball(kinematics_.skeleton(), legs_[side], posed_).head<2>(); }
+  Vector2 changed(int side) const {
+    const Vector2 outward{side == 0 ? -apart_ : apart_, 0};
+    return middles_[side] + outward + transform_.speed * turned(balls(side) - middles_[side], transform_.direction);
+  }
+
+  // Finds how far each foot is to go outward for them to come no nearer to crossing than they did.
+  void set_apart(const Round& round) {
+    double least = std::numeric_limits<double>::infinity(), least_changed = least;
+    for (const BodyPose& body : round.poses) {
+      pose(body);
+      least = std::min(least, balls(1).x() - balls(0).x());
+      least_changed = std::min(least_changed, changed(1).x() - changed(0).x());
+    }
+    apart_ = std::clamp((least - least_changed) / 2, 0.0, kWidest / standard_scale(kinematics_.skeleton()));
+  }
 
   const Kinematics& kinematics_;
   const Legs& legs_;
+  const Transform& transform_;
   std::array<Vector2, 2> middles_{Vector2::Zero(), Vector2::Zero()};
+  double apart_ = 0;  // m
   PosedBones posed_;
 };
 
@@ -116,7 +138,7 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
                  int end, int frames, const Transform& transform) {
   const bool other_path = transform.direction != 0 || transform.speed != 1, plants = other_path || transform.turn != 0;
   const Round round = round_of(kinematics, clip, begin, end);
-  Strides strides(kinematics, legs, round);
+  Strides strides(kinematics, legs, round, transform);
   Clip result;
   result.name = clip.name + " transformed";
   result.rate = clip.rate * transform.tempo;
@@ -127,7 +149,7 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
   for (int f = -before; f <= frames; ++f) {
     const int at = (f + before) % length, rounds = (f + before) / length - (before > 0 ? 1 : 0);
     BodyPose pose = round.poses[at];
-    if (other_path) strides.change(pose, transform.direction, transform.speed);
+    if (other_path) strides.change(pose);
     if (f == 0) origin = position;
     const double seconds = f / result.rate, heading = pose.frame.heading + rounds * bend;
     append(kinematics, result, {position, heading + transform.turn * seconds}, pose);

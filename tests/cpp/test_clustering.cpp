@@ -159,6 +159,33 @@ TEST(Cluster, AWeightOfTwoCountsAsTwoPoints) {
   EXPECT_NEAR(doubled.inertia, both.inertia, 1e-4 * both.inertia);
 }
 
+// Each kind by itself is as clustered as if there were no other.
+TEST(Cluster, NeverMixesKinds) {
+  for (const int count : {60, 400, 3000}) {  // the last is sampled
+    const Trajectories t = blobs(count, 5, 4, count);
+    Random random(count);
+    const std::vector<float> weights = equal_weights(t);
+    std::vector<char> kinds;
+    for (int i = 0; i < count; ++i) kinds.push_back(random.uniform() < 0.1 ? 1 : 0);
+    ClusterOptions options;
+    options.classes = 12;
+    const Classes classes = cluster(t, weights, options, {}, {}, kinds);
+    const Naive naive(t, weights, classes);
+    const auto kind_of = [&](int k) { return kinds[classes.representatives[k]]; };
+    int ones = 0, misplaced = 0;
+    for (int k = 0; k < classes.count; ++k) ones += kind_of(k);
+    EXPECT_TRUE(ones > 0 && ones < classes.count);
+    for (int i = 0; i < count; ++i) {
+      const int own = classes.labels[i];
+      ASSERT_EQ(kind_of(own), kinds[i]) << i;
+      for (int k = 0; k < classes.count; ++k) {
+        if (kind_of(k) == kinds[i] && naive.distance(i, k) < naive.distance(i, own) - 1e-3) ++misplaced;
+      }
+    }
+    EXPECT_LE(misplaced, count / 100);
+  }
+}
+
 TEST(Cluster, IsTheSameForAnyNumberOfThreadsAndEveryRun) {
   const Trajectories t = blobs(400, 30, 12, 5);
   ClusterOptions options;

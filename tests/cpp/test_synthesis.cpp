@@ -108,6 +108,37 @@ TEST(Transformed, BackwardIsTheSourceBackward) {
   }
 }
 
+// How far the ball of the right foot is to the right of the left one's at least.
+double least_apart(const Clip& clip) {
+  PosedBones posed(kSkeleton.size());
+  double least = std::numeric_limits<double>::infinity();
+  for (int f = 0; f < clip.frames; ++f) {
+    kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    const auto place = [&](int foot, int toe) {
+      return frame_at(clip, f).to_local(ball(kSkeleton, foot, toe, posed)).x();
+    };
+    const Roles& roles = kSkeleton.roles;
+    least = std::min(least, place(roles.right_foot, roles.right_toe) - place(roles.left_foot, roles.left_toe));
+  }
+  return least;
+}
+
+TEST(Transformed, SidewaysTheFeetDoNotCross) {
+  Gait gait;
+  gait.y = 1;
+  const Clip clip = gait_clip(gait);
+  const int cycle = cycle_of(gait, clip);
+  const double before = least_apart(clip);
+  ASSERT_GT(before, 0.05);
+  for (const double direction : {-kPi / 2, -kPi / 4, kPi / 4, kPi / 2}) {
+    Transform change;
+    change.direction = direction;
+    const Clip made = transformed(kKinematics, find_legs(kKinematics, {clip}), clip, find_contacts(kKinematics, clip),
+                                  20, 20 + cycle, cycle, change);
+    EXPECT_GT(least_apart(made), 0.08) << direction;
+  }
+}
+
 TEST(Transformed, DoesToTheEvidentControlWhatItSays) {
   const ControlSpace space;
   Random random(1);

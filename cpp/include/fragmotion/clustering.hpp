@@ -34,10 +34,11 @@ using ClassScore = std::function<double(const Classes&)>;
 /// the fragment furthest from its mean. Classes are sought among sums of neighbouring poses, then settled among the
 /// poses, until no more than one fragment in a thousand changes its class. Of more than 100 fragments a class, each
 /// restart first looks at as many, evenly spaced: time is linear in the number of fragments.
-/// `weights` (> 0, one a fragment) say how much each counts. Classes are numbered by their representatives' order in
-/// the pool. Throws std::invalid_argument where there are fewer distinct fragments than classes, and on a weight or
-/// coordinate that is no number, or out of all proportion.
+/// `weights` (> 0, one a fragment) say how much each counts. Fragments of different `kinds` (0 or 1 each; none: all are
+/// of one kind) are never in one class, where there are two classes or more. Classes are numbered by their
+/// representatives' order in the pool. Throws std::invalid_argument where there are fewer distinct fragments than
+/// classes, and on a weight or coordinate that is no number, or out of all proportion.
 Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
-                const ClassScore& score = {}, const Progress& progress = {});
+                const ClassScore& score = {}, const Progress& progress = {}, std::vector<char> kinds = {});
 
 }  // namespace fragmotion
