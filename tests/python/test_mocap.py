@@ -145,3 +145,20 @@ def test_character_goes_where_an_unseen_trace_says(bandai: Bandai) -> None:
         shares[player] = performance.velocity_error / performance.commanded_speed
     print("\nvelocity error / commanded speed: " + ", ".join(f"{p} {100 * s:.0f} %" for p, s in shares.items()))
     assert shares["walker"] <= 0.35
+
+
+def test_a_steady_stick_makes_both_feet_step(bandai: Bandai) -> None:
+    """Wherever the character goes, hardly ever does one foot do all the steps and the other one drag behind."""
+    skeleton, character = bandai.skeleton, bandai.character
+    ankles = [skeleton.names.index(skeleton.roles[role]) for role in ("left_foot", "right_foot")]
+    goes = [point for point in np.array(character.space.points) if point[:2].any() and point[3] == 0]
+    assert len(goes) == 48
+    limps = []
+    for point in goes:
+        played = core.Player(character, seed=1).run(np.tile(point, (70, 1)), 60)
+        clip = core.Clip(skeleton, "played", 60, played.root_positions, played.rotations)
+        heights = clip.world_transforms(skeleton)[0][120:, ankles, 2]
+        lifts = np.ptp(np.percentile(heights, [5, 95], axis=0), axis=0)
+        if lifts.min() < 0.6 * lifts.max():
+            limps.append(point)
+    assert len(limps) <= 2, limps
