@@ -193,6 +193,27 @@ TEST(EvidentControl, ShowsAJumpByItsRise) {
   EXPECT_LT(some, 1);
 }
 
+// Of a jump of 30 cm that takes off at frame 20 and lands at frame 35.
+TEST(EvidentControl, ShowsHalfAJumpWhereItTakesOffOrLands) {
+  constexpr double kRate = 30, kFlight = 0.5;
+  BodyMotion motion;
+  for (int f = 0; f <= 55; ++f) {
+    const double phase = std::clamp((f / kRate - 20 / kRate) / kFlight, 0.0, 1.0);
+    motion.center.emplace_back(0, 0, 1 + 0.3 * 4 * phase * (1 - phase));
+    motion.heading.push_back(0);
+  }
+  const auto jump = [&](int begin, int end) {
+    return evident_control(motion, kRate, begin, end, 1, ControlSpace()).jump;
+  };
+  EXPECT_EQ(jump(20, 35), 1);
+  EXPECT_EQ(jump(5, 20), 0);
+  EXPECT_EQ(jump(35, 50), 0);
+  for (const double some : {jump(10, 21), jump(34, 45)}) {
+    EXPECT_GT(some, 0.3);
+    EXPECT_LT(some, 0.5);
+  }
+}
+
 TEST(EvidentControl, IsTheSameForAGiantInItsOwnSpace) {
   Gait gait;
   gait.turn = 0.7;
