@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kCrouch = 0.16;  // of a hop's time: before it, and after it
 constexpr double kWidest = 0.2;   // m of a 1.8 m character that each foot is set out so as not to cross the other
+constexpr double kLevel = 0.8;    // of the way to flat, where feet go straight to the side
 constexpr double kTuck = 0.35;    // of the body's height: how much further the feet are lifted
 
 // One round of a gait, each pose seen from its character frame, and the way from each to the next.
@@ -51,7 +52,8 @@ Round round_of(const Kinematics& kinematics, const Clip& clip, int begin, int en
 
 // The strides of a gait as its path is changed: what the balls of the feet do about their middle is turned and scaled
 // like the path, so that a foot that stood still on the old path does so on the new one. Where the feet would cross, as
-// strides do that are turned sideways, their middles go apart.
+// strides do that are turned sideways, their middles go apart; and sideways feet do not roll from heel to toe, but are
+// lifted flat.
 class Strides {
  public:
   Strides(const Kinematics& kinematics, const Legs& legs, const Round& round, const Transform& transform)
@@ -59,7 +61,10 @@ class Strides {
     if (!exist()) return;
     for (const BodyPose& body : round.poses) {
       pose(body);
-      for (int side = 0; side < 2; ++side) middles_[side] += balls(side) / round.frames();
+      for (int side = 0; side < 2; ++side) {
+        middles_[side] += balls(side) / round.frames();
+        find_flat(side, body);
+      }
     }
     set_apart(round);
   }
@@ -67,10 +72,18 @@ class Strides {
   void change(BodyPose& body) {
     if (!exist()) return;
     pose(body);
+    const double level = kLevel * std::abs(std::sin(transform_.direction));
     for (int side = 0; side < 2; ++side) {
-      const Vector2 by = changed(side) - balls(side);
-      const Vector3 ankle = posed_.heads[legs_[side].foot] + Vector3{by.x(), by.y(), 0};
-      reach(kinematics_.skeleton(), legs_[side], posed_, ankle, body.rotations.data());
+      const Leg& leg = legs_[side];
+      const Vector3 from = ball(kinematics_.skeleton(), leg, posed_);
+      const Vector2 to = changed(side);
+      Quaternion& foot = posed_.rotations[leg.foot];
+      const Vector3 arm = foot.conjugate() * (from - posed_.heads[leg.foot]);
+      foot = foot.slerp(level, flat_[side].foot);
+      reach(kinematics_.skeleton(), leg, posed_, Vector3{to.x(), to.y(), from.z()} - foot * arm, body.rotations.data());
+      if (leg.toe < 0) continue;
+      double* toe = &body.rotations[std::size_t{4} * leg.toe];
+      store_quaternion(load_quaternion(toe).slerp(level, flat_[side].toe), toe);
     }
   }
 
@@ -83,6 +96,20 @@ class Strides {
   Vector2 changed(int side) const {
     const Vector2 outward{side == 0 ? -apart_ : apart_, 0};
     return middles_[side] + outward + transform_.speed * turned(balls(side) - middles_[side], transform_.direction);
+  }
+
+  // A foot as it stands flat: the lowest that it gets, and its toe relative to it.
+  struct Flat {
+    double height = std::numeric_limits<double>::infinity();  // m, of ankle and ball together
+    Quaternion foot = Quaternion::Identity(), toe = Quaternion::Identity();
+  };
+
+  void find_flat(int side, const BodyPose& body) {
+    const Leg& leg = legs_[side];
+    const double height = posed_.heads[leg.foot].z() + ball(kinematics_.skeleton(), leg, posed_).z();
+    if (height >= flat_[side].height) return;
+    flat_[side] = {height, posed_.rotations[leg.foot], Quaternion::Identity()};
+    if (leg.toe >= 0) flat_[side].toe = load_quaternion(&body.rotations[std::size_t{4} * leg.toe]);
   }
 
   // Finds how far each foot is to go outward for them to come no nearer to crossing than they did.
@@ -100,6 +127,7 @@ class Strides {
   const Legs& legs_;
   const Transform& transform_;
   std::array<Vector2, 2> middles_{Vector2::Zero(), Vector2::Zero()};
+  std::array<Flat, 2> flat_;
   double apart_ = 0;  // m
   PosedBones posed_;
 };

@@ -123,6 +123,37 @@ double least_apart(const Clip& clip) {
   return least;
 }
 
+// How much a clip's left foot is pitched at most against any other time, rad, as the character sees it.
+double roll_of(const Clip& clip) {
+  PosedBones posed(kSkeleton.size());
+  std::vector<Quaternion> feet;
+  double most = 0;
+  for (int f = 0; f < clip.frames; ++f) {
+    kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    feet.push_back(frame_at(clip, f).rotation().conjugate() * posed.rotations[kSkeleton.roles.left_foot]);
+    for (const Quaternion& other : feet) most = std::max(most, feet.back().angularDistance(other));
+  }
+  return most;
+}
+
+TEST(Transformed, SidewaysTheFeetAreLiftedFlat) {
+  Clip clip = gait_clip({});
+  const int cycle = cycle_of({}, clip);
+  for (int f = 0; f < clip.frames; ++f) {
+    for (const int foot : {kSkeleton.roles.left_foot, kSkeleton.roles.right_foot}) {
+      double* local = &clip.rotations[std::size_t{4} * (f * kSkeleton.size() + foot)];
+      const Eigen::AngleAxisd roll(0.25 * (1 - std::cos(2 * kPi * f / cycle)), Vector3::UnitX());
+      store_quaternion(load_quaternion(local) * roll, local);
+    }
+  }
+  const double before = roll_of(clip);
+  ASSERT_GT(before, 0.3);
+  Transform change;
+  change.direction = kPi / 2;
+  const Clip made = transformed(kKinematics, find_legs(kKinematics, {clip}), clip, {}, 20, 20 + cycle, cycle, change);
+  EXPECT_LT(roll_of(made), 0.4 * before);
+}
+
 TEST(Transformed, SidewaysTheFeetDoNotCross) {
   Gait gait;
   gait.y = 1;
