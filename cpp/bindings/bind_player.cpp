@@ -109,13 +109,6 @@ py::tuple step_many(Crowd& crowd, const Doubles& controls, double seconds, const
   return py::make_tuple(to_roots, to_rotations);
 }
 
-Player& player_of(Crowd& crowd, int player) {
-  if (player < 0 || player >= crowd.size()) {
-    throw std::invalid_argument("player " + std::to_string(player) + " does not exist");
-  }
-  return crowd[player];
-}
-
 py::array_t<double> frames_of(const Crowd& crowd) {
   std::vector<double> frames;
   for (int i = 0; i < crowd.size(); ++i) {
@@ -148,12 +141,10 @@ void bind_crowd(py::module_& m) {
       .def(
           "reset",
           [](Crowd& crowd, int player, double x, double y, double heading) {
-            player_of(crowd, player).reset({Vector2{x, y}, heading});
+            crowd.reset(player, {Vector2{x, y}, heading});
           },
           py::arg("player"), py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("heading") = 0.0)
-      .def(
-          "force", [](Crowd& crowd, int player, int next_class) { player_of(crowd, player).force(next_class); },
-          py::arg("player"), py::arg("next_class"))
+      .def("force", &Crowd::force, py::arg("player"), py::arg("next_class"))
       .def_property_readonly("frames", &frames_of)
       .def_property_readonly("playing", &playing_of);
 }

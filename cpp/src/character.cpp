@@ -320,8 +320,9 @@ void learn(const Material& material, const BuildOptions& options, const Progress
   clustering.restarts = options.restarts;
   clustering.seed = options.seed;
   clustering.threads = options.threads;
-  c.classes = cluster(t, balanced_weights(c), clustering, serves_traces(c, t, material.traces),
-                      part_of(progress, 0, 0.5), hops(c.pool.fragments));
+  clustering.kinds = hops(c.pool.fragments);
+  c.classes =
+      cluster(t, balanced_weights(c), clustering, serves_traces(c, t, material.traces), part_of(progress, 0, 0.5));
   c.report["classes"] = c.classes.count;
   c.report["cluster_seconds"] = stage.lap();
   c.quality = quality_table(c.pool.fragments, t, c.classes, c.space);

@@ -64,9 +64,17 @@ float rounding(const Trajectories& t) {
   return 8 * std::numeric_limits<float>::epsilon() * static_cast<float>(t.stride) * largest;
 }
 
-std::vector<int> even_sample(int pool, int count) {
+// Every few of the fragments, with one at least of each kind.
+std::vector<int> even_sample(const std::vector<char>& kinds, int count) {
+  const auto pool = static_cast<long long>(kinds.size());
   std::vector<int> fragments(count);
-  for (int i = 0; i < count; ++i) fragments[i] = static_cast<int>(static_cast<long long>(pool) * i / count);
+  for (int i = 0; i < count; ++i) fragments[i] = static_cast<int>(pool * i / count);
+  for (const char kind : {0, 1}) {
+    const auto is = [&](int i) { return kinds[i] == kind; };
+    const auto first = std::find(kinds.begin(), kinds.end(), kind);
+    if (first == kinds.end() || std::any_of(fragments.begin(), fragments.end(), is)) continue;
+    fragments.back() = static_cast<int>(first - kinds.begin());
+  }
   return fragments;
 }
 
@@ -145,7 +153,7 @@ class SampledClustering {
   SampledClustering(const Trajectories& t, const std::vector<float>& weights, const std::vector<char>& kinds,
                     const ClusterOptions& options)
       : pool_(t.count),
-        fragments_(even_sample(t.count, kSampled * options.classes)),
+        fragments_(even_sample(kinds, kSampled * options.classes)),
         sample_(some(t, fragments_)),
         weights_(some(weights, fragments_)),
         kinds_(some(kinds, fragments_)),
@@ -189,8 +197,12 @@ Classes best_run(const Find& find, const ClusterOptions& options, const ClassSco
   return found[std::max_element(scores.begin(), scores.end()) - scores.begin()];
 }
 
-void check(const Trajectories& t, const std::vector<float>& weights) {
+void check(const Trajectories& t, const std::vector<float>& weights, const std::vector<char>& kinds) {
   if (static_cast<int>(weights.size()) != t.count) throw std::invalid_argument("every fragment needs a weight");
+  if (static_cast<int>(kinds.size()) != t.count ||
+      std::any_of(kinds.begin(), kinds.end(), [](char kind) { return kind != 0 && kind != 1; })) {
+    throw std::invalid_argument("every fragment needs a kind, 0 or 1");
+  }
   for (int i = 0; i < t.count; ++i) {
     if (!(weights[i] > 0 && std::isfinite(weights[i]))) {
       throw std::invalid_argument("fragment " + std::to_string(i) + ": its weight must be a number over 0");
@@ -235,10 +247,10 @@ std::vector<std::vector<int>> Classes::members() const {
 }
 
 Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
-                const ClassScore& score, const Progress& progress, std::vector<char> kinds) {
-  check(t, weights);
+                const ClassScore& score, const Progress& progress) {
+  const std::vector<char> kinds = options.kinds.empty() ? std::vector<char>(t.count, 0) : options.kinds;
+  check(t, weights, kinds);
   check_count(t, options.classes);
-  if (kinds.empty()) kinds.assign(t.count, 0);
   if (t.count / kSampled < options.classes) {
     return best_run(Clustering(t, weights, kinds, options), options, score, progress);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 #include "fragmotion/parallel.hpp"
 
@@ -29,6 +30,15 @@ Crowd::Crowd(std::shared_ptr<const Character> character, int count, const Player
     }
   }
 }
+
+Player& Crowd::existing(int player) {
+  if (player >= 0 && player < size()) return players_[player];
+  throw std::invalid_argument("player " + std::to_string(player) + " does not exist");
+}
+
+void Crowd::reset(int player, const CharacterFrame& frame) { existing(player).reset(frame); }
+
+void Crowd::force(int player, int next_class) { existing(player).force(next_class); }
 
 void Crowd::step(const Control* controls, double seconds, double* roots, double* rotations) {
   for (int i = 0; i < size(); ++i) Player::check_step(controls[i], seconds);

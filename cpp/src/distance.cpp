@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "fragmotion/machine.hpp"
 #include "fragmotion/parallel.hpp"
 #include "fragmotion/pose.hpp"
+#include "vectorised.hpp"
 
 namespace fragmotion {
 

@@ -39,8 +39,8 @@ Control evident_control(const BodyMotion& motion, double rate, int begin, int en
     const double height = (motion.center[f].z() - usual) * space.scale();
     rise = std::max(rise, height);
     if (f == end) break;
-    const double speed = (motion.center[f + 1].z() - motion.center[f].z()) * rate * space.scale();
-    flight = std::max(flight, height + speed * speed / (2 * kGravity));
+    const double next = (motion.center[f + 1].z() - usual) * space.scale(), speed = (next - height) * rate;
+    flight = std::max(flight, (height + next) / 2 + speed * speed / (2 * kGravity));
   }
   Control control;
   control.x = velocity.x();

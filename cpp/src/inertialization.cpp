@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fragmotion/pose.hpp"
+#include "vectorised.hpp"
 
 namespace fragmotion {
 namespace {

@@ -10,7 +10,7 @@
 namespace fragmotion {
 
 /// Fragments as points of a space in which tip_distance is a norm, each with what it counts (> 0). Points of two kinds
-/// are further apart than any two of one kind.
+/// are a thousand kilometres further apart.
 struct Points {
   int count = 0;
   int stride = 0;

@@ -5,9 +5,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fragmotion/machine.hpp"
 #include "raise.hpp"
 #include "transposed.hpp"
+#include "vectorised.hpp"
 
 namespace fragmotion {
 

@@ -10,6 +10,7 @@
 
 #include "fragmotion/parallel.hpp"
 #include "fragmotion/pose.hpp"
+#include "vectorised.hpp"
 
 namespace fragmotion {
 namespace {

@@ -19,7 +19,7 @@ namespace {
 constexpr double kJumpHeight = 0.22;  // m, of a 1.8 m character
 constexpr double kSimilar = 0.12;     // m a bone tip: fragments this near may be interpolated
 constexpr int kCandidates = 24;       // neighbours of a control that interpolation tries in pairs
-constexpr double kHurry = 1.2;        // the most by which steps are hurried, or slowed down
+constexpr double kHurry = 1.2;        // the most by which steps ahead are hurried, or slowed down
 constexpr double kShuffle = 1.2;      // how much more often feet step sideways, where strides are short
 constexpr double kStandSeconds = 0.5;
 constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
@@ -83,7 +83,8 @@ class Synthesizer {
     return count;
   }
 
-  int tail(const Clip& clip) const { return static_cast<int>(std::lround(options_.tail * clip.rate)); }
+  // Frames kept beyond a fragment's end.
+  int tail(double rate) const { return static_cast<int>(std::lround(options_.tail * rate)); }
 
   // Adds a clip whose frames ends[i] .. ends[i + 1] are fragments.
   void add(Clip clip, const std::vector<int>& ends, Origin origin) {
@@ -147,7 +148,7 @@ class Synthesizer {
     const int used = std::min(count, static_cast<int>(pairs.size()));
     for (int i = 0; i < used; ++i) {
       const Fragment a = pool_.fragments[pairs[i].a], b = pool_.fragments[pairs[i].b];
-      const int frames = tail(pool_.clips[a.clip]);
+      const int frames = tail(pool_.clips[a.clip].rate);
       Clip clip = interpolated(kinematics_, pool_, a, b, pairs[i].weight, frames);
       const int end = clip.frames - 1 - frames;
       add(std::move(clip), {0, end}, Origin::interpolated);
@@ -243,13 +244,14 @@ class Synthesizer {
     change.tempo = std::max(usual / pieces, hurry * std::clamp(std::sqrt(faster), 1 / kHurry, kHurry));
     change.speed = faster / change.tempo;
     const int longest = static_cast<int>(options_.longest * clip.rate * change.tempo + 1e-6);
+    const int beyond = tail(clip.rate * change.tempo);
     const Clip made = transformed(kinematics_, legs_, clip, contacts(best->clip), best->begin, best->end,
-                                  length + longest + tail(clip), change);
+                                  length + longest + beyond, change);
     std::vector<int> ends;
     for (int piece = 0; piece <= pieces; ++piece) ends.push_back(length * piece / pieces);
-    if (control.jump <= best->evident.jump) return add(part(made, 0, length + tail(clip)), ends, Origin::transformed);
+    if (control.jump <= best->evident.jump) return add(part(made, 0, length + beyond), ends, Origin::transformed);
     for (int piece = 0; piece < pieces; ++piece) {
-      Clip jump = part(made, ends[piece], ends[piece] + longest + tail(clip));
+      Clip jump = part(made, ends[piece], ends[piece] + longest + beyond);
       hop(kinematics_, legs_, jump, longest, kJumpHeight / space_.scale());
       add(std::move(jump), {0, longest}, Origin::transformed);
     }

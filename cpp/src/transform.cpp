@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 
 #include "body_pose.hpp"
 #include "fragmotion/foot_lock.hpp"
@@ -112,7 +113,7 @@ class Strides {
     if (leg.toe >= 0) flat_[side].toe = load_quaternion(&body.rotations[std::size_t{4} * leg.toe]);
   }
 
-  // Finds how far each foot is to go outward for them to come no nearer to crossing than they did.
+  // Finds how far each foot is to go outward for them to come no nearer to crossing than they did, or at most may.
   void set_apart(const Round& round) {
     double least = std::numeric_limits<double>::infinity(), least_changed = least;
     for (const BodyPose& body : round.poses) {
@@ -166,7 +167,8 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
                  int end, int frames, const Transform& transform) {
   const bool other_path = transform.direction != 0 || transform.speed != 1, plants = other_path || transform.turn != 0;
   const Round round = round_of(kinematics, clip, begin, end);
-  Strides strides(kinematics, legs, round, transform);
+  std::optional<Strides> strides;
+  if (other_path) strides.emplace(kinematics, legs, round, transform);
   Clip result;
   result.name = clip.name + " transformed";
   result.rate = clip.rate * transform.tempo;
@@ -177,7 +179,7 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
   for (int f = -before; f <= frames; ++f) {
     const int at = (f + before) % length, rounds = (f + before) / length - (before > 0 ? 1 : 0);
     BodyPose pose = round.poses[at];
-    if (other_path) strides.change(pose);
+    if (strides) strides->change(pose);
     if (f == 0) origin = position;
     const double seconds = f / result.rate, heading = pose.frame.heading + rounds * bend;
     append(kinematics, result, {position, heading + transform.turn * seconds}, pose);

@@ -159,7 +159,7 @@ TEST(Cluster, AWeightOfTwoCountsAsTwoPoints) {
   EXPECT_NEAR(doubled.inertia, both.inertia, 1e-4 * both.inertia);
 }
 
-// Each kind by itself is as clustered as if there were no other.
+// Every fragment is in the nearest class of its own kind.
 TEST(Cluster, NeverMixesKinds) {
   for (const int count : {60, 400, 3000}) {  // the last is sampled
     const Trajectories t = blobs(count, 5, 4, count);
@@ -169,7 +169,8 @@ TEST(Cluster, NeverMixesKinds) {
     for (int i = 0; i < count; ++i) kinds.push_back(random.uniform() < 0.1 ? 1 : 0);
     ClusterOptions options;
     options.classes = 12;
-    const Classes classes = cluster(t, weights, options, {}, {}, kinds);
+    options.kinds = kinds;
+    const Classes classes = cluster(t, weights, options);
     const Naive naive(t, weights, classes);
     const auto kind_of = [&](int k) { return kinds[classes.representatives[k]]; };
     int ones = 0, misplaced = 0;
@@ -183,6 +184,28 @@ TEST(Cluster, NeverMixesKinds) {
       }
     }
     EXPECT_LE(misplaced, count / 100);
+  }
+}
+
+TEST(Cluster, OfManyFragmentsDoesNotMissTheOnlyOneOfItsKind) {
+  const Trajectories t = blobs(3000, 5, 4, 1);
+  ClusterOptions options;
+  options.classes = 12;
+  for (const int only : {0, 1, 2999}) {
+    options.kinds.assign(t.count, 0);
+    options.kinds[only] = 1;
+    const std::vector<std::vector<int>> members = cluster(t, equal_weights(t), options).members();
+    EXPECT_EQ(std::count(members.begin(), members.end(), std::vector<int>{only}), 1) << only;
+  }
+}
+
+TEST(Cluster, RefusesKindsThatAreNotOneAFragment) {
+  const Trajectories t = blobs(100, 5, 4, 1);
+  for (const std::vector<char>& kinds : {std::vector<char>(99, 0), std::vector<char>(100, 2)}) {
+    ClusterOptions options;
+    options.classes = 12;
+    options.kinds = kinds;
+    EXPECT_THROW(cluster(t, equal_weights(t), options), std::invalid_argument);
   }
 }
 

@@ -29,8 +29,8 @@ std::vector<double> shown_at_last(int threads) {
   Random random(7);
   std::vector<double> roots(3 * kCount), rotations(4 * kCount * std::size_t(crowd.bones()));
   for (int i = 0; i < kSteps; ++i) {
-    if (i == 50) crowd[3].force(2);
-    if (i == 70) crowd[4].reset({{1, 2}, 3});
+    if (i == 50) crowd.force(3, 2);
+    if (i == 70) crowd.reset(4, {{1, 2}, 3});
     crowd.step(any_controls(random).data(), kStep, roots.data(), rotations.data());
   }
   roots.insert(roots.end(), rotations.begin(), rotations.end());

@@ -193,24 +193,26 @@ TEST(EvidentControl, ShowsAJumpByItsRise) {
   EXPECT_LT(some, 1);
 }
 
-// Of a jump of 30 cm that takes off at frame 20 and lands at frame 35.
-TEST(EvidentControl, ShowsHalfAJumpWhereItTakesOffOrLands) {
-  constexpr double kRate = 30, kFlight = 0.5;
-  BodyMotion motion;
-  for (int f = 0; f <= 55; ++f) {
-    const double phase = std::clamp((f / kRate - 20 / kRate) / kFlight, 0.0, 1.0);
-    motion.center.emplace_back(0, 0, 1 + 0.3 * 4 * phase * (1 - phase));
-    motion.heading.push_back(0);
-  }
-  const auto jump = [&](int begin, int end) {
-    return evident_control(motion, kRate, begin, end, 1, ControlSpace()).jump;
-  };
-  EXPECT_EQ(jump(20, 35), 1);
-  EXPECT_EQ(jump(5, 20), 0);
-  EXPECT_EQ(jump(35, 50), 0);
-  for (const double some : {jump(10, 21), jump(34, 45)}) {
-    EXPECT_GT(some, 0.3);
-    EXPECT_LT(some, 0.5);
+TEST(EvidentControl, ShowsTwoFifthsOfTheJumpThatItLeadsIntoOrOutOf) {
+  constexpr double kRate = 60, kGravity = 9.81;
+  for (const double height : {0.14, 0.3}) {
+    const double flight = std::sqrt(8 * height / kGravity);  // s, from frame 60 on
+    const int landing = 60 + static_cast<int>(std::lround(flight * kRate));
+    BodyMotion motion;
+    for (int f = 0; f <= landing + 40; ++f) {
+      const double phase = std::clamp((f - 60) / kRate / flight, 0.0, 1.0);
+      motion.center.emplace_back(0, 0, 1 + 4 * height * phase * (1 - phase));
+      motion.heading.push_back(0);
+    }
+    const auto jump = [&](int begin, int end) {
+      return evident_control(motion, kRate, begin, end, 1, ControlSpace()).jump;
+    };
+    const double whole = jump(60, landing);
+    EXPECT_NEAR(whole, std::min(1.0, (height - 0.08) / 0.12), 0.02);
+    EXPECT_EQ(jump(35, 60), 0);
+    EXPECT_EQ(jump(landing + 1, landing + 30), 0);
+    EXPECT_NEAR(jump(40, 62), 0.4 * whole, 0.03) << height;
+    EXPECT_NEAR(jump(landing - 2, landing + 20), 0.4 * whole, 0.03) << height;
   }
 }
 

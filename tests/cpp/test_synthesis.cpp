@@ -123,7 +123,7 @@ double least_apart(const Clip& clip) {
   return least;
 }
 
-// How much a clip's left foot is pitched at most against any other time, rad, as the character sees it.
+// How far a clip's left foot is turned at most from any one frame to any other, rad, as the character sees it.
 double roll_of(const Clip& clip) {
   PosedBones posed(kSkeleton.size());
   std::vector<Quaternion> feet;

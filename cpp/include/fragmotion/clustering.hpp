@@ -14,6 +14,8 @@ struct ClusterOptions {
   int iterations = 100;  ///< At most, a run at each resolution.
   std::uint64_t seed = 1;
   int threads = 0;
+  /// 0 or 1 for each fragment: of two classes or more, none holds fragments of both kinds. Empty: all are of one.
+  std::vector<char> kinds{};
 };
 
 /// The fragments in n classes Q_1 .. Q_n (Sec. 3.1).
@@ -34,11 +36,10 @@ using ClassScore = std::function<double(const Classes&)>;
 /// the fragment furthest from its mean. Classes are sought among sums of neighbouring poses, then settled among the
 /// poses, until no more than one fragment in a thousand changes its class. Of more than 100 fragments a class, each
 /// restart first looks at as many, evenly spaced: time is linear in the number of fragments.
-/// `weights` (> 0, one a fragment) say how much each counts. Fragments of different `kinds` (0 or 1 each; none: all are
-/// of one kind) are never in one class, where there are two classes or more. Classes are numbered by their
-/// representatives' order in the pool. Throws std::invalid_argument where there are fewer distinct fragments than
-/// classes, and on a weight or coordinate that is no number, or out of all proportion.
+/// `weights` (> 0, one a fragment) say how much each counts. Classes are numbered by their representatives' order in
+/// the pool. Throws std::invalid_argument where there are fewer distinct fragments than classes, on a weight or
+/// coordinate that is no number, or out of all proportion, and on kinds that are not one a fragment.
 Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
-                const ClassScore& score = {}, const Progress& progress = {}, std::vector<char> kinds = {});
+                const ClassScore& score = {}, const Progress& progress = {});
 
 }  // namespace fragmotion

@@ -18,8 +18,14 @@ class Crowd {
 
   int size() const { return static_cast<int>(players_.size()); }
   int bones() const { return bones_; }
-  Player& operator[](int player) { return players_[player]; }
+  /// Where a player is and what it plays. How it is posed, step() tells alone.
   const Player& operator[](int player) const { return players_[player]; }
+
+  /// Player::reset of one; throws std::invalid_argument on a player that does not exist.
+  void reset(int player, const CharacterFrame& frame = {});
+
+  /// Player::force of one; throws std::invalid_argument on a player or a class that does not exist.
+  void force(int player, int next_class);
 
   /// Steps each player under its control, [size()], as Player::step; throws before any has moved. What is shown then is
   /// written to `roots` [size(), 3], m, and `rotations` [size(), bones(), 4] as in Clip, unless they are null.
@@ -27,6 +33,7 @@ class Crowd {
   void step(const Control* controls, double seconds, double* roots = nullptr, double* rotations = nullptr);
 
  private:
+  Player& existing(int player);
   void step(int player, const Control& control, double seconds, double* roots, double* rotations);
 
   int bones_, parts_;

@@ -65,7 +65,7 @@ class Player {
   void force(int next_class);
 
   const Vector3& root_position() const { return root_; }
-  /// [bones, 4] as in Clip.
+  /// [bones, 4] as in Clip; of a crowd's player see Crowd::step.
   const std::vector<double>& rotations() const { return stage_->shown.rotations; }
   CharacterFrame frame() const;
   int playing_class() const { return class_; }

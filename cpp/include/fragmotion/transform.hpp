@@ -17,8 +17,9 @@ struct Transform {
 
 /// `frames` + 1 frames that go round and round frames begin .. end of a clip, a gait's cycle, with the path
 /// transformed; frame 0 is where `begin` was. With `end` before `begin` the cycle is played backward. Where the cycle
-/// does not end as it began, its second half leads there. The strides are turned and scaled with the path, and feet
-/// that `contacts` (of the clip) say are planted stay planted.
+/// does not end as it began, its second half leads there. The strides are turned and scaled with the path: to the
+/// side with flat feet, which keep apart rather than cross, as far as 0.2 m a foot allow. Feet that `contacts` (of the
+/// clip) say are planted stay planted.
 Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
                  int end, int frames, const Transform& transform);
 
