@@ -317,13 +317,26 @@ void Player::start_forced() {
 
 bool Player::changed(const Control& wanted) const { return character_->space.distance(wanted, decided_for_) > kChange; }
 
+// Whether a fragment goes back from where is wanted, though what plays goes there: a table may find that such a detour
+// joins best, both ways.
+bool Player::turns_back(int fragment, const Control& wanted) const {
+  const auto along = [&](int f) {
+    const Control& ev = character_->pool.fragments[f].evident;
+    return ev.x * wanted.x + ev.y * wanted.y;
+  };
+  return along(now_.fragment) > 0 && along(fragment) < 0;
+}
+
 // The class that the table tells. Where a jump was pressed and that class does not jump, or the other way round, since
-// the transition is thought too bad or too good for it, the one of the table's that suits best and does: nothing is
-// worse than a button that does nothing, and a hop that nobody asked for.
+// the transition is thought too bad or too good for it, or where it turns back, the one of the table's that suits best
+// and does not: nothing is worse than a button that does nothing, and a hop that nobody asked for.
 int Player::tell(const Control& wanted) const {
   const Character& c = *character_;
   const bool free = wanted.jump > kInTheAir && !jump_waits_;
-  const auto suits = [&](int k) { return free || obeys(c.classes.representatives[k], wanted); };
+  const auto suits = [&](int k) {
+    const int fragment = c.classes.representatives[k];
+    return (free || obeys(fragment, wanted)) && !turns_back(fragment, wanted);
+  };
   const int control = c.space.nearest(wanted);
   int told = (*policy_)(class_, control);
   if (suits(told)) return told;

@@ -61,6 +61,16 @@ TEST(Player, AsksAgainAfterStandingWhereTheControlHasChanged) {
             (std::vector<int>{Acts::forward, Acts::stand, Acts::forward}));
 }
 
+TEST(Player, DoesNotTurnBackFromWhereItIsToGo) {
+  Acts acts;
+  std::vector<int>& next = acts.character->policies[0].next;
+  const int ahead = acts.character->space.nearest(kForward);
+  next[Acts::forward * ControlSpace::kPoints + ahead] = Acts::back;
+  Player player(acts.character);
+  EXPECT_EQ(acts_of(player, {{kForward, 3}}), (std::vector<int>{Acts::forward}));
+  EXPECT_EQ(acts_of(player, {{kBack, 2}}).back(), Acts::back);
+}
+
 TEST(Player, LosesNoJumpHoweverShortlyItIsPressed) {
   for (double wait = 0.5; wait < 2; wait += 0.03) {
     Player walking(Acts().character), bridging(Acts().character);

@@ -114,6 +114,7 @@ class Player {
   CharacterFrame pose_tips(double seconds, BodyTips& tips) const;
   void find_onward(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const;
   bool obeys(int fragment, const Control& wanted) const;
+  bool turns_back(int fragment, const Control& wanted) const;
   void find_fitting(int next_class, const Control& control) const;
   float measure_fitting() const;
   int draw(int next_class, const Control& control);
