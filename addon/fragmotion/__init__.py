@@ -11,6 +11,7 @@ from . import (
     coverage_picture,
     inspector,
     keymaps,
+    mending,
     menus,
     operators,
     panel,
@@ -40,7 +41,7 @@ def register() -> None:
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
     properties.register()
-    for part in (staleness, storing, keymaps, menus, handlers):
+    for part in (mending, staleness, storing, keymaps, menus, handlers):
         part.register()
 
 
@@ -49,7 +50,7 @@ def unregister() -> None:
     background.stop()
     solo_class.stop()
     session.stop()
-    for part in (handlers, menus, keymaps, storing, staleness):
+    for part in (handlers, menus, keymaps, storing, staleness, mending):
         part.unregister()
     properties.unregister()
     for cls in reversed(_CLASSES):

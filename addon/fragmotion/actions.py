@@ -18,10 +18,17 @@ SCENE_RATE = "fragmotion_scene_rate"
 BAKED = "fragmotion_baked"
 """Custom property of an Action that Bake wrote: not to learn from."""
 
+_RATES = (1e-3, 1e5)  # frames a second that a take can have
 _BONE = re.compile(r'pose\.bones\["((?:[^"\\]|\\.)*)"\]\.')
 _OWN_SHARE = 1 / 2  # of the bones that the Action animates, so many must be the armature's ...
 _ARMATURE_SHARE = 1 / 4  # ... and so many of the armature's (fingers and helpers may rest)
 _cache: dict[tuple[object, ...], bool] = {}
+
+
+def rate_of(action: bpy.types.Action, key: str, default: float) -> float:
+    """The Action's RATE or SCENE_RATE; the default where it has none, or what it has is no rate."""
+    rate = action.get(key, default)
+    return float(rate) if isinstance(rate, (int, float)) and _RATES[0] <= rate <= _RATES[1] else default
 
 
 def animated_bones(action: bpy.types.Action, obj: bpy.types.Object) -> set[str]:

@@ -157,7 +157,7 @@ def _make_options(scene: bpy.types.Scene, settings: Any, recorded: bool) -> Opti
 
 def check_skeleton(obj: bpy.types.Object, character: Character, rig: Rig) -> None:
     """UserError where the armature's bones are not those that the character was built on."""
-    changed = difference(character.skeleton, rig.skeleton)
+    changed = difference(character.skeleton, rig.skeleton, obj.data.bones.keys())
     if changed:
         raise UserError(f"Armature '{obj.name}' has changed since Build: {changed}. Undo that, or press Build again")
 

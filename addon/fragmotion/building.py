@@ -14,6 +14,7 @@ from . import actions, classes
 from .core import core
 from .coverage import measure_coverage
 from .errors import SinglePose, UserError, core_errors
+from .files import read_regular
 from .jobs import Report
 from .movers import movers
 from .rigs import carriers, make_rig
@@ -177,10 +178,9 @@ def save_policy(obj: bpy.types.Object, path: Path) -> None:
 
 def load_policy(context: bpy.types.Context, obj: bpy.types.Object, path: Path) -> None:
     """Give the armature the character of a policy file; UserError where it is damaged or of another skeleton."""
-    with core_errors():
-        character = core.Character.load(path)
+    character = _decode(read_regular(path, follow=True), f"'{path}'")
     context.view_layer.update()
-    other = difference(character.skeleton, make_rig(obj).skeleton)
+    other = difference(character.skeleton, make_rig(obj).skeleton, obj.data.bones.keys())
     if other:
         raise UserError(f"'{path}' was built for another skeleton than armature '{obj.name}' has: here {other}")
     keep(obj, examine(character, ""))
@@ -194,6 +194,7 @@ def has_character(obj: bpy.types.Object) -> bool:
 def load(obj: bpy.types.Object) -> Character:
     """The armature's character as it drives: never sent to the classes that are left out. Made once for each choice."""
     whole, excluded = load_whole(obj), classes.excluded(obj)
+    classes.check_rows(obj, whole)
     if not excluded:
         return whole
     key = (next(digest for digest, left in _cache if not left), excluded)
@@ -215,18 +216,34 @@ def make_player(obj: bpy.types.Object, character: Character, seed: int, policy: 
 
 def load_to_draw(obj: bpy.types.Object) -> Character:
     """As `load`, quick enough for drawing: it takes Build's word for what the policy holds."""
-    return _cache.get((obj.fragmotion.digest, classes.excluded(obj))) or load(obj)
+    character = _cache.get((obj.fragmotion.digest, classes.excluded(obj)))
+    if character is None:
+        return load(obj)
+    classes.check_rows(obj, character)
+    return character
 
 
 def load_whole(obj: bpy.types.Object) -> Character:
     """The armature's character with all its classes; decoded once for each content."""
     key = (key_of(obj), ())
     if key not in _cache:
-        data = read_policy(obj)
-        with core_errors(f"The policy kept in armature '{obj.name}'"):
-            _cache.clear()
-            _cache[key] = core.Character.from_bytes(data)
+        character = _decode(read_policy(obj), f"The policy kept in armature '{obj.name}'")
+        _cache.clear()
+        _cache[key] = character
     return _cache[key]
+
+
+def _decode(data: bytes, place: str) -> Character:
+    """The character of a policy file's bytes; a UserError begins with the place."""
+    with core_errors(place):
+        character: Character = core.Character.from_bytes(data)
+    try:
+        "".join((*character.skeleton.names, *character.clip_names)).encode()
+    except UnicodeError:
+        raise UserError(
+            f"{place}: a bone or a take in it has a name that is not UTF-8: rename it, and build it again"
+        ) from None
+    return character
 
 
 def forget() -> None:

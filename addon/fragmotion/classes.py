@@ -74,6 +74,16 @@ def keep_rows(rows: Any, character: Character) -> None:
         row.name = own or name
 
 
+def check_rows(obj: bpy.types.Object, character: Character) -> None:
+    """UserError where the classes that are listed cannot be the character's: the .blend is damaged."""
+    listed, known = len(obj.fragmotion.classes), len(character.representatives)
+    if listed != known:
+        raise UserError(
+            f"Armature '{obj.name}' lists {listed} classes, but its policy has {known}: press Build again, or Load the "
+            "policy's file under Policy File"
+        )
+
+
 def excluded(obj: bpy.types.Object) -> tuple[int, ...]:
     """The numbers of the armature's classes that are left out."""
     return tuple(number for number, row in enumerate(obj.fragmotion.classes) if row.excluded)

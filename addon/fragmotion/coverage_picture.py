@@ -33,6 +33,7 @@ _SWATCHES = {"well": 0.0, "nearly": (WELL + _POOR) / 2, "not": np.inf}  # the le
 _SMALLEST = 2.0  # widgets' heights
 _UNIT, _MARGIN = 20, 60  # pixels of a widget's height, and of what the sidebar needs besides
 
+_CONTROLS = 102
 _ICON = 4  # pixels of a picture that make one of its icon
 
 _previews: Any = None
@@ -94,7 +95,10 @@ def icon_of(name: str, pixels: Any, stamp: bytes) -> int:
 
 
 def draw_pictures(layout: bpy.types.UILayout, stored: bytes, width: float) -> None:
-    """Six pictures with their legend, from the 102 distances that Build has kept, in a region so many pixels wide."""
+    """Six pictures with their legend, from the 102 distances that Build has kept, in a region so many pixels wide; none
+    where the .blend is damaged."""
+    if len(stored) != _CONTROLS * np.dtype(np.float32).itemsize:
+        return
     scale = max(_SMALLEST, (width / bpy.context.preferences.system.ui_scale - _MARGIN) / 3 / _UNIT)
     distances = np.frombuffer(stored, np.float32).reshape(17, 3, 2)
     column = layout.column(align=True)

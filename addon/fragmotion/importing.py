@@ -15,6 +15,7 @@ from . import versions
 from .actions import RATE, SCENE_RATE
 from .core import core
 from .errors import UserError, core_errors
+from .files import check_regular
 from .rigs import carriers, make_rig
 from .sampling import scene_rate
 from .writing import write_poses
@@ -74,6 +75,9 @@ def _take_file(path: Path) -> TakeFile:
 
 def read_take(file: TakeFile, unit: float) -> Take:
     """Read one take; the core's message names file and line."""
+    for path in (file.asf, file.path):
+        if path is not None:
+            check_regular(path)
     with core_errors():
         take: Take = core.read_asf_amc(file.asf, file.path) if file.asf else core.read_bvh(file.path, unit)
         return take
@@ -124,6 +128,10 @@ def _undone_on_error(context: bpy.types.Context) -> Iterator[None]:
 
 def _check_bones(file: TakeFile, take: Take, first_file: TakeFile, first: Take) -> None:
     """UserError where a take cannot go onto the first one's armature."""
+    try:
+        "".join(take.skeleton.names).encode()
+    except UnicodeError:
+        raise UserError(f"'{file.path}': the name of a bone is not UTF-8: save the file with UTF-8 names") from None
     missing = [name for name in take.skeleton.names if name not in first.skeleton.names]
     if missing:
         raise UserError(

@@ -10,7 +10,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty
 
 from . import building, classes, versions
-from .actions import SCENE_RATE
+from .actions import SCENE_RATE, rate_of
 from .core import core
 from .left_out import source_of
 
@@ -147,7 +147,7 @@ class _Inspected:
         action, origin = bpy.data.actions.get(name), self.origins[number]
         if action is None or origin not in {"captured", "mirrored"}:
             return FragmentShown(f"made of {self.clips[number].removesuffix(' transformed')}", "")
-        rate = float(action.get(SCENE_RATE, _scene_rate()))
+        rate = rate_of(action, SCENE_RATE, _scene_rate())
         start = action.frame_range[0] if part is None else part
         first, last = (start + seconds * rate for seconds in self.ranges[number])
         return FragmentShown(f"{first:.0f}-{last:.0f} {name}", name, first, origin == "mirrored")

@@ -96,6 +96,7 @@ _CROWD_TRACES = (
     ("PLAYERS", "Simulated", "A simulated player for each copy"),
     ("TAKES", "Ticked Takes", "The ticked takes of the Takes panel, in turn, each copy with a seed of its own"),
 )
+_LAST_FRAME = 1_048_574  # that a scene can have
 MIXED = "MIXED"
 """The choice of all simulated players in turn."""
 
@@ -263,7 +264,11 @@ class BakeFields(TraceFields):
     player: _player("Whose habits drive the character", "walker")  # type: ignore[valid-type]
     seconds: _length(20.0)  # type: ignore[valid-type]
     frame_start: IntProperty(  # type: ignore[valid-type]
-        name="Start Frame", description="Scene frame of the first key", default=1
+        name="Start Frame",
+        description="Scene frame of the first key",
+        default=1,
+        min=-_LAST_FRAME,
+        max=_LAST_FRAME,
     )
     fit_end: BoolProperty(  # type: ignore[valid-type]
         name="Fit Scene End",

@@ -11,7 +11,7 @@ import numpy as np
 from mathutils import Matrix, Quaternion, Vector
 
 from . import left_out, posing, versions
-from .actions import RATE, SCENE_RATE, animated_bones
+from .actions import RATE, SCENE_RATE, animated_bones, rate_of
 from .errors import SinglePose, UserError, core_errors
 from .keys import to_quaternions
 from .rigs import bone_path, is_tied
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 Curves = dict[tuple[str, int], bpy.types.FCurve]
 
 _FEWEST_FRAMES = 2
+_MOST_FRAMES = 2_000_000  # of an Action: more than four hours at 120 frames a second
 _SAME_FRAME = 0.01  # keys closer than this to a frame are on it
 _ROTATIONS: dict[str, tuple[str, tuple[float, ...]]] = {
     "QUATERNION": ("rotation_quaternion", (1, 0, 0, 0)),
@@ -73,14 +74,20 @@ def frame_times(scene: bpy.types.Scene, action: bpy.types.Action, curves: Curves
     An imported take keeps its own time when the scene's rate is changed after the import, as it remembers the rate for
     which its keys were laid. Any other Action lasts as long as the scene plays it now.
     """
-    rate = float(action.get(RATE, scene_rate(scene)))
-    step = float(action.get(SCENE_RATE, scene_rate(scene))) / rate
+    rate = rate_of(action, RATE, scene_rate(scene))
+    step = rate_of(action, SCENE_RATE, scene_rate(scene)) / rate
     if action.use_frame_range:
         first, last = action.frame_range
     else:
         ranges = [curve.range() for curve in curves.values()]
         first, last = min(r[0] for r in ranges), max(r[1] for r in ranges)
-    return rate, first + step * np.arange(max(math.floor((last - first) / step + _SAME_FRAME), 0) + 1)
+    frames = max((last - first) / step, 0)
+    if not frames < _MOST_FRAMES:
+        raise UserError(
+            f"Action '{action.name}' goes from frame {first:g} to {last:g}, more than {_MOST_FRAMES:,} samples: "
+            "delete the stray key, or untick it"
+        )
+    return rate, first + step * np.arange(math.floor(frames + _SAME_FRAME) + 1)
 
 
 def _playing_curves(obj: bpy.types.Object, action: bpy.types.Action) -> Curves:

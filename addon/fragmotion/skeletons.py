@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,12 +16,29 @@ _LENGTH = 1e-3  # of the stature: what a bone may differ in place and length
 _ANGLE = math.radians(0.2)
 
 
-def difference(built: Skeleton, now: Skeleton) -> str:
+def difference(built: Skeleton, now: Skeleton, armature: Collection[str]) -> str:
     """How `now` differs from the skeleton that a character was built on, in words; empty where it does not.
 
-    The place of the whole in the world does not count, its size does.
+    The place of the whole in the world does not count, its size does. `armature` names all the armature's bones: where
+    several have no parent, the skeleton is what hangs on one of them.
     """
-    return _other_bones(built.names, now.names) or _other_parent(built, now) or _other_size(built, now)
+    return (
+        _other_tree(built, now, armature)
+        or _other_bones(built.names, now.names)
+        or _other_parent(built, now)
+        or _other_size(built, now)
+    )
+
+
+def _other_tree(built: Skeleton, now: Skeleton, armature: Collection[str]) -> str:
+    apart = [name for name in built.names if name not in now.names and name in armature]
+    if not apart:
+        return ""
+    return (
+        f"bone '{apart[0]}' does not hang on '{now.names[0]}', which is taken for the root of the body, as several "
+        "bones have no parent: parent it there, or separate what is not the body into an armature of its own (Edit "
+        "Mode, Armature > Separate)"
+    )
 
 
 def _other_bones(built: Sequence[str], now: Sequence[str]) -> str:

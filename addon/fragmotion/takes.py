@@ -29,7 +29,8 @@ TRACE_RATE = 10
 _COLUMNS = 4
 _NUMBER, _SMALL = "<f8", "<f4"
 _LONGEST = 24 * 3600 * TRACE_RATE  # controls; what claims to be longer than a day is damaged
-_MOST_BYTES = 1 << 30  # of what was shown
+_MOST_BYTES = 1 << 28  # of what was shown: over an hour of 60 poses a second on 70 bones
+_MOST_CLASSES = 1 << 16
 _SAME_TIME = 1e-4  # s
 _FIELDS = ("name", "date", "seconds", "quality", "policy", "seed", "start", "train", "controls", "shown", "shown_bones")
 _BESIDE_BONES = 1 + 3 + 3 + 1  # columns of what was shown: time, root position, character frame, class
@@ -105,6 +106,8 @@ def add_take(
 def trace_of(take: Take) -> Doubles:
     """The take's trace [T,4], to the bit as it was given; UserError where the .blend is damaged."""
     trace: Doubles = _unpacked(take, take.controls, _NUMBER, _COLUMNS, _LONGEST * _COLUMNS * 8)
+    if not _is_trace(trace) or not np.isfinite(take.start).all():
+        raise _damaged(take)
     return trace
 
 
@@ -113,15 +116,20 @@ def shown_of(take: Take) -> tuple[Doubles, Motion] | None:
     if not take.shown:
         return None
     rows = _unpacked(take, take.shown, _SMALL, _BESIDE_BONES + 4 * take.shown_bones, _MOST_BYTES)
-    times, roots, frames, classes = rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7].astype(np.int32)
-    return times, Motion(roots, rows[:, _BESIDE_BONES:].reshape(len(rows), -1, 4), frames, classes)
+    times, roots, frames, classes = rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7]
+    rotations = rows[:, _BESIDE_BONES:].reshape(len(rows), -1, 4)
+    if not _is_in_time(times) or not ((classes >= 0) & (classes < _MOST_CLASSES)).all() or not rotations.any(-1).all():
+        raise _damaged(take)
+    return times, Motion(roots, rotations, frames, classes.astype(np.int32))
 
 
 def set_shown(take: Take, times: Doubles, motion: Motion) -> None:
-    """Keep the poses that were shown at times [F] (s, ascending) while the take was recorded."""
+    """Keep the poses that were shown at times [F] (s, ascending) while the take was recorded, if it lasts an hour or so
+    at most; a longer one is played anew."""
     rotations = np.asarray(motion.rotations)
     columns = (times, motion.root_positions, motion.frames, motion.classes, rotations.reshape(len(rotations), -1))
-    take.shown = zlib.compress(np.column_stack(columns).astype(_SMALL).tobytes())
+    data = np.column_stack(columns).astype(_SMALL).tobytes()
+    take.shown = zlib.compress(data) if len(data) <= _MOST_BYTES else b""
     take.shown_bones = rotations.shape[1]
 
 
@@ -209,23 +217,36 @@ def _packed(trace: Doubles) -> bytes:
     values = np.asarray(trace, float)
     if values.ndim != 2 or values.shape[1] != _COLUMNS or not 0 < len(values) <= _LONGEST:
         raise UserError("A take needs between one control and a day of them, of four numbers each")
-    if not np.isfinite(values).all() or np.abs(values[:, 2]).max() > 1 or not _within_unit(values[:, 3]):
+    if not _is_trace(values):
         raise UserError("A take's controls must be finite, its turn within -1 and 1, and its jump within 0 and 1")
     return zlib.compress(values.astype(_NUMBER).tobytes())
 
 
 def _unpacked(take: Take, packed: bytes, kind: str, columns: int, most: int) -> Doubles:
-    """Rows of numbers of a kind, at most so many bytes; UserError where that is not what is there."""
+    """Rows of finite numbers of a kind, one at least and at most so many bytes; UserError where they are not there."""
     try:
         unpacker = zlib.decompressobj()
         data = unpacker.decompress(packed, most)
-        if not unpacker.eof:
+        if not unpacker.eof or not data:
             raise ValueError
         rows: Doubles = np.frombuffer(data, kind).reshape(-1, columns).astype(float)
+        if not np.isfinite(rows).all():
+            raise ValueError
     except (zlib.error, ValueError):
-        raise UserError(f"Take '{take.name}' is damaged: delete it, and record or import it again") from None
+        raise _damaged(take) from None
     return rows
 
 
-def _within_unit(values: Doubles) -> bool:
-    return bool(((values >= 0) & (values <= 1)).all())
+def _damaged(take: Take) -> UserError:
+    return UserError(f"Take '{take.name}' is damaged: delete it, and record or import it again")
+
+
+def _is_trace(values: Doubles) -> bool:
+    """Whether rows of four numbers can be a trace."""
+    turn, jump = values[:, 2], values[:, 3]
+    return bool(np.isfinite(values).all() and (np.abs(turn) <= 1).all() and ((jump >= 0) & (jump <= 1)).all())
+
+
+def _is_in_time(times: Doubles) -> bool:
+    """Whether poses can have been shown then: in order, and more often than there are controls."""
+    return bool(times[0] >= 0 and (np.diff(times) >= 0).all() and times[-1] * TRACE_RATE <= len(times))

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
 
 from .core import core
 from .errors import UserError, core_errors
+from .files import check_regular
 from .takes import trace_of, trained_on
 
 if TYPE_CHECKING:
@@ -36,6 +38,8 @@ def make_trace(settings: Any, space: ControlSpace | None = None) -> Doubles:
             return simulated
     if not settings.trace_file:
         raise UserError("No trace file is chosen: choose a CSV file, or Simulated as the trace")
+    path = Path(bpy.path.abspath(settings.trace_file))
+    check_regular(path)
     with core_errors():
-        trace: Doubles = core.read_trace(bpy.path.abspath(settings.trace_file))
+        trace: Doubles = core.read_trace(path)
         return trace

@@ -82,7 +82,7 @@ def test_a_policy_file_that_does_not_fit_or_is_damaged_changes_nothing(obj: bpy.
     (tmp_path / "bad.policy").write_bytes(damaged)
     causes = {
         "bad.policy": r"bad\.policy.*damaged",
-        "missing.policy": r"cannot.*missing\.policy",
+        "missing.policy": r"missing\.policy' cannot be read",
         "": "No file is chosen",
     }
     for name, cause in causes.items():

@@ -41,7 +41,7 @@ def assert_complete(addon: ModuleType, obj: bpy.types.Object) -> None:
     assert addon.classes.excluded(obj) == (2,)
     assert obj.fragmotion.feel.promptness == 0.25
     assert [(take.name, take.train) for take in obj.fragmotion.takes] == [("Imported", True), ("Recorded", False)]
-    np.testing.assert_array_equal(addon.takes.trace_of(obj.fragmotion.takes[0]), making.waves(30, 4, 1) ** 2)
+    np.testing.assert_allclose(addon.takes.trace_of(obj.fragmotion.takes[0]), making.waves(30, 4, 1) ** 2, atol=1e-12)
     times, motion = addon.takes.shown_of(obj.fragmotion.takes[1])
     assert len(times) == 61 and motion.rotations.shape == (61, len(obj.data.bones), 4)
 

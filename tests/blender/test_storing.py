@@ -3,7 +3,11 @@
 
 from __future__ import annotations
 
+import resource
 import shutil
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
 
@@ -50,7 +54,7 @@ def test_a_policy_beside_the_file_is_read_from_there(
     file.unlink()
     assert addon.building.load(obj) is addon.building.load(obj), "it is decoded once"
     obj = reopened(addon, blend)
-    with pytest.raises(RuntimeError, match=r"kept in '.*\.policy', which cannot be read.*put the file back"):
+    with pytest.raises(RuntimeError, match=r"beside the \.blend, but '.*\.policy' cannot be read.*put the file back"):
         bpy.ops.fragmotion.bake(seconds=1)
     file.write_bytes(policy[:-1] + b"?")
     with pytest.raises(RuntimeError, match=r"\.policy' is not the policy that armature '.*' was saved with"):
@@ -131,3 +135,155 @@ def test_without_a_file_a_copy_leaves_the_policy_inside(
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "copy.blend"), copy=True)
     addon.building.forget()
     assert addon.building.load(obj).to_bytes() == policy
+
+
+@pytest.fixture
+def small(addon: ModuleType, tmp_path: Path) -> Path:
+    """A file with a small character beside it, its backups off, and made large."""
+    addon.building.forget()
+    obj = making.add_armature(name="Hero")
+    for seed in range(2):
+        action = making.add_action(obj, 40, seed=seed, name=f"take {seed}")
+        action.use_fake_user = action.fragmotion.use = True
+    bpy.context.scene["ballast"] = bytes(2_000_000)
+    obj.fragmotion.keep_policy = "BESIDE"
+    rebuild(obj)
+    bpy.context.preferences.filepaths.save_version = 0
+    for _ in range(2):  # 3.4 does not tell where a first save goes
+        bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "small.blend"))
+    return tmp_path / "small.blend"
+
+
+def rebuild(obj: bpy.types.Object, seed: int = 1) -> bytes:
+    """Another character, which is to be kept beside the file."""
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT", True, classes=4, seconds=2, seed=seed) == {"FINISHED"}
+    return bytes(bpy.data.objects["Hero"].fragmotion.policy)
+
+
+def open_small(addon: ModuleType, path: Path) -> bpy.types.Object:
+    addon.building.forget()
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    making.activate(bpy.data.objects["Hero"])
+    return bpy.data.objects["Hero"]
+
+
+def policies_in(folder: Path) -> list[bytes]:
+    return sorted(path.read_bytes() for path in folder.glob("*.policy"))
+
+
+@contextmanager
+def full_disk(room: int) -> Iterator[None]:
+    """No file grows beyond so many bytes."""
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (room, limits[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        signal.signal(signal.SIGXFSZ, before)
+
+
+@pytest.mark.parametrize("room", [1_000_000, 50_000])  # the policy fits, but not the .blend; neither fits
+def test_a_save_that_fails_loses_neither_the_former_character_nor_the_new_one(
+    addon: ModuleType, small: Path, room: int
+) -> None:
+    obj = open_small(addon, small)
+    former = addon.building.load(obj).to_bytes()
+    new = rebuild(obj, seed=2)
+    assert new != former and 50_000 < len(new) < 1_000_000 < small.stat().st_size
+    saved = small.read_bytes()
+    with full_disk(room), pytest.raises(RuntimeError):
+        bpy.ops.wm.save_mainfile()
+    assert small.read_bytes() == saved and former in policies_in(small.parent)
+    assert not list(small.parent.glob("*.tmp"))
+    addon.building.forget()
+    assert addon.building.load(obj).to_bytes() == new, "the open file has lost the new character"
+    for path in small.parent.glob("*.policy"):
+        if path.read_bytes() == new:
+            path.unlink()  # what was written for the save that failed is not needed
+    assert addon.building.load(obj).to_bytes() == new
+    bpy.ops.wm.save_mainfile()
+    assert policies_in(small.parent) == [new]
+    assert addon.building.load(open_small(addon, small)).to_bytes() == new
+
+
+def test_the_file_of_a_save_that_failed_opens_its_character(addon: ModuleType, small: Path) -> None:
+    obj = open_small(addon, small)
+    former = addon.building.load(obj).to_bytes()
+    rebuild(obj, seed=2)
+    with full_disk(1_000_000), pytest.raises(RuntimeError):
+        bpy.ops.wm.save_mainfile()
+    assert addon.building.load(open_small(addon, small)).to_bytes() == former
+
+
+@pytest.mark.parametrize("copy", [False, True])
+def test_a_save_elsewhere_that_fails_changes_nothing(addon: ModuleType, small: Path, copy: bool) -> None:
+    obj = open_small(addon, small)
+    new = rebuild(obj, seed=2)
+    with pytest.raises(RuntimeError):
+        bpy.ops.wm.save_as_mainfile(filepath=str(small.parent / "missing" / "other.blend"), copy=copy)
+    addon.building.forget()
+    assert addon.building.load(obj).to_bytes() == new
+    bpy.ops.wm.save_mainfile()
+    assert addon.building.load(open_small(addon, small)).to_bytes() == new
+
+
+def test_the_former_policy_is_let_go_of_after_the_save_and_undo_brings_it_back(addon: ModuleType, small: Path) -> None:
+    obj = open_small(addon, small)
+    bpy.ops.ed.undo_push(message="before")
+    former = addon.building.load(obj).to_bytes()
+    new = rebuild(obj, seed=2)
+    bpy.ops.wm.save_mainfile()
+    assert policies_in(small.parent) == [new]
+    bpy.ops.ed.undo()
+    addon.building.forget()
+    assert addon.building.load(bpy.data.objects["Hero"]).to_bytes() == former
+    bpy.ops.wm.save_mainfile()
+    assert policies_in(small.parent) == [former]
+    assert addon.building.load(open_small(addon, small)).to_bytes() == former
+
+
+def test_a_backup_of_the_file_keeps_its_policy(addon: ModuleType, small: Path) -> None:
+    obj = open_small(addon, small)
+    bpy.context.preferences.filepaths.save_version = 1
+    before = addon.building.load(obj).to_bytes()
+    for seed in (2, 3):
+        former, before = before, rebuild(obj, seed=seed)
+        bpy.ops.wm.save_mainfile()
+    assert policies_in(small.parent) == sorted((former, before))
+    assert addon.building.load(open_small(addon, small.with_suffix(".blend1"))).to_bytes() == former
+    assert addon.building.load(open_small(addon, small)).to_bytes() == before
+
+
+def test_only_files_that_were_written_for_this_blend_are_let_go_of(addon: ModuleType, small: Path) -> None:
+    (own,) = small.parent.glob("*.policy")
+    data, digest = own.read_bytes(), own.name.split(".")[-2]
+    others = {
+        f"small.v2.Hero.{digest}.policy": data,  # small.v2.blend's
+        f"other.Hero.{digest}.policy": data,
+        "small.Hero.0123456789abcdef.policy": b"not what its name says",
+        "small.Hero.policy": data,
+        "Hero.policy": data,
+    }
+    for name, content in others.items():
+        (small.parent / name).write_bytes(content)
+    link = small.with_name("small.Link.0123456789abcdef.policy")
+    link.symlink_to(own)
+    rebuild(open_small(addon, small), seed=2)
+    bpy.ops.wm.save_mainfile()
+    assert not own.exists() and link.is_symlink()
+    assert {name: (small.parent / name).read_bytes() for name in others} == others
+
+
+def test_a_policy_beside_a_file_of_an_earlier_version_is_read_and_gets_a_name_of_its_own(
+    addon: ModuleType, small: Path
+) -> None:
+    (own,) = small.parent.glob("*.policy")
+    obj = open_small(addon, small)
+    own.rename(small.with_name("Hero.policy"))
+    obj.fragmotion.policy_file = "//Hero.policy"
+    policy = addon.building.load(obj).to_bytes()
+    bpy.ops.wm.save_mainfile()
+    assert own.read_bytes() == policy and small.with_name("Hero.policy").exists()
+    assert obj.fragmotion.policy_file == f"//{own.name}"

@@ -16,6 +16,8 @@ from ..posing import CHANNELS, get_channel, reset_pose
 NOTE = "fragmotion_put_aside"
 """Custom property of an armature object that is being driven."""
 
+_DAMAGES = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)  # by a note that no drive wrote
+
 
 def put_aside(obj: bpy.types.Object) -> None:
     """Free the armature for poses written as quaternions; nothing else moves it but drivers and constraints."""
@@ -54,7 +56,11 @@ def heal() -> None:
     """Give back what was put aside in a file or an undo step that was made in the middle of a drive."""
     for obj in bpy.data.objects:
         if NOTE in obj and obj.library is None:
-            give_back(obj)
+            try:
+                give_back(obj)
+            except _DAMAGES as error:
+                del obj[NOTE]
+                print(f"Fragmotion: how '{obj.name}' was before it was driven is not known any more ({error})")
 
 
 def _note(obj: bpy.types.Object) -> dict[str, Any]:

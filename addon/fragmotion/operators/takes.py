@@ -12,6 +12,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from ..core import core
 from ..errors import UserError, core_errors, reported
+from ..files import check_regular
 from ..performing import measure_quality, origin_frame
 from ..takes import TRACE_RATE, active_take, add_take, duplicate_take, remove_take, trace_of, trim_take
 from .context import active_armature, poll_armature
@@ -151,6 +152,7 @@ class FRAGMOTION_OT_import_takes(ImportHelper, bpy.types.Operator):
         obj = active_armature(context)
         traces = {}
         for path in self._paths():
+            check_regular(path)
             with core_errors():
                 traces[path] = core.read_trace(path)
         for path, trace in traces.items():
