@@ -255,7 +255,7 @@ def _named_file(obj: bpy.types.Object, blend: Path | None) -> Path:
 
 
 def _follow(save: _Save) -> None:
-    """Blender 3.4 has saved the file under another name: its policies come, too."""
+    """Blender 3.4 has saved the file under another name: its policies come, too, by the names that it has for them."""
     blend = _open_file()
     for obj in _local_objects() if blend is not None else ():
         if obj.fragmotion.policy or not obj.fragmotion.policy_digest:
