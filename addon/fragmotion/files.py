@@ -27,8 +27,7 @@ def check_regular(path: Path) -> None:
 def read_regular(path: Path, follow: bool) -> bytes:
     """A regular file's bytes, at the end of a link only where one may be followed; UserError on anything else."""
     try:
-        if not follow:
-            _check(path, path.lstat().st_mode)
+        _check(path, (path.stat() if follow else path.lstat()).st_mode)
         with open(path, "rb", opener=lambda name, _: os.open(name, _OPENING)) as file:
             found = os.fstat(file.fileno())
             _check(path, found.st_mode)

@@ -14,6 +14,7 @@ import os
 import re
 from collections import Counter
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -113,12 +114,14 @@ def _after_saving(*_: object) -> None:
     save, _save = _save, None
     if save is None:
         return
-    if save.target == _open_file():
-        _let_go(save)
-    elif save.told:
+    blend = _open_file()
+    if save.target == blend:
+        with suppress(OSError):  # files that stay do no harm
+            _let_go(save)
+    elif save.told or blend is None:
         _put_back(save)
     else:
-        _follow(save)
+        _follow(save, blend)
 
 
 @persistent  # type: ignore[untyped-decorator]
@@ -254,10 +257,9 @@ def _named_file(obj: bpy.types.Object, blend: Path | None) -> Path:
     return blend.with_name(name)
 
 
-def _follow(save: _Save) -> None:
+def _follow(save: _Save, blend: Path) -> None:
     """Blender 3.4 has saved the file under another name: its policies come, too, by the names that it has for them."""
-    blend = _open_file()
-    for obj in _local_objects() if blend is not None else ():
+    for obj in _local_objects():
         if obj.fragmotion.policy or not obj.fragmotion.policy_digest:
             continue
         try:
@@ -293,11 +295,9 @@ def _files_of(blend: Path) -> list[tuple[Path, str]]:
 
 def _delete(path: Path) -> None:
     """Delete a policy file that is what its name says; undo may still ask for it."""
-    try:
+    with suppress(UserError):
         data = read_regular(path, follow=False)
         digest = _digest(data)
         if path.name.endswith(f".{digest[:_DIGITS]}.policy"):
             _held[digest] = data
             path.unlink()
-    except (OSError, UserError):
-        return  # what cannot be read or deleted does no harm

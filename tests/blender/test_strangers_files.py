@@ -316,6 +316,12 @@ def test_a_key_in_the_far_future_is_said(addon: ModuleType, obj: bpy.types.Objec
     refused(bpy.ops.fragmotion.build, "'take 0' goes from frame 1 to 1e.08, more than 2,000,000 samples", classes=6)
 
 
+@pytest.mark.parametrize("stored", [b"", b"short", bytes(412)])
+def test_coverage_of_another_length_is_not_drawn(addon: ModuleType, stored: bytes) -> None:
+    layout = bpy.types.UILayout
+    assert addon.coverage_picture.draw_pictures(layout, stored, 300.0) is None
+
+
 def stored(data: Any) -> Any:
     """The add-on's properties as the file holds them."""
     if bpy.app.version >= (5, 0, 0):

@@ -15,8 +15,8 @@ import bpy
 
 sys.path.append(str(Path(__file__).parents[1] / "blender"))
 
-import driving  # noqa: E402
-import making  # noqa: E402
+import driving
+import making
 
 _TAKES, _FRAMES = 2, 30
 _UNUSED = ("brushes", "palettes", "linestyles", "textures", "images", "materials", "lights", "worlds", "paint_curves")
