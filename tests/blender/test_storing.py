@@ -13,6 +13,7 @@ from types import ModuleType
 
 import bpy
 import making
+import numpy as np
 import pytest
 
 
@@ -145,7 +146,7 @@ def small(addon: ModuleType, tmp_path: Path) -> Path:
     for seed in range(2):
         action = making.add_action(obj, 40, seed=seed, name=f"take {seed}")
         action.use_fake_user = action.fragmotion.use = True
-    bpy.context.scene["ballast"] = bytes(2_000_000)
+    bpy.context.scene["ballast"] = np.random.default_rng(1).bytes(2_000_000)  # nothing compresses it
     obj.fragmotion.keep_policy = "BESIDE"
     rebuild(obj)
     bpy.context.preferences.filepaths.save_version = 0
