@@ -25,7 +25,7 @@ from .posing import check_free
 from .rigs import carriers, make_rig
 from .sampling import scene_rate
 from .skeletons import difference
-from .targets import Target, find_target
+from .targets import Target, find_target, places_object
 
 if TYPE_CHECKING:
     from fragmotion_core import Character, Doubles, Ints, Rig
@@ -60,6 +60,8 @@ class Options(NamedTuple):
     """What a bake makes of a motion."""
 
     root: str
+    holds_object: bool
+    """Whether the object is keyed where it stands, as the keys below an NLA strip would move it."""
     anchored: bool
     """Whether a motion in place is moved to the armature's origin."""
     looped_frames: int
@@ -82,13 +84,16 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
     check_skeleton(obj, character, rig)
     take = performing.chosen_take(obj, settings)
     target = find_target(context, obj, settings, take.name if take else "")
+    holds = settings.root == "BONE" and settings.target == "NLA" and places_object(obj)
     if settings.root == "OBJECT":
-        _check_object(obj)
+        _check_object(obj, "choose Root Bone as root motion")
+    elif holds:
+        _check_object(obj, "bake to a new Action")
     elif settings.target == "CURRENT":
         _check_still(obj, target.action)
     play = performing.prepare(context, obj, character, rig, settings)
     stage = _make_stage(obj, rig)
-    options = _make_options(context.scene, settings, recorded=take is not None and settings.as_recorded)
+    options = _make_options(context.scene, settings, holds, recorded=take is not None and settings.as_recorded)
     return Prepared(lambda report: _compute(stage, options, play, report), target)
 
 
@@ -107,7 +112,7 @@ def _compute(stage: Stage, options: Options, play: Callable[[Report], performing
         motion = looped(motion, stage.hips, options.looped_frames)
     if options.root == "IN_PLACE":
         motion = carried(motion, stage.hips, stage.origin if options.anchored else motion.frames[0])
-    poses = _make_poses(stage, motion, on_object=options.root == "OBJECT")
+    poses = _make_poses(stage, motion, options)
     tracks = make_tracks(stage.layout, poses)
     if options.bound is not None:
         every = count_keys(tracks)
@@ -120,14 +125,17 @@ def _compute(stage: Stage, options: Options, play: Callable[[Report], performing
     return Baked(tracks, motion.classes, remark)
 
 
-def _make_poses(stage: Stage, motion: Motion, on_object: bool) -> Poses:
+def _make_poses(stage: Stage, motion: Motion, options: Options) -> Poses:
     """The armature's channels, the path on its root bone or on the object."""
+    on_object = options.root == "OBJECT"
     seen = carried(motion, stage.hips, stage.origin) if on_object else motion
     with core_errors(stage.label):
         locations, rotations = stage.rig.channels(seen.root_positions, seen.rotations)
-    if not on_object:
-        return Poses(locations, rotations)
-    return Poses(locations, rotations, *_move_object(stage, motion.frames))
+    if on_object:
+        return Poses(locations, rotations, *_move_object(stage, motion.frames))
+    if options.holds_object:
+        return Poses(locations, rotations, *_move_object(stage, np.tile(stage.origin, (len(locations), 1))))
+    return Poses(locations, rotations)
 
 
 def _move_object(stage: Stage, frames: Doubles) -> tuple[Doubles, Doubles]:
@@ -149,10 +157,10 @@ def _make_stage(obj: bpy.types.Object, rig: Rig) -> Stage:
     )
 
 
-def _make_options(scene: bpy.types.Scene, settings: Any, recorded: bool) -> Options:
+def _make_options(scene: bpy.types.Scene, settings: Any, holds: bool, recorded: bool) -> Options:
     frames = max(round(settings.loop_seconds * scene_rate(scene)), 2) if settings.loop else 0
     bound = Deviation(settings.reduce_distance, settings.reduce_angle) if settings.reduce else None
-    return Options(settings.root, recorded or settings.place == "ORIGIN", frames, bound)
+    return Options(settings.root, holds, recorded or settings.place == "ORIGIN", frames, bound)
 
 
 def check_skeleton(obj: bpy.types.Object, character: Character, rig: Rig) -> None:
@@ -162,12 +170,12 @@ def check_skeleton(obj: bpy.types.Object, character: Character, rig: Rig) -> Non
         raise UserError(f"Armature '{obj.name}' has changed since Build: {changed}. Undo that, or press Build again")
 
 
-def _check_object(obj: bpy.types.Object) -> None:
-    """UserError where keys of the object's place would not put it there."""
+def _check_object(obj: bpy.types.Object, instead: str) -> None:
+    """UserError where keys of the object's place would not put it there; it says what to do `instead` of such keys."""
     if any((*obj.delta_location, *obj.delta_rotation_euler)) or tuple(obj.delta_rotation_quaternion) != (1, 0, 0, 0):
         raise UserError(
             f"Armature '{obj.name}' has delta transforms, to which keys on the object would add: apply them first "
-            "(Object > Apply > Deltas), or choose Root Bone as root motion"
+            f"(Object > Apply > Deltas), or {instead}"
         )
 
 

@@ -72,7 +72,12 @@ _KEEPING = (
 _TARGETS = (
     ("NEW", "New Action", "A new Action, named after the take"),
     ("CURRENT", "Current Action", "The Action that plays, from the playhead on: its keys there are replaced"),
-    ("NLA", "NLA Strip", "A new Action as a strip on a new NLA track; the Action that plays is pushed down below it"),
+    (
+        "NLA",
+        "NLA Strip",
+        "A new Action as a strip on a new NLA track; the Action that plays is pushed down below it. Where keys below "
+        "move the armature object and the root bone carries the character, it stands still during the strip",
+    ),
 )
 _ROOTS = (
     ("BONE", "Root Bone", "The root bone carries the character along its path"),

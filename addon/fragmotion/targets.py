@@ -14,7 +14,7 @@ from . import versions
 from .actions import BAKED, RATE
 from .errors import UserError
 from .keys import Track
-from .posing import pose_of, reset_pose, set_pose
+from .posing import CHANNELS, pose_of, reset_pose, set_pose
 from .writing import write_tracks
 
 if TYPE_CHECKING:
@@ -98,6 +98,15 @@ def keep_former(obj: bpy.types.Object, action: bpy.types.Action) -> None:
     former, _ = versions.assignment(obj)
     if former not in (None, action) and former.users == 1 and former.library is None:
         former.use_fake_user = True
+
+
+def places_object(obj: bpy.types.Object) -> bool:
+    """Whether keys that would go on below a new NLA strip say where the armature object itself is."""
+    data = obj.animation_data
+    tracks = [track for track in data.nla_tracks if not track.mute] if data is not None else []
+    below = [strip.action for track in tracks for strip in track.strips if not strip.mute]
+    actions = [action for action in (versions.assignment(obj)[0], *below) if action is not None]
+    return any(curve.data_path in CHANNELS for action in actions for curve in versions.curves_of(action, obj))
 
 
 def _add_strip(obj: bpy.types.Object, action: bpy.types.Action, first: int) -> None:

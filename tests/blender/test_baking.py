@@ -269,6 +269,19 @@ def test_an_nla_strip_covers_what_played_only_while_it_lasts(
     np.testing.assert_allclose(seen_at(obj, outside, names)[0], before, atol=1e-5)
 
 
+@pytest.mark.parametrize("below", ["NEW", "NLA"])
+@pytest.mark.parametrize("frame", [1, 80])
+def test_a_strip_over_keys_that_move_the_object_shows_its_own_path(
+    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any, below: str, frame: int
+) -> None:
+    """Wherever the playhead is, and so the object, when it is baked."""
+    bake_take(root="OBJECT", target=below, action="Below")
+    bpy.context.scene.frame_set(frame)
+    bake_take(target="NLA", root="BONE")
+    assert_seen(obj, play(addon, obj, trace))
+    assert [track.name for track in obj.animation_data.nla_tracks][-2:] == ["Below", "Stroll"]
+
+
 @pytest.mark.parametrize("root", ["BONE", "OBJECT"])
 @pytest.mark.parametrize("modes", [("QUATERNION",), ("XYZ", "AXIS_ANGLE", "ZYX", "QUATERNION")])
 def test_reduced_keys_keep_every_bone_within_the_bound_on_every_frame(
@@ -463,7 +476,8 @@ def test_what_cannot_be_baked_is_said_and_changes_nothing(addon: ModuleType, obj
     bake_take(root="OBJECT", action="Moves")
     refuses("'Moves' moves the armature object itself", target="CURRENT", trace_source="TAKE")
     obj.delta_location.x = 1
-    refuses("has delta transforms", root="OBJECT", trace_source="TAKE")
+    refuses("has delta transforms.* or choose Root Bone", root="OBJECT", trace_source="TAKE")
+    refuses("has delta transforms.* or bake to a new Action", target="NLA", trace_source="TAKE")
     obj.delta_location.x = 0
     obj.animation_data_clear()
     refuses("plays no Action to bake into: bake to a new", target="CURRENT", trace_source="TAKE")
