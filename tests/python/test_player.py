@@ -16,7 +16,7 @@ def test_player_gives_every_frame_of_any_rate(character: core.Character, rate: f
     bones = len(NAMES)
     assert performance.rate == rate
     shapes = {"root_positions": (frames, 3), "rotations": (frames, bones, 4), "frames": (frames, 3)}
-    shapes |= {"classes": (frames,), "fragments": (frames,), "entered": (frames,)} if hasattr(dict, "__or__") else {}
+    shapes |= {"classes": (frames,), "fragments": (frames,), "entered": (frames,)}
     for name, shape in shapes.items():
         assert getattr(performance, name).shape == shape
     np.testing.assert_allclose(np.linalg.norm(performance.rotations, axis=-1), 1, atol=1e-6)
