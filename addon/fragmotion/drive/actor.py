@@ -56,7 +56,7 @@ class Actor:
         """Whether it turns about as fast as it is told while it goes ahead at a speed in m/s."""
         if self.character is None:
             return True
-        turned = sum(_turned(make_player(self._obj, self.character, 1), pace, turn) for turn in (1, -1))
+        turned = sum(_turned(make_player(self._obj, self.character, 1, self.policy), pace, turn) for turn in (1, -1))
         return bool(turned / 2 > _TURNS_WELL * self.space.turn_rate * _TRIAL)
 
     def start_afresh(self) -> None:
