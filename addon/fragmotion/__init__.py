@@ -49,7 +49,7 @@ def unregister() -> None:
     """Remove all that `register` added; a build or a drive that runs is stopped."""
     background.stop()
     solo_class.stop()
-    session.stop()
+    session.unregister()
     for part in (handlers, menus, keymaps, storing, staleness, mending):
         part.unregister()
     properties.unregister()

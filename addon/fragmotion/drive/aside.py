@@ -31,25 +31,31 @@ def put_aside(obj: bpy.types.Object) -> None:
     reset_pose(obj)
 
 
-def give_back(obj: bpy.types.Object) -> None:
-    """Undo `put_aside`: Action, slot, NLA, pose, rotation modes and the object's place are as they were."""
-    note = obj[NOTE]
+def give_back(obj: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -> None:
+    """Undo `put_aside`: Action, slot, NLA, pose, rotation modes and the object's place are as they were.
+
+    The object is in the view layer, by default the one that is shown.
+    """
+    note, layer = obj[NOTE], layer or bpy.context.view_layer
     data = obj.animation_data
     if data is not None:
         action = note.get("action")
         versions.restore(obj, (action, versions.find_slot(action, note["slot"])))
         data.use_nla = bool(note["use_nla"])
-    obj.data.pose_position = note["pose_position"]
-    for name, mode in note["modes"].items():
-        if name in obj.pose.bones:
-            obj.pose.bones[name].rotation_mode = mode
-    bpy.context.view_layer.update()  # the Action's own pose, over which the user's stands
+    armature = note.get("armature", obj.data)  # files of the first version do not tell
+    if armature is not None:
+        armature.pose_position = note["pose_position"]
+    bones = _bones(obj, note)
+    for bone, mode in zip(bones, note["modes"].values()):
+        if bone is not None:
+            bone.rotation_mode = mode
+    layer.update()  # the Action's own pose, over which the user's stands
     for channel in CHANNELS:
         setattr(obj, channel, list(note["place"][channel]))
-        _pose(obj, note, channel)
+        _pose(bones, channel, note["pose"][channel])
     del obj[NOTE]
     obj.update_tag()
-    bpy.context.view_layer.update()
+    layer.update()
 
 
 def heal() -> None:
@@ -68,6 +74,7 @@ def _note(obj: bpy.types.Object) -> dict[str, Any]:
     note = {
         "use_nla": data is not None and data.use_nla,
         "slot": versions.slot_handle(obj),
+        "armature": obj.data,
         "pose_position": obj.data.pose_position,
         "modes": {bone.name: bone.rotation_mode for bone in obj.pose.bones},
         "pose": {channel: get_channel(obj, channel).tolist() for channel in CHANNELS},
@@ -78,10 +85,17 @@ def _note(obj: bpy.types.Object) -> dict[str, Any]:
     return note
 
 
-def _pose(obj: bpy.types.Object, note: Any, channel: str) -> None:
-    """Give one channel back to the bones that are still there."""
-    names, values = list(note["modes"].keys()), note["pose"][channel]
-    size = len(values) // len(names)
-    for index, name in enumerate(names):
-        if name in obj.pose.bones:
-            setattr(obj.pose.bones[name], channel, list(values[size * index : size * (index + 1)]))
+def _bones(obj: bpy.types.Object, note: Any) -> list[bpy.types.PoseBone | None]:
+    """The noted bones that are still there, in the note's order; as many as were renamed are told by their order."""
+    names, bones = list(note["modes"].keys()), obj.pose.bones
+    unknown = [bone for bone in bones if bone.name not in note["modes"]]
+    renamed = iter(unknown if len(bones) == len(names) and note.get("armature") == obj.data else ())
+    return [bones[name] if name in bones else next(renamed, None) for name in names]
+
+
+def _pose(bones: list[bpy.types.PoseBone | None], channel: str, values: Any) -> None:
+    """Give one channel back to the bones."""
+    size = len(values) // len(bones)
+    for index, bone in enumerate(bones):
+        if bone is not None:
+            setattr(bone, channel, list(values[size * index : size * (index + 1)]))

@@ -8,12 +8,51 @@ from typing import Any
 import bpy
 from bpy.app.handlers import persistent
 
+from ..takes import add_take
 from . import aside, session
+
+_recordings: list[tuple[str, dict[str, Any]]] = []  # with their armatures' names, on their way across an undo or a redo
 
 
 def _end(*_arguments: Any) -> None:
-    """Another file, or another state of this one, comes: what is driven goes."""
+    """Another file comes: what is driven goes."""
     session.stop(push=False)
+
+
+def _end_before_undo(*_arguments: Any) -> None:
+    """Undo ends the drive. What it records is not lost, and a step of its own keeps what was done before the drive."""
+    if _carry_recording():
+        bpy.ops.ed.undo_push(message="Drive")
+
+
+def _end_before_redo(*_arguments: Any) -> None:
+    """Redo ends the drive. What it records is not lost; a step now would be in the way of those to be redone."""
+    _carry_recording()
+
+
+def _carry_recording() -> bool:
+    """End the drive that is under way; whether it was recording."""
+    driven = session.current
+    if driven is None:
+        return False
+    recording = driven.end_recording()
+    session.stop(push=False)
+    driven.farewell = "The drive was ended by undo or redo"
+    if recording is not None:
+        driven.farewell += "; what was recorded is kept"
+        _recordings.append((driven.armature, recording))
+    return recording is not None
+
+
+def _go_on_after_undo(*_arguments: Any) -> None:
+    """Heal what the step holds of the middle of a drive, and give the armature what was recorded: a step after it."""
+    aside.heal()
+    for name, recording in _recordings:
+        obj = bpy.data.objects.get(name)
+        if obj is not None:
+            add_take(obj, **recording)
+            bpy.ops.ed.undo_push(message="Record")
+    _recordings.clear()
 
 
 def _heal(*_arguments: Any) -> None:
@@ -28,11 +67,11 @@ def _give_back(*_arguments: Any) -> None:
 
 _HANDLERS = {
     "load_pre": _end,
-    "undo_pre": _end,
-    "redo_pre": _end,
+    "undo_pre": _end_before_undo,
+    "redo_pre": _end_before_redo,
     "load_post": _heal,
-    "undo_post": _heal,
-    "redo_post": _heal,
+    "undo_post": _go_on_after_undo,
+    "redo_post": _go_on_after_undo,
     "save_pre": _give_back,
 }
 

@@ -18,7 +18,7 @@ from .follow import FollowCamera
 from .inputs import Inputs
 from .readings import Readings
 from .recording import Recording
-from .scene_state import SceneState
+from .scene_state import SceneState, is_alive
 from .steering import Control, Steering, view_heading
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ _SMOOTH = 0.05  # share of the newest in a running mean
 current: Session | None = None
 """The drive that is under way; the panel shows it."""
 
-_timer: bpy.types.Timer | None = None  # wakes the modal operator that updates the drive
+_timers: list[bpy.types.Timer] = []  # each wakes a modal operator
 
 
 class Session:
@@ -42,9 +42,10 @@ class Session:
 
     def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, seed: int, policy: str) -> None:
         context.view_layer.update()
-        self.obj, self.armature = obj, obj.name
+        self.obj, self._name = obj, obj.name
         self.seed = self.settings.seed if seed < 0 else seed
         self.actor = Actor(obj, self.seed, policy)
+        self._data, self._bones = obj.data, len(obj.pose.bones)
         self.views, self._follow = views.Views(context.area), FollowCamera()
         self._state = SceneState(context, obj)
         space = self.actor.space
@@ -54,8 +55,24 @@ class Session:
         self._elapsed, self._steps = 0.0, 0
         self.cost = self.interval = 0.0
         """Our own time for an update and the time between updates, s; running means."""
-        aside.put_aside(obj)
+        self.farewell = ""
+        """What the user should be told when it has ended."""
+        self.windows: set[int] = set()
+        """Those whose keys it hears, by their addresses."""
         self.inputs = Inputs(preferences.get(context), RATE)
+        aside.put_aside(obj)
+
+    @property
+    def armature(self) -> str:
+        """The armature object's name; where it was deleted, the last one."""
+        if is_alive(self.obj):
+            self._name = self.obj.name
+        return self._name
+
+    @property
+    def scene(self) -> bpy.types.Scene:
+        """Where it is driven."""
+        return self._state.scene
 
     @property
     def player(self) -> Any:
@@ -134,54 +151,57 @@ class Session:
 
     def _keep_recording(self) -> bool:
         """End the recording; whether there is a take of it."""
+        kept = self.end_recording()
+        if kept is None:
+            return False
+        take = add_take(self.obj, **kept)
+        self.inputs.messages.append(f"Recorded '{take.name}': {take.seconds:.1f} s")
+        return True
+
+    def end_recording(self) -> dict[str, Any] | None:
+        """End the recording; what `add_take` keeps of it beside the armature, if anything was recorded."""
         recording, self.recording = self.recording, None
         if recording is None or not len(recording.trace):
-            return False
+            return None
         judge = self.readings.judge
-        take = add_take(
-            self.obj,
-            recording.trace,
-            seed=self.seed,
-            policy=self.actor.policy,
-            start=recording.start,
-            quality=judge.mean if judge else 0.0,
-            shown=recording.shown,
-        )
-        self.inputs.messages.append(f"Recorded '{take.name}': {recording.seconds:.1f} s")
-        return True
+        return {
+            "trace": recording.trace,
+            "seed": self.seed,
+            "policy": self.actor.policy,
+            "start": recording.start,
+            "quality": judge.mean if judge else 0.0,
+            "shown": recording.shown,
+        }
 
     def trouble(self) -> str:
         """Why the drive cannot go on, empty where it can."""
-        try:
-            if self.obj.name not in self._state.objects:
-                return f"Armature '{self.armature}' is not in the scene any more"
-            if bpy.context.scene != self._state.scene:
-                return "Another scene is shown"
-            if self.obj.mode not in {"OBJECT", "POSE"}:
-                return f"Armature '{self.armature}' is being edited"
-        except ReferenceError:
+        if not is_alive(self.obj):
             return f"Armature '{self.armature}' was deleted"
-        return ""
+        if self.obj.data != self._data:
+            return f"Armature '{self.armature}' was given other armature data"
+        if self.obj.mode not in {"OBJECT", "POSE"}:
+            return f"Armature '{self.armature}' is being edited"
+        if len(self.obj.pose.bones) != self._bones:
+            return f"Bones of armature '{self.armature}' were added or deleted"
+        return self._state.trouble()
 
     def give_back(self) -> None:
         """Let the armature have its own pose and animation until the next update: the file is saved."""
-        aside.give_back(self.obj)
+        if is_alive(self.obj) and aside.NOTE in self.obj:
+            aside.give_back(self.obj, self._state.layer)
 
     def close(self) -> bool:
         """Let go of the inputs and give everything back; whether a take was kept that no undo step holds yet.
 
-        What was deleted meanwhile, or belongs to a file that is gone, stays as it is.
+        What was deleted meanwhile stays deleted.
         """
         self.inputs.close()
         self._follow.release(views.all_views())
         try:
-            kept = self._keep_recording()
+            return is_alive(self.obj) and self._keep_recording()
+        finally:
             self._state.restore()  # first the frame: Blender poses the armature anew where it changes
-            if aside.NOTE in self.obj:
-                aside.give_back(self.obj)
-        except ReferenceError:
-            return False
-        return kept
+            self.give_back()
 
 
 def _running(mean: float, value: float) -> float:
@@ -211,24 +231,39 @@ def replay(context: bpy.types.Context, obj: bpy.types.Object, take: Take, seed: 
     return driven
 
 
-def wake(context: bpy.types.Context) -> None:
-    """Send the window's modal operators as many timer events as there are steps, until the drive stops."""
-    global _timer
-    _timer = context.window_manager.event_timer_add(1 / RATE, window=context.window)
+def wake(window: bpy.types.Window, seconds: float) -> bpy.types.Timer:
+    """Send the window's modal operators a timer event that often, until `rest`."""
+    timer = bpy.context.window_manager.event_timer_add(seconds, window=window)
+    _timers.append(timer)
+    return timer
+
+
+def rest(timer: bpy.types.Timer) -> None:
+    """Send no more of them."""
+    if timer in _timers:
+        _timers.remove(timer)
+        bpy.context.window_manager.event_timer_remove(timer)
 
 
 def stop(push: bool = True) -> None:
-    """End the drive that is under way, if any. A take that it was recording becomes an undo step, if that may be."""
-    global current, _timer
+    """End the drive that is under way, if any. A take that it was recording becomes an undo step, if that may be.
+
+    Its operators end themselves when they are woken next.
+    """
+    global current
     session, current = current, None
     classes.session = None
     if session is None:
         return
-    if _timer is not None:
-        bpy.context.window_manager.event_timer_remove(_timer)
-    _timer = None
     overlays.remove()
     if session.close() and push:
         bpy.ops.ed.undo_push(message="Record")
     views.tag_redraw()
     views.tag_redraw("UI")
+
+
+def unregister() -> None:
+    """End the drive, and let nothing of it stay with Blender, which drops its operators."""
+    stop()
+    for timer in list(_timers):
+        rest(timer)

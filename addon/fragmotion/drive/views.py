@@ -48,7 +48,12 @@ class Views:
 def all_areas() -> Iterator[bpy.types.Area]:
     """Every 3D view of every window."""
     for window in bpy.context.window_manager.windows:
-        yield from (area for area in window.screen.areas if area.type == "VIEW_3D")
+        yield from areas_of(window)
+
+
+def areas_of(window: bpy.types.Window) -> Iterator[bpy.types.Area]:
+    """Every 3D view of a window."""
+    return (area for area in window.screen.areas if area.type == "VIEW_3D")
 
 
 def all_views() -> list[Any]:

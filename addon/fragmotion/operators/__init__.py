@@ -7,7 +7,13 @@ from . import takes
 from .background import FRAGMOTION_OT_cancel
 from .bake import FRAGMOTION_OT_bake
 from .build import FRAGMOTION_OT_build
-from .drive import FRAGMOTION_OT_drive, FRAGMOTION_OT_find_pads, FRAGMOTION_OT_play_trace, FRAGMOTION_OT_record
+from .drive import (
+    FRAGMOTION_OT_drive,
+    FRAGMOTION_OT_find_pads,
+    FRAGMOTION_OT_listen,
+    FRAGMOTION_OT_play_trace,
+    FRAGMOTION_OT_record,
+)
 from .force_class import FRAGMOTION_OT_force_class
 from .import_mocap import FRAGMOTION_OT_import_mocap
 from .leave_out import FRAGMOTION_OT_leave_out, FRAGMOTION_OT_take_in
@@ -34,6 +40,7 @@ CLASSES = (
     FRAGMOTION_OT_force_class,
     FRAGMOTION_OT_show_fragment,
     FRAGMOTION_OT_drive,
+    FRAGMOTION_OT_listen,
     FRAGMOTION_OT_record,
     FRAGMOTION_OT_play_trace,
     FRAGMOTION_OT_find_pads,

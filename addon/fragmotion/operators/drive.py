@@ -20,13 +20,74 @@ from ..traces import make_trace
 from .background import poll_idle
 from .context import active_armature, poll_armature
 
-_PANEL_INTERVAL = 0.2  # s between drawings of the sidebar, which holds the pads
+_PANEL_INTERVAL = 0.2  # s between drawings of the sidebar, which holds the pads, and looks at the other windows
+_UNDO = {"ed.undo", "ed.redo"}
 seen_pads: list[str] = []
 """The gamepads that the last Find Gamepads found."""
 
 
-class FRAGMOTION_OT_drive(bpy.types.Operator):
-    """A modal operator that lets through what it does not use; pressed again it ends the drive."""
+class _Hearing:
+    """A modal operator by which a drive hears the keys and the mouse of a window, until that drive ends. It lets
+    through what is not used. Blender gives a modal operator the events of one window only."""
+
+    report: Any
+    _session: session.Session
+    _timer: bpy.types.Timer
+
+    def _begin(self, context: bpy.types.Context, driven: session.Session, seconds: float) -> set[str]:
+        """Hear the context's window, and be woken that often."""
+        self._session, self._window = driven, context.window.as_pointer()
+        driven.windows.add(self._window)
+        self._timer = session.wake(context.window, seconds)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if session.current is self._session:
+            try:
+                return self._handle(context, event)
+            except Exception as error:  # a drive must never leave the armature half way
+                traceback.print_exc()
+                session.stop()
+                self.report({"ERROR"}, f"The drive has ended: {error}")
+        return self._end()
+
+    def cancel(self, _context: bpy.types.Context) -> None:
+        """Blender ends the operator: its window is closed, another file is loaded, or Blender quits."""
+        self._session.windows.discard(self._window)
+        session.rest(self._timer)
+
+    def _handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        raise NotImplementedError
+
+    def _hear(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Use an event of the window, if it is for the drive."""
+        if event.type == "ESC" and event.value == "PRESS":
+            session.stop()
+            return self._end()
+        if _is_undo(context, event):
+            session.stop()
+            self._session.farewell = "Undo has ended the drive; press again to undo what was done before"
+            return self._end()
+        return {"RUNNING_MODAL"} if _hear(self._session, context, event) else {"PASS_THROUGH"}
+
+    def _end(self) -> set[str]:
+        """The drive is over: say how it ended, where that is not said yet."""
+        session.rest(self._timer)
+        self._tell()
+        if self._session.farewell:
+            self.report({"WARNING"}, self._session.farewell)
+            self._session.farewell = ""
+        return {"FINISHED"}
+
+    def _tell(self) -> None:
+        for message in self._session.inputs.messages:
+            self.report({"INFO"}, message)
+        self._session.inputs.messages.clear()
+
+
+class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
+    """Begins a drive and updates it; pressed again it ends the drive."""
 
     bl_idname = "fragmotion.drive"
     bl_label = "Drive Character"
@@ -80,13 +141,11 @@ class FRAGMOTION_OT_drive(bpy.types.Operator):
         if session.current is not None and self.source == "INPUTS":
             session.stop()
             return {"FINISHED"}
-        obj = active_armature(context) if session.current is None else session.current.obj
-        self._session = self._start(context, obj)
-        session.wake(context)
+        obj = active_armature(context) if session.current is None else _driven().obj
+        driven = self._start(context, obj)
         self._time = self._drawn = time.perf_counter()
-        context.window_manager.modal_handler_add(self)
         self._warn(obj)
-        return {"RUNNING_MODAL"}
+        return self._begin(context, driven, 1 / session.RATE)
 
     def _start(self, context: bpy.types.Context, obj: bpy.types.Object) -> session.Session:
         if self.source == "INPUTS":
@@ -96,56 +155,84 @@ class FRAGMOTION_OT_drive(bpy.types.Operator):
             raise UserError(f"Armature '{obj.name}' has no such take: record or import one")
         return session.replay(context, obj, takes[self.take], self.seed, self.policy)
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if session.current is not self._session:  # it was ended elsewhere
-            return {"CANCELLED"}
-        try:
-            return self._handle(context, event)
-        except Exception as error:  # a drive must never leave the armature half way
-            traceback.print_exc()
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Without this window there is nothing to update the drive."""
+        if session.current is self._session:
             session.stop()
-            self.report({"ERROR"}, f"The drive has ended: {error}")
-            return {"CANCELLED"}
-
-    def cancel(self, _context: bpy.types.Context) -> None:
-        """Blender ends the operator: its window is closed, another file is loaded, or Blender quits."""
-        session.stop()
+        super().cancel(context)
 
     def _handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if event.type == "TIMER":
-            return self._update()
-        if event.type == "ESC" and event.value == "PRESS":
-            session.stop()
-            return {"FINISHED"}
-        used = _hear(self._session, context, event)
-        return {"RUNNING_MODAL"} if used else {"PASS_THROUGH"}
-
-    def _update(self) -> set[str]:
         trouble = self._session.trouble()
         if trouble:
             session.stop()
-            self.report({"WARNING"}, f"The drive has ended: {trouble}")
-            return {"CANCELLED"}
+            self._session.farewell = f"The drive has ended: {trouble}"
+            return self._end()
+        return self._update(context) if event.type == "TIMER" else self._hear(context, event)
+
+    def _update(self, context: bpy.types.Context) -> set[str]:
         now = time.perf_counter()
-        with core_errors("Drive"):
-            self._session.update(now - self._time)
+        if not bpy.app.is_job_running("RENDER"):  # which reads the armature meanwhile
+            with core_errors("Drive"):
+                self._session.update(now - self._time)
         self._time = now
         self._tell()
         views.tag_redraw()
         if now - self._drawn > _PANEL_INTERVAL:
             views.tag_redraw("UI")
             self._drawn = now
+            self._hear_other_windows(context)
         return {"PASS_THROUGH"}
 
-    def _tell(self) -> None:
-        for message in self._session.inputs.messages:
-            self.report({"INFO"}, message)
-        self._session.inputs.messages.clear()
+    def _hear_other_windows(self, context: bpy.types.Context) -> None:
+        """Those that show the scene in a 3D view, also when they are opened meanwhile."""
+        for window in context.window_manager.windows:
+            unheard = window.as_pointer() not in self._session.windows and window.scene == self._session.scene
+            if unheard and any(True for _ in views.areas_of(window)):
+                with context.temp_override(window=window):
+                    bpy.ops.fragmotion.listen("INVOKE_DEFAULT")
 
     def _warn(self, obj: bpy.types.Object) -> None:
         others = movers(obj)
         if others:
             self.report({"WARNING"}, f"The pose will differ from the character's because of {'; '.join(others)}")
+
+
+class FRAGMOTION_OT_listen(_Hearing, bpy.types.Operator):
+    """Let the drive hear the keys in this window, too"""
+
+    bl_idname = "fragmotion.listen"
+    bl_label = "Hear This Window"
+    bl_options: ClassVar[set[str]] = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        return session.current is not None and not bpy.app.background
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        return self._begin(context, _driven(), _PANEL_INTERVAL)
+
+    def _handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type == "TIMER" or self._session.trouble():
+            return {"PASS_THROUGH"}
+        return self._hear(context, event)
+
+
+def _driven() -> session.Session:
+    """The drive that is under way; UserError where there is none that goes on."""
+    if session.current is None:
+        raise UserError("Nothing is driven: press Drive first")
+    trouble = session.current.trouble()
+    if trouble:
+        session.stop()
+        raise UserError(f"The drive has ended: {trouble}")
+    return session.current
+
+
+def _is_undo(context: bpy.types.Context, event: bpy.types.Event) -> bool:
+    """Whether a key would undo or redo in the user's own keymap."""
+    keymap = context.window_manager.keyconfigs.user.keymaps.get("Screen")
+    item = keymap.keymap_items.match_event(event) if keymap is not None and event.value == "PRESS" else None
+    return item is not None and item.idname in _UNDO
 
 
 def _hear(driven: session.Session, context: bpy.types.Context, event: bpy.types.Event) -> bool:
@@ -156,12 +243,12 @@ def _hear(driven: session.Session, context: bpy.types.Context, event: bpy.types.
         inputs.stick.release()
         return False
     if event.type in {"MOUSEMOVE", "LEFTMOUSE"}:
-        return _hear_mouse(driven, event)
+        return _hear_mouse(driven, context, event)
     if event.value == "RELEASE":
         inputs.keyboard.let_go(event.type)
         return False
     action = inputs.keyboard.action_of(event.type)
-    if action is None or event.value != "PRESS" or not _is_for_view(event):
+    if action is None or event.value != "PRESS" or not _is_for_view(context, event):
         return False
     if action == "record":
         if not event.is_repeat:
@@ -171,11 +258,11 @@ def _hear(driven: session.Session, context: bpy.types.Context, event: bpy.types.
     return True
 
 
-def _is_for_view(event: bpy.types.Event) -> bool:
-    """Whether a key is pressed over a 3D view, and is no shortcut."""
+def _is_for_view(context: bpy.types.Context, event: bpy.types.Event) -> bool:
+    """Whether a key is pressed over a 3D view of the window, and is no shortcut."""
     if event.ctrl or event.alt or event.oskey:
         return False
-    return any(_is_inside(area, event) for area in views.all_areas())
+    return any(_is_inside(area, event) for area in views.areas_of(context.window))
 
 
 def _is_inside(part: Any, event: bpy.types.Event) -> bool:
@@ -184,10 +271,10 @@ def _is_inside(part: Any, event: bpy.types.Event) -> bool:
     return bool(0 <= across < part.width and 0 <= up < part.height)
 
 
-def _hear_mouse(driven: session.Session, event: bpy.types.Event) -> bool:
-    """Drag the on-screen stick; whether the mouse has hold of it."""
+def _hear_mouse(driven: session.Session, context: bpy.types.Context, event: bpy.types.Event) -> bool:
+    """Drag the on-screen stick, where it is in the window; whether the mouse has hold of it."""
     stick, area = driven.inputs.stick, driven.views.main()
-    if area is None or not driven.settings.show_stick:
+    if area is None or area not in list(views.areas_of(context.window)) or not driven.settings.show_stick:
         return False
     region = views.window_region(area)
     x, y = event.mouse_x - region.x, event.mouse_y - region.y
@@ -224,8 +311,7 @@ class FRAGMOTION_OT_record(_WhileDriving, bpy.types.Operator):
 
     @reported
     def execute(self, _context: bpy.types.Context) -> set[str]:
-        if session.current is not None:
-            session.current.toggle_recording()
+        _driven().toggle_recording()
         return {"FINISHED"}
 
 
@@ -238,9 +324,7 @@ class FRAGMOTION_OT_play_trace(_WhileDriving, bpy.types.Operator):
 
     @reported
     def execute(self, _context: bpy.types.Context) -> set[str]:
-        driven = session.current
-        if driven is None:
-            raise UserError("Nothing is driven: press Drive first")
+        driven = _driven()
         driven.play(make_trace(driven.settings, driven.actor.space))
         return {"FINISHED"}
 
