@@ -15,6 +15,8 @@ constexpr double kFolded = 2.5;       // rad: a knee that is bent more resists b
 constexpr double kNear = 0.02;      // of a leg's length: wanted so near to where it is, a foot may go as the knee does
 constexpr double kOpposite = 1e-6;  // 1 + cosine of an angle, below which half of it is not to be had from that
 constexpr double kTiny = 1e-12;     // m^2
+constexpr double kShortest = 1e-3;  // m of a 1.8 m character: a bone of a leg that is shorter has no direction
+constexpr double kNoAxis = 1e-9;    // length of an axis that is hardly one
 constexpr int kApart = 5;           // frames of the clips that are looked at: each fifth
 
 const double kBendsWell = std::cos(kStraight), kFoldsWell = std::cos(kFolded);
@@ -90,7 +92,9 @@ class Knee {
   }
 
   // Between the leg's ends, in lengths of the leg, by the cosine of the bend.
-  double distance(double cosine) const { return std::sqrt(upper_ + across_ + beside_ + twice_ * cosine) / length_; }
+  double distance(double cosine) const {
+    return std::sqrt(std::max(0.0, upper_ + across_ + beside_ + twice_ * cosine)) / length_;
+  }
 
   double upper_;  // squares of lengths, m: of the upper leg, and of the lower one along the axis and across it
   Vector3 axis_;
@@ -98,19 +102,30 @@ class Knee {
   double length_, twice_, cosine_, sine_;
 };
 
-Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe) {
-  if (thigh < 0 || foot < 0 || !skeleton.is_below(foot, thigh)) return {};
+// The leg from a thigh to a foot that has a knee between them; none where the thigh carries the body or both legs.
+Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe, int other_foot) {
+  const int hips = skeleton.roles.hips;
+  const bool hangs = thigh != hips && skeleton.is_below(thigh, hips) && skeleton.is_below(foot, thigh);
+  if (!hangs || foot == thigh || skeleton.is_below(other_foot, thigh)) return {};
   std::vector<Vector3> heads;
   std::vector<Quaternion> rotations;
   rest_pose(skeleton, heads, rotations);
-  const Vector3 left = heads[skeleton.roles.left_thigh] - heads[skeleton.roles.right_thigh];
-  Leg leg{thigh, -1, foot, toe, skeleton.parents[foot], rotations[thigh].conjugate() * left.normalized()};
-  double most = 0;
-  for (int b = leg.above_foot; b != thigh && b >= 0; b = skeleton.parents[b]) {
+  Leg leg{thigh, -1, foot, toe, skeleton.parents[foot]};
+  double most = kShortest / standard_scale(skeleton);
+  for (int b = leg.above_foot; b != thigh; b = skeleton.parents[b]) {
     const double shorter = std::min((heads[b] - heads[thigh]).norm(), (heads[foot] - heads[b]).norm());
     if (shorter > most) most = shorter, leg.knee = b;
   }
   return leg;
+}
+
+// To the character's left at rest, as the thighs see it.
+void hinge_at_rest(const Skeleton& skeleton, Legs& legs) {
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> rotations;
+  rest_pose(skeleton, heads, rotations);
+  const Vector3 left = heads[legs[0].thigh] - heads[legs[1].thigh];
+  for (Leg& leg : legs) leg.hinge = rotations[leg.thigh].conjugate() * left.normalized();
 }
 
 // What bends the leg's knee in a pose, as the thigh sees it; the longer the more it is bent.
@@ -125,9 +140,10 @@ Vector3 bend(const Leg& leg, const PosedBones& posed) {
 Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips) {
   const Skeleton& skeleton = kinematics.skeleton();
   const Roles& roles = skeleton.roles;
-  Legs legs{leg_of(skeleton, roles.left_thigh, roles.left_foot, roles.left_toe),
-            leg_of(skeleton, roles.right_thigh, roles.right_foot, roles.right_toe)};
-  if (!legs[0].exists() || !legs[1].exists()) return legs;
+  Legs legs{leg_of(skeleton, roles.left_thigh, roles.left_foot, roles.left_toe, roles.right_foot),
+            leg_of(skeleton, roles.right_thigh, roles.right_foot, roles.right_toe, roles.left_foot)};
+  if (!legs[0].exists() || !legs[1].exists()) return {};
+  hinge_at_rest(skeleton, legs);
   const std::vector<int> bones = kinematics.chains({legs[0].foot, legs[1].foot});
   PosedBones posed(kinematics.bones());
   for (const Clip& clip : clips) {
@@ -136,7 +152,7 @@ Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips) {
       for (Leg& leg : legs) leg.hinge += bend(leg, posed);
     }
   }
-  for (Leg& leg : legs) leg.hinge.normalize();
+  for (Leg& leg : legs) leg.hinge = leg.hinge.norm() > kNoAxis ? leg.hinge.normalized() : Vector3::UnitX();
   return legs;
 }
 

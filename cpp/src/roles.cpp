@@ -182,8 +182,8 @@ class RoleFinder {
     roles.right_foot = find_foot(Side::kRight);
     roles.left_toe = find_toe(Side::kLeft, roles.left_foot);
     roles.right_toe = find_toe(Side::kRight, roles.right_foot);
-    roles.left_thigh = find_thigh(Side::kLeft, roles.left_foot);
-    roles.right_thigh = find_thigh(Side::kRight, roles.right_foot);
+    roles.left_thigh = find_thigh(Side::kLeft, roles.left_foot, roles.right_foot, roles.hips);
+    roles.right_thigh = find_thigh(Side::kRight, roles.right_foot, roles.left_foot, roles.hips);
     return roles;
   }
 
@@ -194,11 +194,10 @@ class RoleFinder {
   int best_match(Side side, Keywords keywords, int ancestor = 0) const {
     int best = -1, best_extra = 0;
     for (int bone = 0; bone < skeleton_.size(); ++bone) {
-      if (names_[bone].side != side || !skeleton_.is_below(bone, ancestor)) continue;
-      if (is_helper(names_[bone]) || is_finger(names_[bone])) continue;
+      if (names_[bone].side != side || is_helper(names_[bone]) || is_finger(names_[bone])) continue;
       for (const std::string_view keyword : keywords) {
         const int extra = extra_words(names_[bone], keyword);
-        if (extra >= 0 && (best < 0 || extra < best_extra)) {
+        if (extra >= 0 && (best < 0 || extra < best_extra) && skeleton_.is_below(bone, ancestor)) {
           best = bone;
           best_extra = extra;
         }
@@ -249,11 +248,16 @@ class RoleFinder {
     return best_match_in_turn(side, {"toe", "toes", "toebase"}, {"ball"}, std::max(foot, 0));
   }
 
-  int find_thigh(Side side, int foot) const {
+  /// By its name, or two bones above the foot; one where the leg has no knee.
+  int find_thigh(Side side, int foot, int other_foot, int hips) const {
     const int named = best_match(side, {"thigh", "upleg", "upperleg", "femur"});
     if (named >= 0 || foot < 0) return named;
-    const int shin = skeleton_.parents[foot];
-    return shin < 0 ? -1 : skeleton_.parents[shin];
+    const auto carries_leg = [&](int bone) {
+      return bone > hips && skeleton_.is_below(bone, hips) && !skeleton_.is_below(other_foot, bone);
+    };
+    const int above = skeleton_.parents[foot], thigh = above < 0 ? -1 : skeleton_.parents[above];
+    if (carries_leg(thigh)) return thigh;
+    return carries_leg(above) ? above : -1;
   }
 
   const Skeleton& skeleton_;

@@ -117,6 +117,20 @@ def test_without_feet_takes_are_cut_by_windows(addon: ModuleType, tmp_path: Path
     assert bpy.ops.fragmotion.bake(seconds=2) == {"FINISHED"}
 
 
+@pytest.mark.parametrize("root", [False, True])
+def test_a_rig_without_knees_builds_and_bakes(root: bool) -> None:
+    bones = [("root", "", (0, 0, 0), (0, 0.3, 0))] if root else []
+    bones += [("hips", "root" if root else "", (0, 0, 1), (0, 0, 1.15))]
+    bones += [bone for bone in making.BODY if bone[0] in ("spine", "head")]
+    for side, x in (("L", 0.1), ("R", -0.1)):
+        bones.append((f"leg.{side}", "hips", (x, 0, 1), (x, 0, 0.1)))
+        bones.append((f"foot.{side}", f"leg.{side}", (x, 0, 0.1), (x, -0.15, 0.02)))
+    obj = making.add_armature(bones)
+    add_takes(obj, 3, 90)
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=8, seconds=10) == {"FINISHED"}
+    assert bpy.ops.fragmotion.bake(seconds=2) == {"FINISHED"}
+
+
 def build_small(obj: bpy.types.Object) -> None:
     """A character of few classes."""
     if not bpy.data.actions:

@@ -33,6 +33,53 @@ inline Skeleton tiny_skeleton() {
   return make_skeleton(skeleton);
 }
 
+/// Hips, spine, head, and legs of one bone with feet: no knees. `root`: below a bone on the ground.
+inline Skeleton kneeless_skeleton(bool root) {
+  Skeleton s;
+  s.names = {"hips", "spine", "head", "leg.L", "foot.L", "leg.R", "foot.R"};
+  s.parents = {-1, 0, 1, 0, 3, 0, 5};
+  s.offsets = {{0, 0, 0.9}, {0, 0, 0.2}, {0, 0, 0.4}, {0.1, 0, 0}, {0, 0, -0.8}, {-0.1, 0, 0}, {0, 0, -0.8}};
+  s.tips = {{0, 0, 0.2}, {0, 0, 0.4}, {0, 0, 0.2}, {0, 0, -0.8}, {0, -0.2, -0.1}, {0, 0, -0.8}, {0, -0.2, -0.1}};
+  if (root) {
+    s.names.insert(s.names.begin(), "root");
+    for (int& parent : s.parents) ++parent;
+    s.parents.insert(s.parents.begin(), -1);
+    s.offsets.insert(s.offsets.begin(), Vector3::Zero());
+    s.tips.insert(s.tips.begin(), {0, 0, 0.5});
+  }
+  s.rest_rotations.assign(s.names.size(), Quaternion::Identity());
+  return make_skeleton(s);
+}
+
+/// Three seconds of a kneeless_skeleton() that goes forward on stiff legs at `speed` m/s.
+inline Clip kneeless_clip(const Skeleton& skeleton, double speed) {
+  Clip clip{"stiff", 30, 91, {}, {}, {}};
+  for (int f = 0; f < clip.frames; ++f) {
+    const double angle = 0.4 * speed * std::sin(2 * kPi * f / 30);
+    clip.root_positions.insert(clip.root_positions.end(), {0, -speed * f / 30, 0.9 - 0.05 * speed * angle * angle});
+    for (const std::string& name : skeleton.names) {
+      const double swing = name == "leg.L" ? angle : name == "leg.R" ? -angle : 0;
+      clip.rotations.insert(clip.rotations.end(), {std::cos(swing / 2), std::sin(swing / 2), 0, 0});
+    }
+  }
+  return make_clip(skeleton, clip);
+}
+
+/// A small character with legs, feet and contacts, which stands, walks and hops.
+inline Character legged_character() {
+  Gait stand, walk, hop;
+  stand.y = hop.y = 0;
+  hop.jump = 0.3;
+  stand.seconds = hop.seconds = 1;
+  walk.seconds = 2;
+  BuildOptions options;
+  options.classes = 6;
+  options.mirror = options.synthesize = false;
+  options.policies = {"anticipate", "greedy"};
+  return build(humanoid(), {gait_clip(stand, "stand"), gait_clip(walk, "walk"), gait_clip(hop, "hop")},
+               {simulate_trace("explorer", 20, 1, ControlSpace())}, options);
+}
+
 /// Half a second: one fragment of a tiny_skeleton() that goes forward at `speed` m/s and hops `hop` m high.
 inline Clip tiny_clip(double speed, double hop = 0) {
   Clip clip{"take", 20, 11, {}, {}, {}};

@@ -20,6 +20,78 @@ TEST(Leg, IsFoundByItsRoles) {
   EXPECT_FALSE(find_legs(Kinematics(footless), {})[0].exists());
 }
 
+TEST(Leg, IsNoneWithoutAThighOfItsOwnBelowTheHipsAndAJointAboveTheFoot) {
+  const Skeleton whole = humanoid();
+  const struct {
+    const char* label;
+    int Roles::*role;
+    int bone;
+  } cases[] = {
+      {"one thigh", &Roles::right_thigh, -1},
+      {"the other thigh", &Roles::left_thigh, -1},
+      {"one foot", &Roles::right_foot, -1},
+      {"the hips as a thigh", &Roles::left_thigh, whole.roles.hips},
+      {"the hips as a foot", &Roles::left_foot, whole.roles.hips},
+      {"a foot as the thigh", &Roles::left_thigh, whole.roles.left_foot},
+      {"a thigh as the foot", &Roles::right_foot, whole.roles.right_thigh},
+      {"a shin as the thigh", &Roles::left_thigh, whole.find("shin.L")},
+      {"a foot as the hips", &Roles::hips, whole.roles.left_foot},
+      {"a shin as the hips", &Roles::hips, whole.find("shin.R")},
+      {"one thigh for both", &Roles::right_thigh, whole.roles.left_thigh},
+      {"the foot of the other leg", &Roles::right_foot, whole.roles.left_foot},
+  };
+  for (const auto& c : cases) {
+    Skeleton skeleton = whole;
+    skeleton.roles.*c.role = c.bone;
+    for (const Leg& leg : find_legs(Kinematics(skeleton), {gait_clip({1.2, 0, 0})})) {
+      EXPECT_FALSE(leg.exists()) << c.label;
+      EXPECT_EQ(leg.hinge, Leg().hinge) << c.label;
+    }
+  }
+}
+
+TEST(Leg, HasABoneThatCarriesBothLegsForNoThigh) {
+  Skeleton skeleton = humanoid();
+  const int carrier = skeleton.size();
+  for (const char* name : {"carrier", "leg.L", "foot2.L", "leg.R", "foot2.R"}) skeleton.names.emplace_back(name);
+  skeleton.parents.insert(skeleton.parents.end(), {0, carrier, carrier + 1, carrier, carrier + 3});
+  skeleton.rest_rotations.resize(carrier + 5, Quaternion::Identity());
+  skeleton.offsets.resize(carrier + 5, Vector3{0.1, 0, -0.3});
+  skeleton.tips.resize(carrier + 5, Vector3{0, 0, -0.1});
+  Roles& roles = skeleton.roles;
+  roles.left_thigh = roles.right_thigh = carrier;
+  roles.left_foot = carrier + 2;
+  roles.right_foot = carrier + 4;
+  for (const Leg& leg : find_legs(Kinematics(skeleton), {})) EXPECT_FALSE(leg.exists());
+}
+
+TEST(Leg, HasAUnitHingeWhereTheThighsAreInOnePlace) {
+  Skeleton skeleton = humanoid();
+  skeleton.offsets[skeleton.roles.left_thigh] = skeleton.offsets[skeleton.roles.right_thigh];
+  for (const Leg& leg : find_legs(Kinematics(skeleton), {})) {
+    ASSERT_TRUE(leg.exists());
+    EXPECT_NEAR(leg.hinge.norm(), 1, 1e-12);
+  }
+}
+
+TEST(Reach, StaysANumberWhereALegIsFoldedUpFlat) {
+  Skeleton skeleton = humanoid();
+  for (const char* bone : {"shin.L", "foot.L"}) skeleton.offsets[skeleton.find(bone)] = {0, 0, -0.43};
+  const Kinematics kinematics(skeleton);
+  const Leg leg = find_legs(kinematics, {})[0];
+  PosedBones posed(skeleton.size());
+  std::vector<double> rest;
+  for (int b = 0; b < skeleton.size(); ++b) rest.insert(rest.end(), {1, 0, 0, 0});
+  for (int n = -200; n <= 200; ++n) {
+    std::vector<double> rotations = rest;
+    const Quaternion bend{Eigen::AngleAxisd(kPi + 1e-9 * n, leg.hinge)};
+    store_quaternion(bend, &rotations[std::size_t{4} * leg.knee]);
+    kinematics.world({0, 0, 1}, rotations.data(), posed.heads.data(), posed.rotations.data());
+    reach(skeleton, leg, posed, posed.heads[leg.foot], rotations.data());
+    for (const double value : rotations) ASSERT_TRUE(std::isfinite(value)) << n;
+  }
+}
+
 TEST(Reach, BringsTheFootThereAndLeavesItsRotation) {
   const Skeleton skeleton = humanoid();
   const Kinematics kinematics(skeleton);

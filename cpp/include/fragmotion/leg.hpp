@@ -8,8 +8,8 @@
 
 namespace fragmotion {
 
-/// A leg by its roles: any chain of bones from a thigh to a foot with a joint between them. `knee` is -1 where there is
-/// none.
+/// A leg by its roles: any chain of bones below the hips, from a thigh of its own to a foot, with a joint between them.
+/// `knee` is -1 where there is none.
 struct Leg {
   int thigh = -1, knee = -1, foot = -1, toe = -1;
   int above_foot = -1;               ///< The foot's parent.
@@ -20,8 +20,8 @@ struct Leg {
 
 using Legs = std::array<Leg, 2>;
 
-/// The left and the right leg. The knee is the joint that divides a leg most evenly; it bends as it does in the clips,
-/// or, where it never does, to the front of the rest pose.
+/// The left and the right leg; none where the skeleton has not both. The knee is the joint that divides a leg most
+/// evenly; it bends as it does in the clips, or, where it never does, to the front of the rest pose.
 Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips);
 
 /// World places and rotations of all bones of one pose, which legs are bent in.
