@@ -17,6 +17,7 @@
 #include "fragmotion/parallel.hpp"
 #include "fragmotion/svm.hpp"
 #include "fragmotion/synthesis.hpp"
+#include "ranges.hpp"
 
 namespace fragmotion {
 namespace {
@@ -213,10 +214,18 @@ void check(const Trace& trace, std::size_t number) {
   }
 }
 
+// Before the stages that would find it, which take their time.
+void check(const BuildOptions& options) {
+  check(options.cut);
+  require_range("the number of classes", options.classes, 1, kMostClasses);
+  require_range("the number of restarts", std::max(1, options.restarts), 1, kMostRestarts);
+}
+
 void check(const std::vector<Clip>& clips, const std::vector<Trace>& traces, const BuildOptions& options) {
   if (clips.empty()) throw std::invalid_argument("there are no takes to build from");
   if (traces.empty()) throw std::invalid_argument("there is no trace to learn from");
   for (std::size_t i = 0; i < traces.size(); ++i) check(traces[i], i);
+  check(options);
   if (options.policies.empty()) throw std::invalid_argument("no policy is asked for");
   const std::vector<std::string>& names = policy_names();
   for (const std::string& name : options.policies) {
@@ -285,6 +294,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   Stopwatch stage;
   report(progress, 0, "Cutting fragments");
   const Kinematics kinematics(make_skeleton(skeleton));
+  check_stature(kinematics.skeleton());
   FragmentPool pool = captured_pool(kinematics, clips, options);
   c.report["captured"] = static_cast<double>(pool.fragments.size());
   double usual = 0;

@@ -11,6 +11,7 @@
 #include "fragmotion/parallel.hpp"
 #include "fragmotion/random.hpp"
 #include "kmeans.hpp"
+#include "ranges.hpp"
 
 namespace fragmotion {
 namespace {
@@ -19,6 +20,7 @@ constexpr int kPosesSummed = 8;
 constexpr int kSampled = 100;     // fragments for each class
 constexpr int kHardlyAny = 1000;  // one fragment in so many
 constexpr float kLargest = 1e9F;  // m
+constexpr int kMostIterations = 1000000;
 const char* const kStage = "Clustering";
 
 // Renumbers the classes by their representatives' order.
@@ -228,7 +230,7 @@ int distinct(const Trajectories& t, int most) {
 }
 
 void check_count(const Trajectories& t, int classes) {
-  if (classes < 1) throw std::invalid_argument("the number of classes must be at least 1");
+  require_range("the number of classes", classes, 1, kMostClasses);
   const auto too_few = [&](const char* kind, int count) {
     return std::invalid_argument(std::to_string(classes) + " classes need as many " + kind + ", but there are only " +
                                  std::to_string(count) + ": ask for fewer classes or add takes");
@@ -249,6 +251,8 @@ std::vector<std::vector<int>> Classes::members() const {
 Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
                 const ClassScore& score, const Progress& progress) {
   const std::vector<char> kinds = options.kinds.empty() ? std::vector<char>(t.count, 0) : options.kinds;
+  require_range("the number of restarts", std::max(1, options.restarts), 1, kMostRestarts);
+  require_range("the number of iterations", options.iterations, 1, kMostIterations);
   check(t, weights, kinds);
   check_count(t, options.classes);
   if (t.count / kSampled < options.classes) {

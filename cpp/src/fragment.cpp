@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fragmotion/tears.hpp"
+#include "ranges.hpp"
 
 namespace fragmotion {
 
@@ -15,6 +16,8 @@ const char* origin_name(Origin origin) {
 }
 
 namespace {
+
+constexpr double kLeastLongest = 0.1, kLongest = 10;  // s, of a fragment
 
 // Cuts a clip between gait events, if there are any. Lengths are in frames.
 struct Cutter {
@@ -61,7 +64,13 @@ struct Cutter {
 
 }  // namespace
 
+void check(const CutOptions& options) {
+  require_range("the shortest fragment (s)", options.shortest, kShortestFragment, kLongest);
+  require_range("the longest fragment (s)", options.longest, kLeastLongest, kLongest);
+}
+
 void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const CutOptions& options) {
+  check(options);
   const Clip& source = pool.clips[clip];
   const int shortest = std::max(1, static_cast<int>(std::ceil(options.shortest * source.rate - 1e-6)));
   const int longest = static_cast<int>(std::floor(options.longest * source.rate + 1e-6));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ranges.hpp"
 #include "transposed.hpp"
 
 namespace fragmotion {
@@ -53,8 +54,10 @@ void check(const IterateOptions& options) {
   if (!(options.discount >= 0 && options.discount < 1)) {
     throw std::invalid_argument("the discount must be 0 or more and under 1");
   }
-  if (!(options.tolerance > 0)) throw std::invalid_argument("the tolerance must be over 0");
-  if (options.sweeps < 1) throw std::invalid_argument("the number of sweeps must be at least 1");
+  if (!(options.tolerance > 0 && options.tolerance <= 1)) {
+    throw std::invalid_argument("the tolerance must be over 0 and at most 1");
+  }
+  require_range("the number of sweeps", options.sweeps, 1, 1000000);
 }
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fragmotion/pose.hpp"
+#include "ranges.hpp"
 
 namespace fragmotion {
 namespace {
@@ -25,6 +26,7 @@ constexpr double kPull = 0.4;       // of speed and turn rate: the most that the
 constexpr double kPulling = 0.1;    // s: time constant of the pull
 constexpr double kStill = 0.2;      // m/s of a 1.8 m character, and of the turn rate, below which it stands
 constexpr double kLongest = 3600;   // s that a step may last
+constexpr double kFarthest = 1e9;   // m, and rad: where steps are still told apart
 
 constexpr double kLook = kOpening / 2;  // s between the moments at which a fragment may be left early
 
@@ -78,6 +80,8 @@ void Player::check_step(const Control& control, double seconds) {
 }
 
 void Player::reset(const CharacterFrame& frame) {
+  for (const double value : {frame.position.x(), frame.position.y(), frame.heading})
+    require_range("the place and the heading to stand at", value, -kFarthest, kFarthest);
   const Quality& quality = character_->quality;
   const int still = character_->space.nearest({});
   class_ = 0;

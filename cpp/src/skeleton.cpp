@@ -10,15 +10,24 @@
 #include <utility>
 
 #include "fragmotion/role_names.hpp"
+#include "ranges.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;  // Blender's rotations are floats; anything worse is a caller's mistake.
+constexpr double kUnitTolerance = 1e-3;    // Blender's rotations are floats; anything worse is a caller's mistake.
+constexpr int kMostBones = 4096;           // The largest rigs, with every control, have some 2,000.
+constexpr std::size_t kLongestName = 255;  // bytes: Blender allows 63.
+constexpr double kFarthest = 1e6;          // m: a giant in millimetres that are taken for metres stays far below.
+constexpr double kLeastStature = 1e-3, kMostStature = 1e7;  // m
 
 void check_sizes(const Skeleton& skeleton) {
   const std::size_t bones = skeleton.names.size();
   if (bones == 0) throw std::invalid_argument("a skeleton needs at least one bone");
+  if (bones > kMostBones) {
+    throw std::invalid_argument("a skeleton of " + std::to_string(bones) + " bones: at most " +
+                                std::to_string(kMostBones) + " are allowed");
+  }
   const std::array sizes = {skeleton.parents.size(), skeleton.rest_rotations.size(), skeleton.offsets.size(),
                             skeleton.tips.size()};
   const std::array fields = {"parents", "rest rotations", "offsets", "tips"};
@@ -28,6 +37,13 @@ void check_sizes(const Skeleton& skeleton) {
                                   "') has " + std::to_string(sizes[i]) + " " + fields[i]);
     }
   }
+}
+
+void check_name(const Skeleton& skeleton, int bone) {
+  const std::string& name = skeleton.names[bone];
+  if (name.size() <= kLongestName) return;
+  throw std::invalid_argument("bone '" + name.substr(0, 30) + "...' has a name of " + std::to_string(name.size()) +
+                              " bytes: at most " + std::to_string(kLongestName) + " are allowed");
 }
 
 void check_parent(const Skeleton& skeleton, int bone) {
@@ -44,8 +60,13 @@ void check_parent(const Skeleton& skeleton, int bone) {
 
 void check_numbers(const Skeleton& skeleton, int bone) {
   const std::string label = "bone '" + skeleton.names[bone] + "'";
-  if (!skeleton.offsets[bone].allFinite()) throw std::invalid_argument(label + " has an offset that is not finite");
-  if (!skeleton.tips[bone].allFinite()) throw std::invalid_argument(label + " has a tip that is not finite");
+  const auto check = [&](const Vector3& place, const char* what) {
+    if (!place.allFinite()) throw std::invalid_argument(label + " has " + what + " that is not finite");
+    if (place.cwiseAbs().maxCoeff() > kFarthest)
+      throw std::invalid_argument(label + " has " + what + " of more than 1000 km");
+  };
+  check(skeleton.offsets[bone], "an offset");
+  check(skeleton.tips[bone], "a tip");
   const double norm = skeleton.rest_rotations[bone].norm();
   if (!(std::abs(norm - 1) < kUnitTolerance)) {
     throw std::invalid_argument(label + " has a rest rotation that is not a unit quaternion");
@@ -110,6 +131,7 @@ Skeleton make_skeleton(Skeleton skeleton) {
   check_sizes(skeleton);
   std::unordered_set<std::string> seen;
   for (int bone = 0; bone < skeleton.size(); ++bone) {
+    check_name(skeleton, bone);
     if (!seen.insert(skeleton.names[bone]).second) {
       throw std::invalid_argument("bone '" + skeleton.names[bone] + "' appears twice: names must be unique");
     }
@@ -131,6 +153,13 @@ double stature(const Skeleton& skeleton) {
   if (roles.head < 0 || roles.hips < 0 || foot < 0) return longest_chain(skeleton, std::max(roles.hips, 0));
   // The foot bone's own length stands for the ankle's height, which no bone holds.
   return skeleton.tips[roles.head].norm() + path_length(skeleton, roles.head, foot) + skeleton.tips[foot].norm();
+}
+
+void check_stature(const Skeleton& skeleton) {
+  const double height = stature(skeleton);
+  if (height >= kLeastStature && height <= kMostStature) return;
+  throw std::invalid_argument("the bones from '" + skeleton.names[skeleton.roles.hips] + "' on make a character " +
+                              text_of(height) + " m tall: it must be 1 mm to 10,000 km");
 }
 
 double standard_scale(const Skeleton& skeleton) { return 1.8 / stature(skeleton); }

@@ -11,12 +11,15 @@
 #include <stdexcept>
 
 #include "fragmotion/parallel.hpp"
+#include "ranges.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr int kPoseComponents = 8;
-constexpr int kBlock = 50;  // samples: neighbours in time are alike, so folds are made of blocks of five seconds
+constexpr int kMostFolds = 1000;
+constexpr double kLargest = 1e9;  // C and gamma
+constexpr int kBlock = 50;        // samples: neighbours in time are alike, so folds are made of blocks of five seconds
 const std::vector<double> kCosts{1, 8, 64, 512};
 const std::vector<double> kGammas{1.0 / 64, 1.0 / 16, 1.0 / 4, 1};
 
@@ -126,10 +129,9 @@ Policy whole_table(const Model& model, const std::vector<double>& features, int 
 
 void check(const std::vector<std::vector<int>>& traces, const SvmOptions& options) {
   if (traces.empty()) throw std::invalid_argument("the svm policy needs at least one trace to learn from");
-  if (options.folds < 2) throw std::invalid_argument("the svm's cross-validation needs at least 2 folds");
+  require_range("the number of folds of the svm's cross-validation", options.folds, 2, kMostFolds);
   for (const double value : {options.c, options.gamma}) {
-    if (!(value >= 0 && std::isfinite(value)))
-      throw std::invalid_argument("the svm's C and gamma must be over 0, or 0 to have them chosen");
+    require_range("the svm's C and gamma (0: chosen)", value, 0, kLargest);
   }
 }
 

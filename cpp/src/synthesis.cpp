@@ -12,6 +12,7 @@
 #include "fragmotion/contacts.hpp"
 #include "fragmotion/distance.hpp"
 #include "fragmotion/transform.hpp"
+#include "ranges.hpp"
 
 namespace fragmotion {
 namespace {
@@ -40,7 +41,7 @@ void add_standing(FragmentPool& pool, const SynthesisOptions& options) {
   const double rate = pool.clips[0].rate;
   Fragment fragment;
   fragment.clip = static_cast<int>(pool.clips.size());
-  fragment.end = static_cast<int>(std::lround(kStandSeconds * rate));
+  fragment.end = std::max(1, static_cast<int>(std::lround(kStandSeconds * rate)));
   fragment.origin = Origin::transformed;
   const int frames = fragment.end + 1 + static_cast<int>(std::lround(options.tail * rate));
   pool.clips.push_back(make_clip(pool.skeleton, standing(Kinematics(pool.skeleton), pool, frames, rate)));
@@ -243,7 +244,7 @@ class Synthesizer {
     const double sideways = std::abs(std::sin(change.direction)), hurry = 1 + sideways * (kShuffle - 1);
     change.tempo = std::max(usual / pieces, hurry * std::clamp(std::sqrt(faster), 1 / kHurry, kHurry));
     change.speed = faster / change.tempo;
-    const int longest = static_cast<int>(options_.longest * clip.rate * change.tempo + 1e-6);
+    const int longest = std::max(1, static_cast<int>(options_.longest * clip.rate * change.tempo + 1e-6));
     const int beyond = tail(clip.rate * change.tempo);
     const Clip made = transformed(kinematics_, legs_, clip, contacts(best->clip), best->begin, best->end,
                                   length + longest + beyond, change);
@@ -269,9 +270,17 @@ class Synthesizer {
   std::map<int, Contacts> contacts_;  // of the clips that were transformed
 };
 
+void check(const SynthesisOptions& options) {
+  require_range("the tolerance of synthesis", options.tolerance, 0, 100);
+  require_range("the number of fragments wanted for each control", options.wanted, 0, 1000);
+  require_range("the longest fragment (s)", options.longest, 0.1, 10);
+  require_range("the tail of a fragment (s)", options.tail, 0, 10);
+}
+
 }  // namespace
 
 void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, const SynthesisOptions& options) {
+  check(options);
   const auto stands = [&](const Fragment& f) { return space.distance(f.evident, {}) <= options.tolerance; };
   if (std::none_of(pool.fragments.begin(), pool.fragments.end(), stands)) add_standing(pool, options);
   Synthesizer(pool, space, usual, options).fill();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "fragmotion/character.hpp"
@@ -199,6 +200,58 @@ TEST(Build, TakesRawClipsAndARawSkeleton) {
   EXPECT_NE(error_of([&] { build(skeleton, raw, some_traces(), few_classes()); }).find("run"), std::string::npos);
 }
 
+TEST(Build, RefusesOptionsOutOfTheirRangesBeforeItBegins) {
+  const auto error = [](const std::function<void(BuildOptions&)>& spoil) {
+    BuildOptions options = few_classes();
+    spoil(options);
+    const Progress none = [](double, const std::string& stage) {
+      ADD_FAILURE() << stage;
+      return false;
+    };
+    return error_of([&] { build(humanoid(), some_takes(), some_traces(), options, none); });
+  };
+  for (const double bad : {-0.1, 0.0, 0.01, 11.0, 1e8, 1e308, std::nan(""), double(INFINITY), -double(INFINITY)}) {
+    EXPECT_NE(error([=](BuildOptions& o) { o.cut.shortest = bad; }).find("shortest fragment"), std::string::npos)
+        << bad;
+    EXPECT_NE(error([=](BuildOptions& o) { o.cut.longest = bad; }).find("longest fragment"), std::string::npos) << bad;
+  }
+  for (const int bad : {-1, 0, 10001, 0x7fffffff}) {
+    EXPECT_NE(error([=](BuildOptions& o) { o.classes = bad; }).find("classes must be 1 to 10000"), std::string::npos);
+  }
+  EXPECT_NE(error([](BuildOptions& o) { o.restarts = 10001; }).find("restarts must be"), std::string::npos);
+}
+
+TEST(Build, BuildsAtTheEndsOfTheRangesWhatCanBeSaved) {
+  for (const double longest : {0.1, 10.0}) {
+    for (const double rate : {10.0, 30.0}) {
+      BuildOptions options = few_classes();
+      options.cut.shortest = 0.1;
+      options.cut.longest = longest;
+      options.classes = 3;
+      const std::vector<Clip> all = gait_takes(rate);
+      const std::string bytes = to_bytes(build(humanoid(), {all[0], all[1]}, some_traces(), options));
+      EXPECT_EQ(to_bytes(from_bytes(bytes)), bytes) << longest;
+    }
+  }
+}
+
+TEST(Build, RefusesWhatCouldNotBeSavedNamingTheClipAndTheLimit) {
+  const auto error = [](const std::function<void(Clip&)>& spoil) {
+    std::vector<Clip> takes = some_takes();
+    takes[1].name = "far";
+    spoil(takes[1]);
+    return error_of([&] { build(humanoid(), takes, some_traces(), few_classes()); });
+  };
+  const std::string fast = error([](Clip& c) { c.rate = 1e9; });
+  EXPECT_NE(fast.find("'far'"), std::string::npos) << fast;
+  EXPECT_NE(fast.find("at most 10000"), std::string::npos) << fast;
+  const std::string far = error([](Clip& c) { c.root_positions[30] = 1e12; });
+  EXPECT_NE(far.find("'far'"), std::string::npos) << far;
+  EXPECT_NE(far.find("1000 km"), std::string::npos) << far;
+  Skeleton flat = humanoid(1e-5);
+  EXPECT_NE(error_of([&] { build(flat, some_takes(), some_traces(), few_classes()); }).find("1 mm"), std::string::npos);
+}
+
 TEST(Build, RefusesTracesThatAreNotFiniteNamingTheControl) {
   Trace trace(5);
   trace[3].turn = std::numeric_limits<double>::quiet_NaN();
@@ -272,12 +325,59 @@ TEST(Build, TakesASkeletonOfOneBone) {
   }
   BuildOptions options = few_classes();
   options.classes = 3;
-  Character c;
-  const std::string error = error_of([&] { c = build(bone, {make_clip(bone, clip)}, some_traces(), options); });
-  if (error == "no error") {
-    EXPECT_EQ(c.classes.count, 3);
-  } else {
-    EXPECT_NE(error.find("bone"), std::string::npos) << error;
+  const auto c = std::make_shared<const Character>(build(bone, {make_clip(bone, clip)}, some_traces(), options));
+  EXPECT_EQ(c->classes.count, 3);
+  Player player(c);
+  for (int i = 0; i < 60; ++i) player.step({0, 1, 0, 0}, 1.0 / 30);
+  EXPECT_GT(player.root_position().head<2>().norm(), 1);  // it slides, at 1 m/s
+}
+
+// Plays a character that has no legs to lock, with and without the lock; returns the frames that differ.
+int frames_that_a_foot_lock_moves(const std::shared_ptr<const Character>& c) {
+  PlayerOptions free;
+  free.lock_feet = false;
+  Player locked(c), unlocked(c, free);
+  const Trace trace = simulate_trace("explorer", 10, 4, c->space);
+  const Performance a = locked.run(trace, 30), b = unlocked.run(trace, 30);
+  const std::size_t width = a.rotations.size() / a.frames;
+  int moved = 0;
+  for (int f = 0; f < a.frames; ++f) {
+    const auto same = [&](const std::vector<double>& one, const std::vector<double>& other, std::size_t n) {
+      return std::equal(one.begin() + n * f, one.begin() + n * (f + 1), other.begin() + n * f);
+    };
+    moved += same(a.rotations, b.rotations, width) && same(a.root_positions, b.root_positions, 3) ? 0 : 1;
+  }
+  return moved;
+}
+
+TEST(Build, TakesARigWithoutKneesAndLocksNoFeet) {
+  for (const bool root : {false, true}) {
+    const Skeleton skeleton = kneeless_skeleton(root);
+    const std::vector<Clip> clips{kneeless_clip(skeleton, 0), kneeless_clip(skeleton, 1)};
+    const auto make = [&] { return build(skeleton, clips, some_traces(), few_classes()); };
+    const std::string bytes = to_bytes(make());
+    EXPECT_EQ(to_bytes(make()), bytes) << root;
+    const auto c = std::make_shared<const Character>(from_bytes(bytes));
+    EXPECT_FALSE(c->contacts[0].feet[0].empty()) << root;
+    EXPECT_EQ(frames_that_a_foot_lock_moves(c), 0) << root;
+  }
+}
+
+TEST(Build, GivesTheSameBitsWhereASkeletonHasOneLeg) {
+  for (const char* side : {".L", ".R"}) {
+    Skeleton skeleton = humanoid();
+    for (const char* bone : {"thigh", "shin", "foot"}) {
+      std::string& name = skeleton.names[skeleton.find(std::string(bone) + side)];
+      name = "peg " + std::to_string(&name - skeleton.names.data());
+    }
+    skeleton.roles = {};
+    const auto make = [&] { return to_bytes(build(skeleton, some_takes(), some_traces(), few_classes())); };
+    const std::string bytes = make();
+    EXPECT_EQ(make(), bytes) << side;
+    for (const Leg& leg : from_bytes(bytes).legs) {
+      EXPECT_FALSE(leg.exists()) << side;
+      EXPECT_EQ(leg.hinge, Leg().hinge) << side;
+    }
   }
 }
 

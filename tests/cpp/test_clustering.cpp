@@ -338,6 +338,20 @@ TEST(Cluster, RunsOnceWhereNoRestartIsAskedFor) {
   }
 }
 
+TEST(Cluster, RefusesOptionsOutOfTheirRanges) {
+  const Trajectories t = blobs(50, 2, 2, 1);
+  const auto error = [&](int classes, int restarts, int iterations) {
+    ClusterOptions options;
+    options.classes = classes;
+    options.restarts = restarts;
+    options.iterations = iterations;
+    return error_of([&] { cluster(t, equal_weights(t), options); });
+  };
+  for (const int bad : {-1, 0, 10001}) EXPECT_NE(error(bad, 1, 1).find("classes must be 1 to"), std::string::npos);
+  EXPECT_NE(error(2, 10001, 1).find("restarts must be 1 to 10000"), std::string::npos);
+  for (const int bad : {-1, 0, 1000001}) EXPECT_NE(error(2, 1, bad).find("iterations must be"), std::string::npos);
+}
+
 TEST(Cluster, TakesTheFirstRunWhereNoScoreIsANumber) {
   const Trajectories t = blobs(50, 2, 2, 1);
   ClusterOptions options;

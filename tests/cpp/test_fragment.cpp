@@ -50,8 +50,8 @@ TEST(CutFragments, KeepsRandomLimitsOrSaysThatTheyHoldNoFrame) {
   int refused = 0;
   for (int n = 0; n < 200; ++n) {
     CutOptions options;
-    options.shortest = 0.01 + 0.3 * random.uniform();
-    options.longest = options.shortest + 0.4 * random.uniform() * random.uniform();
+    options.shortest = 0.02 + 0.3 * random.uniform();
+    options.longest = std::max(0.1, options.shortest + 0.4 * random.uniform() * random.uniform());
     options.at_gait_events = n % 2 == 0;
     const double rate = kRates[random.below(6)];
     FragmentPool pool;
@@ -67,6 +67,21 @@ TEST(CutFragments, KeepsRandomLimitsOrSaysThatTheyHoldNoFrame) {
   }
   EXPECT_GT(refused, 3);
   EXPECT_LT(refused, 120);
+}
+
+TEST(CutFragments, RefusesLimitsOutOfTheirRanges) {
+  for (const double bad : {-1.0, 0.0, 0.019, 10.1, 1e8, 1e308, std::nan(""), double(INFINITY), -double(INFINITY)}) {
+    CutOptions options;
+    options.shortest = bad;
+    EXPECT_NE(error_of([&] { cut_at(30, 1, options); }).find("shortest fragment (s) must be 0.02 to 10"),
+              std::string::npos)
+        << bad;
+    options = {};
+    options.longest = bad;
+    EXPECT_NE(error_of([&] { cut_at(30, 1, options); }).find("longest fragment (s) must be 0.1 to 10"),
+              std::string::npos)
+        << bad;
+  }
 }
 
 TEST(CutFragments, FollowOneAnotherWithoutGapsOrOverlap) {

@@ -342,6 +342,20 @@ TEST(Player, RefusesStepsThatAreNoNumbers) {
   EXPECT_EQ(error_of([&] { player.step({}, 0); }), "no error");
 }
 
+TEST(Player, RefusesToStandWhereNoPlaceIs) {
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  Player player(gait_character());
+  const Vector3 before = player.root_position();
+  for (const double bad : {nan, infinity, -infinity, 1e308, -1.1e9}) {
+    for (const CharacterFrame& frame : {CharacterFrame{{bad, 0}, 0}, {{0, bad}, 0}, {{0, 0}, bad}})
+      EXPECT_NE(error_of([&] { player.reset(frame); }).find("to stand at"), std::string::npos) << bad;
+  }
+  EXPECT_EQ(player.root_position(), before);
+  player.reset({{1e9, -1e9}, 1e9});
+  for (int i = 0; i < 60; ++i) player.step(kForward, 1.0 / 30);
+  EXPECT_TRUE(player.root_position().allFinite());
+}
+
 TEST(Player, IsCancelledByItsProgress) {
   Player player(gait_character());
   EXPECT_THROW(player.run(Trace(500, kForward), 60, [](double f, const std::string&) { return f < 0.3; }), Cancelled);

@@ -280,10 +280,10 @@ TEST(IteratePolicy, RefusesOptionsThatHaveNoEnd) {
   for (const double discount : {1.0, 2.0, -0.1, std::nan("")}) {
     EXPECT_NE(error(discount, 1e-4, 100).find("discount"), std::string::npos) << discount;
   }
-  for (const double tolerance : {0.0, -1.0, std::nan("")}) {
+  for (const double tolerance : {0.0, -1.0, 1.1, std::nan("")}) {
     EXPECT_NE(error(0.9, tolerance, 100).find("tolerance"), std::string::npos) << tolerance;
   }
-  EXPECT_NE(error(0.9, 1e-4, 0).find("sweeps"), std::string::npos);
+  for (const int sweeps : {0, -1, 1000001}) EXPECT_NE(error(0.9, 1e-4, sweeps).find("sweeps"), std::string::npos);
   EXPECT_EQ(error(0, 1e-4, 1), "no error");
 }
 

@@ -11,6 +11,7 @@
 #include "fragmotion/skeleton.hpp"
 #include "fragmotion/take.hpp"
 #include "mocap_files.hpp"
+#include "small_character.hpp"
 
 namespace fragmotion {
 namespace {
@@ -84,6 +85,40 @@ TEST(Skeleton, MakeSkeletonNamesTheBoneThatIsWrong) {
     broken.harm(skeleton);
     const std::string error = error_of([&] { make_skeleton(skeleton); });
     EXPECT_NE(error.find(broken.error), std::string::npos) << broken.what << ": " << error;
+  }
+}
+
+// Bones that hang on each other, each a metre long.
+Skeleton chain(int bones) {
+  Skeleton skeleton;
+  for (int bone = 0; bone < bones; ++bone) {
+    skeleton.names.push_back("bone" + std::to_string(bone));
+    skeleton.parents.push_back(bone - 1);
+  }
+  skeleton.rest_rotations.assign(bones, Quaternion::Identity());
+  skeleton.offsets.assign(bones, {0, 0, 1});
+  skeleton.tips = skeleton.offsets;
+  return skeleton;
+}
+
+TEST(Skeleton, MakeSkeletonSaysItsLimits) {
+  const auto error = [](const Skeleton& skeleton) { return error_of([&] { make_skeleton(skeleton); }); };
+  EXPECT_EQ(error(chain(4096)), "no error");
+  EXPECT_NE(error(chain(4097)).find("4097 bones: at most 4096"), std::string::npos) << error(chain(4097));
+  EXPECT_NE(error(chain(40000)).find("at most 4096"), std::string::npos);
+  Skeleton skeleton = chain(3);
+  skeleton.names[2] = std::string(255, 'l');
+  EXPECT_EQ(error(skeleton), "no error");
+  skeleton.names[2] = "l l " + std::string(200000, 'l');
+  EXPECT_NE(error(skeleton).find("'l l lll"), std::string::npos) << error(skeleton);
+  EXPECT_NE(error(skeleton).find("at most 255"), std::string::npos) << error(skeleton);
+  for (std::vector<Vector3> Skeleton::*part : {&Skeleton::offsets, &Skeleton::tips}) {
+    skeleton = chain(3);
+    (skeleton.*part)[1].y() = -1e6;
+    EXPECT_EQ(error(skeleton), "no error");
+    (skeleton.*part)[1].y() = -1.1e6;
+    EXPECT_NE(error(skeleton).find("'bone1'"), std::string::npos) << error(skeleton);
+    EXPECT_NE(error(skeleton).find("1000 km"), std::string::npos) << error(skeleton);
   }
 }
 
@@ -317,6 +352,38 @@ TEST(MirrorBones, IsItsOwnInverse) {
   const Skeleton skeleton = plain_skeleton({{"a", ""}, {"f.L", "a"}, {"f.l", "a"}, {"f.R", "a"}, {"f.r", "a"}});
   const std::vector<int> mirror = mirror_bones(skeleton);
   for (int bone = 0; bone < skeleton.size(); ++bone) EXPECT_EQ(mirror[mirror[bone]], bone);
+}
+
+TEST(Stature, IsCheckedToBeALength) {
+  const auto error = [](double size) {
+    Skeleton skeleton = chain(2);
+    for (auto* part : {&skeleton.offsets, &skeleton.tips}) part->assign(2, {0, 0, size});
+    return error_of([&] { check_stature(make_skeleton(skeleton)); });
+  };
+  for (const double size : {1e-3, 1.0, 1e6}) EXPECT_EQ(error(size), "no error") << size;
+  for (const double size : {0.0, 1e-300, 1e-4}) EXPECT_NE(error(size).find("'bone0'"), std::string::npos) << size;
+}
+
+TEST(Roles, TakeTheLegForTheThighWhereThereIsNoKnee) {
+  for (const bool root : {false, true}) {
+    const Skeleton s = kneeless_skeleton(root);
+    EXPECT_EQ(s.roles.left_thigh, s.find("leg.L"));
+    EXPECT_EQ(s.roles.right_thigh, s.find("leg.R"));
+  }
+}
+
+TEST(Roles, TakeNoBoneThatCarriesBothLegsForAThigh) {
+  Skeleton s = chain(6);  // hips > carrier > leg.L > foot.L, leg.R > foot.R
+  s.names = {"hips", "carrier", "leg.L", "foot.L", "leg.R", "foot.R"};
+  s.parents = {-1, 0, 1, 2, 1, 4};
+  s = make_skeleton(s);
+  EXPECT_EQ(s.roles.left_thigh, s.find("leg.L"));
+  EXPECT_EQ(s.roles.right_thigh, s.find("leg.R"));
+  s = chain(3);
+  s.names = {"hips", "foot.L", "foot.R"};
+  s.parents = {-1, 0, 0};
+  s = make_skeleton(s);
+  EXPECT_EQ(s.roles.left_thigh, s.roles.left_foot);
 }
 
 TEST(Stature, FollowsTheBonesWhateverTheRestPose) {

@@ -206,8 +206,8 @@ TEST(SvmPolicy, RefusesParametersOutOfRange) {
   const auto error = [&](int folds, double c, double gamma) {
     return error_of([&] { svm_policy(w.quality, w.traces, w.features, ControlSpace(), {folds, c, gamma}); });
   };
-  for (const int folds : {1, 0, -3}) EXPECT_NE(error(folds, 0, 0).find("folds"), std::string::npos) << folds;
-  for (const double bad : {-1.0, std::nan(""), static_cast<double>(INFINITY)}) {
+  for (const int folds : {1, 0, -3, 1001}) EXPECT_NE(error(folds, 0, 0).find("folds"), std::string::npos) << folds;
+  for (const double bad : {-1.0, 1.1e9, std::nan(""), static_cast<double>(INFINITY)}) {
     EXPECT_NE(error(3, bad, 1).find("C and gamma"), std::string::npos) << bad;
     EXPECT_NE(error(3, 1, bad).find("C and gamma"), std::string::npos) << bad;
   }

@@ -12,6 +12,7 @@
 #include "fragmotion/pose.hpp"
 #include "fragmotion/synthesis.hpp"
 #include "fragmotion/transform.hpp"
+#include "mocap_files.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
@@ -405,6 +406,19 @@ TEST(Synthesize, RunsBackwardWithoutKneesThatSnap) {
     EXPECT_LT(fastest_knee(pool.clips[f.clip], f.begin, f.end), 1.1 * own);
   }
   EXPECT_GT(found, 1);
+}
+
+TEST(Synthesize, RefusesOptionsOutOfTheirRanges) {
+  FragmentPool pool = gait_pool({gait_clip({})});
+  const auto error = [&](const SynthesisOptions& options) {
+    return error_of([&] { synthesize(pool, ControlSpace(), 1, options); });
+  };
+  for (const double bad : {-1.0, std::nan(""), 1e8, double(INFINITY)}) {
+    EXPECT_NE(error({bad, 4, 0.5, 0.3}).find("tolerance"), std::string::npos) << bad;
+    EXPECT_NE(error({0.3, 4, bad, 0.3}).find("longest fragment (s) must be 0.1 to 10"), std::string::npos) << bad;
+    EXPECT_NE(error({0.3, 4, 0.5, bad}).find("tail"), std::string::npos) << bad;
+  }
+  for (const int bad : {-1, 1001}) EXPECT_NE(error({0.3, bad, 0.5, 0.3}).find("wanted"), std::string::npos) << bad;
 }
 
 TEST(Synthesize, LetsEveryCharacterStand) {

@@ -53,7 +53,7 @@ class Player {
   Player(Player&&) = default;
 
   /// Stands at `frame`, in the class that best performs standing still, and draws again from the seed: after a reset
-  /// the same steps show the same poses.
+  /// the same steps show the same poses. Throws std::invalid_argument unless `frame` is within 1e9 m and 1e9 rad.
   void reset(const CharacterFrame& frame = {});
 
   /// Plays on for `seconds` under a control, which need not be one of the 102 points. Allocates nothing. Throws

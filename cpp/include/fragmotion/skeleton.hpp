@@ -38,7 +38,8 @@ struct Skeleton {
 };
 
 /// Checks sizes, order, unique names and finite numbers, fills `roles` from the names where they are -1, and returns
-/// the skeleton. Throws std::invalid_argument that names the bone.
+/// the skeleton. Throws std::invalid_argument that names the bone; also over 4,096 bones, on a name of more than 255
+/// bytes and on an offset or tip of more than 1,000 km.
 Skeleton make_skeleton(Skeleton skeleton);
 
 /// The roles that the names and the hierarchy tell: Blender, Mixamo, CMU, Bandai-Namco, Unreal and Biped names.
@@ -52,6 +53,9 @@ std::vector<int> mirror_bones(const Skeleton& skeleton);
 /// Height of the standing character in metres, whatever the rest pose: the chain of bones from the head's tip to the
 /// hips and on to a foot, or the longest chain of bones where those roles are missing.
 double stature(const Skeleton& skeleton);
+
+/// Throws std::invalid_argument unless the stature is 1 mm to 10,000 km, so that distances are numbers.
+void check_stature(const Skeleton& skeleton);
 
 /// 1.8 m over the stature: distances are scaled by this, so that a number means the same on every rig.
 double standard_scale(const Skeleton& skeleton);

@@ -14,10 +14,10 @@ struct SvmSamples {
 };
 
 struct SvmOptions {
-  int folds = 3;     ///< Of the cross-validation that chooses what is not given; at least 2.
-  double c = 0;      ///< Penalty a of Eq. 5; 0: by cross-validation.
-  double gamma = 0;  ///< Of Eq. 6; 0: by cross-validation.
-  int threads = 0;
+  int folds = 3;     ///< Of the cross-validation that chooses what is not given; 2 .. 1000.
+  double c = 0;      ///< Penalty a of Eq. 5, up to 1e9; 0: by cross-validation.
+  double gamma = 0;  ///< Of Eq. 6, up to 1e9; 0: by cross-validation.
+  int threads = 0;   ///< 0 or less: as many as the machine has.
 };
 
 /// A trained policy with the parameters that made it.

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace fragmotion {
+
+/// A number as short as people write it.
+inline std::string text_of(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// Throws std::invalid_argument "WHAT must be LEAST to MOST, not VALUE" unless it is.
+inline void require_range(const std::string& what, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  throw std::invalid_argument(what + " must be " + text_of(least) + " to " + text_of(most) + ", not " + text_of(value));
+}
+
+}  // namespace fragmotion
