@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/policy_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
 #include "fragmotion/distance.hpp"
 #include "fragmotion/role_names.hpp"
+#include "policy_bytes.hpp"
+#include "ranges.hpp"
 #include "write_file.hpp"
 
 namespace fragmotion {
@@ -20,7 +23,13 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "policy files are littl
 constexpr char kMagic[9] = "FRAGMOTN";
 constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
-constexpr double kShortest = 1e-3, kLongest = 3600;  // s that a fragment may last: a player must get to its end
+constexpr double kRounding = 1e-6;
+constexpr double kShortest = (1 - kRounding) * kShortestFragment, kLongest = 3600;  // s that a fragment may last
+constexpr double kMost = 1e9;  // of what is in m/s, rad/s or a ratio: its square is a number, and no body is so fast
+constexpr double kHighest = 1e10;  // m of a floor: above any chain of bones at any place
+// Memory of the openings, which a player needs beside the file: a file takes at most 20 times its size, beyond 50 MB.
+constexpr std::size_t kRoom = 48000000, kTimes = 16;  // bytes, and for each byte of the file
+constexpr std::streamoff kLargestFile = 2000000000;   // bytes: some ten hours of motion at 120 frames a second
 
 std::uint64_t checksum(const char* data, std::size_t size) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
@@ -211,7 +220,7 @@ void exchange(Archive& a, Character& c) {
   });
   a.template numbers<std::int32_t>(c.bridges);
   a.template numbers<double>(c.control_model);
-  a.list(c.contacts, 8, [&](auto& contacts) { exchange_contacts(a, contacts); });
+  a.list(c.contacts, 40, [&](auto& contacts) { exchange_contacts(a, contacts); });
   for (Leg& leg : c.legs) exchange_vector(a, leg.hinge);  // the bones are found anew by their roles
 }
 
@@ -226,24 +235,42 @@ bool all_within(const std::vector<int>& values, int least, int end) {
   return true;
 }
 
-bool all_finite(const std::vector<double>& values) {
+bool all_in_range(const std::vector<double>& values, double least, double most) {
   for (const double value : values) {
-    if (!std::isfinite(value)) return false;
+    if (!(value >= least && value <= most)) return false;
   }
   return true;
 }
 
-void check_pool(PackedPool& pool) {
+void check_pool(const PackedPool& pool) {
   require(pool.skeleton.roles.hips >= 0, "roles");  // make_skeleton would find new ones
   make_skeleton(pool.skeleton);
+  check_stature(pool.skeleton);
   for (const PackedClip& clip : pool.clips) check(clip, pool.skeleton);
   for (const Fragment& f : pool.fragments) {
     require(f.clip >= 0 && f.clip < static_cast<int>(pool.clips.size()) && f.begin >= 0 && f.begin < f.end &&
                 f.end < pool.clips[f.clip].frames && f.origin <= Origin::transformed,
             "fragments and clips");
     require(pool.seconds(f) >= kShortest && pool.seconds(f) <= kLongest, "fragments and rates");
-    require(all_finite({f.evident.x, f.evident.y, f.evident.turn, f.evident.jump}), "evident controls");
+    require(all_in_range({f.evident.x, f.evident.y, f.evident.turn, f.evident.jump}, -kMost, kMost),
+            "evident controls");
   }
+}
+
+void check_space(const ControlSpace& space) {
+  const ControlWeights& weights = space.weights();
+  require(all_in_range({space.walk(), space.run(), space.turn_rate(), space.scale()}, 1 / kMost, kMost) &&
+              all_in_range({weights.velocity, weights.turn, weights.jump}, 0, kMost),
+          "controls");
+}
+
+// Classes that without_classes() leaves out match nothing.
+void check_quality(const Quality& quality, std::size_t classes) {
+  require(static_cast<std::size_t>(quality.classes) == classes && quality.smoothness.size() == classes * classes &&
+              quality.match.size() == classes * ControlSpace::kPoints &&
+              all_in_range(quality.smoothness, std::numeric_limits<double>::min(), 1) &&
+              all_in_range(quality.match, 0, 1),
+          "qualities");
 }
 
 // A row that summed to more than 1 would let values grow without end.
@@ -261,8 +288,34 @@ void check_model(const std::vector<double>& model) {
   }
 }
 
-void check(Character& c) {
+void check_contacts(const Character& c) {
+  require(c.contacts.size() == c.pool.clips.size(), "contacts");
+  for (std::size_t i = 0; i < c.contacts.size(); ++i) {
+    const auto& [left, right] = c.contacts[i].feet;
+    require(left.size() == right.size() &&
+                (left.empty() || left.size() == static_cast<std::size_t>(c.pool.clips[i].frames)),
+            "contacts");
+    for (const FootHeights& floor : c.contacts[i].floors) {
+      require(all_in_range({floor.ball, floor.heel}, -kHighest, kHighest), "contacts");
+    }
+  }
+}
+
+// That the openings of a file of `size` bytes are in proportion.
+void check_memory(const Character& c, std::size_t size) {
+  const std::size_t fragments = c.pool.fragments.size(), tips = measured_bones(c.pool.skeleton).size(),
+                    bytes = fragments * 3 * padded(2 * static_cast<int>(tips)) * sizeof(float);
+  if (bytes <= kRoom + kTimes * size) return;
+  throw std::invalid_argument(std::to_string(fragments) + " fragments of " + std::to_string(tips) +
+                              " bones would take " + std::to_string(bytes / 1000000) + " MB of memory, more than " +
+                              std::to_string(kRoom / 1000000) + " MB and " + std::to_string(kTimes) +
+                              " times the file's size");
+}
+
+// All that a character must be to be saved and played.
+void check(const Character& c) {
   check_pool(c.pool);
+  check_space(c.space);
   const std::size_t n = c.classes.count, fragments = c.pool.fragments.size();
   require(c.classes.count > 0 && c.classes.labels.size() == fragments && c.classes.representatives.size() == n &&
               all_within(c.classes.labels, 0, c.classes.count) &&
@@ -272,10 +325,8 @@ void check(Character& c) {
     require(c.classes.labels[c.classes.representatives[k]] == static_cast<int>(k), "representatives");
   }
   for (const std::vector<int>& members : c.classes.members()) require(!members.empty(), "classes");
-  require(c.quality.classes == c.classes.count && c.quality.smoothness.size() == n * n &&
-              c.quality.match.size() == n * ControlSpace::kPoints && all_finite(c.quality.smoothness) &&
-              all_finite(c.quality.match),
-          "qualities");
+  require(c.classes.inertia >= 0 && std::isfinite(c.classes.inertia), "classes");
+  check_quality(c.quality, n);
   require(!c.policies.empty(), "policy tables");
   for (const Policy& policy : c.policies) {
     require(policy.classes == c.classes.count && policy.next.size() == n * ControlSpace::kPoints &&
@@ -284,20 +335,28 @@ void check(Character& c) {
   }
   require(c.bridges.size() == n * n && all_within(c.bridges, -1, c.classes.count), "stand-in-place classes");
   check_model(c.control_model);
-  require(c.contacts.size() == c.pool.clips.size(), "contacts");
-  for (std::size_t i = 0; i < c.contacts.size(); ++i) {
-    const std::size_t frames = c.contacts[i].feet[0].size();
-    require(frames == 0 || frames == static_cast<std::size_t>(c.pool.clips[i].frames), "contacts");
-    for (const FootHeights& floor : c.contacts[i].floors) {
-      require(std::isfinite(floor.ball) && std::isfinite(floor.heel), "contacts");
-    }
-  }
+  check_contacts(c);
   for (const Leg& leg : c.legs) require(std::abs(leg.hinge.norm() - 1) < 1e-6, "legs");
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& cause) {
+    throw std::invalid_argument("cannot read " + path.u8string() + cause);
+  };
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (exists(status) && !is_regular_file(status)) fail(": it is no regular file");
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
+  if (size > kLargestFile) fail(": it is larger than " + std::to_string(kLargestFile / 1000000000) + " GB");
+  std::string bytes(static_cast<std::size_t>(std::max<std::streamoff>(0, size)), '\0');
+  if (!file.seekg(0) || !file.read(bytes.data(), size)) fail("");
+  return bytes;
 }
 
 }  // namespace
 
-std::string to_bytes(const Character& character) {
+std::string unchecked_bytes(const Character& character) {
   Writer payload;
   exchange(payload, const_cast<Character&>(character));
   Writer file;
@@ -307,6 +366,17 @@ std::string to_bytes(const Character& character) {
   file.bytes += payload.bytes;
   file.number<std::uint64_t>(checksum(payload.bytes.data(), payload.bytes.size()));
   return file.bytes;
+}
+
+std::string to_bytes(const Character& character) {
+  try {
+    check(character);
+    std::string bytes = unchecked_bytes(character);
+    check_memory(character, bytes.size());
+    return bytes;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("the policy cannot be saved: ") + error.what());
+  }
 }
 
 Character from_bytes(const std::string& bytes, const std::string& name) {
@@ -333,6 +403,7 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     exchange(reader, character);
     if (!reader.done()) throw std::invalid_argument("it has bytes too many");
     check(character);
+    check_memory(character, bytes.size());
     Legs legs = find_legs(Kinematics(character.pool.skeleton), {});
     for (std::size_t side = 0; side < legs.size(); ++side) legs[side].hinge = character.legs[side].hinge;
     character.legs = legs;
@@ -349,11 +420,7 @@ void save_policy(const std::filesystem::path& path, const Character& character) 
 }
 
 Character load_policy(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  if (file) bytes << file.rdbuf();
-  if (!file) throw std::invalid_argument("cannot read " + path.string());
-  return from_bytes(bytes.str(), path.filename().string());
+  return from_bytes(read_file(path), path.filename().u8string());
 }
 
 }  // namespace fragmotion
