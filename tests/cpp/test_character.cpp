@@ -320,7 +320,7 @@ TEST(Build, TakesASkeletonOfOneBone) {
   bone = make_skeleton(bone);
   Clip clip{"slide", 30, 91, {}, {}, {}};
   for (int f = 0; f < clip.frames; ++f) {
-    clip.root_positions.insert(clip.root_positions.end(), {0, -f / 30.0, 0.1 * std::sin(f)});
+    clip.root_positions.insert(clip.root_positions.end(), {0, -f / 30.0, 0.01 * std::sin(0.2 * f)});
     clip.rotations.insert(clip.rotations.end(), {1, 0, 0, 0});
   }
   BuildOptions options = few_classes();

@@ -388,6 +388,9 @@ TEST(PolicyFile, TakesFragmentsOfTwentyMilliseconds) {
   Character character = tiny_character();
   for (PackedClip& clip : character.pool.clips) clip.rate = 500;
   EXPECT_TRUE(accepts(to_bytes(character)));
+  Player player(std::make_shared<const Character>(character));
+  player.step({0, 1.5, 0, 0}, 3600);
+  EXPECT_TRUE(player.root_position().allFinite());
 }
 
 // A character of one class and one clip that stands, all of whose fragments are the same.

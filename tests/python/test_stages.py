@@ -109,7 +109,7 @@ def test_clusters_are_the_same_bits_for_any_number_of_threads() -> None:
         (np.zeros((5, 2, 3)), 2, "distinct"),
         (np.ones((5, 2, 3)) * np.nan, 2, "not a number"),
         (np.zeros((5, 2, 2)), 2, "shape"),
-        (np.zeros((5, 2, 3)), 0, "at least 1"),
+        (np.zeros((5, 2, 3)), 0, "must be 1 to"),
         (np.arange(30).reshape((5, 2, 3)) * 1e25, 2, "fragment 0: a coordinate"),
     ],
 )
