@@ -15,9 +15,10 @@ inline std::string text_of(double value) {
 }
 
 /// Throws std::invalid_argument "WHAT must be LEAST to MOST, not VALUE" unless it is.
-inline void require_range(const std::string& what, double value, double least, double most) {
+inline void require_range(const char* what, double value, double least, double most) {
   if (value >= least && value <= most) return;
-  throw std::invalid_argument(what + " must be " + text_of(least) + " to " + text_of(most) + ", not " + text_of(value));
+  throw std::invalid_argument(std::string(what) + " must be " + text_of(least) + " to " + text_of(most) + ", not " +
+                              text_of(value));
 }
 
 }  // namespace fragmotion
