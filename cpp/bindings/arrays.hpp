@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "fragmotion/progress.hpp"
 #include "fragmotion/trace.hpp"
+#include "threads.hpp"
 
 namespace fragmotion::bindings {
 
-namespace py = pybind11;
-
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Flags = py::array_t<bool, py::array::c_style | py::array::forcecast>;
+/// Arrays as C++ reads them; what comes otherwise, as from a view of packed bytes, is copied.
+constexpr int kPlain = py::array::c_style | py::array::forcecast | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+using Doubles = py::array_t<double, kPlain>;
+using Flags = py::array_t<bool, kPlain>;
 
 /// Throws std::logic_error unless so many values fill an array of this shape.
 void check_size(std::size_t count, const std::vector<py::ssize_t>& shape);
@@ -39,28 +39,23 @@ py::array_t<T> view(const std::vector<T>& values, std::vector<py::ssize_t> shape
   return array;
 }
 
-/// Throws ValueError unless `array` has this shape; -1 stands for any length.
+/// Throws ValueError unless `array` has this shape; -1 stands for any length that an int holds.
 void check_shape(const py::array& array, const std::string& name, const std::vector<py::ssize_t>& shape);
 
 /// The values of an array.
 std::vector<double> to_vector(const Doubles& array);
 
-/// A control from [4].
+/// The values of an array; throws ValueError unless all are between two numbers.
+std::vector<double> to_vector(const Doubles& array, const std::string& name, double least, double greatest);
+
+/// A control from [4]; throws ValueError on what is not a number or beyond all controls.
 Control to_control(const Doubles& values);
 
-/// A trace from [T,4].
+/// A trace from [T,4], with the same checks.
 Trace to_trace(const Doubles& controls);
 
-/// A Python callable (or None) as a progress callback that may be called without the GIL. It goes on where the callable
-/// returns None.
-Progress to_progress(const py::object& callback);
-
-/// What `work` returns; meanwhile other Python threads run, so it must touch no Python object but the values of arrays.
-template <typename Work>
-auto without_gil(const Work& work) {
-  const py::gil_scoped_release release;
-  return work();
-}
+/// Throws ValueError unless a name is UTF-8, as bytes for a string need not be.
+void check_name(const std::string& name);
 
 void bind_motion(py::module_& m);
 void bind_rig(py::module_& m);

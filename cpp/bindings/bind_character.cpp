@@ -147,10 +147,10 @@ void bind_use(py::class_<Character, Holder>& character) {
   character
       .def(
           "save", [](const Character& c, const std::filesystem::path& path) { save_policy(path, c); }, py::arg("path"),
-          py::call_guard<py::gil_scoped_release>())
+          py::call_guard<GilRelease>())
       .def_static(
           "load", [](const std::filesystem::path& path) { return std::make_shared<Character>(load_policy(path)); },
-          py::arg("path"), py::call_guard<py::gil_scoped_release>())
+          py::arg("path"), py::call_guard<GilRelease>())
       .def("to_bytes", [](const Character& c) { return py::bytes(without_gil([&] { return to_bytes(c); })); })
       .def_static(
           "from_bytes",
@@ -174,7 +174,7 @@ void bind_use(py::class_<Character, Holder>& character) {
           [](const Character& c, const std::vector<int>& excluded) {
             return std::make_shared<Character>(without_classes(c, excluded));
           },
-          py::arg("excluded"), py::call_guard<py::gil_scoped_release>());
+          py::arg("excluded"), py::call_guard<GilRelease>());
 }
 
 }  // namespace
@@ -196,8 +196,7 @@ void bind_character(py::module_& m) {
          const std::optional<BuildOptions>& options, const py::object& progress) {
         std::vector<Trace> controls;
         for (const Doubles& trace : traces) controls.push_back(to_trace(trace));
-        const Progress told = to_progress(progress);
-        return without_gil([&] {
+        return without_gil(progress, [&](const Progress& told) {
           return std::make_shared<Character>(build(skeleton, clips, controls, options.value_or(BuildOptions{}), told));
         });
       },
@@ -213,9 +212,9 @@ void bind_character(py::module_& m) {
          const std::optional<BuildOptions>& options, const py::object& progress) {
         std::vector<Trace> controls;
         for (const Doubles& trace : traces) controls.push_back(to_trace(trace));
-        const Progress told = to_progress(progress);
-        Suggestion suggestion = without_gil(
-            [&] { return suggest_classes(skeleton, clips, controls, options.value_or(BuildOptions{}), told); });
+        Suggestion suggestion = without_gil(progress, [&](const Progress& told) {
+          return suggest_classes(skeleton, clips, controls, options.value_or(BuildOptions{}), told);
+        });
         return py::make_tuple(suggestion.classes, std::move(suggestion.tried));
       },
       py::arg("skeleton"), py::arg("clips"), py::arg("traces"), py::arg("options") = py::none(),

@@ -18,7 +18,7 @@ void bind_explain(py::module_& m) {
       .def(py::init([](std::shared_ptr<Character> character, const std::string& policy) {
              return Explainer(std::move(character), policy);
            }),
-           py::arg("character").none(false), py::arg("policy") = "", py::call_guard<py::gil_scoped_release>())
+           py::arg("character").none(false), py::arg("policy") = "", py::call_guard<GilRelease>())
       .def("__call__", &Explainer::operator(), py::arg("playing"), py::arg("control"));
 }
 

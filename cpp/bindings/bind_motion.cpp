@@ -34,6 +34,7 @@ Skeleton new_skeleton(const std::vector<std::string>& names, const std::vector<i
   check_shape(rotations, "rest_rotations", {bones, 4});
   check_shape(offsets, "offsets", {bones, 3});
   check_shape(tips, "tips", {bones, 3});
+  for (const std::string& name : names) check_name(name);
   Skeleton skeleton;
   skeleton.names = names;
   skeleton.parents = parents;
@@ -109,6 +110,7 @@ Transforms take_transforms(const Take& take) {
 
 Clip new_clip(const Skeleton& skeleton, const std::string& name, double rate, const Doubles& roots,
               const Doubles& rotations) {
+  check_name(name);
   check_shape(roots, "root_positions", {-1, 3});
   check_shape(rotations, "rotations", {roots.shape(0), skeleton.size(), 4});
   Clip clip{name, rate, static_cast<int>(roots.shape(0)), to_vector(roots), to_vector(rotations), {}};
@@ -148,9 +150,9 @@ void bind_take(py::module_& m) {
       .def("world_transforms", [](const Take& take) {
         return to_tuple(without_gil([&] { return take_transforms(take); }), take.frames, take.skeleton.size());
       });
-  m.def("read_bvh", &read_bvh, py::arg("path"), py::arg("unit") = 0.01, py::call_guard<py::gil_scoped_release>());
+  m.def("read_bvh", &read_bvh, py::arg("path"), py::arg("unit") = 0.01, py::call_guard<GilRelease>());
   m.def("read_asf_amc", &read_asf_amc, py::arg("asf"), py::arg("amc"), py::arg("rate") = 120.0,
-        py::call_guard<py::gil_scoped_release>());
+        py::call_guard<GilRelease>());
 }
 
 void bind_clip(py::module_& m) {

@@ -12,12 +12,16 @@ namespace {
 
 using SharedCharacter = std::shared_ptr<Character>;
 
-py::tuple step(Player& player, const Doubles& control, double seconds) {
-  player.step(to_control(control), seconds);
-  const Vector3& root = player.root_position();
-  const auto bones = static_cast<py::ssize_t>(player.rotations().size()) / 4;
+using OnePlayer = OneCallAtATime<Player>;
+using OneCrowd = OneCallAtATime<Crowd>;
+
+py::tuple step(OnePlayer& one, const Doubles& control, double seconds) {
+  const OnePlayer::Call player(one);
+  player->step(to_control(control), seconds);
+  const Vector3& root = player->root_position();
+  const auto bones = static_cast<py::ssize_t>(player->rotations().size()) / 4;
   return py::make_tuple(to_array(std::vector<double>{root.x(), root.y(), root.z()}, {3}),
-                        to_array(player.rotations(), {bones, 4}));
+                        to_array(player->rotations(), {bones, 4}));
 }
 
 template <typename T>
@@ -85,66 +89,70 @@ void for_option_arguments(const Define& define) {
 py::array_t<double> target(const py::object& given, const std::string& name, const std::vector<py::ssize_t>& shape) {
   if (given.is_none()) return py::array_t<double>(shape);
   const bool fits = py::isinstance<py::array_t<double, py::array::c_style>>(given);
-  if (!fits || !given.cast<py::array>().writeable()) {
-    throw std::invalid_argument(name + " must be a writable array of float64 in C order");
+  constexpr int kUsable = py::detail::npy_api::NPY_ARRAY_ALIGNED_ | py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  if (!fits || (given.cast<py::array>().flags() & kUsable) != kUsable) {
+    throw std::invalid_argument(name + " must be a writable, aligned array of float64 in C order");
   }
   auto array = given.cast<py::array_t<double>>();
   check_shape(array, name, shape);
   return array;
 }
 
-py::tuple step_many(Crowd& crowd, const Doubles& controls, double seconds, const py::object& roots,
+py::tuple step_many(OneCrowd& one, const Doubles& controls, double seconds, const py::object& roots,
                     const py::object& rotations) {
-  const py::ssize_t count = crowd.size();
+  const OneCrowd::Call crowd(one);
+  const py::ssize_t count = crowd->size();
   check_shape(controls, "controls", {count, 4});
-  std::vector<Control> wanted;
-  for (py::ssize_t i = 0; i < count; ++i) {
-    const double* row = controls.data(i, 0);
-    wanted.push_back({row[0], row[1], row[2], row[3]});
-  }
+  const Trace wanted = to_trace(controls);
   py::array_t<double> to_roots = target(roots, "roots", {count, 3}),
-                      to_rotations = target(rotations, "rotations", {count, crowd.bones(), 4});
+                      to_rotations = target(rotations, "rotations", {count, crowd->bones(), 4});
   double *first_root = to_roots.mutable_data(), *first_rotation = to_rotations.mutable_data();
-  without_gil([&] { crowd.step(wanted.data(), seconds, first_root, first_rotation); });
+  without_gil([&] { crowd->step(wanted.data(), seconds, first_root, first_rotation); });
   return py::make_tuple(to_roots, to_rotations);
 }
 
-py::array_t<double> frames_of(const Crowd& crowd) {
+py::array_t<double> frames_of(OneCrowd& one) {
+  const OneCrowd::Call crowd(one);
   std::vector<double> frames;
-  for (int i = 0; i < crowd.size(); ++i) {
-    const CharacterFrame frame = crowd[i].frame();
+  for (int i = 0; i < crowd->size(); ++i) {
+    const CharacterFrame frame = (*crowd)[i].frame();
     frames.insert(frames.end(), {frame.position.x(), frame.position.y(), frame.heading});
   }
-  return to_array(std::move(frames), {crowd.size(), 3});
+  return to_array(std::move(frames), {crowd->size(), 3});
 }
 
-py::array_t<int> playing_of(const Crowd& crowd) {
+py::array_t<int> playing_of(OneCrowd& one) {
+  const OneCrowd::Call crowd(one);
   std::vector<int> playing;
-  for (int i = 0; i < crowd.size(); ++i) {
-    playing.insert(playing.end(), {crowd[i].playing_class(), crowd[i].playing_fragment()});
+  for (int i = 0; i < crowd->size(); ++i) {
+    playing.insert(playing.end(), {(*crowd)[i].playing_class(), (*crowd)[i].playing_fragment()});
   }
-  return to_array(std::move(playing), {crowd.size(), 2});
+  return to_array(std::move(playing), {crowd->size(), 2});
 }
 
 void bind_crowd(py::module_& m) {
-  py::class_<Crowd> crowd(m, "Crowd", py::module_local());
+  py::class_<OneCrowd> crowd(m, "Crowd", py::module_local());
   for_option_arguments([&](const auto&... options) {
     crowd.def(py::init(with_options(Types<SharedCharacter, int>{}, Types<int>{},
                                     [](SharedCharacter character, int count, const PlayerOptions& given, int threads) {
-                                      return Crowd(std::move(character), count, given, threads);
+                                      return std::make_unique<OneCrowd>("Crowd", std::move(character), count, given,
+                                                                        threads);
                                     })),
               py::arg("character").none(false), py::arg("count"), options..., py::arg("threads") = 0);
   });
-  crowd.def("__len__", &Crowd::size)
+  crowd.def("__len__", [](OneCrowd& crowd) { return OneCrowd::Call(crowd)->size(); })
       .def("step_many", &step_many, py::arg("controls"), py::arg("seconds"), py::arg("roots") = py::none(),
            py::arg("rotations") = py::none())
       .def(
           "reset",
-          [](Crowd& crowd, int player, double x, double y, double heading) {
-            crowd.reset(player, {Vector2{x, y}, heading});
+          [](OneCrowd& crowd, int player, double x, double y, double heading) {
+            OneCrowd::Call(crowd)->reset(player, {Vector2{x, y}, heading});
           },
           py::arg("player"), py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("heading") = 0.0)
-      .def("force", &Crowd::force, py::arg("player"), py::arg("next_class"))
+      .def(
+          "force",
+          [](OneCrowd& crowd, int player, int next_class) { OneCrowd::Call(crowd)->force(player, next_class); },
+          py::arg("player"), py::arg("next_class"))
       .def_property_readonly("frames", &frames_of)
       .def_property_readonly("playing", &playing_of);
 }
@@ -167,9 +175,9 @@ void bind_measures(py::module_& m) {
       .def_readonly("turns", &MotionMeasures::turns);
   py::class_<MotionYardstick>(m, "MotionYardstick", py::module_local())
       .def(py::init([](const Character& character) { return MotionYardstick(character); }), py::arg("character"),
-           py::call_guard<py::gil_scoped_release>())
+           py::call_guard<GilRelease>())
       .def_property_readonly("takes", &MotionYardstick::takes)
-      .def("of", &MotionYardstick::of, py::arg("performance"), py::call_guard<py::gil_scoped_release>());
+      .def("of", &MotionYardstick::of, py::arg("performance"), py::call_guard<GilRelease>());
 }
 
 void bind_yardsticks(py::module_& m) {
@@ -177,8 +185,7 @@ void bind_yardsticks(py::module_& m) {
       "optimal_performance",
       [](const Character& character, const Doubles& trace, double rate, double shortest) {
         const Trace controls = to_trace(trace);
-        const py::gil_scoped_release release;
-        return optimal_performance(character, controls, rate, shortest);
+        return without_gil([&] { return optimal_performance(character, controls, rate, shortest); });
       },
       py::arg("character"), py::arg("trace"), py::arg("rate"), py::arg("shortest") = kSoonest);
   for_option_arguments([&](const auto&... options) {
@@ -200,36 +207,41 @@ void bind_player(py::module_& m) {
   bind_measures(m);
   bind_yardsticks(m);
   bind_crowd(m);
-  py::class_<Player> player(m, "Player", py::module_local());
+  py::class_<OnePlayer> player(m, "Player", py::module_local());
   for_option_arguments([&](const auto&... options) {
     player.def(py::init(with_options(Types<SharedCharacter>{}, Types<>{},
                                      [](SharedCharacter character, const PlayerOptions& given) {
-                                       return Player(std::move(character), given);
+                                       return std::make_unique<OnePlayer>("Player", std::move(character), given);
                                      })),
                py::arg("character").none(false), options...);
   });
   player
       .def(
           "reset",
-          [](Player& p, double x, double y, double heading) {
-            p.reset({Vector2{x, y}, heading});
+          [](OnePlayer& player, double x, double y, double heading) {
+            OnePlayer::Call(player)->reset({Vector2{x, y}, heading});
           },
           py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("heading") = 0.0)
-      .def("force", &Player::force, py::arg("next_class"))
+      .def(
+          "force", [](OnePlayer& player, int next_class) { OnePlayer::Call(player)->force(next_class); },
+          py::arg("next_class"))
       .def("step", &step, py::arg("control"), py::arg("seconds"))
       .def_property_readonly("frame",
-                             [](const Player& p) {
-                               const CharacterFrame frame = p.frame();
+                             [](OnePlayer& player) {
+                               const CharacterFrame frame = OnePlayer::Call(player)->frame();
                                return py::make_tuple(frame.position.x(), frame.position.y(), frame.heading);
                              })
       .def_property_readonly("playing",
-                             [](const Player& p) { return py::make_tuple(p.playing_class(), p.playing_fragment()); })
+                             [](OnePlayer& one) {
+                               const OnePlayer::Call player(one);
+                               return py::make_tuple(player->playing_class(), player->playing_fragment());
+                             })
       .def(
           "run",
-          [](Player& player, const Doubles& trace, double rate, const py::object& progress) {
+          [](OnePlayer& one, const Doubles& trace, double rate, const py::object& progress) {
             const Trace controls = to_trace(trace);
-            const Progress told = to_progress(progress);
-            return without_gil([&] { return player.run(controls, rate, told); });
+            const OnePlayer::Call player(one);
+            return without_gil(progress, [&](const Progress& told) { return player->run(controls, rate, told); });
           },
           py::arg("trace"), py::arg("rate"), py::arg("progress") = py::none());
 }

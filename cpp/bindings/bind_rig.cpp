@@ -21,6 +21,7 @@ Rig new_rig(const std::vector<std::string>& names, const std::vector<int>& paren
   check_shape(rest, "rest", {bones, 4, 4});
   check_shape(lengths, "lengths", {bones});
   check_shape(world, "world", {4, 4});
+  for (const std::string& name : names) check_name(name);
   Armature armature;
   armature.names = names;
   armature.parents = parents;
@@ -56,8 +57,9 @@ void bind_rig(py::module_& m) {
           "clip",
           [](const Rig& rig, const std::string& name, double rate, const Doubles& locations, const Doubles& rotations,
              const std::optional<Doubles>& worlds) {
-            const py::ssize_t frames = rotations.ndim() > 0 ? rotations.shape(0) : 0;
-            check_shape(rotations, "rotations", {frames, rig.bones(), 4});
+            check_name(name);
+            check_shape(rotations, "rotations", {-1, rig.bones(), 4});
+            const py::ssize_t frames = rotations.shape(0);
             check_shape(locations, "locations", {frames, rig.bones(), 3});
             const double* objects = checked_worlds(worlds, frames);
             return without_gil([&] {
@@ -69,8 +71,9 @@ void bind_rig(py::module_& m) {
           "clip_from_matrices",
           [](const Rig& rig, const std::string& name, double rate, const Doubles& matrices,
              const std::optional<Doubles>& worlds) {
-            const py::ssize_t frames = matrices.ndim() > 0 ? matrices.shape(0) : 0;
-            check_shape(matrices, "matrices", {frames, rig.bones(), 4, 4});
+            check_name(name);
+            check_shape(matrices, "matrices", {-1, rig.bones(), 4, 4});
+            const py::ssize_t frames = matrices.shape(0);
             const double* objects = checked_worlds(worlds, frames);
             return without_gil(
                 [&] { return rig.clip_from_matrices(name, rate, static_cast<int>(frames), matrices.data(), objects); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
 
+#include <climits>
 #include <cmath>
 
 #include "arrays.hpp"
@@ -13,19 +14,21 @@
 namespace fragmotion::bindings {
 namespace {
 
-using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
-using Indices = py::array_t<int, py::array::c_style | py::array::forcecast>;
+using Floats = py::array_t<float, kPlain>;
+using Indices = Doubles;  // of any kind, so that no number is cut or wrapped before it is looked at
 
 constexpr py::ssize_t kPoints = ControlSpace::kPoints;
+constexpr double kMostFeature = 1e6;  // class_features gives a few units; the SVM squares differences
 
 // Points [N, K, 3] as trajectories of one pose, padded as Dis wants them.
 Trajectories to_trajectories(const Floats& points) {
   check_shape(points, "points", {-1, -1, 3});
   const auto values = points.unchecked<3>();
   const int count = static_cast<int>(values.shape(0)), size = static_cast<int>(values.shape(1));
+  if (size > INT_MAX / 3 - kLanes) throw std::invalid_argument("a fragment of " + std::to_string(size) + " points");
   Trajectories t;
   t.count = count;
-  t.stride = (size + kLanes - 1) / kLanes * kLanes;
+  t.stride = padded(size);
   t.whole.assign(std::size_t{3} * count * t.stride, 0);
   for (int i = 0; i < count; ++i) {
     for (int k = 0; k < size; ++k) {
@@ -66,18 +69,22 @@ Quality to_quality(const Doubles& smoothness, const Doubles& match) {
   if (n == 0) throw std::invalid_argument("smoothness must have at least one class");
   check_shape(smoothness, "smoothness", {n, n});
   check_shape(match, "match", {n, kPoints});
-  return {static_cast<int>(n), to_vector(smoothness), to_vector(match)};
+  return {static_cast<int>(n), to_vector(smoothness, "smoothness", 0, 1), to_vector(match, "match", 0, 1)};
+}
+
+// Whole numbers from 0 to under `count`.
+std::vector<int> to_indices(const Indices& array, const std::string& name, py::ssize_t count) {
+  std::vector<int> indices;
+  for (const double index : to_vector(array, name, 0, static_cast<double>(count - 1))) {
+    indices.push_back(static_cast<int>(index));
+    if (indices.back() != index) throw std::invalid_argument(name + " must hold whole numbers");
+  }
+  return indices;
 }
 
 std::vector<int> to_controls(const Indices& trace) {
   check_shape(trace, "a trace of controls", {-1});
-  std::vector<int> controls(trace.data(), trace.data() + trace.size());
-  for (const int control : controls) {
-    if (control < 0 || control >= kPoints) {
-      throw std::invalid_argument("control " + std::to_string(control) + " is not one of the 102 points");
-    }
-  }
-  return controls;
+  return to_indices(trace, "a trace of controls", kPoints);
 }
 
 std::vector<std::vector<int>> to_traces(const std::vector<Indices>& traces) {
@@ -88,25 +95,20 @@ std::vector<std::vector<int>> to_traces(const std::vector<Indices>& traces) {
 
 std::vector<double> to_features(const Doubles& features, int classes) {
   check_shape(features, "features", {classes, -1});
-  return to_vector(features);
+  return to_vector(features, "features", -kMostFeature, kMostFeature);
 }
 
 py::array_t<int> to_table(Policy policy) { return to_array(std::move(policy.next), {policy.classes, kPoints}); }
 
 Policy to_policy(const Indices& table, int classes) {
   check_shape(table, "table", {classes, kPoints});
-  Policy policy{"table", classes, {table.data(), table.data() + table.size()}};
-  for (const int next : policy.next) {
-    if (next < 0 || next >= classes) throw std::invalid_argument("class " + std::to_string(next) + " does not exist");
-  }
-  return policy;
+  return {"table", classes, to_indices(table, "a table of classes", classes)};
 }
 
 void bind_measuring(py::module_& m) {
   m.def(
       "trajectories",
       [](const Character& c, int poses) {
-        if (poses < 2) throw std::invalid_argument("a trajectory needs at least 2 poses");
         const Trajectories t = without_gil([&] { return trajectories(c.pool, poses); });
         const int tips = static_cast<int>(measured_bones(c.pool.skeleton).size());
         return py::make_tuple(to_points(t.whole, t.count, t.stride, poses * tips),
@@ -125,8 +127,8 @@ void bind_measuring(py::module_& m) {
         options.restarts = restarts;
         options.seed = seed;
         options.threads = threads;
-        const Progress told = to_progress(progress);
-        Classes found = without_gil([&] { return cluster(t, counted, options, {}, told); });
+        Classes found =
+            without_gil(progress, [&](const Progress& told) { return cluster(t, counted, options, {}, told); });
         return py::make_tuple(to_array(std::move(found.labels), {t.count}),
                               to_array(std::move(found.representatives), {found.count}), found.inertia);
       },
@@ -167,7 +169,6 @@ void bind_policies(py::module_& m) {
   m.def(
       "control_model",
       [](const std::vector<Indices>& traces, double stays, double goes_anywhere) {
-        if (!(stays >= 0 && goes_anywhere >= 0)) throw std::invalid_argument("the counts of a prior must be 0 or more");
         return to_array(control_model(to_traces(traces), {stays, goes_anywhere}), {kPoints, kPoints});
       },
       py::arg("traces"), py::arg("stays") = kAnyPlayer.stays, py::arg("goes_anywhere") = kAnyPlayer.goes_anywhere);

@@ -3,8 +3,12 @@
 
 Units: metres, seconds, radians, frames a second; z is up. Rotations are unit quaternions (w, x, y, z). F is a number of
 frames, B of bones, N of fragments, n of classes. Everything that is wrong with an argument or a file raises ValueError
-with the cause and the place in its text; a cancelled call raises Cancelled. Long calls release the GIL and are
-deterministic: the same input and seed give the same bits, whatever the number of threads.
+with the cause and the place in its text; a cancelled call raises Cancelled. Arrays may be of any kind that NumPy makes
+numbers of, and lie in memory as they like. Names that a file does not hold in UTF-8 are taken for Latin-1.
+
+Long calls release the GIL and are deterministic: the same input and seed give the same bits, whatever the number of
+threads. Several threads may use one object at a time, except that a Player or Crowd takes one call after the other:
+RuntimeError on a call in the middle of another, as of another thread's or from a progress callback.
 """
 
 from collections.abc import Callable, Sequence
@@ -69,10 +73,10 @@ class Take:
         """World positions [F,B,3] m and rotations [F,B,4] of every bone's frame."""
 
 def read_bvh(path: str | PathLike[str], unit: float = 0.01) -> Take:
-    """Read a BVH file; `unit` is one file unit in metres. y-up becomes z-up as (x, -z, y)."""
+    """Read a BVH file; `unit` is one file unit in metres, 1e-6 .. 1000. y-up becomes z-up as (x, -z, y)."""
 
 def read_asf_amc(asf: str | PathLike[str], amc: str | PathLike[str], rate: float = 120.0) -> Take:
-    """Read an Acclaim skeleton and a motion on it; AMC holds no frame rate."""
+    """Read an Acclaim skeleton and a motion on it; AMC holds no frame rate: 0.1 .. 10000."""
 
 def euler_to_quaternion(order: str, angles: ArrayLike) -> Doubles:
     """[F,3] radians in the order X, Y, Z of the channels (whatever `order` is) to [F,4]. `order` is Blender's: in
@@ -129,8 +133,8 @@ class Clip:
     def __init__(
         self, skeleton: Skeleton, name: str, rate: float, root_positions: ArrayLike, rotations: ArrayLike
     ) -> None:
-        """root_positions [F,3]: world position of the hips' head; rotations [F,B,4]: the hips' in the world, every
-        other bone's relative to its parent (bones above the hips are ignored)."""
+        """rate 0.1 .. 10000; root_positions [F,3]: world position of the hips' head, within 1000 km; rotations [F,B,4]:
+        the hips' in the world, every other bone's relative to its parent (bones above the hips are ignored)."""
     @staticmethod
     def from_take(take: Take, skeleton: Skeleton | None = None) -> Clip:
         """The take on its own skeleton, or on `skeleton` with the same bone names. Only the hips translate: what other
@@ -150,7 +154,7 @@ class ControlSpace:
     jump; velocity 0 stands, 1-8 walk, 9-16 run, both counter-clockwise from forward."""
 
     def __init__(self, walk: float = 1.2, run: float = 3.3, turn_rate: float = ..., scale: float = 1.0) -> None:
-        """Speeds in m/s, turn rate in rad/s (default 70 degrees/s), scale: 1.8 m / stature."""
+        """Speeds in m/s, turn rate in rad/s (default 70 degrees/s), scale: 1.8 m / stature; all over 0, to 1e9."""
     walk: float
     run: float
     turn_rate: float
@@ -305,7 +309,8 @@ class Player:
     """Class and fragment that play now."""
     def run(self, trace: ArrayLike, rate: float, progress: Progress | None = None) -> Performance:
         """Reset is not called. Play a trace [T,4] (10 controls a second) from now, sampled at `rate` (any, also
-        29.97): frames 0 .. round(T/10 * rate)."""
+        29.97, to 1000): frames 0 .. round(T/10 * rate), of which there may be 1048574. Each number of a control is
+        within a million."""
 
 class Crowd:
     """Many players of one character that step together. Player i shows, to the bit, what a Player of the seed `seed` +
@@ -324,7 +329,8 @@ class Crowd:
         promptness: float = 0.5,
         threads: int = 0,
     ) -> None:
-        """As Player; `threads`: of a step (0: as many as the machine has), which change no bit of what is shown."""
+        """As Player; `count`: 0 .. 100000; `threads`: of a step (0: as many as the machine has), which change no bit of
+        what is shown."""
     def __len__(self) -> int: ...
     def step_many(
         self,
@@ -378,7 +384,7 @@ class Performance:
 
 def optimal_performance(character: Character, trace: ArrayLike, rate: float, shortest: float = 0.1) -> float:
     """The greatest `Performance.quality` that a player could reach who knew the whole trace: it may play a class for
-    any time from `shortest` seconds to the longest of its fragments."""
+    any time from `shortest` seconds (0 .. 3600) to the longest of its fragments."""
 
 def response_times(
     character: Character,
@@ -470,19 +476,22 @@ class MotionMeasures:
     """Of the takes: each beyond all others."""
 
 class MotionYardstick:
-    """Measures performances by what the takes do themselves."""
+    """Measures performances by what the takes do themselves. ValueError where the character holds no captured
+    fragment."""
 
     def __init__(self, character: Character) -> None: ...
     takes: MotionMeasures
     """The captured takes' own measures."""
     def of(self, performance: Performance) -> MotionMeasures:
-        """Its steps are those within a quarter of a second after a fragment began."""
+        """Its steps are those within a quarter of a second after a fragment began. ValueError where it is of another
+        number of bones."""
 
-# The stages of a build, each a function of arrays.
+# The stages of a build, each a function of arrays. The factors of Eq. 2 are 0 .. 1.
 
 def trajectories(character: Character, poses: int = 16) -> tuple[Floats, Floats, Floats]:
     """The fragments as Dis sees them (Sec. 3.1), m of a 1.8 m character: bone tips [N,poses*K,3] at equal times in the
-    character frame of the first pose, and [N,K,3] of the first and the last pose, each in its own character frame."""
+    character frame of the first pose, and [N,K,3] of the first and the last pose, each in its own character frame.
+    `poses`: 2 .. 1000."""
 
 def cluster(
     points: ArrayLike,
@@ -493,9 +502,9 @@ def cluster(
     threads: int = 0,
     progress: Progress | None = None,
 ) -> tuple[Ints, Ints, float]:
-    """k-means of points [N,K,3] under Dis, the sum of K distances; weights [N] > 0 say how much each counts. Returns
-    labels [N], representatives [n] (medoids) and the inertia, the weighted sum of squares of Dis to the class's
-    mean."""
+    """k-means of points [N,K,3] (K > 0) under Dis, the sum of K distances; weights [N] > 0 say how much each counts;
+    `restarts`: up to 10000. Returns labels [N], representatives [n] (medoids) and the inertia, the weighted sum of
+    squares of Dis to the class's mean."""
 
 def optimal_path(smoothness: ArrayLike, match: ArrayLike, trace: ArrayLike) -> tuple[Ints, float]:
     """The best path in hindsight (Eqs. 1, 3, 4) for the factors of Eq. 2, [n,n] and [n,102], over a trace of control
@@ -509,7 +518,7 @@ def greedy_table(smoothness: ArrayLike, match: ArrayLike) -> Ints:
 
 def control_model(traces: Sequence[ArrayLike], stays: float = 8.5, goes_anywhere: float = 1.5) -> Doubles:
     """[102,102]: P(next control | control): the transitions of traces of control indices, and for every control a
-    prior of `stays` counts of itself and `goes_anywhere` counts spread over all controls; rows sum to 1."""
+    prior of `stays` counts of itself and `goes_anywhere` counts spread over all controls (0 .. 1e9); rows sum to 1."""
 
 def anticipate_table(smoothness: ArrayLike, match: ArrayLike, traces: Sequence[ArrayLike]) -> Ints:
     """[n,102] by value iteration with control_model(traces): the default policy."""
@@ -537,5 +546,5 @@ def svm_table(
     gamma: float = 0.0,
     threads: int = 0,
 ) -> tuple[Ints, float, float, float]:
-    """[n,102] by C-SVC with the RBF kernel (Eqs. 5, 6), and its C, gamma (0: by cross-validation) and the accuracy of
-    the cross-validation (0 where both were given)."""
+    """[n,102] by C-SVC with the RBF kernel (Eqs. 5, 6), and its C, gamma (1e-6 .. 1e6; 0: by cross-validation) and the
+    accuracy of the cross-validation (0 where both were given). Features [n, 1 or more] are within a million."""

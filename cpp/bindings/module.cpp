@@ -1,13 +1,51 @@
 // SPDX-License-Identifier: MIT
+#include <climits>
 #include <cmath>
+#include <locale>
+#include <sstream>
 
 #include "arrays.hpp"
+#include "fragmotion/utf8.hpp"
 
 namespace fragmotion::bindings {
+namespace {
+
+// Of each of a control's numbers: nothing is faster than a million m/s, and the squares of such are numbers still.
+constexpr double kMostControl = 1e6;
+
+Control checked_control(const double* row, const std::string& label) {
+  for (int k = 0; k < 4; ++k) {
+    if (!std::isfinite(row[k])) throw std::invalid_argument(label + " holds what is not a number");
+    if (std::abs(row[k]) > kMostControl) throw std::invalid_argument(label + " holds a number beyond a million");
+  }
+  return {row[0], row[1], row[2], row[3]};
+}
+
+std::string printed(double value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << value;
+  return text.str();
+}
+
+// An error may quote a file's name or words, which need not be UTF-8.
+void translate(std::exception_ptr error) {
+  try {
+    std::rethrow_exception(std::move(error));
+  } catch (const std::invalid_argument& refusal) {
+    const std::string text = refusal.what();
+    const auto message = py::reinterpret_steal<py::object>(
+        PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace"));
+    PyErr_SetObject(PyExc_ValueError, message.ptr());
+  }
+}
+
+}  // namespace
 
 void check_shape(const py::array& array, const std::string& name, const std::vector<py::ssize_t>& shape) {
   bool fits = array.ndim() == static_cast<py::ssize_t>(shape.size());
-  for (py::ssize_t i = 0; fits && i < array.ndim(); ++i) fits = shape[i] < 0 || array.shape(i) == shape[i];
+  for (py::ssize_t i = 0; fits && i < array.ndim(); ++i)
+    fits = shape[i] < 0 ? array.shape(i) <= INT_MAX : array.shape(i) == shape[i];
   if (fits) return;
   std::string expected, found;
   for (const py::ssize_t length : shape)
@@ -25,32 +63,32 @@ void check_size(std::size_t count, const std::vector<py::ssize_t>& shape) {
 
 std::vector<double> to_vector(const Doubles& array) { return {array.data(), array.data() + array.size()}; }
 
+std::vector<double> to_vector(const Doubles& array, const std::string& name, double least, double greatest) {
+  std::vector<double> values = to_vector(array);
+  for (const double value : values) {
+    if (value >= least && value <= greatest) continue;
+    throw std::invalid_argument(name + " must hold numbers from " + printed(least) + " to " + printed(greatest) +
+                                ", not " + printed(value));
+  }
+  return values;
+}
+
 Control to_control(const Doubles& values) {
   check_shape(values, "a control", {4});
-  return {*values.data(0), *values.data(1), *values.data(2), *values.data(3)};
+  return checked_control(values.data(), "the control");
 }
 
 Trace to_trace(const Doubles& controls) {
   check_shape(controls, "a trace", {-1, 4});
   Trace trace;
   for (py::ssize_t i = 0; i < controls.shape(0); ++i) {
-    const double* row = controls.data(i, 0);
-    for (int k = 0; k < 4; ++k) {
-      if (!std::isfinite(row[k]))
-        throw std::invalid_argument("control " + std::to_string(i) + " of the trace is not a number");
-    }
-    trace.push_back({row[0], row[1], row[2], row[3]});
+    trace.push_back(checked_control(controls.data(i, 0), "control " + std::to_string(i) + " of the trace"));
   }
   return trace;
 }
 
-Progress to_progress(const py::object& callback) {
-  if (callback.is_none()) return {};
-  return [callback = callback.ptr()](double fraction, const std::string& stage) {
-    const py::gil_scoped_acquire gil;
-    const py::object goes_on = py::handle(callback)(fraction, stage);
-    return goes_on.is_none() || goes_on.cast<bool>();
-  };
+void check_name(const std::string& name) {
+  if (!is_utf8(name)) throw std::invalid_argument("the name '" + name + "' is not UTF-8");
 }
 
 }  // namespace fragmotion::bindings
@@ -59,6 +97,7 @@ PYBIND11_MODULE(fragmotion_core, m) {
   namespace b = fragmotion::bindings;
   m.doc() = "Fragment-based responsive character motion (Cheng, Liu, Pan and Tang 2009).";
   m.attr("__version__") = FRAGMOTION_VERSION;
+  pybind11::register_local_exception_translator(b::translate);
   pybind11::register_exception<fragmotion::Cancelled>(m, "Cancelled", PyExc_RuntimeError);
   b::bind_motion(m);
   b::bind_rig(m);

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "asf.hpp"
+#include "fragmotion/clip.hpp"
 #include "text_reader.hpp"
 #include "y_up.hpp"
 
@@ -147,11 +148,12 @@ class AmcReader {
 Skeleton read_asf(const std::filesystem::path& path) { return read_asf_model(path).skeleton; }
 
 Take read_asf_amc(const std::filesystem::path& asf, const std::filesystem::path& amc, double rate) {
-  if (!(rate > 0) || !std::isfinite(rate)) throw std::invalid_argument("rate: frames a second above 0 expected");
+  if (!(rate >= kLowestRate && rate <= kHighestRate))
+    throw std::invalid_argument("rate: 0.1 to 10000 frames a second expected");
   const AsfModel model = read_asf_model(asf);
   Take take;
   take.skeleton = model.skeleton;
-  take.name = amc.stem().u8string();
+  take.name = as_utf8(amc.stem().u8string());
   take.rate = rate;
   AmcReader(amc, model).read_into(take);
   return take;

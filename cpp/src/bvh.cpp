@@ -16,8 +16,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kEndSiteShare = 0.3;     // Of a bone's own offset: the length of a bone whose End Site has none.
-constexpr double kRateTolerance = 0.001;  // Files round the frame time: 0.0333333 is 30 frames a second.
+constexpr double kEndSiteShare = 0.3;  // Of a bone's own offset: the length of a bone whose End Site has none.
+constexpr double kLeastUnit = 1e-6, kMostUnit = 1e3;  // m: Nobody tells bones in less, or in more than kilometres.
+constexpr double kRateTolerance = 0.001;              // Files round the frame time: 0.0333333 is 30 frames a second.
 
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
@@ -270,9 +271,10 @@ class BvhReader {
 }  // namespace
 
 Take read_bvh(const std::filesystem::path& path, double unit) {
-  if (!(unit > 0) || !std::isfinite(unit)) throw std::invalid_argument("unit: a length in metres above 0 expected");
+  if (!(unit >= kLeastUnit && unit <= kMostUnit))
+    throw std::invalid_argument("unit: a length from 1e-6 to 1000 metres expected");
   Take take = BvhReader(path, unit).read();
-  take.name = path.stem().u8string();
+  take.name = as_utf8(path.stem().u8string());
   return take;
 }
 

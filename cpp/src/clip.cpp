@@ -14,7 +14,6 @@ namespace fragmotion {
 namespace {
 
 constexpr double kSameRest = 1e-6;  // rad: rest frames that differ by less are the same
-constexpr double kFarthest = 1e6;   // m: where single precision tells no less than 6 cm apart
 
 [[noreturn]] void fail(const std::string& clip, const std::string& cause) {
   throw std::invalid_argument("clip '" + clip + "': " + cause);
@@ -25,10 +24,9 @@ std::string place(int frame, const std::string& bone) {
 }
 
 void check_shape(const Clip& clip, int bones) {
-  if (!std::isfinite(clip.rate) || clip.rate <= 0)
-    fail(clip.name, "the rate is " + text_of(clip.rate) + " frames/s, expected more than 0");
-  if (clip.rate > kMostRate)
-    fail(clip.name, "the rate is " + text_of(clip.rate) + " frames/s, expected at most " + text_of(kMostRate));
+  if (!(clip.rate >= kLowestRate && clip.rate <= kHighestRate))
+    fail(clip.name, "the rate is " + text_of(clip.rate) + " frames/s, expected " + text_of(kLowestRate) + " to " +
+                        text_of(kHighestRate));
   if (clip.frames < 2) fail(clip.name, "has " + std::to_string(clip.frames) + " frames, expected at least 2");
   const std::size_t frames = clip.frames;
   if (clip.root_positions.size() != frames * 3)
@@ -42,8 +40,9 @@ void check_shape(const Clip& clip, int bones) {
 void check_positions(const Skeleton& skeleton, const Clip& clip) {
   for (std::size_t i = 0; i < clip.root_positions.size(); ++i) {
     const double value = clip.root_positions[i];
-    if (std::abs(value) <= kFarthest) continue;
-    const std::string cause = std::isfinite(value) ? "position is more than 1000 km off" : "position is not finite";
+    if (std::abs(value) <= kFarthestHips) continue;
+    const std::string cause = std::isfinite(value) ? "position is more than 1000 km from the origin: check the units"
+                                                   : "position is not finite";
     fail(clip.name, place(static_cast<int>(i / 3), skeleton.names[skeleton.roles.hips]) + cause);
   }
 }

@@ -200,6 +200,10 @@ Classes best_run(const Find& find, const ClusterOptions& options, const ClassSco
 }
 
 void check(const Trajectories& t, const std::vector<float>& weights, const std::vector<char>& kinds) {
+  if (t.stride < 1) throw std::invalid_argument("a fragment needs at least one point");
+  if (t.whole.size() != std::size_t{3} * t.count * t.stride || t.stride % kLanes != 0) {
+    throw std::invalid_argument("every fragment needs as many points");
+  }
   if (static_cast<int>(weights.size()) != t.count) throw std::invalid_argument("every fragment needs a weight");
   if (static_cast<int>(kinds.size()) != t.count ||
       std::any_of(kinds.begin(), kinds.end(), [](char kind) { return kind != 0 && kind != 1; })) {

@@ -16,12 +16,15 @@ void require(bool valid, const char* name, double value, const char* expected) {
   throw std::invalid_argument(text.str());
 }
 
+// Squares of what is within these are numbers still; characters from a micrometre to a thousand kilometres are.
+constexpr double kMost = 1e9;
+
 void require_positive(const char* name, double value) {
-  require(std::isfinite(value) && value > 0, name, value, "a finite number above 0");
+  require(value > 0 && value <= kMost, name, value, "a number above 0, up to 1e9");
 }
 
 void require_weight(const char* name, double value) {
-  require(std::isfinite(value) && value >= 0, name, value, "a finite number, 0 or above");
+  require(value >= 0 && value <= kMost, name, value, "a number from 0 to 1e9");
 }
 
 /// Unit vectors counter-clockwise from forward; a table, so that the axes are exact.

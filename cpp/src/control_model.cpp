@@ -3,13 +3,23 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 
 #include "fragmotion/optimal.hpp"
 
 namespace fragmotion {
+namespace {
+
+constexpr double kMostCounts = 1e9;  // three years of a joystick
+
+}  // namespace
 
 std::vector<double> control_model(const std::vector<std::vector<int>>& traces, const ControlPrior& prior) {
   constexpr std::size_t kPoints = ControlSpace::kPoints;
+  for (const double counts : {prior.stays, prior.goes_anywhere}) {
+    if (!(counts >= 0 && counts <= kMostCounts))
+      throw std::invalid_argument("the counts of a prior must be 0 to a thousand million");
+  }
   std::vector<double> model(kPoints * kPoints, prior.goes_anywhere / kPoints);
   for (std::size_t c = 0; c < kPoints; ++c) model[c * kPoints + c] += prior.stays;
   for (const std::vector<int>& trace : traces) {

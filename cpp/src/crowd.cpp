@@ -19,7 +19,10 @@ int first_of(int part, int parts, int players) {
 
 Crowd::Crowd(std::shared_ptr<const Character> character, int count, const PlayerOptions& options, int threads)
     : bones_(character->pool.skeleton.size()), parts_(std::clamp(thread_count(threads), 1, std::max(1, count))) {
-  if (count < 0) throw std::invalid_argument("a crowd cannot have fewer than no players");
+  if (count < 0 || count > kMostPlayers) {
+    throw std::invalid_argument("a crowd has 0 to " + std::to_string(kMostPlayers) + " players, not " +
+                                std::to_string(count));
+  }
   players_.reserve(count);
   for (int part = 0; part < parts_; ++part) {
     const auto stage = std::make_shared<Player::Stage>(*character);

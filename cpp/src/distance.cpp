@@ -2,6 +2,8 @@
 #include "fragmotion/distance.hpp"
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "fragmotion/parallel.hpp"
 #include "fragmotion/pose.hpp"
@@ -47,6 +49,10 @@ FRAGMOTION_VECTORISED float tip_distance(const float* a, const float* b, int str
 
 template <typename AnyClip>
 Trajectories trajectories(const Pool<AnyClip>& pool, int poses, int threads) {
+  if (poses < 2 || poses > kMostPoses) {
+    throw std::invalid_argument("a trajectory has 2 to " + std::to_string(kMostPoses) + " poses, not " +
+                                std::to_string(poses));
+  }
   const int points = BodyTips(pool.skeleton).points();
   Trajectories t;
   t.count = static_cast<int>(pool.fragments.size());

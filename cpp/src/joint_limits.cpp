@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "fragmotion/pose.hpp"
@@ -165,6 +166,7 @@ JointLimits::JointLimits(const PackedPool& pool)
 }
 
 Excess JointLimits::of(const std::vector<double>& rotations) const {
+  if (rotations.size() % width_ != 0) throw std::invalid_argument("the rotations are not of this skeleton's bones");
   Tally tally;
   for (std::size_t pose = 0; pose < rotations.size(); pose += width_) {
     for (std::size_t j = 0; j < joints_.size(); ++j) tally.add(ranges_[j].excess(joints_[j].turn(&rotations[pose])));

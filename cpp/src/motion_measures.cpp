@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "fragmotion/leg.hpp"
 #include "fragmotion/pose.hpp"
@@ -158,11 +160,24 @@ class Measurement {
   std::vector<float> positions_, velocities_, accelerations_;
 };
 
+void check(const Performance& p, std::size_t width) {
+  const auto frames = static_cast<std::size_t>(p.frames);
+  if (p.frames < 1 || !(p.rate > 0) || p.root_positions.size() != 3 * frames || p.entered.size() != frames ||
+      p.rotations.size() % frames != 0) {
+    throw std::invalid_argument("the performance's parts do not fit together");
+  }
+  if (p.rotations.size() == width * frames) return;
+  throw std::invalid_argument("the performance is of a skeleton of " + std::to_string(p.rotations.size() / frames / 4) +
+                              " bones, the character's has " + std::to_string(width / 4) +
+                              ": measure it by its own character");
+}
+
 }  // namespace
 
 MotionYardstick::MotionYardstick(const Character& character)
     : skeleton_(character.pool.skeleton), limits_(character.pool) {
   const std::vector<Joints> takes = takes_of(character);
+  if (takes.empty()) throw std::invalid_argument("the character holds no captured fragment to measure by");
   floors_ = floors_of(takes);
   Measurement measurement(floors_);
   for (const Joints& take : takes) measurement.add(take);
@@ -171,10 +186,11 @@ MotionYardstick::MotionYardstick(const Character& character)
 }
 
 MotionMeasures MotionYardstick::of(const Performance& p) const {
+  const std::size_t width = std::size_t{4} * skeleton_.size();
+  check(p, width);
   JointReader reader(skeleton_);
   Joints joints;
   joints.rate = p.rate;
-  const std::size_t width = p.rotations.size() / p.frames;
   double since = kStitched;
   for (int f = 0; f < p.frames; ++f) {
     reader.add(joints, load_vector(&p.root_positions[std::size_t{3} * f]), &p.rotations[width * f]);

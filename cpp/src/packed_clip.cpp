@@ -383,7 +383,7 @@ void check(const PackedClip& clip, const Skeleton& skeleton) {
   const PoseGrid& grid = *clip.grid;
   check_grid(grid, skeleton.size());
   const std::size_t turns = std::size_t{3} * kBoneBlock * grid.blocks();
-  require(clip.rate > 0 && clip.rate <= kMostRate && clip.frames >= 2);
+  require(clip.rate > 0 && clip.rate <= kHighestRate && clip.frames >= 2);
   require(clip.least.size() == turns && clip.bits.size() == kRootNumbers + turns);
   for (const int bits : clip.bits) require(bits <= PackedClip::kMostBits);
   for (const std::int32_t number : clip.least) require(std::abs(static_cast<double>(number)) < kMostSteps);

@@ -15,6 +15,7 @@ constexpr double kRounding = 1e-9;  // frames
 constexpr double kAround = 0.5;     // s over which speeds are measured
 constexpr double kSpan = 2;         // s over which the root drifts
 constexpr double kJumps = 0.5;
+constexpr double kLongestShortest = 3600;  // s: the longest step of a player, too
 
 // The slope a frame of the least-squares line through frames first .. last of a path.
 Vector3 slope(const std::vector<double>& path, int first, int last) {
@@ -114,6 +115,17 @@ std::size_t control_at(int frame, double rate, std::size_t controls) {
   return std::min(static_cast<std::size_t>(seconds * kTraceRate + kRounding), controls - 1);
 }
 
+int frame_count(std::size_t controls, double rate) {
+  if (!(rate > 0 && rate <= 1000)) throw std::invalid_argument("the frame rate must be over 0 and at most 1000");
+  const double frames = std::round(static_cast<double>(controls) / kTraceRate * rate);
+  if (frames >= kMostFrames) {
+    throw std::invalid_argument("a trace of " + std::to_string(controls) + " controls makes " +
+                                std::to_string(static_cast<long long>(frames)) + " frames at this rate, at most " +
+                                std::to_string(kMostFrames) + " can be played: cut it");
+  }
+  return static_cast<int>(frames) + 1;
+}
+
 void judge(Performance& p, const Character& character, const Trace& trace) {
   const int half = std::max(1, static_cast<int>(std::lround(kAround / 2 * p.rate)));
   const double weight = 1.0 / (p.frames - 1);
@@ -133,10 +145,13 @@ void judge(Performance& p, const Character& character, const Trace& trace) {
 
 double optimal_performance(const Character& character, const Trace& trace, double rate, double shortest) {
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
-  if (!(rate > 0 && rate <= 1000)) throw std::invalid_argument("the frame rate must be over 0 and at most 1000");
+  if (!(shortest >= 0 && shortest <= kLongestShortest)) {
+    throw std::invalid_argument("the shortest time that a class plays must be 0 s to an hour");
+  }
+  const int frames = frame_count(trace.size(), rate) - 1;
+  if (frames < 1) throw std::invalid_argument("the trace is shorter than a frame at this rate");
   const std::vector<int> snapped = snap(character.space, trace);
   std::vector<int> controls;
-  const auto frames = static_cast<int>(std::lround(static_cast<double>(trace.size()) / kTraceRate * rate));
   for (int f = 1; f <= frames; ++f) controls.push_back(snapped[control_at(f, rate, snapped.size())]);
   return Hindsight(character, controls, rate, shortest).best();
 }

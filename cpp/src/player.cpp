@@ -438,11 +438,10 @@ void Player::step(const Control& control, double seconds) {
 
 Performance Player::run(const Trace& trace, double rate, const Progress& progress) {
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
-  if (!(rate > 0 && rate <= 1000)) throw std::invalid_argument("the frame rate must be over 0 and at most 1000");
   Performance p;
   const int entered = entered_;
   p.rate = rate;
-  p.frames = static_cast<int>(std::lround(static_cast<double>(trace.size()) / kTraceRate * rate)) + 1;
+  p.frames = frame_count(trace.size(), rate);
   for (int f = 0; f < p.frames; ++f) {
     if (f % 256 == 0) report(progress, static_cast<double>(f) / p.frames, "Playing");
     const Control& control = trace[control_at(f, rate, trace.size())];

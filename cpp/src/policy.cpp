@@ -15,6 +15,7 @@ double trace_quality(const Quality& quality, const Policy& policy, const std::ve
 
 double percent_of_optimal(const Quality& quality, const Policy& policy, const std::vector<int>& trace) {
   const OptimalPath optimal = optimal_path(quality, trace);
+  if (optimal.quality == 0) return 100;  // nothing is any good
   return 100 * trace_quality(quality, policy, trace, optimal.classes[0]) / optimal.quality;
 }
 

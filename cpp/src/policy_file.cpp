@@ -11,6 +11,7 @@
 
 #include "fragmotion/distance.hpp"
 #include "fragmotion/role_names.hpp"
+#include "fragmotion/utf8.hpp"
 #include "policy_bytes.hpp"
 #include "ranges.hpp"
 #include "write_file.hpp"
@@ -87,7 +88,7 @@ class Reader {
   void text(std::string& value) {
     std::uint32_t size = 0;
     number<std::uint32_t>(size);
-    value.assign(take(size), size);
+    value = as_utf8(std::string(take(size), size));
   }
   // `least`: bytes that an element takes at the least, so that a count that cannot be is refused before it is believed.
   template <typename T, typename Each>

@@ -75,7 +75,8 @@ Vector3 checked_location(const double* xyz, const std::string& clip, int frame, 
 
 void check_pose(const Skeleton& skeleton, const double* root_position, const double* rotations, int frame) {
   const std::string label = "pose " + std::to_string(frame);
-  if (!load_vector(root_position).allFinite()) fail(label, "the root position is not finite");
+  if (!(load_vector(root_position).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kFarthestHips))
+    fail(label, "the root position is not finite, or more than 1000 km from the origin");
   for (int b = skeleton.roles.hips; b < skeleton.size(); ++b) {
     if (skeleton.is_below(b, skeleton.roles.hips) &&
         !(std::abs(load_quaternion(rotations + 4 * b).norm() - 1) < kRigid))

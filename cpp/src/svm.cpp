@@ -18,8 +18,8 @@ namespace {
 
 constexpr int kPoseComponents = 8;
 constexpr int kMostFolds = 1000;
-constexpr double kLargest = 1e9;  // C and gamma
-constexpr int kBlock = 50;        // samples: neighbours in time are alike, so folds are made of blocks of five seconds
+constexpr double kLeastParameter = 1e-6, kMostParameter = 1e6;  // C and gamma: far beyond, libsvm hardly ends
+constexpr int kBlock = 50;  // samples: neighbours in time are alike, so folds are made of blocks of five seconds
 const std::vector<double> kCosts{1, 8, 64, 512};
 const std::vector<double> kGammas{1.0 / 64, 1.0 / 16, 1.0 / 4, 1};
 
@@ -131,7 +131,7 @@ void check(const std::vector<std::vector<int>>& traces, const SvmOptions& option
   if (traces.empty()) throw std::invalid_argument("the svm policy needs at least one trace to learn from");
   require_range("the number of folds of the svm's cross-validation", options.folds, 2, kMostFolds);
   for (const double value : {options.c, options.gamma}) {
-    require_range("the svm's C and gamma (0: chosen)", value, 0, kLargest);
+    if (value != 0) require_range("the svm's C and gamma (0: chosen)", value, kLeastParameter, kMostParameter);
   }
 }
 
@@ -163,6 +163,9 @@ std::vector<double> class_features(const Trajectories& t, const Classes& classes
 SvmSamples svm_samples(const Quality& quality, const std::vector<std::vector<int>>& traces,
                        const std::vector<double>& features, const ControlSpace& space) {
   const int width = static_cast<int>(features.size()) / quality.classes;
+  if (width < 1 || features.size() != static_cast<std::size_t>(width) * quality.classes) {
+    throw std::invalid_argument("every class needs as many features, at least one");
+  }
   SvmSamples samples;
   for (const std::vector<int>& trace : traces) {
     const OptimalPath path = optimal_path(quality, trace);

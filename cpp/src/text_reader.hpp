@@ -13,8 +13,10 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "fragmotion/types.hpp"
+#include "fragmotion/utf8.hpp"
 
 namespace fragmotion {
 
@@ -157,7 +159,7 @@ class TextReader {
     std::string text(static_cast<std::size_t>(stream.tellg()), '\0');
     stream.seekg(0);
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    return text;
+    return as_utf8(std::move(text));
   }
 
   std::string file_;

@@ -98,7 +98,7 @@ TEST(Bvh, PositionChannelsReplaceTheOffset) {
 TEST(Bvh, UnitIsTheLengthOfAFileUnit) { expect_near(read_text(kSmall, 1).skeleton.offsets[1], {10, -30, 20}); }
 
 TEST(Bvh, RejectsAUnitThatIsNoLength) {
-  for (const double unit : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double unit : {0.0, -1.0, 1e308, 1e-308, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_NE(error_of([&] { read_text(kSmall, unit); }), "no error") << unit;
   }
 }

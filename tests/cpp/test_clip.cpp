@@ -84,9 +84,12 @@ TEST(MakeClip, RefusesMalformedClipsNamingThePlace) {
     std::vector<std::string> named;
   } cases[] = {
       {"no rate", [](Clip& c) { c.rate = 0; }, {"'clip'", "rate"}},
-      {"rate too high", [](Clip& c) { c.rate = 10001; }, {"'clip'", "10001", "at most 10000"}},
-      {"position too far", [](Clip& c) { c.root_positions[4] = -1.1e6; }, {"'clip'", "frame 1", "1000 km"}},
+      {"rate too high", [](Clip& c) { c.rate = 10001; }, {"'clip'", "10001", "to 10000"}},
       {"rate is not a number", [](Clip& c) { c.rate = kNan; }, {"'clip'", "rate"}},
+      {"rate of no motion", [](Clip& c) { c.rate = 1e-300; }, {"'clip'", "rate"}},
+      {"position beyond any stage",
+       [](Clip& c) { c.root_positions[7] = 1e308; },
+       {"'clip'", "frame 2", "'hips'", "1000 km"}},
       {"one frame", [](Clip& c) { c.frames = 1; }, {"'clip'", "1 frames"}},
       {"negative frames", [](Clip& c) { c.frames = -3; }, {"'clip'", "-3 frames"}},
       {"too few positions", [](Clip& c) { c.root_positions.pop_back(); }, {"'clip'", "root position", "11"}},

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <stdexcept>
 
 #include "fragmotion/clustering.hpp"
 #include "fragmotion/random.hpp"
@@ -286,6 +287,19 @@ TEST(Cluster, RefusesWhatCannotBeClustered) {
   EXPECT_EQ(error(same, 3, equal_weights(t)), "no error");
   EXPECT_NE(error(t, 0, equal_weights(t)).find("must be 1 to"), std::string::npos);
   EXPECT_NE(error(t, 2, {1, 2}).find("weight"), std::string::npos);
+}
+
+TEST(Cluster, RefusesFragmentsWithoutPointsAndRestartsWithoutEnd) {
+  Trajectories none;
+  none.count = 60;
+  EXPECT_NE(error_of([&] { cluster(none, equal_weights(none), {}); }).find("point"), std::string::npos);
+  Trajectories few = blobs(20, 2, 2, 1);
+  ClusterOptions options;
+  options.classes = 2;
+  options.restarts = std::numeric_limits<int>::max();
+  EXPECT_NE(error_of([&] { cluster(few, equal_weights(few), options); }).find("restarts"), std::string::npos);
+  few.whole.pop_back();
+  EXPECT_NE(error_of([&] { cluster(few, equal_weights(few), {}); }).find("points"), std::string::npos);
 }
 
 TEST(Cluster, RefusesWeightsAndCoordinatesThatAreOutOfAllProportion) {

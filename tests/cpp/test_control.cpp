@@ -128,6 +128,7 @@ TEST(ControlSpace, NamesTheValueThatIsOutOfRange) {
       {"walk is not a number", nan, 2, 1, 1, {}, "walk"},
       {"run slower than walk", 2, 1, 1, 1, {}, "run"},
       {"infinite run", 1, INFINITY, 1, 1, {}, "run"},
+      {"run whose square is no number", 1, 1e300, 1, 1, {}, "run"},
       {"negative turn rate", 1, 2, -1, 1, {}, "turn rate"},
       {"no scale", 1, 2, 1, 0, {}, "scale"},
       {"negative velocity weight", 1, 2, 1, 1, {-1, 1, 1}, "velocity weight"},

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 #include "fragmotion/distance.hpp"
 #include "fragmotion/pose.hpp"
@@ -151,6 +153,14 @@ TEST(Trajectories, MeasureWhatTheNaiveFormulaSays) {
       EXPECT_NEAR(transition_distance(t, f, g), naive.transition(f, g), 1e-4);
     }
   }
+}
+
+TEST(Trajectories, RefuseNumbersOfPosesThatAreNone) {
+  const FragmentPool pool = small_pool();
+  for (const int poses : {std::numeric_limits<int>::min(), -1, 0, 1, kMostPoses + 1, 477218589}) {
+    EXPECT_THROW(trajectories(pool, poses), std::invalid_argument) << poses;
+  }
+  EXPECT_EQ(trajectories(pool, 2).stride, padded(2 * trajectories(pool, 2).tips));
 }
 
 TEST(Trajectories, GoesOnWithoutADistanceInTheClip) {

@@ -85,6 +85,21 @@ TEST(MotionYardstick, MeasuresTheTakes) {
   EXPECT_LE(takes.positions.p999, takes.positions.worst);
 }
 
+TEST(MotionYardstick, NeedsCapturedFragments) {
+  Character made = *gait_character();
+  for (Fragment& f : made.pool.fragments) f.origin = Origin::transformed;
+  EXPECT_THROW(MotionYardstick{made}, std::invalid_argument);
+}
+
+TEST(MotionYardstick, RefusesPerformancesOfAnotherSkeletonOrOfNothing) {
+  const auto other = std::make_shared<const Character>(tiny_character());
+  const MotionYardstick yardstick(*gait_character()), others(*other);
+  const Performance performance = Player(other).run(Trace(10, Control{}), 60);
+  EXPECT_THROW(yardstick.of(performance), std::invalid_argument);
+  EXPECT_THROW(yardstick.of({}), std::invalid_argument);
+  EXPECT_NO_THROW(others.of(performance));
+}
+
 TEST(MotionYardstick, FindsLessSkateWhereFeetAreLocked) {
   const auto character = gait_character();
   const MotionYardstick yardstick(*character);

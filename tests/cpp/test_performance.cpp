@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <stdexcept>
+
 #include "fragmotion/performance.hpp"
 #include "fragmotion/player.hpp"
 #include "small_character.hpp"
@@ -71,6 +74,22 @@ TEST(OptimalPerformance, RefusesAnEmptyTraceAndARateOfNothing) {
   const Character c = tiny_character();
   EXPECT_THROW(optimal_performance(c, {}, kRate, kSoonest), std::invalid_argument);
   EXPECT_THROW(optimal_performance(c, {{}, {}}, 0, kStitch), std::invalid_argument);
+  EXPECT_THROW(optimal_performance(c, {{}, {}}, 1e-9, kStitch), std::invalid_argument);
+}
+
+TEST(OptimalPerformance, RefusesAShortestTimeThatIsNone) {
+  const Character c = tiny_character();
+  for (const double shortest : {std::nan(""), -1.0, 1e308, static_cast<double>(INFINITY)}) {
+    EXPECT_THROW(optimal_performance(c, {{}, {}}, kRate, shortest), std::invalid_argument) << shortest;
+  }
+}
+
+TEST(FrameCount, IsRoundedAndHasAnEnd) {
+  EXPECT_EQ(frame_count(20, 30), 61);
+  EXPECT_EQ(frame_count(7, 29.97), 22);
+  EXPECT_EQ(frame_count(10 * (kMostFrames - 1), 1), kMostFrames);
+  EXPECT_THROW(frame_count(10 * std::size_t{kMostFrames}, 1), std::invalid_argument);
+  EXPECT_THROW(frame_count(std::size_t{1} << 40, 1000), std::invalid_argument);
 }
 
 TEST(Judge, MeasuresAPathAgainstItsTrace) {

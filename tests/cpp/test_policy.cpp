@@ -185,6 +185,18 @@ TEST(ControlModel, AddsThePriorsCounts) {
   EXPECT_NEAR(model[50 * kPoints + 7], anywhere / 10, 1e-12);
 }
 
+TEST(ControlModel, RefusesPriorsThatAreNoCounts) {
+  for (const double bad : {-1.0, std::nan(""), static_cast<double>(INFINITY), 1e308}) {
+    EXPECT_THROW(control_model({}, {bad, 1}), std::invalid_argument) << bad;
+    EXPECT_THROW(control_model({}, {1, bad}), std::invalid_argument) << bad;
+  }
+}
+
+TEST(PercentOfOptimal, IsAllWhereNothingIsAnyGood) {
+  const Quality none{1, {0}, std::vector<double>(ControlSpace::kPoints, 0)};
+  EXPECT_EQ(percent_of_optimal(none, {"only", 1, std::vector<int>(ControlSpace::kPoints, 0)}, {0, 5}), 100);
+}
+
 TEST(ControlModel, ExpectsAControlOfWhichNothingIsKnownToStay) {
   const std::vector<double> model = control_model({{3, 4}}, {});
   EXPECT_EQ(model[3 * kPoints + 4], 1);

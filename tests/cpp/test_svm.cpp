@@ -207,9 +207,17 @@ TEST(SvmPolicy, RefusesParametersOutOfRange) {
     return error_of([&] { svm_policy(w.quality, w.traces, w.features, ControlSpace(), {folds, c, gamma}); });
   };
   for (const int folds : {1, 0, -3, 1001}) EXPECT_NE(error(folds, 0, 0).find("folds"), std::string::npos) << folds;
-  for (const double bad : {-1.0, 1.1e9, std::nan(""), static_cast<double>(INFINITY)}) {
+  for (const double bad : {-1.0, 1.1e6, std::nan(""), static_cast<double>(INFINITY), 1e308, 1e-308}) {
     EXPECT_NE(error(3, bad, 1).find("C and gamma"), std::string::npos) << bad;
     EXPECT_NE(error(3, 1, bad).find("C and gamma"), std::string::npos) << bad;
+  }
+}
+
+TEST(SvmPolicy, RefusesClassesWithoutFeatures) {
+  const World w(3, 9, 9);
+  for (const std::size_t count : {0, 2, 4}) {
+    const auto error = error_of([&] { svm_policy(w.quality, w.traces, std::vector<double>(count), ControlSpace()); });
+    EXPECT_NE(error.find("features"), std::string::npos) << count;
   }
 }
 

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
 import sys
 import threading
 from collections.abc import Callable
@@ -10,6 +12,7 @@ from pathlib import Path
 
 import fragmotion_core as core
 import numpy as np
+import pytest
 from conftest import Array, build_options, small_build, walking_arrays
 
 BVH = """HIERARCHY
@@ -146,3 +149,152 @@ def test_build_is_the_same_for_any_number_of_threads(
         np.testing.assert_array_equal(other.match, made[0].match)
     different = core.build(skeleton, clips, traces, build_options(classes=20, seed=6))
     assert (different.labels != made[0].labels).any()
+
+
+def in_threads(calls: list[Callable[[], object]]) -> None:
+    """Make the calls at the same time, and wait for all of them."""
+    begin = threading.Barrier(len(calls))
+
+    def run(call: Callable[[], object]) -> None:
+        begin.wait()
+        call()
+
+    threads = [threading.Thread(target=run, args=(call,)) for call in calls]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+
+def test_a_crowd_that_threads_step_at_once_takes_each_step_whole_or_says_so(character: core.Character) -> None:
+    controls = np.tile([0.0, 1.2, 0.0, 0.0], (40, 1))
+    crowd, alone = (core.Crowd(character, 40, threads=2) for _ in range(2))
+    taken: list[bool] = []
+
+    def step() -> None:
+        for _ in range(150):
+            try:
+                crowd.step_many(controls, 1 / 60)
+                taken.append(True)
+            except RuntimeError as refusal:
+                assert "Crowd is in the middle of another call" in str(refusal)
+                taken.append(False)
+
+    in_threads([step] * 4)
+    assert len(taken) == 600 and any(taken) and not all(taken)
+    for _ in range(sum(taken)):
+        alone.step_many(controls, 1 / 60)
+    np.testing.assert_array_equal(crowd.frames, alone.frames)
+    np.testing.assert_array_equal(crowd.playing, alone.playing)
+
+
+def test_a_player_that_runs_refuses_other_calls(character: core.Character, traces: list[Array]) -> None:
+    player, same = core.Player(character), core.Player(character)
+    calls: list[Callable[[], object]] = [
+        lambda: player.step([0, 0, 0, 0], 0.1),
+        lambda: player.run(traces[0], 30),
+        lambda: player.reset(),
+        lambda: player.force(0),
+        lambda: player.frame,
+        lambda: player.playing,
+    ]
+    refusals: list[str] = []
+
+    def attempt(call: Callable[[], object]) -> None:
+        try:
+            call()
+        except RuntimeError as refusal:
+            refusals.append(str(refusal))
+
+    def callback(fraction: float, _: str) -> None:
+        if fraction == 0:
+            for call in calls:
+                attempt(call)
+                in_threads([lambda call=call: attempt(call)])  # type: ignore[misc]
+
+    performance = player.run(traces[0], 30, callback)
+    assert len(refusals) == 2 * len(calls) and all("Player is in the middle" in refusal for refusal in refusals)
+    np.testing.assert_array_equal(performance.rotations, same.run(traces[0], 30).rotations)
+    for call in calls:
+        call()
+
+
+def test_players_and_crowds_of_one_character_run_beside_each_other(
+    character: core.Character, traces: list[Array]
+) -> None:
+    controls = np.tile(traces[0][5], (20, 1))
+
+    def crowd(seed: int) -> Array:
+        stepped = core.Crowd(character, 20, seed, threads=1 + seed % 2)
+        return np.stack([stepped.step_many(controls, 1 / 30)[1] for _ in range(60)])
+
+    def player(seed: int) -> Array:
+        return core.Player(character, seed).run(traces[0][:100], 60).rotations
+
+    shown: dict[int, Array] = {}
+    makers = [crowd, player, crowd, player]
+    in_threads([lambda i=i: shown.update({i: makers[i](i)}) for i in range(4)])  # type: ignore[misc]
+    for i, maker in enumerate(makers):
+        np.testing.assert_array_equal(shown[i], maker(i))
+
+
+LEAVING = """
+import itertools, sys, threading
+import numpy as np
+import fragmotion_core as core
+from conftest import make_skeleton, small_build, walking_clips
+
+skeleton = make_skeleton()
+clips, traces = walking_clips(skeleton), [core.simulate_trace("walker", 30, 1)]
+begun = threading.Event()
+
+def busy(*_):
+    begun.set()
+    for _ in itertools.count():
+        pass
+
+def short_calls():
+    while True:
+        clips[0].world_transforms(skeleton)
+        begun.set()
+
+def points(progress=None):
+    core.cluster(np.random.default_rng(1).random((3000, 99, 3)), 30, progress=progress)
+
+def failing(*_):
+    begun.set()
+    raise KeyError("progress")
+
+def failures():
+    while True:
+        try:
+            points(failing)
+        except KeyError:
+            pass
+
+work = {
+    "a callback": lambda: small_build(skeleton, clips, traces, busy),
+    "another's callback": lambda: points(busy),
+    "short calls": short_calls,
+    "callbacks that raise": failures,
+    "a long call": lambda: (begun.set(), points()),
+}
+threading.Thread(target=work[sys.argv[1]], daemon=True).start()
+begun.wait()
+"""
+
+
+@pytest.mark.parametrize(
+    "work", ["a callback", "another's callback", "short calls", "callbacks that raise", "a long call"]
+)
+def test_python_ends_while_a_thread_is_in_the_core(work: str) -> None:
+    path = os.pathsep.join([*sys.path, str(Path(__file__).parent)])
+    done = subprocess.run(
+        [sys.executable, "-c", LEAVING, work],
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")

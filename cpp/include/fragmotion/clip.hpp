@@ -9,8 +9,11 @@
 
 namespace fragmotion {
 
-/// Frames a second that a clip may have at most: motion capture is made at up to some 2,000.
-constexpr double kMostRate = 10000;
+/// Frames a second that a clip may have: motion capture is made at up to some 2,000.
+constexpr double kLowestRate = 0.1, kHighestRate = 10000;
+
+/// How far from the origin a clip's hips may be, m: no stage is larger, and coordinates are told apart to 1e-10 m.
+constexpr double kFarthestHips = 1e6;
 
 /// One take on a skeleton at a fixed rate. Only the hips translate; the bones above them follow the character frame.
 struct Clip {
@@ -22,9 +25,9 @@ struct Clip {
   std::vector<double> headings;        ///< [frames] rad, unwrapped: where the character faces; see facing.hpp
 };
 
-/// Checks shapes, finite numbers, 0 < rate <= kMostRate, positions within 1,000 km and at least two frames, and makes
-/// the quaternions unit, successive ones on the same side. The rotations of bones outside the tree of the hips become
-/// their rest rotations, whatever they were. Throws std::invalid_argument naming the clip, frame (from 0) and bone.
+/// Checks shapes, finite numbers, rate, the hips' places and at least two frames, and makes the quaternions unit,
+/// successive ones on the same side. The rotations of bones outside the tree of the hips become their rest rotations,
+/// whatever they were. Throws std::invalid_argument naming the clip, frame (from 0) and bone.
 Clip make_clip(const Skeleton& skeleton, Clip clip);
 
 /// The take's motion on `skeleton`, bones matched by name. What bones other than the hips move away from their offsets

@@ -8,12 +8,15 @@
 
 namespace fragmotion {
 
+/// The most players of a crowd: each keeps some kilobytes, and none of a million would be seen.
+constexpr int kMostPlayers = 100000;
+
 /// Many players of one character that step together. Player i shows, to the bit, what a Player of the same options with
 /// the seed `options.seed` + i shows that is stepped alone, whatever the number of threads.
 class Crowd {
  public:
   /// `threads`: of a step; 0: as many as the machine has. Throws std::invalid_argument on an option that is out of its
-  /// range and on a count under 0.
+  /// range and on a count that is not 0 to kMostPlayers.
   Crowd(std::shared_ptr<const Character> character, int count, const PlayerOptions& options = {}, int threads = 0);
 
   int size() const { return static_cast<int>(players_.size()); }

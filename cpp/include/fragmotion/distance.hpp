@@ -57,7 +57,11 @@ struct Trajectories {
   const float* last_pose(int i) const { return &last[static_cast<std::size_t>(i) * 3 * pose_stride]; }
 };
 
-/// Samples every fragment of the pool, packed or not, at `poses` times.
+/// The most poses of a trajectory: half a second sampled as often as any camera does it holds no more.
+constexpr int kMostPoses = 1000;
+
+/// Samples every fragment of the pool, packed or not, at `poses` times. Throws std::invalid_argument unless these are 2
+/// to kMostPoses.
 template <typename AnyClip>
 Trajectories trajectories(const Pool<AnyClip>& pool, int poses = kPoses, int threads = 0);
 

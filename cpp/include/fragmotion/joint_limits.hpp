@@ -42,7 +42,7 @@ class JointLimits {
   /// The fair figure for the takes themselves: each beyond the range of all others. Nothing where there is one only.
   const Excess& takes() const { return takes_; }
 
-  /// A motion's: rotations [frames, bones, 4] as in Clip.
+  /// A motion's: rotations [frames, bones, 4] as in Clip. Throws std::invalid_argument on another number of bones.
   Excess of(const std::vector<double>& rotations) const;
 
  private:

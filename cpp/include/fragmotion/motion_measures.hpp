@@ -29,11 +29,13 @@ struct MotionMeasures {
 /// Measures performances by what the takes do themselves.
 class MotionYardstick {
  public:
+  /// Throws std::invalid_argument on a character that holds no captured fragment.
   explicit MotionYardstick(const Character& character);
 
   /// The captured takes' own measures.
   const MotionMeasures& takes() const { return takes_; }
-  /// A performance's measures; its steps are those within a quarter of a second after a fragment began.
+  /// A performance's measures; its steps are those within a quarter of a second after a fragment began. Throws
+  /// std::invalid_argument on one of another number of bones, or whose parts do not fit together.
   MotionMeasures of(const Performance& performance) const;
 
  private:

@@ -15,8 +15,8 @@ struct SvmSamples {
 
 struct SvmOptions {
   int folds = 3;     ///< Of the cross-validation that chooses what is not given; 2 .. 1000.
-  double c = 0;      ///< Penalty a of Eq. 5, up to 1e9; 0: by cross-validation.
-  double gamma = 0;  ///< Of Eq. 6, up to 1e9; 0: by cross-validation.
+  double c = 0;      ///< Penalty a of Eq. 5, 1e-6 .. 1e6; 0: by cross-validation.
+  double gamma = 0;  ///< Of Eq. 6, 1e-6 .. 1e6; 0: by cross-validation.
   int threads = 0;   ///< 0 or less: as many as the machine has.
 };
 
@@ -32,7 +32,8 @@ struct SvmPolicy {
 /// last pose, which is all that Eq. 2 sees of it, in units of the first component's standard deviation.
 std::vector<double> class_features(const Trajectories& t, const Classes& classes);
 
-/// The samples that Optimal's path over the traces gives: (Q_i, c_i) -> Q_{i+1}.
+/// The samples that Optimal's path over the traces gives: (Q_i, c_i) -> Q_{i+1}. Throws std::invalid_argument unless
+/// every class has as many features, at least one.
 SvmSamples svm_samples(const Quality& quality, const std::vector<std::vector<int>>& traces,
                        const std::vector<double>& features, const ControlSpace& space);
 
