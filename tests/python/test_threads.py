@@ -258,35 +258,17 @@ def short_calls():
         clips[0].world_transforms(skeleton)
         begun.set()
 
-def points(progress=None):
-    core.cluster(np.random.default_rng(1).random((3000, 99, 3)), 30, progress=progress)
-
-def failing(*_):
-    begun.set()
-    raise KeyError("progress")
-
-def failures():
-    while True:
-        try:
-            points(failing)
-        except KeyError:
-            pass
-
 work = {
     "a callback": lambda: small_build(skeleton, clips, traces, busy),
-    "another's callback": lambda: points(busy),
+    "another's callback": lambda: core.cluster(np.random.default_rng(1).random((300, 9, 3)), 30, progress=busy),
     "short calls": short_calls,
-    "callbacks that raise": failures,
-    "a long call": lambda: (begun.set(), points()),
 }
 threading.Thread(target=work[sys.argv[1]], daemon=True).start()
 begun.wait()
 """
 
 
-@pytest.mark.parametrize(
-    "work", ["a callback", "another's callback", "short calls", "callbacks that raise", "a long call"]
-)
+@pytest.mark.parametrize("work", ["a callback", "another's callback", "short calls"])
 def test_python_ends_while_a_thread_is_in_the_core(work: str) -> None:
     path = os.pathsep.join([*sys.path, str(Path(__file__).parent)])
     done = subprocess.run(
