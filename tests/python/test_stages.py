@@ -245,7 +245,7 @@ def test_stages_refuse_wrong_shapes() -> None:
         core.greedy_table(smoothness, match[:, :50])
     with pytest.raises(ValueError, match="table"):
         core.percent_of_optimal(smoothness, match, np.zeros((2, POINTS), np.int32), [0])
-    with pytest.raises(ValueError, match="does not exist"):
+    with pytest.raises(ValueError, match="from 0 to 2, not 3"):
         core.percent_of_optimal(smoothness, match, np.full((3, POINTS), 3, np.int32), [0])
 
 
