@@ -8,7 +8,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from tools import benchmarks, demo, evaluating, machine, packages, testing
+from tools import benchmarks, demo, evaluating, fuzzing, machine, packages, testing
 from tools.evaluate import inputs
 from tools.shell import Failure, say
 
@@ -21,6 +21,9 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     test = commands.add_parser("test", help="run every test: C++, Python, and the add-on in each Blender")
     test.add_argument("stages", nargs="*", metavar="STAGE", help=f"only these of {', '.join(testing.STAGES)}")
     test.add_argument("-k", dest="expression", metavar="EXPR", help="only the tests that match, as pytest's -k")
+    fuzz = commands.add_parser("fuzz", help="feed the file readers with inputs made at random, and watch for crashes")
+    fuzz.add_argument("--seconds", type=float, default=60.0, metavar="N", help="how long, all fuzzers together (60)")
+    fuzz.add_argument("names", nargs="*", metavar="FUZZER", help=f"only these of {', '.join(fuzzing.names())}")
     bench = commands.add_parser("bench", help="measure the core against NumPy and scikit-learn")
     bench.add_argument("--json", type=Path, metavar="FILE", help="save the figures there too")
     evaluate = commands.add_parser("evaluate", help="measure the policies on takes and traces, as the paper does")
@@ -45,6 +48,9 @@ def main(arguments: list[str]) -> int:
             return demo.run_demo()
         if options.command == "test":
             return testing.run_tests(options.stages, options.expression)
+        if options.command == "fuzz":
+            machine.set_up(machine.FUZZ)
+            return 1 if fuzzing.fuzz(options.seconds, options.names or fuzzing.names()).findings else 0
         if options.command == "bench":
             return benchmarks.run_benchmarks(options.json)
         if options.command == "evaluate":

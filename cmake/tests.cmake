@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 # tests/cpp/test_*.cpp in one GoogleTest program; each of its tests is one of ctest's, run from the top folder.
-file(GLOB fragmotion_test_sources CONFIGURE_DEPENDS tests/cpp/test_*.cpp)
+set(FRAGMOTION_TEST_FILES "test_*.cpp" CACHE STRING "Files of tests/cpp to build, all unless told")
+list(TRANSFORM FRAGMOTION_TEST_FILES PREPEND tests/cpp/ OUTPUT_VARIABLE fragmotion_test_globs)
+file(GLOB fragmotion_test_sources CONFIGURE_DEPENDS ${fragmotion_test_globs})
 if(NOT fragmotion_test_sources)
   message(STATUS "tests/cpp holds no test yet")
   return()

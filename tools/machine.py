@@ -15,6 +15,7 @@ PYTEST_FOLDER = BUILD / "pytest-3.11"
 
 _BUILD_PACKAGES = ("g++", "cmake", "ninja-build", "ccache", "libeigen3-dev", "python3-dev", "python3-venv")
 _CPP_TEST_PACKAGES = ("libgtest-dev", "libbenchmark-dev")
+_CLANG_PACKAGES = ("clang", "libclang-rt-dev")  # the second brings libFuzzer and the sanitizers of that clang
 _BLENDER_PACKAGES = ("blender", "python3-numpy")
 _WINDOW_PACKAGES = ("xvfb", "xauth", "libgl1-mesa-dri")
 _BPY_PACKAGES = (
@@ -53,6 +54,8 @@ class Needs:
 BUILD_311 = Needs(_BUILD_PACKAGES, {"3.11": _BUILD_REQUIREMENTS})
 BUILD_313 = Needs(_BUILD_PACKAGES, {"3.13": _BUILD_REQUIREMENTS})
 CPP_TESTS = BUILD_311 | Needs(_CPP_TEST_PACKAGES)
+SANITIZED_TESTS = CPP_TESTS | Needs(_CLANG_PACKAGES)
+FUZZ = BUILD_311 | Needs(_CLANG_PACKAGES)
 PYTHON_TESTS = BUILD_311 | Needs((), {"3.11": ("numpy", "pytest", "scikit-learn", "matplotlib")})
 BLENDER_45 = BUILD_311 | Needs(_BPY_PACKAGES, {"3.11": ("bpy==4.5.*", "numpy", "pytest")})
 BLENDER_52 = BUILD_313 | Needs(_BPY_PACKAGES, {"3.13": ("bpy==5.2.*", "numpy", "pytest")})

@@ -9,12 +9,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from tools import blender, environments, machine, packages
+from tools import blender, environments, fuzzing, machine, packages
 from tools.compiling import compile_preset, installed_core
 from tools.paths import LOGS, TOP
 from tools.shell import Failure, run, say
 
 _BLENDER_TESTS = TOP / "tests" / "blender"
+_THREADED_TESTS = "Thread|ParallelFor|Crowd"
+_FUZZ_SECONDS = 60.0
 
 
 class Skipped(Exception):
@@ -36,11 +38,24 @@ class Counts:
 
 def cpp(expression: str | None) -> Counts:
     """GoogleTest through ctest; `expression` is a regular expression here."""
-    folder = compile_preset("release")
-    selection = ["--tests-regex", expression] if expression else []
-    report = _fresh_report("cpp")
-    options = ["--output-on-failure", "--output-junit", str(report), "--parallel", str(os.cpu_count() or 1)]
-    return _counted(["ctest", "--test-dir", folder, *options, *selection], "cpp", {}, expression)
+    return _ctest("cpp", "release", expression)
+
+
+def sanitize(expression: str | None) -> Counts:
+    """The same tests under the address and undefined-behaviour sanitizers; `expression` as in cpp."""
+    return _ctest("sanitize", "sanitize", expression)
+
+
+def threads(expression: str | None) -> Counts:
+    """The tests that start threads, under the thread sanitizer; `expression` as in cpp."""
+    return _ctest("threads", "thread", expression or _THREADED_TESTS)
+
+
+def fuzz(expression: str | None) -> Counts:
+    """A minute of the fuzzers, from the corpus; `expression` is a part of their names."""
+    names = [name for name in fuzzing.names() if (expression or "") in name]
+    result = fuzzing.fuzz(_FUZZ_SECONDS, names)
+    return Counts(len(names) - len(result.findings), len(result.findings))
 
 
 def wheels(expression: str | None) -> Counts:
@@ -99,6 +114,14 @@ def gui(expression: str | None) -> Counts:
 def gui_tests() -> list[Path]:
     """The window tests there are."""
     return list((TOP / "tests" / "gui").glob("test_*.py"))
+
+
+def _ctest(stage: str, preset: str, expression: str | None) -> Counts:
+    folder = compile_preset(preset)
+    selection = ["--tests-regex", expression] if expression else []
+    report = _fresh_report(stage)
+    options = ["--output-on-failure", "--output-junit", str(report), "--parallel", str(os.cpu_count() or 1)]
+    return _counted(["ctest", "--test-dir", folder, *options, *selection], stage, {}, expression)
 
 
 def _extension(sandbox: str) -> dict[str, str]:

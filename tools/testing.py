@@ -23,6 +23,9 @@ class Stage:
 
 STAGES = {
     "cpp": Stage(stages.cpp, lambda: machine.CPP_TESTS),
+    "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS),
+    "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
+    "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),
     "wheels": Stage(stages.wheels, machine.package_needs),
     "python": Stage(stages.python, lambda: machine.PYTHON_TESTS, ("wheels",)),
     "package": Stage(stages.package, machine.package_needs, ("wheels",)),

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "parse_text.hpp"
 #include "text_reader.hpp"
 #include "y_up.hpp"
 
@@ -21,7 +22,7 @@ constexpr std::array<std::string_view, 6> kDofNames = {"tx", "ty", "tz", "rx", "
 
 class AsfReader {
  public:
-  explicit AsfReader(const std::filesystem::path& path) : reader_(path, kAcclaimComment) {}
+  AsfReader(std::string text, const std::string& file) : reader_(std::move(text), file, kAcclaimComment) {}
 
   AsfModel read() {
     bones_.resize(1);
@@ -78,7 +79,8 @@ class AsfReader {
   void read_length_unit() {
     const double length = reader_.number("a length");
     unit_ = kMetresPerInch / length;
-    if (length <= 0 || !std::isfinite(unit_)) reader_.fail("a length above 0 expected");
+    if (length <= 0) reader_.fail("a length above 0 expected");
+    if (length < 1 / kLargestNumber) reader_.fail("a length from 1e-12 on expected");
   }
 
   void read_angle_unit() {
@@ -111,6 +113,7 @@ class AsfReader {
   void read_bones() {
     while (is_in_section()) {
       reader_.expect("begin");
+      reader_.check_bones(bones_.size());
       AsfBone bone;
       while (read_bone_entry(bone)) continue;
       if (bone.name.empty()) reader_.fail("a bone without a name");
@@ -125,6 +128,7 @@ class AsfReader {
     if (same_word(word, "end")) return false;
     if (same_word(word, "name")) {
       bone.name = reader_.word_in_line();
+      reader_.check_name(bone.name);
     } else if (same_word(word, "direction")) {
       bone.direction = reader_.vector("a number of the direction");
     } else if (same_word(word, "length")) {
@@ -169,6 +173,7 @@ class AsfReader {
     bone.dofs.clear();
     for (auto word = reader_.word_in_line(); !word.empty(); word = reader_.word_in_line()) {
       bone.dofs.push_back(find_dof(word));
+      if (bone.dofs.size() > kDofNames.size()) reader_.fail("more than 6 dofs");
     }
   }
 
@@ -277,6 +282,6 @@ Quaternion AsfBone::axis() const {
   return rotation;
 }
 
-AsfModel read_asf_model(const std::filesystem::path& path) { return AsfReader(path).read(); }
+AsfModel parse_asf(std::string text, const std::string& file) { return AsfReader(std::move(text), file).read(); }
 
 }  // namespace fragmotion

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -36,8 +35,5 @@ struct AsfModel {
   double unit = 0;     ///< One file unit in metres.
   double radians = 0;  ///< One unit of angle in radians.
 };
-
-/// Throws std::invalid_argument "FILE:LINE: ..." on anything malformed.
-AsfModel read_asf_model(const std::filesystem::path& path);
 
 }  // namespace fragmotion

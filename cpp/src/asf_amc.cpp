@@ -10,6 +10,9 @@
 
 #include "asf.hpp"
 #include "fragmotion/clip.hpp"
+#include "fragmotion/utf8.hpp"
+#include "parse_text.hpp"
+#include "read_file.hpp"
 #include "text_reader.hpp"
 #include "y_up.hpp"
 
@@ -18,8 +21,11 @@ namespace {
 
 class AmcReader {
  public:
-  AmcReader(const std::filesystem::path& path, const AsfModel& model)
-      : reader_(path, kAcclaimComment), model_(model), radians_(model.radians), seen_(model.bones.size(), 0) {
+  AmcReader(std::string text, const std::string& file, const AsfModel& model)
+      : reader_(std::move(text), file, kAcclaimComment),
+        model_(model),
+        radians_(model.radians),
+        seen_(model.bones.size(), 0) {
     for (const AsfBone& bone : model.bones) {
       indices_.emplace(bone.name, static_cast<int>(axes_.size()));
       axes_.push_back(bone.axis());
@@ -28,6 +34,7 @@ class AmcReader {
 
   void read_into(Take& take) {
     read_header();
+    reserve(take);
     while (!reader_.peek().empty()) {
       read_frame_number(take.frames);
       append_rest_pose(take);
@@ -45,6 +52,20 @@ class AmcReader {
       if (same_word(word, ":radians")) radians_ = 1;
       reader_.skip_to_line_end();
     }
+  }
+
+  /// Frames tell nothing of bones without dofs: they are counted before memory is taken for all bones.
+  void reserve(Take& take) {
+    const TextReader::Place first = reader_.place();
+    std::size_t frames = 0;
+    for (auto word = reader_.word(); !word.empty(); word = reader_.word()) {
+      if (parse_integer(word)) ++frames;
+      reader_.skip_to_line_end();
+    }
+    reader_.go_back(first);
+    reader_.check_poses(frames, model_.bones.size());
+    take.translations.reserve(frames * model_.bones.size() * 3);
+    take.rotations.reserve(frames * model_.bones.size() * 4);
   }
 
   /// Frames may begin at any number, but a gap would change the motion's speed.
@@ -123,9 +144,7 @@ class AmcReader {
   double read_value(const AsfBone& bone, std::size_t values_before) {
     const std::string_view word = reader_.word_in_line();
     if (word.empty()) fail_values(bone, std::to_string(values_before));
-    const std::optional<double> value = parse_double(word);
-    if (!value) reader_.fail("a number expected, found " + reader_.quoted(word));
-    return *value;
+    return reader_.to_number(word, "a number");
   }
 
   [[noreturn]] void fail_values(const AsfBone& bone, const std::string& held) const {
@@ -143,7 +162,19 @@ class AmcReader {
   int frame_line_ = 0;
 };
 
+AsfModel read_asf_model(const std::filesystem::path& path) {
+  return parse_asf(read_file(path), path.filename().u8string());
+}
+
 }  // namespace
+
+Take parse_amc(std::string text, const std::string& file, const AsfModel& model, double rate) {
+  Take take;
+  take.skeleton = model.skeleton;
+  take.rate = rate;
+  AmcReader(std::move(text), file, model).read_into(take);
+  return take;
+}
 
 Skeleton read_asf(const std::filesystem::path& path) { return read_asf_model(path).skeleton; }
 
@@ -151,11 +182,8 @@ Take read_asf_amc(const std::filesystem::path& asf, const std::filesystem::path&
   if (!(rate >= kLowestRate && rate <= kHighestRate))
     throw std::invalid_argument("rate: 0.1 to 10000 frames a second expected");
   const AsfModel model = read_asf_model(asf);
-  Take take;
-  take.skeleton = model.skeleton;
+  Take take = parse_amc(read_file(amc), amc.filename().u8string(), model, rate);
   take.name = as_utf8(amc.stem().u8string());
-  take.rate = rate;
-  AmcReader(amc, model).read_into(take);
   return take;
 }
 

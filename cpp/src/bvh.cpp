@@ -10,6 +10,9 @@
 #include <unordered_set>
 #include <utility>
 
+#include "fragmotion/utf8.hpp"
+#include "parse_text.hpp"
+#include "read_file.hpp"
 #include "text_reader.hpp"
 #include "y_up.hpp"
 
@@ -47,7 +50,7 @@ double frame_rate(double frame_time) {
 
 class BvhReader {
  public:
-  BvhReader(const std::filesystem::path& path, double unit) : reader_(path), unit_(unit) {}
+  BvhReader(std::string text, const std::string& file, double unit) : reader_(std::move(text), file), unit_(unit) {}
 
   Take read() {
     read_hierarchy();
@@ -67,6 +70,7 @@ class BvhReader {
   }
 
   void open_joint() {
+    reader_.check_bones(joints_.size());
     Joint joint;
     joint.name = read_joint_name();
     joint.parent = current_;
@@ -83,6 +87,7 @@ class BvhReader {
       if (!name.empty()) name += ' ';
       name += reader_.word_in_line();
     }
+    reader_.check_name(name);
     if (name.empty()) reader_.fail("a joint's name expected, found " + reader_.quoted(reader_.peek_in_line()));
     return name;
   }
@@ -209,16 +214,19 @@ class BvhReader {
 
   double read_rate() {
     const double frame_time = reader_.number("a frame time in seconds");
-    const double rate = frame_rate(frame_time);
-    if (frame_time <= 0 || !std::isfinite(rate)) reader_.fail("a frame time above 0 expected");
+    if (frame_time <= 0) reader_.fail("a frame time above 0 expected");
+    if (frame_time < kShortestFrame || frame_time > kLongestFrame) {
+      reader_.fail("a frame time from 0.0001 to 1000 seconds expected");
+    }
     reader_.expect_line_end();
-    return rate;
+    return frame_rate(frame_time);
   }
 
   /// The announced count may be anything: the bytes that are left bound what the frames can need.
   void reserve(Take& take, long long announced) const {
     const std::size_t bytes_a_frame = 2 * std::max<std::size_t>(channel_count_, 1);
     const std::size_t frames = std::min<unsigned long long>(announced, reader_.bytes_left() / bytes_a_frame + 1);
+    reader_.check_poses(frames, joints_.size());
     take.translations.reserve(frames * joints_.size() * 3);
     take.rotations.reserve(frames * joints_.size() * 4);
   }
@@ -227,9 +235,7 @@ class BvhReader {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::string_view word = reader_.word_in_line();
       if (word.empty()) fail_frame(frame, std::to_string(i));
-      const std::optional<double> value = parse_double(word);
-      if (!value) reader_.fail("a number expected, found " + reader_.quoted(word));
-      values[i] = *value;
+      values[i] = reader_.to_number(word, "a number");
     }
     if (!reader_.word_in_line().empty()) fail_frame(frame, "more");
   }
@@ -270,10 +276,14 @@ class BvhReader {
 
 }  // namespace
 
+Take parse_bvh(std::string text, const std::string& file, double unit) {
+  return BvhReader(std::move(text), file, unit).read();
+}
+
 Take read_bvh(const std::filesystem::path& path, double unit) {
   if (!(unit >= kLeastUnit && unit <= kMostUnit))
     throw std::invalid_argument("unit: a length from 1e-6 to 1000 metres expected");
-  Take take = BvhReader(path, unit).read();
+  Take take = parse_bvh(read_file(path), path.filename().u8string(), unit);
   take.name = as_utf8(path.stem().u8string());
   return take;
 }

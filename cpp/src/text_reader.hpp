@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
-#include <fstream>
 #include <locale>
 #include <optional>
 #include <sstream>
@@ -17,6 +15,7 @@
 
 #include "fragmotion/types.hpp"
 #include "fragmotion/utf8.hpp"
+#include "take_limits.hpp"
 
 namespace fragmotion {
 
@@ -53,13 +52,13 @@ inline std::optional<long long> parse_integer(std::string_view text) {
   return value;
 }
 
-/// A text file as words and lines. Words are cut at blanks; CR LF and LF end lines; views stay valid as long as the
-/// reader. Where a comment character is given, a word that begins with it hides the rest of its line.
+/// A text as words and lines. Words are cut at blanks; CR LF and LF end lines; views stay valid as long as the reader.
+/// Where a comment character is given, a word that begins with it hides the rest of its line.
 class TextReader {
  public:
-  /// Throws std::invalid_argument "FILE: cannot be read".
-  explicit TextReader(const std::filesystem::path& path, char comment = '\0')
-      : file_(path.filename().u8string()), text_(read_text(path)), comment_(comment) {
+  /// `file` names the text in errors.
+  TextReader(std::string text, std::string file, char comment = '\0')
+      : file_(std::move(file)), text_(as_utf8(std::move(text))), comment_(comment) {
     if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0) at_ = 3;  // UTF-8 byte order mark
   }
 
@@ -94,10 +93,13 @@ class TextReader {
   }
 
   /// A finite number from this line; `what` names it in the error.
-  double number(std::string_view what) {
-    const std::string_view found = word_in_line();
+  double number(std::string_view what) { return to_number(word_in_line(), what); }
+
+  double to_number(std::string_view found, std::string_view what) const {
     const std::optional<double> value = parse_double(found);
     if (!value) fail(std::string(what) + " expected, found " + quoted(found));
+    if (std::abs(*value) > kLargestNumber)
+      fail(std::string(what) + " from -1e12 to 1e12 expected, found " + quoted(found));
     return *value;
   }
 
@@ -136,8 +138,38 @@ class TextReader {
     return at_ == text_.size() ? "the end of the file" : "the end of the line";
   }
 
+  void check_name(const std::string& name) const {
+    if (name.size() <= kLongestName) return;
+    fail("name " + quoted(name) + "... has " + std::to_string(name.size()) + " bytes, at most " +
+         std::to_string(kLongestName) + " are allowed");
+  }
+
+  /// Fails where one bone more than `bones` would be too many.
+  void check_bones(std::size_t bones) const {
+    if (bones >= kMostBones) fail("more than " + std::to_string(kMostBones) + " bones");
+  }
+
+  void check_poses(std::size_t frames, std::size_t bones) const {
+    const std::size_t most = most_poses(text_.size());
+    if (frames <= most / bones) return;
+    fail(std::to_string(frames) + " frames of " + std::to_string(bones) + " bones in a file of " +
+         std::to_string(text_.size()) + " bytes, which may hold at most " + std::to_string(most) +
+         " poses of a bone: most of its bones would not move");
+  }
+
   int line() const { return line_; }
   std::size_t bytes_left() const { return text_.size() - at_; }
+
+  /// Where it reads, to come back to.
+  struct Place {
+    std::size_t at;
+    int line;
+  };
+  Place place() const { return {at_, line_}; }
+  void go_back(const Place& place) {
+    at_ = place.at;
+    line_ = place.line;
+  }
 
  private:
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
@@ -148,18 +180,6 @@ class TextReader {
     // A final line end begins no line that an error could name.
     if (at_ < text_.size()) ++line_;
     return true;
-  }
-
-  std::string read_text(const std::filesystem::path& path) const {
-    std::error_code error;
-    std::ifstream stream;
-    // A directory opens like a file on some systems.
-    if (std::filesystem::is_regular_file(path, error)) stream.open(path, std::ios::binary | std::ios::ate);
-    if (!stream.is_open()) throw std::invalid_argument(file_ + ": cannot be read");
-    std::string text(static_cast<std::size_t>(stream.tellg()), '\0');
-    stream.seekg(0);
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    return as_utf8(std::move(text));
   }
 
   std::string file_;

@@ -2,16 +2,17 @@
 #include "fragmotion/trace.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 
+#include "parse_text.hpp"
+#include "read_file.hpp"
 #include "text_reader.hpp"
 #include "write_file.hpp"
 
@@ -20,6 +21,7 @@ namespace fragmotion {
 namespace {
 
 constexpr const char* kColumns[] = {"velocity_x", "velocity_y", "turn", "jump"};
+constexpr double kFastest = 1e9;  // m/s: three times as fast as light
 constexpr const char* kHeader = "velocity_x,velocity_y,turn,jump";
 
 [[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& cause) {
@@ -33,43 +35,39 @@ std::string_view trim(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-/// Pieces between `separator`s, trimmed.
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> pieces;
-  for (;;) {
-    const std::size_t end = text.find(separator);
-    pieces.push_back(trim(text.substr(0, end)));
-    if (end == std::string_view::npos) return pieces;
-    text.remove_prefix(end + 1);
-  }
+/// Takes the text up to the next `separator`, trimmed, and drops both from `text`.
+std::string_view take_piece(std::string_view& text, char separator) {
+  const std::size_t end = text.find(separator);
+  const std::string_view piece = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return trim(piece);
 }
 
-std::string read_text(const std::filesystem::path& path) {
-  std::error_code error;
-  std::ifstream stream;
-  // A directory opens like a file on some systems.
-  if (std::filesystem::is_regular_file(path, error)) stream.open(path, std::ios::binary);
-  if (!stream.is_open()) throw std::invalid_argument(path.filename().u8string() + ": cannot be read");
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::vector<std::string_view> trace_lines(std::string_view text) {
-  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);  // UTF-8 byte order mark
-  std::vector<std::string_view> lines = split(text, '\n');
-  while (lines.size() > 1 && lines.back().empty()) lines.pop_back();
-  return lines;
+/// The values of a row as they are written; `fail` is told how many there are where they are not four.
+template <typename Fail>
+std::array<std::string_view, 4> split_row(std::string_view row, const Fail& fail) {
+  const auto count = static_cast<std::size_t>(std::count(row.begin(), row.end(), ',')) + 1;
+  std::array<std::string_view, 4> cells;
+  if (count != cells.size()) fail(count);
+  for (std::string_view& cell : cells) cell = take_piece(row, ',');
+  return cells;
 }
 
 void check_header(const std::string& file, std::string_view line) {
-  const std::vector<std::string_view> names = split(line, ',');
-  if (!std::equal(names.begin(), names.end(), std::begin(kColumns), std::end(kColumns)))
+  const auto refuse = [&](std::size_t /*columns*/ = 0) {
     fail(file, 1, "the header is '" + std::string(line.substr(0, 80)) + "', expected '" + kHeader + "'");
+  };
+  const auto names = split_row(line, refuse);
+  if (!std::equal(names.begin(), names.end(), std::begin(kColumns))) refuse();
 }
 
 void check_control(const std::string& file, std::size_t line, const Control& control) {
   const double values[] = {control.x, control.y, control.turn, control.jump};
   for (int i = 0; i < 4; ++i) {
     if (!std::isfinite(values[i])) fail(file, line, std::string(kColumns[i]) + " is not a finite number");
+  }
+  for (int i = 0; i < 2; ++i) {
+    if (std::abs(values[i]) > kFastest) fail(file, line, std::string(kColumns[i]) + " is over 1e9 m/s");
   }
   if (std::abs(control.turn) > 1)
     fail(file, line, "turn is " + std::to_string(control.turn) + ", expected -1 (right) to 1 (left)");
@@ -78,11 +76,11 @@ void check_control(const std::string& file, std::size_t line, const Control& con
 }
 
 Control parse_control(const std::string& file, std::size_t line, std::string_view text) {
-  const std::vector<std::string_view> cells = split(text, ',');
-  if (cells.size() != 4)
+  const auto cells = split_row(text, [&](std::size_t count) {
     fail(file, line,
          "expected 4 values (" + std::string(kHeader) + "), found " +
-             (text.empty() ? "an empty line" : std::to_string(cells.size())));
+             (text.empty() ? "an empty line" : std::to_string(count)));
+  });
   double values[4];
   for (int i = 0; i < 4; ++i) {
     const std::optional<double> value = parse_double(cells[i]);
@@ -124,17 +122,20 @@ std::string format_trace(const Trace& trace) {
 
 }  // namespace
 
-Trace read_trace(const std::filesystem::path& path) {
-  const std::string file = path.filename().u8string();
-  const std::string text = read_text(path);
-  const std::vector<std::string_view> lines = trace_lines(text);
-  check_header(file, lines[0]);
+Trace parse_trace(const std::string& text, const std::string& file) {
+  std::string_view left = text;
+  if (left.substr(0, 3) == "\xEF\xBB\xBF") left.remove_prefix(3);  // UTF-8 byte order mark
+  left = left.substr(0, left.find_last_not_of(" \t\r\n") + 1);     // blank lines at the end
+  check_header(file, take_piece(left, '\n'));
   Trace trace;
-  for (std::size_t i = 1; i < lines.size(); ++i) trace.push_back(parse_control(file, i + 1, lines[i]));
+  std::size_t line = 1;
+  while (!left.empty()) trace.push_back(parse_control(file, ++line, take_piece(left, '\n')));
   if (trace.size() < 2)
-    fail(file, lines.size(), "the trace ends after " + std::to_string(trace.size()) + " rows, expected at least 2");
+    fail(file, line, "the trace ends after " + std::to_string(trace.size()) + " rows, expected at least 2");
   return trace;
 }
+
+Trace read_trace(const std::filesystem::path& path) { return parse_trace(read_file(path), path.filename().u8string()); }
 
 void write_trace(const std::filesystem::path& path, const Trace& trace) {
   const std::string file = path.filename().u8string();

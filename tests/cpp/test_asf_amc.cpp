@@ -212,6 +212,11 @@ std::vector<Broken> broken_skeletons() {
       {"axis twice", replaced(asf, "0 0 90 XYZ", "0 0 90 XXZ"), "21: an axis order such as XYZ expected, found 'XXZ'"},
       {"unknown dof", replaced(asf, "dof rx ry rz", "dof rx ry rw"),
        "22: dof tx, ty, tz, rx, ry or rz expected, found 'rw'"},
+      {"more dofs than there are", replaced(asf, "dof rx ry rz", "dof rx ry rz rx ry rz rx"), "22: more than 6 dofs"},
+      {"length beyond all", replaced(asf, "length 10", "length 1e300"),
+       "20: a length from -1e12 to 1e12 expected, found '1e300'"},
+      {"length unit without a size", replaced(asf, "length 1\n", "length 1e-320\n"),
+       "6: a length from 1e-12 on expected"},
       {"bone that changes its length", replaced(asf, "dof rx tx", "dof rx l"),
        "33: dof 'l' (a bone that changes its length) is not supported"},
       {"unknown word of the root", replaced(asf, "position 0 0 0", "place 0 0 0"),
@@ -237,6 +242,8 @@ std::vector<Broken> broken_motions() {
       {"truncated", amc.substr(0, amc.rfind("root")), "8: frame 2 lacks bone 'root'"},
       {"not a number", replaced(amc, "root 1 2 3", "root 1 nan 3"), "5: a number expected, found 'nan'"},
       {"a word", replaced(amc, "root 1 2 3", "root 1 two 3"), "5: a number expected, found 'two'"},
+      {"farther than anything", replaced(amc, "root 1 2 3", "root 1 2e12 3"),
+       "5: a number from -1e12 to 1e12 expected, found '2e12'"},
   };
 }
 
@@ -251,6 +258,43 @@ TEST(AsfAmc, NamesFileLineAndCauseOfABrokenMotion) {
   for (const Broken& broken : broken_motions()) {
     const std::string error = error_of([&] { read_text(kAsf, broken.text); });
     EXPECT_EQ(error.find(std::string("moves.amc:") + broken.error), 0u) << broken.what << ": " << error;
+  }
+}
+
+/// kAsf with so many bones more, without dofs, below the tail.
+std::string with_still_bones(int count) {
+  std::string bones, children = "    tail";
+  for (int i = 0; i < count; ++i) {
+    const std::string name = " b" + std::to_string(i);
+    bones += "begin\nname" + name + "\ndirection 1 0 0\nlength 1\naxis 0 0 0 XYZ\nend\n";
+    children += name;
+  }
+  return replaced(replaced(kAsf, ":hierarchy", bones + ":hierarchy"), "    upper lower",
+                  children + "\n    upper lower");
+}
+
+TEST(AsfAmc, ReadsBonesAndNamesUpToALimit) {
+  EXPECT_EQ(read_text(with_still_bones(4092), kAmc).skeleton.size(), 4096);
+  EXPECT_EQ(error_of([] { read_text(with_still_bones(4093), kAmc); }),
+            "small.asf:" + std::to_string(42 + 6 * 4092) + ": more than 4096 bones");
+  EXPECT_EQ(error_of([] { read_text(replaced(kAsf, "name tail", "name " + std::string(256, 'a')), kAmc); }),
+            "small.asf:37: name '" + std::string(40, 'a') + "'... has 256 bytes, at most 255 are allowed");
+}
+
+TEST(AsfAmc, TakesMemoryInProportionToTheFile) {
+  const std::string asf = with_still_bones(996);
+  for (const int frames : {2, 500, 501, 5000}) {
+    std::string amc;
+    for (int f = 1; f <= frames; ++f) amc += std::to_string(f) + "\nroot 0 0 0 0 0 0\nupper 0 0 0\nlower 0 0\n";
+    if (1000 * frames <= 500000 + static_cast<int>(amc.size()) / 4) {
+      const Take take = read_text(asf, amc);
+      EXPECT_EQ(take.frames, frames);
+      EXPECT_LE(8 * (take.translations.capacity() + take.rotations.capacity()), 50000000 + 20 * amc.size());
+    } else {
+      EXPECT_EQ(
+          error_of([&] { read_text(asf, amc); }).find("moves.amc:1: " + std::to_string(frames) + " frames of 1000"),
+          0u);
+    }
   }
 }
 

@@ -166,6 +166,8 @@ std::vector<Broken> broken_hierarchies() {
        "8: a number of the OFFSET expected, found the end of the line"},
       {"offset of four numbers", replaced(small, "10 20 30", "10 20 30 40"),
        "8: OFFSET, CHANNELS, JOINT, End Site or '}' expected, found '40'"},
+      {"offset beyond all", replaced(small, "10 20 30", "10 -1e300 30"),
+       "8: a number of the OFFSET from -1e12 to 1e12 expected, found '-1e300'"},
       {"offset that is no number", replaced(small, "10 20 30", "10 2O 30"),
        "8: a number of the OFFSET expected, found '2O'"},
       {"two roots", replaced(small, "MOTION", "ROOT Other"), "16: more than one ROOT"},
@@ -181,6 +183,8 @@ std::vector<Broken> broken_motions() {
       {"not a number", replaced(small, "100 200", "100 nan"), "19: a number expected, found 'nan'"},
       {"infinite", replaced(small, "100 200", "-inf 200"), "19: a number expected, found '-inf'"},
       {"beyond a double", replaced(small, "100 200", "1e999 200"), "19: a number expected, found '1e999'"},
+      {"farther than anything", replaced(small, "100 200", "100 1e13"),
+       "19: a number from -1e12 to 1e12 expected, found '1e13'"},
       {"a word", replaced(small, "100 200", "100 two"), "19: a number expected, found 'two'"},
       {"a decimal comma", replaced(small, "100 200", "100,5 200"), "19: a number expected, found '100,5'"},
       {"fewer frames", replaced(small, "Frames: 2", "Frames: 3"), "20: the file ends after 2 frames, 3 expected"},
@@ -195,7 +199,9 @@ std::vector<Broken> broken_motions() {
       {"frame time 0", replaced(small, "0.0333333", "0"), "18: a frame time above 0 expected"},
       {"frame time below 0", replaced(small, "0.0333333", "-0.03"), "18: a frame time above 0 expected"},
       {"frame time NaN", replaced(small, "0.0333333", "NaN"), "18: a frame time in seconds expected, found 'NaN'"},
-      {"frame time without a rate", replaced(small, "0.0333333", "1e-320"), "18: a frame time"},
+      {"frame time without a rate", replaced(small, "0.0333333", "1e-320"), "18: a frame time from 0.0001 to 1000"},
+      {"faster than any camera", replaced(small, "0.0333333", "0.00009"), "18: a frame time from 0.0001 to 1000"},
+      {"a frame of an hour", replaced(small, "0.0333333", "3600"), "18: a frame time from 0.0001 to 1000"},
       {"no frame time", replaced(small, "Frame Time: 0.0333333\n", ""), "18: 'Frame' expected, found '100'"},
   };
 }
@@ -216,6 +222,7 @@ TEST(Bvh, NamesAFileThatCannotBeRead) {
   EXPECT_EQ(error_of([&] { read_bvh(folder.path() / "none.bvh"); }), "none.bvh: cannot be read");
   std::filesystem::create_directory(folder.path() / "folder.bvh");
   EXPECT_EQ(error_of([&] { read_bvh(folder.path() / "folder.bvh"); }), "folder.bvh: cannot be read");
+  EXPECT_EQ(error_of([] { read_bvh("/dev/zero"); }), "zero: cannot be read");
 }
 
 TEST(Bvh, EveryTruncationIsAnErrorAndNoCrash) {
@@ -226,18 +233,58 @@ TEST(Bvh, EveryTruncationIsAnErrorAndNoCrash) {
   }
 }
 
-TEST(Bvh, ReadsDeepHierarchiesWithoutRecursion) {
-  const auto read_chain = [](int joints) {
-    std::string text = "HIERARCHY\n", ends, values;
-    for (int i = 0; i < joints; ++i) {
-      text += (i == 0 ? "ROOT j" : "JOINT j") + std::to_string(i) + " {\nOFFSET 0 1 0\nCHANNELS 1 Xrotation\n";
-      ends += "}\n";
-      values += "0 ";
+/// A chain of joints, of which the first has one channel and the others have `channels`.
+std::string chain_text(int joints, const std::string& channels, const std::string& motion) {
+  std::string text = "HIERARCHY\n", ends;
+  for (int i = 0; i < joints; ++i) {
+    text += (i == 0 ? "ROOT j" : "JOINT j") + std::to_string(i) + " {\nOFFSET 0 1 0\nCHANNELS ";
+    text += (i == 0 ? "1 Xrotation" : channels) + "\n";
+    ends += "}\n";
+  }
+  return text + ends + "MOTION\n" + motion;
+}
+
+TEST(Bvh, ReadsDeepHierarchiesUpToALimitWithoutRecursion) {
+  std::string motion = "Frames: 1\nFrame Time: 0.01\n";
+  for (int i = 0; i < 4096; ++i) motion += "0 ";
+  EXPECT_EQ(read_text(chain_text(4096, "1 Xrotation", motion)).skeleton.size(), 4096);
+  EXPECT_EQ(error_of([&] { read_text(chain_text(4097, "1 Xrotation", motion)); }),
+            "small.bvh:" + std::to_string(2 + 3 * 4096) + ": more than 4096 bones");
+}
+
+TEST(Bvh, TakesMemoryInProportionToTheFile) {
+  for (const int joints : {1, 100, 1000, 4000}) {
+    for (const int frames : {1, 100, 500, 10000, 60000}) {
+      std::string motion = "Frames: " + std::to_string(frames) + "\nFrame Time: 0.01\n";
+      for (int f = 0; f < frames; ++f) motion += "0\n";
+      const std::string text = chain_text(joints, "0", motion);
+      const double poses = 1.0 * joints * frames;
+      if (poses <= 500000) {
+        const Take take = read_text(text);
+        EXPECT_EQ(take.frames, frames);
+        EXPECT_LE(8 * (take.translations.capacity() + take.rotations.capacity()), 50000000 + 20 * text.size());
+      } else {
+        const std::string error = error_of([&] { read_text(text); });
+        EXPECT_NE(error.find(std::to_string(frames) + " frames of " + std::to_string(joints) + " bones in a file of " +
+                             std::to_string(text.size()) + " bytes, which may hold at most"),
+                  std::string::npos)
+            << error;
+      }
     }
-    return read_text(text + ends + "MOTION\nFrames: 1\nFrame Time: 0.01\n" + values);
-  };
-  EXPECT_EQ(read_chain(4096).skeleton.size(), 4096);
-  EXPECT_NE(error_of([&] { read_chain(20000); }).find("at most 4096"), std::string::npos);
+  }
+}
+
+TEST(Bvh, ReadsNamesUpToALimit) {
+  EXPECT_EQ(read_text(replaced(kSmall, "Arm", std::string(255, 'a'))).skeleton.names[1].size(), 255u);
+  EXPECT_EQ(error_of([] { read_text(replaced(kSmall, "Arm", std::string(200000, 'a'))); }),
+            "small.bvh:6: name '" + std::string(40, 'a') + "'... has 200000 bytes, at most 255 are allowed");
+}
+
+TEST(Bvh, RefusesAFileLargerThanAnyTake) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("large.bvh", kSmall);
+  std::filesystem::resize_file(path, 2000000001);
+  EXPECT_EQ(error_of([&] { read_bvh(path); }), "large.bvh: is larger than 2 GB, which no take is: cannot be read");
 }
 
 TEST(Bvh, ReadsAllTakesOfBandaiNamco) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "allocations.hpp"
 #include "fragmotion/random.hpp"
 #include "fragmotion/trace.hpp"
 
@@ -103,6 +104,7 @@ TEST_F(TraceFile, RefusesMalformedFilesNamingTheLine) {
       {"not a number", kHeader + row + "nan,1,0,0\n", "walk.csv:3: ", "velocity_x is 'nan'"},
       {"infinite", kHeader + row + "0,inf,0,0\n", "walk.csv:3: ", "velocity_y"},
       {"overflow", kHeader + row + "0,1e999,0,0\n", "walk.csv:3: ", "velocity_y is '1e999'"},
+      {"faster than light", kHeader + row + "0,2e9,0,0\n", "walk.csv:3: ", "velocity_y is over 1e9 m/s"},
       {"turn too far", kHeader + row + "0,1,1.5,0\n", "walk.csv:3: ", "turn is 1.5"},
       {"turn in degrees", kHeader + row + "0,1,-90,0\n", "walk.csv:3: ", "turn is -90"},
       {"negative jump", kHeader + row + "0,1,0,-1\n", "walk.csv:3: ", "jump is -1"},
@@ -113,6 +115,16 @@ TEST_F(TraceFile, RefusesMalformedFilesNamingTheLine) {
     write(c.text);
     EXPECT_EQ(error().rfind(c.where, 0), 0u) << error();
     EXPECT_NE(error().find(c.what), std::string::npos) << error();
+  }
+}
+
+TEST_F(TraceFile, TakesLittleMemoryForManyCommasAndEmptyLines) {
+  for (const char mark : {',', '\n'}) {
+    write(kHeader + "0,1,0,0\n" + std::string(1000000, mark) + "1");
+    const std::size_t before = allocated_bytes;
+    const std::string found = error();
+    EXPECT_LT(allocated_bytes - before, 5000000u);
+    EXPECT_EQ(found.rfind("walk.csv:3: expected 4 values", 0), 0u) << found;
   }
 }
 

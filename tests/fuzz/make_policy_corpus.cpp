@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Writes the policy fuzzers' corpus into the folder given: make_policy_corpus tests/fuzz/corpus
+#include <filesystem>
+#include <fstream>
+
+#include "policies.hpp"
+#include "small_character.hpp"
+
+namespace fragmotion {
+namespace {
+
+/// Legs, contacts and measured feet: a humanoid that stands and walks.
+Character walking_character() {
+  Gait stand, walk;
+  stand.y = 0;
+  stand.seconds = walk.seconds = 1.2;
+  stand.rate = walk.rate = 15;
+  BuildOptions options;
+  options.classes = 3;
+  options.mirror = options.synthesize = false;
+  options.policies = {"greedy", "anticipate"};
+  return build(humanoid(), {gait_clip(stand, "stand"), gait_clip(walk, "walk")}, {{{}, {}}}, options);
+}
+
+void write(const std::filesystem::path& path, const std::string& bytes) {
+  std::filesystem::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+void write_corpus(const std::filesystem::path& folder) {
+  const std::string tiny = to_bytes(tiny_character());
+  write(folder / "forged_policy" / "tiny", core_of(tiny));
+  write(folder / "forged_policy" / "walking", core_of(to_bytes(walking_character())));
+  write(folder / "policy" / "header", tiny.substr(0, kHeaderBytes));
+  write(folder / "policy" / "cut", tiny.substr(0, 400));
+  write(folder / "policy" / "empty", file_with_core(""));
+}
+
+}  // namespace
+}  // namespace fragmotion
+
+int main(int count, char** arguments) {
+  if (count != 2) return 1;
+  fragmotion::write_corpus(arguments[1]);
+  return 0;
+}

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: MIT
+"""`dev.py fuzz`: libFuzzer on the readers of files, each from its committed corpus and what earlier runs found."""
+
+from __future__ import annotations
+
+import os
+import re
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from tools.compiling import compile_preset
+from tools.paths import BUILD, LOGS, TOP
+from tools.shell import Failure, run, say
+
+_FUZZERS = TOP / "tests" / "fuzz"
+_INPUTS = BUILD / "fuzz-inputs"
+_FINDINGS = BUILD / "fuzz-findings"
+
+# No input may take a second. The sanitizers make it some ten times slower, and a busy machine a few times more; a
+# reader that hangs takes more than any of these.
+_SECONDS_AN_INPUT = 20
+# Readers may take 50 MB and 20 times the input's size; the rest is the sanitizers', which keep what was freed.
+_MEGABYTES, _MEGABYTES_AT_ONCE = 1024, 51
+_LONGEST_INPUT = 32768  # bytes: enough for any structure, and for thousands of runs a second
+
+
+@dataclass(frozen=True)
+class Result:
+    """What the fuzzers did, and the inputs that they found to break a promise."""
+
+    executions: int
+    findings: list[str]
+
+
+def names() -> list[str]:
+    """The fuzzers there are."""
+    return sorted(path.stem.removeprefix("fuzz_") for path in _FUZZERS.glob("fuzz_*.cpp"))
+
+
+def fuzz(seconds: float, selected: list[str]) -> Result:
+    """Run the fuzzers, as many at a time as there are processors, `seconds` in all; what they find is kept and told."""
+    unknown = sorted(set(selected) - set(names()))
+    if unknown:
+        raise Failure(f"there is no fuzzer {', '.join(unknown)}; the fuzzers are {', '.join(names())}")
+    folder = compile_preset("fuzz")
+    jobs = min(os.cpu_count() or 1, len(selected))
+    share = max(1, round(seconds * jobs / len(selected)))
+    with ThreadPoolExecutor(jobs) as pool:
+        results = list(pool.map(lambda name: _fuzz_one(folder, name, share), selected))
+    total = Result(sum(r.executions for r in results), [finding for r in results for finding in r.findings])
+    say(f"{total.executions} executions, {len(total.findings)} findings")
+    return total
+
+
+def _fuzz_one(folder: Path, name: str, seconds: int) -> Result:
+    inputs = _INPUTS / name
+    for path in (inputs, _FINDINGS):
+        path.mkdir(parents=True, exist_ok=True)
+    dictionary = _FUZZERS / "dictionaries" / name
+    options = [
+        f"-max_total_time={seconds}",
+        f"-timeout={_SECONDS_AN_INPUT}",
+        f"-rss_limit_mb={_MEGABYTES}",
+        f"-malloc_limit_mb={_MEGABYTES_AT_ONCE}",
+        f"-max_len={_LONGEST_INPUT}",
+        f"-artifact_prefix={_FINDINGS}/{name}-",
+        "-print_final_stats=1",
+        *([f"-dict={dictionary}"] if dictionary.exists() else []),
+    ]
+    log = f"fuzz-{name}"
+    try:
+        run(
+            [folder / f"fuzz_{name}", *options, inputs, _FUZZERS / "corpus" / name],
+            log,
+            {"UBSAN_OPTIONS": "print_stacktrace=1"},
+            timeout=seconds + 600.0,
+        )
+        finding = []
+    except Failure as failure:
+        finding = [str(failure)]
+    text = (LOGS / f"{log}.log").read_text(errors="replace")
+    told = re.findall(r"stat::number_of_executed_units: *(\d+)|^#(\d+)", text, re.MULTILINE)
+    executions = max((int(a or b) for a, b in told), default=0)
+    say(f"{name}: {executions} executions in {seconds} s" + "".join(f"\n{cause}" for cause in finding))
+    return Result(executions, finding)
