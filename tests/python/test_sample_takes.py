@@ -38,7 +38,8 @@ def euler_zxy(rotation: Array) -> Array:
     about_x = np.arcsin(np.clip(r[:, 2, 1], -1, 1))
     about_z = np.arctan2(-r[:, 0, 1], r[:, 1, 1])
     about_y = np.arctan2(-r[:, 2, 0], r[:, 2, 2])
-    return np.degrees(np.stack([about_z, about_x, about_y], 1))
+    angles: Array = np.degrees(np.stack([about_z, about_x, about_y], 1))
+    return angles
 
 
 def children(name: str | None) -> list[body.Bone]:
