@@ -11,14 +11,13 @@
 
 #include "fragmotion/role_names.hpp"
 #include "ranges.hpp"
+#include "take_limits.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;    // Blender's rotations are floats; anything worse is a caller's mistake.
-constexpr int kMostBones = 4096;           // The largest rigs, with every control, have some 2,000.
-constexpr std::size_t kLongestName = 255;  // bytes: Blender allows 63.
-constexpr double kFarthest = 1e6;          // m: a giant in millimetres that are taken for metres stays far below.
+constexpr double kUnitTolerance = 1e-3;  // Blender's rotations are floats; anything worse is a caller's mistake.
+constexpr double kFarthest = 1e6;        // m: a giant in millimetres that are taken for metres stays far below.
 constexpr double kLeastStature = 1e-3, kMostStature = 1e7;  // m
 
 void check_sizes(const Skeleton& skeleton) {

@@ -5,7 +5,7 @@
 
 namespace fragmotion {
 
-// What a motion capture file may hold at most: no real one comes near, and a small one cannot take all memory.
+// What a skeleton and a motion capture file may hold at most: no real one comes near, and a small one cannot take all memory.
 constexpr std::size_t kMostBones = 4096;   ///< The largest rigs, with every control, have some 2,000.
 constexpr std::size_t kLongestName = 255;  ///< Bytes of a bone's name: Blender allows 63.
 constexpr double kLargestNumber = 1e12;    ///< Of file units or degrees: a million km in millimetres.
