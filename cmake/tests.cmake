@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# tests/cpp/test_*.cpp in one GoogleTest program; each of its tests is one of ctest's, run from the top folder.
-set(FRAGMOTION_TEST_FILES "test_*.cpp" CACHE STRING "Files of tests/cpp to build, all unless told")
+# tests/cpp/*/test_*.cpp in one GoogleTest program; each of its tests is one of ctest's, run from the top folder.
+set(FRAGMOTION_TEST_FILES "*/test_*.cpp" CACHE STRING "Files of tests/cpp to build, all unless told")
 list(TRANSFORM FRAGMOTION_TEST_FILES PREPEND tests/cpp/ OUTPUT_VARIABLE fragmotion_test_globs)
 file(GLOB fragmotion_test_sources CONFIGURE_DEPENDS ${fragmotion_test_globs})
 if(NOT fragmotion_test_sources)
@@ -10,7 +10,7 @@ endif()
 find_package(GTest REQUIRED)
 include(GoogleTest)
 add_executable(fragmotion_tests ${fragmotion_test_sources})
-target_include_directories(fragmotion_tests PRIVATE cpp/src)
+target_include_directories(fragmotion_tests PRIVATE cpp/src tests/cpp)
 target_link_libraries(fragmotion_tests PRIVATE fragmotion GTest::gtest_main)
 target_compile_options(fragmotion_tests PRIVATE -Wall -Wextra -Wpedantic)
 gtest_discover_tests(fragmotion_tests WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 60)

@@ -2,11 +2,11 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
-#include "fragmotion/crowd.hpp"
-#include "fragmotion/iterate.hpp"
-#include "fragmotion/player.hpp"
-#include "fragmotion/random.hpp"
-#include "fragmotion/svm.hpp"
+#include "fragmotion/base/random.hpp"
+#include "fragmotion/policy/iterate.hpp"
+#include "fragmotion/policy/svm.hpp"
+#include "fragmotion/runtime/crowd.hpp"
+#include "fragmotion/runtime/player.hpp"
 #include "large.hpp"
 #include "workload.hpp"
 

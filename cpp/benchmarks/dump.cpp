@@ -4,8 +4,8 @@
 #include <string>
 #include <type_traits>
 
-#include "fragmotion/iterate.hpp"
-#include "fragmotion/svm.hpp"
+#include "fragmotion/policy/iterate.hpp"
+#include "fragmotion/policy/svm.hpp"
 #include "workload.hpp"
 
 namespace fragmotion::benchmarks {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "fragmotion/iterate.hpp"
-#include "fragmotion/random.hpp"
+#include "fragmotion/base/random.hpp"
+#include "fragmotion/policy/iterate.hpp"
 
 namespace fragmotion::benchmarks {
 namespace {

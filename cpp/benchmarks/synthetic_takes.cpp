@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "fragmotion/kinematics.hpp"
-#include "fragmotion/random.hpp"
+#include "fragmotion/base/random.hpp"
+#include "fragmotion/skeleton/kinematics.hpp"
 
 namespace fragmotion::benchmarks {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fragmotion/clip.hpp"
+#include "fragmotion/motion/clip.hpp"
 
 namespace fragmotion::benchmarks {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "workload.hpp"
 
-#include "fragmotion/svm.hpp"
+#include "fragmotion/policy/svm.hpp"
 #include "synthetic_takes.hpp"
 
 namespace fragmotion::benchmarks {

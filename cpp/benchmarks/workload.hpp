@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "fragmotion/character.hpp"
+#include "fragmotion/character/character.hpp"
 
 namespace fragmotion::benchmarks {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fragmotion/trace.hpp"
+#include "fragmotion/control/trace.hpp"
 #include "threads.hpp"
 
 namespace fragmotion::bindings {

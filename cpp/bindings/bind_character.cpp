@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "arrays.hpp"
-#include "fragmotion/greedy.hpp"
-#include "fragmotion/naming.hpp"
-#include "fragmotion/policy_file.hpp"
-#include "fragmotion/suggest.hpp"
-#include "fragmotion/without_classes.hpp"
+#include "fragmotion/character/exclude_classes.hpp"
+#include "fragmotion/character/naming.hpp"
+#include "fragmotion/character/policy_file.hpp"
+#include "fragmotion/evaluate/suggest.hpp"
+#include "fragmotion/policy/greedy.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -3,7 +3,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"
-#include "fragmotion/character.hpp"
+#include "fragmotion/character/character.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -5,11 +5,11 @@
 #include <map>
 
 #include "arrays.hpp"
-#include "fragmotion/asf_amc.hpp"
-#include "fragmotion/bvh.hpp"
-#include "fragmotion/kinematics.hpp"
-#include "fragmotion/role_names.hpp"
-#include "fragmotion/rotation.hpp"
+#include "fragmotion/io/asf_amc.hpp"
+#include "fragmotion/io/bvh.hpp"
+#include "fragmotion/io/rotation.hpp"
+#include "fragmotion/skeleton/kinematics.hpp"
+#include "fragmotion/skeleton/role_names.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -2,10 +2,10 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "fragmotion/crowd.hpp"
-#include "fragmotion/motion_measures.hpp"
-#include "fragmotion/player.hpp"
-#include "fragmotion/response.hpp"
+#include "fragmotion/evaluate/motion_metrics.hpp"
+#include "fragmotion/evaluate/response.hpp"
+#include "fragmotion/runtime/crowd.hpp"
+#include "fragmotion/runtime/player.hpp"
 
 namespace fragmotion::bindings {
 namespace {

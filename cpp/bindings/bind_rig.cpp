@@ -2,7 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "fragmotion/rig.hpp"
+#include "fragmotion/io/rig.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "arrays.hpp"
-#include "fragmotion/anticipate.hpp"
-#include "fragmotion/character.hpp"
-#include "fragmotion/greedy.hpp"
-#include "fragmotion/iterate.hpp"
-#include "fragmotion/svm.hpp"
+#include "fragmotion/character/character.hpp"
+#include "fragmotion/policy/anticipate.hpp"
+#include "fragmotion/policy/greedy.hpp"
+#include "fragmotion/policy/iterate.hpp"
+#include "fragmotion/policy/svm.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "arrays.hpp"
-#include "fragmotion/utf8.hpp"
+#include "fragmotion/base/utf8.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "fragmotion/progress.hpp"
+#include "fragmotion/base/progress.hpp"
 
 namespace fragmotion::bindings {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fragmotion/quality.hpp"
-#include "fragmotion/random.hpp"
+#include "fragmotion/base/random.hpp"
+#include "fragmotion/policy/quality.hpp"
 
 namespace fragmotion {
 

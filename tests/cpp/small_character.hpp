@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "fragmotion/character.hpp"
+#include "fragmotion/character/character.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "fragmotion/clip.hpp"
-#include "fragmotion/random.hpp"
-#include "fragmotion/take.hpp"
+#include "fragmotion/base/random.hpp"
+#include "fragmotion/motion/clip.hpp"
+#include "fragmotion/motion/take.hpp"
 
 namespace fragmotion {
 

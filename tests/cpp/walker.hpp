@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "fragmotion/evident.hpp"
-#include "fragmotion/fragment.hpp"
-#include "fragmotion/random.hpp"
+#include "fragmotion/base/random.hpp"
+#include "fragmotion/fragments/evident.hpp"
+#include "fragmotion/fragments/fragment.hpp"
 
 namespace fragmotion {
 

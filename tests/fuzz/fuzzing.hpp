@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "fragmotion/take.hpp"
+#include "fragmotion/motion/take.hpp"
 
 namespace fragmotion {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "fragmotion/player.hpp"
-#include "fragmotion/policy_file.hpp"
+#include "fragmotion/character/policy_file.hpp"
+#include "fragmotion/runtime/player.hpp"
 #include "fuzzing.hpp"
 
 namespace fragmotion {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "fragmotion/character/character.hpp"
+
+namespace fragmotion {
+
+/// What a player did, a pose a frame, and how well it followed its trace: means over time. Velocity and turn rate are
+/// those of the character frame over the half second around, so that the sway of a gait is no error.
+struct Performance {
+  double rate = 0;  ///< Frames a second.
+  int frames = 0;
+  std::vector<double> root_positions;  ///< [frames, 3] m
+  std::vector<double> rotations;       ///< [frames, bones, 4]
+  std::vector<double> path;            ///< [frames, 3]: character frame x, y in m and heading in rad, unwrapped
+  std::vector<int> classes;            ///< [frames]
+  std::vector<int> fragments;          ///< [frames]
+  std::vector<int> entered;            ///< [frames]: fragments begun since the first frame; one may follow itself
+  double quality = 0;                  ///< Eq. 2 for what plays and the control then, 0..1.
+  double velocity_error = 0;           ///< |velocity - commanded|, seen from the character frame, m/s.
+  double turn_error = 0;               ///< |turn rate - commanded|, rad/s.
+  double jump_error = 0;  ///< Share of the time in which a jump was commanded and none played, or none and one did.
+  double commanded_speed = 0;  ///< m/s
+  /// How far the root gets in a second from where the trace, followed exactly, would have led it, m/s: mean over all
+  /// spans of two seconds, from the place and heading at the beginning of each.
+  double drift = 0;
+};
+
+/// The most frames that a performance may have: Blender has no more, and they are five hours at 60 a second.
+constexpr int kMostFrames = 1048574;
+
+/// The frames of a performance of so many controls: 0 .. round(duration * rate). Throws std::invalid_argument on a rate
+/// that is not over 0 and at most 1000, and on more than kMostFrames.
+int frame_count(std::size_t controls, double rate);
+
+/// The index of the control that leads to frame `frame` of a performance of a trace of so many controls.
+std::size_t control_at(int frame, double rate, std::size_t controls);
+
+/// Fills the errors, the commanded speed and the drift of a performance of a trace.
+void judge(Performance& performance, const Character& character, const Trace& trace);
+
+/// The yardstick of Performance::quality: the greatest mean over time of Eq. 2 that a player could reach on a trace who
+/// knew all of it, played at `rate`. It may play a class for any time from `shortest` seconds to the longest of its
+/// fragments, so no player that ends no fragment sooner is better.
+double optimal_performance(const Character& character, const Trace& trace, double rate, double shortest);
+
+}  // namespace fragmotion

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "fragmotion/fragments/fragment.hpp"
+#include "fragmotion/skeleton/kinematics.hpp"
+
+namespace fragmotion {
+
+/// A motion between two fragments: each pose, and the path, interpolated at equal phases with weight (1 - w, w). Its
+/// last frame but `tail` is the fragments' end. Both at the rate of `a`'s clip.
+Clip interpolated(const Kinematics& kinematics, const FragmentPool& pool, const Fragment& a, const Fragment& b,
+                  double w, int tail);
+
+/// A character that stands for `frames` frames: the mean pose of the pool's slowest fragments, on the ground that they
+/// stand on. Symmetric where the pool holds the fragments' mirror images.
+Clip standing(const Kinematics& kinematics, const FragmentPool& pool, int frames, double rate);
+
+}  // namespace fragmotion

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "fragmotion/motion/take.hpp"
+
+namespace fragmotion {
+
+/// Reads an Acclaim skeleton (ASF): units, root order and axis, bones with direction, length, axis and degrees of
+/// freedom. One file unit is 0.0254/`length` metres (CMU's "length 0.45" means inches scaled by 0.45). z up as in
+/// bvh.hpp. Frames are the world's axes at rest; bone 0 is "root" (its tip: the mean of its children's tips).
+Skeleton read_asf(const std::filesystem::path& path);
+
+/// Reads an Acclaim motion (AMC) on the skeleton of `asf`. AMC files hold no frame rate: `rate` is CMU's 120.
+/// Throws std::invalid_argument "FILE:LINE: ..." as read_bvh does.
+Take read_asf_amc(const std::filesystem::path& asf, const std::filesystem::path& amc, double rate = 120);
+
+}  // namespace fragmotion

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "fragmotion/motion/contacts.hpp"
+#include "fragmotion/runtime/inertialization.hpp"
+#include "fragmotion/skeleton/two_bone_ik.hpp"
+
+namespace fragmotion {
+
+/// Keeps planted feet where they are: the ball of a foot that is planted comes to rest and stays there, the leg follows
+/// (leg.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion smoothly, with
+/// a step where that is far; the hips sink where a leg would be a little too short, and the foot steps on where it
+/// would be much too short. A body that has stood for a while in the middle of a stride steps out of it. Does nothing
+/// to a skeleton without legs. Allocates nothing once it is made.
+class FootLock {
+ public:
+  /// What the foot locks of one body share that are applied in turn: what never changes, and room to work in.
+  struct Body {
+    Body(const Kinematics& kinematics, const Legs& legs);
+
+    Kinematics kinematics;
+    Legs legs;
+    double scale;
+    std::vector<int> bones;  // of the legs
+    PosedBones posed;
+  };
+
+  FootLock(const Kinematics& kinematics, const Legs& legs);
+  explicit FootLock(std::shared_ptr<Body> body);
+
+  /// Both feet are free, and where their motion has them.
+  void reset();
+
+  /// Moves the legs of the pose that is shown `seconds` after the last one, and is, or is to become, a frame with these
+  /// contacts. A foot that stands in that frame is planted once it is near the ground.
+  void apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds);
+
+  bool locked(int side) const { return feet_[side].locked; }
+
+ private:
+  // Places of a ball on the ground, m, and speeds, m/s.
+  struct Foot {
+    bool locked = false;
+    bool steps = false;                                        // it was let go to step to where its motion has it
+    Vector2 moved = Vector2::Zero(), shown = Vector2::Zero();  // last, by its motion and as it was shown
+    Vector2 speed = Vector2::Zero();                           // of its motion
+    Vector2 place = Vector2::Zero(), drift = Vector2::Zero();  // of the lock; the drift comes to rest
+    Vector2 offset = Vector2::Zero(), offset_speed = Vector2::Zero();  // from the motion, when it was let go
+    double free = 0;                                                   // s since then
+  };
+
+  double height(int side, const FootHeights& floor) const;
+  Vector2 away(Foot& foot, const Vector2& moved, bool planted, double seconds) const;
+  void lock(Foot& foot, const Vector2& shown, double seconds) const;
+  void settle(double seconds);
+  double step_height(const Foot& foot) const;
+  void release(Foot& foot, const Vector2& held) const;
+
+  std::shared_ptr<Body> body_;
+  std::array<Foot, 2> feet_;
+  bool fresh_ = true;  // no pose was shown yet
+  double stood_ = 0;   // s that both feet are locked
+  double sunk_ = 0;    // m that the hips are lowered
+};
+
+}  // namespace fragmotion

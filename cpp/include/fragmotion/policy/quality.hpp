@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "fragmotion/classes/clustering.hpp"
+#include "fragmotion/control/control.hpp"
+
+namespace fragmotion {
+
+/// Eq. 2 as a table. It is a product of one factor that knows no control and one that knows no previous class.
+struct Quality {
+  int classes = 0;
+  std::vector<double> smoothness;  ///< [classes, classes]: 1 / (1 + Dis(last pose of Q, first pose of Q'))
+  std::vector<double> match;       ///< [classes, 102]: 1 / (1 + ControlDis(Ev(Q'), c))
+
+  double operator()(int from, int to, int control) const {
+    return smoothness[static_cast<std::size_t>(from) * classes + to] *
+           match[static_cast<std::size_t>(to) * ControlSpace::kPoints + control];
+  }
+};
+
+/// The table for the representatives of the classes.
+Quality quality_table(const std::vector<Fragment>& fragments, const Trajectories& t, const Classes& classes,
+                      const ControlSpace& space);
+
+}  // namespace fragmotion

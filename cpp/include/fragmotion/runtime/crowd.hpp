@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fragmotion/runtime/player.hpp"
+
+namespace fragmotion {
+
+/// The most players of a crowd: each keeps some kilobytes, and none of a million would be seen.
+constexpr int kMostPlayers = 100000;
+
+/// Many players of one character that step together. Player i shows, to the bit, what a Player of the same options with
+/// the seed `options.seed` + i shows that is stepped alone, whatever the number of threads.
+class Crowd {
+ public:
+  /// `threads`: of a step; 0: as many as the machine has. Throws std::invalid_argument on an option that is out of its
+  /// range and on a count that is not 0 to kMostPlayers.
+  Crowd(std::shared_ptr<const Character> character, int count, const PlayerOptions& options = {}, int threads = 0);
+
+  int size() const { return static_cast<int>(players_.size()); }
+  int bones() const { return bones_; }
+  /// Where a player is and what it plays. How it is posed, step() tells alone.
+  const Player& operator[](int player) const { return players_[player]; }
+
+  /// Player::reset of one; throws std::invalid_argument on a player that does not exist.
+  void reset(int player, const CharacterFrame& frame = {});
+
+  /// Player::force of one; throws std::invalid_argument on a player or a class that does not exist.
+  void force(int player, int next_class);
+
+  /// Steps each player under its control, [size()], as Player::step; throws before any has moved. What is shown then is
+  /// written to `roots` [size(), 3], m, and `rotations` [size(), bones(), 4] as in Clip, unless they are null.
+  /// Allocates nothing on one thread.
+  void step(const Control* controls, double seconds, double* roots = nullptr, double* rotations = nullptr);
+
+ private:
+  Player& existing(int player);
+  void step(int player, const Control& control, double seconds, double* roots, double* rotations);
+
+  int bones_, parts_;
+  std::vector<Player> players_;  // those of a part share a stage
+};
+
+}  // namespace fragmotion

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "base/write_file.hpp"
+
+#include <cerrno>
+#include <random>
+#include <stdexcept>
+#include <system_error>
+
+#ifdef _WIN32
+#include <fstream>
+#else
+#include <fcntl.h>
+#include <unistd.h>
+#endif
+
+namespace fragmotion {
+namespace {
+
+std::error_code system_error() {
+  return errno != 0 ? std::error_code(errno, std::generic_category()) : std::make_error_code(std::errc::io_error);
+}
+
+#ifdef _WIN32
+
+std::error_code write_new(const std::filesystem::path& path, const std::string& bytes) {
+  errno = 0;
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  return file ? std::error_code() : system_error();
+}
+
+void settle_folder(const std::filesystem::path& /*folder*/) {}
+
+#else
+
+std::error_code write_all(int file, const std::string& bytes) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const ssize_t written = write(file, bytes.data() + at, bytes.size() - at);
+    if (written < 0 && errno != EINTR) return system_error();
+    if (written > 0) at += static_cast<std::size_t>(written);
+  }
+  return fsync(file) == 0 ? std::error_code() : system_error();
+}
+
+// Writes a file that must not be there yet, onto the disk.
+std::error_code write_new(const std::filesystem::path& path, const std::string& bytes) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) return system_error();
+  std::error_code error = write_all(file, bytes);
+  if (close(file) != 0 && !error) error = system_error();
+  return error;
+}
+
+// Brings the names in a folder onto the disk. Not every file system can; the file is whole all the same.
+void settle_folder(const std::filesystem::path& folder) {
+  const int opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (opened < 0) return;
+  fsync(opened);
+  close(opened);
+}
+
+#endif
+
+// What stands where the file is to be and is not to be replaced, or nullptr.
+const char* in_the_way(std::filesystem::file_type type) {
+  switch (type) {
+    case std::filesystem::file_type::none:
+    case std::filesystem::file_type::not_found:
+    case std::filesystem::file_type::regular:
+      return nullptr;
+    case std::filesystem::file_type::symlink:
+      return "it is a symbolic link: name the file that it leads to";
+    case std::filesystem::file_type::directory:
+      return "it is a directory";
+    default:
+      return "it is no regular file";
+  }
+}
+
+std::filesystem::path new_name() {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::random_device random;
+  std::string name = ".fragmotion-";
+  for (int i = 0; i < 16; ++i) name += kDigits[random() % 16];
+  return name + ".part";
+}
+
+// Writes the bytes to a new file and puts it in the place of the old one.
+std::error_code replace(const std::filesystem::path& path, const std::string& bytes,
+                        const std::filesystem::file_status& old) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".", fresh = folder / new_name();
+  std::error_code error = write_new(fresh, bytes), ignored;
+  if (error == std::errc::file_exists) return error;
+  if (!error && old.type() == std::filesystem::file_type::regular) {
+    std::filesystem::permissions(fresh, old.permissions() & std::filesystem::perms::all, error);
+  }
+  if (!error) std::filesystem::rename(fresh, path, error);
+  if (error) std::filesystem::remove(fresh, ignored);
+  if (!error) settle_folder(folder);
+  return error;
+}
+
+}  // namespace
+
+void write_file(const std::filesystem::path& path, const std::string& bytes) {
+  const auto fail = [&](const std::string& cause) {
+    throw std::invalid_argument("cannot write " + path.u8string() + ": " + cause);
+  };
+  std::error_code ignored;
+  const std::filesystem::file_status old = std::filesystem::symlink_status(path, ignored);
+  if (const char* cause = in_the_way(old.type())) fail(cause);
+  if (const std::error_code error = replace(path, bytes, old)) fail(error.message());
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/character/exclude_classes.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "fragmotion/character/explain.hpp"
+#include "fragmotion/policy/bridge.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr int kPoints = ControlSpace::kPoints;
+
+std::vector<bool> allowed_classes(int count, const std::vector<int>& excluded) {
+  std::vector<bool> allowed(count, true);
+  for (const int k : excluded) {
+    if (k < 0 || k >= count) throw std::invalid_argument("class " + std::to_string(k) + " does not exist");
+    allowed[k] = false;
+  }
+  if (std::find(allowed.begin(), allowed.end(), true) == allowed.end()) {
+    throw std::invalid_argument("all classes are excluded");
+  }
+  return allowed;
+}
+
+// The allowed class of the greatest value after `from`.
+int best_of(const std::vector<bool>& allowed, const Quality& quality, const std::vector<double>& to_come, int from,
+            int control) {
+  const auto value = [&](int next) {
+    return quality(from, next, control) + to_come[static_cast<std::size_t>(control) * quality.classes + next];
+  };
+  int best = -1;
+  for (int next = 0; next < quality.classes; ++next) {
+    if (allowed[next] && (best < 0 || value(next) > value(best))) best = next;
+  }
+  return best;
+}
+
+void avoid(const std::vector<bool>& allowed, const Character& whole, Policy& policy) {
+  const auto is_allowed = [&](int next) { return allowed[next]; };
+  if (std::all_of(policy.next.begin(), policy.next.end(), is_allowed)) return;
+  const std::vector<double> to_come = values_to_come(whole.quality, policy, whole.control_model);
+  for (int from = 0; from < policy.classes; ++from) {
+    for (int c = 0; c < kPoints; ++c) {
+      int& next = policy.next[static_cast<std::size_t>(from) * kPoints + c];
+      if (!allowed[next]) next = best_of(allowed, whole.quality, to_come, from, c);
+    }
+  }
+}
+
+}  // namespace
+
+Character without_classes(const Character& character, const std::vector<int>& excluded) {
+  const std::vector<bool> allowed = allowed_classes(character.classes.count, excluded);
+  Character result = character;
+  for (Policy& policy : result.policies) avoid(allowed, character, policy);
+  for (const int k : excluded) std::fill_n(&result.quality.match[static_cast<std::size_t>(k) * kPoints], kPoints, 0.0);
+  result.bridges = stand_bridges(result.pool.fragments, trajectories(result.pool, 2), result.classes, result.space,
+                                 kBridgeDistance, allowed);
+  return result;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/character/explain.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "fragmotion/policy/iterate.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr int kPoints = ControlSpace::kPoints;
+constexpr double kTolerance = 1e-6;
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+}  // namespace
+
+std::vector<double> values_to_come(const Quality& quality, const Policy& policy, const std::vector<double>& model) {
+  const int n = quality.classes;
+  const Matrix steps = IterateOptions().discount * Eigen::Map<const Matrix>(model.data(), kPoints, kPoints);
+  Matrix value = Matrix::Zero(kPoints, n), to_come = value;
+  double change = 1;
+  while (change > kTolerance) {
+    to_come = steps * value;
+    change = 0;
+    for (int c = 0; c < kPoints; ++c) {
+      for (int from = 0; from < n; ++from) {
+        const int next = policy(from, c);
+        const double better = quality(from, next, c) + to_come(c, next);
+        change = std::max(change, std::abs(better - value(c, from)));
+        value(c, from) = better;
+      }
+    }
+  }
+  return {to_come.data(), to_come.data() + to_come.size()};
+}
+
+Explainer::Explainer(std::shared_ptr<const Character> character, const std::string& policy)
+    : character_(std::move(character)),
+      policy_(character_->policy(policy)),
+      poses_(trajectories(character_->pool, 2)),
+      members_(character_->classes.members()),
+      to_come_(values_to_come(character_->quality, policy_, character_->control_model)) {}
+
+std::vector<Alternative> Explainer::operator()(int from, int control) const {
+  const Quality& quality = character_->quality;
+  if (from < 0 || from >= quality.classes) {
+    throw std::invalid_argument("class " + std::to_string(from) + " does not exist");
+  }
+  check_controls({control});
+  std::vector<Alternative> ranked;
+  for (int next = 0; next < quality.classes; ++next) {
+    const auto q = static_cast<std::size_t>(next);
+    ranked.push_back({next, quality.smoothness[static_cast<std::size_t>(from) * quality.classes + q],
+                      quality.match[q * kPoints + control],
+                      to_come_[static_cast<std::size_t>(control) * quality.classes + q], nearest(from, next, control)});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const Alternative& a, const Alternative& b) { return a.value() > b.value(); });
+  return ranked;
+}
+
+std::vector<int> Explainer::nearest(int from, int next, int control) const {
+  const Character& c = *character_;
+  const int left = c.classes.representatives[from];
+  std::vector<std::pair<double, int>> worse;
+  for (const int f : members_[next]) {
+    const double off = c.space.distance(c.pool.fragments[f].evident, c.space.point(control));
+    worse.emplace_back((1 + off) * (1 + transition_distance(poses_, left, f)), f);
+  }
+  const auto kept = worse.begin() + std::min<std::ptrdiff_t>(kNearest, static_cast<std::ptrdiff_t>(worse.size()));
+  std::partial_sort(worse.begin(), kept, worse.end());
+  std::vector<int> fragments;
+  std::transform(worse.begin(), kept, std::back_inserter(fragments), [](const auto& each) { return each.second; });
+  return fragments;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/character/policy_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+
+#include "base/ranges.hpp"
+#include "base/write_file.hpp"
+#include "character/policy_bytes.hpp"
+#include "fragmotion/base/utf8.hpp"
+#include "fragmotion/fragments/distance.hpp"
+#include "fragmotion/skeleton/role_names.hpp"
+
+namespace fragmotion {
+namespace {
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "policy files are little-endian");
+
+constexpr char kMagic[9] = "FRAGMOTN";
+constexpr std::uint32_t kVersion = 3;
+constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
+constexpr double kRounding = 1e-6;
+constexpr double kShortest = (1 - kRounding) * kShortestFragment, kLongest = 3600;  // s that a fragment may last
+constexpr double kMost = 1e9;  // of what is in m/s, rad/s or a ratio: its square is a number, and no body is so fast
+constexpr double kHighest = 1e10;  // m of a floor: above any chain of bones at any place
+// Memory of the openings, which a player needs beside the file: a file takes at most 20 times its size, beyond 50 MB.
+constexpr std::size_t kRoom = 48000000, kTimes = 16;  // bytes, and for each byte of the file
+constexpr std::streamoff kLargestFile = 2000000000;   // bytes: some ten hours of motion at 120 frames a second
+
+std::uint64_t checksum(const char* data, std::size_t size) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ static_cast<unsigned char>(data[i])) * 0x100000001b3ULL;
+  return hash;
+}
+
+// Writes and Reads share their spelling, so that one function, exchange(), says what a file holds and in which order.
+class Writer {
+ public:
+  static constexpr bool kReads = false;
+  std::string bytes;
+
+  template <typename T>
+  void raw(const T* values, std::size_t count) {
+    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+  }
+  template <typename Stored, typename T>
+  void number(const T& value) {
+    const auto stored = static_cast<Stored>(value);
+    raw(&stored, 1);
+  }
+  template <typename Stored, typename T>
+  void numbers(const std::vector<T>& values) {
+    number<std::uint64_t>(values.size());
+    for (const T& value : values) number<Stored>(value);
+  }
+  void text(const std::string& value) {
+    number<std::uint32_t>(value.size());
+    raw(value.data(), value.size());
+  }
+  template <typename T, typename Each>
+  void list(std::vector<T>& values, std::size_t /*least*/, const Each& each) {
+    number<std::uint64_t>(values.size());
+    for (T& value : values) each(value);
+  }
+};
+
+class Reader {
+ public:
+  static constexpr bool kReads = true;
+  Reader(const char* data, std::size_t size) : data_(data), left_(size) {}
+
+  template <typename Stored, typename T>
+  void number(T& value) {
+    Stored stored;
+    std::memcpy(&stored, take(sizeof(Stored)), sizeof(Stored));
+    value = static_cast<T>(stored);
+  }
+  template <typename Stored, typename T>
+  void numbers(std::vector<T>& values) {
+    values.resize(count(sizeof(Stored)));
+    for (T& value : values) number<Stored>(value);
+  }
+  void text(std::string& value) {
+    std::uint32_t size = 0;
+    number<std::uint32_t>(size);
+    value = as_utf8(std::string(take(size), size));
+  }
+  // `least`: bytes that an element takes at the least, so that a count that cannot be is refused before it is believed.
+  template <typename T, typename Each>
+  void list(std::vector<T>& values, std::size_t least, const Each& each) {
+    values.resize(count(least));
+    for (T& value : values) each(value);
+  }
+  bool done() const { return left_ == 0; }
+
+ private:
+  const char* take(std::size_t size) {
+    if (size > left_) throw std::invalid_argument("it ends too early");
+    const char* at = data_;
+    data_ += size;
+    left_ -= size;
+    return at;
+  }
+  std::size_t count(std::size_t least) {
+    std::uint64_t count = 0;
+    number<std::uint64_t>(count);
+    if (count > left_ / least) throw std::invalid_argument("it announces more than it holds");
+    return static_cast<std::size_t>(count);
+  }
+
+  const char* data_;
+  std::size_t left_;
+};
+
+template <typename Archive, typename V>
+void exchange_vector(Archive& a, V& v) {
+  for (int i = 0; i < 3; ++i) a.template number<double>(v[i]);
+}
+
+template <typename Archive, typename Q>
+void exchange_quaternion(Archive& a, Q& q) {
+  for (int i = 0; i < 4; ++i) a.template number<double>(q.coeffs()[i]);
+}
+
+template <typename Archive, typename S>
+void exchange_skeleton(Archive& a, S& s) {
+  a.list(s.names, 4, [&](auto& name) { a.text(name); });
+  a.template numbers<std::int32_t>(s.parents);
+  a.list(s.rest_rotations, 32, [&](auto& q) { exchange_quaternion(a, q); });
+  a.list(s.offsets, 24, [&](auto& v) { exchange_vector(a, v); });
+  a.list(s.tips, 24, [&](auto& v) { exchange_vector(a, v); });
+  for (const auto& [name, member] : role_names()) a.template number<std::int32_t>(s.roles.*member);
+}
+
+template <typename Archive, typename C>
+void exchange_control(Archive& a, C& c) {
+  for (auto* value : {&c.x, &c.y, &c.turn, &c.jump}) a.template number<double>(*value);
+}
+
+template <typename Archive>
+void exchange_clip(Archive& a, PackedClip& clip) {
+  a.text(clip.name);
+  a.template number<double>(clip.rate);
+  a.template number<std::int32_t>(clip.frames);
+  for (auto* values : {&clip.origin, &clip.steps}) {
+    for (double& value : *values) a.template number<double>(value);
+  }
+  a.template numbers<std::int32_t>(clip.least);
+  a.template numbers<std::uint8_t>(clip.bits);
+  a.template numbers<std::uint8_t>(clip.poses);
+}
+
+// One byte a frame: 1 where the left foot stands, and 2 where the right one does.
+template <typename Archive>
+void exchange_contacts(Archive& a, Contacts& contacts) {
+  auto& [left, right] = contacts.feet;
+  std::vector<std::uint8_t> standing;
+  for (std::size_t f = 0; f < left.size(); ++f) standing.push_back((left[f] ? 1 : 0) | (right[f] ? 2 : 0));
+  a.template numbers<std::uint8_t>(standing);
+  for (auto& floor : contacts.floors) {
+    a.template number<double>(floor.ball);
+    a.template number<double>(floor.heel);
+  }
+  if (!Archive::kReads) return;
+  for (const std::uint8_t feet : standing) {
+    left.push_back((feet & 1) != 0);
+    right.push_back((feet & 2) != 0);
+  }
+}
+
+template <typename Archive>
+void exchange_pool(Archive& a, PackedPool& pool) {
+  exchange_skeleton(a, pool.skeleton);
+  PoseGrid grid = pool.clips.empty() ? PoseGrid() : *pool.clips[0].grid;
+  a.template number<std::int32_t>(grid.bones);
+  a.template numbers<float>(grid.usual);
+  a.template numbers<float>(grid.steps);
+  const auto shared = std::make_shared<const PoseGrid>(std::move(grid));
+  a.list(pool.clips, 104, [&](auto& clip) {
+    if (Archive::kReads) clip.grid = shared;
+    exchange_clip(a, clip);
+  });
+  a.list(pool.fragments, 45, [&](auto& f) {
+    for (auto* value : {&f.clip, &f.begin, &f.end}) a.template number<std::int32_t>(*value);
+    a.template number<std::uint8_t>(f.origin);
+    exchange_control(a, f.evident);
+  });
+}
+
+template <typename Archive>
+void exchange_space(Archive& a, ControlSpace& space) {
+  double values[] = {
+      space.walk(),         space.run(),         space.turn_rate(), space.scale(), space.weights().velocity,
+      space.weights().turn, space.weights().jump};
+  for (double& value : values) a.template number<double>(value);
+  if (Archive::kReads) {
+    space = ControlSpace(values[0], values[1], values[2], values[3], {values[4], values[5], values[6]});
+  }
+}
+
+template <typename Archive>
+void exchange(Archive& a, Character& c) {
+  exchange_pool(a, c.pool);
+  exchange_space(a, c.space);
+  a.template number<std::int32_t>(c.classes.count);
+  a.template numbers<std::int32_t>(c.classes.labels);
+  a.template numbers<std::int32_t>(c.classes.representatives);
+  a.template number<double>(c.classes.inertia);
+  a.template number<std::int32_t>(c.quality.classes);
+  a.template numbers<double>(c.quality.smoothness);
+  a.template numbers<double>(c.quality.match);
+  a.list(c.policies, 16, [&](auto& policy) {
+    a.text(policy.name);
+    a.template number<std::int32_t>(policy.classes);
+    a.template numbers<std::int32_t>(policy.next);
+  });
+  a.template numbers<std::int32_t>(c.bridges);
+  a.template numbers<double>(c.control_model);
+  a.list(c.contacts, 40, [&](auto& contacts) { exchange_contacts(a, contacts); });
+  for (Leg& leg : c.legs) exchange_vector(a, leg.hinge);  // the bones are found anew by their roles
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(std::string("its ") + what + " do not fit together");
+}
+
+bool all_within(const std::vector<int>& values, int least, int end) {
+  for (const int value : values) {
+    if (value < least || value >= end) return false;
+  }
+  return true;
+}
+
+bool all_in_range(const std::vector<double>& values, double least, double most) {
+  for (const double value : values) {
+    if (!(value >= least && value <= most)) return false;
+  }
+  return true;
+}
+
+void check_pool(const PackedPool& pool) {
+  require(pool.skeleton.roles.hips >= 0, "roles");  // make_skeleton would find new ones
+  make_skeleton(pool.skeleton);
+  check_stature(pool.skeleton);
+  for (const PackedClip& clip : pool.clips) check(clip, pool.skeleton);
+  for (const Fragment& f : pool.fragments) {
+    require(f.clip >= 0 && f.clip < static_cast<int>(pool.clips.size()) && f.begin >= 0 && f.begin < f.end &&
+                f.end < pool.clips[f.clip].frames && f.origin <= Origin::transformed,
+            "fragments and clips");
+    require(pool.seconds(f) >= kShortest && pool.seconds(f) <= kLongest, "fragments and rates");
+    require(all_in_range({f.evident.x, f.evident.y, f.evident.turn, f.evident.jump}, -kMost, kMost),
+            "evident controls");
+  }
+}
+
+void check_space(const ControlSpace& space) {
+  const ControlWeights& weights = space.weights();
+  require(all_in_range({space.walk(), space.run(), space.turn_rate(), space.scale()}, 1 / kMost, kMost) &&
+              all_in_range({weights.velocity, weights.turn, weights.jump}, 0, kMost),
+          "controls");
+}
+
+// Classes that without_classes() leaves out match nothing.
+void check_quality(const Quality& quality, std::size_t classes) {
+  require(static_cast<std::size_t>(quality.classes) == classes && quality.smoothness.size() == classes * classes &&
+              quality.match.size() == classes * ControlSpace::kPoints &&
+              all_in_range(quality.smoothness, std::numeric_limits<double>::min(), 1) &&
+              all_in_range(quality.match, 0, 1),
+          "qualities");
+}
+
+// A row that summed to more than 1 would let values grow without end.
+void check_model(const std::vector<double>& model) {
+  constexpr std::size_t kPoints = ControlSpace::kPoints;
+  require(model.size() == kPoints * kPoints, "control probabilities");
+  for (std::size_t c = 0; c < kPoints; ++c) {
+    double sum = 0;
+    for (std::size_t next = 0; next < kPoints; ++next) {
+      const double p = model[c * kPoints + next];
+      require(p >= 0 && p <= 1, "control probabilities");
+      sum += p;
+    }
+    require(std::abs(sum - 1) < 1e-6, "control probabilities");
+  }
+}
+
+void check_contacts(const Character& c) {
+  require(c.contacts.size() == c.pool.clips.size(), "contacts");
+  for (std::size_t i = 0; i < c.contacts.size(); ++i) {
+    const auto& [left, right] = c.contacts[i].feet;
+    require(left.size() == right.size() &&
+                (left.empty() || left.size() == static_cast<std::size_t>(c.pool.clips[i].frames)),
+            "contacts");
+    for (const FootHeights& floor : c.contacts[i].floors) {
+      require(all_in_range({floor.ball, floor.heel}, -kHighest, kHighest), "contacts");
+    }
+  }
+}
+
+// That the openings of a file of `size` bytes are in proportion.
+void check_memory(const Character& c, std::size_t size) {
+  const std::size_t fragments = c.pool.fragments.size(), tips = measured_bones(c.pool.skeleton).size(),
+                    bytes = fragments * 3 * padded(2 * static_cast<int>(tips)) * sizeof(float);
+  if (bytes <= kRoom + kTimes * size) return;
+  throw std::invalid_argument(std::to_string(fragments) + " fragments of " + std::to_string(tips) +
+                              " bones would take " + std::to_string(bytes / 1000000) + " MB of memory, more than " +
+                              std::to_string(kRoom / 1000000) + " MB and " + std::to_string(kTimes) +
+                              " times the file's size");
+}
+
+// All that a character must be to be saved and played.
+void check(const Character& c) {
+  check_pool(c.pool);
+  check_space(c.space);
+  const std::size_t n = c.classes.count, fragments = c.pool.fragments.size();
+  require(c.classes.count > 0 && c.classes.labels.size() == fragments && c.classes.representatives.size() == n &&
+              all_within(c.classes.labels, 0, c.classes.count) &&
+              all_within(c.classes.representatives, 0, static_cast<int>(fragments)),
+          "classes");
+  for (std::size_t k = 0; k < n; ++k) {
+    require(c.classes.labels[c.classes.representatives[k]] == static_cast<int>(k), "representatives");
+  }
+  for (const std::vector<int>& members : c.classes.members()) require(!members.empty(), "classes");
+  require(c.classes.inertia >= 0 && std::isfinite(c.classes.inertia), "classes");
+  check_quality(c.quality, n);
+  require(!c.policies.empty(), "policy tables");
+  for (const Policy& policy : c.policies) {
+    require(policy.classes == c.classes.count && policy.next.size() == n * ControlSpace::kPoints &&
+                all_within(policy.next, 0, c.classes.count),
+            "policy tables");
+  }
+  require(c.bridges.size() == n * n && all_within(c.bridges, -1, c.classes.count), "stand-in-place classes");
+  check_model(c.control_model);
+  check_contacts(c);
+  for (const Leg& leg : c.legs) require(std::abs(leg.hinge.norm() - 1) < 1e-6, "legs");
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& cause) {
+    throw std::invalid_argument("cannot read " + path.u8string() + cause);
+  };
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (exists(status) && !is_regular_file(status)) fail(": it is no regular file");
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
+  if (size > kLargestFile) fail(": it is larger than " + std::to_string(kLargestFile / 1000000000) + " GB");
+  std::string bytes(static_cast<std::size_t>(std::max<std::streamoff>(0, size)), '\0');
+  if (!file.seekg(0) || !file.read(bytes.data(), size)) fail("");
+  return bytes;
+}
+
+}  // namespace
+
+std::string unchecked_bytes(const Character& character) {
+  Writer payload;
+  exchange(payload, const_cast<Character&>(character));
+  Writer file;
+  file.raw(kMagic, 8);
+  file.number<std::uint32_t>(kVersion);
+  file.number<std::uint64_t>(payload.bytes.size());
+  file.bytes += payload.bytes;
+  file.number<std::uint64_t>(checksum(payload.bytes.data(), payload.bytes.size()));
+  return file.bytes;
+}
+
+std::string to_bytes(const Character& character) {
+  try {
+    check(character);
+    std::string bytes = unchecked_bytes(character);
+    check_memory(character, bytes.size());
+    return bytes;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("the policy cannot be saved: ") + error.what());
+  }
+}
+
+Character from_bytes(const std::string& bytes, const std::string& name) {
+  try {
+    if (bytes.size() < kHeader || std::memcmp(bytes.data(), kMagic, 8) != 0) {
+      throw std::invalid_argument("it is no Fragmotion policy file");
+    }
+    std::uint32_t version = 0;
+    std::uint64_t length = 0;
+    std::memcpy(&version, bytes.data() + 8, 4);
+    std::memcpy(&length, bytes.data() + 12, 8);
+    if (version != kVersion) {
+      throw std::invalid_argument("it is of version " + std::to_string(version) + ", and this program reads version " +
+                                  std::to_string(kVersion) + ": build the policy again");
+    }
+    if (bytes.size() < kHeader + kChecksum || length != bytes.size() - kHeader - kChecksum) {
+      throw std::invalid_argument("it is cut short or has bytes too many");
+    }
+    std::uint64_t expected = 0;
+    std::memcpy(&expected, bytes.data() + kHeader + length, 8);
+    if (checksum(bytes.data() + kHeader, length) != expected) throw std::invalid_argument("it is damaged (checksum)");
+    Character character;
+    Reader reader(bytes.data() + kHeader, length);
+    exchange(reader, character);
+    if (!reader.done()) throw std::invalid_argument("it has bytes too many");
+    check(character);
+    check_memory(character, bytes.size());
+    Legs legs = find_legs(Kinematics(character.pool.skeleton), {});
+    for (std::size_t side = 0; side < legs.size(); ++side) legs[side].hinge = character.legs[side].hinge;
+    character.legs = legs;
+    character.coverage = coverage(character.pool.fragments, character.space);
+    character.openings = openings(character.pool);
+    return character;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(name + " is refused: " + error.what());
+  }
+}
+
+void save_policy(const std::filesystem::path& path, const Character& character) {
+  write_file(path, to_bytes(character));
+}
+
+Character load_policy(const std::filesystem::path& path) {
+  return from_bytes(read_file(path), path.filename().u8string());
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/control/control.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace fragmotion {
+
+namespace {
+
+void require(bool valid, const char* name, double value, const char* expected) {
+  if (valid) return;
+  std::ostringstream text;
+  text << "control space: " << name << " is " << value << ", expected " << expected;
+  throw std::invalid_argument(text.str());
+}
+
+// Squares of what is within these are numbers still; characters from a micrometre to a thousand kilometres are.
+constexpr double kMost = 1e9;
+
+void require_positive(const char* name, double value) {
+  require(value > 0 && value <= kMost, name, value, "a number above 0, up to 1e9");
+}
+
+void require_weight(const char* name, double value) {
+  require(value >= 0 && value <= kMost, name, value, "a number from 0 to 1e9");
+}
+
+/// Unit vectors counter-clockwise from forward; a table, so that the axes are exact.
+Vector2 direction(int index) {
+  const double d = std::sqrt(0.5);
+  const double directions[8][2] = {{0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}, {1, 0}, {d, d}};
+  return {directions[index][0], directions[index][1]};
+}
+
+Vector2 velocity(int index, double walk, double run) {
+  if (index == 0) return Vector2::Zero();
+  return index <= 8 ? walk * direction(index - 1) : run * direction(index - 9);
+}
+
+double square(double value) { return value * value; }
+
+/// The index below `count` whose value is least; the lower one on a tie.
+template <int count, typename Value>
+int least(const Value& value) {
+  int best = 0;
+  double best_value = value(0);
+  for (int i = 1; i < count; ++i) {
+    const double candidate = value(i);
+    const bool better = candidate < best_value;
+    best = better ? i : best;
+    best_value = better ? candidate : best_value;
+  }
+  return best;
+}
+
+}  // namespace
+
+ControlSpace::ControlSpace(double walk, double run, double turn_rate, double scale, ControlWeights weights)
+    : walk_(walk), run_(run), turn_rate_(turn_rate), scale_(scale), weights_(weights) {
+  require_positive("walk (m/s)", walk);
+  require_positive("run (m/s)", run);
+  require(run > walk, "run (m/s)", run, "more than walk");
+  require_positive("turn rate (rad/s)", turn_rate);
+  require_positive("scale", scale);
+  require_weight("velocity weight", weights.velocity);
+  require_weight("turn weight", weights.turn);
+  require_weight("jump weight", weights.jump);
+  for (int i = 0; i < kPoints; ++i) {
+    const Vector2 v = velocity(i / 6, walk, run);
+    points_[i] = {v.x(), v.y(), static_cast<double>(i % 6 / 2 - 1), static_cast<double>(i % 2)};
+  }
+}
+
+// The squared distance is a sum of what velocity, turn and jump differ, and the points are all combinations of them, so
+// that the nearest of each make the nearest point.
+int ControlSpace::nearest(const Control& control) const {
+  const double velocity_weight = square(weights_.velocity * scale_);
+  const int velocity = least<kVelocities>([&](int i) {
+    const Control& point = points_[6 * i];
+    return velocity_weight * (square(point.x - control.x) + square(point.y - control.y));
+  });
+  const int turn = least<3>([&](int i) { return square(weights_.turn * (points_[2 * i].turn - control.turn)); });
+  const int jump = least<2>([&](int i) { return square(weights_.jump * (points_[i].jump - control.jump)); });
+  return 6 * velocity + 2 * turn + jump;
+}
+
+double ControlSpace::distance(const Control& a, const Control& b) const {
+  return std::sqrt(square(weights_.velocity * scale_) * (square(a.x - b.x) + square(a.y - b.y)) +
+                   square(weights_.turn * (a.turn - b.turn)) + square(weights_.jump * (a.jump - b.jump)));
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/evaluate/performance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/max_accumulate.hpp"
+#include "base/transposed.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kRounding = 1e-9;  // frames
+constexpr double kAround = 0.5;     // s over which speeds are measured
+constexpr double kSpan = 2;         // s over which the root drifts
+constexpr double kJumps = 0.5;
+constexpr double kLongestShortest = 3600;  // s: the longest step of a player, too
+
+// The slope a frame of the least-squares line through frames first .. last of a path.
+Vector3 slope(const std::vector<double>& path, int first, int last) {
+  const double middle = 0.5 * (first + last);
+  Vector3 sum = Vector3::Zero();
+  double square = 0;
+  for (int f = first; f <= last; ++f) {
+    sum += (f - middle) * load_vector(&path[std::size_t{3} * f]);
+    square += (f - middle) * (f - middle);
+  }
+  return sum / square;
+}
+
+// Where a trace that is followed exactly leads from the origin: the character frame of each frame.
+std::vector<CharacterFrame> exact_path(const Performance& p, const Trace& trace, double turn_rate) {
+  std::vector<CharacterFrame> path(1);
+  for (int f = 1; f < p.frames; ++f) {
+    const Control& control = trace[control_at(f, p.rate, trace.size())];
+    const double angle = control.turn * turn_rate / p.rate;
+    CharacterFrame next = path.back();
+    next.position += Eigen::Rotation2Dd(next.heading + angle / 2) * Vector2{control.x, control.y} / p.rate;
+    next.heading += angle;
+    path.push_back(next);
+  }
+  return path;
+}
+
+double drift(const Performance& p, const std::vector<CharacterFrame>& exact) {
+  if (p.frames < 2) return 0;
+  const int span = std::clamp(static_cast<int>(std::lround(kSpan * p.rate)), 1, p.frames - 1), spans = p.frames - span;
+  const auto place = [&](int f) { return Vector2{p.path[std::size_t{3} * f], p.path[std::size_t{3} * f + 1]}; };
+  double sum = 0;
+  for (int f = 0; f < spans; ++f) {
+    const double turned = p.path[std::size_t{3} * f + 2] - exact[f].heading;
+    const Vector2 led = Eigen::Rotation2Dd(turned) * (exact[f + span].position - exact[f].position);
+    sum += (place(f + span) - place(f) - led).norm();
+  }
+  return sum / spans * p.rate / span;
+}
+
+// Dynamic programming over frames, from the last to the first (Eq. 1 with classes that last).
+class Hindsight {
+ public:
+  Hindsight(const Character& c, const std::vector<int>& controls, double rate, double shortest)
+      : n_(c.classes.count),
+        frames_(static_cast<int>(controls.size())),
+        shortest_(n_, static_cast<int>(shortest * rate + kRounding)),
+        longest_(n_, 0),
+        smoothness_(transposed(c.quality.smoothness, n_, n_)),
+        match_(static_cast<std::size_t>(frames_ + 1) * n_, 0),
+        value_(match_.size(), 0) {
+    for (std::size_t f = 0; f < c.pool.fragments.size(); ++f) {
+      const int label = c.classes.labels[f];
+      const double frames = c.pool.seconds(c.pool.fragments[f]) * rate;
+      shortest_[label] = std::clamp(static_cast<int>(frames + kRounding), 1, std::max(1, shortest_[label]));
+      longest_[label] = std::max(longest_[label], static_cast<int>(std::ceil(frames - kRounding)));
+    }
+    for (int f = 0; f < frames_; ++f) {
+      for (int q = 0; q < n_; ++q) {
+        match_[at(f + 1, q)] =
+            match_[at(f, q)] + c.quality.match[static_cast<std::size_t>(q) * ControlSpace::kPoints + controls[f]];
+      }
+    }
+  }
+
+  double best() {
+    for (int f = frames_ - 1; f >= 0; --f) {
+      for (int to = 0; to < n_; ++to) best_of_class(f, to);
+    }
+    return *std::max_element(value_.begin(), value_.begin() + n_) / frames_;
+  }
+
+ private:
+  std::size_t at(int row, int column) const { return static_cast<std::size_t>(row) * n_ + column; }
+
+  // What playing `to` from frame `f` on is worth after each class.
+  void best_of_class(int f, int to) {
+    double* value = &value_[at(f, 0)];
+    const double* smoothness = &smoothness_[at(to, 0)];
+    const int last = std::min(frames_, f + longest_[to]);
+    for (int end = std::min(frames_, f + shortest_[to]); end <= last; ++end) {
+      raise(value, smoothness, n_, match_[at(end, to)] - match_[at(f, to)], value_[at(end, to)]);
+    }
+  }
+
+  int n_, frames_;
+  std::vector<int> shortest_, longest_;  // [classes] frames that a class may play
+  std::vector<double> smoothness_;       // [to, from]
+  std::vector<double> match_;            // [frames + 1, classes] summed from the first frame
+  std::vector<double> value_;            // [frames + 1, classes] of what follows a class that ends at a frame
+};
+
+}  // namespace
+
+std::size_t control_at(int frame, double rate, std::size_t controls) {
+  const double seconds = std::max(0.0, (frame - 1) / rate);
+  return std::min(static_cast<std::size_t>(seconds * kTraceRate + kRounding), controls - 1);
+}
+
+int frame_count(std::size_t controls, double rate) {
+  if (!(rate > 0 && rate <= 1000)) throw std::invalid_argument("the frame rate must be over 0 and at most 1000");
+  const double frames = std::round(static_cast<double>(controls) / kTraceRate * rate);
+  if (frames >= kMostFrames) {
+    throw std::invalid_argument("a trace of " + std::to_string(controls) + " controls makes " +
+                                std::to_string(static_cast<long long>(frames)) + " frames at this rate, at most " +
+                                std::to_string(kMostFrames) + " can be played: cut it");
+  }
+  return static_cast<int>(frames) + 1;
+}
+
+void judge(Performance& p, const Character& character, const Trace& trace) {
+  const int half = std::max(1, static_cast<int>(std::lround(kAround / 2 * p.rate)));
+  const double weight = 1.0 / (p.frames - 1);
+  p.velocity_error = p.turn_error = p.jump_error = p.commanded_speed = 0;
+  for (int f = 1; f < p.frames; ++f) {
+    const Control& control = trace[control_at(f, p.rate, trace.size())];
+    const Vector3 speed = slope(p.path, std::max(0, f - half), std::min(p.frames - 1, f + half)) * p.rate;
+    const Vector2 velocity = Eigen::Rotation2Dd(-p.path[std::size_t{3} * f + 2]) * speed.head<2>();
+    const bool jumps = character.pool.fragments[p.fragments[f]].evident.jump > kJumps;
+    p.velocity_error += weight * (velocity - Vector2{control.x, control.y}).norm();
+    p.turn_error += weight * std::abs(speed.z() - control.turn * character.space.turn_rate());
+    p.jump_error += jumps != (control.jump > kJumps) ? weight : 0;
+    p.commanded_speed += weight * control.speed();
+  }
+  p.drift = drift(p, exact_path(p, trace, character.space.turn_rate()));
+}
+
+double optimal_performance(const Character& character, const Trace& trace, double rate, double shortest) {
+  if (trace.empty()) throw std::invalid_argument("the trace has no controls");
+  if (!(shortest >= 0 && shortest <= kLongestShortest)) {
+    throw std::invalid_argument("the shortest time that a class plays must be 0 s to an hour");
+  }
+  const int frames = frame_count(trace.size(), rate) - 1;
+  if (frames < 1) throw std::invalid_argument("the trace is shorter than a frame at this rate");
+  const std::vector<int> snapped = snap(character.space, trace);
+  std::vector<int> controls;
+  for (int f = 1; f <= frames; ++f) controls.push_back(snapped[control_at(f, rate, snapped.size())]);
+  return Hindsight(character, controls, rate, shortest).best();
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/fragments/coverage.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace fragmotion {
+
+Coverage coverage(const std::vector<Fragment>& fragments, const ControlSpace& space) {
+  Coverage result;
+  result.distances.fill(std::numeric_limits<double>::infinity());
+  for (const Fragment& fragment : fragments) {
+    ++result.counts[space.nearest(fragment.evident)];
+    for (int c = 0; c < ControlSpace::kPoints; ++c) {
+      result.distances[c] = std::min(result.distances[c], space.distance(fragment.evident, space.point(c)));
+    }
+  }
+  return result;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/fragments/transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+
+#include "fragments/body_pose.hpp"
+#include "fragmotion/motion/foot_lock.hpp"
+#include "fragmotion/motion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kCrouch = 0.16;  // of a hop's time: before it, and after it
+constexpr double kWidest = 0.2;   // m of a 1.8 m character that each foot is set out so as not to cross the other
+constexpr double kLevel = 0.8;    // of the way to flat, where feet go straight to the side
+constexpr double kTuck = 0.35;    // of the body's height: how much further the feet are lifted
+
+// One round of a gait, each pose seen from its character frame, and the way from each to the next.
+struct Round {
+  std::vector<BodyPose> poses;
+  CharacterFrame end;  // where the next round begins
+
+  int frames() const { return static_cast<int>(poses.size()); }
+};
+
+// The frame of a clip that is number `f` of a motion that goes round and round frames begin .. end of it.
+int frame_of(int f, int begin, int end) { return begin < end ? begin + f % (end - begin) : begin - f % (begin - end); }
+
+// Frames begin .. end of a clip. Where the last is not as the first, the second half leads to that.
+Round round_of(const Kinematics& kinematics, const Clip& clip, int begin, int end) {
+  Round round;
+  for (int f = 0; f < std::abs(end - begin); ++f) {
+    round.poses.push_back(body_pose(kinematics, clip, frame_of(f, begin, end)));
+  }
+  const BodyPose first = round.poses.front(), last = body_pose(kinematics, clip, end);
+  round.end = last.frame;
+  for (int f = 0; f < round.frames(); ++f) {
+    const double weight = ease_in_ease_out(2.0 * f / round.frames() - 1);
+    BodyPose& pose = round.poses[f];
+    pose.height += weight * (first.height - last.height);
+    for (std::size_t b = 0; b < pose.rotations.size(); b += 4) {
+      const Quaternion missing = load_quaternion(&first.rotations[b]) * load_quaternion(&last.rotations[b]).conjugate();
+      const Quaternion by = Quaternion::Identity().slerp(weight, missing);
+      store_quaternion((by * load_quaternion(&pose.rotations[b])).normalized(), &pose.rotations[b]);
+    }
+  }
+  return round;
+}
+
+// The strides of a gait as its path is changed: what the balls of the feet do about their middle is turned and scaled
+// like the path, so that a foot that stood still on the old path does so on the new one. Where the feet would cross, as
+// strides do that are turned sideways, their middles go apart; and sideways feet do not roll from heel to toe, but are
+// lifted flat.
+class Strides {
+ public:
+  Strides(const Kinematics& kinematics, const Legs& legs, const Round& round, const Transform& transform)
+      : kinematics_(kinematics), legs_(legs), transform_(transform), posed_(kinematics.bones()) {
+    if (!exist()) return;
+    for (const BodyPose& body : round.poses) {
+      pose(body);
+      for (int side = 0; side < 2; ++side) {
+        middles_[side] += balls(side) / round.frames();
+        find_flat(side, body);
+      }
+    }
+    set_apart(round);
+  }
+
+  void change(BodyPose& body) {
+    if (!exist()) return;
+    pose(body);
+    const double level = kLevel * std::abs(std::sin(transform_.direction));
+    for (int side = 0; side < 2; ++side) {
+      const Leg& leg = legs_[side];
+      const Vector3 from = ball(kinematics_.skeleton(), leg, posed_);
+      const Vector2 to = changed(side);
+      Quaternion& foot = posed_.rotations[leg.foot];
+      const Vector3 arm = foot.conjugate() * (from - posed_.heads[leg.foot]);
+      foot = foot.slerp(level, flat_[side].foot);
+      reach(kinematics_.skeleton(), leg, posed_, Vector3{to.x(), to.y(), from.z()} - foot * arm, body.rotations.data());
+      if (leg.toe < 0) continue;
+      double* toe = &body.rotations[std::size_t{4} * leg.toe];
+      store_quaternion(load_quaternion(toe).slerp(level, flat_[side].toe), toe);
+    }
+  }
+
+ private:
+  bool exist() const { return legs_[0].exists() && legs_[1].exists(); }
+  void pose(const BodyPose& body) {
+    kinematics_.world({0, 0, body.height}, body.rotations.data(), posed_.heads.data(), posed_.rotations.data());
+  }
+  Vector2 balls(int side) const { return ball(kinematics_.skeleton(), legs_[side], posed_).head<2>(); }
+  Vector2 changed(int side) const {
+    const Vector2 outward{side == 0 ? -apart_ : apart_, 0};
+    return middles_[side] + outward + transform_.speed * turned(balls(side) - middles_[side], transform_.direction);
+  }
+
+  // A foot as it stands flat: the lowest that it gets, and its toe relative to it.
+  struct Flat {
+    double height = std::numeric_limits<double>::infinity();  // m, of ankle and ball together
+    Quaternion foot = Quaternion::Identity(), toe = Quaternion::Identity();
+  };
+
+  void find_flat(int side, const BodyPose& body) {
+    const Leg& leg = legs_[side];
+    const double height = posed_.heads[leg.foot].z() + ball(kinematics_.skeleton(), leg, posed_).z();
+    if (height >= flat_[side].height) return;
+    flat_[side] = {height, posed_.rotations[leg.foot], Quaternion::Identity()};
+    if (leg.toe >= 0) flat_[side].toe = load_quaternion(&body.rotations[std::size_t{4} * leg.toe]);
+  }
+
+  // Finds how far each foot is to go outward for them to come no nearer to crossing than they did, or at most may.
+  void set_apart(const Round& round) {
+    double least = std::numeric_limits<double>::infinity(), least_changed = least;
+    for (const BodyPose& body : round.poses) {
+      pose(body);
+      least = std::min(least, balls(1).x() - balls(0).x());
+      least_changed = std::min(least_changed, changed(1).x() - changed(0).x());
+    }
+    apart_ = std::clamp((least - least_changed) / 2, 0.0, kWidest / standard_scale(kinematics_.skeleton()));
+  }
+
+  const Kinematics& kinematics_;
+  const Legs& legs_;
+  const Transform& transform_;
+  std::array<Vector2, 2> middles_{Vector2::Zero(), Vector2::Zero()};
+  std::array<Flat, 2> flat_;
+  double apart_ = 0;  // m
+  PosedBones posed_;
+};
+
+// Keeps planted feet of a clip where they are. Its frames go round and round frames begin .. end of another clip, whose
+// contacts these are.
+void plant_feet(const Kinematics& kinematics, const Legs& legs, Clip& clip, const Contacts& contacts, int begin,
+                int end) {
+  if (contacts.feet[0].empty()) return;
+  FootLock lock(kinematics, legs);
+  WorldPose pose;
+  pose.rotations.resize(std::size_t{4} * kinematics.bones());
+  for (int f = 0; f < clip.frames; ++f) {
+    double *root = &clip.root_positions[std::size_t{3} * f], *rotations = &clip.rotations[pose.rotations.size() * f];
+    pose.root = load_vector(root);
+    pose.heading = clip.headings[f];
+    std::copy_n(rotations, pose.rotations.size(), pose.rotations.begin());
+    lock.apply(pose, contacts, frame_of(f, begin, end), f > 0 ? 1 / clip.rate : 0);
+    store_vector(pose.root, root);
+    std::copy(pose.rotations.begin(), pose.rotations.end(), rotations);
+  }
+}
+
+// The height of a hop by its phase, of its greatest: a crouch, a parabola that takes off as fast as the crouch ends,
+// and a crouch again.
+double hop_at(double phase) {
+  constexpr double kFlight = 1 - 2 * kCrouch, kDip = 4 * kCrouch / (kPi * kFlight);
+  const double air = (phase - kCrouch) / kFlight;
+  if (air > 0 && air < 1) return 4 * air * (1 - air);
+  return -kDip * std::sin(kPi * std::min(phase, 1 - phase) / kCrouch);
+}
+
+}  // namespace
+
+Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
+                 int end, int frames, const Transform& transform) {
+  const bool other_path = transform.direction != 0 || transform.speed != 1, plants = other_path || transform.turn != 0;
+  const Round round = round_of(kinematics, clip, begin, end);
+  std::optional<Strides> strides;
+  if (other_path) strides.emplace(kinematics, legs, round, transform);
+  Clip result;
+  result.name = clip.name + " transformed";
+  result.rate = clip.rate * transform.tempo;
+  const int length = round.frames(), before = plants ? length : 0;  // a round more, in which the feet find their places
+  const CharacterFrame start = round.poses[0].frame;
+  const double bend = round.end.heading - start.heading;  // of the path, each round
+  Vector2 position = Vector2::Zero(), origin = Vector2::Zero();
+  for (int f = -before; f <= frames; ++f) {
+    const int at = (f + before) % length, rounds = (f + before) / length - (before > 0 ? 1 : 0);
+    BodyPose pose = round.poses[at];
+    if (strides) strides->change(pose);
+    if (f == 0) origin = position;
+    const double seconds = f / result.rate, heading = pose.frame.heading + rounds * bend;
+    append(kinematics, result, {position, heading + transform.turn * seconds}, pose);
+    const Vector2 next = at + 1 < length ? round.poses[at + 1].frame.position : round.end.position;
+    const double middle = transform.turn * (seconds + 0.5 / result.rate);
+    position += transform.speed * turned(next - pose.frame.position, transform.direction + middle + rounds * bend);
+  }
+  for (int f = 0; f < result.frames; ++f) {
+    Eigen::Map<Vector2>(&result.root_positions[std::size_t{3} * f]) += start.position - origin;
+  }
+  if (!plants) return result;
+  plant_feet(kinematics, legs, result, contacts, begin, end);
+  return part(result, before, result.frames - 1);
+}
+
+void hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, int end, double height) {
+  PosedBones posed(kinematics.bones());
+  for (int f = 0; f < end; ++f) {
+    const double rise = height * hop_at(static_cast<double>(f) / end);
+    const double tuck = std::max(0.0, rise) * (1 + kTuck) - rise;  // of the feet, towards the hips
+    double* root = &clip.root_positions[std::size_t{3} * f];
+    double* rotations = &clip.rotations[std::size_t{4} * kinematics.bones() * f];
+    kinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    root[2] += rise;
+    for (const Leg& leg : legs) {
+      if (!leg.exists()) continue;
+      const Vector3 ankle = posed.heads[leg.foot] + tuck * Vector3::UnitZ();
+      reach(kinematics.skeleton(), leg, posed, ankle, rotations);
+    }
+  }
+}
+
+}  // namespace fragmotion

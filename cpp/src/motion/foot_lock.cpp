@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/motion/foot_lock.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fragmotion/motion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+// Lengths are those of a character of 1.8 m.
+constexpr double kTooFar = 0.3;       // m from its motion at which a foot is let go
+constexpr double kLanding = 0.06;     // m over the floor within which a foot is planted
+constexpr double kStrained = 0.05;    // m that the hips would have to sink for a foot: from there it steps on
+constexpr double kRelease = 0.3;      // s in which a foot that is let go gets back to its motion, most of the way
+constexpr double kHaste = 3.5;        // (1 + kHaste) exp(-kHaste) of the way is left then
+constexpr double kForgets = 4;        // times that, until nothing is seen of it
+constexpr double kSettle = 0.03;      // s: time constant of a foot that comes to rest
+constexpr double kSoftGround = 0.06;  // m: a foot sinks in at most half of that
+constexpr double kPatience = 0.3;     // s that both feet stand before one steps to where its motion has it
+constexpr double kAstray = 0.07;      // m from its motion at least, for a foot to step there rather than slide
+constexpr double kStepHeight = 0.04;  // m
+constexpr double kDeepest = 0.08;     // m that the hips may sink
+constexpr double kSinking = 0.1;      // s: time constant of the hips
+
+// How far a foot is lifted that is so deep in the ground: softly at first.
+double lifted(double depth) {
+  if (depth < 0) return 0;
+  return depth < kSoftGround ? depth * depth / (2 * kSoftGround) : depth - kSoftGround / 2;
+}
+
+}  // namespace
+
+FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs)
+    : kinematics(kinematics),
+      legs(legs),
+      scale(standard_scale(kinematics.skeleton())),
+      bones(kinematics.chains({legs[0].foot, legs[0].toe, legs[1].foot, legs[1].toe})),
+      posed(kinematics.bones()) {}
+
+FootLock::FootLock(const Kinematics& kinematics, const Legs& legs)
+    : FootLock(std::make_shared<Body>(kinematics, legs)) {}
+
+FootLock::FootLock(std::shared_ptr<Body> body) : body_(std::move(body)) { reset(); }
+
+void FootLock::reset() {
+  feet_ = {};
+  feet_[0].free = feet_[1].free = kRelease;
+  sunk_ = stood_ = 0;
+  fresh_ = true;
+}
+
+void FootLock::lock(Foot& foot, const Vector2& shown, double seconds) const {
+  foot.locked = true;
+  foot.place = fresh_ ? shown : foot.shown;
+  foot.drift = seconds > 0 && !fresh_ ? Vector2{(shown - foot.shown) / seconds} : Vector2::Zero();
+}
+
+// A body that has come to stand does not stay in the middle of a stride.
+void FootLock::settle(double seconds) {
+  stood_ = feet_[0].locked && feet_[1].locked ? stood_ + seconds : 0;
+  if (stood_ < kPatience) return;
+  const auto astray = [&](const Foot& foot) { return (foot.place - foot.moved).norm() * body_->scale; };
+  Foot& foot = astray(feet_[0]) > astray(feet_[1]) ? feet_[0] : feet_[1];
+  if (astray(foot) < kAstray) return;
+  release(foot, foot.place - foot.moved);
+}
+
+// The height of a foot that steps to where its motion has it.
+double FootLock::step_height(const Foot& foot) const {
+  if (!foot.steps || foot.free >= kRelease) return 0;
+  const double phase = foot.free / kRelease;
+  return 4 * phase * (1 - phase) * kStepHeight / body_->scale;
+}
+
+void FootLock::release(Foot& foot, const Vector2& held) const {
+  foot.locked = false;
+  foot.steps = held.norm() * body_->scale > kAstray;
+  foot.offset = held;
+  foot.offset_speed = foot.drift - foot.speed;
+  foot.free = 0;
+}
+
+// How far the foot is shown from where its motion has it.
+Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double seconds) const {
+  foot.speed = seconds > 0 && !fresh_ ? Vector2{(moved - foot.moved) / seconds} : Vector2::Zero();
+  foot.moved = moved;
+  foot.free += seconds;
+  Vector2 away = Vector2::Zero();
+  if (foot.free < kForgets * kRelease) {
+    constexpr double kDamping = kHaste / kRelease;
+    const Vector2 rate = foot.offset_speed + kDamping * foot.offset;
+    away = std::exp(-kDamping * foot.free) * (foot.offset + foot.free * rate);
+  }
+  const bool stepping = foot.steps && foot.free < kRelease;
+  if (planted && !foot.locked && !stepping && away.norm() * body_->scale < kTooFar) lock(foot, moved + away, seconds);
+  if (foot.locked) {
+    const double goes_on = std::exp(-seconds / kSettle);
+    foot.place += kSettle * (1 - goes_on) * foot.drift;
+    foot.drift *= goes_on;
+    away = foot.place - moved;
+    if (!planted || away.norm() * body_->scale > kTooFar) release(foot, away);
+  }
+  foot.shown = moved + away;
+  return away;
+}
+
+double FootLock::height(int side, const FootHeights& floor) const {
+  const Leg& leg = body_->legs[side];
+  const PosedBones& posed = body_->posed;
+  const double toe = ball(body_->kinematics.skeleton(), leg, posed).z(), heel = posed.heads[leg.foot].z();
+  return std::min(toe - floor.ball, heel - floor.heel);
+}
+
+void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds) {
+  auto& [kinematics, legs, scale, bones, posed] = *body_;
+  if (!legs[0].exists() || !legs[1].exists()) return;
+  const Skeleton& skeleton = kinematics.skeleton();
+  kinematics.world(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
+  std::array<Vector3, 2> ankles;
+  double sink = 0;
+  settle(seconds);
+  for (int side = 0; side < 2; ++side) {
+    const double over = height(side, contacts.floors[side]);
+    const bool stands = contacts.feet[side][frame] && (feet_[side].locked || over * scale < kLanding);
+    const Vector2 by = away(feet_[side], ball(skeleton, legs[side], posed).head<2>(), stands, seconds);
+    const double lift = lifted(-over * scale) / scale + step_height(feet_[side]);
+    ankles[side] = posed.heads[legs[side].foot] + Vector3{by.x(), by.y(), lift};
+    if (by.isZero(1e-9) && over >= 0) continue;
+    const double strain = sinking(legs[side], posed, ankles[side]);
+    if (feet_[side].locked && strain * scale > kStrained) release(feet_[side], by);
+    sink = std::max(sink, std::min(kDeepest / scale, strain));
+  }
+  fresh_ = false;
+  sunk_ += (sink - sunk_) * (1 - std::exp(-seconds / kSinking));
+  pose.root.z() -= sunk_;
+  for (Vector3& head : posed.heads) head.z() -= sunk_;
+  for (int side = 0; side < 2; ++side) {
+    reach(skeleton, legs[side], posed, ankles[side], pose.rotations.data());
+  }
+}
+
+}  // namespace fragmotion

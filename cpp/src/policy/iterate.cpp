@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/policy/iterate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/ranges.hpp"
+#include "base/transposed.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr int kPoints = ControlSpace::kPoints;
+
+void add(std::vector<double>& sums, std::size_t at, double weight, const double* values, int count) {
+  for (int i = 0; i < count; ++i) sums[at + i] += weight * values[i];
+}
+
+// What is to be expected after each control: products with P(c' | c). Most entries of a row are its smallest one, the
+// rest of the prior; only the others are multiplied one by one.
+class Expectation {
+ public:
+  explicit Expectation(const std::vector<double>& model) {
+    for (int c = 0; c < kPoints; ++c) {
+      const double* row = &model[c * kPoints];
+      least_[c] = *std::min_element(row, row + kPoints);
+      for (int next = 0; next < kPoints; ++next) {
+        if (row[next] > least_[c]) more_[c].push_back({next, row[next] - least_[c]});
+      }
+    }
+  }
+
+  // The sums over c' of P(c' | c) values(c'); both are [102, count].
+  std::vector<double> of(const std::vector<double>& values, int count) const {
+    const auto after = [&](int c) { return &values[static_cast<std::size_t>(c) * count]; };
+    std::vector<double> total(count, 0), sums(values.size(), 0);
+    for (int c = 0; c < kPoints; ++c) add(total, 0, 1, after(c), count);
+    for (int c = 0; c < kPoints; ++c) {
+      const std::size_t at = static_cast<std::size_t>(c) * count;
+      add(sums, at, least_[c], total.data(), count);
+      for (const auto& [next, more] : more_[c]) add(sums, at, more, after(next), count);
+    }
+    return sums;
+  }
+
+ private:
+  std::array<double, kPoints> least_;
+  std::array<std::vector<std::pair<int, double>>, kPoints> more_;
+};
+
+void check(const IterateOptions& options) {
+  if (!(options.discount >= 0 && options.discount < 1)) {
+    throw std::invalid_argument("the discount must be 0 or more and under 1");
+  }
+  if (!(options.tolerance > 0 && options.tolerance <= 1)) {
+    throw std::invalid_argument("the tolerance must be over 0 and at most 1");
+  }
+  require_range("the number of sweeps", options.sweeps, 1, 1000000);
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+}  // namespace
+
+Policy value_iteration(const Quality& quality, const std::vector<double>& model, const IterateOptions& options) {
+  check(options);
+  const int n = quality.classes;
+  const NextClass next(quality);
+  const Expectation expectation(model);
+  const std::vector<double> matches = transposed(quality.match, n, kPoints);
+  std::vector<double> value(matches.size(), 0), promise, before;  // [102, classes]
+  const auto of = [&](auto& values, int c) { return &values[static_cast<std::size_t>(c) * n]; };
+  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
+    promise = expectation.of(value, n);
+    for (double& sum : promise) sum *= options.discount;
+    before = value;
+    for (int c = 0; c < kPoints; ++c) next.values(of(matches, c), of(promise, c), of(value, c));
+    if (largest_difference(value, before) <= options.tolerance) break;
+  }
+  Policy policy{"iterate", n, {}};
+  for (int from = 0; from < n; ++from) {
+    for (int c = 0; c < kPoints; ++c) policy.next.push_back(next.after(from, of(matches, c), of(promise, c)));
+  }
+  return policy;
+}
+
+Policy iterate_policy(const Quality& quality, const std::vector<std::vector<int>>& traces,
+                      const IterateOptions& options) {
+  return value_iteration(quality, control_model(traces, kKept), options);
+}
+
+}  // namespace fragmotion

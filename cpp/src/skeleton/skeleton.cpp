@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/skeleton/skeleton.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <unordered_set>
+#include <utility>
+
+#include "base/ranges.hpp"
+#include "base/take_limits.hpp"
+#include "fragmotion/skeleton/role_names.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kUnitTolerance = 1e-3;  // Blender's rotations are floats; anything worse is a caller's mistake.
+constexpr double kFarthest = 1e6;        // m: a giant in millimetres that are taken for metres stays far below.
+constexpr double kLeastStature = 1e-3, kMostStature = 1e7;  // m
+
+void check_sizes(const Skeleton& skeleton) {
+  const std::size_t bones = skeleton.names.size();
+  if (bones == 0) throw std::invalid_argument("a skeleton needs at least one bone");
+  if (bones > kMostBones) {
+    throw std::invalid_argument("a skeleton of " + std::to_string(bones) + " bones: at most " +
+                                std::to_string(kMostBones) + " are allowed");
+  }
+  const std::array sizes = {skeleton.parents.size(), skeleton.rest_rotations.size(), skeleton.offsets.size(),
+                            skeleton.tips.size()};
+  const std::array fields = {"parents", "rest rotations", "offsets", "tips"};
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (sizes[i] != bones) {
+      throw std::invalid_argument("skeleton of " + std::to_string(bones) + " bones (first '" + skeleton.names[0] +
+                                  "') has " + std::to_string(sizes[i]) + " " + fields[i]);
+    }
+  }
+}
+
+void check_name(const Skeleton& skeleton, int bone) {
+  const std::string& name = skeleton.names[bone];
+  if (name.size() <= kLongestName) return;
+  throw std::invalid_argument("bone '" + name.substr(0, 30) + "...' has a name of " + std::to_string(name.size()) +
+                              " bytes: at most " + std::to_string(kLongestName) + " are allowed");
+}
+
+void check_parent(const Skeleton& skeleton, int bone) {
+  const int parent = skeleton.parents[bone];
+  const std::string label = "bone '" + skeleton.names[bone] + "'";
+  if (bone == 0 && parent != -1) throw std::invalid_argument(label + " is the first and must have no parent (-1)");
+  if (bone > 0 && parent == -1)
+    throw std::invalid_argument(label + " has no parent: only the first bone may have none");
+  if (parent < -1 || parent >= bone) {
+    throw std::invalid_argument(label + " has parent " + std::to_string(parent) +
+                                ": parents must come before children");
+  }
+}
+
+void check_numbers(const Skeleton& skeleton, int bone) {
+  const std::string label = "bone '" + skeleton.names[bone] + "'";
+  const auto check = [&](const Vector3& place, const char* what) {
+    if (!place.allFinite()) throw std::invalid_argument(label + " has " + what + " that is not finite");
+    if (place.cwiseAbs().maxCoeff() > kFarthest)
+      throw std::invalid_argument(label + " has " + what + " of more than 1000 km");
+  };
+  check(skeleton.offsets[bone], "an offset");
+  check(skeleton.tips[bone], "a tip");
+  const double norm = skeleton.rest_rotations[bone].norm();
+  if (!(std::abs(norm - 1) < kUnitTolerance)) {
+    throw std::invalid_argument(label + " has a rest rotation that is not a unit quaternion");
+  }
+}
+
+void check_roles(const Skeleton& skeleton) {
+  for (const auto& [name, member] : role_names()) {
+    const int bone = skeleton.roles.*member;
+    if (bone < -1 || bone >= skeleton.size()) {
+      throw std::invalid_argument("skeleton with first bone '" + skeleton.names[0] + "' has a role for bone " +
+                                  std::to_string(bone) + " of " + std::to_string(skeleton.size()));
+    }
+  }
+}
+
+/// From a leaf's tip to another leaf's tip, the longest way through `root` or below: each bone joins its two longest
+/// branches.
+double longest_chain(const Skeleton& skeleton, int root) {
+  std::vector<double> longest(skeleton.size(), 0), second(skeleton.size(), 0);
+  std::vector<bool> leaf(skeleton.size(), true);
+  double chain = 0;
+  for (int bone = skeleton.size() - 1; bone >= root; --bone) {
+    if (!skeleton.is_below(bone, root)) continue;
+    if (leaf[bone]) longest[bone] = skeleton.tips[bone].norm();
+    chain = std::max(chain, longest[bone] + second[bone]);
+    if (bone == root) break;
+    const int parent = skeleton.parents[bone];
+    leaf[parent] = false;
+    double branch = skeleton.offsets[bone].norm() + longest[bone];
+    if (branch > longest[parent]) std::swap(branch, longest[parent]);
+    second[parent] = std::max(second[parent], branch);
+  }
+  return chain;
+}
+
+/// Length of the chain of bones between the heads of `a` and `b`.
+double path_length(const Skeleton& skeleton, int a, int b) {
+  double length = 0;
+  while (a != b) {
+    // Parents have smaller indices, so the larger one cannot be the common ancestor.
+    int& lower = a > b ? a : b;
+    length += skeleton.offsets[lower].norm();
+    lower = skeleton.parents[lower];
+  }
+  return length;
+}
+
+}  // namespace
+
+int Skeleton::find(const std::string& name) const {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+bool Skeleton::is_below(int bone, int ancestor) const {
+  while (bone > ancestor) bone = parents[bone];
+  return bone >= 0 && bone == ancestor;  // Nothing is below a bone that is missing (-1).
+}
+
+Skeleton make_skeleton(Skeleton skeleton) {
+  check_sizes(skeleton);
+  std::unordered_set<std::string> seen;
+  for (int bone = 0; bone < skeleton.size(); ++bone) {
+    check_name(skeleton, bone);
+    if (!seen.insert(skeleton.names[bone]).second) {
+      throw std::invalid_argument("bone '" + skeleton.names[bone] + "' appears twice: names must be unique");
+    }
+    check_parent(skeleton, bone);
+    check_numbers(skeleton, bone);
+    skeleton.rest_rotations[bone].normalize();
+  }
+  check_roles(skeleton);
+  const Roles found = find_roles(skeleton);
+  for (const auto& [name, member] : role_names()) {
+    if (skeleton.roles.*member == -1) skeleton.roles.*member = found.*member;
+  }
+  return skeleton;
+}
+
+double stature(const Skeleton& skeleton) {
+  const Roles& roles = skeleton.roles;
+  const int foot = roles.left_foot >= 0 ? roles.left_foot : roles.right_foot;
+  if (roles.head < 0 || roles.hips < 0 || foot < 0) return longest_chain(skeleton, std::max(roles.hips, 0));
+  // The foot bone's own length stands for the ankle's height, which no bone holds.
+  return skeleton.tips[roles.head].norm() + path_length(skeleton, roles.head, foot) + skeleton.tips[foot].norm();
+}
+
+void check_stature(const Skeleton& skeleton) {
+  const double height = stature(skeleton);
+  if (height >= kLeastStature && height <= kMostStature) return;
+  throw std::invalid_argument("the bones from '" + skeleton.names[skeleton.roles.hips] + "' on make a character " +
+                              text_of(height) + " m tall: it must be 1 mm to 10,000 km");
+}
+
+double standard_scale(const Skeleton& skeleton) { return 1.8 / stature(skeleton); }
+
+void rest_pose(const Skeleton& skeleton, std::vector<Vector3>& heads, std::vector<Quaternion>& rotations) {
+  heads.assign(skeleton.offsets.begin(), skeleton.offsets.end());
+  rotations.assign(skeleton.rest_rotations.begin(), skeleton.rest_rotations.end());
+  for (int bone = 1; bone < skeleton.size(); ++bone) {
+    const int parent = skeleton.parents[bone];
+    heads[bone] = heads[parent] + rotations[parent] * skeleton.offsets[bone];
+    rotations[bone] = (rotations[parent] * skeleton.rest_rotations[bone]).normalized();
+  }
+}
+
+}  // namespace fragmotion

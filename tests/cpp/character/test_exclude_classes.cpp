@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fragmotion/character/exclude_classes.hpp"
+#include "fragmotion/character/explain.hpp"
+#include "fragmotion/character/policy_file.hpp"
+#include "fragmotion/runtime/player.hpp"
+#include "small_character.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr int kPoints = ControlSpace::kPoints;
+
+// The classes that the driving table says most often.
+std::vector<int> popular(const Character& c, int count) {
+  std::vector<int> uses(c.classes.count, 0), order(c.classes.count);
+  for (const int next : c.policy().next) ++uses[next];
+  for (int k = 0; k < c.classes.count; ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return uses[a] > uses[b]; });
+  order.resize(count);
+  return order;
+}
+
+bool among(const std::vector<int>& classes, int k) {
+  return std::find(classes.begin(), classes.end(), k) != classes.end();
+}
+
+TEST(WithoutClasses, TakesTheBestOfTheOthersAndChangesNothingElse) {
+  const auto whole = gait_character();
+  const std::vector<int> excluded = popular(*whole, 5);
+  const Character left = without_classes(*whole, excluded);
+  for (const Policy& policy : whole->policies) {
+    const Explainer explain(whole, policy.name);
+    for (int from = 0; from < policy.classes; ++from) {
+      for (int control = from % 7; control < kPoints; control += 7) {
+        const int said = policy(from, control), now = left.policy(policy.name)(from, control);
+        if (!among(excluded, said)) {
+          EXPECT_EQ(now, said);
+          continue;
+        }
+        const std::vector<Alternative> ranked = explain(from, control);
+        const auto best = std::find_if(ranked.begin(), ranked.end(),
+                                       [&](const Alternative& each) { return !among(excluded, each.next); });
+        EXPECT_EQ(now, best->next) << policy.name << " " << from << " " << control;
+      }
+    }
+  }
+}
+
+// What a player of ten thousand random controls has played.
+std::vector<int> played(const std::shared_ptr<const Character>& character) {
+  Player player(character, {3});
+  Random random(5);
+  std::vector<int> classes{player.playing_class()};
+  for (int i = 0; i < 10000; ++i) {
+    player.step(character->space.point(random.below(kPoints)), 0.1);
+    classes.push_back(player.playing_class());
+  }
+  return classes;
+}
+
+TEST(WithoutClasses, NeverPlaysAnExcludedOneNotEvenStanding) {
+  const auto whole = gait_character();
+  std::vector<int> excluded = popular(*whole, 8);
+  excluded.push_back(Player(whole).playing_class());
+  const std::vector<int> before = played(whole);
+  const auto left = std::make_shared<Character>(without_classes(*whole, excluded));
+  const std::vector<int> after = played(left);
+  for (const int k : excluded) {
+    EXPECT_TRUE(among(before, k)) << k;
+    EXPECT_FALSE(among(after, k)) << k;
+  }
+}
+
+TEST(WithoutClasses, StandsInPlaceByNoExcludedOne) {
+  Character whole = *gait_character();
+  std::fill(whole.bridges.begin(), whole.bridges.end(), 4);
+  EXPECT_FALSE(among(without_classes(whole, {4}).bridges, 4));
+}
+
+TEST(WithoutClasses, OfNoneIsTheSame) {
+  EXPECT_EQ(to_bytes(without_classes(*gait_character(), {})), to_bytes(*gait_character()));
+}
+
+TEST(WithoutClasses, IsAPolicyFileLikeAnyOther) {
+  const Character left = without_classes(*gait_character(), {1, 2, 3});
+  EXPECT_EQ(to_bytes(from_bytes(to_bytes(left))), to_bytes(left));
+}
+
+TEST(WithoutClasses, RefusesAllAndWhatDoesNotExist) {
+  const auto character = gait_character();
+  std::vector<int> all;
+  for (int k = 0; k < character->classes.count; ++k) all.push_back(k);
+  EXPECT_THROW(without_classes(*character, all), std::invalid_argument);
+  EXPECT_THROW(without_classes(*character, {-1}), std::invalid_argument);
+  EXPECT_THROW(without_classes(*character, {character->classes.count}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace fragmotion

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "allocations.hpp"
+#include "fragmotion/base/random.hpp"
+#include "fragmotion/control/trace.hpp"
+
+namespace fragmotion {
+namespace {
+
+class TraceFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = std::filesystem::path(testing::TempDir()) / ("fragmotion_trace_" + test);
+    std::filesystem::create_directories(folder_);
+    path_ = folder_ / "walk.csv";
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
+
+  std::string error() const {
+    try {
+      read_trace(path_);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path folder_, path_;
+};
+
+bool same(const Control& a, const Control& b) {
+  return a.x == b.x && a.y == b.y && a.turn == b.turn && a.jump == b.jump;
+}
+
+const std::string kHeader = "velocity_x,velocity_y,turn,jump\n";
+
+TEST_F(TraceFile, ReadsBackWhatWasWritten) {
+  Random random(1);
+  Trace trace;
+  for (int i = 0; i < 100; ++i)
+    trace.push_back({random.uniform() / 3, -3e7 * random.uniform(), 2 * random.uniform() - 1, i % 2 * 1.0});
+  write_trace(path_, trace);
+  const Trace back = read_trace(path_);
+  ASSERT_EQ(back.size(), trace.size());
+  for (std::size_t i = 0; i < trace.size(); ++i) EXPECT_TRUE(same(back[i], trace[i])) << i;
+}
+
+TEST_F(TraceFile, WritesPlainShortNumbers) {
+  write_trace(path_, {{0, 1.2, -1, 0}, {-0.85, 0.1, 1, 1}});
+  std::ifstream stream(path_);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_EQ(text, kHeader + "0,1.2,-1,0\n-0.85,0.1,1,1\n");
+}
+
+TEST_F(TraceFile, ToleratesWhatEditorsDo) {
+  for (const std::string& text : {
+           kHeader + "0,1.5,0,0\n-1,0,1,1",
+           kHeader + "0,1.5,0,0\n-1,0,1,1\n",
+           kHeader + "0,1.5,0,0\n-1,0,1,1\n\n  \n",
+           "\xEF\xBB\xBF" + kHeader + "0,1.5,0,0\n-1,0,1,1\n",
+           std::string("velocity_x,velocity_y,turn,jump\r\n0,1.5,0,0\r\n-1,0,1,1\r\n"),
+           std::string(" velocity_x, velocity_y ,turn,jump \n 0 ,\t1.50, +0,0.0\n-1.0, 0 ,1e0,1 \n"),
+       }) {
+    write(text);
+    const Trace trace = read_trace(path_);
+    ASSERT_EQ(trace.size(), 2u) << text;
+    EXPECT_TRUE(same(trace[0], {0, 1.5, 0, 0})) << text;
+    EXPECT_TRUE(same(trace[1], {-1, 0, 1, 1})) << text;
+  }
+}
+
+TEST_F(TraceFile, RefusesMalformedFilesNamingTheLine) {
+  const std::string row = "0,1,0,0\n";
+  const struct {
+    const char* label;
+    std::string text, where, what;
+  } cases[] = {
+      {"empty", "", "walk.csv:1: ", "header"},
+      {"no header", row + row, "walk.csv:1: ", "velocity_x,velocity_y,turn,jump"},
+      {"other header", "x,y,turn,jump\n" + row + row, "walk.csv:1: ", "'x,y,turn,jump'"},
+      {"longer header", "velocity_x,velocity_y,turn,jump,fire\n" + row + row, "walk.csv:1: ", "fire"},
+      {"binary", std::string("\0\x01\xff\n\0", 5), "walk.csv:1: ", "header"},
+      {"no rows", kHeader, "walk.csv:1: ", "0 rows"},
+      {"one row", kHeader + row, "walk.csv:2: ", "1 rows"},
+      {"three values", kHeader + row + "0,1,0\n", "walk.csv:3: ", "found 3"},
+      {"five values", kHeader + row + row + "0,1,0,0,0\n", "walk.csv:4: ", "found 5"},
+      {"trailing comma", kHeader + row + "0,1,0,0,\n", "walk.csv:3: ", "found 5"},
+      {"blank line between", kHeader + row + "\n" + row, "walk.csv:3: ", "empty line"},
+      {"word", kHeader + row + "0,fast,0,0\n", "walk.csv:3: ", "velocity_y is 'fast'"},
+      {"nothing", kHeader + row + ",1,0,0\n", "walk.csv:3: ", "velocity_x is ''"},
+      {"unit", kHeader + row + "0,1 m,0,0\n", "walk.csv:3: ", "velocity_y is '1 m'"},
+      {"decimal comma", kHeader + row + "0;1,5;0;0\n", "walk.csv:3: ", "found 2"},
+      {"not a number", kHeader + row + "nan,1,0,0\n", "walk.csv:3: ", "velocity_x is 'nan'"},
+      {"infinite", kHeader + row + "0,inf,0,0\n", "walk.csv:3: ", "velocity_y"},
+      {"overflow", kHeader + row + "0,1e999,0,0\n", "walk.csv:3: ", "velocity_y is '1e999'"},
+      {"faster than light", kHeader + row + "0,2e9,0,0\n", "walk.csv:3: ", "velocity_y is over 1e9 m/s"},
+      {"turn too far", kHeader + row + "0,1,1.5,0\n", "walk.csv:3: ", "turn is 1.5"},
+      {"turn in degrees", kHeader + row + "0,1,-90,0\n", "walk.csv:3: ", "turn is -90"},
+      {"negative jump", kHeader + row + "0,1,0,-1\n", "walk.csv:3: ", "jump is -1"},
+      {"jump of two", kHeader + row + "0,1,0,2\n", "walk.csv:3: ", "jump is 2"},
+  };
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.label);
+    write(c.text);
+    EXPECT_EQ(error().rfind(c.where, 0), 0u) << error();
+    EXPECT_NE(error().find(c.what), std::string::npos) << error();
+  }
+}
+
+TEST_F(TraceFile, TakesLittleMemoryForManyCommasAndEmptyLines) {
+  for (const char mark : {',', '\n'}) {
+    write(kHeader + "0,1,0,0\n" + std::string(1000000, mark) + "1");
+    const std::size_t before = allocated_bytes;
+    const std::string found = error();
+    EXPECT_LT(allocated_bytes - before, 5000000u);
+    EXPECT_EQ(found.rfind("walk.csv:3: expected 4 values", 0), 0u) << found;
+  }
+}
+
+TEST_F(TraceFile, NamesAFileThatCannotBeRead) {
+  EXPECT_EQ(error(), "walk.csv: cannot be read");
+  EXPECT_THROW(read_trace(folder_), std::invalid_argument);
+}
+
+TEST_F(TraceFile, WritesNothingThatCannotBeReadBack) {
+  EXPECT_THROW(write_trace(path_, {{0, 1, 0, 0}}), std::invalid_argument);
+  EXPECT_THROW(write_trace(path_, {{0, 1, 0, 0}, {0, NAN, 0, 0}}), std::invalid_argument);
+  EXPECT_THROW(write_trace(path_, {{0, 1, 2, 0}, {0, 1, 0, 0}}), std::invalid_argument);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+TEST_F(TraceFile, LeavesNothingBehindWhereItCannotWrite) {
+  std::filesystem::create_directories(path_ / "occupied");
+  EXPECT_THROW(write_trace(path_, {{0, 1, 0, 0}, {0, 1, 0, 0}}), std::invalid_argument);
+  const std::filesystem::path missing = folder_ / "none" / "t.csv";
+  try {
+    write_trace(missing, {{0, 1, 0, 0}, {0, 1, 0, 0}});
+    ADD_FAILURE() << "written";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(error.what(), "cannot write " + missing.u8string() + ": No such file or directory");
+  }
+  const auto entries = std::filesystem::directory_iterator(folder_);
+  EXPECT_EQ(std::distance(begin(entries), end(entries)), 1);
+}
+
+// ---- Simulated players
+
+/// What a minute or more of a trace is like.
+struct Summary {
+  double standing = 0, walking = 0, running = 0, forward = 0, left = 0, right = 0, jumping = 0;  // shares
+  int changes = 0;
+};
+
+Summary summarize(const Trace& trace, const ControlSpace& space) {
+  Summary summary;
+  const double share = 1.0 / trace.size();
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    const Control& control = trace[i];
+    const double speed = std::hypot(control.x, control.y);
+    (speed < 0.1                                ? summary.standing
+     : speed < (space.walk() + space.run()) / 2 ? summary.walking
+                                                : summary.running) += share;
+    if (control.y > 0.1) summary.forward += share;
+    if (control.turn > 0) summary.left += share;
+    if (control.turn < 0) summary.right += share;
+    summary.jumping += control.jump * share;
+    summary.changes += i > 0 && !same(control, trace[i - 1]);
+  }
+  return summary;
+}
+
+class SimulatedPlayer : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, SimulatedPlayer, testing::ValuesIn(simulated_players()),
+                         [](const auto& info) { return info.param; });
+
+TEST_P(SimulatedPlayer, StaysOnThePointsOfTheSpace) {
+  const ControlSpace space(1.1, 2.9);
+  const Trace trace = simulate_trace(GetParam(), 60, 1, space);
+  EXPECT_EQ(trace.size(), 600u);
+  for (const Control& control : trace) EXPECT_TRUE(same(control, space.point(space.nearest(control))));
+}
+
+TEST_P(SimulatedPlayer, RepeatsWithTheSeedOnly) {
+  const ControlSpace space;
+  const Trace one = simulate_trace(GetParam(), 30, 7, space), again = simulate_trace(GetParam(), 30, 7, space);
+  const Trace other = simulate_trace(GetParam(), 30, 8, space);
+  EXPECT_TRUE(std::equal(one.begin(), one.end(), again.begin(), same));
+  EXPECT_FALSE(std::equal(one.begin(), one.end(), other.begin(), same));
+}
+
+TEST_P(SimulatedPlayer, HoldsControlsInsteadOfMakingNoise) {
+  const ControlSpace space;
+  const Summary summary = summarize(simulate_trace(GetParam(), 600, 2, space), space);
+  EXPECT_LT(summary.changes, 0.45 * 6000);
+  EXPECT_GT(summary.changes, 0.03 * 6000);
+}
+
+TEST_P(SimulatedPlayer, HoldsButtonsForAWhile) {
+  const Trace trace = simulate_trace(GetParam(), 600, 3, ControlSpace());
+  for (std::size_t begin = 0; begin < trace.size();) {
+    std::size_t end = begin;
+    while (end < trace.size() && trace[end].jump == trace[begin].jump) ++end;
+    if (trace[begin].jump == 1 && end < trace.size()) {
+      EXPECT_GE(end - begin, 3u);
+    }
+    begin = end;
+  }
+}
+
+TEST_P(SimulatedPlayer, PushesForwardMostOfTheTimeItMoves) {
+  const ControlSpace space;
+  const Summary summary = summarize(simulate_trace(GetParam(), 600, 4, space), space);
+  EXPECT_GT(summary.forward, 0.5 * (summary.walking + summary.running));
+}
+
+TEST(SimulateTrace, GivesEachPlayerItsHabits) {
+  const ControlSpace space;
+  std::map<std::string, Summary> all;
+  for (const std::string& player : simulated_players())
+    all[player] = summarize(simulate_trace(player, 1200, 5, space), space);
+  ASSERT_EQ(all.size(), 8u);
+  EXPECT_GT(all["walker"].walking, 0.6);
+  EXPECT_GT(all["stroller"].standing, 0.25);
+  EXPECT_LT(all["stroller"].running, 0.01);
+  EXPECT_GT(all["runner"].running, 0.5);
+  EXPECT_GT(all["sprinter"].running, 0.6);
+  EXPECT_GT(all["circler"].left, 0.5);
+  EXPECT_GT(all["circler"].left, 3 * all["circler"].right);
+  for (const auto& [player, summary] : all) {
+    EXPECT_LE(summary.changes, all["twitcher"].changes) << player;
+    EXPECT_LE(summary.jumping, all["jumper"].jumping) << player;
+  }
+}
+
+TEST(SimulateTrace, ChangesSpeedWithInertia) {
+  const ControlSpace space;
+  const Trace trace = simulate_trace("runner", 600, 6, space);
+  int reversals = 0;
+  for (std::size_t i = 1; i < trace.size(); ++i) reversals += trace[i].y * trace[i - 1].y < -5;
+  EXPECT_EQ(reversals, 0);  // from running forward to running backward in a tenth of a second
+}
+
+TEST(SimulateTrace, IsTheSameOnEveryPlatform) {
+  const ControlSpace space;
+  std::uint64_t hash = 1469598103934665603ULL;  // FNV-1a over the points of all players
+  for (const std::string& player : simulated_players()) {
+    for (const Control& control : simulate_trace(player, 60, 1, space))
+      hash = (hash ^ static_cast<std::uint64_t>(space.nearest(control))) * 1099511628211ULL;
+  }
+  EXPECT_EQ(hash, 1853347581245356913ULL);
+}
+
+TEST(SimulateTrace, RefusesUnknownPlayersAndLengths) {
+  const ControlSpace space;
+  try {
+    simulate_trace("dancer", 60, 1, space);
+    ADD_FAILURE() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    for (const std::string& player : simulated_players())
+      EXPECT_NE(std::string(error.what()).find(player), std::string::npos);
+  }
+  for (const double seconds : {0.0, 0.1, -5.0, 1e9, double(NAN), -double(INFINITY), double(INFINITY)})
+    EXPECT_THROW(simulate_trace("walker", seconds, 1, space), std::invalid_argument) << seconds;
+  EXPECT_EQ(simulate_trace("walker", 0.2, 1, space).size(), 2u);
+}
+
+}  // namespace
+}  // namespace fragmotion

@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "fragmotion/fragments/blend.hpp"
+#include "fragmotion/fragments/coverage.hpp"
+#include "fragmotion/fragments/distance.hpp"
+#include "fragmotion/fragments/synthesis.hpp"
+#include "fragmotion/fragments/transform.hpp"
+#include "fragmotion/motion/mirror.hpp"
+#include "fragmotion/motion/pose.hpp"
+#include "fragmotion/skeleton/two_bone_ik.hpp"
+#include "mocap_files.hpp"
+#include "walker.hpp"
+
+namespace fragmotion {
+namespace {
+
+const Skeleton kSkeleton = humanoid();
+const Kinematics kKinematics(kSkeleton);
+
+double usual_of(const std::vector<Clip>& clips) {
+  std::vector<BodyMotion> motions;
+  for (const Clip& clip : clips) motions.push_back(body_motion(kKinematics, clip));
+  return usual_height(motions);
+}
+
+Control evident_of(const Clip& clip, int begin, int end, double usual, const ControlSpace& space = ControlSpace()) {
+  return evident_control(body_motion(kKinematics, clip), clip.rate, begin, end, usual, space);
+}
+
+double lowest_tip(const Clip& clip, int frame) {
+  std::vector<Vector3> heads(kSkeleton.size());
+  std::vector<Quaternion> rotations(kSkeleton.size());
+  kKinematics.world(clip, frame, heads.data(), rotations.data());
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int b = 0; b < kSkeleton.size(); ++b) {
+    const Vector3 tip = heads[b] + rotations[b] * kSkeleton.tips[b];
+    lowest = std::min(lowest, tip.z());
+  }
+  return lowest;
+}
+
+// A gait's cycle: frames after which its pose comes again.
+int cycle_of(const Gait& gait, const Clip& clip) { return static_cast<int>(std::lround(gait.cycle * clip.rate)); }
+
+TEST(Transformed, ByNothingIsTheSourceRoundAndRound) {
+  Gait gait;
+  gait.turn = 0.5;
+  gait.heading = 1;
+  const Clip clip = moved(kSkeleton, gait_clip(gait), {{2, -1}, 0.5});
+  const int cycle = cycle_of(gait, clip), frames = std::min(2 * cycle + 7, clip.frames - 21);
+  const Clip same = transformed(kKinematics, find_legs(kKinematics, {clip}), clip, find_contacts(kKinematics, clip), 20,
+                                20 + cycle, frames, {});
+  ASSERT_EQ(same.frames, frames + 1);
+  EXPECT_EQ(same.rate, clip.rate);
+  for (int f = 0; f < same.frames; ++f) {
+    const Vector3 root = load_vector(&clip.root_positions[3 * (20 + f)]);
+    EXPECT_LT((load_vector(&same.root_positions[3 * f]) - root).norm(), 1e-3) << f;
+    EXPECT_NEAR(same.headings[f], clip.headings[20 + f], 1e-3);
+    for (int b = 0; b < kSkeleton.size(); ++b) {
+      const Quaternion q = load_quaternion(&same.rotations[std::size_t{4} * (f * kSkeleton.size() + b)]);
+      const Quaternion p = load_quaternion(&clip.rotations[std::size_t{4} * ((20 + f) * kSkeleton.size() + b)]);
+      EXPECT_LT(q.angularDistance(p), 0.01);
+    }
+  }
+}
+
+TEST(Transformed, LeadsBackToItsBeginning) {
+  const Clip clip = gait_clip({1.2, 0, 0});
+  const Legs legs = find_legs(kKinematics, {clip});
+  Transform change;
+  change.direction = 0.7;
+  change.speed = 1.3;
+  for (const int length : {26, 28, 33}) {  // no cycles
+    const Clip made =
+        transformed(kKinematics, legs, clip, find_contacts(kKinematics, clip), 20, 20 + length, length, change);
+    BodyTips tips(kSkeleton);
+    const int stride = padded(tips.points());
+    std::vector<float> first(std::size_t{3} * stride), last(first);
+    for (const auto& [frame, rows] : {std::pair{0, &first}, std::pair{length, &last}}) {
+      tips.pose(load_vector(&made.root_positions[3 * frame]),
+                &made.rotations[std::size_t{4} * kSkeleton.size() * frame]);
+      tips.write(frame_at(made, frame), rows->data(), stride, 0);
+    }
+    EXPECT_LT(tip_distance(first.data(), last.data(), stride) / tips.points(), 0.01) << length;
+  }
+}
+
+TEST(Transformed, BackwardIsTheSourceBackward) {
+  Gait gait;
+  gait.turn = 0.5;
+  const Clip clip = gait_clip(gait);
+  const int cycle = cycle_of(gait, clip);
+  const Clip back = transformed(kKinematics, find_legs(kKinematics, {clip}), clip, find_contacts(kKinematics, clip),
+                                20 + cycle, 20, cycle, {});
+  ASSERT_EQ(back.frames, cycle + 1);
+  for (int f = 0; f < back.frames; ++f) {
+    const int source = 20 + cycle - f;
+    EXPECT_LT((load_vector(&back.root_positions[3 * f]) - load_vector(&clip.root_positions[3 * source])).norm(), 1e-3);
+    EXPECT_NEAR(back.headings[f], clip.headings[source], 1e-3) << f;
+    const std::size_t width = std::size_t{4} * kSkeleton.size();
+    for (std::size_t b = 0; b < width; b += 4) {
+      const Quaternion q = load_quaternion(&back.rotations[f * width + b]);
+      EXPECT_LT(q.angularDistance(load_quaternion(&clip.rotations[source * width + b])), 0.01);
+    }
+  }
+}
+
+// How far the ball of the right foot is to the right of the left one's at least.
+double least_apart(const Clip& clip) {
+  PosedBones posed(kSkeleton.size());
+  double least = std::numeric_limits<double>::infinity();
+  for (int f = 0; f < clip.frames; ++f) {
+    kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    const auto place = [&](int foot, int toe) {
+      return frame_at(clip, f).to_local(ball(kSkeleton, foot, toe, posed)).x();
+    };
+    const Roles& roles = kSkeleton.roles;
+    least = std::min(least, place(roles.right_foot, roles.right_toe) - place(roles.left_foot, roles.left_toe));
+  }
+  return least;
+}
+
+// How far a clip's left foot is turned at most from any one frame to any other, rad, as the character sees it.
+double roll_of(const Clip& clip) {
+  PosedBones posed(kSkeleton.size());
+  std::vector<Quaternion> feet;
+  double most = 0;
+  for (int f = 0; f < clip.frames; ++f) {
+    kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    feet.push_back(frame_at(clip, f).rotation().conjugate() * posed.rotations[kSkeleton.roles.left_foot]);
+    for (const Quaternion& other : feet) most = std::max(most, feet.back().angularDistance(other));
+  }
+  return most;
+}
+
+TEST(Transformed, SidewaysTheFeetAreLiftedFlat) {
+  Clip clip = gait_clip({});
+  const int cycle = cycle_of({}, clip);
+  for (int f = 0; f < clip.frames; ++f) {
+    for (const int foot : {kSkeleton.roles.left_foot, kSkeleton.roles.right_foot}) {
+      double* local = &clip.rotations[std::size_t{4} * (f * kSkeleton.size() + foot)];
+      const Eigen::AngleAxisd roll(0.25 * (1 - std::cos(2 * kPi * f / cycle)), Vector3::UnitX());
+      store_quaternion(load_quaternion(local) * roll, local);
+    }
+  }
+  const double before = roll_of(clip);
+  ASSERT_GT(before, 0.3);
+  Transform change;
+  change.direction = kPi / 2;
+  const Clip made = transformed(kKinematics, find_legs(kKinematics, {clip}), clip, {}, 20, 20 + cycle, cycle, change);
+  EXPECT_LT(roll_of(made), 0.4 * before);
+}
+
+TEST(Transformed, SidewaysTheFeetDoNotCross) {
+  Gait gait;
+  gait.y = 1;
+  const Clip clip = gait_clip(gait);
+  const int cycle = cycle_of(gait, clip);
+  const double before = least_apart(clip);
+  ASSERT_GT(before, 0.05);
+  for (const double direction : {-kPi / 2, -kPi / 4, kPi / 4, kPi / 2}) {
+    Transform change;
+    change.direction = direction;
+    const Clip made = transformed(kKinematics, find_legs(kKinematics, {clip}), clip, find_contacts(kKinematics, clip),
+                                  20, 20 + cycle, cycle, change);
+    EXPECT_GT(least_apart(made), 0.08) << direction;
+  }
+}
+
+TEST(Transformed, DoesToTheEvidentControlWhatItSays) {
+  const ControlSpace space;
+  Random random(1);
+  for (int n = 0; n < 40; ++n) {
+    Gait gait;
+    gait.x = random.uniform() - 0.5;
+    gait.y = 0.6 + random.uniform();
+    gait.turn = random.uniform() - 0.5;
+    const Clip clip = gait_clip(gait);
+    const double usual = usual_of({clip});
+    const int begin = random.below(30), end = begin + cycle_of(gait, clip);
+    Transform change;
+    change.direction = n % 4 == 0 ? 2 * random.uniform() - 1 : 0;
+    change.speed = n % 4 == 1 ? 0.5 + random.uniform() : 1;
+    change.turn = n % 4 == 2 ? 2 * random.uniform() - 1 : 0;
+    change.tempo = n % 4 == 3 ? 0.8 + 0.4 * random.uniform() : 1;
+    const Clip made =
+        transformed(kKinematics, find_legs(kKinematics, {clip}), clip, {}, begin, end, end - begin, change);
+    const Control before = evident_of(clip, begin, end, usual, space),
+                  after = evident_of(made, 0, end - begin, usual, space);
+    const Vector2 expected =
+        Eigen::Rotation2Dd(change.direction) * Vector2(before.x, before.y) * change.speed * change.tempo;
+    EXPECT_NEAR(after.x, expected.x(), 0.15) << n;  // the path is transformed; the limbs swing as before
+    EXPECT_NEAR(after.y, expected.y(), 0.15) << n;
+    if (change.turn == 0) {
+      const CharacterFrame start = frame_at(clip, begin);
+      const Vector2 went = frame_at(clip, end).position - start.position;
+      const Vector2 goes = frame_at(made, end - begin).position - frame_at(made, 0).position;
+      EXPECT_LT((goes - Eigen::Rotation2Dd(change.direction) * went * change.speed).norm(), 1e-9);
+    }
+    EXPECT_NEAR(after.turn, change.tempo * before.turn + change.turn / space.turn_rate(), 1e-6) << n;
+  }
+}
+
+TEST(Hop, CrouchesFliesAndIsCaughtWithTheFeetNeverBelowWhereTheyWere) {
+  Clip clip = gait_clip({1.2, 0, 0}), before = clip;
+  const Legs legs = find_legs(kKinematics, {clip});
+  hop(kKinematics, legs, clip, 30, 0.3);
+  double highest = 0, lowest = 0, fastest = 0;
+  PosedBones was(kSkeleton.size()), is(kSkeleton.size());
+  double last = 0;
+  for (int f = 0; f < clip.frames; ++f) {
+    const double by = clip.root_positions[3 * f + 2] - before.root_positions[3 * f + 2];
+    highest = std::max(highest, by);
+    lowest = std::min(lowest, by);
+    if (f > 0) fastest = std::max(fastest, std::abs(by - last));
+    last = by;
+    kKinematics.world(before, f, was.heads.data(), was.rotations.data());
+    kKinematics.world(clip, f, is.heads.data(), is.rotations.data());
+    for (const Leg& leg : legs) {
+      const double lift = is.heads[leg.foot].z() - was.heads[leg.foot].z();
+      EXPECT_GT(lift, -1e-3) << f;
+      EXPECT_NEAR((is.heads[leg.foot] - was.heads[leg.foot]).head<2>().norm(), 0, 0.02);
+      if (by <= 0) {
+        EXPECT_NEAR(lift, 0, 0.01) << f;
+      }
+    }
+    if (f >= 30) {
+      EXPECT_EQ(by, 0);
+    }
+  }
+  EXPECT_NEAR(highest, 0.3, 0.01);
+  EXPECT_LT(lowest, -0.03);
+  EXPECT_GT(lowest, -0.15);
+  EXPECT_LT(fastest, 1.2 * 4 * 0.3 / (0.68 * 30));  // no faster than the parabola: nothing jumps from frame to frame
+}
+
+// The pool with a clip's frames 0 .. end as one more fragment.
+Trajectories with(FragmentPool pool, const Clip& clip, int end) {
+  Fragment fragment;
+  fragment.clip = static_cast<int>(pool.clips.size());
+  fragment.end = end;
+  pool.clips.push_back(make_clip(pool.skeleton, clip));
+  pool.fragments.push_back(fragment);
+  return trajectories(pool);
+}
+
+// The greatest speed of a ball of the foot that stands, m/s.
+double slide(const Clip& clip, const Contacts& contacts, int begin, int end) {
+  const Legs legs = find_legs(kKinematics, {clip});
+  PosedBones posed(kKinematics.bones());
+  double most = 0;
+  for (int side = 0; side < 2; ++side) {
+    Vector3 before = Vector3::Zero();
+    for (int f = 0, standing = 0; f < clip.frames; ++f) {
+      kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+      const Vector3 now = ball(kKinematics.skeleton(), legs[side], posed);
+      standing = contacts.feet[side][begin + f % (end - begin)] ? standing + 1 : 0;
+      if (standing > 4) most = std::max(most, (now - before).head<2>().norm() * clip.rate);
+      before = now;
+    }
+  }
+  return most;
+}
+
+TEST(Transformed, KeepsPlantedFeetWhereTheyAre) {
+  const Clip clip = gait_clip({1.2, 0, 0});
+  const Contacts contacts = find_contacts(kKinematics, clip);
+  for (const double direction : {kPi / 4, -kPi / 2}) {
+    Transform change;
+    change.direction = direction;
+    change.speed = 0.8;
+    change.turn = 0.5;
+    const Clip planted = transformed(kKinematics, find_legs(kKinematics, {clip}), clip, contacts, 15, 45, 35, change);
+    EXPECT_LT(slide(planted, contacts, 15, 45), 0.15) << direction;
+  }
+}
+
+TEST(Interpolated, AtItsEndsIsTheOneOrTheOther) {
+  Gait slow, fast;
+  fast.y = 1.8;
+  fast.heading = 2;
+  const FragmentPool pool = gait_pool({gait_clip(slow), gait_clip(fast)});
+  const int a = 2, b = static_cast<int>(pool.fragments.size()) - 3, last = static_cast<int>(pool.fragments.size());
+  for (const double w : {0.0, 1.0}) {
+    const Clip clip = interpolated(kKinematics, pool, pool.fragments[a], pool.fragments[b], w, 4);
+    const Trajectories t = with(pool, clip, clip.frames - 1 - 4);
+    EXPECT_LT(fragment_distance(t, last, w == 0 ? a : b), 1e-3);
+    EXPECT_GT(fragment_distance(t, last, w == 0 ? b : a), 1);
+  }
+}
+
+TEST(Interpolated, LiesBetweenWhatItIsMadeOf) {
+  Gait slow, fast;
+  fast.y = 1.8;
+  const FragmentPool pool = gait_pool({gait_clip(slow), gait_clip(fast)});
+  const double usual = usual_of(pool.clips);
+  for (const Fragment& a : pool.fragments) {
+    const Fragment& b = pool.fragments.back();
+    const Clip clip = interpolated(kKinematics, pool, a, b, 0.5, 0);
+    const double seconds = (clip.frames - 1) / clip.rate, mean = (pool.seconds(a) + pool.seconds(b)) / 2;
+    EXPECT_NEAR(seconds, mean, 0.5 / clip.rate + 1e-9);
+    const double speed = evident_of(clip, 0, clip.frames - 1, usual).y;
+    EXPECT_GT(speed, std::min(a.evident.y, b.evident.y) - 0.15);
+    EXPECT_LT(speed, std::max(a.evident.y, b.evident.y) + 0.15);
+  }
+}
+
+TEST(Standing, StandsStillOnTheGround) {
+  for (const bool with_mirror : {false, true}) {
+    std::vector<Clip> clips = gait_takes();
+    clips.erase(clips.begin());  // without the take that stands
+    if (with_mirror) {
+      const Mirror mirror(kKinematics, clips);
+      for (std::size_t i = 0, count = clips.size(); i < count; ++i) clips.push_back(mirror(clips[i]));
+    }
+    const FragmentPool pool = gait_pool(clips);
+    const Clip stand = make_clip(kSkeleton, standing(kKinematics, pool, 16, 30));
+    ASSERT_EQ(stand.frames, 16);
+    const Control found = evident_of(stand, 0, 15, usual_of(clips));
+    for (const double value : {found.x, found.y, found.turn, found.jump}) EXPECT_NEAR(value, 0, 1e-9);
+    EXPECT_NEAR(lowest_tip(stand, 0), 0, 0.03);
+    EXPECT_NEAR(lowest_tip(stand, 15), 0, 0.03);
+  }
+}
+
+FragmentPool synthesized(std::vector<Clip> clips, const ControlSpace& space, const SynthesisOptions& options) {
+  FragmentPool pool = gait_pool(clips, 1, {}, &space);
+  synthesize(pool, space, usual_of(clips), options);
+  return pool;
+}
+
+TEST(Synthesize, OnlyAddsAndBringsControlsNearer) {
+  const std::vector<Clip> clips = gait_takes();
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  const FragmentPool before = gait_pool(clips, 1, {}, &space), after = synthesized(clips, space, {});
+  ASSERT_GT(after.fragments.size(), before.fragments.size());
+  for (std::size_t i = 0; i < before.fragments.size(); ++i) {
+    EXPECT_EQ(after.fragments[i].begin, before.fragments[i].begin);
+    EXPECT_EQ(after.fragments[i].evident.y, before.fragments[i].evident.y);
+  }
+  const Coverage was = coverage(before.fragments, space), is = coverage(after.fragments, space);
+  double sum_was = 0, sum_is = 0;
+  for (int c = 0; c < ControlSpace::kPoints; ++c) {
+    EXPECT_LE(is.distances[c], was.distances[c]);
+    sum_was += was.distances[c];
+    sum_is += is.distances[c];
+  }
+  EXPECT_LT(sum_is, 0.5 * sum_was);
+}
+
+TEST(Synthesize, SaysTruelyWhatItsFragmentsAre) {
+  const std::vector<Clip> clips = gait_takes();
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  const double usual = usual_of(clips);
+  const FragmentPool pool = synthesized(clips, space, {});
+  int made = 0;
+  for (const Fragment& f : pool.fragments) {
+    ASSERT_TRUE(f.clip >= 0 && f.clip < static_cast<int>(pool.clips.size()));
+    const Clip& clip = pool.clips[f.clip];
+    ASSERT_TRUE(f.begin >= 0 && f.begin < f.end && f.end < clip.frames);
+    if (f.origin == Origin::captured) continue;
+    ++made;
+    EXPECT_NE(f.origin, Origin::mirrored);
+    EXPECT_GE(pool.seconds(f), 0.1 - 1e-9);
+    EXPECT_LE(pool.seconds(f), 0.5 + 1.0 / clip.rate);
+    const Control found = evident_of(clip, f.begin, f.end, usual, space);
+    EXPECT_NEAR(space.distance(found, f.evident), 0, 1e-6);
+  }
+  EXPECT_GT(made, 50);
+}
+
+// The greatest speed of a knee, m/s.
+double fastest_knee(const Clip& clip, int begin, int end) {
+  const Legs legs = find_legs(kKinematics, {clip});
+  PosedBones posed(kKinematics.bones());
+  std::array<Vector3, 2> before;
+  double most = 0;
+  for (int f = begin; f <= end; ++f) {
+    kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    for (int side = 0; side < 2; ++side) {
+      const Vector3 now = posed.heads[legs[side].knee];
+      if (f > begin) most = std::max(most, (now - before[side]).norm() * clip.rate);
+      before[side] = now;
+    }
+  }
+  return most;
+}
+
+TEST(Synthesize, RunsBackwardWithoutKneesThatSnap) {
+  Gait run;
+  run.y = 3;
+  run.cycle = 0.8;
+  run.rate = 60;
+  const Clip clip = gait_clip(run);
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  const FragmentPool pool = synthesized({clip}, space, {});
+  const double own = fastest_knee(pool.clips[0], 0, pool.clips[0].frames - 1);
+  int found = 0;
+  for (const Fragment& f : pool.fragments) {
+    if (f.origin != Origin::transformed || f.evident.y > -2.5 || f.evident.jump > 0.5) continue;
+    ++found;
+    EXPECT_LT(fastest_knee(pool.clips[f.clip], f.begin, f.end), 1.1 * own);
+  }
+  EXPECT_GT(found, 1);
+}
+
+TEST(Synthesize, RefusesOptionsOutOfTheirRanges) {
+  FragmentPool pool = gait_pool({gait_clip({})});
+  const auto error = [&](const SynthesisOptions& options) {
+    return error_of([&] { synthesize(pool, ControlSpace(), 1, options); });
+  };
+  for (const double bad : {-1.0, std::nan(""), 1e8, double(INFINITY)}) {
+    EXPECT_NE(error({bad, 4, 0.5, 0.3}).find("tolerance"), std::string::npos) << bad;
+    EXPECT_NE(error({0.3, 4, bad, 0.3}).find("longest fragment (s) must be 0.1 to 10"), std::string::npos) << bad;
+    EXPECT_NE(error({0.3, 4, 0.5, bad}).find("tail"), std::string::npos) << bad;
+  }
+  for (const int bad : {-1, 1001}) EXPECT_NE(error({0.3, bad, 0.5, 0.3}).find("wanted"), std::string::npos) << bad;
+}
+
+TEST(Synthesize, LetsEveryCharacterStand) {
+  Gait run;
+  run.y = 3;
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  const FragmentPool pool = synthesized({gait_clip(run)}, space, {});
+  EXPECT_LT(coverage(pool.fragments, space).distances[space.nearest({})], 1e-6);
+}
+
+TEST(Synthesize, IsDeterministic) {
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  const FragmentPool one = synthesized(gait_takes(), space, {}), two = synthesized(gait_takes(), space, {});
+  ASSERT_EQ(one.clips.size(), two.clips.size());
+  for (std::size_t i = 0; i < one.clips.size(); ++i) EXPECT_EQ(one.clips[i].rotations, two.clips[i].rotations);
+}
+
+}  // namespace
+}  // namespace fragmotion

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fragmotion/io/bvh.hpp"
+#include "fragmotion/motion/mirror.hpp"
+#include "mocap_files.hpp"
+#include "small_skeleton.hpp"
+#include "walker.hpp"
+
+namespace fragmotion {
+namespace {
+
+std::vector<Vector3> tips(const Kinematics& kinematics, const Clip& clip, int frame) {
+  std::vector<Vector3> heads(kinematics.bones()), tips;
+  std::vector<Quaternion> rotations(kinematics.bones());
+  kinematics.world(clip, frame, heads.data(), rotations.data());
+  for (int b = 0; b < kinematics.bones(); ++b) tips.push_back(heads[b] + rotations[b] * kinematics.skeleton().tips[b]);
+  return tips;
+}
+
+// The largest distance of a bone's tip from the reflection of its counterpart's in the original.
+double worst_reflection(const Kinematics& kinematics, const Clip& clip, const Clip& mirrored) {
+  const std::vector<int> counterpart = mirror_bones(kinematics.skeleton());
+  double worst = 0;
+  for (int f = 0; f < clip.frames; ++f) {
+    const std::vector<Vector3> original = tips(kinematics, clip, f), image = tips(kinematics, mirrored, f);
+    for (int b = 0; b < kinematics.bones(); ++b) {
+      if (!kinematics.skeleton().is_below(b, kinematics.skeleton().roles.hips)) continue;
+      const Vector3 other = original[counterpart[b]];
+      worst = std::max(worst, (image[b] - Vector3(-other.x(), other.y(), other.z())).norm());
+    }
+  }
+  return worst;
+}
+
+void expect_same(const Clip& a, const Clip& b, double tolerance) {
+  ASSERT_EQ(a.frames, b.frames);
+  for (std::size_t i = 0; i < a.root_positions.size(); ++i)
+    EXPECT_NEAR(a.root_positions[i], b.root_positions[i], tolerance);
+  for (std::size_t i = 0; i < a.headings.size(); ++i) EXPECT_NEAR(a.headings[i], b.headings[i], tolerance);
+  double worst = 0;
+  for (std::size_t i = 0; i < a.rotations.size(); i += 4) {
+    worst = std::max(worst, 1 - std::abs(load_quaternion(&a.rotations[i]).dot(load_quaternion(&b.rotations[i]))));
+  }
+  EXPECT_LT(std::sqrt(worst), tolerance);
+}
+
+// The humanoid with bone frames turned at random: what bones' axes a rig has must not matter.
+Skeleton rolled_humanoid(std::uint64_t seed) {
+  const Skeleton straight = humanoid();
+  Skeleton skeleton = straight;
+  Random random(seed);
+  std::vector<Quaternion> turn;
+  for (int b = 0; b < skeleton.size(); ++b) turn.push_back(random_rotation(random));
+  for (int b = 0; b < skeleton.size(); ++b) {
+    const int parent = skeleton.parents[b];
+    skeleton.rest_rotations[b] = parent < 0 ? turn[b] : turn[parent].conjugate() * turn[b];
+    if (parent >= 0) skeleton.offsets[b] = turn[parent].conjugate() * straight.offsets[b];
+    skeleton.tips[b] = turn[b].conjugate() * straight.tips[b];
+  }
+  return make_skeleton(skeleton);
+}
+
+TEST(Mirror, ReflectsEveryTipOntoItsCounterpart) {
+  for (const Skeleton& skeleton : {humanoid(), rolled_humanoid(3), small_skeleton()}) {
+    const Kinematics kinematics(skeleton);
+    const Clip clip = make_clip(skeleton, random_clip(skeleton, 8, 5));
+    const Clip mirrored = Mirror(kinematics, {clip})(clip);
+    EXPECT_EQ(mirrored.name, "clip mirrored");
+    EXPECT_EQ(mirrored.rate, clip.rate);
+    EXPECT_LT(worst_reflection(kinematics, clip, mirrored), 1e-9);
+  }
+}
+
+TEST(Mirror, TwiceIsTheOriginal) {
+  for (const Skeleton& skeleton : {humanoid(), rolled_humanoid(4), small_skeleton()}) {
+    const Kinematics kinematics(skeleton);
+    const Clip clip = make_clip(skeleton, random_clip(skeleton, 8, 6));
+    const Mirror mirror(kinematics, {clip});
+    expect_same(mirror(mirror(clip)), clip, 1e-7);
+    EXPECT_LT(worst_reflection(kinematics, mirror(mirror(clip)), mirror(clip)), 1e-9);
+  }
+}
+
+TEST(Mirror, SwapsTheFeetOnTheGround) {
+  const Kinematics kinematics(humanoid());
+  for (const Clip& clip : gait_takes()) {
+    const Contacts original = find_contacts(kinematics, clip),
+                   image = find_contacts(kinematics, Mirror(kinematics, {clip})(clip));
+    EXPECT_EQ(image.feet[0], original.feet[1]) << clip.name;
+    EXPECT_EQ(image.feet[1], original.feet[0]) << clip.name;
+  }
+}
+
+TEST(Mirror, MirrorsTheEvidentControl) {
+  Gait gait;
+  gait.x = 0.6;
+  gait.turn = 0.8;
+  const Clip clip = gait_clip(gait);
+  const FragmentPool pool = gait_pool({clip, Mirror(Kinematics(humanoid()), {clip})(clip)});
+  const std::size_t half = pool.fragments.size() / 2;
+  ASSERT_EQ(pool.fragments.size(), 2 * half);
+  for (std::size_t i = 0; i < half; ++i) {
+    const Control &a = pool.fragments[i].evident, &b = pool.fragments[half + i].evident;
+    EXPECT_NEAR(a.x, -b.x, 1e-9);
+    EXPECT_NEAR(a.y, b.y, 1e-9);
+    EXPECT_NEAR(a.turn, -b.turn, 1e-9);
+    EXPECT_NEAR(a.jump, b.jump, 1e-9);
+  }
+}
+
+TEST(Mirror, ReflectsRealTakesWithinTheBonesAsymmetry) {
+  const auto files = files_in(shared_mocap() / "bandai-namco", ".bvh");
+  if (files.empty()) GTEST_SKIP() << "no motion capture at " << shared_mocap();
+  const Skeleton skeleton = read_bvh(files[0]).skeleton;
+  const Kinematics kinematics(skeleton);
+  std::vector<Clip> clips;
+  for (std::size_t i = 0; i < files.size(); i += 12) clips.push_back(clip_from_take(skeleton, read_bvh(files[i])));
+  const Mirror mirror(kinematics, clips);
+  double worst = 0;
+  for (const Clip& clip : clips) {
+    const Clip mirrored = mirror(clip);
+    worst = std::max(worst, worst_reflection(kinematics, clip, mirrored));
+    expect_same(mirror(mirrored), clip, 1e-6);
+  }
+  std::cout << clips.size() << " takes, tips off their reflections by at most " << worst << " m\n";
+  EXPECT_LT(worst, 0.02);
+}
+
+}  // namespace
+}  // namespace fragmotion

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "fragmotion/io/bvh.hpp"
+#include "fragmotion/motion/packed_clip.hpp"
+#include "fragmotion/motion/pose.hpp"
+#include "mocap_files.hpp"
+#include "small_character.hpp"
+
+namespace fragmotion {
+namespace {
+
+// The largest differences between the frames of two clips.
+struct Differences {
+  double joint = 0;  // rad, in the parent and in the world
+  double tip = 0;    // m
+  double heading = 0;
+
+  void add(const Kinematics& kinematics, const Clip& a, const Clip& b) {
+    const int bones = kinematics.bones();
+    std::vector<Vector3> heads_a(bones), heads_b(bones);
+    std::vector<Quaternion> worlds_a(bones), worlds_b(bones);
+    for (int f = 0; f < a.frames; ++f) {
+      kinematics.world(a, f, heads_a.data(), worlds_a.data());
+      kinematics.world(b, f, heads_b.data(), worlds_b.data());
+      heading = std::max(heading, std::abs(a.headings[f] - b.headings[f]));
+      for (int i = 0; i < bones; ++i) {
+        if (!kinematics.skeleton().is_below(i, kinematics.skeleton().roles.hips)) continue;
+        const std::size_t at = 4 * (static_cast<std::size_t>(f) * bones + i);
+        const Quaternion local_a = load_quaternion(&a.rotations[at]), local_b = load_quaternion(&b.rotations[at]);
+        joint = std::max({joint, local_a.angularDistance(local_b), worlds_a[i].angularDistance(worlds_b[i])});
+        const Vector3& offset = kinematics.skeleton().tips[i];
+        tip = std::max(tip, (heads_a[i] + worlds_a[i] * offset - heads_b[i] - worlds_b[i] * offset).norm());
+      }
+    }
+  }
+};
+
+void expect_small(const Differences& d, double scale = 1) {
+  EXPECT_LT(d.joint, 0.1 * kPi / 180);
+  EXPECT_LT(d.tip * scale, 1e-3);
+  EXPECT_LT(d.heading, 1e-3);
+}
+
+std::size_t bytes_of(const PackedClip& clip) { return clip.poses.size() + 5 * clip.least.size() + 64; }
+
+// What the poses of a clip take in single precision.
+std::size_t single_bytes(const Clip& clip) { return 4 * (clip.root_positions.size() + clip.rotations.size()); }
+
+Quaternion any_rotation(Random& random) {
+  const auto value = [&] { return 2 * random.uniform() - 1; };
+  return Quaternion(value(), value(), value(), value()).normalized();
+}
+
+// Bones of any length that hang on each other anyhow, some of them above the hips.
+Skeleton any_skeleton(Random& random) {
+  Skeleton s;
+  const auto vector = [&](double size) {
+    return Vector3(size * (random.uniform() - 0.5), size * (random.uniform() - 0.5), size * (random.uniform() - 0.5));
+  };
+  const int bones = 2 + random.below(30);
+  for (int b = 0; b < bones; ++b) {
+    s.names.push_back("bone" + std::to_string(b));
+    s.parents.push_back(b == 0 ? -1 : b < 3 ? b - 1 : 1 + random.below(b - 1));
+    s.rest_rotations.push_back(any_rotation(random));
+    s.offsets.push_back(vector(std::pow(10, random.uniform() - 1)));
+    s.tips.push_back(vector(0.5));
+  }
+  s.roles.hips = random.below(2);
+  return make_skeleton(s);
+}
+
+// Motion without any bounds or continuity.
+Clip any_clip(const Skeleton& skeleton, Random& random) {
+  Clip clip{"any", 30, 2 + random.below(40), {}, {}, {}};
+  for (int f = 0; f < clip.frames; ++f) {
+    for (int axis = 0; axis < 3; ++axis) clip.root_positions.push_back(20 * random.uniform() - 10);
+    for (int b = 0; b < skeleton.size(); ++b) {
+      clip.rotations.resize(clip.rotations.size() + 4);
+      store_quaternion(any_rotation(random), &clip.rotations[clip.rotations.size() - 4]);
+    }
+  }
+  return make_clip(skeleton, clip);
+}
+
+TEST(PackedClip, KeepsAnyMotionOfAnySkeleton) {
+  Random random(1);
+  for (int n = 0; n < 200; ++n) {
+    const Skeleton skeleton = any_skeleton(random);
+    const Clip clip = any_clip(skeleton, random);
+    const auto grid = std::make_shared<const PoseGrid>(pose_grid(skeleton, {clip}));
+    Differences differences;
+    const PackedClip packed = pack(skeleton, grid, clip);
+    EXPECT_NO_THROW(check(packed, skeleton));
+    differences.add(Kinematics(skeleton), clip, unpack(packed));
+    expect_small(differences, standard_scale(skeleton));
+  }
+}
+
+TEST(PackedClip, KeepsFarPlacesAndLongWays) {
+  Clip clip = tiny_clip(1.5);
+  for (double& value : clip.root_positions) value += 1e5;
+  clip.root_positions[4] += 1e6;
+  const auto grid = std::make_shared<const PoseGrid>(pose_grid(tiny_skeleton(), {clip}));
+  const Clip back = unpack(pack(tiny_skeleton(), grid, clip));
+  for (std::size_t i = 0; i < clip.root_positions.size(); ++i)
+    EXPECT_NEAR(back.root_positions[i], clip.root_positions[i], i % 3 == 1 ? 0.05 : 1e-4);
+}
+
+TEST(PackedClip, ShowsBetweenFramesWhatTheClipShows) {
+  const Skeleton skeleton = humanoid();
+  const FragmentPool pool = gait_pool(gait_takes());
+  const PackedPool packed = pack(pool, 1);
+  std::vector<double> rotations(std::size_t{4} * skeleton.size()), expected = rotations;
+  Random random(2);
+  for (int n = 0; n < 2000; ++n) {
+    const int c = random.below(static_cast<int>(pool.clips.size()));
+    const Clip& clip = pool.clips[c];
+    const double at = (clip.frames + 1) * random.uniform() - 1;  // and before and beyond the clip
+    const Vector3 root = sample_pose(packed.clips[c], at, rotations.data());
+    EXPECT_LT((root - sample_pose(clip, at, expected.data())).norm(), 2e-4);
+    EXPECT_NEAR(frame_at(packed.clips[c], at).heading, frame_at(clip, at).heading, 1e-3);
+    EXPECT_LT((frame_at(packed.clips[c], at).position - frame_at(clip, at).position).norm(), 2e-4);
+    for (std::size_t i = 0; i < rotations.size(); i += 4) {
+      const Quaternion q = load_quaternion(&rotations[i]);
+      EXPECT_NEAR(q.norm(), 1, 1e-6);
+      EXPECT_LT(q.angularDistance(load_quaternion(&expected[i])), 0.15 * kPi / 180);
+    }
+  }
+}
+
+TEST(PackedClip, IsTheSameForAnyNumberOfThreads) {
+  const FragmentPool pool = gait_pool(gait_takes());
+  const PackedPool one = pack(pool, 1), three = pack(pool, 3);
+  for (std::size_t c = 0; c < pool.clips.size(); ++c) {
+    EXPECT_EQ(one.clips[c].poses, three.clips[c].poses);
+    EXPECT_EQ(one.clips[c].least, three.clips[c].least);
+  }
+}
+
+TEST(PackedClip, KeepsAllTakesInLessThanAQuarterOfTheirSize) {
+  const auto files = files_in(shared_mocap() / "bandai-namco", ".bvh");
+  if (files.empty()) GTEST_SKIP() << "the motion capture is not there";
+  FragmentPool pool;
+  for (const auto& file : files) {
+    const Take take = read_bvh(file, 0.01);
+    if (pool.clips.empty()) pool.skeleton = take.skeleton;
+    pool.clips.push_back(clip_from_take(pool.skeleton, take));
+  }
+  const PackedPool packed = pack(pool);
+  const Kinematics kinematics(pool.skeleton);
+  Differences differences;
+  std::size_t before = 0, after = 0, frames = 0;
+  for (std::size_t c = 0; c < pool.clips.size(); ++c) {
+    differences.add(kinematics, pool.clips[c], unpack(packed.clips[c]));
+    before += single_bytes(pool.clips[c]);
+    after += bytes_of(packed.clips[c]);
+    frames += pool.clips[c].frames;
+  }
+  expect_small(differences);
+  EXPECT_LT(4 * after, before);
+  std::cout << files.size() << " takes, " << frames << " frames: " << before << " bytes in single precision, " << after
+            << " packed (" << 100.0 * after / before << " %); off by at most " << differences.joint * 180 / kPi
+            << " degrees and " << 1e3 * differences.tip << " mm\n";
+}
+
+}  // namespace
+}  // namespace fragmotion

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// What a player decides to play.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fragmotion/runtime/player.hpp"
+#include "small_character.hpp"
+
+namespace fragmotion {
+namespace {
+
+const Control kForward{0, 1.2, 0, 0};
+
+// Four acts, a class and a fragment of half a second each. The table gives at once what is asked for, but from standing
+// only a jump or forward; between forward and what else moves comes standing.
+struct Acts {
+  enum : int { stand, forward, back, jump };  // classes are numbered by the takes' order
+  std::shared_ptr<Character> character =
+      std::make_shared<Character>(tiny_character({tiny_clip(0), tiny_clip(1.5), tiny_clip(-1.5), tiny_clip(0, 0.5)}));
+
+  Acts() {
+    for (int point = 0; point < ControlSpace::kPoints; ++point) {
+      const Control control = character->space.point(point);
+      const int asked = control.jump > 0 ? jump : control.y > 0 ? forward : control.y < 0 ? back : stand;
+      for (int from = 0; from < 4; ++from) {
+        character->policies[0].next[from * ControlSpace::kPoints + point] =
+            from == stand && asked == back ? stand : asked;
+      }
+    }
+    std::fill(character->bridges.begin(), character->bridges.end(), -1);
+    character->bridges[forward * 4 + back] = character->bridges[forward * 4 + jump] = stand;
+  }
+};
+
+const Control kBack{0, -1.5, 0, 0};
+const Control kTap{0, 1.5, 0, 1};
+
+// The classes that play, one after another, while each control is held for its time, shown 100 times a second.
+std::vector<int> acts_of(Player& player, const std::vector<std::pair<Control, double>>& held) {
+  std::vector<int> acts;
+  for (const auto& [control, seconds] : held) {
+    for (int i = 0; i < std::lround(100 * seconds); ++i) {
+      player.step(control, 0.01);
+      if (acts.empty() || acts.back() != player.playing_class()) acts.push_back(player.playing_class());
+    }
+  }
+  return acts;
+}
+
+TEST(Player, StandsBetweenActsThatDoNotFitAndThenDoesWhatWasAskedFor) {
+  Player player(Acts().character);
+  EXPECT_EQ(acts_of(player, {{kForward, 0.7}, {kBack, 1.5}}),
+            (std::vector<int>{Acts::forward, Acts::stand, Acts::back}));
+}
+
+TEST(Player, AsksAgainAfterStandingWhereTheControlHasChanged) {
+  Player player(Acts().character);
+  EXPECT_EQ(acts_of(player, {{kForward, 0.7}, {kBack, 0.3}, {kForward, 1.5}}),
+            (std::vector<int>{Acts::forward, Acts::stand, Acts::forward}));
+}
+
+TEST(Player, DoesNotTurnBackFromWhereItIsToGo) {
+  Acts acts;
+  std::vector<int>& next = acts.character->policies[0].next;
+  const int ahead = acts.character->space.nearest(kForward);
+  next[Acts::forward * ControlSpace::kPoints + ahead] = Acts::back;
+  Player player(acts.character);
+  EXPECT_EQ(acts_of(player, {{kForward, 3}}), (std::vector<int>{Acts::forward}));
+  EXPECT_EQ(acts_of(player, {{kBack, 2}}).back(), Acts::back);
+}
+
+TEST(Player, LosesNoJumpHoweverShortlyItIsPressed) {
+  for (double wait = 0.5; wait < 2; wait += 0.03) {
+    Player walking(Acts().character), bridging(Acts().character);
+    const std::vector<int> one = acts_of(walking, {{kForward, wait}, {kTap, 0.01}, {kForward, 2}}),
+                           two = acts_of(bridging, {{kForward, 0.7}, {kBack, wait - 0.5}, {kTap, 0.01}, {kBack, 3}});
+    EXPECT_EQ(std::count(one.begin(), one.end(), Acts::jump), 1) << wait;
+    EXPECT_EQ(std::count(two.begin(), two.end(), Acts::jump), 1) << wait;
+  }
+}
+
+TEST(Player, JumpsOnceInAStepOfAnyLength) {
+  const auto place = [](int steps) {
+    Player player(Acts().character);
+    player.step(kTap, 0.2);   // takes off,
+    player.step({}, 0.1);     // lets go,
+    player.step(kTap, 0.01);  // and presses again in the air
+    for (int i = 0; i < steps; ++i) player.step({}, 1.83 / steps);
+    return player.root_position();
+  };
+  const Vector3 expected = place(183);
+  for (const int steps : {1, 2, 7}) EXPECT_LT((place(steps) - expected).norm(), 1e-6) << steps;
+}
+
+// The act that is drawn for a control where a class has two, whose fragments visibly do this.
+int drawn_act(int of_class, const Control& its_own, int other, const Control& others, const Control& control) {
+  const Acts acts;
+  const std::vector<int>& shown = acts.character->classes.representatives;
+  acts.character->classes.labels[shown[other]] = of_class;
+  acts.character->pool.fragments[shown[of_class]].evident = its_own;
+  acts.character->pool.fragments[shown[other]].evident = others;
+  Player player(acts.character);
+  player.step(control, 0.7);
+  return static_cast<int>(std::find(shown.begin(), shown.end(), player.playing_fragment()) - shown.begin());
+}
+
+TEST(Player, DrawsWhatHopsAsIsWantedHoweverWellAnotherMemberGoes) {
+  const Control hop{0, 0, 0, 1}, walk{0, 1.2, 0, 0}, run{0, 3.3, 0, 0}, leap{0, 3.3, 0, 1};
+  EXPECT_EQ(drawn_act(Acts::jump, hop, Acts::forward, run, leap), Acts::jump);
+  EXPECT_EQ(drawn_act(Acts::forward, walk, Acts::jump, leap, run), Acts::forward);
+}
+
+TEST(Player, DrawsALightRunForABouncyOne) {
+  const Control bouncy{0, 3.3, 0, 0.7}, light{0, 3.3, 0, 0.2}, run{0, 3.3, 0, 0};
+  EXPECT_EQ(drawn_act(Acts::forward, bouncy, Acts::back, light, run), Acts::back);
+}
+
+TEST(Player, PlaysAForcedClassToItsEndAndThenWhatThePolicySays) {
+  for (double wait = 0.05; wait < 1; wait += 0.07) {
+    Player player(Acts().character);
+    acts_of(player, {{kForward, wait}});
+    player.force(Acts::back);
+    EXPECT_EQ(acts_of(player, {{kForward, 0.16}}).back(), Acts::back) << wait;
+    const std::vector<int> acts = acts_of(player, {{{}, 0.3}, {kForward, 0.3}, {kForward, 1}});
+    EXPECT_EQ(acts, (std::vector<int>{Acts::back, Acts::forward})) << wait;  // not left early for the standing
+  }
+}
+
+TEST(Player, ForcesAnyMemberOfAClass) {
+  const auto c = gait_character();
+  const auto members = c->classes.members();
+  const auto most = std::max_element(members.begin(), members.end(),
+                                     [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  std::vector<int> drawn;
+  Player player(c);
+  for (std::size_t i = 0; i < 30 * most->size(); ++i) {
+    player.force(static_cast<int>(most - members.begin()));
+    player.step({}, 0.2);
+    drawn.push_back(player.playing_fragment());
+  }
+  for (const int fragment : *most) EXPECT_TRUE(std::count(drawn.begin(), drawn.end(), fragment)) << fragment;
+}
+
+TEST(Player, ForcesNothingAfterAResetAndNoClassThatDoesNotExist) {
+  Player player(Acts().character);
+  player.force(Acts::jump);
+  player.reset();
+  EXPECT_EQ(acts_of(player, {{{}, 1}}), (std::vector<int>{Acts::stand}));
+  EXPECT_THROW(player.force(-1), std::invalid_argument);
+  EXPECT_THROW(player.force(4), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace fragmotion
