@@ -210,7 +210,7 @@ def make_player(obj: bpy.types.Object, character: Character, seed: int, policy: 
     """What plays the character, with the armature's settings of how it moves."""
     feel = obj.fragmotion.feel
     return core.Player(
-        character, seed, policy=policy, promptness=feel.promptness, pull=feel.pull, lock_feet=feel.lock_feet
+        character, seed, policy=policy, responsiveness=feel.promptness, root_adjustment=feel.pull, lock_feet=feel.lock_feet
     )
 
 

@@ -70,8 +70,10 @@ struct Types {};
 template <typename... First, typename... Last, typename Function>
 auto with_options(Types<First...> /*before*/, Types<Last...> /*after*/, Function function) {
   return [function](First... first, std::uint64_t seed, double stitch, const std::string& policy,
-                    const std::string& stitching, bool lock_feet, double pull, double promptness, Last... last) {
-    const PlayerOptions options{seed, stitch, policy, to_stitching(stitching), lock_feet, pull, promptness};
+                    const std::string& stitching, bool lock_feet, double root_adjustment, double responsiveness,
+                    Last... last) {
+    const PlayerOptions options{seed,      stitch,          policy,        to_stitching(stitching),
+                                lock_feet, root_adjustment, responsiveness};
     return function(std::move(first)..., options, std::move(last)...);
   };
 }
@@ -82,7 +84,7 @@ void for_option_arguments(const Define& define) {
   const PlayerOptions defaults;
   define(py::arg("seed") = defaults.seed, py::arg("stitch") = defaults.stitch, py::arg("policy") = defaults.policy,
          py::arg("stitching") = "inertialize", py::arg("lock_feet") = defaults.lock_feet,
-         py::arg("pull") = defaults.pull, py::arg("promptness") = defaults.promptness);
+         py::arg("root_adjustment") = defaults.root_adjustment, py::arg("responsiveness") = defaults.responsiveness);
 }
 
 // An array to write to: a new one, or the caller's, which must be just so.
@@ -241,7 +243,7 @@ void bind_player(py::module_& m) {
           [](OnePlayer& one, const Doubles& trace, double rate, const py::object& progress) {
             const Trace controls = to_trace(trace);
             const OnePlayer::Call player(one);
-            return without_gil(progress, [&](const Progress& told) { return player->run(controls, rate, told); });
+            return without_gil(progress, [&](const Progress& told) { return perform(*player, controls, rate, told); });
           },
           py::arg("trace"), py::arg("rate"), py::arg("progress") = py::none());
 }

@@ -287,12 +287,12 @@ class Player:
         policy: str = "",
         stitching: str = "inertialize",
         lock_feet: bool = True,
-        pull: float = 1.0,
-        promptness: float = 0.5,
+        root_adjustment: float = 1.0,
+        responsiveness: float = 0.5,
     ) -> None:
         """`stitch`: seconds that a stitch takes, 0 .. 1; `policy`: one of the character's (default: the one that
         drives); `stitching`: "inertialize" or the paper's "crossfade"; `lock_feet`: planted feet stay where they are;
-        `pull`: how much the root is pulled to the command, 0 .. 1; `promptness`: how soon a fragment is left when the
+        `root_adjustment`: how much the root does of the command beyond its fragments, 0 .. 1; `responsiveness`: how soon a fragment is left when the
         control changes a lot, 0 (where the next one joins best) .. 1 (at once)."""
     def reset(self, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
         """Stand at a place, facing `heading` (radians, counter-clockwise from +y), and draw again from the seed: after
@@ -325,8 +325,8 @@ class Crowd:
         policy: str = "",
         stitching: str = "inertialize",
         lock_feet: bool = True,
-        pull: float = 1.0,
-        promptness: float = 0.5,
+        root_adjustment: float = 1.0,
+        responsiveness: float = 0.5,
         threads: int = 0,
     ) -> None:
         """As Player; `count`: 0 .. 100000; `threads`: of a step (0: as many as the machine has), which change no bit of
@@ -393,8 +393,8 @@ def response_times(
     policy: str = "",
     stitching: str = "inertialize",
     lock_feet: bool = True,
-    pull: float = 1.0,
-    promptness: float = 0.5,
+    root_adjustment: float = 1.0,
+    responsiveness: float = 0.5,
 ) -> Doubles:
     """[272] seconds from each step of the command between two of the 17 velocities until the velocity over the last
     0.1 s has made 90 % of the way; 3 where it takes longer."""

@@ -199,7 +199,7 @@ def test_ways_to_play_are_measured_beside_the_takes(run: Run, character: core.Ch
     assert next(iter(found)) == "the takes" and found["the takes"]["foot_skate"] == takes.foot_skate
     assert found["the takes"]["joint_step"] == takes.positions.p999
     traces = [trace(run, "test", test) for test in run.result["test"]]
-    plain = {"stitching": "crossfade", "lock_feet": False, "pull": 0.0, "promptness": 1.0}
+    plain = {"stitching": "crossfade", "lock_feet": False, "root_adjustment": 0.0, "responsiveness": 1.0}
     yardstick = core.MotionYardstick(character)
     measured = [yardstick.of(core.Player(character, SEED, **plain).run(t, 60)) for t in traces]
     assert found["the takes"]["beyond_limits_share"] == takes.turns.share
@@ -208,7 +208,7 @@ def test_ways_to_play_are_measured_beside_the_takes(run: Run, character: core.Ch
     assert figures["joint_step"] == pytest.approx(max(m.positions.worst for m in measured))
     assert figures["beyond_limits_share"] == pytest.approx(np.mean([m.turns.share for m in measured]))
     assert figures["beyond_limits_degrees"] == pytest.approx(np.degrees(max(m.turns.worst for m in measured)))
-    assert found["promptness 1"]["response_p95_s"] <= found["promptness 0"]["response_p95_s"]
+    assert found["responsiveness 1"]["response_p95_s"] <= found["responsiveness 0"]["response_p95_s"]
 
 
 def test_run_time_is_the_players(run: Run, character: core.Character) -> None:

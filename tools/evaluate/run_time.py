@@ -97,11 +97,11 @@ def responses(character: core.Character, seeds: Iterable[int], **options: Any) -
 
 
 STITCHINGS: dict[str, dict[str, Any]] = {
-    "promptness 0": {"promptness": 0.0},
-    "promptness 0.5 (default)": {},
-    "promptness 1": {"promptness": 1.0},
+    "responsiveness 0": {"responsiveness": 0.0},
+    "responsiveness 0.5 (default)": {},
+    "responsiveness 1": {"responsiveness": 1.0},
     "feet not planted": {"lock_feet": False},
-    "plain, as in the paper": {"stitching": "crossfade", "lock_feet": False, "pull": 0.0, "promptness": 1.0},
+    "plain, as in the paper": {"stitching": "crossfade", "lock_feet": False, "root_adjustment": 0.0, "responsiveness": 1.0},
 }
 """Ways to play one and the same table."""
 

@@ -14,7 +14,7 @@ from tools.motion_pictures.movements import Movement, nearest_take, trace_of
 RATE = 60.0  # frames a second
 SEED = 1
 OURS: dict[str, Any] = {}
-PAPER: dict[str, Any] = {"stitching": "crossfade", "lock_feet": False, "pull": 0.0}
+PAPER: dict[str, Any] = {"stitching": "crossfade", "lock_feet": False, "root_adjustment": 0.0}
 
 
 class Row(NamedTuple):

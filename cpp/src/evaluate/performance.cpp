@@ -126,6 +126,31 @@ int frame_count(std::size_t controls, double rate) {
   return static_cast<int>(frames) + 1;
 }
 
+Performance perform(Player& player, const Trace& trace, double rate, const Progress& progress) {
+  if (trace.empty()) throw std::invalid_argument("the trace has no controls");
+  const Character& character = player.character();
+  const int entered = player.entered();
+  Performance p;
+  p.rate = rate;
+  p.frames = frame_count(trace.size(), rate);
+  for (int f = 0; f < p.frames; ++f) {
+    if (f % 256 == 0) report(progress, static_cast<double>(f) / p.frames, "Playing");
+    const Control& control = trace[control_at(f, rate, trace.size())];
+    if (f > 0) player.step(control, 1 / rate);
+    const CharacterFrame now = player.frame();
+    const Vector3& root = player.root_position();
+    p.root_positions.insert(p.root_positions.end(), root.data(), root.data() + 3);
+    p.rotations.insert(p.rotations.end(), player.rotations().begin(), player.rotations().end());
+    p.path.insert(p.path.end(), {now.position.x(), now.position.y(), now.heading});
+    p.classes.push_back(player.playing_class());
+    p.fragments.push_back(player.playing_fragment());
+    p.entered.push_back(player.entered() - entered);
+    if (f > 0) p.quality += player.quality(character.space.nearest(control)) / (p.frames - 1);
+  }
+  judge(p, character, trace);
+  return p;
+}
+
 void judge(Performance& p, const Character& character, const Trace& trace) {
   const int half = std::max(1, static_cast<int>(std::lround(kAround / 2 * p.rate)));
   const double weight = 1.0 / (p.frames - 1);

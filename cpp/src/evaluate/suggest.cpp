@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "build/stages.hpp"
+#include "fragmotion/evaluate/performance.hpp"
 #include "fragmotion/runtime/player.hpp"
 
 namespace fragmotion {
@@ -20,7 +21,7 @@ ClassesTried judged(const std::shared_ptr<const Character>& character) {
   double commanded = 0, error = 0;
   const std::vector<std::string>& players = simulated_players();
   for (const std::string& name : players) {
-    const Performance p = Player(character).run(simulate_trace(name, kSeconds, kSeed, character->space), kRate);
+    const Performance p = perform(Player(character), simulate_trace(name, kSeconds, kSeed, character->space), kRate);
     tried.quality += p.quality / static_cast<double>(players.size());
     error += p.velocity_error;
     commanded += p.commanded_speed;

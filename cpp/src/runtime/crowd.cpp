@@ -25,11 +25,11 @@ Crowd::Crowd(std::shared_ptr<const Character> character, int count, const Player
   }
   players_.reserve(count);
   for (int part = 0; part < parts_; ++part) {
-    const auto stage = std::make_shared<Player::Stage>(*character);
+    const auto workspace = std::make_shared<Workspace>(*character);
     while (size() < first_of(part + 1, parts_, count)) {
       PlayerOptions own = options;
       own.seed += players_.size();
-      players_.push_back(Player(character, own, stage));
+      players_.push_back(Player(character, own, workspace));
     }
   }
 }
@@ -48,7 +48,7 @@ void Crowd::step(const Control* controls, double seconds, double* roots, double*
   const auto step_parts = [&](int begin, int end) {
     const int last = first_of(end, parts_, size()) - 1;
     for (int i = first_of(begin, parts_, size()); i <= last; ++i) {
-      players_[std::min(i + 1, last)].fetch();
+      players_[std::min(i + 1, last)].prefetch();
       step(i, controls[i], seconds, roots, rotations);
     }
   };

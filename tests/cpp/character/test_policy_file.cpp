@@ -16,6 +16,7 @@
 #include "allocations.hpp"
 #include "character/policy_bytes.hpp"
 #include "fragmotion/character/policy_file.hpp"
+#include "fragmotion/evaluate/performance.hpp"
 #include "fragmotion/policy/anticipate.hpp"
 #include "fragmotion/runtime/player.hpp"
 #include "fragmotion/skeleton/role_names.hpp"
@@ -86,7 +87,7 @@ TEST(PolicyFile, PlaysTheSameBits) {
   const auto loaded = std::make_shared<const Character>(from_bytes(to_bytes(*gait_character())));
   Player built(gait_character(), {7}), read(loaded, {7});
   const Trace trace = simulate_trace("explorer", 15, 3, loaded->space);
-  const Performance a = built.run(trace, 29.97), b = read.run(trace, 29.97);
+  const Performance a = perform(built, trace, 29.97), b = perform(read, trace, 29.97);
   EXPECT_EQ(a.rotations, b.rotations);
   EXPECT_EQ(a.root_positions, b.root_positions);
   EXPECT_EQ(a.quality, b.quality);

@@ -70,7 +70,7 @@ TEST(MotionYardstick, SeesAKneeThatBendsBackward) {
 
 TEST(MotionYardstick, LooksAtStitchesOfAFragmentToItself) {
   const auto character = std::make_shared<const Character>(tiny_character({tiny_clip(1.5)}));
-  const Performance p = Player(character).run(Trace(20, Control{}), 60);
+  const Performance p = perform(Player(character), Trace(20, Control{}), 60);
   EXPECT_EQ(p.fragments.front(), p.fragments.back());
   const MotionYardstick yardstick(*character);
   EXPECT_GT(yardstick.of(p).positions.worst, 0.5 * yardstick.takes().positions.worst);
@@ -94,7 +94,7 @@ TEST(MotionYardstick, NeedsCapturedFragments) {
 TEST(MotionYardstick, RefusesPerformancesOfAnotherSkeletonOrOfNothing) {
   const auto other = std::make_shared<const Character>(tiny_character());
   const MotionYardstick yardstick(*gait_character()), others(*other);
-  const Performance performance = Player(other).run(Trace(10, Control{}), 60);
+  const Performance performance = perform(Player(other), Trace(10, Control{}), 60);
   EXPECT_THROW(yardstick.of(performance), std::invalid_argument);
   EXPECT_THROW(yardstick.of({}), std::invalid_argument);
   EXPECT_NO_THROW(others.of(performance));
@@ -107,9 +107,9 @@ TEST(MotionYardstick, FindsLessSkateWhereFeetAreLocked) {
   PlayerOptions paper;
   paper.stitching = Stitching::crossfade;
   paper.lock_feet = false;
-  paper.pull = 0;
-  const double ours = yardstick.of(Player(character).run(trace, 60)).foot_skate,
-               theirs = yardstick.of(Player(character, paper).run(trace, 60)).foot_skate;
+  paper.root_adjustment = 0;
+  const double ours = yardstick.of(perform(Player(character), trace, 60)).foot_skate,
+               theirs = yardstick.of(perform(Player(character, paper), trace, 60)).foot_skate;
   EXPECT_LT(ours, 0.7 * theirs);
 }
 

@@ -21,7 +21,7 @@ TEST(OptimalPerformance, IsNeverReachedByAPlayer) {
     const double best = optimal_performance(*character, trace, kRate, kSoonest);
     EXPECT_LT(best, 1);
     for (const std::uint64_t seed : {1, 2, 3}) {
-      const double reached = Player(character, {seed}).run(trace, kRate).quality;
+      const double reached = perform(Player(character, {seed}), trace, kRate).quality;
       EXPECT_LE(reached, best) << name;
       EXPECT_GT(reached, 0.3 * best) << name;
     }
@@ -166,7 +166,7 @@ TEST(Performance, IsWhatStepsWouldHaveShown) {
   Player one(gait_character(), {6}), two(gait_character(), {6});
   one.reset({{1, 1}, 1});
   two.reset({{1, 1}, 1});
-  const Performance p = one.run(trace, 30);
+  const Performance p = perform(one, trace, 30);
   for (int f = 0; f < p.frames; ++f) {
     if (f > 0) two.step(kForward, 1.0 / 30);
     EXPECT_LT((load_vector(&p.root_positions[3 * f]) - two.root_position()).norm(), 1e-9);
@@ -182,7 +182,7 @@ TEST(Performance, KnowsThatAFragmentFollowsItself) {
   Player player(character);
   const Trace trace(20, Control{});
   for (int run = 0; run < 2; ++run) {
-    const Performance p = player.run(trace, 60);
+    const Performance p = perform(player, trace, 60);
     for (int f = 1; f < p.frames; ++f) EXPECT_EQ(p.entered[f], (f - 1 + 30 * run) / 30) << f;
   }
 }
@@ -190,14 +190,14 @@ TEST(Performance, KnowsThatAFragmentFollowsItself) {
 TEST(Performance, MeasuresQualityAndSpeed) {
   for (const double rate : {24.0, 60.0}) {
     const Performance p =
-        Player(gait_character(), {3}).run(simulate_trace("explorer", 20, 4, gait_character()->space), rate);
+        perform(Player(gait_character(), {3}), simulate_trace("explorer", 20, 4, gait_character()->space), rate);
     EXPECT_GT(p.quality, 0);
     EXPECT_LE(p.quality, 1);
     EXPECT_GE(p.velocity_error, 0);
     EXPECT_TRUE(std::isfinite(p.velocity_error));
   }
   Player player(gait_character());
-  EXPECT_NEAR(player.run(Trace(50, kForward), 30).commanded_speed, 1.2, 0.05);
+  EXPECT_NEAR(perform(player, Trace(50, kForward), 30).commanded_speed, 1.2, 0.05);
 }
 
 TEST(Performance, PathIsUnwrapped) {
@@ -208,7 +208,7 @@ TEST(Performance, PathIsUnwrapped) {
   options.mirror = options.synthesize = false;
   options.policies = {"greedy"};
   Player player(std::make_shared<const Character>(build(humanoid(), {gait_clip(gait)}, {Trace(2)}, options)));
-  const Performance p = player.run(Trace(100, Control{0, 1.2, 1, 0}), 30);  // ten seconds in a circle
+  const Performance p = perform(player, Trace(100, Control{0, 1.2, 1, 0}), 30);  // ten seconds in a circle
   for (int f = 1; f < p.frames; ++f) EXPECT_LT(std::abs(p.path[3 * f + 2] - p.path[3 * f - 1]), 1);
   EXPECT_NEAR(p.path[3 * (p.frames - 1) + 2], 12, 1);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fragmotion/evaluate/performance.hpp"
 #include "fragmotion/evaluate/suggest.hpp"
 #include "fragmotion/runtime/player.hpp"
 #include "small_character.hpp"
@@ -35,7 +36,7 @@ TEST(SuggestClasses, JudgesTheCharacterThatABuildOfThatManyClassesGives) {
   const auto character = std::make_shared<const Character>(build(humanoid(), gait_takes(), {minute()}, options));
   double quality = 0;
   for (const std::string& name : simulated_players()) {
-    quality += Player(character).run(simulate_trace(name, 60, 7, character->space), 30).quality / 8;
+    quality += perform(Player(character), simulate_trace(name, 60, 7, character->space), 30).quality / 8;
   }
   EXPECT_NEAR(tried.quality, quality, 1e-12);
 }

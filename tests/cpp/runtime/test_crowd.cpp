@@ -78,8 +78,8 @@ TEST(Crowd, MayBeEmptyButNotLess) {
   EXPECT_NE(error_of([] { Crowd(gait_character(), -1); }).find("crowd"), std::string::npos);
   EXPECT_NE(error_of([] { Crowd(gait_character(), kMostPlayers + 1); }).find("100000"), std::string::npos);
   PlayerOptions options;
-  options.pull = 2;
-  EXPECT_NE(error_of([&] { Crowd(gait_character(), 2, options); }).find("pull"), std::string::npos);
+  options.root_adjustment = 2;
+  EXPECT_NE(error_of([&] { Crowd(gait_character(), 2, options); }).find("root adjustment"), std::string::npos);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fragmotion/evaluate/performance.hpp"
 #include "fragmotion/motion/pose.hpp"
 #include "fragmotion/runtime/player.hpp"
 #include "mocap_files.hpp"
@@ -107,17 +108,17 @@ TEST(Player, ShowsFinitePosesOfUnitRotations) {
 }
 
 // Without what is done once a step.
-PlayerOptions unpulled(std::uint64_t seed) {
+PlayerOptions unadjusted(std::uint64_t seed) {
   PlayerOptions options;
   options.seed = seed;
   options.lock_feet = false;
-  options.pull = 0;
+  options.root_adjustment = 0;
   return options;
 }
 
 // What plays, asked between the ends of fragments, which all lie on whole thirtieths of a second.
 std::vector<int> what_plays(double rate, const Control& control, double seconds) {
-  Player player(gait_character(), unpulled(9));
+  Player player(gait_character(), unadjusted(9));
   player.step(control, 1.0 / 240);
   std::vector<int> played;
   const int steps = static_cast<int>(rate / 30);
@@ -132,7 +133,7 @@ TEST(Player, JumpsWheneverItIsAskedTo) {
   const Character& c = *gait_character();
   for (const int point : {2, 8, 56}) {
     for (const std::uint64_t seed : {1, 2, 3}) {
-      Player player(gait_character(), unpulled(seed));
+      Player player(gait_character(), unadjusted(seed));
       Control control = c.space.point(point);
       for (int i = 0; i < 60 + static_cast<int>(seed); ++i) player.step(control, 1.0 / 60);
       control.jump = 1;
@@ -151,7 +152,7 @@ TEST(Player, JumpsWheneverItIsAskedTo) {
 TEST(Player, NeverHopsUnasked) {
   const Character& c = *gait_character();
   for (int point = 0; point < ControlSpace::kPoints; point += 2) {
-    Player player(gait_character(), unpulled(3));
+    Player player(gait_character(), unadjusted(3));
     for (int i = 0; i < 180; ++i) {
       player.step(c.space.point(point), 1.0 / 60);
       const int shown = c.classes.representatives[player.playing_class()];
@@ -162,9 +163,9 @@ TEST(Player, NeverHopsUnasked) {
 
 // The distance between the poses that are joined where a change of the control ends a fragment early, and the time that
 // it took, each summed.
-std::pair<double, double> joined(double promptness) {
-  PlayerOptions options = unpulled(5);
-  options.promptness = promptness;
+std::pair<double, double> joined(double responsiveness) {
+  PlayerOptions options = unadjusted(5);
+  options.responsiveness = responsiveness;
   options.stitch = 0;
   Player player(gait_character(), options);
   Random random(7);
@@ -202,7 +203,7 @@ TEST(Player, PlaysTheSameFragmentsWhateverTheStep) {
 
 TEST(Player, GoesTheSameWayWhateverTheStep) {
   const auto position = [](int steps) {
-    Player player(gait_character(), unpulled(2));
+    Player player(gait_character(), unadjusted(2));
     for (int i = 0; i < steps; ++i) player.step(kForward, 7.003 / steps);
     return player.root_position();
   };
@@ -212,7 +213,7 @@ TEST(Player, GoesTheSameWayWhateverTheStep) {
 
 TEST(Player, ForcesAtTheSameTimeWhateverTheStep) {
   const auto place = [](int steps) {
-    Player player(gait_character(), unpulled(2));
+    Player player(gait_character(), unadjusted(2));
     player.step(kForward, 1.03);
     player.force(3);
     for (int i = 0; i < steps; ++i) player.step(kForward, 1.003 / steps);
@@ -225,9 +226,9 @@ TEST(Player, ForcesAtTheSameTimeWhateverTheStep) {
 TEST(Player, ShowsTheSameAfterAReset) {
   const Trace trace = simulate_trace("jumper", 10, 4, gait_character()->space);
   Player player(gait_character(), {3});
-  const Performance first = player.run(trace, 30);
+  const Performance first = perform(player, trace, 30);
   player.reset();
-  const Performance again = player.run(trace, 30);
+  const Performance again = perform(player, trace, 30);
   EXPECT_EQ(again.fragments, first.fragments);
   EXPECT_EQ(again.rotations, first.rotations);
   EXPECT_EQ(again.root_positions, first.root_positions);
@@ -235,7 +236,7 @@ TEST(Player, ShowsTheSameAfterAReset) {
 
 Performance performed(std::uint64_t seed, double rate) {
   Player player(gait_character(), {seed});
-  return player.run(simulate_trace("explorer", 20, 4, gait_character()->space), rate);
+  return perform(player, simulate_trace("explorer", 20, 4, gait_character()->space), rate);
 }
 
 TEST(Player, RepeatsItselfForASeed) {
@@ -306,7 +307,7 @@ TEST(Player, GivesAFrameForEveryTickOfAnyRate) {
   for (const double rate : rates) {
     for (const std::size_t controls : {1U, 13U, 50U}) {
       Player player(gait_character());
-      const Performance p = player.run(Trace(controls, kForward), rate);
+      const Performance p = perform(player, Trace(controls, kForward), rate);
       EXPECT_EQ(p.frames, static_cast<int>(std::lround(controls / 10.0 * rate)) + 1) << rate;
       EXPECT_EQ(p.rate, rate);
       EXPECT_EQ(p.root_positions.size(), std::size_t(3) * p.frames);
@@ -325,9 +326,9 @@ TEST(Player, RefusesBadTimesRatesAndTraces) {
     EXPECT_NE(error_of([&] { Player(c, {1, stitch}); }), "no error") << stitch;
   for (const double stitch : {0.0, 1.0}) EXPECT_EQ(error_of([&] { Player(c, {1, stitch}); }), "no error") << stitch;
   Player player(c);
-  EXPECT_NE(error_of([&] { player.run({}, 30); }).find("no controls"), std::string::npos);
+  EXPECT_NE(error_of([&] { perform(player, {}, 30); }).find("no controls"), std::string::npos);
   for (const double rate : {0.0, -30.0, nan, 1e9})
-    EXPECT_NE(error_of([&] { player.run(Trace(5), rate); }).find("rate"), std::string::npos) << rate;
+    EXPECT_NE(error_of([&] { perform(player, Trace(5), rate); }).find("rate"), std::string::npos) << rate;
 }
 
 TEST(Player, RefusesStepsThatAreNoNumbers) {
@@ -358,7 +359,8 @@ TEST(Player, RefusesToStandWhereNoPlaceIs) {
 
 TEST(Player, IsCancelledByItsProgress) {
   Player player(gait_character());
-  EXPECT_THROW(player.run(Trace(500, kForward), 60, [](double f, const std::string&) { return f < 0.3; }), Cancelled);
+  EXPECT_THROW(perform(player, Trace(500, kForward), 60, [](double f, const std::string&) { return f < 0.3; }),
+               Cancelled);
 }
 
 TEST(Player, PlaysWithoutStitching) {

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "fragmotion/character/character.hpp"
+#include "fragmotion/base/progress.hpp"
+#include "fragmotion/runtime/player.hpp"
 
 namespace fragmotion {
 
@@ -37,6 +38,13 @@ int frame_count(std::size_t controls, double rate);
 
 /// The index of the control that leads to frame `frame` of a performance of a trace of so many controls.
 std::size_t control_at(int frame, double rate, std::size_t controls);
+
+/// Steps a player through a trace from now: frames 0 .. round(duration * rate), each control for 1/kTraceRate s. Throws
+/// std::invalid_argument on an empty trace and a rate that is not over 0 and at most 1000.
+Performance perform(Player& player, const Trace& trace, double rate, const Progress& progress = {});
+inline Performance perform(Player&& player, const Trace& trace, double rate, const Progress& progress = {}) {
+  return perform(player, trace, rate, progress);
+}
 
 /// Fills the errors, the commanded speed and the drift of a performance of a trace.
 void judge(Performance& performance, const Character& character, const Trace& trace);

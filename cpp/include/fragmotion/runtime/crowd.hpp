@@ -40,7 +40,7 @@ class Crowd {
   void step(int player, const Control& control, double seconds, double* roots, double* rotations);
 
   int bones_, parts_;
-  std::vector<Player> players_;  // those of a part share a stage
+  std::vector<Player> players_;  // those of a part share a workspace
 };
 
 }  // namespace fragmotion

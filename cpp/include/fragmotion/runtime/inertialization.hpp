@@ -41,7 +41,7 @@ class Inertialization {
              double apart, double seconds);
 
   /// Lets its memory be on its way to the processor.
-  void fetch() const { prefetch(blocks_.data(), blocks_.size()); }
+  void prefetch() const { fragmotion::prefetch(blocks_.data(), blocks_.size()); }
 
   /// Adds what is left `time` seconds after the beginning.
   void apply(double time, WorldPose& pose) const;

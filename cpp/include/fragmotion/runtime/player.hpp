@@ -2,28 +2,16 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/evaluate/performance.hpp"
-#include "fragmotion/fragments/distance.hpp"
-#include "fragmotion/motion/foot_lock.hpp"
-#include "fragmotion/runtime/breathing.hpp"
-#include "fragmotion/runtime/inertialization.hpp"
+#include "fragmotion/runtime/director.hpp"
+#include "fragmotion/runtime/pose_correction.hpp"
 
 namespace fragmotion {
 
-/// How the next fragment joins on to what is shown (Fig. 3).
-enum class Stitching {
-  inertialize,  ///< It takes over pose and velocity, whose differences fade (inertialization.hpp).
-  crossfade     ///< The paper's: the old fragment goes on in its take while both are interpolated.
-};
-
 /// Seconds that a stitch takes, unless told: a crossfade all, inertialization most of its way (inertialization.hpp).
 constexpr double kStitch = 0.2;
-
-/// Seconds that a fragment is played at least before a change of the control may end it.
-constexpr double kSoonest = 0.1;
 
 struct PlayerOptions {
   std::uint64_t seed = 1;
@@ -31,20 +19,17 @@ struct PlayerOptions {
   std::string policy{};     ///< One of the character's; empty: the one that drives.
   Stitching stitching = Stitching::inertialize;
   bool lock_feet = true;  ///< Planted feet stay where they are (foot_lock.hpp).
-  /// How much the root is pulled to the command, over what its fragments do, 0 .. 1; at 1 by up to two fifths of the
+  /// How much the root does of the command beyond what its fragments do, 0 .. 1; at 1 up to two fifths of the
   /// fragment's speed and of the turn rate.
-  double pull = 1;
+  double root_adjustment = 1;
   /// How soon a fragment is left when the control changes a lot, 0 .. 1: at 0 at the moment of it from which the next
   /// one is joined best, at 1 at once.
-  double promptness = 0.5;
+  double responsiveness = 0.5;
 };
 
-/// The run time (Sec. 3.3, Fig. 3). At a fragment's end the table tells the next class. A member of it, drawn at random
-/// (Sec. 3.1) among those that perform the control as well as the representative or better and join well, is placed
-/// where the character stands, and stitched on with ease-in-ease-out weights. A fragment is left early, unless in the
-/// air, when the control changes a lot: soon, where the next one joins well. A stand-in-place fragment is played to its
-/// end; then comes the class that it leads to, or, where the control has changed a lot meanwhile, what the table tells
-/// from standing. A jump that is pressed, however shortly, comes with the next decision, if the table knows any.
+/// The run time (Sec. 3.3, Fig. 3): a Director decides which class comes next and when, a FragmentSelector chooses one
+/// of its fragments, Playback stitches that on to what is shown, and PoseCorrection lets the pose do better what is
+/// asked.
 class Player {
  public:
   /// Throws std::invalid_argument on an option that is out of its range.
@@ -66,103 +51,36 @@ class Player {
 
   const Vector3& root_position() const { return root_; }
   /// [bones, 4] as in Clip; of a crowd's player see Crowd::step.
-  const std::vector<double>& rotations() const { return stage_->shown.rotations; }
-  CharacterFrame frame() const;
-  int playing_class() const { return class_; }
-  int playing_fragment() const { return now_.fragment; }
+  const std::vector<double>& rotations() const { return workspace_->shown.rotations; }
+  CharacterFrame frame() const { return playback_.frame(); }
+  int playing_class() const { return director_.playing_class(); }
+  int playing_fragment() const { return playback_.fragment(); }
+  /// Fragments begun since it was made.
+  int entered() const { return entered_; }
   /// Eq. 2 for the transition that led here and the control.
   double quality(int control) const;
-
-  /// Steps through a trace from now: frames 0 .. round(duration * rate), each control for 1/kTraceRate s.
-  Performance run(const Trace& trace, double rate, const Progress& progress = {});
 
   const Character& character() const { return *character_; }
 
  private:
   friend class Crowd;
 
-  // What players that step in turn share: what never changes, and what a step keeps nothing in.
-  struct Stage {
-    explicit Stage(const Character& character);
+  Player(std::shared_ptr<const Character> character, const PlayerOptions& options,
+         std::shared_ptr<Workspace> workspace);
 
-    Kinematics kinematics;
-    std::shared_ptr<FootLock::Body> body;
-    std::vector<std::vector<int>> members;
-    std::array<BodyTips, 3> tips;
-    std::vector<float> onward;                   // tips of what is shown, and of how it would go on
-    std::vector<std::pair<float, int>> fitting;  // fragments by their distance from it
-    WorldPose shown;                             // by the player that stepped last
-    std::array<WorldPose, 4> poses;
-  };
-
-  // A fragment that plays, placed in the world: its clip turned by `heading` about z and moved by `offset`.
-  struct Placed {
-    int fragment = 0;
-    double seconds = 0;  // since its first pose
-    double heading = 0;
-    Vector2 offset = Vector2::Zero();
-  };
-
-  Player(std::shared_ptr<const Character> character, const PlayerOptions& options, std::shared_ptr<Stage> stage);
-
-  void fetch() const;
+  void prefetch() const;
   static void check_step(const Control& control, double seconds);
-  Placed place(int fragment, const CharacterFrame& frame) const;
-  void sample(const Placed& placed, WorldPose& pose) const;
-  void stitch(const Placed& old);
-  void sample_shown(Placed placed, double seconds, WorldPose& pose) const;
-  CharacterFrame pose_tips(double seconds, BodyTips& tips) const;
-  void find_onward(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const;
-  bool obeys(int fragment, const Control& wanted) const;
-  bool turns_back(int fragment, const Control& wanted) const;
-  void find_fitting(int next_class, const Control& control) const;
-  float measure_fitting() const;
-  int draw(int next_class, const Control& control);
-  double find_exit(const Control& wanted) const;
-  void start(int next_class, int fragment);
-  void start_forced();
-  bool changed(const Control& wanted) const;
-  int tell(const Control& wanted) const;
-  int decide(const Control& wanted);
-  bool leaves_early(const Control& wanted);
-  void go_on(const Control& control, const Control& wanted);
-  void pull(const Control& control, double seconds);
-  void pose();
-  void crossfade(double weight, WorldPose& pose) const;
-  bool stands(const Control& evident) const;
-  void plant(double seconds);
-  double left() const;
+  void go_on(const Control& control);
+  void correct(double seconds);
 
   std::shared_ptr<const Character> character_;
-  const Policy* policy_;
-  std::shared_ptr<Stage> stage_;
-  std::uint64_t seed_;
-  Random random_;
-  double stitch_;
-  Stitching stitching_;
-  bool lock_feet_;
-  double pull_, promptness_;
-
-  Placed now_, before_;
-  double faded_ = 0;    // s after which the old fragment has faded; 0: it does not fade
-  double soonest_ = 0;  // s after which what plays may be left early
-  int class_ = 0, from_ = 0;
-  int entered_ = 0;    // fragments begun
-  int waiting_ = -1;   // the class that follows a stand-in-place fragment
-  int forced_ = -1;    // the class that force() asked for and that does not play yet
-  bool held_ = false;  // a forced fragment plays: it is not left early
-  Control decided_for_;
-  Control planned_for_;
-  double exit_ = -1;  // s after which what plays is left early for planned_for_; below 0: nothing is planned
-  bool jump_pressed_ = false;
-  bool jump_waits_ = false;            // pressed since the last decision that plays: a tap is not lost
-  Vector2 pulling_ = Vector2::Zero();  // m/s, in the character frame
-  double turning_ = 0;                 // rad/s
-  Inertialization inertia_;
-  FootLock foot_lock_;
-  Breathing breathing_;
+  std::shared_ptr<Workspace> workspace_;
+  Director director_;
+  FragmentSelector selector_;
+  Playback playback_;
+  PoseCorrection correction_;
+  int entered_ = 0;
   Vector3 root_ = Vector3::Zero();  // as it is shown
-  double heading_ = 0;
 };
 
 }  // namespace fragmotion

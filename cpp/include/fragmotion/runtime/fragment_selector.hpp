@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "fragmotion/base/random.hpp"
+#include "fragmotion/runtime/playback.hpp"
+
+namespace fragmotion {
+
+/// Chooses the member of a class that is played: at random (Sec. 3.1) among those that perform the control as well as
+/// the representative or better and join on well. Allocates nothing once it is made.
+class FragmentSelector {
+ public:
+  /// Character and workspace must outlive it.
+  FragmentSelector(const Character& character, Workspace& workspace, std::uint64_t seed);
+
+  /// Draws from the seed again.
+  void reset() { random_ = Random(seed_); }
+  /// The member to play after what plays now.
+  int choose(int next_class, const Control& control, const Playback& playback);
+  /// Any member.
+  int choose_any(int next_class);
+
+  /// The moment at which what plays is best left for this class, s since the fragment's first pose: every second of
+  /// waiting costs as much as `haste` metres (as Dis) between the poses that are joined.
+  double best_exit(int next_class, const Control& control, const Playback& playback, double haste) const;
+
+ private:
+  CharacterFrame pose_tips(const Playback& playback, double seconds, BodyTips& tips) const;
+  void extrapolate(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const;
+  void find_candidates(int next_class, const Control& control) const;
+  float measure_candidates() const;
+
+  const Character* character_;
+  Workspace* workspace_;
+  std::uint64_t seed_;
+  Random random_;
+};
+
+/// Whether what shows so much of a jump jumps, or does not, as is wanted.
+bool matches_jump(double evident_jump, const Control& wanted);
+
+}  // namespace fragmotion

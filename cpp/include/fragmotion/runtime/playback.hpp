@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "fragmotion/runtime/inertialization.hpp"
+#include "fragmotion/runtime/workspace.hpp"
+
+namespace fragmotion {
+
+/// How the next fragment joins on to what is shown (Fig. 3).
+enum class Stitching {
+  inertialize,  ///< It takes over pose and velocity, whose differences fade (inertialization.hpp).
+  crossfade     ///< The paper's: the old fragment goes on in its take while both are interpolated.
+};
+
+/// Plays one fragment after another, each placed where the character stands and stitched on to what is shown
+/// (Sec. 3.3, Fig. 3). Allocates nothing once it is made.
+class Playback {
+ public:
+  /// `stitch` as PlayerOptions::stitch. Character and workspace must outlive it.
+  Playback(const Character& character, Workspace& workspace, Stitching stitching, double stitch);
+
+  /// Nothing but this fragment plays, from its first pose, placed at `frame`.
+  void reset(int fragment, const CharacterFrame& frame);
+  /// Stitches a fragment on to what is shown.
+  void start(int fragment);
+  void advance(double seconds);
+  /// Moves the character for `seconds` at a velocity, m/s in its own frame, and a turn rate, rad/s.
+  void move(const Vector2& velocity, double turn_rate, double seconds);
+
+  /// Writes what plays to Workspace::shown.
+  void show();
+  /// As it is shown at a time since the fragment's first pose, without a crossfade's old fragment.
+  void sample(double seconds, WorldPose& pose) const;
+
+  int fragment() const { return now_.fragment; }
+  const Control& evident() const { return character_->pool.fragments[now_.fragment].evident; }
+  /// Since the fragment's first pose, s.
+  double seconds() const { return now_.seconds; }
+  /// Until the fragment's end, s.
+  double left() const;
+  /// After which the old fragment of a crossfade is not seen any more, s since the first pose of what plays.
+  double faded() const { return faded_; }
+  /// Where the character stands, as it was last shown.
+  const CharacterFrame& frame() const { return frame_; }
+
+  void prefetch() const { inertialization_.prefetch(); }
+
+ private:
+  // A fragment that plays, placed in the world: its clip turned by `heading` about z and moved by `offset`.
+  struct Placed {
+    int fragment = 0;
+    double seconds = 0;  // since its first pose
+    double heading = 0;
+    Vector2 offset = Vector2::Zero();
+  };
+
+  Placed place(int fragment, const CharacterFrame& frame) const;
+  void sample(const Placed& placed, WorldPose& pose) const;
+  void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
+  void begin_stitch(const Placed& old);
+  void crossfade(double weight, WorldPose& pose) const;
+
+  const Character* character_;
+  Workspace* workspace_;
+  Stitching stitching_;
+  double stitch_;
+  Placed now_, before_;
+  double faded_ = 0;
+  Inertialization inertialization_;
+  CharacterFrame frame_;
+};
+
+}  // namespace fragmotion

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "fragmotion/character/character.hpp"
+#include "fragmotion/fragments/distance.hpp"
+#include "fragmotion/motion/foot_lock.hpp"
+
+namespace fragmotion {
+
+/// What players of one character that step in turn share: what never changes, and room to work in.
+struct Workspace {
+  explicit Workspace(const Character& character);
+
+  Kinematics kinematics;
+  std::shared_ptr<FootLock::Body> body;
+  std::vector<std::vector<int>> members;  ///< Classes::members()
+
+  // Of the FragmentSelector's: rows as those of Character::entry_poses.
+  std::array<BodyTips, 3> tips;
+  std::vector<float> onward;                      ///< Tips of what is shown, and of how it would go on.
+  std::vector<std::pair<float, int>> candidates;  ///< Fragments by their distance from it.
+
+  WorldPose shown;                 ///< By the player that stepped last.
+  std::array<WorldPose, 4> poses;  ///< Of a stitch.
+};
+
+}  // namespace fragmotion

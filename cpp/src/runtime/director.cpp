@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/runtime/director.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kInstant = 1e-9;  // s: no time
+constexpr double kChange = 1;      // ControlDis between controls that is "a lot"
+constexpr double kHaste = 10;      // m, as Dis, that a second of waiting costs by default
+constexpr double kWorthIt = 0.05;  // s that must be left of a fragment for leaving it early
+constexpr double kInTheAir = 0.5;  // evident jump above which a fragment is played to its end
+
+// Whether what would play goes back from where is wanted, though what plays goes there: a table may find that such a
+// detour joins best, both ways.
+bool turns_back(const Control& playing, const Control& next, const Control& wanted) {
+  const auto along = [&](const Control& ev) { return ev.x * wanted.x + ev.y * wanted.y; };
+  return along(playing) > 0 && along(next) < 0;
+}
+
+}  // namespace
+
+Director::Director(const Character& character, const Policy& policy, double responsiveness)
+    : character_(&character),
+      policy_(&policy),
+      haste_(kHaste * responsiveness / std::max(1 - responsiveness, kInstant)) {}
+
+void Director::reset() {
+  const Quality& quality = character_->quality;
+  const int still = character_->space.nearest({});
+  class_ = 0;
+  for (int k = 1; k < quality.classes; ++k) {
+    const auto match = [&](int q) {
+      return quality.match[static_cast<std::size_t>(q) * ControlSpace::kPoints + still];
+    };
+    if (match(k) > match(class_)) class_ = k;
+  }
+  previous_ = class_;
+  waiting_ = forced_ = -1;
+  plays_forced_ = false;
+  soonest_ = 0;
+  exit_ = -1;
+  jump_latched_ = jump_pressed_ = false;
+  decided_for_ = {};
+}
+
+void Director::observe(const Control& control) {
+  const bool pressed = control.jump > 0.5;
+  jump_latched_ = jump_latched_ || (pressed && !jump_pressed_);
+  jump_pressed_ = pressed;
+}
+
+Control Director::wanted(const Control& control) const {
+  Control wanted = control;
+  if (jump_latched_) wanted.jump = 1;
+  return wanted;
+}
+
+double Director::soonest(const Playback& playback) const { return std::max(soonest_, playback.faded()); }
+
+bool Director::has_changed(const Control& wanted) const {
+  return character_->space.distance(wanted, decided_for_) > kChange;
+}
+
+// The class that the table tells. Where a jump was pressed and that class does not jump, or the other way round, since
+// the transition is thought too bad or too good for it, or where it turns back, the one of the table's that suits best
+// and does not: nothing is worse than a button that does nothing, and a hop that nobody asked for.
+int Director::look_up_class(const Control& wanted, const Control& playing) const {
+  const Character& c = *character_;
+  const bool free = wanted.jump > kInTheAir && !jump_latched_;
+  const auto suits = [&](int k) {
+    const Control& ev = c.pool.fragments[c.classes.representatives[k]].evident;
+    return (free || matches_jump(ev.jump, wanted)) && !turns_back(playing, ev, wanted);
+  };
+  const int control = c.space.nearest(wanted);
+  int told = (*policy_)(class_, control);
+  if (suits(told)) return told;
+  double best = 0;
+  for (int k = 0; k < c.classes.count; ++k) {
+    const double match = c.quality.match[static_cast<std::size_t>(k) * ControlSpace::kPoints + control],
+                 worth = c.quality(class_, k, control) * match;
+    if (!suits(k) || worth <= best || !policy_->leads_to(k)) continue;
+    best = worth;
+    told = k;
+  }
+  return told;
+}
+
+int Director::next_class(const Control& control, const Playback& playback) {
+  const Character& c = *character_;
+  const Control wanted = this->wanted(control);
+  const int waiting = std::exchange(waiting_, -1);
+  int next = waiting;
+  if (waiting < 0 || has_changed(wanted)) {
+    decided_for_ = wanted;
+    next = look_up_class(wanted, playback.evident());
+    const int bridge = c.bridges[static_cast<std::size_t>(class_) * c.classes.count + next];
+    // The jump, too, waits for the end of the stand-in-place fragment.
+    if (bridge >= 0) return waiting_ = next, bridge;
+  }
+  jump_latched_ = false;
+  decided_for_.jump = control.jump;
+  return next;
+}
+
+bool Director::makes_way(const Playback& playback) const {
+  return forced_ >= 0 && playback.seconds() > soonest(playback) - kInstant;
+}
+
+bool Director::leaves_early(const Control& wanted, const Playback& playback, const FragmentSelector& selector) {
+  const bool too_soon = playback.seconds() <= soonest(playback) - kInstant;
+  if (too_soon || playback.left() <= kWorthIt || waiting_ >= 0 || plays_forced_) return false;
+  if (playback.evident().jump >= kInTheAir || !has_changed(wanted)) return false;
+  if (exit_ < 0 || character_->space.distance(wanted, planned_for_) > 0) {
+    exit_ = selector.best_exit(look_up_class(wanted, playback.evident()), wanted, playback, haste_);
+    planned_for_ = wanted;
+  }
+  return playback.seconds() > exit_ - kInstant;
+}
+
+bool Director::is_due(const Control& control, const Playback& playback, const FragmentSelector& selector) {
+  return makes_way(playback) || playback.left() < kInstant || leaves_early(wanted(control), playback, selector);
+}
+
+int Director::decide(const Control& control, const Playback& playback) {
+  plays_forced_ = makes_way(playback);
+  if (plays_forced_) waiting_ = -1;
+  const int next = plays_forced_ ? std::exchange(forced_, -1) : next_class(control, playback);
+  previous_ = std::exchange(class_, next);
+  exit_ = -1;
+  soonest_ = kSoonest;
+  return next;
+}
+
+double Director::until_due(const Playback& playback, double most) const {
+  const auto until = [&](double time) {
+    return time - playback.seconds() > kInstant ? time - playback.seconds() : most;
+  };
+  return std::min({most, playback.left(), until(soonest(playback)), until(exit_)});
+}
+
+}  // namespace fragmotion

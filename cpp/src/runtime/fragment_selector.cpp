@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/runtime/fragment_selector.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kHop = 0.9;            // evident jump of what is no run
+constexpr double kInTheAir = 0.5;       // evident jump of what jumps
+constexpr double kJoinsWell = 1.3;      // times the Dis of the fragment that joins best, and
+constexpr double kJoinsNear = 0.3;      // m, summed as Dis, more
+constexpr double kAsWell = 0.5;         // of the way from the least error to the representative's
+constexpr double kLook = kOpening / 2;  // s between the moments at which a fragment may be left early
+
+}  // namespace
+
+bool matches_jump(double evident_jump, const Control& wanted) {
+  return wanted.jump > kInTheAir ? evident_jump > kInTheAir : evident_jump < kHop;
+}
+
+FragmentSelector::FragmentSelector(const Character& character, Workspace& workspace, std::uint64_t seed)
+    : character_(&character), workspace_(&workspace), seed_(seed), random_(seed) {}
+
+// Poses what plays as it is shown at a time since its first pose.
+CharacterFrame FragmentSelector::pose_tips(const Playback& playback, double seconds, BodyTips& tips) const {
+  WorldPose& pose = workspace_->poses[0];
+  playback.sample(seconds, pose);
+  tips.pose(pose.root, pose.rotations.data());
+  return {pose.root.head<2>(), pose.heading};
+}
+
+// The tips of what plays, seen from its frame, and where they would be kOpening later at the speed of as long before.
+void FragmentSelector::extrapolate(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const {
+  std::vector<float>& onward = workspace_->onward;
+  const int stride = static_cast<int>(onward.size()) / 3, points = now.points();
+  now.write(frame, onward.data(), stride, 0);
+  before.write(frame, onward.data(), stride, points);
+  for (int axis = 0; axis < 3; ++axis) {
+    float *is = &onward[static_cast<std::size_t>(axis) * stride], *goes_on = is + points;
+    for (int i = 0; i < points; ++i) goes_on[i] = 2 * is[i] - goes_on[i];
+  }
+}
+
+// Finds the members that perform the control nearly as well as any of them does. Where the representative jumps, or
+// does not, as is wanted, they do so too.
+void FragmentSelector::find_candidates(int next_class, const Control& control) const {
+  const Character& c = *character_;
+  const auto matches = [&](int fragment) { return matches_jump(c.pool.fragments[fragment].evident.jump, control); };
+  const int representative = c.classes.representatives[next_class];
+  const auto error = [&](int fragment) {
+    if (matches(representative) && !matches(fragment)) return std::numeric_limits<double>::infinity();
+    return c.space.distance(c.pool.fragments[fragment].evident, control);
+  };
+  double best = error(representative);
+  const double usual = best;
+  for (const int fragment : workspace_->members[next_class]) best = std::min(best, error(fragment));
+  const double allowed = best + kAsWell * (usual - best);
+  workspace_->candidates.clear();
+  for (const int fragment : workspace_->members[next_class]) {
+    if (error(fragment) > allowed) continue;
+    workspace_->candidates.emplace_back(0.0F, fragment);
+  }
+}
+
+// How far the beginnings of the candidates are from how what plays would go on; tells the least.
+float FragmentSelector::measure_candidates() const {
+  const std::vector<float>& onward = workspace_->onward;
+  float least = std::numeric_limits<float>::infinity();
+  for (auto& [distance, fragment] : workspace_->candidates) {
+    const float* entry = &character_->openings[onward.size() * fragment];
+    distance = tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3) / 2;
+    least = std::min(least, distance);
+  }
+  return least;
+}
+
+int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback) {
+  auto& [before, now, unused] = workspace_->tips;
+  find_candidates(next_class, control);
+  pose_tips(playback, playback.seconds() - kOpening, before);
+  extrapolate(pose_tips(playback, playback.seconds(), now), before, now);
+  const float least = measure_candidates();
+  std::vector<std::pair<float, int>>& candidates = workspace_->candidates;
+  const auto joins = [&](const auto& each) { return each.first <= kJoinsWell * least + kJoinsNear; };
+  const auto end = std::partition(candidates.begin(), candidates.end(), joins);
+  return candidates[random_.below(static_cast<int>(end - candidates.begin()))].second;
+}
+
+int FragmentSelector::choose_any(int next_class) {
+  const std::vector<int>& members = workspace_->members[next_class];
+  return members[random_.below(static_cast<int>(members.size()))];
+}
+
+// No later moment is looked at once waiting alone costs too much. What is shown kOpening before a moment is known from
+// the last but one.
+double FragmentSelector::best_exit(int next_class, const Control& control, const Playback& playback,
+                                   double haste) const {
+  const double seconds = playback.seconds(), rest = playback.left();
+  find_candidates(next_class, control);
+  auto& [long_before, before, now] = workspace_->tips;
+  pose_tips(playback, seconds - kOpening, long_before);
+  pose_tips(playback, seconds - kLook, before);
+  double best = 0, least = std::numeric_limits<double>::infinity();
+  for (double wait = 0; haste * wait < least; wait = std::min(wait + kLook, rest)) {
+    if (wait == rest) pose_tips(playback, seconds + wait - kOpening, long_before);
+    extrapolate(pose_tips(playback, seconds + wait, now), long_before, now);
+    const double cost = measure_candidates() + haste * wait;
+    if (cost < least) least = cost, best = wait;
+    if (wait >= rest) break;
+    std::swap(long_before, before);
+    std::swap(before, now);
+  }
+  return seconds + best;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/runtime/playback.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fragmotion/motion/pose.hpp"
+
+namespace fragmotion {
+
+Playback::Playback(const Character& character, Workspace& workspace, Stitching stitching, double stitch)
+    : character_(&character),
+      workspace_(&workspace),
+      stitching_(stitching),
+      stitch_(stitch),
+      inertialization_(workspace.kinematics.bones()) {}
+
+void Playback::reset(int fragment, const CharacterFrame& frame) {
+  faded_ = 0;
+  inertialization_.clear();
+  now_ = place(fragment, frame);
+  show();
+}
+
+Playback::Placed Playback::place(int fragment, const CharacterFrame& frame) const {
+  const Fragment& f = character_->pool.fragments[fragment];
+  const CharacterFrame first = frame_at(character_->pool.clips[f.clip], f.begin);
+  Placed placed;
+  placed.fragment = fragment;
+  placed.heading = frame.heading - first.heading;
+  placed.offset = frame.position - Eigen::Rotation2Dd(placed.heading) * first.position;
+  return placed;
+}
+
+void Playback::sample(const Placed& placed, WorldPose& pose) const {
+  const Fragment& f = character_->pool.fragments[placed.fragment];
+  const PackedClip& clip = character_->pool.clips[f.clip];
+  const double at = f.begin + placed.seconds * clip.rate;
+  const Vector3 root = sample_pose(clip, at, pose.rotations.data());
+  // By half the angle, for the quaternion as well as for the plane.
+  const double w = std::cos(placed.heading / 2), z = std::sin(placed.heading / 2), c = w * w - z * z, s = 2 * w * z;
+  pose.root = {placed.offset.x() + c * root.x() - s * root.y(), placed.offset.y() + s * root.x() + c * root.y(),
+               root.z()};
+  pose.heading = placed.heading + frame_at(clip, at).heading;
+  double* hips = &pose.rotations[std::size_t{4} * character_->pool.skeleton.roles.hips];
+  store_quaternion(Quaternion{w, 0, 0, z} * load_quaternion(hips), hips);
+}
+
+void Playback::sample_stitched(Placed placed, double seconds, WorldPose& pose) const {
+  placed.seconds = seconds;
+  sample(placed, pose);
+  if (stitching_ == Stitching::inertialize) inertialization_.apply(std::max(0.0, seconds), pose);
+}
+
+void Playback::sample(double seconds, WorldPose& pose) const { sample_stitched(now_, seconds, pose); }
+
+void Playback::start(int fragment) {
+  before_ = now_;
+  now_ = place(fragment, frame_);
+  const bool inertializes = stitching_ == Stitching::inertialize;
+  if (inertializes && stitch_ > 0) begin_stitch(before_);
+  faded_ = inertializes ? 0 : std::min(stitch_, left());
+  show();
+}
+
+// Begins a stitch from the old fragment, as it is shown, to the one that plays now.
+void Playback::begin_stitch(const Placed& old) {
+  constexpr double kApart = 1.0 / 60;  // s over which speeds are measured, within both fragments
+  auto& [old_before, old_now, fresh, fresh_later] = workspace_->poses;
+  sample_stitched(old, old.seconds, old_now);
+  sample_stitched(old, old.seconds - kApart, old_before);
+  sample(now_, fresh);
+  Placed later = now_;
+  later.seconds += kApart;
+  sample(later, fresh_later);
+  inertialization_.begin(old_before, old_now, fresh, fresh_later, kApart, stitch_);
+}
+
+void Playback::advance(double seconds) {
+  now_.seconds += seconds;
+  before_.seconds += seconds;
+}
+
+void Playback::move(const Vector2& velocity, double turn_rate, double seconds) {
+  const Vector2 root = frame_.position, way = seconds * (Eigen::Rotation2Dd(frame_.heading) * velocity);
+  const Eigen::Matrix2d turned = Eigen::Rotation2Dd(seconds * turn_rate).toRotationMatrix();
+  for (Placed* placed : {&now_, &before_}) {
+    placed->heading += seconds * turn_rate;
+    placed->offset = root + way + turned * (placed->offset - root);
+  }
+}
+
+void Playback::show() {
+  WorldPose& shown = workspace_->shown;
+  sample(now_, shown);
+  if (stitching_ == Stitching::inertialize) {
+    inertialization_.apply(now_.seconds, shown);
+  } else if (now_.seconds < faded_) {
+    crossfade(ease_in_ease_out(now_.seconds / faded_), shown);
+  }
+  frame_ = {shown.root.head<2>(), shown.heading};
+}
+
+// Goes so far from what played before to the pose.
+void Playback::crossfade(double weight, WorldPose& pose) const {
+  WorldPose& old = workspace_->poses[0];
+  sample(before_, old);
+  blend_rotations(old.rotations.data(), pose.rotations.data(), weight, workspace_->kinematics.bones(),
+                  pose.rotations.data());
+  pose.root = old.root + weight * (pose.root - old.root);
+  pose.heading = old.heading + weight * (pose.heading - old.heading);
+}
+
+double Playback::left() const {
+  return character_->pool.seconds(character_->pool.fragments[now_.fragment]) - now_.seconds;
+}
+
+}  // namespace fragmotion

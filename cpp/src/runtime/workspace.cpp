@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/runtime/workspace.hpp"
+
+namespace fragmotion {
+
+Workspace::Workspace(const Character& character)
+    : kinematics(character.pool.skeleton),
+      body(std::make_shared<FootLock::Body>(kinematics, character.legs)),
+      members(character.classes.members()),
+      tips{BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton)},
+      onward(character.openings.size() / character.pool.fragments.size()) {
+  candidates.reserve(character.pool.fragments.size());
+  shown.rotations.resize(std::size_t{4} * kinematics.bones());
+  poses.fill(shown);
+}
+
+}  // namespace fragmotion
