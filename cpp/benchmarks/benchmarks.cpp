@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include "fragmotion/base/random.hpp"
+#include "fragmotion/build/build.hpp"
 #include "fragmotion/policy/iterate.hpp"
 #include "fragmotion/policy/svm.hpp"
 #include "fragmotion/runtime/crowd.hpp"

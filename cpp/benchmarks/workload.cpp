@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "workload.hpp"
 
+#include "fragmotion/build/build.hpp"
+#include "fragmotion/control/simulated_players.hpp"
 #include "fragmotion/policy/svm.hpp"
 #include "synthetic_takes.hpp"
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "arrays.hpp"
+#include "fragmotion/build/build.hpp"
 #include "fragmotion/character/exclude_classes.hpp"
 #include "fragmotion/character/naming.hpp"
 #include "fragmotion/character/policy_file.hpp"

@@ -4,6 +4,7 @@
 
 #include "arrays.hpp"
 #include "fragmotion/character/character.hpp"
+#include "fragmotion/control/simulated_players.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -3,7 +3,9 @@
 
 #include <memory>
 
+#include "fragmotion/build/build.hpp"
 #include "fragmotion/character/character.hpp"
+#include "fragmotion/control/simulated_players.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

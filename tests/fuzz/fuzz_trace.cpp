@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "control/parse_trace.hpp"
 #include "fuzzing.hpp"
-#include "io/parse_text.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace fragmotion;

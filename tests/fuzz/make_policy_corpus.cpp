@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "fragmotion/build/build.hpp"
 #include "policies.hpp"
 #include "small_character.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "fragmotion/character/character.hpp"
+#include "fragmotion/build/build.hpp"
 #include "fragmotion/fragments/distance.hpp"
 
 namespace fragmotion {

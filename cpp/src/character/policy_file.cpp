@@ -15,6 +15,7 @@
 #include "fragmotion/base/utf8.hpp"
 #include "fragmotion/fragments/distance.hpp"
 #include "fragmotion/skeleton/role_names.hpp"
+#include "fragmotion/skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
 namespace {
@@ -405,7 +406,7 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     if (!reader.done()) throw std::invalid_argument("it has bytes too many");
     check(character);
     check_memory(character, bytes.size());
-    Legs legs = find_legs(Kinematics(character.pool.skeleton), {});
+    Legs legs = resting_legs(character.pool.skeleton);
     for (std::size_t side = 0; side < legs.size(); ++side) legs[side].hinge = character.legs[side].hinge;
     character.legs = legs;
     character.coverage = coverage(character.pool.fragments, character.space);

@@ -246,12 +246,6 @@ void check_count(const Trajectories& t, int classes) {
 
 }  // namespace
 
-std::vector<std::vector<int>> Classes::members() const {
-  std::vector<std::vector<int>> members(count);
-  for (std::size_t i = 0; i < labels.size(); ++i) members[labels[i]].push_back(static_cast<int>(i));
-  return members;
-}
-
 Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
                 const ClassScore& score, const Progress& progress) {
   const std::vector<char> kinds = options.kinds.empty() ? std::vector<char>(t.count, 0) : options.kinds;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "fragmotion/control/simulated_players.hpp"
+
 #include <cmath>
 #include <stdexcept>
 
 #include "fragmotion/base/random.hpp"
-#include "fragmotion/control/trace.hpp"
 
 namespace fragmotion {
 

@@ -14,7 +14,7 @@
 #include "base/read_file.hpp"
 #include "base/text_reader.hpp"
 #include "base/write_file.hpp"
-#include "io/parse_text.hpp"
+#include "control/parse_trace.hpp"
 
 namespace fragmotion {
 
@@ -133,6 +133,12 @@ Trace parse_trace(const std::string& text, const std::string& file) {
   if (trace.size() < 2)
     fail(file, line, "the trace ends after " + std::to_string(trace.size()) + " rows, expected at least 2");
   return trace;
+}
+
+std::vector<int> snap(const ControlSpace& space, const Trace& trace) {
+  std::vector<int> indices;
+  for (const Control& control : trace) indices.push_back(space.nearest(control));
+  return indices;
 }
 
 Trace read_trace(const std::filesystem::path& path) { return parse_trace(read_file(path), path.filename().u8string()); }

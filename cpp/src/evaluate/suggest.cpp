@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "build/stages.hpp"
+#include "fragmotion/build/build.hpp"
+#include "fragmotion/control/simulated_players.hpp"
 #include "fragmotion/evaluate/performance.hpp"
 #include "fragmotion/runtime/player.hpp"
 

@@ -14,7 +14,7 @@ namespace {
 double lowest_tip(const Kinematics& kinematics, const Clip& clip, int frame) {
   std::vector<Vector3> heads(kinematics.bones());
   std::vector<Quaternion> orientations(kinematics.bones());
-  kinematics.world(clip, frame, heads.data(), orientations.data());
+  world(kinematics, clip, frame, heads.data(), orientations.data());
   double lowest = std::numeric_limits<double>::infinity();
   for (const int b : measured_bones(kinematics.skeleton())) {
     lowest = std::min(lowest, (heads[b] + orientations[b] * kinematics.skeleton().tips[b]).z());

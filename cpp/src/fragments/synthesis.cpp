@@ -13,6 +13,7 @@
 #include "fragmotion/fragments/distance.hpp"
 #include "fragmotion/fragments/transform.hpp"
 #include "fragmotion/motion/contacts.hpp"
+#include "fragmotion/motion/legs.hpp"
 
 namespace fragmotion {
 namespace {

@@ -202,7 +202,7 @@ void hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, int end, do
     const double tuck = std::max(0.0, rise) * (1 + kTuck) - rise;  // of the feet, towards the hips
     double* root = &clip.root_positions[std::size_t{3} * f];
     double* rotations = &clip.rotations[std::size_t{4} * kinematics.bones() * f];
-    kinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
     root[2] += rise;
     for (const Leg& leg : legs) {
       if (!leg.exists()) continue;

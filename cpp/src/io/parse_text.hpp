@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "fragmotion/control/trace.hpp"
 #include "fragmotion/motion/take.hpp"
 #include "io/asf.hpp"
 
@@ -15,6 +14,5 @@ namespace fragmotion {
 Take parse_bvh(std::string text, const std::string& file, double unit);
 AsfModel parse_asf(std::string text, const std::string& file);
 Take parse_amc(std::string text, const std::string& file, const AsfModel& model, double rate);
-Trace parse_trace(const std::string& text, const std::string& file);
 
 }  // namespace fragmotion

@@ -51,7 +51,7 @@ std::vector<Vector3> center_of_mass(const Kinematics& kinematics, const Clip& cl
   std::vector<Vector3> heads(kinematics.bones()), centers(clip.frames, Vector3::Zero());
   std::vector<Quaternion> rotations(kinematics.bones());
   for (int f = 0; f < clip.frames; ++f) {
-    kinematics.world(clip, f, heads.data(), rotations.data());
+    world(kinematics, clip, f, heads.data(), rotations.data());
     for (int b = 0; b < kinematics.bones(); ++b) {
       if (masses[b] > 0) centers[f] += masses[b] * (heads[b] + rotations[b] * (0.5 * skeleton.tips[b]));
     }

@@ -25,7 +25,7 @@ std::array<FootPath, 2> foot_paths(const Kinematics& kinematics, const Clip& cli
   PosedBones posed(kinematics.bones());
   std::array<FootPath, 2> paths;
   for (int f = 0; f < clip.frames; ++f) {
-    kinematics.world(clip, f, bones, posed.heads.data(), posed.rotations.data());
+    world(kinematics, clip, f, bones, posed.heads.data(), posed.rotations.data());
     for (int side = 0; side < 2; ++side) {
       paths[side].ball.push_back(ball(skeleton, feet[side], toes[side], posed));
       paths[side].heel.push_back(posed.heads[feet[side]]);

@@ -52,7 +52,7 @@ std::vector<Matrix3> mean_orientations(const Kinematics& kinematics, const std::
   Pose pose(kinematics.bones());
   for (const Clip& clip : clips) {
     for (int f = 0; f < clip.frames; ++f) {
-      kinematics.world(clip, f, pose.heads.data(), pose.orientations.data());
+      world(kinematics, clip, f, pose.heads.data(), pose.orientations.data());
       const Quaternion to_character = frame_at(clip, f).rotation().inverse();
       for (int b = 0; b < kinematics.bones(); ++b) sums[b] += (to_character * pose.orientations[b]).toRotationMatrix();
     }
@@ -100,7 +100,7 @@ Clip Mirror::operator()(const Clip& clip) const {
   Pose pose(bones);
   std::vector<Quaternion> mirrored(bones);
   for (int f = 0; f < clip.frames; ++f) {
-    kinematics_.world(clip, f, pose.heads.data(), pose.orientations.data());
+    world(kinematics_, clip, f, pose.heads.data(), pose.orientations.data());
     for (int b = 0; b < bones; ++b) {
       mirrored[b] = Quaternion{kReflection * pose.orientations[counterpart_[b]].toRotationMatrix() * turn_[b]};
     }

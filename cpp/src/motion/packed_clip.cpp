@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/vectorised.hpp"
-#include "fragmotion/base/parallel.hpp"
 #include "fragmotion/motion/pose.hpp"
 
 namespace fragmotion {
@@ -392,16 +391,6 @@ void check(const PackedClip& clip, const Skeleton& skeleton) {
   }
   require(clip.poses.size() >= PackedClip::kSpare && (clip.poses.size() - PackedClip::kSpare) % clip.frames == 0 &&
           clip.pose_bytes() == bytes_for(clip.bits));
-}
-
-PackedPool pack(const FragmentPool& pool, int threads) {
-  PackedPool packed{pool.skeleton, {}, pool.fragments};
-  packed.clips.resize(pool.clips.size());
-  const auto grid = std::make_shared<const PoseGrid>(pose_grid(pool.skeleton, pool.clips));
-  parallel_for(static_cast<int>(pool.clips.size()), thread_count(threads), [&](int begin, int end) {
-    for (int c = begin; c < end; ++c) packed.clips[c] = pack(pool.skeleton, grid, pool.clips[c]);
-  });
-  return packed;
 }
 
 }  // namespace fragmotion

@@ -16,8 +16,6 @@ constexpr double kNear = 0.02;      // of a leg's length: wanted so near to wher
 constexpr double kOpposite = 1e-6;  // 1 + cosine of an angle, below which half of it is not to be had from that
 constexpr double kTiny = 1e-12;     // m^2
 constexpr double kShortest = 1e-3;  // m of a 1.8 m character: a bone of a leg that is shorter has no direction
-constexpr double kNoAxis = 1e-9;    // length of an axis that is hardly one
-constexpr int kApart = 5;           // frames of the clips that are looked at: each fifth
 
 const double kBendsWell = std::cos(kStraight), kFoldsWell = std::cos(kFolded);
 
@@ -128,31 +126,14 @@ void hinge_at_rest(const Skeleton& skeleton, Legs& legs) {
   for (Leg& leg : legs) leg.hinge = rotations[leg.thigh].conjugate() * left.normalized();
 }
 
-// What bends the leg's knee in a pose, as the thigh sees it; the longer the more it is bent.
-Vector3 bend(const Leg& leg, const PosedBones& posed) {
-  const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
-                lower = posed.heads[leg.foot] - posed.heads[leg.knee];
-  return posed.rotations[leg.thigh].conjugate() * upper.cross(lower) / (upper.norm() * lower.norm());
-}
-
 }  // namespace
 
-Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips) {
-  const Skeleton& skeleton = kinematics.skeleton();
+Legs resting_legs(const Skeleton& skeleton) {
   const Roles& roles = skeleton.roles;
   Legs legs{leg_of(skeleton, roles.left_thigh, roles.left_foot, roles.left_toe, roles.right_foot),
             leg_of(skeleton, roles.right_thigh, roles.right_foot, roles.right_toe, roles.left_foot)};
   if (!legs[0].exists() || !legs[1].exists()) return {};
   hinge_at_rest(skeleton, legs);
-  const std::vector<int> bones = kinematics.chains({legs[0].foot, legs[1].foot});
-  PosedBones posed(kinematics.bones());
-  for (const Clip& clip : clips) {
-    for (int f = 0; f < clip.frames; f += kApart) {
-      kinematics.world(clip, f, bones, posed.heads.data(), posed.rotations.data());
-      for (Leg& leg : legs) leg.hinge += bend(leg, posed);
-    }
-  }
-  for (Leg& leg : legs) leg.hinge = leg.hinge.norm() > kNoAxis ? leg.hinge.normalized() : Vector3::UnitX();
   return legs;
 }
 

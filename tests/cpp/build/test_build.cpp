@@ -6,8 +6,10 @@
 #include <functional>
 #include <limits>
 
+#include "fragmotion/build/build.hpp"
 #include "fragmotion/character/character.hpp"
 #include "fragmotion/character/policy_file.hpp"
+#include "fragmotion/control/simulated_players.hpp"
 #include "fragmotion/policy/greedy.hpp"
 #include "fragmotion/runtime/player.hpp"
 #include "mocap_files.hpp"

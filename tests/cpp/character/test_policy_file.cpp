@@ -16,6 +16,7 @@
 #include "allocations.hpp"
 #include "character/policy_bytes.hpp"
 #include "fragmotion/character/policy_file.hpp"
+#include "fragmotion/control/simulated_players.hpp"
 #include "fragmotion/evaluate/performance.hpp"
 #include "fragmotion/policy/anticipate.hpp"
 #include "fragmotion/runtime/player.hpp"

@@ -10,6 +10,7 @@
 
 #include "allocations.hpp"
 #include "fragmotion/base/random.hpp"
+#include "fragmotion/control/simulated_players.hpp"
 #include "fragmotion/control/trace.hpp"
 
 namespace fragmotion {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fragmotion/build/build.hpp"
+#include "fragmotion/control/simulated_players.hpp"
 #include "fragmotion/evaluate/performance.hpp"
 #include "fragmotion/runtime/player.hpp"
 #include "small_character.hpp"

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "fragmotion/build/build.hpp"
+#include "fragmotion/control/simulated_players.hpp"
 #include "fragmotion/evaluate/performance.hpp"
 #include "fragmotion/evaluate/suggest.hpp"
 #include "fragmotion/runtime/player.hpp"

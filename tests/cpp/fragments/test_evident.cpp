@@ -116,7 +116,7 @@ TEST(CenterOfMass, IsTheMeanOfTheBonesMiddlesByMass) {
   for (int f = 0; f < 5; ++f) {
     std::vector<Vector3> heads(skeleton.size());
     std::vector<Quaternion> rotations(skeleton.size());
-    kinematics.world(clip, f, heads.data(), rotations.data());
+    world(kinematics, clip, f, heads.data(), rotations.data());
     Vector3 expected = Vector3::Zero();
     for (int b = 0; b < skeleton.size(); ++b) {
       const Vector3 tail = heads[b] + rotations[b].toRotationMatrix() * skeleton.tips[b];

@@ -9,9 +9,9 @@
 #include "fragmotion/fragments/distance.hpp"
 #include "fragmotion/fragments/synthesis.hpp"
 #include "fragmotion/fragments/transform.hpp"
+#include "fragmotion/motion/legs.hpp"
 #include "fragmotion/motion/mirror.hpp"
 #include "fragmotion/motion/pose.hpp"
-#include "fragmotion/skeleton/two_bone_ik.hpp"
 #include "mocap_files.hpp"
 #include "walker.hpp"
 
@@ -34,7 +34,7 @@ Control evident_of(const Clip& clip, int begin, int end, double usual, const Con
 double lowest_tip(const Clip& clip, int frame) {
   std::vector<Vector3> heads(kSkeleton.size());
   std::vector<Quaternion> rotations(kSkeleton.size());
-  kKinematics.world(clip, frame, heads.data(), rotations.data());
+  world(kKinematics, clip, frame, heads.data(), rotations.data());
   double lowest = std::numeric_limits<double>::infinity();
   for (int b = 0; b < kSkeleton.size(); ++b) {
     const Vector3 tip = heads[b] + rotations[b] * kSkeleton.tips[b];
@@ -114,7 +114,7 @@ double least_apart(const Clip& clip) {
   PosedBones posed(kSkeleton.size());
   double least = std::numeric_limits<double>::infinity();
   for (int f = 0; f < clip.frames; ++f) {
-    kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    world(kKinematics, clip, f, posed.heads.data(), posed.rotations.data());
     const auto place = [&](int foot, int toe) {
       return frame_at(clip, f).to_local(ball(kSkeleton, foot, toe, posed)).x();
     };
@@ -130,7 +130,7 @@ double roll_of(const Clip& clip) {
   std::vector<Quaternion> feet;
   double most = 0;
   for (int f = 0; f < clip.frames; ++f) {
-    kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    world(kKinematics, clip, f, posed.heads.data(), posed.rotations.data());
     feet.push_back(frame_at(clip, f).rotation().conjugate() * posed.rotations[kSkeleton.roles.left_foot]);
     for (const Quaternion& other : feet) most = std::max(most, feet.back().angularDistance(other));
   }
@@ -218,8 +218,8 @@ TEST(Hop, CrouchesFliesAndIsCaughtWithTheFeetNeverBelowWhereTheyWere) {
     lowest = std::min(lowest, by);
     if (f > 0) fastest = std::max(fastest, std::abs(by - last));
     last = by;
-    kKinematics.world(before, f, was.heads.data(), was.rotations.data());
-    kKinematics.world(clip, f, is.heads.data(), is.rotations.data());
+    world(kKinematics, before, f, was.heads.data(), was.rotations.data());
+    world(kKinematics, clip, f, is.heads.data(), is.rotations.data());
     for (const Leg& leg : legs) {
       const double lift = is.heads[leg.foot].z() - was.heads[leg.foot].z();
       EXPECT_GT(lift, -1e-3) << f;
@@ -256,7 +256,7 @@ double slide(const Clip& clip, const Contacts& contacts, int begin, int end) {
   for (int side = 0; side < 2; ++side) {
     Vector3 before = Vector3::Zero();
     for (int f = 0, standing = 0; f < clip.frames; ++f) {
-      kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+      world(kKinematics, clip, f, posed.heads.data(), posed.rotations.data());
       const Vector3 now = ball(kKinematics.skeleton(), legs[side], posed);
       standing = contacts.feet[side][begin + f % (end - begin)] ? standing + 1 : 0;
       if (standing > 4) most = std::max(most, (now - before).head<2>().norm() * clip.rate);
@@ -380,7 +380,7 @@ double fastest_knee(const Clip& clip, int begin, int end) {
   std::array<Vector3, 2> before;
   double most = 0;
   for (int f = begin; f <= end; ++f) {
-    kKinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    world(kKinematics, clip, f, posed.heads.data(), posed.rotations.data());
     for (int side = 0; side < 2; ++side) {
       const Vector3 now = posed.heads[legs[side].knee];
       if (f > begin) most = std::max(most, (now - before[side]).norm() * clip.rate);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "fragmotion/motion/foot_lock.hpp"
+#include "fragmotion/motion/legs.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

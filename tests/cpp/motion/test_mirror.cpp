@@ -15,7 +15,7 @@ namespace {
 std::vector<Vector3> tips(const Kinematics& kinematics, const Clip& clip, int frame) {
   std::vector<Vector3> heads(kinematics.bones()), tips;
   std::vector<Quaternion> rotations(kinematics.bones());
-  kinematics.world(clip, frame, heads.data(), rotations.data());
+  world(kinematics, clip, frame, heads.data(), rotations.data());
   for (int b = 0; b < kinematics.bones(); ++b) tips.push_back(heads[b] + rotations[b] * kinematics.skeleton().tips[b]);
   return tips;
 }

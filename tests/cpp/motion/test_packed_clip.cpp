@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iostream>
 
+#include "fragmotion/fragments/packed_pool.hpp"
 #include "fragmotion/io/bvh.hpp"
-#include "fragmotion/motion/packed_clip.hpp"
 #include "fragmotion/motion/pose.hpp"
 #include "mocap_files.hpp"
 #include "small_character.hpp"
@@ -25,8 +25,8 @@ struct Differences {
     std::vector<Vector3> heads_a(bones), heads_b(bones);
     std::vector<Quaternion> worlds_a(bones), worlds_b(bones);
     for (int f = 0; f < a.frames; ++f) {
-      kinematics.world(a, f, heads_a.data(), worlds_a.data());
-      kinematics.world(b, f, heads_b.data(), worlds_b.data());
+      world(kinematics, a, f, heads_a.data(), worlds_a.data());
+      world(kinematics, b, f, heads_b.data(), worlds_b.data());
       heading = std::max(heading, std::abs(a.headings[f] - b.headings[f]));
       for (int i = 0; i < bones; ++i) {
         if (!kinematics.skeleton().is_below(i, kinematics.skeleton().roles.hips)) continue;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fragmotion/control/simulated_players.hpp"
 #include "fragmotion/evaluate/performance.hpp"
 #include "fragmotion/motion/pose.hpp"
 #include "fragmotion/runtime/player.hpp"

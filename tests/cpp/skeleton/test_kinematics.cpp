@@ -81,7 +81,7 @@ TEST(Kinematics, PosesAFrameOfAClip) {
   const Kinematics kinematics(skeleton);
   const Clip clip = make_clip(skeleton, random_clip(skeleton, 3, 4));
   World found{std::vector<Vector3>(8), std::vector<Quaternion>(8)};
-  kinematics.world(clip, 2, found.heads.data(), found.rotations.data());
+  world(kinematics, clip, 2, found.heads.data(), found.rotations.data());
   const std::vector<double> pose(clip.rotations.begin() + 2 * 32, clip.rotations.end());
   const World expected = world(kinematics, load_vector(&clip.root_positions[6]), pose);
   for (int b = 0; b < 8; ++b) {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "fragmotion/base/random.hpp"
-#include "fragmotion/skeleton/two_bone_ik.hpp"
+#include "fragmotion/motion/legs.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
@@ -102,7 +102,7 @@ TEST(Reach, BringsTheFootThereAndLeavesItsRotation) {
     const Leg& leg = legs[n % 2];
     const int f = random.below(clip.frames);
     PosedBones posed(skeleton.size()), after(skeleton.size());
-    kinematics.world(clip, f, posed.heads.data(), posed.rotations.data());
+    world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
     const Vector3 foot = posed.heads[leg.foot], hip = posed.heads[leg.thigh];
     const Vector3 wanted = hip + (0.7 + 0.2 * random.uniform()) * (foot - hip) +
                            0.1 * Vector3{random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
@@ -169,7 +169,7 @@ TEST(Reach, ComesAsNearAsTheLegIsLong) {
   const Clip clip = gait_clip({1.2, 0, 0});
   const Leg leg = find_legs(kinematics, {clip})[0];
   PosedBones posed(skeleton.size()), after(skeleton.size());
-  kinematics.world(clip, 0, posed.heads.data(), posed.rotations.data());
+  world(kinematics, clip, 0, posed.heads.data(), posed.rotations.data());
   std::vector<double> rotations(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
   const Vector3 far = posed.heads[leg.thigh] + Vector3{0.3, 2, -1};
   reach(skeleton, leg, posed, far, rotations.data());

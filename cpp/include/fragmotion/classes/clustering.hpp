@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "fragmotion/base/progress.hpp"
+#include "fragmotion/classes/classes.hpp"
 #include "fragmotion/fragments/distance.hpp"
 
 namespace fragmotion {
@@ -22,17 +23,6 @@ struct ClusterOptions {
   int threads = 0;  ///< 0 or less: as many as the machine has.
   /// 0 or 1 for each fragment: of two classes or more, none holds fragments of both kinds. Empty: all are of one.
   std::vector<char> kinds{};
-};
-
-/// The fragments in n classes Q_1 .. Q_n (Sec. 3.1).
-struct Classes {
-  int count = 0;
-  std::vector<int> labels;           ///< [fragments] class of each
-  std::vector<int> representatives;  ///< [count] the medoid: the member nearest to the mean
-  double inertia = 0;                ///< Sum over fragments of weight times Dis(f, mean of its class) squared.
-
-  /// The fragments of each class, in order.
-  std::vector<std::vector<int>> members() const;
 };
 
 /// What makes one clustering better than another: the greater score. By default the smaller inertia.

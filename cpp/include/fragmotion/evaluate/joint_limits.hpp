@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fragmotion/motion/packed_clip.hpp"
+#include "fragmotion/fragments/packed_pool.hpp"
 
 namespace fragmotion {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "fragmotion/build/build.hpp"
 #include "fragmotion/character/character.hpp"
 
 namespace fragmotion {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fragmotion/fragments/fragment.hpp"
-#include "fragmotion/motion/packed_clip.hpp"
+#include "fragmotion/fragments/packed_pool.hpp"
 #include "fragmotion/skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {

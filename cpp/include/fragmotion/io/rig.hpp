@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fragmotion/skeleton/kinematics.hpp"
+#include "fragmotion/motion/clip.hpp"
 
 namespace fragmotion {
 

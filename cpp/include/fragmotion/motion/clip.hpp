@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fragmotion/motion/take.hpp"
-#include "fragmotion/skeleton/skeleton.hpp"
+#include "fragmotion/skeleton/kinematics.hpp"
 
 namespace fragmotion {
 
@@ -34,6 +34,17 @@ Clip make_clip(const Skeleton& skeleton, Clip clip);
 /// is dropped; the bones above the hips go into the hips' motion. Below the hips the bones must have the same parents
 /// and rest rotations as in the take. Throws std::invalid_argument naming the bone that is missing or differs.
 Clip clip_from_take(const Skeleton& skeleton, const Take& take);
+
+/// Kinematics::world of frame `frame` of a clip, of all bones or those of `bones`.
+inline void world(const Kinematics& kinematics, const Clip& clip, int frame, Vector3* heads, Quaternion* orientations) {
+  kinematics.world(load_vector(&clip.root_positions[std::size_t{3} * frame]),
+                   &clip.rotations[std::size_t{4} * kinematics.bones() * frame], heads, orientations);
+}
+inline void world(const Kinematics& kinematics, const Clip& clip, int frame, const std::vector<int>& bones,
+                  Vector3* heads, Quaternion* orientations) {
+  kinematics.world(load_vector(&clip.root_positions[std::size_t{3} * frame]),
+                   &clip.rotations[std::size_t{4} * kinematics.bones() * frame], bones, heads, orientations);
+}
 
 /// Frames begin .. end of a clip, as a clip of their own.
 Clip part(const Clip& clip, int begin, int end);

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "fragmotion/skeleton/kinematics.hpp"
+#include "fragmotion/motion/clip.hpp"
 
 namespace fragmotion {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "fragmotion/motion/contacts.hpp"
-#include "fragmotion/runtime/inertialization.hpp"
+#include "fragmotion/motion/pose.hpp"
 #include "fragmotion/skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {

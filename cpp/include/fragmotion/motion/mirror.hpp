@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fragmotion/skeleton/kinematics.hpp"
+#include "fragmotion/motion/clip.hpp"
 
 namespace fragmotion {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fragmotion/base/simd.hpp"
-#include "fragmotion/fragments/fragment.hpp"
+#include "fragmotion/motion/clip.hpp"
 
 namespace fragmotion {
 
@@ -56,11 +56,5 @@ void check(const PackedClip& clip, const Skeleton& skeleton);
 /// As those of Clip (pose.hpp), but that between frames rotations go straight and are made unit again.
 Vector3 sample_pose(const PackedClip& clip, double at, double* rotations);
 CharacterFrame frame_at(const PackedClip& clip, double at);
-
-/// Fragments and the packed clips that hold their poses.
-using PackedPool = Pool<PackedClip>;
-
-/// Packs the clips of a pool; the result does not depend on the number of threads.
-PackedPool pack(const FragmentPool& pool, int threads = 0);
 
 }  // namespace fragmotion

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fragmotion/skeleton/kinematics.hpp"
+#include "fragmotion/motion/clip.hpp"
 
 namespace fragmotion {
+
+/// A pose in the world: the hips' place, where the character faces (rad), and rotations [bones, 4] as in Clip.
+struct WorldPose {
+  Vector3 root = Vector3::Zero();
+  double heading = 0;
+  std::vector<double> rotations;
+};
 
 /// Rotations a and b [bones, 4] interpolated on the shorter arc: out = slerp(a, b, weight). `out` may be a or b.
 void blend_rotations(const double* a, const double* b, double weight, int bones, double* out);

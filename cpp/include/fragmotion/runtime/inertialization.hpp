@@ -4,16 +4,9 @@
 #include <vector>
 
 #include "fragmotion/base/simd.hpp"
-#include "fragmotion/base/types.hpp"
+#include "fragmotion/motion/pose.hpp"
 
 namespace fragmotion {
-
-/// A pose in the world: the hips' place, where the character faces (rad), and rotations [bones, 4] as in Clip.
-struct WorldPose {
-  Vector3 root = Vector3::Zero();
-  double heading = 0;
-  std::vector<double> rotations;
-};
 
 /// How far bones are turned from their motion, as modified Rodrigues parameters, and that a second: x, y and z apart.
 struct BoneOffsets {

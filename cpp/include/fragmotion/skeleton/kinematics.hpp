@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "fragmotion/motion/clip.hpp"
+#include "fragmotion/skeleton/skeleton.hpp"
 
 namespace fragmotion {
 
@@ -38,15 +38,6 @@ class Kinematics {
   /// Only the hips, the bones above them and those of `bones`, which hang on each other and on the hips, in order.
   void world(const Vector3& root_position, const double* rotations, const std::vector<int>& bones, Vector3* heads,
              Quaternion* orientations) const;
-
-  void world(const Clip& clip, int index, Vector3* heads, Quaternion* orientations) const {
-    world(clip, index, parts_->below, heads, orientations);
-  }
-  void world(const Clip& clip, int index, const std::vector<int>& bones, Vector3* heads,
-             Quaternion* orientations) const {
-    world(load_vector(&clip.root_positions[3 * index]), &clip.rotations[std::size_t{4} * this->bones() * index], bones,
-          heads, orientations);
-  }
 
   /// The bones between the hips and those given, and these.
   std::vector<int> chains(const std::vector<int>& ends) const;

@@ -21,8 +21,8 @@ struct Leg {
 using Legs = std::array<Leg, 2>;
 
 /// The left and the right leg; none where the skeleton has not both. The knee is the joint that divides a leg most
-/// evenly; it bends as it does in the clips, or, where it never does, to the front of the rest pose.
-Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips);
+/// evenly; it bends to the front of the rest pose.
+Legs resting_legs(const Skeleton& skeleton);
 
 /// World places and rotations of all bones of one pose, which legs are bent in.
 struct PosedBones {
