@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# tests/fuzz/fuzz_*.cpp, each a libFuzzer program of its own (clang only; preset `fuzz`), and what makes the policy
+# tests/fuzz/fuzz_*.cpp, each a libFuzzer program of its own (clang only; preset `sanitize`), and what makes the policy
 # fuzzers' corpus.
 file(GLOB fragmotion_fuzzers CONFIGURE_DEPENDS tests/fuzz/fuzz_*.cpp)
 foreach(source ${fragmotion_fuzzers})

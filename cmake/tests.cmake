@@ -12,5 +12,6 @@ include(GoogleTest)
 add_executable(fragmotion_tests ${fragmotion_test_sources})
 target_include_directories(fragmotion_tests PRIVATE cpp/src tests/cpp)
 target_link_libraries(fragmotion_tests PRIVATE fragmotion GTest::gtest_main)
-target_compile_options(fragmotion_tests PRIVATE -Wall -Wextra -Wpedantic)
+# What is debugged and sanitized is the core; its tests are compiled in half the time without optimisation.
+target_compile_options(fragmotion_tests PRIVATE -Wall -Wextra -Wpedantic $<$<CONFIG:Debug>:-O0>)
 gtest_discover_tests(fragmotion_tests WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 60)

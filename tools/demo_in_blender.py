@@ -11,10 +11,13 @@ import sys
 from collections import Counter
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
+
+if TYPE_CHECKING:
+    from fragmotion_core import Doubles
 
 SAMPLES = Path(__file__).resolve().parent.parent / "sample_rigs"
 sys.path.insert(0, str(SAMPLES))
@@ -68,7 +71,7 @@ def bake(trace: Path) -> bpy.types.Action:
     return action
 
 
-def watch(armature: bpy.types.Object, bones: dict[str, str]) -> tuple[np.ndarray, np.ndarray]:
+def watch(armature: bpy.types.Object, bones: dict[str, str]) -> tuple[Doubles, Doubles]:
     """What Blender shows as the scene plays: ground position [F,2] of the hips and where they face [F], rad from +y."""
     scene, places, rights = bpy.context.scene, [], []
     for frame in range(scene.frame_start, scene.frame_end + 1):
@@ -81,7 +84,7 @@ def watch(armature: bpy.types.Object, bones: dict[str, str]) -> tuple[np.ndarray
     return np.array(places), np.unwrap(np.arctan2(right[:, 1], right[:, 0]))
 
 
-def velocity_errors(places: np.ndarray, headings: np.ndarray, trace: np.ndarray) -> str:
+def velocity_errors(places: Doubles, headings: Doubles, trace: Doubles) -> str:
     """Mean distance of the hips' velocity from the commanded one, over a second (a step sways) and frame by frame."""
     controls = trace[np.arange(len(places) - 1) * 10 // FPS]
     cosine, sine = np.cos(headings[:-1]), np.sin(headings[:-1])
@@ -108,7 +111,7 @@ def count_fragments(character: Any) -> str:
     )
 
 
-def qualities(character: Any, trace: np.ndarray) -> str:
+def qualities(character: Any, trace: Doubles) -> str:
     """Every policy's quality on the trace; the first drives."""
     return ", ".join(f"{name} {character.percent_of_optimal(trace, name):.1f} %" for name in character.policies)
 

@@ -43,7 +43,7 @@ def fuzz(seconds: float, selected: list[str]) -> Result:
     unknown = sorted(set(selected) - set(names()))
     if unknown:
         raise Failure(f"there is no fuzzer {', '.join(unknown)}; the fuzzers are {', '.join(names())}")
-    folder = compile_preset("fuzz")
+    folder = compile_preset("sanitize", *(f"fuzz_{name}" for name in selected))
     jobs = min(os.cpu_count() or 1, len(selected))
     share = max(1, round(seconds * jobs / len(selected)))
     with ThreadPoolExecutor(jobs) as pool:

@@ -53,6 +53,7 @@ class Needs:
 
 BUILD_311 = Needs(_BUILD_PACKAGES, {"3.11": _BUILD_REQUIREMENTS})
 BUILD_313 = Needs(_BUILD_PACKAGES, {"3.13": _BUILD_REQUIREMENTS})
+STYLE = Needs(("python3-venv",), {"3.11": ("clang-format==14.0.6", "mypy==2.4.1", "numpy", "ruff==0.17.6")})
 CPP_TESTS = BUILD_311 | Needs(_CPP_TEST_PACKAGES)
 SANITIZED_TESTS = CPP_TESTS | Needs(_CLANG_PACKAGES)
 FUZZ = BUILD_311 | Needs(_CLANG_PACKAGES)

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from tools import blender, environments, fuzzing, machine, packages
+from tools import blender, environments, fuzzing, machine, packages, style
 from tools.compiling import compile_preset, installed_core
 from tools.paths import LOGS, TOP
 from tools.shell import Failure, run, say
@@ -36,6 +36,14 @@ class Counts:
         return Counts(self.passed + other.passed, self.failed + other.failed, self.skipped + other.skipped)
 
 
+def style_checks(expression: str | None) -> Counts:
+    """How the code is written; `expression` selects nothing."""
+    passed, failures = style.check()
+    for failure in failures:
+        say(failure)
+    return Counts(passed, len(failures))
+
+
 def cpp(expression: str | None) -> Counts:
     """GoogleTest through ctest; `expression` is a regular expression here."""
     return _ctest("cpp", "release", expression)
@@ -43,12 +51,12 @@ def cpp(expression: str | None) -> Counts:
 
 def sanitize(expression: str | None) -> Counts:
     """The same tests under the address and undefined-behaviour sanitizers; `expression` as in cpp."""
-    return _ctest("sanitize", "sanitize", expression)
+    return _ctest("sanitize", "sanitize", expression, "fragmotion_tests")
 
 
 def threads(expression: str | None) -> Counts:
     """The tests that start threads, under the thread sanitizer; `expression` as in cpp."""
-    return _ctest("threads", "thread", expression or _THREADED_TESTS)
+    return _ctest("threads", "thread", expression or _THREADED_TESTS, "fragmotion_tests")
 
 
 def fuzz(expression: str | None) -> Counts:
@@ -116,8 +124,8 @@ def gui_tests() -> list[Path]:
     return list((TOP / "tests" / "gui").glob("test_*.py"))
 
 
-def _ctest(stage: str, preset: str, expression: str | None) -> Counts:
-    folder = compile_preset(preset)
+def _ctest(stage: str, preset: str, expression: str | None, *targets: str) -> Counts:
+    folder = compile_preset(preset, *targets)
     selection = ["--tests-regex", expression] if expression else []
     report = _fresh_report(stage)
     options = ["--output-on-failure", "--output-junit", str(report), "--parallel", str(os.cpu_count() or 1)]

@@ -22,6 +22,7 @@ class Stage:
 
 
 STAGES = {
+    "style": Stage(stages.style_checks, lambda: machine.STYLE),
     "cpp": Stage(stages.cpp, lambda: machine.CPP_TESTS),
     "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS),
     "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),

@@ -142,7 +142,7 @@ def _move_object(stage: Stage, frames: Doubles) -> tuple[Doubles, Doubles]:
     """The object's own locations [F,3] and rotations [F,4] that carry its origin along character frames [F,3]."""
     turns = about_z(frames[:, 2] - stage.origin[2])
     above = np.array(Matrix(stage.place.above.tolist()).to_quaternion())
-    own = multiply(multiply(above * (1, -1, -1, -1), multiply(turns, above)), stage.turn)
+    own = multiply(multiply(above * (1.0, -1.0, -1.0, -1.0), multiply(turns, above)), stage.turn)
     heads = np.column_stack((frames[:, :2], np.full(len(frames), stage.world[2, 3]), np.ones(len(frames))))
     return (heads @ np.linalg.inv(stage.place.above).T)[:, :3], own
 

@@ -209,9 +209,15 @@ def load(obj: bpy.types.Object) -> Character:
 def make_player(obj: bpy.types.Object, character: Character, seed: int, policy: str = "") -> Player:
     """What plays the character, with the armature's settings of how it moves."""
     feel = obj.fragmotion.feel
-    return core.Player(
-        character, seed, policy=policy, responsiveness=feel.promptness, root_adjustment=feel.pull, lock_feet=feel.lock_feet
+    player: Player = core.Player(
+        character,
+        seed,
+        policy=policy,
+        responsiveness=feel.promptness,
+        root_adjustment=feel.pull,
+        lock_feet=feel.lock_feet,
     )
+    return player
 
 
 def load_to_draw(obj: bpy.types.Object) -> Character:

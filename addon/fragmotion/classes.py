@@ -19,11 +19,17 @@ if TYPE_CHECKING:
 class Session(Protocol):
     """What a drive in progress tells of itself."""
 
-    armature: str
-    """The name of the armature object that it moves."""
-    player: Player
-    control: Sequence[float]
-    """The command now, [4] as in a trace."""
+    @property
+    def armature(self) -> str:
+        """The name of the armature object that it moves."""
+
+    @property
+    def player(self) -> Player:
+        """What plays."""
+
+    @property
+    def control(self) -> Sequence[float]:
+        """The command now, [4] as in a trace."""
 
 
 session: Session | None = None

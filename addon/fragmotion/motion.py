@@ -61,7 +61,8 @@ def resampled(times: Doubles, motion: Motion, rate: float) -> Motion:
 
     def between(values: Doubles) -> Doubles:
         share = weight.reshape(-1, *[1] * (values.ndim - 1))
-        return (1 - share) * values[before] + share * values[after]
+        mixed: Doubles = (1 - share) * values[before] + share * values[after]
+        return mixed
 
     near = _same_side(motion.rotations[before], motion.rotations[after])
     share = weight[:, None, None]
@@ -174,7 +175,8 @@ def _to_vector(rotations: Doubles) -> Doubles:
     rotations = _same_side(np.array([1.0, 0, 0, 0]), rotations)
     sines = np.linalg.norm(rotations[..., 1:], axis=-1, keepdims=True)
     angles = 2 * np.arctan2(sines, rotations[..., :1])
-    return np.where(sines > 0, angles / np.where(sines > 0, sines, 1), 2) * rotations[..., 1:]
+    vector: Doubles = np.where(sines > 0, angles / np.where(sines > 0, sines, 1), 2) * rotations[..., 1:]
+    return vector
 
 
 def _from_vector(vectors: Doubles) -> Doubles:

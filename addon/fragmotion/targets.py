@@ -48,7 +48,7 @@ def write(
     settings: Any,
 ) -> bpy.types.Action:
     """Write the tracks and let the armature play them; on an error the file is as before."""
-    times = target.first + np.arange(len(classes), dtype=float)
+    times = np.asarray(target.first + np.arange(len(classes)), dtype=float)
     with _whole_or_not_at_all(context, obj, target.action):
         action = target.action or bpy.data.actions.new(target.name)
         if target.kind != "CURRENT":

@@ -292,8 +292,8 @@ class Player:
     ) -> None:
         """`stitch`: seconds that a stitch takes, 0 .. 1; `policy`: one of the character's (default: the one that
         drives); `stitching`: "inertialize" or the paper's "crossfade"; `lock_feet`: planted feet stay where they are;
-        `root_adjustment`: how much the root does of the command beyond its fragments, 0 .. 1; `responsiveness`: how soon a fragment is left when the
-        control changes a lot, 0 (where the next one joins best) .. 1 (at once)."""
+        `root_adjustment`: how much the root does of the command beyond its fragments, 0 .. 1; `responsiveness`: how
+        soon a fragment is left when the control changes a lot, 0 (where the next one joins best) .. 1 (at once)."""
     def reset(self, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
         """Stand at a place, facing `heading` (radians, counter-clockwise from +y), and draw again from the seed: after
         a reset the same steps show the same poses."""

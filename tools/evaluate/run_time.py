@@ -101,7 +101,12 @@ STITCHINGS: dict[str, dict[str, Any]] = {
     "responsiveness 0.5 (default)": {},
     "responsiveness 1": {"responsiveness": 1.0},
     "feet not planted": {"lock_feet": False},
-    "plain, as in the paper": {"stitching": "crossfade", "lock_feet": False, "root_adjustment": 0.0, "responsiveness": 1.0},
+    "plain, as in the paper": {
+        "stitching": "crossfade",
+        "lock_feet": False,
+        "root_adjustment": 0.0,
+        "responsiveness": 1.0,
+    },
 }
 """Ways to play one and the same table."""
 

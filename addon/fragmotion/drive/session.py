@@ -42,7 +42,7 @@ class Session:
 
     def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, seed: int, policy: str) -> None:
         context.view_layer.update()
-        self.obj, self._name = obj, obj.name
+        self.obj, self._name = obj, str(obj.name)
         self.seed = self.settings.seed if seed < 0 else seed
         self.actor = Actor(obj, self.seed, policy)
         self._data, self._bones = obj.data, len(obj.pose.bones)
@@ -66,7 +66,7 @@ class Session:
     def armature(self) -> str:
         """The armature object's name; where it was deleted, the last one."""
         if is_alive(self.obj):
-            self._name = self.obj.name
+            self._name = str(self.obj.name)
         return self._name
 
     @property

@@ -10,6 +10,7 @@
 #include "fragmotion/character/character.hpp"
 #include "fragmotion/character/policy_file.hpp"
 #include "fragmotion/control/simulated_players.hpp"
+#include "fragmotion/evaluate/performance.hpp"
 #include "fragmotion/policy/greedy.hpp"
 #include "fragmotion/runtime/player.hpp"
 #include "mocap_files.hpp"
@@ -340,7 +341,7 @@ int frames_that_a_foot_lock_moves(const std::shared_ptr<const Character>& c) {
   free.lock_feet = false;
   Player locked(c), unlocked(c, free);
   const Trace trace = simulate_trace("explorer", 10, 4, c->space);
-  const Performance a = locked.run(trace, 30), b = unlocked.run(trace, 30);
+  const Performance a = perform(locked, trace, 30), b = perform(unlocked, trace, 30);
   const std::size_t width = a.rotations.size() / a.frames;
   int moved = 0;
   for (int f = 0; f < a.frames; ++f) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "fragmotion/classes/clustering.hpp"
 #include "fragmotion/policy/anticipate.hpp"
 #include "fragmotion/policy/greedy.hpp"
 #include "fragmotion/policy/policy.hpp"
