@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Run in a Blender with a window by test_windows.py: drive with two windows, take away what a drive stands on, undo.
 
-Arguments after `--`: the add-on's zip, the folder for pictures.
+It takes no picture: a screenshot with two windows open disturbs Debian's Blender 3.4.1 (without any add-on it leaves a
+memory block that is not freed), which then crashes some steps after one of them was closed.
+
+Arguments after `--`: the add-on's zip, and a folder that stays empty.
 """
 
 from __future__ import annotations
@@ -132,7 +135,6 @@ def hear_both_windows(before: list[Any]) -> Iterator[None]:
     yield from go_on(2)
     assert driven.readings.control.forward == 0, "a key over the Properties drives"
     yield from send(first, "W", "RELEASE", PROPERTIES)
-    yield from window.picture("1 two windows")
     yield from send(second, "ESC", "PRESS")
     yield from assert_nothing_is_left(before)
 
