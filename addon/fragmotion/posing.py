@@ -103,15 +103,16 @@ def playing(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types
     )
     pose = pose_of(obj)
     data = obj.animation_data or obj.animation_data_create()
-    use_nla, position = data.use_nla, obj.data.pose_position
+    armature, use_nla, position = obj.data, data.use_nla, obj.data.pose_position
     try:
-        data.use_nla, obj.data.pose_position = False, "POSE"
+        data.use_nla, armature.pose_position = False, "POSE"
         reset_pose(obj)
         versions.assign(obj, action)
         yield
     finally:
+        armature.pose_position = position  # first, as another object may show it when this one was deleted
         versions.restore(obj, played)
-        data.use_nla, obj.data.pose_position = use_nla, position
+        data.use_nla = use_nla
         if not had_data:
             obj.animation_data_clear()
         _go_to(context.scene, frame)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from contextlib import ExitStack
+from contextlib import ExitStack, nullcontext, suppress
 from typing import TYPE_CHECKING
 
 import bpy
@@ -12,6 +12,7 @@ import bpy
 from . import building, posing
 from .baking import check_skeleton
 from .core import core
+from .drive.scene_state import is_alive
 from .keys import from_quaternions
 from .rigs import make_rig
 
@@ -33,6 +34,7 @@ class Solo:
         self._rig, self._obj, self._number = make_rig(obj), obj, number
         check_skeleton(obj, character, self._rig)
         place = obj.matrix_world
+        self._name, self._data, self._bones = obj.name, obj.data, len(obj.pose.bones)
         self._place = (place.translation.x, place.translation.y, place.to_euler().z + math.pi)
         self._reach = _FURTHEST / character.space.scale
         self._order = [obj.data.bones.find(bone.name) for bone in obj.pose.bones]
@@ -60,9 +62,17 @@ class Solo:
         if math.dist(root[:2], self._place[:2]) > self._reach:
             self._begin()
 
+    def trouble(self) -> str:
+        """Why it cannot play on, empty where it can."""
+        if not is_alive(self._obj):
+            return f"Armature '{self._name}' was deleted"
+        changed = self._obj.data != self._data or len(self._obj.pose.bones) != self._bones
+        return f"The bones of armature '{self._obj.name}' were changed" if changed else ""
+
     def end(self) -> None:
-        """Put armature and scene back."""
-        self._stack.close()
+        """Put armature and scene back; an armature that was deleted stays deleted."""
+        with nullcontext() if is_alive(self._obj) else suppress(ReferenceError):
+            self._stack.close()
 
     def _begin(self) -> None:
         self._player.reset(*self._place)

@@ -181,6 +181,17 @@ def test_the_preview_plays_the_class_alone_and_puts_everything_back(addon: Modul
     assert obj.matrix_world == place
 
 
+def test_the_preview_of_a_deleted_armature_says_so_and_ends(addon: ModuleType, obj: bpy.types.Object) -> None:
+    armature, name = obj.data, obj.name
+    armature.pose_position = "REST"
+    solo = addon.solo.Solo(bpy.context, obj, 0)
+    assert solo.trouble() == "" and armature.pose_position == "POSE"
+    bpy.data.objects.remove(obj)
+    assert solo.trouble() == f"Armature '{name}' was deleted"
+    solo.end()
+    assert armature.pose_position == "REST"
+
+
 def test_the_inspector_shows_the_best_and_the_chosen(addon: ModuleType, obj: bpy.types.Object) -> None:
     core, character = addon.core.core, addon.building.load(obj)
     settings = bpy.context.window_manager.fragmotion.inspector

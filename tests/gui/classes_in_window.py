@@ -119,6 +119,13 @@ def steps() -> Iterator[None]:
     bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE), load_ui=False)
     yield from seconds(0.2)
     assert solo.current is None and solo._timer is None, "a preview outlives its file"
+
+    making.activate(bpy.data.objects[making.ARMATURE])
+    press(bpy.ops.fragmotion.build, "EXEC_DEFAULT", True, synthesize=False)
+    press(bpy.ops.fragmotion.solo_class)
+    bpy.data.objects.remove(bpy.data.objects[making.ARMATURE])
+    yield from until(lambda: solo.current is None, "the end of a preview without its armature", 40)
+    assert solo._timer is None
     show_all()
     print("SESSION PASSED")
 

@@ -65,14 +65,25 @@ class FRAGMOTION_OT_solo_class(bpy.types.Operator):
             stop()
             return {"FINISHED"}
         if event.type == "TIMER":
-            now = time.perf_counter()
-            current.step(min(now - self._before, _LONGEST))
-            self._before = now
-            views.tag_redraw()
+            trouble = self._go_on(current)
+            if trouble:
+                stop()
+                self.report({"WARNING"}, f"The preview has ended: {trouble}")
+                return {"CANCELLED"}
         return {"PASS_THROUGH"} if event.type.startswith(_NAVIGATION) else {"RUNNING_MODAL"}
 
+    def _go_on(self, solo: Solo) -> str:
+        """Play on by the time since the last step; why that cannot be, empty where it can."""
+        now = time.perf_counter()
+        trouble = solo.trouble()
+        if not trouble:
+            solo.step(min(now - self._before, _LONGEST))
+            views.tag_redraw()
+        self._before = now
+        return trouble
+
     def cancel(self, _context: bpy.types.Context) -> None:
-        """Blender ends the operator: another file is loaded, or Blender quits."""
+        """Blender ends the operator: its window is closed, another file is loaded, or Blender quits."""
         stop()
 
 
@@ -81,7 +92,8 @@ def stop() -> None:
     global current, _timer
     if _timer is not None:
         bpy.context.window_manager.event_timer_remove(_timer)
-        bpy.context.workspace.status_text_set(None)
+        if bpy.context.workspace is not None:  # there is none where no window is the context's
+            bpy.context.workspace.status_text_set(None)
     solo, current, _timer = current, None, None
     if solo is not None:
         solo.end()
