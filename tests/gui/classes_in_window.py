@@ -121,6 +121,7 @@ def steps() -> Iterator[None]:
     assert solo.current is None and solo._timer is None, "a preview outlives its file"
 
     making.activate(bpy.data.objects[making.ARMATURE])
+    press(bpy.ops.fragmotion.tick_actions, "EXEC_DEFAULT", True, use=True)
     press(bpy.ops.fragmotion.build, "EXEC_DEFAULT", True, synthesize=False)
     press(bpy.ops.fragmotion.solo_class)
     bpy.data.objects.remove(bpy.data.objects[making.ARMATURE])
