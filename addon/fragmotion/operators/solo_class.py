@@ -69,7 +69,7 @@ class FRAGMOTION_OT_solo_class(bpy.types.Operator):
             if trouble:
                 stop()
                 self.report({"WARNING"}, f"The preview has ended: {trouble}")
-                return {"CANCELLED"}
+                return {"FINISHED"}
         return {"PASS_THROUGH"} if event.type.startswith(_NAVIGATION) else {"RUNNING_MODAL"}
 
     def _go_on(self, solo: Solo) -> str:
