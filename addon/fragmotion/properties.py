@@ -378,15 +378,16 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
 class FeelSettings(bpy.types.PropertyGroup):
     """How the character moves when it is driven and baked, whatever its policy."""
 
+    # PlayerOptions' responsiveness and root_adjustment, under the names that saved files have.
     promptness: _factor(  # type: ignore[valid-type]
-        "Promptness",
+        "Responsiveness",
         "How soon the character answers when the stick moves a lot: at 0 it waits, half a second at most, for the "
         "moment where what it does next joins on best; at 1 it answers at once, and its feet may slide",
         0.5,
     )
     pull: _factor(  # type: ignore[valid-type]
-        "Pull",
-        "How much the body is pulled to what the stick says, over what its takes do: at 0 it moves as the actor did, "
+        "Root Adjustment",
+        "How much the body does of what the stick says beyond what its takes do: at 0 it moves as the actor did, "
         "at 1 it goes and turns up to two fifths faster, slower or aside",
         1.0,
     )

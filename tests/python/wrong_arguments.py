@@ -122,8 +122,8 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "policy": "",
         "stitching": "crossfade",
         "lock_feet": True,
-        "pull": 1.0,
-        "promptness": 0.5,
+        "root_adjustment": 1.0,
+        "responsiveness": 0.5,
     }
     quiet: core.Progress = lambda *_: None  # noqa: E731
     building = {"skeleton": skeleton, "clips": clips, "traces": [trace], "options": options, "progress": quiet}

@@ -187,7 +187,7 @@ std::pair<double, double> joined(double responsiveness) {
   return {apart, waited};
 }
 
-TEST(Player, PromptnessIsPaidForWithWorseStitches) {
+TEST(Player, ResponsivenessIsPaidForWithWorseStitches) {
   const auto [rough, soon] = joined(1);
   const auto [smooth, late] = joined(0);
   EXPECT_LT(soon, late);

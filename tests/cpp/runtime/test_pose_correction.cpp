@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "fragmotion/runtime/pose_correction.hpp"
+#include "small_character.hpp"
+
+namespace fragmotion {
+namespace {
+
+// The fragment that goes forward fastest.
+int forward_fragment(const Character& c) {
+  int best = 0;
+  for (std::size_t i = 0; i < c.pool.fragments.size(); ++i) {
+    const Control &ev = c.pool.fragments[i].evident, &most = c.pool.fragments[best].evident;
+    if (ev.jump < 0.1 && ev.y - std::abs(ev.x) > most.y - std::abs(most.x)) best = static_cast<int>(i);
+  }
+  return best;
+}
+
+// How far the character gets in half a second in which only the root adjustment moves it, m in its own frame, and the
+// angle that it turns by, rad.
+std::pair<Vector2, double> adjusted(double adjustment, const Control& beyond) {
+  const auto character = gait_character();
+  Workspace workspace(*character);
+  Playback playback(*character, workspace, Stitching::inertialize, 0.2);
+  PoseCorrection correction(*character, workspace, adjustment, true);
+  playback.reset(forward_fragment(*character), {});
+  const Control& ev = playback.evident();
+  const Control control{ev.x + beyond.x, ev.y + beyond.y, ev.turn + beyond.turn, 0};
+  for (int i = 0; i < 30; ++i) {
+    correction.adjust_root(control, 1.0 / 60, playback);
+    playback.show();
+  }
+  return {playback.frame().position, playback.frame().heading};
+}
+
+TEST(PoseCorrection, MovesTheRootByWhatIsMissingUpToALimit) {
+  const auto [still, straight] = adjusted(0, {0, 0.2, 1, 0});
+  EXPECT_LT(still.norm(), 1e-9);
+  EXPECT_NEAR(straight, 0, 1e-9);
+  const double little = adjusted(1, {0, 0.2, 0, 0}).first.y(), half = adjusted(0.5, {0, 0.2, 0, 0}).first.y(),
+               most = adjusted(1, {0, 100, 0, 0}).first.y(), speed = [] {
+                 const Character& c = *gait_character();
+                 return c.pool.fragments[forward_fragment(c)].evident.speed();
+               }();
+  EXPECT_GT(little, 0.06);
+  EXPECT_LT(little, 0.1);  // 0.2 m/s for half a second, eased in
+  EXPECT_NEAR(half, little / 2, 1e-6);
+  EXPECT_GT(most, little);
+  EXPECT_LT(most, 0.4 * speed * 0.5);
+}
+
+TEST(PoseCorrection, TurnsTheWayThatIsAsked) {
+  const auto left = adjusted(1, {0, 0, 0.3, 0}).second, right = adjusted(1, {0, 0, -0.3, 0}).second;
+  EXPECT_GT(left, 0.05);
+  EXPECT_NEAR(left, -right, 1e-9);
+}
+
+}  // namespace
+}  // namespace fragmotion
