@@ -4,8 +4,11 @@
 from __future__ import annotations
 
 import os
+import re
+import subprocess
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -46,17 +49,21 @@ def style_checks(expression: str | None) -> Counts:
 
 def cpp(expression: str | None) -> Counts:
     """GoogleTest through ctest; `expression` is a regular expression here."""
-    return _ctest("cpp", "release", expression)
+    folder = compile_preset("release")
+    selection = ["--tests-regex", expression] if expression else []
+    report = _fresh_report("cpp")
+    options = ["--output-on-failure", "--output-junit", str(report), "--parallel", str(os.cpu_count() or 1)]
+    return _counted(["ctest", "--test-dir", folder, *options, *selection], "cpp", {}, expression)
 
 
 def sanitize(expression: str | None) -> Counts:
     """The same tests under the address and undefined-behaviour sanitizers; `expression` as in cpp."""
-    return _ctest("sanitize", "sanitize", expression, "fragmotion_tests")
+    return _googletest("sanitize", "sanitize", expression)
 
 
 def threads(expression: str | None) -> Counts:
     """The tests that start threads, under the thread sanitizer; `expression` as in cpp."""
-    return _ctest("threads", "thread", expression or _THREADED_TESTS, "fragmotion_tests")
+    return _googletest("threads", "thread", expression or _THREADED_TESTS)
 
 
 def fuzz(expression: str | None) -> Counts:
@@ -124,12 +131,32 @@ def gui_tests() -> list[Path]:
     return list((TOP / "tests" / "gui").glob("test_*.py"))
 
 
-def _ctest(stage: str, preset: str, expression: str | None, *targets: str) -> Counts:
-    folder = compile_preset(preset, *targets)
-    selection = ["--tests-regex", expression] if expression else []
-    report = _fresh_report(stage)
-    options = ["--output-on-failure", "--output-junit", str(report), "--parallel", str(os.cpu_count() or 1)]
-    return _counted(["ctest", "--test-dir", folder, *options, *selection], stage, {}, expression)
+def _googletest(stage: str, preset: str, expression: str | None) -> Counts:
+    """The C++ tests in one process a processor, since sanitized ones take long to build the characters they share."""
+    program = compile_preset(preset, "fragmotion_tests") / "fragmotion_tests"
+    selection = [f"--gtest_filter={':'.join(_tests_that_match(program, expression))}"] if expression else []
+    shards = os.cpu_count() or 1
+
+    def run_shard(shard: int) -> Counts:
+        name = f"{stage}-{shard}"
+        options = ["--gtest_brief=1", f"--gtest_output=xml:{_fresh_report(name)}", *selection]
+        environment = {"GTEST_TOTAL_SHARDS": str(shards), "GTEST_SHARD_INDEX": str(shard)}
+        return _counted([program, *options], name, environment, expression)
+
+    with ThreadPoolExecutor(shards) as pool:
+        return sum(pool.map(run_shard, range(shards)), Counts())
+
+
+def _tests_that_match(program: Path, expression: str) -> list[str]:
+    answer = subprocess.run([program, "--gtest_list_tests"], capture_output=True, text=True, check=True, cwd=TOP)
+    suite, names = "", []
+    for line in answer.stdout.splitlines():
+        word = line.split("#")[0].strip()
+        if line.startswith(" "):
+            names.append(suite + word)
+        else:
+            suite = word
+    return [name for name in names if re.search(expression, name)]
 
 
 def _extension(sandbox: str) -> dict[str, str]:
