@@ -141,7 +141,8 @@ def make_options(settings: Any) -> Any:
 def keep(obj: bpy.types.Object, built: Built) -> None:
     """Store the character and its figures with the armature."""
     character, figures = built.character, obj.fragmotion.figures
-    data = character.to_bytes()
+    with core_errors():
+        data = character.to_bytes()
     keep_policy(obj, data)
     obj.fragmotion.digest = key_of(obj)
     _cache.clear()

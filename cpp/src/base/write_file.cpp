@@ -10,6 +10,7 @@
 #include <fstream>
 #else
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 
@@ -22,7 +23,8 @@ std::error_code system_error() {
 
 #ifdef _WIN32
 
-std::error_code write_new(const std::filesystem::path& path, const std::string& bytes) {
+std::error_code write_new(const std::filesystem::path& path, const std::string& bytes,
+                          const std::filesystem::file_status& /*old*/) {
   errno = 0;
   std::ofstream file(path, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -43,11 +45,14 @@ std::error_code write_all(int file, const std::string& bytes) {
   return fsync(file) == 0 ? std::error_code() : system_error();
 }
 
-// Writes a file that must not be there yet, onto the disk.
-std::error_code write_new(const std::filesystem::path& path, const std::string& bytes) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+// Writes a file that must not be there yet, onto the disk, for nobody else to read than the old one was.
+std::error_code write_new(const std::filesystem::path& path, const std::string& bytes,
+                          const std::filesystem::file_status& old) {
+  const bool replaces = old.type() == std::filesystem::file_type::regular;
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, replaces ? 0600 : 0666);
   if (file < 0) return system_error();
-  std::error_code error = write_all(file, bytes);
+  const auto mode = static_cast<mode_t>(old.permissions() & std::filesystem::perms::all);
+  std::error_code error = replaces && fchmod(file, mode) != 0 ? system_error() : write_all(file, bytes);
   if (close(file) != 0 && !error) error = system_error();
   return error;
 }
@@ -90,11 +95,8 @@ std::filesystem::path new_name() {
 std::error_code replace(const std::filesystem::path& path, const std::string& bytes,
                         const std::filesystem::file_status& old) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".", fresh = folder / new_name();
-  std::error_code error = write_new(fresh, bytes), ignored;
+  std::error_code error = write_new(fresh, bytes, old), ignored;
   if (error == std::errc::file_exists) return error;
-  if (!error && old.type() == std::filesystem::file_type::regular) {
-    std::filesystem::permissions(fresh, old.permissions() & std::filesystem::perms::all, error);
-  }
   if (!error) std::filesystem::rename(fresh, path, error);
   if (error) std::filesystem::remove(fresh, ignored);
   if (!error) settle_folder(folder);

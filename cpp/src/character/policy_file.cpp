@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <type_traits>
 
 #include "base/ranges.hpp"
+#include "base/read_file.hpp"
 #include "base/write_file.hpp"
 #include "character/policy_bytes.hpp"
 #include "fragmotion/base/utf8.hpp"
@@ -31,7 +31,6 @@ constexpr double kMost = 1e9;  // of what is in m/s, rad/s or a ratio: its squar
 constexpr double kHighest = 1e10;  // m of a floor: above any chain of bones at any place
 // Memory of the openings, which a player needs beside the file: a file takes at most 20 times its size, beyond 50 MB.
 constexpr std::size_t kRoom = 48000000, kTimes = 16;  // bytes, and for each byte of the file
-constexpr std::streamoff kLargestFile = 2000000000;   // bytes: some ten hours of motion at 120 frames a second
 
 std::uint64_t checksum(const char* data, std::size_t size) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
@@ -337,21 +336,6 @@ void check(const Character& c) {
   check_model(c.control_model);
   check_contacts(c);
   for (const Leg& leg : c.legs) require(std::abs(leg.hinge.norm() - 1) < 1e-6, "legs");
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  const auto fail = [&](const std::string& cause) {
-    throw std::invalid_argument("cannot read " + path.u8string() + cause);
-  };
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  if (exists(status) && !is_regular_file(status)) fail(": it is no regular file");
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const auto size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
-  if (size > kLargestFile) fail(": it is larger than " + std::to_string(kLargestFile / 1000000000) + " GB");
-  std::string bytes(static_cast<std::size_t>(std::max<std::streamoff>(0, size)), '\0');
-  if (!file.seekg(0) || !file.read(bytes.data(), size)) fail("");
-  return bytes;
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ Clip interpolated(const Kinematics& kinematics, const FragmentPool& pool, const 
                   double w, int tail) {
   const Clip &clip_a = pool.clips[a.clip], &clip_b = pool.clips[b.clip];
   const double seconds = (1 - w) * pool.seconds(a) + w * pool.seconds(b);
-  const int end = std::max(1, static_cast<int>(std::lround(seconds * clip_a.rate)));
+  const int shortest = static_cast<int>(std::ceil(kShortestFragment * clip_a.rate - 1e-6));
+  const int end = std::max({1, shortest, static_cast<int>(std::lround(seconds * clip_a.rate))});
   const CharacterFrame start_a = frame_at(clip_a, a.begin), start_b = frame_at(clip_b, b.begin);
   Clip result;
   result.name = clip_a.name + " + " + clip_b.name;

@@ -221,8 +221,9 @@ TEST(Bvh, NamesAFileThatCannotBeRead) {
   const TemporaryFolder folder;
   EXPECT_EQ(error_of([&] { read_bvh(folder.path() / "none.bvh"); }), "none.bvh: cannot be read");
   std::filesystem::create_directory(folder.path() / "folder.bvh");
-  EXPECT_EQ(error_of([&] { read_bvh(folder.path() / "folder.bvh"); }), "folder.bvh: cannot be read");
-  EXPECT_EQ(error_of([] { read_bvh("/dev/zero"); }), "zero: cannot be read");
+  EXPECT_EQ(error_of([&] { read_bvh(folder.path() / "folder.bvh"); }),
+            "folder.bvh: cannot be read, as it is no regular file");
+  EXPECT_EQ(error_of([] { read_bvh("/dev/zero"); }), "zero: cannot be read, as it is no regular file");
 }
 
 TEST(Bvh, EveryTruncationIsAnErrorAndNoCrash) {
@@ -284,7 +285,7 @@ TEST(Bvh, RefusesAFileLargerThanAnyTake) {
   const TemporaryFolder folder;
   const auto path = folder.write("large.bvh", kSmall);
   std::filesystem::resize_file(path, 2000000001);
-  EXPECT_EQ(error_of([&] { read_bvh(path); }), "large.bvh: is larger than 2 GB, which no take is: cannot be read");
+  EXPECT_EQ(error_of([&] { read_bvh(path); }), "large.bvh: cannot be read, as it is larger than 2 GB");
 }
 
 TEST(Bvh, ReadsAllTakesOfBandaiNamco) {
