@@ -24,9 +24,6 @@ class Stage:
 STAGES = {
     "style": Stage(stages.style_checks, lambda: machine.STYLE),
     "cpp": Stage(stages.cpp, lambda: machine.CPP_TESTS),
-    "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS),
-    "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
-    "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),
     "wheels": Stage(stages.wheels, machine.package_needs),
     "python": Stage(stages.python, lambda: machine.PYTHON_TESTS, ("wheels",)),
     "package": Stage(stages.package, machine.package_needs, ("wheels",)),
@@ -34,6 +31,9 @@ STAGES = {
     "blender-5.2": Stage(stages.blender_52, lambda: _needs_of_52(), ("package",)),
     "blender-3.4": Stage(stages.blender_34, lambda: machine.BLENDER_34, ("package",)),
     "gui": Stage(stages.gui, lambda: machine.WINDOWS if stages.gui_tests() else machine.Needs(), ("package",)),
+    "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS),
+    "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
+    "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),
 }
 
 
