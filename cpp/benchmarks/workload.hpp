@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fragmotion/character/character.hpp"
+#include "fragmotion/classes/clustering.hpp"
 
 namespace fragmotion::benchmarks {
 

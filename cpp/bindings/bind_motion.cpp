@@ -8,6 +8,7 @@
 #include "fragmotion/io/asf_amc.hpp"
 #include "fragmotion/io/bvh.hpp"
 #include "fragmotion/io/rotation.hpp"
+#include "fragmotion/motion/clip.hpp"
 #include "fragmotion/skeleton/kinematics.hpp"
 #include "fragmotion/skeleton/role_names.hpp"
 
@@ -93,7 +94,7 @@ Transforms clip_transforms(const Clip& clip, const Skeleton& skeleton) {
   std::vector<Vector3> heads(bones);
   std::vector<Quaternion> orientations(bones);
   for (int f = 0; f < clip.frames; ++f) {
-    world(kinematics, clip, f, heads.data(), orientations.data());
+    fragmotion::world(kinematics, clip, f, heads.data(), orientations.data());
     for (std::size_t b = 0; b < bones; ++b) {
       store_vector(heads[b], &world.positions[3 * (f * bones + b)]);
       store_quaternion(orientations[b], &world.rotations[4 * (f * bones + b)]);

@@ -6,6 +6,7 @@
 
 #include "arrays.hpp"
 #include "fragmotion/character/character.hpp"
+#include "fragmotion/classes/clustering.hpp"
 #include "fragmotion/policy/anticipate.hpp"
 #include "fragmotion/policy/greedy.hpp"
 #include "fragmotion/policy/iterate.hpp"
