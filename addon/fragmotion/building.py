@@ -244,12 +244,6 @@ def _decode(data: bytes, place: str) -> Character:
     """The character of a policy file's bytes; a UserError begins with the place."""
     with core_errors(place):
         character: Character = core.Character.from_bytes(data)
-    try:
-        "".join((*character.skeleton.names, *character.clip_names)).encode()
-    except UnicodeError:
-        raise UserError(
-            f"{place}: a bone or a take in it has a name that is not UTF-8: rename it, and build it again"
-        ) from None
     return character
 
 

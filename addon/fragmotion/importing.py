@@ -128,10 +128,6 @@ def _undone_on_error(context: bpy.types.Context) -> Iterator[None]:
 
 def _check_bones(file: TakeFile, take: Take, first_file: TakeFile, first: Take) -> None:
     """UserError where a take cannot go onto the first one's armature."""
-    try:
-        "".join(take.skeleton.names).encode()
-    except UnicodeError:
-        raise UserError(f"'{file.path}': the name of a bone is not UTF-8: save the file with UTF-8 names") from None
     missing = [name for name in take.skeleton.names if name not in first.skeleton.names]
     if missing:
         raise UserError(

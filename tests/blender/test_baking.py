@@ -150,14 +150,18 @@ def test_the_object_carries_the_character_and_its_root_bone_rests(
     np.testing.assert_allclose(root[:, :2], frames[:, :2], atol=1e-3)
 
 
-@pytest.mark.parametrize("feel", [{"promptness": 0.0}, {"pull": 0.25}, {"lock_feet": False}])
-def test_a_bake_moves_as_the_armature_is_set_to(addon: ModuleType, obj: bpy.types.Object, feel: dict[str, Any]) -> None:
+@pytest.mark.parametrize(
+    ("setting", "option", "value"),
+    [("promptness", "responsiveness", 0.0), ("pull", "root_adjustment", 0.25), ("lock_feet", "lock_feet", False)],
+)
+def test_a_bake_moves_as_the_armature_is_set_to(
+    addon: ModuleType, obj: bpy.types.Object, setting: str, option: str, value: Any
+) -> None:
     trace = np.repeat([(0, 1.2, 0, 0), (0, -1.2, 0, 0), (1.2, 0, 0, 0), (0, 3.0, 0, 0), (0, 1.2, 1, 0)], 9, axis=0)
     addon.takes.add_take(obj, trace, seed=SEED, start=(2, -1, 0.7 + np.pi))
-    usual, oracle = play(addon, obj, trace), play(addon, obj, trace, **feel)
+    usual, oracle = play(addon, obj, trace), play(addon, obj, trace, **{option: value})
     assert np.abs(oracle.heads - usual.heads).max() > 1e-3, "it makes no difference here"
-    for name, value in feel.items():
-        setattr(obj.fragmotion.feel, name, value)
+    setattr(obj.fragmotion.feel, setting, value)
     bake_take()
     assert_seen(obj, oracle)
 

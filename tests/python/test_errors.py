@@ -46,7 +46,7 @@ def test_errors_are_value_errors_that_name_the_cause(
         ("no controls", lambda: character.optimal(np.zeros((0, 4)))),
         ("shape", lambda: character.optimal(np.zeros(4))),
         ("policy", lambda: core.Character.from_bytes(b"nonsense")),
-        ("nowhere", lambda: core.Character.load("/nowhere/at/all")),
+        ("all: cannot be read", lambda: core.Character.load("/nowhere/at/all")),
         ("nowhere/at/all: No such file", lambda: character.save("/nowhere/at/all")),
         ("nowhere/at/all: No such file", lambda: core.write_trace("/nowhere/at/all", traces[0])),
         ("unheard", lambda: core.simulate_trace("unheard")),
