@@ -24,7 +24,7 @@ def mend(group: Any) -> int:
             count += mend(getattr(group, prop.identifier))
         elif prop.type == "COLLECTION":
             count += sum(mend(each) for each in getattr(group, prop.identifier))
-        elif not prop.is_readonly and not _is_within(prop, getattr(group, prop.identifier)):
+        elif not prop.is_readonly and not _is_sound(group, prop):
             group.property_unset(prop.identifier)
             count += 1
     return count
@@ -53,6 +53,13 @@ def _mend_file(*_: object) -> None:
             count = mend(data.fragmotion) if data.library is None and data.is_property_set("fragmotion") else 0
             if count:
                 print(f"Fragmotion: {count} settings of '{data.name}' were damaged; they have their default values now")
+
+
+def _is_sound(group: Any, prop: Any) -> bool:
+    try:
+        return _is_within(prop, getattr(group, prop.identifier))
+    except UnicodeDecodeError:
+        return False
 
 
 def _is_within(prop: Any, value: Any) -> bool:

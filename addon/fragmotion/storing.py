@@ -41,6 +41,8 @@ class _Save(NamedTuple):
     target: Path
     told: bool
     """Whether Blender said where it saves; else it is taken to be where the open file is."""
+    stamp: tuple[int, int] | None
+    """What tells whether the target was written: it is not where the startup file or, in 3.4, a copy is saved."""
     before: dict[str, _Kept]
     made: list[Path]
 
@@ -93,16 +95,19 @@ def _before_saving(path: object, *_: object) -> None:
     """Bring where the policies are in line with where they should be. Blender 3.4 does not tell the path."""
     global _save
     told = isinstance(path, str) and bool(path)
-    target = Path(str(path)).resolve() if told else _open_file()
+    name = str(path) if told else bpy.data.filepath
     troubles.clear()
     _save = None
-    if target is None:
+    if not name:
         return
-    _save = _Save(target, told, {obj.name: _kept(obj) for obj in _local_objects()}, [])
+    # Blender puts a new file in the place of a link: the policy goes beside that, not beside what the link leads to.
+    target = Path(name).parent.resolve() / Path(name).name
+    _save = _Save(target, told, _stamp(target), {}, [])
     for obj in _local_objects():
         try:
+            _save.before[obj.name] = _kept(obj)
             _settle(obj, _save)
-        except (OSError, UserError) as error:
+        except (OSError, UnicodeDecodeError, UserError) as error:
             troubles[obj.name] = str(error)
             print(f"Fragmotion: the policy of armature '{obj.name}' stays where it is: {error}")
 
@@ -115,10 +120,10 @@ def _after_saving(*_: object) -> None:
     if save is None:
         return
     blend = _open_file()
-    if save.target == blend:
-        with suppress(OSError):  # files that stay do no harm
+    if save.target == blend and _stamp(blend) != save.stamp:
+        with suppress(OSError, UnicodeDecodeError):  # files that stay do no harm
             _let_go(save)
-    elif save.told or blend is None:
+    elif save.target == blend or save.told or blend is None:
         _put_back(save)
     else:
         _follow(save, blend)
@@ -148,6 +153,15 @@ def _local_objects() -> Iterator[Any]:
 
 def _open_file() -> Path | None:
     return Path(bpy.data.filepath).resolve() if bpy.data.filepath else None
+
+
+def _stamp(path: Path) -> tuple[int, int] | None:
+    """What differs each time that Blender writes the file, which is in a new one; None where there is none."""
+    try:
+        status = path.lstat()
+    except OSError:
+        return None
+    return status.st_ino, status.st_mtime_ns
 
 
 def _digest(data: bytes) -> str:
@@ -201,8 +215,9 @@ def _name_for(obj: Any, digest: str, blend: Path) -> str:
 
 
 def _stem(blend: Path) -> str:
-    """Its name as Blender can keep it, which knows UTF-8 only."""
-    return blend.stem.encode(errors="replace").decode()
+    """Its name as Blender can keep it, which knows UTF-8 only, and as _PLAIN reads it. A backup has one of its own."""
+    name = blend.name[: -len(".blend")] if blend.name.endswith(".blend") else blend.name
+    return re.sub(r"[/\\:\x00-\x1f]", "_", name).encode(errors="replace").decode()
 
 
 def _put(path: Path, data: bytes, save: _Save) -> None:
@@ -279,7 +294,9 @@ def _let_go(save: _Save) -> None:
         return  # none was ever beside it
     backups: Counter[str] = Counter()
     for path, armature in _files_of(save.target):
-        if f"//{path.name}" not in used:
+        if f"//{path.name}" in used:
+            os.utime(path)  # used last, not just written
+        else:
             backups[armature] += 1
             if backups[armature] > bpy.context.preferences.filepaths.save_version:
                 _delete(path)

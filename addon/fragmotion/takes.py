@@ -32,6 +32,7 @@ _LONGEST = 24 * 3600 * TRACE_RATE  # controls; what claims to be longer than a d
 _MOST_BYTES = 1 << 28  # of what was shown: over an hour of 60 poses a second on 70 bones
 _MOST_CLASSES = 1 << 16
 _SAME_TIME = 1e-4  # s
+_FARTHEST = 1e9  # m, and rad: where the core's player still stands
 _FIELDS = ("name", "date", "seconds", "quality", "policy", "seed", "start", "train", "controls", "shown", "shown_bones")
 _BESIDE_BONES = 1 + 3 + 3 + 1  # columns of what was shown: time, root position, character frame, class
 
@@ -70,7 +71,7 @@ class Take(bpy.types.PropertyGroup):
     )
     controls: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     shown: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
-    shown_bones: IntProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    shown_bones: IntProperty(min=0, options={"HIDDEN"})  # type: ignore[valid-type]
 
 
 def add_take(
@@ -106,7 +107,7 @@ def add_take(
 def trace_of(take: Take) -> Doubles:
     """The take's trace [T,4], to the bit as it was given; UserError where the .blend is damaged."""
     trace: Doubles = _unpacked(take, take.controls, _NUMBER, _COLUMNS, _LONGEST * _COLUMNS * 8)
-    if not _is_trace(trace) or not np.isfinite(take.start).all():
+    if not _is_trace(trace) or not (np.abs(take.start) <= _FARTHEST).all():
         raise _damaged(take)
     return trace
 
@@ -115,6 +116,8 @@ def shown_of(take: Take) -> tuple[Doubles, Motion] | None:
     """The times [F] and poses that were shown while it was recorded, if kept; UserError where the .blend is damaged."""
     if not take.shown:
         return None
+    if take.shown_bones < 1:
+        raise _damaged(take)
     rows = _unpacked(take, take.shown, _SMALL, _BESIDE_BONES + 4 * take.shown_bones, _MOST_BYTES)
     times, roots, frames, classes = rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7]
     rotations = rows[:, _BESIDE_BONES:].reshape(len(rows), -1, 4)

@@ -257,6 +257,43 @@ def test_a_backup_of_the_file_keeps_its_policy(addon: ModuleType, small: Path) -
     assert addon.building.load(open_small(addon, small)).to_bytes() == before
 
 
+def test_saving_the_startup_file_lets_go_of_nothing(addon: ModuleType, small: Path) -> None:
+    obj = open_small(addon, small)
+    bpy.context.preferences.filepaths.save_version = 0
+    before = addon.building.load(obj).to_bytes()
+    rebuild(obj, seed=2)
+    bpy.ops.wm.save_homefile()
+    assert before in policies_in(small.parent)
+    assert addon.building.load(open_small(addon, small)).to_bytes() == before
+
+
+def test_a_file_saved_over_a_link_has_its_policy_beside_it(addon: ModuleType, small: Path, tmp_path: Path) -> None:
+    link = tmp_path / "links" / "small.blend"
+    link.parent.mkdir()
+    link.symlink_to(small)
+    expected = rebuild(open_small(addon, link), seed=2)
+    bpy.ops.wm.save_mainfile()
+    assert addon.building.load(open_small(addon, link)).to_bytes() == expected
+
+
+def test_a_backup_that_is_saved_itself_takes_nothing_from_its_file(addon: ModuleType, small: Path) -> None:
+    bpy.context.preferences.filepaths.save_version = 0
+    before = addon.building.load(open_small(addon, small)).to_bytes()
+    backup = small.with_suffix(".blend1")
+    shutil.copy(small, backup)
+    rebuild(open_small(addon, backup), seed=2)
+    bpy.ops.wm.save_as_mainfile(filepath=str(backup), check_existing=False)
+    assert addon.building.load(open_small(addon, small)).to_bytes() == before
+
+
+def test_a_policy_beside_a_file_of_any_name_is_read_again(addon: ModuleType, small: Path) -> None:
+    odd = small.with_name("walk 12:30.blend")
+    expected = addon.building.load(open_small(addon, small)).to_bytes()
+    bpy.ops.wm.save_as_mainfile(filepath=str(odd))
+    bpy.ops.wm.save_mainfile()
+    assert addon.building.load(open_small(addon, odd)).to_bytes() == expected
+
+
 def test_only_files_that_were_written_for_this_blend_are_let_go_of(addon: ModuleType, small: Path) -> None:
     (own,) = small.parent.glob("*.policy")
     data, digest = own.read_bytes(), own.name.split(".")[-2]

@@ -8,7 +8,7 @@ import os
 import struct
 import zlib
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -238,6 +238,19 @@ def test_a_policy_of_another_tree_of_the_armature_says_so(
         bones["upper_arm.L"].parent = None
     with pytest.raises(RuntimeError, match=r"bone 'upper_arm.L' does not hang on 'root'.*several bones have no parent"):
         bpy.ops.fragmotion.load_policy(filepath=path)
+
+
+@pytest.mark.parametrize(("field", "value"), [("start", (1e20, 0, 0)), ("shown_bones", -1)])
+def test_an_impossible_take_is_damaged_and_starts_no_drive(
+    addon: ModuleType, obj: bpy.types.Object, field: str, value: Any
+) -> None:
+    take = addon.takes.add_take(obj, np.tile((0, 1.2, 0, 0), (20, 1)))
+    take.shown = b"x"
+    with suppress(ValueError):  # out of the property's bounds, which a file need not keep
+        setattr(take, field, value)
+    with pytest.raises(addon.errors.UserError, match="is damaged"):
+        addon.takes.trace_of(take) if field == "start" else addon.takes.shown_of(take)
+    assert addon.drive.session.current is None
 
 
 def test_bone_names_of_another_encoding_are_taken_for_latin_1(

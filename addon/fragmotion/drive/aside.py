@@ -16,7 +16,8 @@ from ..posing import CHANNELS, get_channel, reset_pose
 NOTE = "fragmotion_put_aside"
 """Custom property of an armature object that is being driven."""
 
-_DAMAGES = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)  # by a note that no drive wrote
+# By a note that no drive wrote.
+_DAMAGES = (ArithmeticError, AttributeError, LookupError, ReferenceError, RuntimeError, TypeError, ValueError)
 
 
 def put_aside(obj: bpy.types.Object) -> None:

@@ -47,12 +47,13 @@ def _carry_recording() -> bool:
 def _go_on_after_undo(*_arguments: Any) -> None:
     """Heal what the step holds of the middle of a drive, and give the armature what was recorded: a step after it."""
     aside.heal()
-    for name, recording in _recordings:
+    recordings = list(_recordings)
+    _recordings.clear()
+    for name, recording in recordings:
         obj = bpy.data.objects.get(name)
         if obj is not None:
             add_take(obj, **recording)
             bpy.ops.ed.undo_push(message="Record")
-    _recordings.clear()
 
 
 def _heal(*_arguments: Any) -> None:

@@ -200,8 +200,10 @@ class Session:
         try:
             return is_alive(self.obj) and self._keep_recording()
         finally:
-            self._state.restore()  # first the frame: Blender poses the armature anew where it changes
-            self.give_back()
+            try:
+                self._state.restore()  # first the frame: Blender poses the armature anew where it changes
+            finally:
+                self.give_back()
 
 
 def _running(mean: float, value: float) -> float:
@@ -227,7 +229,11 @@ def replay(context: bpy.types.Context, obj: bpy.types.Object, take: Take, seed: 
     known = load(obj).policies if has_character(obj) else []
     chosen = policy or (take.policy if take.policy in known else "")
     driven = start(context, obj, take.seed if seed < 0 else seed, chosen)
-    driven.play(trace, begin)
+    try:
+        driven.play(trace, begin)
+    except BaseException:
+        stop(push=False)
+        raise
     return driven
 
 
