@@ -30,7 +30,9 @@ class Factors(NamedTuple):
     def save(self, path: Path, **others: core.Ints) -> None:
         """Write them with other arrays to an .npz file."""
         space = [getattr(self.space, name) for name in ("walk", "run", "turn_rate", "scale")]
-        np.savez(path, smoothness=self.smoothness, match=self.match, features=self.features, space=space, **others)
+        factors = {"smoothness": self.smoothness, "match": self.match, "features": self.features, "space": space}
+        arrays: dict[str, Any] = {**factors, **others}
+        np.savez(path, **arrays)
 
     @staticmethod
     def of_arrays(arrays: Any) -> Factors:

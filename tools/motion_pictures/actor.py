@@ -131,4 +131,5 @@ def add_mesh(
 
 def upright(picture: NDArray[Any]) -> NDArray[Any]:
     """First row at the top."""
-    return np.clip(picture[::-1], 0, 1)
+    clipped: NDArray[Any] = np.clip(picture[::-1], 0, 1)
+    return clipped
