@@ -19,6 +19,8 @@ class Stage:
     run: Callable[[str | None], Counts]
     needs: Callable[[], machine.Needs]
     after: tuple[str, ...] = ()
+    named_only: bool = False
+    """Whether it runs only where it is named, as it takes long."""
 
 
 STAGES = {
@@ -31,9 +33,9 @@ STAGES = {
     "blender-5.2": Stage(stages.blender_52, lambda: _needs_of_52(), ("package",)),
     "blender-3.4": Stage(stages.blender_34, lambda: machine.BLENDER_34, ("package",)),
     "gui": Stage(stages.gui, lambda: machine.WINDOWS if stages.gui_tests() else machine.Needs(), ("package",)),
-    "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS),
-    "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
-    "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),
+    "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS, named_only=True),
+    "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS, named_only=True),
+    "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ, named_only=True),
 }
 
 
@@ -48,12 +50,12 @@ class Result:
 
 
 def run_tests(names: list[str], expression: str | None) -> int:
-    """Run the named stages (all of them when none is named) and those they build on; non-zero when any failed."""
+    """Run the named stages and those they build on, all that need no name when none is; non-zero when any failed."""
     start = time.monotonic()
     unknown = [name for name in names if name not in STAGES]
     if unknown:
         raise Failure(f"there is no stage {', '.join(unknown)}; the stages are {', '.join(STAGES)}")
-    selected = _with_prerequisites(names or list(STAGES))
+    selected = _with_prerequisites(names or [name for name, stage in STAGES.items() if not stage.named_only])
     needs = machine.Needs()
     for name in selected:
         needs = needs | STAGES[name].needs()

@@ -283,9 +283,10 @@ std::vector<int> measured_bones(const Skeleton& skeleton) {
   const Roles& roles = skeleton.roles;
   const std::vector<BoneName> names = read_names(skeleton);
   const auto is_beyond = [&](int bone, int end) { return end >= 0 && bone != end && skeleton.is_below(bone, end); };
-  std::vector<int> bones;
-  for (int bone = std::max(roles.hips, 0); bone < skeleton.size(); ++bone) {
-    if (!skeleton.is_below(bone, std::max(roles.hips, 0))) continue;
+  const int hips = std::max(roles.hips, 0);
+  std::vector<int> bones{hips};  // whatever the roles are, Dis sums over something
+  for (int bone = hips + 1; bone < skeleton.size(); ++bone) {
+    if (!skeleton.is_below(bone, hips)) continue;
     const bool is_face = is_beyond(bone, roles.head);
     const bool is_hand_part = is_beyond(bone, roles.left_hand) || is_beyond(bone, roles.right_hand);
     // CMU's thumbs hang on the wrist beside the hand, so the place alone does not tell fingers.

@@ -412,5 +412,15 @@ TEST(MeasuredBones, LeaveOutFingersFaceAndWhatIsAboveTheHips) {
   EXPECT_EQ(skeleton.names[measured.back()], "toe.R");
 }
 
+TEST(MeasuredBones, HoldTheHipsWhateverTheRoles) {
+  Skeleton skeleton;
+  skeleton.names = {"head", "hips", "spine"};
+  skeleton.parents = {-1, 0, 1};
+  skeleton.rest_rotations.assign(3, Quaternion::Identity());
+  skeleton.offsets.assign(3, {0, 0, 1});
+  skeleton.tips = skeleton.offsets;
+  EXPECT_EQ(measured_bones(make_skeleton(skeleton)), std::vector<int>{1});
+}
+
 }  // namespace
 }  // namespace fragmotion
