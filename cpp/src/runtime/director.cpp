@@ -11,7 +11,6 @@ constexpr double kInstant = 1e-9;  // s: no time
 constexpr double kChange = 1;      // ControlDis between controls that is "a lot"
 constexpr double kHaste = 10;      // m, as Dis, that a second of waiting costs by default
 constexpr double kWorthIt = 0.05;  // s that must be left of a fragment for leaving it early
-constexpr double kInTheAir = 0.5;  // evident jump above which a fragment is played to its end
 
 // Whether what would play goes back from where is wanted, though what plays goes there: a table may find that such a
 // detour joins best, both ways.

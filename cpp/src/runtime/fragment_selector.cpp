@@ -8,7 +8,6 @@ namespace fragmotion {
 namespace {
 
 constexpr double kHop = 0.9;            // evident jump of what is no run
-constexpr double kInTheAir = 0.5;       // evident jump of what jumps
 constexpr double kJoinsWell = 1.3;      // times the Dis of the fragment that joins best, and
 constexpr double kJoinsNear = 0.3;      // m, summed as Dis, more
 constexpr double kAsWell = 0.5;         // of the way from the least error to the representative's

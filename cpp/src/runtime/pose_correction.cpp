@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fragmotion/runtime/fragment_selector.hpp"
+
 namespace fragmotion {
 namespace {
 
 constexpr double kMostAdjusted = 0.4;  // of a fragment's speed and of the turn rate
 constexpr double kAdjusting = 0.1;     // s: time constant of the adjustment
 constexpr double kStill = 0.2;         // m/s of a 1.8 m character, and of the turn rate, below which it stands
-constexpr double kInTheAir = 0.5;      // evident jump of what does not stand
 
 }  // namespace
 
