@@ -50,7 +50,7 @@ def main(arguments: list[str]) -> int:
             return testing.run_tests(options.stages, options.expression)
         if options.command == "fuzz":
             machine.set_up(machine.FUZZ)
-            return 1 if fuzzing.fuzz(options.seconds, options.names or fuzzing.names()).findings else 0
+            return 1 if fuzzing.fuzz_for(options.seconds, options.names or fuzzing.names()).findings else 0
         if options.command == "bench":
             return benchmarks.run_benchmarks(options.json)
         if options.command == "evaluate":

@@ -7,6 +7,7 @@ import os
 import re
 import shutil
 import subprocess
+import threading
 from pathlib import Path
 
 from tools.environments import environment_python, install_into
@@ -17,13 +18,17 @@ from tools.shell import Failure, run
 _GLIBC_OF_GLIBCXX = {29: 34, 30: 35, 31: 38, 32: 38, 33: 39}
 _OLDEST_GLIBC = 17
 
+# One compilation keeps all processors busy, and what the next one shares with it then comes out of the cache.
+_COMPILING = threading.Lock()
+
 
 def compile_preset(preset: str, *targets: str) -> Path:
     """Configure and build a preset of CMakePresets.json (all of it, or the targets); return its folder."""
     folder = BUILD / preset
-    run(["cmake", "--preset", preset], f"cmake-{preset}", _compiler_environment())
     selection = ["--target", *targets] if targets else []
-    run(["cmake", "--build", folder, *selection], f"build-{preset}", _compiler_environment())
+    with _COMPILING:
+        run(["cmake", "--preset", preset], f"cmake-{preset}", _compiler_environment())
+        run(["cmake", "--build", folder, *selection], f"build-{preset}", _compiler_environment())
     return folder
 
 
@@ -32,7 +37,9 @@ def build_wheel(python: str) -> Path:
     folder = BUILD / "wheels" / python
     shutil.rmtree(folder, ignore_errors=True)
     options = ("--disable-pip-version-check", "--no-deps", "--no-build-isolation", "--wheel-dir", str(folder))
-    run([environment_python(python), "-m", "pip", "wheel", *options, TOP], f"wheel-{python}", _compiler_environment())
+    interpreter = environment_python(python)
+    with _COMPILING:
+        run([interpreter, "-m", "pip", "wheel", *options, TOP], f"wheel-{python}", _compiler_environment())
     wheel = next(folder.glob("*.whl"))
     tag = _platform_tag(wheel)
     run([environment_python(python), "-m", "wheel", "tags", "--remove", "--platform-tag", tag, wheel], "wheel-tags")

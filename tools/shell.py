@@ -33,7 +33,7 @@ def run(
     echo: bool = False,
     timeout: float = 1800.0,
 ) -> None:
-    """Run a program from the top folder with its output in build/logs/LOG.log, and on the terminal with `echo`.
+    """Run a program from the top folder with its output in build/logs/LOG.log, and with `echo` on the terminal.
 
     Raises Failure with the command and the log's end when it fails or takes more than `timeout` seconds.
     """
@@ -43,14 +43,14 @@ def run(
     with path.open("w") as file:
         file.write(f"$ {shlex.join(words)}\n")
         file.flush()
-        code = _run_logged(words, file, {**os.environ, **(environment or {})}, echo, timeout)
+        code = _run_logged(words, file, {**os.environ, **(environment or {})}, f"{log}: " if echo else None, timeout)
     if code != 0:
         cause = f"was stopped after {timeout:.0f} s" if code == -signal.SIGKILL else f"failed with exit code {code}"
         tail = "" if echo else _tail(path)
         raise Failure(f"this {cause} (log: {path}):\n  {shlex.join(words)}{tail}")
 
 
-def _run_logged(words: list[str], file: TextIO, environment: dict[str, str], echo: bool, timeout: float) -> int:
+def _run_logged(words: list[str], file: TextIO, environment: dict[str, str], echo: str | None, timeout: float) -> int:
     try:
         process = subprocess.Popen(
             words,
@@ -71,8 +71,8 @@ def _run_logged(words: list[str], file: TextIO, environment: dict[str, str], ech
         assert process.stdout
         for line in process.stdout:
             file.write(line)
-            if echo:
-                print(line, end="", flush=True)
+            if echo is not None:
+                print(f"{echo}{line}", end="", flush=True)
         return process.wait()
     finally:
         timer.cancel()

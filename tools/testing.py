@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 
 from tools import machine, stages
@@ -19,23 +21,21 @@ class Stage:
     run: Callable[[str | None], Counts]
     needs: Callable[[], machine.Needs]
     after: tuple[str, ...] = ()
-    named_only: bool = False
-    """Whether it runs only where it is named, as it takes long."""
 
 
 STAGES = {
-    "style": Stage(stages.style_checks, lambda: machine.STYLE),
     "cpp": Stage(stages.cpp, lambda: machine.CPP_TESTS),
+    "style": Stage(stages.style_checks, lambda: machine.STYLE),
     "wheels": Stage(stages.wheels, machine.package_needs),
-    "python": Stage(stages.python, lambda: machine.PYTHON_TESTS, ("wheels",)),
     "package": Stage(stages.package, machine.package_needs, ("wheels",)),
+    "python": Stage(stages.python, lambda: machine.PYTHON_TESTS, ("wheels",)),
+    "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS),
     "blender-4.5": Stage(stages.blender_45, lambda: machine.BLENDER_45, ("package",)),
     "blender-5.2": Stage(stages.blender_52, lambda: _needs_of_52(), ("package",)),
     "blender-3.4": Stage(stages.blender_34, lambda: machine.BLENDER_34, ("package",)),
     "gui": Stage(stages.gui, lambda: machine.WINDOWS if stages.gui_tests() else machine.Needs(), ("package",)),
-    "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS, named_only=True),
-    "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS, named_only=True),
-    "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ, named_only=True),
+    "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
+    "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),
 }
 
 
@@ -50,21 +50,19 @@ class Result:
 
 
 def run_tests(names: list[str], expression: str | None) -> int:
-    """Run the named stages and those they build on, all that need no name when none is; non-zero when any failed."""
+    """Run the named stages and those they build on, all when none is named; non-zero when any failed."""
     start = time.monotonic()
     unknown = [name for name in names if name not in STAGES]
     if unknown:
         raise Failure(f"there is no stage {', '.join(unknown)}; the stages are {', '.join(STAGES)}")
-    selected = _with_prerequisites(names or [name for name, stage in STAGES.items() if not stage.named_only])
+    selected = _with_prerequisites(names or list(STAGES))
     needs = machine.Needs()
     for name in selected:
         needs = needs | STAGES[name].needs()
     machine.set_up(needs)
     say(f"set-up: ready after {time.monotonic() - start:.0f} s")
-    results: dict[str, Result] = {}
-    for name in selected:
-        results[name] = _run_stage(name, expression, results)
-    return _summarise(results, time.monotonic() - start)
+    results = _run_side_by_side(selected, expression)
+    return _summarise({name: results[name] for name in selected}, time.monotonic() - start)
 
 
 def _needs_of_52() -> machine.Needs:
@@ -77,6 +75,22 @@ def _with_prerequisites(names: list[str]) -> list[str]:
         if name in wanted:
             wanted.update(STAGES[name].after)
     return [name for name in STAGES if name in wanted]
+
+
+def _run_side_by_side(selected: list[str], expression: str | None) -> dict[str, Result]:
+    """As many stages at a time as there are processors, since most of Blender's tests keep but one of them busy."""
+    lanes = os.cpu_count() or 1
+    results: dict[str, Result] = {}
+    waiting, running = list(selected), dict[Future[Result], str]()
+    with ThreadPoolExecutor(lanes) as pool:
+        while waiting or running:
+            ready = [name for name in waiting if results.keys() >= set(STAGES[name].after)]
+            for name in ready[: lanes - len(running)]:
+                waiting.remove(name)
+                running[pool.submit(_run_stage, name, expression, dict(results))] = name
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                results[running.pop(future)] = future.result()
+    return results
 
 
 def _run_stage(name: str, expression: str | None, results: dict[str, Result]) -> Result:
