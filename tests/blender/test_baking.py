@@ -46,7 +46,7 @@ def obj(obj: bpy.types.Object) -> bpy.types.Object:
 @pytest.fixture
 def take(addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray) -> Any:
     """A take of the trace, selected."""
-    return addon.takes.add_take(obj, trace, name="Stroll", seed=SEED, start=(2, -1, 0.7 + np.pi))
+    return addon.recordings.recordings.add_take(obj, trace, name="Stroll", seed=SEED, start=(2, -1, 0.7 + np.pi))
 
 
 def play(
@@ -59,7 +59,7 @@ def play(
     **feel: Any,
 ) -> Oracle:
     """The trace played from the armature's place in the fixture `obj`."""
-    core, character = addon.core.core, addon.building.load(obj)
+    core, character = addon.compat.core.core, addon.character.building.load(obj)
     player = core.Player(character, SEED, policy=policy, **feel)
     player.reset(*(start or (2, -1, 0.7 + np.pi)))
     performance = player.run(trace, rate)
@@ -144,7 +144,7 @@ def test_the_object_carries_the_character_and_its_root_bone_rests(
     obj.matrix_parent_inverse = parent.matrix_world.inverted()
     bake_take(root="OBJECT")
     assert_seen(obj, play(addon, obj, trace))
-    character = addon.building.load(obj)
+    character = addon.character.building.load(obj)
     root = seen_at(obj, range(FIRST, FIRST + 100, 9), [character.skeleton.names[0]])[0][:, 0]
     frames = play(addon, obj, trace).performance.frames[:100:9]
     np.testing.assert_allclose(root[:, :2], frames[:, :2], atol=1e-3)
@@ -158,7 +158,7 @@ def test_a_bake_moves_as_the_armature_is_set_to(
     addon: ModuleType, obj: bpy.types.Object, setting: str, option: str, value: Any
 ) -> None:
     trace = np.repeat([(0, 1.2, 0, 0), (0, -1.2, 0, 0), (1.2, 0, 0, 0), (0, 3.0, 0, 0), (0, 1.2, 1, 0)], 9, axis=0)
-    addon.takes.add_take(obj, trace, seed=SEED, start=(2, -1, 0.7 + np.pi))
+    addon.recordings.recordings.add_take(obj, trace, seed=SEED, start=(2, -1, 0.7 + np.pi))
     usual, oracle = play(addon, obj, trace), play(addon, obj, trace, **{option: value})
     assert np.abs(oracle.heads - usual.heads).max() > 1e-3, "it makes no difference here"
     setattr(obj.fragmotion.feel, setting, value)
@@ -199,12 +199,12 @@ def test_a_take_that_was_seen_is_baked_as_it_was_seen(
     addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any
 ) -> None:
     oracle = play(addon, obj, trace)
-    played, motion = oracle.performance, addon.motion.Motion
+    played, motion = oracle.performance, addon.rig.motion.Motion
     shown = motion(played.root_positions, played.rotations, played.frames, played.classes)
     uneven = np.sort(np.random.default_rng(1).permutation(len(shown.classes))[:-20])  # a preview that left frames out
     uneven[[0, -1]] = 0, len(shown.classes) - 1
     some = motion(*(values[uneven] for values in shown))
-    addon.takes.set_shown(take, uneven / RATE, some)
+    addon.recordings.recordings.set_shown(take, uneven / RATE, some)
     take.seed = 99  # what was seen counts
     bake_take()
     heads, _ = seen_at(obj, FIRST + uneven[::5], oracle.names)
@@ -213,7 +213,7 @@ def test_a_take_that_was_seen_is_baked_as_it_was_seen(
     heads, _ = seen_at(obj, FIRST + between, oracle.names)
     np.testing.assert_allclose(heads, oracle.heads[between], atol=0.05)
 
-    addon.takes.trim_take(take, 1.0, 3.0)
+    addon.recordings.recordings.trim_take(take, 1.0, 3.0)
     assert tuple(take.start) == pytest.approx(tuple(played.frames[uneven[uneven >= RATE][0]]), abs=1e-4)
     bake_take()
     assert tuple(obj.animation_data.action.frame_range) == pytest.approx((FIRST, FIRST + 2 * RATE), abs=1)
@@ -236,7 +236,7 @@ def test_a_bake_into_the_current_action_replaces_its_keys_from_the_playhead_on(
     after = seen_at(obj, range(FIRST, FIRST + 240, 10), names)[0]
     kept = np.array([not 60 <= frame <= 180 for frame in range(FIRST, FIRST + 240, 10)])
     np.testing.assert_allclose(after[kept], before[kept], atol=1e-6)
-    for curve in addon.versions.curves_of(action, obj):
+    for curve in addon.compat.versions.curves_of(action, obj):
         frames = [key.co.x for key in curve.keyframe_points]
         assert frames == list(range(FIRST, FIRST + 241))
 
@@ -311,7 +311,7 @@ def test_reduced_keys_keep_every_bone_within_the_bound_on_every_frame(
 
 def count_keys(addon: ModuleType, obj: bpy.types.Object) -> int:
     action = obj.animation_data.action
-    return sum(len(curve.keyframe_points) for curve in addon.versions.curves_of(action, obj))
+    return sum(len(curve.keyframe_points) for curve in addon.compat.versions.curves_of(action, obj))
 
 
 @pytest.mark.parametrize("root", ["BONE", "IN_PLACE"])
@@ -408,7 +408,7 @@ def test_a_bake_that_fails_while_it_writes_changes_nothing(
     def fail(*_: object) -> None:
         raise MemoryError("no memory")
 
-    monkeypatch.setattr(addon.targets, "_mark", fail)
+    monkeypatch.setattr(addon.bake.targets, "_mark", fail)
     fields = {"action": "Former", "target": "NEW"} if target == "REPLACED" else {"target": target}
     with pytest.raises(RuntimeError, match="no memory"):
         bake_take(root="OBJECT", **fields)
@@ -422,7 +422,7 @@ def test_a_bake_that_is_cancelled_changes_nothing(
     settings = obj.fragmotion.bake
     settings.trace_source, settings.as_recorded, settings.reduce = "TAKE", False, True
     before = digest()
-    job = addon.jobs.Job("test", addon.baking.prepare(bpy.context, obj, settings).task)
+    job = addon.jobs.Job("test", addon.bake.baking.prepare(bpy.context, obj, settings).task)
     heard = []
 
     def stop(_fraction: float) -> None:
@@ -431,7 +431,7 @@ def test_a_bake_that_is_cancelled_changes_nothing(
             job.cancel()
 
     job.run(stop)
-    with pytest.raises(addon.core.core.Cancelled):
+    with pytest.raises(addon.compat.core.core.Cancelled):
         job.result()
     assert heard.count(stage) == 1 and heard[-1] == stage, "it went on"
     assert digest() == before
@@ -492,7 +492,7 @@ def test_what_cannot_be_baked_is_said_and_changes_nothing(addon: ModuleType, obj
 def test_esc_stops_a_bake_and_changes_nothing(
     addon: ModuleType, obj: bpy.types.Object, take: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    button, play_on = addon.operators.background, addon.performing.prepare
+    button, play_on = addon.operators.background, addon.bake.performing.prepare
 
     def slow(*arguments: Any) -> Any:
         play = play_on(*arguments)
@@ -504,7 +504,7 @@ def test_esc_stops_a_bake_and_changes_nothing(
 
         return cancelled
 
-    monkeypatch.setattr(addon.performing, "prepare", slow)
+    monkeypatch.setattr(addon.bake.performing, "prepare", slow)
     before = digest()
     assert bpy.ops.fragmotion.bake(trace_source="TAKE", target="NLA") == {"CANCELLED"}
     assert digest() == before

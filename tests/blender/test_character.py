@@ -13,12 +13,12 @@ import pytest
 
 
 def test_build_reports_what_it_found_and_survives_saving(addon: ModuleType, obj: bpy.types.Object) -> None:
-    character = addon.building.load(obj)
+    character = addon.character.building.load(obj)
     figures = obj.fragmotion.figures
     assert figures.fragments == len(character.labels) > figures.captured > 97
     assert (figures.classes, figures.controls) == character.table.shape == (97, 102)
     assert 0 < figures.seconds < 60
-    exam = addon.core.core.simulate_trace(figures.examiner, 60.0, 7001, character.space)
+    exam = addon.compat.core.core.simulate_trace(figures.examiner, 60.0, 7001, character.space)
     assert figures.quality == pytest.approx(character.percent_of_optimal(exam), abs=1e-3)
     assert 50 < figures.quality <= 100.001
     assert character.policies[0] == obj.fragmotion.build.policy
@@ -29,8 +29,8 @@ def test_build_reports_what_it_found_and_survives_saving(addon: ModuleType, obj:
 
 
 def test_the_coverage_shown_is_the_cores(addon: ModuleType, obj: bpy.types.Object) -> None:
-    character, figures = addon.building.load(obj), obj.fragmotion.figures
-    well = character.coverage_distances <= addon.coverage.WELL
+    character, figures = addon.character.building.load(obj), obj.fragmotion.figures
+    well = character.coverage_distances <= addon.character.coverage.WELL
     assert figures.performed == well.sum() > 50
     x, y, turn, jump = character.space.points.T
     speed, ahead = np.hypot(x, y), y > 0.1
@@ -67,10 +67,10 @@ def test_a_character_saved_as_a_policy_file_is_loaded_onto_the_same_bones(
     assert bytes(obj.fragmotion.policy) == policy
     assert {row.name: tuple(row.performed) for row in figures.coverage} == shown
     assert (figures.captured, figures.fragments, figures.classes, figures.controls, figures.performed) == counts
-    assert figures.examiner in addon.core.core.PLAYERS and 50 < figures.quality <= 100.001
+    assert figures.examiner in addon.compat.core.core.PLAYERS and 50 < figures.quality <= 100.001
     assert bpy.ops.fragmotion.bake(seconds=1) == {"FINISHED"}
     bpy.ops.ed.undo()
-    assert not addon.building.has_character(bpy.data.objects[making.ARMATURE]), "loading is not one undo step"
+    assert not addon.character.building.has_character(bpy.data.objects[making.ARMATURE]), "loading is not one undo step"
 
 
 def test_a_policy_file_that_does_not_fit_or_is_damaged_changes_nothing(obj: bpy.types.Object, tmp_path: Path) -> None:
@@ -110,11 +110,11 @@ def test_a_mesh_leads_to_its_armature(addon: ModuleType, obj: bpy.types.Object) 
 
 
 def test_the_character_is_decoded_once(addon: ModuleType, obj: bpy.types.Object) -> None:
-    assert addon.building.load(obj) is addon.building.load(obj)
+    assert addon.character.building.load(obj) is addon.character.building.load(obj)
     data = bytes(obj.fragmotion.policy)
     obj.fragmotion.policy = data[:-1] + bytes([data[-1] ^ 1])
     with pytest.raises(addon.errors.UserError, match=f"policy kept in armature '{making.ARMATURE}'"):
-        addon.building.load(obj)
+        addon.character.building.load(obj)
 
 
 @pytest.mark.parametrize(("fps", "base"), [(30, 1.0), (24, 1.0), (30, 1.001)])
@@ -132,8 +132,8 @@ def test_a_baked_action_poses_the_armature_as_the_player_does(
     frames = round(10 * fps / base) + 1
     assert tuple(action.frame_range) == (5, 4 + frames)
 
-    core = addon.core.core
-    character = addon.building.load(obj)
+    core = addon.compat.core.core
+    character = addon.character.building.load(obj)
     player = core.Player(character, 3)
     player.reset(2, -1, 0.7 + np.pi)
     trace = core.simulate_trace("explorer", 10, 3, character.space)
@@ -189,7 +189,7 @@ def test_build_is_undone_in_one_step(addon: ModuleType, obj: bpy.types.Object) -
     bpy.ops.ed.undo_push(message="before")
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", True, classes=20, seconds=5) == {"FINISHED"}
     obj = bpy.data.objects[making.ARMATURE]
-    assert obj.fragmotion.figures.classes == 20 and len(addon.building.load(obj).representatives) == 20
+    assert obj.fragmotion.figures.classes == 20 and len(addon.character.building.load(obj).representatives) == 20
     bpy.ops.ed.undo()
     obj = bpy.data.objects[making.ARMATURE]
     assert obj.fragmotion.figures.classes == 97 and bytes(obj.fragmotion.policy) == before
@@ -198,7 +198,7 @@ def test_build_is_undone_in_one_step(addon: ModuleType, obj: bpy.types.Object) -
 def test_the_same_seed_builds_and_bakes_the_same(addon: ModuleType, obj: bpy.types.Object) -> None:
     before = bytes(obj.fragmotion.policy)
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
-    first, second = addon.core.core.Character.from_bytes(before), addon.building.load(obj)
+    first, second = addon.compat.core.core.Character.from_bytes(before), addon.character.building.load(obj)
     np.testing.assert_array_equal(first.table, second.table)
     np.testing.assert_array_equal(first.labels, second.labels)
 
@@ -240,14 +240,14 @@ def test_a_bake_is_written_in_each_bones_rotation_mode(addon: ModuleType, obj: b
         bone.rotation_mode = ("XYZ", "AXIS_ANGLE", "ZYX", "QUATERNION")[index % 4]
     assert bpy.ops.fragmotion.bake(action="mixed", **fields) == {"FINISHED"}
     mixed = bpy.data.actions["mixed"]
-    channels = {curve.data_path.rpartition(".")[2] for curve in addon.versions.curves_of(mixed, obj)}
+    channels = {curve.data_path.rpartition(".")[2] for curve in addon.compat.versions.curves_of(mixed, obj)}
     assert channels == {"location", "rotation_quaternion", "rotation_euler", "rotation_axis_angle"}
     np.testing.assert_allclose(making.blender_poses(obj, mixed, (1, 40, 90), names), expected, atol=1e-4)
 
 
 def test_a_cancelled_build_changes_nothing(addon: ModuleType, obj: bpy.types.Object) -> None:
     before = making.contents()
-    job = addon.jobs.Job("test", addon.building.prepare(bpy.context, obj, obj.fragmotion.build).task)
+    job = addon.jobs.Job("test", addon.character.building.prepare(bpy.context, obj, obj.fragmotion.build).task)
     heard = []
 
     def stop(fraction: float) -> None:
@@ -256,7 +256,7 @@ def test_a_cancelled_build_changes_nothing(addon: ModuleType, obj: bpy.types.Obj
             job.cancel()
 
     job.run(stop)
-    with pytest.raises(addon.core.core.Cancelled):
+    with pytest.raises(addon.compat.core.core.Cancelled):
         job.result()
     assert 0.1 < max(heard) < 0.9, "it was not stopped in the middle"
     assert making.contents() == before
@@ -267,7 +267,7 @@ def test_the_cancel_button_stops_the_build(
 ) -> None:
     button = addon.operators.background
     assert not bpy.ops.fragmotion.cancel.poll()
-    build = addon.building.core.build
+    build = addon.character.building.core.build
     stages = []
 
     def press_cancel(skeleton: object, clips: object, traces: object, options: object, progress: object) -> object:
@@ -279,7 +279,7 @@ def test_the_cancel_button_stops_the_build(
 
         return build(skeleton, clips, traces, options, spy)
 
-    monkeypatch.setattr(addon.building.core, "build", press_cancel)
+    monkeypatch.setattr(addon.character.building.core, "build", press_cancel)
     before = making.contents()
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"CANCELLED"}
     assert stages and making.contents() == before
@@ -287,9 +287,9 @@ def test_the_cancel_button_stops_the_build(
 
 
 def test_a_build_in_the_background_ends_with_the_same_character(addon: ModuleType, obj: bpy.types.Object) -> None:
-    job = addon.jobs.Job("test", addon.building.prepare(bpy.context, obj, obj.fragmotion.build).task)
+    job = addon.jobs.Job("test", addon.character.building.prepare(bpy.context, obj, obj.fragmotion.build).task)
     job.start()
     job.wait()
     built = job.result()
     assert not job.running and job.fraction >= 0.95
-    np.testing.assert_array_equal(built.character.table, addon.building.load(obj).table)
+    np.testing.assert_array_equal(built.character.table, addon.character.building.load(obj).table)

@@ -36,12 +36,12 @@ def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture
 def obj(addon: ModuleType, built: Path) -> Iterator[bpy.types.Object]:
     """The built armature, after loading the file."""
-    addon.building.forget()
+    addon.character.building.forget()
     bpy.ops.wm.open_mainfile(filepath=str(built))
     armature = bpy.data.objects[ARMATURE]
     making.activate(armature)
     yield armature
-    addon.classes.session = None
+    addon.character.classes.session = None
 
 
 def often(character: object, count: int) -> list[int]:
@@ -51,7 +51,7 @@ def often(character: object, count: int) -> list[int]:
 
 
 def test_the_classes_are_listed_with_what_they_do(addon: ModuleType, obj: bpy.types.Object) -> None:
-    character, rows = addon.building.load(obj), obj.fragmotion.classes
+    character, rows = addon.character.building.load(obj), obj.fragmotion.classes
     assert [row.name for row in rows] == [row.suggested for row in rows] == character.class_names
     assert [row.fragments for row in rows] == np.bincount(character.labels).tolist()
     assert not any(row.excluded for row in rows)
@@ -71,9 +71,9 @@ def test_the_classes_are_listed_with_what_they_do(addon: ModuleType, obj: bpy.ty
 def test_controls_are_told_in_words_and_signs(
     addon: ModuleType, control: tuple[float, ...], sketch: str, words: str
 ) -> None:
-    space = addon.core.core.ControlSpace(turn_rate=np.radians(60))
-    assert addon.classes.sketch(control, space) == sketch
-    assert addon.classes.describe(control, space) == words
+    space = addon.compat.core.core.ControlSpace(turn_rate=np.radians(60))
+    assert addon.character.classes.sketch(control, space) == sketch
+    assert addon.character.classes.describe(control, space) == words
 
 
 def test_an_emptied_name_is_the_suggested_one_again(obj: bpy.types.Object) -> None:
@@ -87,14 +87,14 @@ def test_an_emptied_name_is_the_suggested_one_again(obj: bpy.types.Object) -> No
 def test_what_was_said_of_a_class_goes_with_its_fragment_to_the_next_build(
     addon: ModuleType, obj: bpy.types.Object
 ) -> None:
-    before = addon.building.load(obj)
+    before = addon.character.building.load(obj)
     obj.fragmotion.classes[5].name, obj.fragmotion.classes[7].excluded = "wave", True
     build()
     rows = bpy.data.objects[ARMATURE].fragmotion.classes
     assert rows[5].name == "wave" and [row.excluded for row in rows].index(True) == 7
     build(NUMBER + 5)
     obj = bpy.data.objects[ARMATURE]
-    after, rows = addon.building.load_whole(obj), obj.fragmotion.classes
+    after, rows = addon.character.building.load_whole(obj), obj.fragmotion.classes
     assert len(rows) == NUMBER + 5
     assert rows[int(after.labels[before.representatives[5]])].name == "wave"
     assert [n for n, row in enumerate(rows) if row.excluded] == [int(after.labels[before.representatives[7]])]
@@ -104,28 +104,28 @@ def test_what_was_said_of_a_class_goes_with_its_fragment_to_the_next_build(
 def test_a_class_that_is_left_out_is_neither_driven_nor_baked_nor_saved(
     addon: ModuleType, obj: bpy.types.Object, tmp_path: Path
 ) -> None:
-    whole = addon.building.load(obj)
+    whole = addon.character.building.load(obj)
     numbers = often(whole, 4)
     for number in numbers:
         obj.fragmotion.classes[number].excluded = True
-    left = addon.building.load(obj)
+    left = addon.character.building.load(obj)
     assert np.isin(whole.table, numbers).any() and not np.isin(left.table, numbers).any()
-    assert addon.building.load(obj) is left, "it is made again for each call"
-    assert (addon.building.load_whole(obj).table == whole.table).all()
+    assert addon.character.building.load(obj) is left, "it is made again for each call"
+    assert (addon.character.building.load_whole(obj).table == whole.table).all()
     assert bpy.ops.fragmotion.bake(seconds=2) == {"FINISHED"}
     assert bpy.ops.fragmotion.save_policy(filepath=str(tmp_path / "left")) == {"FINISHED"}
-    assert (addon.core.core.Character.load(tmp_path / "left.policy").table == left.table).all()
+    assert (addon.compat.core.core.Character.load(tmp_path / "left.policy").table == left.table).all()
     obj.fragmotion.classes[numbers[0]].excluded = False
-    assert np.isin(addon.building.load(obj).table, numbers[0]).any()
+    assert np.isin(addon.character.building.load(obj).table, numbers[0]).any()
 
 
 def test_leaving_a_class_out_can_be_undone(addon: ModuleType, obj: bpy.types.Object) -> None:
     bpy.ops.ed.undo_push(message="before")
     obj.fragmotion.classes[2].excluded = True
     bpy.ops.ed.undo_push(message="left out")
-    assert addon.classes.excluded(obj) == (2,)
+    assert addon.character.classes.excluded(obj) == (2,)
     bpy.ops.ed.undo()
-    assert addon.classes.excluded(bpy.data.objects[ARMATURE]) == ()
+    assert addon.character.classes.excluded(bpy.data.objects[ARMATURE]) == ()
 
 
 def test_leaving_all_classes_out_is_refused(obj: bpy.types.Object) -> None:
@@ -137,9 +137,9 @@ def test_leaving_all_classes_out_is_refused(obj: bpy.types.Object) -> None:
 
 def start_session(addon: ModuleType, obj: bpy.types.Object) -> SimpleNamespace:
     """As a drive does."""
-    player = addon.core.core.Player(addon.building.load(obj))
-    addon.classes.session = SimpleNamespace(armature=obj.name, player=player, control=(0.0, 3.0, 0.0, 0.0))
-    return addon.classes.session
+    player = addon.compat.core.core.Player(addon.character.building.load(obj))
+    addon.character.classes.session = SimpleNamespace(armature=obj.name, player=player, control=(0.0, 3.0, 0.0, 0.0))
+    return addon.character.classes.session
 
 
 def test_a_class_is_forced_while_driving_only(addon: ModuleType, obj: bpy.types.Object) -> None:
@@ -160,12 +160,12 @@ def test_a_class_is_forced_while_driving_only(addon: ModuleType, obj: bpy.types.
 def test_the_preview_plays_the_class_alone_and_puts_everything_back(addon: ModuleType, obj: bpy.types.Object) -> None:
     obj.pose.bones[3].location = (0.1, 0.2, 0.3)
     bpy.context.scene.frame_set(17)
-    before, played = making.contents(), addon.versions.assignment(obj)
-    character = addon.building.load(obj)
+    before, played = making.contents(), addon.compat.versions.assignment(obj)
+    character = addon.character.building.load(obj)
     number = int(np.argmax(np.bincount(character.labels)))
     members = set(np.flatnonzero(character.labels == number).tolist())
     place = obj.matrix_world.copy()
-    solo = addon.solo.Solo(bpy.context, obj, number)
+    solo = addon.character.solo.Solo(bpy.context, obj, number)
     seen, poses = set(), []
     for _ in range(40 * len(members)):
         solo.step(1 / 8)
@@ -177,14 +177,14 @@ def test_the_preview_plays_the_class_alone_and_puts_everything_back(addon: Modul
     moved = np.array(poses)
     assert np.ptp(moved, axis=0).max() > 1e-3 and np.linalg.norm(moved[:, :2], axis=1).max() < 5
     solo.end()
-    assert making.contents() == before and addon.versions.assignment(obj) == played
+    assert making.contents() == before and addon.compat.versions.assignment(obj) == played
     assert obj.matrix_world == place
 
 
 def test_the_preview_of_a_deleted_armature_says_so_and_ends(addon: ModuleType, obj: bpy.types.Object) -> None:
     armature, name = obj.data, obj.name
     armature.pose_position = "REST"
-    solo = addon.solo.Solo(bpy.context, obj, 0)
+    solo = addon.character.solo.Solo(bpy.context, obj, 0)
     assert solo.trouble() == "" and armature.pose_position == "POSE"
     bpy.data.objects.remove(obj)
     assert solo.trouble() == f"Armature '{name}' was deleted"
@@ -193,16 +193,16 @@ def test_the_preview_of_a_deleted_armature_says_so_and_ends(addon: ModuleType, o
 
 
 def test_the_inspector_shows_the_best_and_the_chosen(addon: ModuleType, obj: bpy.types.Object) -> None:
-    core, character = addon.core.core, addon.building.load(obj)
+    core, character = addon.compat.core.core, addon.character.building.load(obj)
     settings = bpy.context.window_manager.fragmotion.inspector
     settings.velocity, settings.turn, settings.jump = "9", "2", True
-    playing, control, live = addon.inspector.decision(obj, settings, 4)
+    playing, control, live = addon.character.inspector.decision(obj, settings, 4)
     assert (playing, live) == (4, False)
     assert character.space.points[control].tolist() == [0, character.space.run, 1, 1]
-    lines = addon.inspector.explain(obj, playing, control)
+    lines = addon.character.inspector.explain(obj, playing, control)
     ranked = core.Explainer(character)(playing, control)
-    best = [each.next for each in ranked[: addon.inspector.BEST]]
-    assert [line.number for line in lines[: addon.inspector.BEST]] == best
+    best = [each.next for each in ranked[: addon.character.inspector.BEST]]
+    assert [line.number for line in lines[: addon.character.inspector.BEST]] == best
     assert [line.number for line in lines if line.chosen] == [character.table[playing, control]]
     for line, each in zip(lines, ranked):
         assert line.name == obj.fragmotion.classes[each.next].name
@@ -212,27 +212,27 @@ def test_the_inspector_shows_the_best_and_the_chosen(addon: ModuleType, obj: bpy
 
 def test_the_inspector_follows_the_drive(addon: ModuleType, obj: bpy.types.Object) -> None:
     settings, session = bpy.context.window_manager.fragmotion.inspector, start_session(addon, obj)
-    space = session.player and addon.building.load(obj).space
+    space = session.player and addon.character.building.load(obj).space
     expected = (session.player.playing[0], int(space.nearest([session.control])[0]), True)
-    assert addon.inspector.decision(obj, settings, 0) == expected
+    assert addon.character.inspector.decision(obj, settings, 0) == expected
     settings.follow = False
-    assert addon.inspector.decision(obj, settings, 0)[2] is False
+    assert addon.character.inspector.decision(obj, settings, 0)[2] is False
 
 
 def test_the_inspector_offers_no_class_that_is_left_out(addon: ModuleType, obj: bpy.types.Object) -> None:
-    first = [line.number for line in addon.inspector.explain(obj, 0, 8)][:2]
+    first = [line.number for line in addon.character.inspector.explain(obj, 0, 8)][:2]
     for number in first:
         obj.fragmotion.classes[number].excluded = True
-    lines = addon.inspector.explain(obj, 0, 8)
+    lines = addon.character.inspector.explain(obj, 0, 8)
     assert not {line.number for line in lines} & set(first) and any(line.chosen for line in lines)
 
 
 def test_a_fragment_leads_to_its_take_and_frame(addon: ModuleType, obj: bpy.types.Object) -> None:
-    character = addon.building.load(obj)
+    character = addon.character.building.load(obj)
     clips, ranges = character.clip_names, character.fragment_ranges
     for origin in ("captured", "mirrored"):
         fragment = 1 + character.fragment_origins.index(origin)
-        shown = addon.inspector.inspect(character).fragment(fragment)
+        shown = addon.character.inspector.inspect(character).fragment(fragment)
         action = bpy.data.actions[shown.action]
         assert clips[character.fragment_clips[fragment]] in {action.name, f"{action.name} mirrored"}
         rate = bpy.context.scene.render.fps
@@ -241,7 +241,7 @@ def test_a_fragment_leads_to_its_take_and_frame(addon: ModuleType, obj: bpy.type
         assert obj.animation_data.action == action
         assert bpy.context.scene.frame_current == round(shown.frame)
     made = next(i for i, origin in enumerate(character.fragment_origins) if origin not in {"captured", "mirrored"})
-    assert addon.inspector.inspect(character).fragment(made).action == ""
+    assert addon.character.inspector.inspect(character).fragment(made).action == ""
     with pytest.raises(RuntimeError, match="There is no Action 'gone'"):
         bpy.ops.fragmotion.show_fragment(action="gone", frame=1)
 
@@ -256,7 +256,7 @@ def test_suggest_sets_the_number_and_keeps_what_it_tried(
         heard.append(arguments)
         return 137, tried
 
-    monkeypatch.setattr(addon.suggesting.core, "suggest_classes", suggest)
+    monkeypatch.setattr(addon.character.suggesting.core, "suggest_classes", suggest)
     obj.fragmotion.build.classes = 97
     policy = bytes(obj.fragmotion.policy)
     bpy.ops.ed.undo_push(message="before")
@@ -267,7 +267,7 @@ def test_suggest_sets_the_number_and_keeps_what_it_tried(
     shown = [(row.classes, row.velocity_error, row.quality) for row in obj.fragmotion.tried]
     np.testing.assert_allclose(shown, [(97, 0.4, 0.5), (137, 0.38, 0.6)], rtol=1e-6)
     _, clips, traces, options, _ = heard[0]
-    takes = [action.name for action in addon.actions.ticked(obj)]
+    takes = [action.name for action in addon.mocap.actions.ticked(obj)]
     assert [clip.name for clip in clips] == takes and traces[0].shape[1] == 4 and options.seed == 1
     bpy.ops.ed.undo()
     assert bpy.data.objects[ARMATURE].fragmotion.build.classes == 97, "it is not one undo step"
@@ -289,7 +289,7 @@ def test_a_cancelled_trial_changes_nothing(
     def cancel(*_: object) -> None:
         bpy.ops.fragmotion.cancel()
 
-    monkeypatch.setattr(addon.suggesting.core, "suggest_classes", cancel)
+    monkeypatch.setattr(addon.character.suggesting.core, "suggest_classes", cancel)
     before = obj.fragmotion.build.classes
     assert bpy.ops.fragmotion.suggest_classes("EXEC_DEFAULT") == {"CANCELLED"}
     assert obj.fragmotion.build.classes == before and not obj.fragmotion.tried
@@ -305,7 +305,7 @@ def test_a_long_name_is_shown_whole_in_a_narrow_sidebar(addon: ModuleType, scale
     for name, broken in (("walk forward", 1), ("running jump back right turning left 2", 2)):
         for icon, next_icon in (("NONE", "NONE"), ("RADIOBUT_ON", "BLANK1")):
             lines.clear()
-            addon.drawing.draw_wrapped(layout, context, name, icon)
+            addon.settings.drawing.draw_wrapped(layout, context, name, icon)
             assert " ".join(text for text, _ in lines) == name
             assert [shown for _, shown in lines] == [icon, next_icon][:broken]
             assert max(len(text) for text, _ in lines) <= (25 if icon == "RADIOBUT_ON" else 30), "the room there is"
@@ -316,13 +316,13 @@ def test_a_long_name_is_shown_whole_in_a_narrow_sidebar(addon: ModuleType, scale
 
 def pixel(addon: ModuleType, picture: np.ndarray, place: np.ndarray, off: float = 0.0) -> np.ndarray:
     """The colour at a place of the picture, `off` to the right."""
-    column, row = ((place + (off, 0) + 1) / 2 * addon.coverage_picture.SIZE).astype(int)
+    column, row = ((place + (off, 0) + 1) / 2 * addon.character.coverage_picture.SIZE).astype(int)
     return picture[row, column]
 
 
 def test_the_picture_shows_each_velocity_where_the_stick_would_be(addon: ModuleType) -> None:
-    drawing = addon.coverage_picture
-    points = addon.core.core.ControlSpace().points[2::6]  # straight, no jump
+    drawing = addon.character.coverage_picture
+    points = addon.compat.core.core.ControlSpace().points[2::6]  # straight, no jump
     for index, (place, point) in enumerate(zip(drawing.places(), points)):
         radius = np.hypot(*place)
         if index > 0:
@@ -337,7 +337,7 @@ def test_the_picture_shows_each_velocity_where_the_stick_would_be(addon: ModuleT
 
 
 def test_a_control_is_marked_as_a_hole_where_none_performs_it_well(addon: ModuleType) -> None:
-    drawing, well = addon.coverage_picture, addon.coverage.WELL
+    drawing, well = addon.character.coverage_picture, addon.character.coverage.WELL
     centre = np.zeros(2)
     for distance, crossed in ((0, False), (well, False), (well + 1e-3, True), (9, True)):
         colour = pixel(addon, drawing.draw_controls(np.full(17, distance)), centre)
@@ -346,11 +346,11 @@ def test_a_control_is_marked_as_a_hole_where_none_performs_it_well(addon: Module
 
 def test_build_keeps_the_distances_that_the_picture_shows(addon: ModuleType, obj: bpy.types.Object) -> None:
     stored = np.frombuffer(obj.fragmotion.figures.distances, np.float32)
-    np.testing.assert_allclose(stored, addon.building.load(obj).coverage_distances, rtol=1e-6)
+    np.testing.assert_allclose(stored, addon.character.building.load(obj).coverage_distances, rtol=1e-6)
 
 
 def test_pictures_become_icons_once_and_are_given_back(addon: ModuleType) -> None:
-    drawing, made = addon.coverage_picture, []
+    drawing, made = addon.character.coverage_picture, []
 
     def draw() -> np.ndarray:
         made.append(1)

@@ -55,7 +55,7 @@ def test_the_armature_shows_what_the_player_plays(
     addon: ModuleType, session: ModuleType, obj: bpy.types.Object
 ) -> None:
     driven = start(session, obj)
-    driven.play(addon.core.core.simulate_trace("runner", 5.0, 3, driven.actor.space))
+    driven.play(addon.compat.core.core.simulate_trace("runner", 5.0, 3, driven.actor.space))
     places = [hips(obj)]
     for _ in range(10):
         go_on(driven, 0.3)
@@ -129,11 +129,11 @@ def test_what_is_recorded_replays_as_it_was_seen(addon: ModuleType, session: Mod
     go_on(driven, 0.5)
     begin, seen = driven.player.frame, record(driven)
     (take,) = obj.fragmotion.takes
-    trace = import_module(f"{addon.__name__}.takes").trace_of(take)
+    trace = import_module(f"{addon.__name__}.recordings.recordings").trace_of(take)
     assert len(trace) == math.ceil(len(seen) / 6) == 26
     assert trace[:, 3].sum() == 1, "the tap on the jump button is lost, or lasts"
     assert tuple(take.start) == pytest.approx(begin) and take.policy == driven.actor.character.policy
-    player = addon.core.core.Player(driven.actor.character, take.seed)
+    player = addon.compat.core.core.Player(driven.actor.character, take.seed)
     player.reset(*begin)
     performance = player.run(trace, RATE)
     assert way(seen) > 3, "the character stood while it was recorded"
@@ -170,7 +170,7 @@ def test_a_take_that_begins_in_motion_keeps_what_was_seen(
     seen = record(driven)
     assert math.dist(before[:2], seen[0][:2]) < 0.1, "the character leaps where the recording begins"
     (take,) = obj.fragmotion.takes
-    times, motion = import_module(f"{addon.__name__}.takes").shown_of(take)
+    times, motion = import_module(f"{addon.__name__}.recordings.recordings").shown_of(take)
     np.testing.assert_allclose(times, np.arange(len(seen) + 1) / RATE, atol=1e-5)
     np.testing.assert_allclose(motion.frames, [before, *seen], atol=1e-5)
 
@@ -196,7 +196,7 @@ def test_before_build_a_trace_is_recorded_too(addon: ModuleType, session: Module
     go_on(driven, 0.5)
     driven.toggle_recording()
     (take,) = driven.obj.fragmotion.takes
-    trace = import_module(f"{addon.__name__}.takes").trace_of(take)
+    trace = import_module(f"{addon.__name__}.recordings.recordings").trace_of(take)
     np.testing.assert_allclose(trace, [(0, driven.actor.space.walk, 0, 0)] * 5)
     assert take.policy == "" and take.quality == 0
 
@@ -205,8 +205,8 @@ def test_the_figures_say_what_plays(addon: ModuleType, session: ModuleType, obj:
     driven = start(session, obj)
     driven.inputs.keyboard.press("W")
     go_on(driven, 3)
-    figures = import_module(f"{session.__package__}.figures")
-    rows = dict(figures.rows(driven))
+    figures = import_module(f"{session.__package__}.hud.figures")
+    rows = dict(figures.rows(driven.shown()))
     assert rows["Input"] == "Keyboard" and rows["Control"] == "walk forward"
     assert rows["Class"].startswith(f"{driven.player.playing[0]}: walk forward")
     judge, character = driven.readings.judge, driven.actor.character
@@ -228,7 +228,7 @@ def test_the_ghost_goes_just_as_the_trace_says(addon: ModuleType, session: Modul
     driven.play(np.array([(0, space.walk, 0, 0)] * 10 + [(0, 0, 1, 0)] * 10 + [(space.run, 0, 0, 0)] * 10))
     x, y, heading = driven.player.frame
     go_on(driven, 3.05)
-    rotate = import_module(f"{session.__package__}.steering").rotate
+    rotate = import_module(f"{session.__package__}.input.steering").rotate
     ahead, aside = rotate(0, space.walk, heading), rotate(space.run, 0, heading + space.turn_rate)
     wanted = (x + ahead[0] + aside[0], y + ahead[1] + aside[1], heading + space.turn_rate)
     assert driven.readings.ideal.frame == pytest.approx(wanted, abs=1e-6)
@@ -243,7 +243,7 @@ def test_the_feet_that_stand_are_seen(session: ModuleType) -> None:
     middles = [(bone.head + bone.tail) / 2 for bone in feet]
     wanted = [(*middle[:2], min(bone.head.z, bone.tail.z)) for middle, bone in zip(middles, feet)]
     np.testing.assert_allclose(driven.readings.feet.planted, wanted, atol=1e-5)
-    rising = driven.actor.step(import_module(f"{session.__package__}.steering").Control(), 0.0)
+    rising = driven.actor.step(import_module(f"{session.__package__}.input.steering").Control(), 0.0)
     for height in (0.0, 0.1):
         driven.readings.feet.step(rising[0] + (0, 0, height), rising[1], 1 / RATE)
     assert driven.readings.feet.planted == [], "nobody stands in the air"

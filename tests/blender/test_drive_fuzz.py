@@ -140,7 +140,7 @@ class User:
 
     def do_remove_take(self) -> None:
         if self.rig is not None and self.rig.fragmotion.takes:
-            self.addon.takes.remove_take(self.rig, 0)
+            self.addon.recordings.recordings.remove_take(self.rig, 0)
 
     def do_rename(self) -> None:
         self.rig.name = self.random.choice(("Rig", "Hero", "\N{SNOWMAN}"))

@@ -145,7 +145,7 @@ def test_a_file_from_the_middle_of_a_drive_is_healed(session: ModuleType, tmp_pa
     obj = making.add_armature()
     spoil(obj)
     modes, pose = [bone.rotation_mode for bone in obj.pose.bones], everything(obj)["bones"]
-    import_module(f"{session.__package__}.aside").put_aside(obj)
+    import_module(f"{session.__package__}.state.suspended_state").put_aside(obj)
     assert [bone.rotation_mode for bone in obj.pose.bones] != modes
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "autosave.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "autosave.blend"))
@@ -165,7 +165,7 @@ def test_loading_a_file_ends_the_drive(session: ModuleType) -> None:
 
 def sdl_is_closed(session: ModuleType) -> bool:
     """Whether nothing of SDL is in use."""
-    return bool(import_module(f"{session.__package__}.sdl").load().SDL_WasInit(0) == 0)
+    return bool(import_module(f"{session.__package__}.input.sdl").load().SDL_WasInit(0) == 0)
 
 
 def test_switching_the_add_on_off_ends_the_drive(addon: ModuleType, session: ModuleType) -> None:

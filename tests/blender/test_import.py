@@ -39,18 +39,18 @@ def test_takes_move_the_armature_as_their_files_say(addon: ModuleType, tmp_path:
     assert obj.animation_data.action == bpy.data.actions["take 1"]
     for path in files:
         action = bpy.data.actions[path.stem]
-        assert action.use_fake_user and action.fragmotion.use and action[addon.actions.RATE] == 30
+        assert action.use_fake_user and action.fragmotion.use and action[addon.mocap.actions.RATE] == 30
         assert tuple(action.frame_range) == (1, 40)
-        take = addon.core.core.read_bvh(path)
+        take = addon.compat.core.core.read_bvh(path)
         check_take(addon, obj, take, np.arange(1, 41), np.arange(40))
 
 
 def test_the_sampled_take_is_the_take(addon: ModuleType, tmp_path: Path) -> None:
     path = making.write_bvh(tmp_path / "walk.bvh", frame_time=0.008333)
     obj = import_folder(tmp_path)
-    rig = addon.rigs.make_rig(obj)
-    clip = addon.sampling.sample(bpy.context, obj, bpy.data.actions["walk"], rig)
-    heads, _ = addon.core.core.read_bvh(path).world_transforms()
+    rig = addon.rig.rigs.make_rig(obj)
+    clip = addon.mocap.sampling.sample(bpy.context, obj, bpy.data.actions["walk"], rig)
+    heads, _ = addon.compat.core.core.read_bvh(path).world_transforms()
     assert clip.rate == 120 and len(clip.root_positions) == 40
     body = making.body_bones(rig.skeleton)
     np.testing.assert_allclose(clip.world_transforms(rig.skeleton)[0][:, body], heads[:, body], atol=1e-4)
@@ -64,7 +64,7 @@ def test_a_take_plays_in_its_own_time_whatever_the_scenes_rate(addon: ModuleType
     start, end = bpy.data.actions["walk"].frame_range
     assert start == 1 and end == pytest.approx(1 + 24 / 1.001, abs=1e-4)
     rows = np.array([0, 1, 7, 33, 60])
-    check_take(addon, obj, addon.core.core.read_bvh(path), 1 + rows * 24 / 1.001 / 60, rows)
+    check_take(addon, obj, addon.compat.core.core.read_bvh(path), 1 + rows * 24 / 1.001 / 60, rows)
 
 
 def test_a_take_is_learned_in_its_own_time_whatever_the_scenes_rate_becomes(addon: ModuleType, tmp_path: Path) -> None:
@@ -72,10 +72,10 @@ def test_a_take_is_learned_in_its_own_time_whatever_the_scenes_rate_becomes(addo
     scene.render.fps = 24
     making.write_bvh(tmp_path / "walk.bvh", frames=61, frame_time=1 / 60)
     obj = import_folder(tmp_path)
-    rig = addon.rigs.make_rig(obj)
-    before = addon.sampling.sample(bpy.context, obj, bpy.data.actions["walk"], rig)
+    rig = addon.rig.rigs.make_rig(obj)
+    before = addon.mocap.sampling.sample(bpy.context, obj, bpy.data.actions["walk"], rig)
     scene.render.fps, scene.render.fps_base = 60, 1.001
-    after = addon.sampling.sample(bpy.context, obj, bpy.data.actions["walk"], rig)
+    after = addon.mocap.sampling.sample(bpy.context, obj, bpy.data.actions["walk"], rig)
     assert before.rate == after.rate == 60 and len(after.root_positions) == 61
     np.testing.assert_array_equal(after.root_positions, before.root_positions)
     np.testing.assert_array_equal(after.rotations, before.rotations)
@@ -84,7 +84,7 @@ def test_a_take_is_learned_in_its_own_time_whatever_the_scenes_rate_becomes(addo
 def test_still_locations_get_no_keys(addon: ModuleType, tmp_path: Path) -> None:
     making.write_bvh(tmp_path / "walk.bvh")
     obj = import_folder(tmp_path)
-    paths = {curve.data_path for curve in addon.versions.curves_of(bpy.data.actions["walk"], obj)}
+    paths = {curve.data_path for curve in addon.compat.versions.curves_of(bpy.data.actions["walk"], obj)}
     assert {p for p in paths if "location" in p} == {'pose.bones["Root"].location', 'pose.bones["Hips"].location'}
 
 
@@ -95,9 +95,9 @@ def test_takes_key_the_same_channels_so_that_none_marks_the_next(addon: ModuleTy
     other.write_text(other.read_text().replace("OFFSET 10 0 0", "OFFSET 12 0 0"))  # a wider left hip
     obj = import_folder(tmp_path)
     for name in ("a", "b", "a"):
-        take = addon.core.core.read_bvh(tmp_path / f"{name}.bvh")
+        take = addon.compat.core.core.read_bvh(tmp_path / f"{name}.bvh")
         check_take(addon, obj, take, np.array([1, 9]), np.array([0, 8]))
-    paths = [{c.data_path for c in addon.versions.curves_of(bpy.data.actions[name], obj)} for name in "ab"]
+    paths = [{c.data_path for c in addon.compat.versions.curves_of(bpy.data.actions[name], obj)} for name in "ab"]
     assert paths[0] == paths[1] and 'pose.bones["LeftUpLeg"].location' in paths[0]
 
 
@@ -124,7 +124,7 @@ def test_short_bones_survive(tmp_path: Path) -> None:
 def test_an_amc_belongs_to_the_asf_of_its_subject(addon: ModuleType, tmp_path: Path) -> None:
     for name in ("01.asf", "02.asf", "01_03.amc", "02_01.AMC"):
         (tmp_path / name).write_text("")
-    find = addon.importing.find_takes
+    find = addon.mocap.importing.find_takes
     assert [(t.path.name, t.asf.name) for t in find(tmp_path)] == [("01_03.amc", "01.asf"), ("02_01.AMC", "02.asf")]
     (tmp_path / "03_01.amc").write_text("")
     with pytest.raises(addon.errors.UserError, match=r"03_01\.amc.*03\.asf"):
@@ -137,10 +137,10 @@ def test_hidden_files_are_no_takes(addon: ModuleType, tmp_path: Path) -> None:
     for name in ("02.asf", "02_01.amc", "walk.bvh", "._walk.bvh", "._02.asf", "._02_01.amc", ".old.bvh"):
         (tmp_path / name).write_text("")
     (tmp_path / "folder.bvh").mkdir()
-    takes = addon.importing.find_takes(tmp_path)
+    takes = addon.mocap.importing.find_takes(tmp_path)
     assert [take.path.name for take in takes] == ["02_01.amc", "walk.bvh"]
     (tmp_path / "03_01.amc").write_text("")
-    assert addon.importing.find_takes(tmp_path)[1].asf.name == "02.asf", "the folder's only skeleton"
+    assert addon.mocap.importing.find_takes(tmp_path)[1].asf.name == "02.asf", "the folder's only skeleton"
 
 
 def test_importing_is_one_undo_step(tmp_path: Path) -> None:
@@ -219,7 +219,7 @@ def test_an_import_that_stops_in_the_middle_removes_what_it_made(addon: ModuleTy
     making.add_action(making.add_armature())
     for seed in (1, 2, 3):
         making.write_bvh(tmp_path / f"{seed}.bvh", seed=seed)
-    files = addon.importing.find_takes(tmp_path)
+    files = addon.mocap.importing.find_takes(tmp_path)
     before = making.contents()
     made = []
 
@@ -229,6 +229,6 @@ def test_an_import_that_stops_in_the_middle_removes_what_it_made(addon: ModuleTy
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        addon.importing.import_takes(bpy.context, "stopped", files, 0.01, stop)
+        addon.mocap.importing.import_takes(bpy.context, "stopped", files, 0.01, stop)
     assert max(made) == 2, "nothing had been made, so nothing had to be removed"
     assert making.contents() == before

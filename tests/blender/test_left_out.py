@@ -46,32 +46,32 @@ def test_a_take_falls_into_the_parts_around_its_spans(
     addon: ModuleType, spans: list[tuple[int, int]], parts: list[tuple[int, int]]
 ) -> None:
     times = np.arange(1.0, FRAMES + 1)
-    found = [times[part] for part in addon.left_out.parts_of(times, spans)]
+    found = [times[part] for part in addon.mocap.left_out.parts_of(times, spans)]
     assert [(part[0], part[-1]) for part in found] == parts
 
 
 def test_the_parts_are_the_takes_own_poses(addon: ModuleType) -> None:
     obj, action = add_take()
     leave_out(action, (20, 24), (60, 90))
-    rig = addon.rigs.make_rig(obj)
-    whole = addon.sampling.sample(bpy.context, obj, action, rig)
-    first, second = addon.sampling.sample_parts(bpy.context, obj, action, rig)
+    rig = addon.rig.rigs.make_rig(obj)
+    whole = addon.mocap.sampling.sample(bpy.context, obj, action, rig)
+    first, second = addon.mocap.sampling.sample_parts(bpy.context, obj, action, rig)
     np.testing.assert_allclose(first.root_positions, whole.root_positions[:19], atol=1e-9)
     np.testing.assert_allclose(second.root_positions, whole.root_positions[24:59], atol=1e-9)
     np.testing.assert_allclose(second.rotations, whole.rotations[24:59], atol=1e-9)
     assert (first.name, second.name) == ("take from 1", "take from 25")
-    assert addon.left_out.source_of("take from 25 mirrored") == ("take", 25)
-    assert addon.left_out.source_of("take mirrored") == ("take", None)
+    assert addon.mocap.left_out.source_of("take from 25 mirrored") == ("take", 25)
+    assert addon.mocap.left_out.source_of("take mirrored") == ("take", None)
 
 
 def test_an_imported_take_keeps_its_rate_and_its_spans_are_scene_frames(addon: ModuleType) -> None:
     obj, action = add_take()
     scene = bpy.context.scene
     scene.render.fps = 30
-    action[addon.actions.RATE], action[addon.actions.SCENE_RATE] = 60.0, 30.0  # a sample each half frame
+    action[addon.mocap.actions.RATE], action[addon.mocap.actions.SCENE_RATE] = 60.0, 30.0  # a sample each half frame
     leave_out(action, (20, 24))
-    rig = addon.rigs.make_rig(obj)
-    first, second = addon.sampling.sample_parts(bpy.context, obj, action, rig)
+    rig = addon.rig.rigs.make_rig(obj)
+    first, second = addon.mocap.sampling.sample_parts(bpy.context, obj, action, rig)
     assert len(first.root_positions) == 38  # 1, 1.5 ... 19.5
     assert second.name == "take from 24.5"
 
@@ -81,13 +81,13 @@ def test_no_fragment_has_a_frame_that_is_left_out(addon: ModuleType) -> None:
         obj, action = add_take(f"take {seed}", seed)
         leave_out(action, (20, 24), (50, 61))
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=8, seconds=10) == {"FINISHED"}
-    character = addon.building.load(obj)
-    rate, checked = addon.sampling.scene_rate(bpy.context.scene), 0
+    character = addon.character.building.load(obj)
+    rate, checked = addon.mocap.sampling.scene_rate(bpy.context.scene), 0
     places = zip(character.fragment_origins, character.fragment_clips, character.fragment_ranges)
     for origin, clip, (begin, end) in places:
         if origin not in {"captured", "mirrored"}:
             continue
-        name, part = addon.left_out.source_of(character.clip_names[clip])
+        name, part = addon.mocap.left_out.source_of(character.clip_names[clip])
         first, last = part + begin * rate, part + end * rate
         assert name.startswith("take ") and 1 <= first < last <= FRAMES
         assert not any(first <= left_last and last >= left_first for left_first, left_last in ((20, 24), (50, 61)))
@@ -106,7 +106,7 @@ def test_the_button_leaves_out_what_the_timeline_shows_as_chosen(addon: ModuleTy
     obj, action = add_take()
     scene = bpy.context.scene
     scene.frame_set(7)
-    curves = addon.versions.curves_of(action, obj)
+    curves = addon.compat.versions.curves_of(action, obj)
     for selected, expected in ((range(0), (7, 7)), (range(10, 15), (11, 15)), (range(FRAMES), (7, 7))):
         for curve in curves:
             for index, key in enumerate(curve.keyframe_points):
@@ -118,11 +118,11 @@ def test_the_button_leaves_out_what_the_timeline_shows_as_chosen(addon: ModuleTy
     bpy.ops.ed.undo_push(message="before")
     assert bpy.ops.fragmotion.leave_out("EXEC_DEFAULT", True) == {"FINISHED"}
     action = bpy.data.actions["take"]
-    assert addon.left_out.spans_of(action)[-1] == (3, 33) and len(action.fragmotion.left_out) == 4
+    assert addon.mocap.left_out.spans_of(action)[-1] == (3, 33) and len(action.fragmotion.left_out) == 4
     bpy.ops.ed.undo()
     assert len(bpy.data.actions["take"].fragmotion.left_out) == 3, "it is not one undo step"
     assert bpy.ops.fragmotion.take_in(index=1) == {"FINISHED"}
-    assert addon.left_out.spans_of(bpy.data.actions["take"]) == [(7, 7), (7, 7)]
+    assert addon.mocap.left_out.spans_of(bpy.data.actions["take"]) == [(7, 7), (7, 7)]
 
 
 def test_a_span_never_ends_before_it_begins() -> None:

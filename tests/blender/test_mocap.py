@@ -33,21 +33,21 @@ def test_all_takes_come_onto_one_armature(addon: ModuleType, imported: Path) -> 
     armatures = [obj for obj in bpy.data.objects if obj.type == "ARMATURE"]
     assert [obj.name for obj in armatures] == ["bandai-namco"]
     assert len(bpy.data.actions) == 159
-    assert addon.actions.ticked(armatures[0]) == list(bpy.data.actions)
+    assert addon.mocap.actions.ticked(armatures[0]) == list(bpy.data.actions)
 
 
 def test_every_take_poses_and_samples_as_its_file_says(addon: ModuleType, imported: Path) -> None:
     bpy.ops.wm.open_mainfile(filepath=str(imported))
     obj = bpy.data.objects["bandai-namco"]
-    rig = addon.rigs.make_rig(obj)
+    rig = addon.rig.rigs.make_rig(obj)
     body = making.body_bones(rig.skeleton)
     for action in bpy.data.actions:
-        take = addon.core.core.read_bvh(BANDAI / f"{action.name}.bvh")
+        take = addon.compat.core.core.read_bvh(BANDAI / f"{action.name}.bvh")
         heads, _ = take.world_transforms()
         rows = np.array([0, len(heads) // 2, len(heads) - 1])
         matrices = making.blender_poses(obj, action, 1 + rows, take.skeleton.names)
         making.assert_same_poses(matrices, heads[rows], None, 1e-4)
-        clip = addon.sampling.sample(bpy.context, obj, action, rig)
+        clip = addon.mocap.sampling.sample(bpy.context, obj, action, rig)
         assert len(clip.root_positions) == len(heads) and clip.rate == 30
         sampled, turned = clip.world_transforms(rig.skeleton)
         making.assert_same_poses(matrices[:, body], sampled[rows][:, body], None, 1e-4 + _shift(addon, obj, action))
@@ -56,7 +56,7 @@ def test_every_take_poses_and_samples_as_its_file_says(addon: ModuleType, import
 
 def _shift(addon: ModuleType, obj: bpy.types.Object, action: bpy.types.Action) -> float:
     """How far, in metres, the take moves a joint from its offset: 0.4 mm in four takes, which clips leave out."""
-    curves = [c for c in addon.versions.curves_of(action, obj) if c.data_path.endswith("location")]
+    curves = [c for c in addon.compat.versions.curves_of(action, obj) if c.data_path.endswith("location")]
     inner = [c for c in curves if "Hips" not in c.data_path and "joint_Root" not in c.data_path]
     return max((abs(key.co.y) for curve in inner for key in curve.keyframe_points), default=0.0)
 
@@ -72,7 +72,9 @@ def test_a_character_of_all_takes_is_built_and_baked(addon: ModuleType, imported
     assert bpy.ops.fragmotion.bake(player="runner", seconds=10) == {"FINISHED"}
     action = obj.animation_data.action
     assert tuple(action.frame_range) == (1, 301)
-    played = making.blender_poses(obj, action, range(1, 302, 10), [addon.building.load(obj).skeleton.roles["hips"]])
+    played = making.blender_poses(
+        obj, action, range(1, 302, 10), [addon.character.building.load(obj).skeleton.roles["hips"]]
+    )
     hips = played[:, 0, :3, 3]
     assert np.isfinite(hips).all() and np.ptp(hips[:, :2], axis=0).max() > 3
     assert hips[:, 2].min() > 0.3 and hips[:, 2].max() < 2.5
@@ -103,7 +105,7 @@ def test_acclaim_takes_move_the_armature_as_their_files_say(addon: ModuleType) -
     assert bpy.ops.fragmotion.import_mocap(directory=str(CMU), files=[{"name": n} for n in names]) == {"FINISHED"}
     obj = bpy.context.view_layer.objects.active
     for name in names:
-        take = addon.core.core.read_asf_amc(CMU / "02.asf", CMU / name)
+        take = addon.compat.core.core.read_asf_amc(CMU / "02.asf", CMU / name)
         heads, _ = take.world_transforms()
         rows = np.array([0, 10, 101, len(heads) - 1])
         matrices = making.blender_poses(obj, bpy.data.actions[take.name], 1 + rows / 4, take.skeleton.names)

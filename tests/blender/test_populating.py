@@ -46,13 +46,13 @@ def digest() -> dict[str, Any]:
 @pytest.mark.parametrize("layout", ["SQUARE", "RING"])
 @pytest.mark.parametrize("count", [1, 2, 8, 11])
 def test_nobody_stands_nearer_than_the_spacing(addon: ModuleType, layout: str, count: int) -> None:
-    places = [(0.0, 0.0), *(spot[:2] for spot in addon.populating.spots(count, layout, 1.5))]
+    places = [(0.0, 0.0), *(spot[:2] for spot in addon.bake.populating.spots(count, layout, 1.5))]
     assert len(places) == count + 1
     assert min(math.dist(a, b) for a, b in itertools.combinations(places, 2)) > 1.5 - 1e-9
 
 
 def test_every_copy_does_what_the_player_plays(addon: ModuleType, obj: bpy.types.Object) -> None:
-    core, character = addon.core.core, addon.building.load(obj)
+    core, character = addon.compat.core.core, addon.character.building.load(obj)
     copies = populate(count=3, layout="RING", player="walker")
     scene, frame = bpy.context.scene, round(SECONDS * bpy.context.scene.render.fps)
     for index, copy in enumerate(copies):
@@ -89,7 +89,7 @@ def test_ticked_takes_drive_in_turn(addon: ModuleType, obj: bpy.types.Object) ->
     with pytest.raises(RuntimeError, match="is ticked: tick some under Takes"):
         bpy.ops.fragmotion.populate(traces="TAKES")
     for rows in (10, 20, 30):
-        take = addon.takes.add_take(obj, np.tile([0.0, 1.2, 0, 0], (rows, 1)))
+        take = addon.recordings.recordings.add_take(obj, np.tile([0.0, 1.2, 0, 0], (rows, 1)))
         take.train = rows != 20
     first = obj.fragmotion.bake.frame_start
     rate = bpy.context.scene.render.fps
@@ -109,14 +109,14 @@ def test_a_crowd_is_one_undo_step(obj: bpy.types.Object) -> None:
 def test_a_crowd_that_fails_while_it_is_written_changes_nothing(
     addon: ModuleType, obj: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    before, written, write = digest(), [], addon.populating.write
+    before, written, write = digest(), [], addon.bake.populating.write
 
     def fail_the_second(*arguments: Any) -> Any:
         if written:
             raise MemoryError("no memory")
         written.append(write(*arguments))
 
-    monkeypatch.setattr(addon.populating, "write", fail_the_second)
+    monkeypatch.setattr(addon.bake.populating, "write", fail_the_second)
     with pytest.raises(RuntimeError, match="no memory"):
         populate(count=3)
     assert written and digest() == before
@@ -125,7 +125,7 @@ def test_a_crowd_that_fails_while_it_is_written_changes_nothing(
 def test_esc_stops_a_crowd_and_changes_nothing(
     addon: ModuleType, obj: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    prepare = addon.baking.prepare
+    prepare = addon.bake.baking.prepare
     heard: list[str] = []
 
     def slow(*arguments: Any) -> Any:
@@ -139,7 +139,7 @@ def test_esc_stops_a_crowd_and_changes_nothing(
 
         return prepared._replace(task=task)
 
-    monkeypatch.setattr(addon.baking, "prepare", slow)
+    monkeypatch.setattr(addon.bake.baking, "prepare", slow)
     before = digest()
     assert bpy.ops.fragmotion.populate(count=3, seconds=SECONDS) == {"CANCELLED"}
     assert len(heard) == 2 and digest() == before

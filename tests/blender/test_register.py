@@ -80,7 +80,7 @@ def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleTy
 
 
 def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) -> None:
-    panels = [cls for cls in addon.panel.CLASSES if issubclass(cls, bpy.types.Panel)]
+    panels = [cls for cls in addon.panels.panel.CLASSES if issubclass(cls, bpy.types.Panel)]
     assert [panel.bl_label for panel in panels] == [
         *("Mocap", "Left Out"),
         *("Build", "Numbers Tried", "Training", "Figures", "Classes", "Inspector", "Coverage", "Policy File"),

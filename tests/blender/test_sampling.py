@@ -17,9 +17,9 @@ FRAMES = 12
 def check_sampling(addon: ModuleType, obj: bpy.types.Object, action: bpy.types.Action) -> None:
     """Compare heads and rotations of the whole body, in world space, in every frame."""
     bpy.context.view_layer.update()
-    rig = addon.rigs.make_rig(obj)
+    rig = addon.rig.rigs.make_rig(obj)
     bpy.context.scene.frame_set(7)
-    clip = addon.sampling.sample(bpy.context, obj, action, rig)
+    clip = addon.mocap.sampling.sample(bpy.context, obj, action, rig)
     assert clip.root_positions.shape == (FRAMES, 3)
     heads, rotations = clip.world_transforms(rig.skeleton)
     body = making.body_bones(rig.skeleton)
@@ -32,8 +32,8 @@ def check_sampling(addon: ModuleType, obj: bpy.types.Object, action: bpy.types.A
 
 def uses_poses(addon: ModuleType, obj: bpy.types.Object, action: bpy.types.Action) -> bool:
     """Whether sampling would step frame by frame."""
-    curves = [(c.data_path, c.array_index) for c in addon.versions.curves_of(action, obj)]
-    return bool(addon.posing.is_needed(obj, curves))
+    curves = [(c.data_path, c.array_index) for c in addon.compat.versions.curves_of(action, obj)]
+    return bool(addon.rig.posing.is_needed(obj, curves))
 
 
 @pytest.mark.parametrize("mode", MODES)
@@ -93,7 +93,7 @@ def test_connected_bones_ignore_their_location_keys(addon: ModuleType) -> None:
 def test_sparse_keys_and_modifiers_are_evaluated(addon: ModuleType) -> None:
     obj = making.add_armature()
     action = making.add_action(obj, FRAMES)
-    curves = addon.versions.curves_of(action, obj)
+    curves = addon.compat.versions.curves_of(action, obj)
     for curve in curves[::2]:
         for index in (7, 6, 4, 2):
             curve.keyframe_points.remove(curve.keyframe_points[index])
@@ -111,9 +111,9 @@ def test_a_constraint_is_followed_and_everything_restored(addon: ModuleType) -> 
     constraint.target, constraint.subtarget, constraint.influence = obj, "head", 0.7
     bpy.context.scene.frame_set(5, subframe=0.5)
     assert uses_poses(addon, obj, action)
-    rig = addon.rigs.make_rig(obj)
+    rig = addon.rig.rigs.make_rig(obj)
     before = making.contents()
-    addon.sampling.sample(bpy.context, obj, action, rig)
+    addon.mocap.sampling.sample(bpy.context, obj, action, rig)
     assert making.contents() == before
     assert obj.animation_data.action == other
     check_sampling(addon, obj, action)
@@ -141,12 +141,12 @@ def test_scale_that_is_not_inherited(addon: ModuleType, scale: str) -> None:
 def test_channels_without_keys_rest_whatever_the_pose_is_now(addon: ModuleType) -> None:
     obj = making.add_armature()
     action = making.add_action(obj, FRAMES)
-    curves = addon.versions.holder_for(action, obj).fcurves
+    curves = addon.compat.versions.holder_for(action, obj).fcurves
     for curve in [c for c in curves if "foot.L" in c.data_path]:
         curves.remove(curve)
-    rig = addon.rigs.make_rig(obj)
+    rig = addon.rig.rigs.make_rig(obj)
     obj.pose.bones["foot.L"].rotation_quaternion = (0.5, 0.5, 0.5, 0.5)
-    clip = addon.sampling.sample(bpy.context, obj, action, rig)
+    clip = addon.mocap.sampling.sample(bpy.context, obj, action, rig)
     foot = rig.skeleton.names.index("foot.L")
     expected = np.tile(rig.skeleton.rest_rotations[foot], (FRAMES, 1))
     np.testing.assert_allclose(np.abs((clip.rotations[:, foot] * expected).sum(1)), 1, atol=1e-9)
@@ -156,8 +156,8 @@ def test_an_imported_take_is_sampled_at_its_own_rate(addon: ModuleType) -> None:
     bpy.context.scene.render.fps = 24
     obj = making.add_armature()
     action = making.add_action(obj, 25)
-    action[addon.actions.RATE] = 60.0
-    clip = addon.sampling.sample(bpy.context, obj, action, addon.rigs.make_rig(obj))
+    action[addon.mocap.actions.RATE] = 60.0
+    clip = addon.mocap.sampling.sample(bpy.context, obj, action, addon.rig.rigs.make_rig(obj))
     assert clip.rate == 60
     assert len(clip.root_positions) == 61  # 24 frames at 24 a second are one second
 
@@ -167,45 +167,45 @@ def test_a_manual_frame_range_limits_the_take(addon: ModuleType) -> None:
     action = making.add_action(obj, FRAMES)
     action.use_frame_range = True
     action.frame_start, action.frame_end = 3, 8
-    rig = addon.rigs.make_rig(obj)
-    whole_range = addon.sampling.sample(bpy.context, obj, action, rig)
+    rig = addon.rig.rigs.make_rig(obj)
+    whole_range = addon.mocap.sampling.sample(bpy.context, obj, action, rig)
     action.use_frame_range = False
-    whole = addon.sampling.sample(bpy.context, obj, action, rig)
+    whole = addon.mocap.sampling.sample(bpy.context, obj, action, rig)
     np.testing.assert_array_equal(whole_range.root_positions, whole.root_positions[2:8])
 
 
 def test_an_action_whose_channels_are_all_muted_is_refused(addon: ModuleType) -> None:
     obj = making.add_armature()
     action = making.add_action(obj, FRAMES)
-    for curve in addon.versions.curves_of(action, obj):
+    for curve in addon.compat.versions.curves_of(action, obj):
         curve.mute = True
     with pytest.raises(addon.errors.UserError, match="all of its channels are muted"):
-        addon.sampling.sample(bpy.context, obj, action, addon.rigs.make_rig(obj))
+        addon.mocap.sampling.sample(bpy.context, obj, action, addon.rig.rigs.make_rig(obj))
 
 
 def test_channels_of_a_muted_group_rest_or_play_as_in_blender(addon: ModuleType) -> None:
     obj = making.add_armature()
     action = making.add_action(obj, FRAMES)
-    groups = addon.versions.holder_for(action, obj).groups
+    groups = addon.compat.versions.holder_for(action, obj).groups
     body, spine = groups.new("body"), groups.new("back")
-    for curve in addon.versions.curves_of(action, obj):
+    for curve in addon.compat.versions.curves_of(action, obj):
         curve.group = spine if "spine" in curve.data_path else body
     spine.mute = True
     action.update_tag()
-    addon.posing.reset_pose(obj)  # Blender leaves a muted channel as it stands
+    addon.rig.posing.reset_pose(obj)  # Blender leaves a muted channel as it stands
     check_sampling(addon, obj, action)
     body.mute = True
     action.update_tag()
-    if addon.versions.SLOTTED:
+    if addon.compat.versions.SLOTTED:
         check_sampling(addon, obj, action)
         return
     with pytest.raises(addon.errors.UserError, match="all of its channels are muted"):
-        addon.sampling.sample(bpy.context, obj, action, addon.rigs.make_rig(obj))
+        addon.mocap.sampling.sample(bpy.context, obj, action, addon.rig.rigs.make_rig(obj))
 
 
 def test_an_action_lasts_as_long_as_the_scene_plays_it(addon: ModuleType) -> None:
     obj = making.add_armature()
     action = making.add_action(obj, FRAMES)
     bpy.context.scene.render.fps = 60
-    clip = addon.sampling.sample(bpy.context, obj, action, addon.rigs.make_rig(obj))
+    clip = addon.mocap.sampling.sample(bpy.context, obj, action, addon.rig.rigs.make_rig(obj))
     assert clip.rate == 60 and len(clip.root_positions) == FRAMES

@@ -21,15 +21,15 @@ def takes(obj: bpy.types.Object) -> list[bpy.types.Action]:
 
 def looked_at(addon: ModuleType, obj: bpy.types.Object) -> bool:
     """Whether the mark is there after as many looks as it may take."""
-    return any(addon.staleness.is_stale(obj) for _ in range(len(bpy.data.actions) + 1))
+    return any(addon.character.staleness.is_stale(obj) for _ in range(len(bpy.data.actions) + 1))
 
 
 def first_key(addon: ModuleType, action: bpy.types.Action) -> bpy.types.Keyframe:
-    return addon.versions.all_curves(action)[0].keyframe_points[0]
+    return addon.compat.versions.all_curves(action)[0].keyframe_points[0]
 
 
 def add_key(addon: ModuleType, action: bpy.types.Action) -> None:
-    addon.versions.all_curves(action)[0].keyframe_points.insert(5.5, 0.9)
+    addon.compat.versions.all_curves(action)[0].keyframe_points.insert(5.5, 0.9)
 
 
 def nudge(addon: ModuleType, action: bpy.types.Action) -> None:
@@ -37,7 +37,7 @@ def nudge(addon: ModuleType, action: bpy.types.Action) -> None:
 
 
 def mute(addon: ModuleType, action: bpy.types.Action) -> None:
-    addon.versions.all_curves(action)[3].mute = True
+    addon.compat.versions.all_curves(action)[3].mute = True
 
 
 def untick(addon: ModuleType, action: bpy.types.Action) -> None:
@@ -52,7 +52,7 @@ def test_what_changes_the_actions_marks_the_character(
     change: Callable[[ModuleType, bpy.types.Action], None],
 ) -> None:
     assert not looked_at(addon, obj)
-    addon.versions.assign(obj, takes[1])  # as one must to edit it
+    addon.compat.versions.assign(obj, takes[1])  # as one must to edit it
     bpy.context.view_layer.update()
     assert not looked_at(addon, obj)
     change(addon, takes[1])
@@ -63,7 +63,7 @@ def test_what_changes_the_actions_marks_the_character(
 
 
 def test_undo_takes_the_mark_away(addon: ModuleType, obj: bpy.types.Object, takes: list[bpy.types.Action]) -> None:
-    addon.versions.assign(obj, takes[0])
+    addon.compat.versions.assign(obj, takes[0])
     bpy.context.view_layer.update()
     bpy.ops.ed.undo_push(message="before")
     nudge(addon, takes[0])
@@ -107,25 +107,25 @@ def test_a_policy_from_a_file_is_never_marked(addon: ModuleType, obj: bpy.types.
 def test_a_look_without_changes_reads_no_keys(addon: ModuleType, obj: bpy.types.Object) -> None:
     looked_at(addon, obj)
     read = []
-    keys = addon.staleness._keys
-    addon.staleness._keys = lambda curve: read.append(curve) or keys(curve)
+    keys = addon.character.staleness._keys
+    addon.character.staleness._keys = lambda curve: read.append(curve) or keys(curve)
     try:
-        assert not addon.staleness.is_stale(obj)
+        assert not addon.character.staleness.is_stale(obj)
     finally:
-        addon.staleness._keys = keys
+        addon.character.staleness._keys = keys
     assert not read
 
 
 def test_reading_all_actions_takes_less_than_sampling_them(addon: ModuleType, obj: bpy.types.Object) -> None:
-    rig, takes = addon.rigs.make_rig(obj), addon.actions.ticked(obj)
+    rig, takes = addon.rig.rigs.make_rig(obj), addon.mocap.actions.ticked(obj)
 
     def read() -> None:
-        addon.staleness._digests.clear()
-        addon.staleness.sources_of(obj)
+        addon.character.staleness._digests.clear()
+        addon.character.staleness.sources_of(obj)
 
     def sample() -> None:
         for action in takes:
-            addon.sampling.sample(bpy.context, obj, action, rig)
+            addon.mocap.sampling.sample(bpy.context, obj, action, rig)
 
     spent = {task.__name__: min(_time(task) for _ in range(3)) for task in (read, sample)}
     print(f"\n{len(takes)} Actions: {1000 * spent['read']:.0f} ms to read, {1000 * spent['sample']:.0f} ms to sample")

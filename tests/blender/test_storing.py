@@ -28,7 +28,7 @@ def blend(obj: bpy.types.Object, tmp_path: Path) -> Path:
 
 
 def reopened(addon: ModuleType, path: Path) -> bpy.types.Object:
-    addon.building.forget()
+    addon.character.building.forget()
     return making.open_armature(path)
 
 
@@ -51,9 +51,9 @@ def test_a_policy_beside_the_file_is_read_from_there(
     assert obj.fragmotion.policy == b"" and obj.fragmotion.policy_file == f"//{file.name}"
     assert blend.stat().st_size < built.stat().st_size
     obj = reopened(addon, blend)
-    assert addon.building.load(obj).to_bytes() == policy
+    assert addon.character.building.load(obj).to_bytes() == policy
     file.unlink()
-    assert addon.building.load(obj) is addon.building.load(obj), "it is decoded once"
+    assert addon.character.building.load(obj) is addon.character.building.load(obj), "it is decoded once"
     obj = reopened(addon, blend)
     with pytest.raises(RuntimeError, match=r"beside the \.blend, but '.*\.policy' cannot be read.*put the file back"):
         bpy.ops.fragmotion.bake(seconds=1)
@@ -84,7 +84,7 @@ def test_a_policy_follows_its_file_into_another_folder(
     other.parent.mkdir()
     reopened(addon, blend)
     bpy.ops.wm.save_as_mainfile(filepath=str(other), copy=copy)
-    addon.building.forget()
+    addon.character.building.forget()
     assert bakes(bpy.data.objects[making.ARMATURE]), "the open file has lost its policy"
     if copy and bpy.app.version < (4, 0, 0):
         return  # it tells no add-on where a copy goes
@@ -97,7 +97,7 @@ def test_a_build_after_a_save_is_kept_and_a_copy_of_the_armature_keeps_the_forme
 ) -> None:
     bpy.ops.wm.save_mainfile()
     obj = reopened(addon, blend)
-    former = addon.building.load(obj).to_bytes()
+    former = addon.character.building.load(obj).to_bytes()
     twin = obj.copy()
     twin.name = "Twin"
     bpy.context.scene.collection.objects.link(twin)
@@ -106,8 +106,8 @@ def test_a_build_after_a_save_is_kept_and_a_copy_of_the_armature_keeps_the_forme
     assert latter != former
     bpy.ops.wm.save_mainfile()
     obj = reopened(addon, blend)
-    assert addon.building.load(obj).to_bytes() == latter
-    assert addon.building.load(bpy.data.objects["Twin"]).to_bytes() == former
+    assert addon.character.building.load(obj).to_bytes() == latter
+    assert addon.character.building.load(bpy.data.objects["Twin"]).to_bytes() == former
 
 
 def test_where_the_file_cannot_be_written_the_policy_stays_inside(
@@ -120,10 +120,10 @@ def test_where_the_file_cannot_be_written_the_policy_stays_inside(
     def fail(*_: object) -> None:
         raise OSError("the disk is full")
 
-    monkeypatch.setattr(addon.storing.os, "replace", fail)
+    monkeypatch.setattr(addon.character.storing.os, "replace", fail)
     bpy.ops.wm.save_mainfile()
     monkeypatch.undo()
-    assert addon.storing.troubles == {obj.name: "the disk is full"}
+    assert addon.character.storing.troubles == {obj.name: "the disk is full"}
     assert [file.name for file in tmp_path.iterdir() if "policy" in file.name] == []
     assert bakes(reopened(addon, path))
 
@@ -134,14 +134,14 @@ def test_without_a_file_a_copy_leaves_the_policy_inside(
     obj.fragmotion.keep_policy = "BESIDE"
     policy = bytes(obj.fragmotion.policy)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "copy.blend"), copy=True)
-    addon.building.forget()
-    assert addon.building.load(obj).to_bytes() == policy
+    addon.character.building.forget()
+    assert addon.character.building.load(obj).to_bytes() == policy
 
 
 @pytest.fixture
 def small(addon: ModuleType, tmp_path: Path) -> Path:
     """A file with a small character beside it, its backups off, and made large."""
-    addon.building.forget()
+    addon.character.building.forget()
     obj = making.add_armature(name="Hero")
     for seed in range(2):
         action = making.add_action(obj, 40, seed=seed, name=f"take {seed}")
@@ -162,7 +162,7 @@ def rebuild(obj: bpy.types.Object, seed: int = 1) -> bytes:
 
 
 def open_small(addon: ModuleType, path: Path) -> bpy.types.Object:
-    addon.building.forget()
+    addon.character.building.forget()
     bpy.ops.wm.open_mainfile(filepath=str(path))
     making.activate(bpy.data.objects["Hero"])
     return bpy.data.objects["Hero"]
@@ -190,7 +190,7 @@ def test_a_save_that_fails_loses_neither_the_former_character_nor_the_new_one(
     addon: ModuleType, small: Path, room: int
 ) -> None:
     obj = open_small(addon, small)
-    former = addon.building.load(obj).to_bytes()
+    former = addon.character.building.load(obj).to_bytes()
     new = rebuild(obj, seed=2)
     assert new != former and 50_000 < len(new) < 1_000_000 < small.stat().st_size
     saved = small.read_bytes()
@@ -198,24 +198,24 @@ def test_a_save_that_fails_loses_neither_the_former_character_nor_the_new_one(
         bpy.ops.wm.save_mainfile()
     assert small.read_bytes() == saved and former in policies_in(small.parent)
     assert not list(small.parent.glob("*.tmp"))
-    addon.building.forget()
-    assert addon.building.load(obj).to_bytes() == new, "the open file has lost the new character"
+    addon.character.building.forget()
+    assert addon.character.building.load(obj).to_bytes() == new, "the open file has lost the new character"
     for path in small.parent.glob("*.policy"):
         if path.read_bytes() == new:
             path.unlink()  # what was written for the save that failed is not needed
-    assert addon.building.load(obj).to_bytes() == new
+    assert addon.character.building.load(obj).to_bytes() == new
     bpy.ops.wm.save_mainfile()
     assert policies_in(small.parent) == [new]
-    assert addon.building.load(open_small(addon, small)).to_bytes() == new
+    assert addon.character.building.load(open_small(addon, small)).to_bytes() == new
 
 
 def test_the_file_of_a_save_that_failed_opens_its_character(addon: ModuleType, small: Path) -> None:
     obj = open_small(addon, small)
-    former = addon.building.load(obj).to_bytes()
+    former = addon.character.building.load(obj).to_bytes()
     rebuild(obj, seed=2)
     with full_disk(1_000_000), pytest.raises(RuntimeError):
         bpy.ops.wm.save_mainfile()
-    assert addon.building.load(open_small(addon, small)).to_bytes() == former
+    assert addon.character.building.load(open_small(addon, small)).to_bytes() == former
 
 
 @pytest.mark.parametrize("copy", [False, True])
@@ -224,47 +224,47 @@ def test_a_save_elsewhere_that_fails_changes_nothing(addon: ModuleType, small: P
     new = rebuild(obj, seed=2)
     with pytest.raises(RuntimeError):
         bpy.ops.wm.save_as_mainfile(filepath=str(small.parent / "missing" / "other.blend"), copy=copy)
-    addon.building.forget()
-    assert addon.building.load(obj).to_bytes() == new
+    addon.character.building.forget()
+    assert addon.character.building.load(obj).to_bytes() == new
     bpy.ops.wm.save_mainfile()
-    assert addon.building.load(open_small(addon, small)).to_bytes() == new
+    assert addon.character.building.load(open_small(addon, small)).to_bytes() == new
 
 
 def test_the_former_policy_is_let_go_of_after_the_save_and_undo_brings_it_back(addon: ModuleType, small: Path) -> None:
     obj = open_small(addon, small)
     bpy.ops.ed.undo_push(message="before")
-    former = addon.building.load(obj).to_bytes()
+    former = addon.character.building.load(obj).to_bytes()
     new = rebuild(obj, seed=2)
     bpy.ops.wm.save_mainfile()
     assert policies_in(small.parent) == [new]
     bpy.ops.ed.undo()
-    addon.building.forget()
-    assert addon.building.load(bpy.data.objects["Hero"]).to_bytes() == former
+    addon.character.building.forget()
+    assert addon.character.building.load(bpy.data.objects["Hero"]).to_bytes() == former
     bpy.ops.wm.save_mainfile()
     assert policies_in(small.parent) == [former]
-    assert addon.building.load(open_small(addon, small)).to_bytes() == former
+    assert addon.character.building.load(open_small(addon, small)).to_bytes() == former
 
 
 def test_a_backup_of_the_file_keeps_its_policy(addon: ModuleType, small: Path) -> None:
     obj = open_small(addon, small)
     bpy.context.preferences.filepaths.save_version = 1
-    before = addon.building.load(obj).to_bytes()
+    before = addon.character.building.load(obj).to_bytes()
     for seed in (2, 3):
         former, before = before, rebuild(obj, seed=seed)
         bpy.ops.wm.save_mainfile()
     assert policies_in(small.parent) == sorted((former, before))
-    assert addon.building.load(open_small(addon, small.with_suffix(".blend1"))).to_bytes() == former
-    assert addon.building.load(open_small(addon, small)).to_bytes() == before
+    assert addon.character.building.load(open_small(addon, small.with_suffix(".blend1"))).to_bytes() == former
+    assert addon.character.building.load(open_small(addon, small)).to_bytes() == before
 
 
 def test_saving_the_startup_file_lets_go_of_nothing(addon: ModuleType, small: Path) -> None:
     obj = open_small(addon, small)
     bpy.context.preferences.filepaths.save_version = 0
-    before = addon.building.load(obj).to_bytes()
+    before = addon.character.building.load(obj).to_bytes()
     rebuild(obj, seed=2)
     bpy.ops.wm.save_homefile()
     assert before in policies_in(small.parent)
-    assert addon.building.load(open_small(addon, small)).to_bytes() == before
+    assert addon.character.building.load(open_small(addon, small)).to_bytes() == before
 
 
 def test_a_file_saved_over_a_link_has_its_policy_beside_it(addon: ModuleType, small: Path, tmp_path: Path) -> None:
@@ -273,25 +273,25 @@ def test_a_file_saved_over_a_link_has_its_policy_beside_it(addon: ModuleType, sm
     link.symlink_to(small)
     expected = rebuild(open_small(addon, link), seed=2)
     bpy.ops.wm.save_mainfile()
-    assert addon.building.load(open_small(addon, link)).to_bytes() == expected
+    assert addon.character.building.load(open_small(addon, link)).to_bytes() == expected
 
 
 def test_a_backup_that_is_saved_itself_takes_nothing_from_its_file(addon: ModuleType, small: Path) -> None:
     bpy.context.preferences.filepaths.save_version = 0
-    before = addon.building.load(open_small(addon, small)).to_bytes()
+    before = addon.character.building.load(open_small(addon, small)).to_bytes()
     backup = small.with_suffix(".blend1")
     shutil.copy(small, backup)
     rebuild(open_small(addon, backup), seed=2)
     bpy.ops.wm.save_as_mainfile(filepath=str(backup), check_existing=False)
-    assert addon.building.load(open_small(addon, small)).to_bytes() == before
+    assert addon.character.building.load(open_small(addon, small)).to_bytes() == before
 
 
 def test_a_policy_beside_a_file_of_any_name_is_read_again(addon: ModuleType, small: Path) -> None:
     odd = small.with_name("walk 12:30.blend")
-    expected = addon.building.load(open_small(addon, small)).to_bytes()
+    expected = addon.character.building.load(open_small(addon, small)).to_bytes()
     bpy.ops.wm.save_as_mainfile(filepath=str(odd))
     bpy.ops.wm.save_mainfile()
-    assert addon.building.load(open_small(addon, odd)).to_bytes() == expected
+    assert addon.character.building.load(open_small(addon, odd)).to_bytes() == expected
 
 
 def test_only_files_that_were_written_for_this_blend_are_let_go_of(addon: ModuleType, small: Path) -> None:
@@ -321,7 +321,7 @@ def test_a_policy_beside_a_file_of_an_earlier_version_is_read_and_gets_a_name_of
     obj = open_small(addon, small)
     own.rename(small.with_name("Hero.policy"))
     obj.fragmotion.policy_file = "//Hero.policy"
-    policy = addon.building.load(obj).to_bytes()
+    policy = addon.character.building.load(obj).to_bytes()
     bpy.ops.wm.save_mainfile()
     assert own.read_bytes() == policy and small.with_name("Hero.policy").exists()
     assert obj.fragmotion.policy_file == f"//{own.name}"

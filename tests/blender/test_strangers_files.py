@@ -40,7 +40,9 @@ def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
         action = making.add_action(obj, 60, seed=seed, name=f"take {seed}")
         action.use_fake_user = action.fragmotion.use = True
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=6, seconds=5) == {"FINISHED"}
-    addon.takes.add_take(obj, making.waves(20, 4, 1) ** 2, name="Seen", shown=_shown(addon, len(obj.data.bones)))
+    addon.recordings.recordings.add_take(
+        obj, making.waves(20, 4, 1) ** 2, name="Seen", shown=_shown(addon, len(obj.data.bones))
+    )
     path = tmp_path_factory.mktemp("built") / "built.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
     return path
@@ -48,19 +50,21 @@ def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def _shown(addon: ModuleType, bones: int) -> tuple[np.ndarray, Any]:
     rotations = np.tile((1.0, 0, 0, 0), (60, bones, 1))
-    return np.arange(60) / 60, addon.motion.Motion(np.zeros((60, 3)), rotations, np.zeros((60, 3)), np.zeros(60, int))
+    return np.arange(60) / 60, addon.rig.motion.Motion(
+        np.zeros((60, 3)), rotations, np.zeros((60, 3)), np.zeros(60, int)
+    )
 
 
 @contextmanager
 def forging(addon: ModuleType) -> Iterator[None]:
     """Files are saved as by a program that is not ours."""
-    addon.storing.unregister()
+    addon.character.storing.unregister()
     yield
-    addon.storing.register()
+    addon.character.storing.register()
 
 
 def opened(addon: ModuleType, path: Path) -> Any:
-    addon.building.forget()
+    addon.character.building.forget()
     bpy.ops.wm.open_mainfile(filepath=str(path))
     return bpy.context.view_layer.objects.active
 
@@ -103,7 +107,7 @@ def test_a_file_never_says_where_or_what_is_written(
     assert {key: found.pop(key) for key in expected} == expected
     if content == "evil":
         assert found == {} and bytes(obj.fragmotion.policy) == EVIL
-        assert "no policy" in addon.storing.troubles[obj.name]
+        assert "no policy" in addon.character.storing.troubles[obj.name]
     else:
         digest = hashlib.sha256(policy).hexdigest()[:16]
         own = {f"place/hero.Rig.{digest}.policy", f"other.Rig.{digest}.policy", f"copy.Rig.{digest}.policy"}
@@ -126,7 +130,7 @@ def test_a_file_never_says_what_is_read(addon: ModuleType, obj: bpy.types.Object
         with pytest.raises(RuntimeError, match=r"only a policy file in the folder of its own \.blend is read"):
             bpy.ops.fragmotion.bake(seconds=1)
         bpy.ops.wm.save_mainfile()
-        assert not bpy.context.object.fragmotion.policy and "Rig" in addon.storing.troubles
+        assert not bpy.context.object.fragmotion.policy and "Rig" in addon.character.storing.troubles
 
 
 def as_link(path: Path, policy: bytes) -> None:
@@ -187,7 +191,7 @@ def test_what_is_in_the_way_of_a_policy_file_is_left_alone(
         own.write_bytes(b"other") if in_the_way == "other" else own.symlink_to(victim)
         obj = opened(addon, path)
         bpy.ops.wm.save_mainfile()
-        assert bytes(obj.fragmotion.policy) == policy and "Rig" in addon.storing.troubles
+        assert bytes(obj.fragmotion.policy) == policy and "Rig" in addon.character.storing.troubles
         assert victim.read_bytes() == policy and own.read_bytes() == (b"other" if in_the_way == "other" else policy)
 
 
@@ -219,14 +223,14 @@ def test_classes_that_are_not_the_policys_are_said(addon: ModuleType, obj: bpy.t
     inspector = bpy.context.window_manager.fragmotion.inspector
     for cached in (False, True):  # from the policy, and by what the file says of it
         if cached:
-            character = addon.building.load_whole(obj)
-            addon.building._cache[obj.fragmotion.digest, ()] = character
+            character = addon.character.building.load_whole(obj)
+            addon.character.building._cache[obj.fragmotion.digest, ()] = character
         with pytest.raises(addon.errors.UserError, match=f"lists {listed} classes, but its policy has 6: press Build"):
-            addon.inspector.explain(obj, *addon.inspector.decision(obj, inspector, 0)[:2])
+            addon.character.inspector.explain(obj, *addon.character.inspector.decision(obj, inspector, 0)[:2])
         with pytest.raises(RuntimeError, match="press Build again"):
             bpy.ops.fragmotion.bake(seconds=1)
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=6, seconds=5) == {"FINISHED"}
-    assert addon.inspector.explain(obj, *addon.inspector.decision(obj, inspector, 0)[:2])
+    assert addon.character.inspector.explain(obj, *addon.character.inspector.decision(obj, inspector, 0)[:2])
 
 
 def test_a_policy_of_another_tree_of_the_armature_says_so(
@@ -244,12 +248,12 @@ def test_a_policy_of_another_tree_of_the_armature_says_so(
 def test_an_impossible_take_is_damaged_and_starts_no_drive(
     addon: ModuleType, obj: bpy.types.Object, field: str, value: Any
 ) -> None:
-    take = addon.takes.add_take(obj, np.tile((0, 1.2, 0, 0), (20, 1)))
+    take = addon.recordings.recordings.add_take(obj, np.tile((0, 1.2, 0, 0), (20, 1)))
     take.shown = b"x"
     with suppress(ValueError):  # out of the property's bounds, which a file need not keep
         setattr(take, field, value)
     with pytest.raises(addon.errors.UserError, match="is damaged"):
-        addon.takes.trace_of(take) if field == "start" else addon.takes.shown_of(take)
+        addon.recordings.recordings.trace_of(take) if field == "start" else addon.recordings.recordings.shown_of(take)
     assert addon.drive.session.current is None
 
 
@@ -297,7 +301,7 @@ def test_a_recording_with_impossible_numbers_is_damaged_or_baked(
     take.shown = shown(rows)
     possible = np.isfinite(value) and column not in (0, 7)
     if possible:
-        addon.takes.shown_of(take)
+        addon.recordings.recordings.shown_of(take)
         return
     refused(bpy.ops.fragmotion.bake, "Take 'Seen' is damaged: delete it", trace_source="TAKE", take=0)
 
@@ -320,22 +324,26 @@ def test_a_recording_without_rotations_or_rows_is_damaged(addon: ModuleType, obj
 @pytest.mark.parametrize("rate", ["fast", 0.0, -30, np.nan, np.inf, 1e300, [1, 2], b"\xff"])
 def test_a_take_whose_rate_is_none_plays_at_the_scenes(addon: ModuleType, obj: bpy.types.Object, rate: Any) -> None:
     action = bpy.data.actions["take 0"]
-    usual = addon.sampling.frame_times(bpy.context.scene, action, dict(enumerate(addon.versions.all_curves(action))))
+    usual = addon.mocap.sampling.frame_times(
+        bpy.context.scene, action, dict(enumerate(addon.compat.versions.all_curves(action)))
+    )
     action["fragmotion_rate"] = action["fragmotion_scene_rate"] = rate
-    spoilt = addon.sampling.frame_times(bpy.context.scene, action, dict(enumerate(addon.versions.all_curves(action))))
+    spoilt = addon.mocap.sampling.frame_times(
+        bpy.context.scene, action, dict(enumerate(addon.compat.versions.all_curves(action)))
+    )
     assert spoilt[0] == usual[0]
     np.testing.assert_array_equal(spoilt[1], usual[1])
 
 
 def test_a_key_in_the_far_future_is_said(addon: ModuleType, obj: bpy.types.Object) -> None:
-    addon.versions.all_curves(bpy.data.actions["take 0"])[0].keyframe_points.insert(1e8, 0.0)
+    addon.compat.versions.all_curves(bpy.data.actions["take 0"])[0].keyframe_points.insert(1e8, 0.0)
     refused(bpy.ops.fragmotion.build, "'take 0' goes from frame 1 to 1e.08, more than 2,000,000 samples", classes=6)
 
 
 @pytest.mark.parametrize("stored", [b"", b"short", bytes(412)])
 def test_coverage_of_another_length_is_not_drawn(addon: ModuleType, stored: bytes) -> None:
     layout = bpy.types.UILayout
-    assert addon.coverage_picture.draw_pictures(layout, stored, 300.0) is None
+    assert addon.character.coverage_picture.draw_pictures(layout, stored, 300.0) is None
 
 
 def stored(data: Any) -> Any:
@@ -394,7 +402,7 @@ def test_damaged_settings_are_mended_and_every_button_ends_in_a_sentence(
         bpy.ops.wm.save_as_mainfile(filepath=str(path))
     obj = opened(addon, path)
     assert "fragmotion_put_aside" not in obj
-    assert addon.mending.mend(obj.fragmotion) == 0
+    assert addon.settings.mending.mend(obj.fragmotion) == 0
     assert 0 <= obj.fragmotion.build.seconds <= 3600 and obj.fragmotion.keep_policy in {"PACKED", "BESIDE"}
     assert obj.fragmotion.bake.target == "NEW" and len(obj.fragmotion.takes) == 2
     press_every_button(tmp_path)

@@ -24,8 +24,10 @@ def make_trace(length: int = 50, seed: int = 1) -> np.ndarray:
 def obj(addon: ModuleType) -> bpy.types.Object:
     """An armature with two takes."""
     armature = making.add_armature()
-    addon.takes.add_take(armature, make_trace(), name="Stroll", seed=7, policy="svm", start=(1, 2, 0.5), quality=0.75)
-    addon.takes.add_take(armature, make_trace(120, 2)).train = True
+    addon.recordings.recordings.add_take(
+        armature, make_trace(), name="Stroll", seed=7, policy="svm", start=(1, 2, 0.5), quality=0.75
+    )
+    addon.recordings.recordings.add_take(armature, make_trace(120, 2)).train = True
     return armature
 
 
@@ -35,10 +37,10 @@ def assert_kept(addon: ModuleType, obj: bpy.types.Object) -> None:
     assert (stroll.name, stroll.seed, stroll.policy, tuple(stroll.start)) == ("Stroll", 7, "svm", (1, 2, 0.5))
     assert (stroll.seconds, stroll.quality, stroll.train) == (5, 0.75, False)
     assert (other.name, other.seconds, other.train) == ("Take", 12, True)
-    np.testing.assert_array_equal(addon.takes.trace_of(stroll), make_trace())
-    np.testing.assert_array_equal(addon.takes.trace_of(other), make_trace(120, 2))
-    assert addon.takes.trained_on(obj) == [other]
-    assert addon.takes.active_take(obj) == other
+    np.testing.assert_array_equal(addon.recordings.recordings.trace_of(stroll), make_trace())
+    np.testing.assert_array_equal(addon.recordings.recordings.trace_of(other), make_trace(120, 2))
+    assert addon.recordings.recordings.trained_on(obj) == [other]
+    assert addon.recordings.recordings.active_take(obj) == other
 
 
 def append(path: Path, link: bool) -> bpy.types.Object:
@@ -80,14 +82,14 @@ def test_takes_survive_a_renamed_armature_and_go_with_its_copy(addon: ModuleType
 def test_takes_survive_undo_and_redo(addon: ModuleType, obj: bpy.types.Object) -> None:
     bpy.ops.ed.undo_push(message="two takes")
     trace = make_trace(3)  # once: NumPy's sine of a few numbers may differ by a bit from call to call
-    addon.takes.add_take(obj, trace)
+    addon.recordings.recordings.add_take(obj, trace)
     bpy.ops.ed.undo_push(message="three takes")
     bpy.ops.ed.undo()
     assert_kept(addon, bpy.data.objects["Rig"])
     bpy.ops.ed.redo()
     takes = bpy.data.objects["Rig"].fragmotion.takes
     assert [take.name for take in takes] == ["Stroll", "Take", "Take.001"]
-    np.testing.assert_array_equal(addon.takes.trace_of(takes[2]), trace)
+    np.testing.assert_array_equal(addon.recordings.recordings.trace_of(takes[2]), trace)
 
 
 @pytest.mark.parametrize(
@@ -96,9 +98,9 @@ def test_takes_survive_undo_and_redo(addon: ModuleType, obj: bpy.types.Object) -
 )
 def test_what_is_no_trace_is_refused_and_changes_nothing(addon: ModuleType, obj: bpy.types.Object, trace: Any) -> None:
     with pytest.raises(addon.errors.UserError, match="A take"):
-        addon.takes.add_take(obj, trace)
+        addon.recordings.recordings.add_take(obj, trace)
     with pytest.raises(addon.errors.UserError, match="A take"):
-        addon.takes.set_trace(obj.fragmotion.takes[0], trace)
+        addon.recordings.recordings.set_trace(obj.fragmotion.takes[0], trace)
     assert_kept(addon, obj)
 
 
@@ -109,7 +111,7 @@ def test_a_damaged_take_says_so(addon: ModuleType, obj: bpy.types.Object, damage
     take = obj.fragmotion.takes[0]
     take.controls = damage(take.controls) if callable(damage) else damage
     with pytest.raises(addon.errors.UserError, match="Take 'Stroll' is damaged: delete it"):
-        addon.takes.trace_of(take)
+        addon.recordings.recordings.trace_of(take)
 
 
 def press(name: str, **fields: Any) -> None:
@@ -148,7 +150,7 @@ def test_trimming_keeps_the_controls_between_start_and_end(addon: ModuleType, ob
     bpy.ops.ed.undo_push(message="two takes")
     press("trim_take", start=2.04, end=7.96)
     assert takes()[1].seconds == pytest.approx(6)
-    np.testing.assert_array_equal(addon.takes.trace_of(takes()[1]), make_trace(120, 2)[20:80])
+    np.testing.assert_array_equal(addon.recordings.recordings.trace_of(takes()[1]), make_trace(120, 2)[20:80])
     press("trim_take", start=0, end=100)
     assert takes()[1].seconds == pytest.approx(6)
     with pytest.raises(RuntimeError, match=r"'Take' lasts 6.0 s: nothing is left between 6.5 s and 7.0 s"):
@@ -163,26 +165,26 @@ def test_what_was_shown_survives_saving_and_is_trimmed_with_its_take(
 ) -> None:
     random = np.random.default_rng(3)
     times = np.arange(150) / 30
-    motion = addon.motion.Motion(
+    motion = addon.rig.motion.Motion(
         random.normal(size=(150, 3)), random.normal(size=(150, 7, 4)), random.normal(size=(150, 3)), np.arange(150)
     )
-    addon.takes.add_take(obj, make_trace(), name="Seen", shown=(times, motion))
+    addon.recordings.recordings.add_take(obj, make_trace(), name="Seen", shown=(times, motion))
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "kept.blend"))
     take = append(tmp_path / "kept.blend", link=False).fragmotion.takes["Seen"]
 
     def assert_shown(first: int, last: int) -> None:
-        seen, shown = addon.takes.shown_of(take)
+        seen, shown = addon.recordings.recordings.shown_of(take)
         np.testing.assert_allclose(seen, times[: last - first], atol=1e-6)
         for given, back in zip(motion, shown):
             np.testing.assert_allclose(back, given[first:last], atol=1e-6)
 
     assert_shown(0, 150)
-    addon.takes.trim_take(take, 1, 3)
+    addon.recordings.recordings.trim_take(take, 1, 3)
     assert_shown(30, 91)
     assert tuple(take.start) == pytest.approx(tuple(motion.frames[30]), abs=1e-6)
     take.shown = take.shown[:-3]
     with pytest.raises(addon.errors.UserError, match="'Seen' is damaged"):
-        addon.takes.shown_of(take)
+        addon.recordings.recordings.shown_of(take)
 
 
 def test_takes_go_out_to_csv_and_come_back_to_the_bit(addon: ModuleType, obj: bpy.types.Object, tmp_path: Path) -> None:
@@ -190,16 +192,16 @@ def test_takes_go_out_to_csv_and_come_back_to_the_bit(addon: ModuleType, obj: bp
         obj.fragmotion.active_take = index
         assert bpy.ops.fragmotion.export_take(filepath=str(tmp_path / name)) == {"FINISHED"}
     assert (tmp_path / "one.csv").read_text().startswith("velocity_x,velocity_y,turn,jump\n")
-    addon.takes.add_take(obj, make_trace(1))
+    addon.recordings.recordings.add_take(obj, make_trace(1))
     with pytest.raises(RuntimeError, match=r"'Take\.001' holds a single control"):
         bpy.ops.fragmotion.export_take(filepath=str(tmp_path / "three"))
     assert not (tmp_path / "three.csv").exists()
-    addon.takes.remove_take(obj, 2)
+    addon.recordings.recordings.remove_take(obj, 2)
     bpy.ops.ed.undo_push(message="two takes")
     press("import_takes", directory=str(tmp_path), files=[{"name": "one.csv"}, {"name": "two.csv"}])
     assert [take.name for take in takes()] == ["Stroll", "Take", "one", "two"]
-    np.testing.assert_array_equal(addon.takes.trace_of(takes()[2]), make_trace())
-    np.testing.assert_array_equal(addon.takes.trace_of(takes()[3]), make_trace(120, 2))
+    np.testing.assert_array_equal(addon.recordings.recordings.trace_of(takes()[2]), make_trace())
+    np.testing.assert_array_equal(addon.recordings.recordings.trace_of(takes()[3]), make_trace(120, 2))
     press("import_takes", filepath=str(tmp_path / "one.csv"))
     assert takes()[4].name == "one.001"
     bpy.ops.ed.undo()
@@ -233,13 +235,13 @@ def test_build_learns_from_the_ticked_takes(
     for seed in range(3):
         making.add_action(obj, 60, seed=seed, name=f"mocap {seed}").fragmotion.use = True
     given = []
-    build = addon.building.core.build
+    build = addon.character.building.core.build
 
     def spy(skeleton: object, clips: object, traces: list[np.ndarray], *others: object) -> object:
         given.extend(traces)
         return build(skeleton, clips, traces, *others)
 
-    monkeypatch.setattr(addon.building.core, "build", spy)
+    monkeypatch.setattr(addon.character.building.core, "build", spy)
     fields = {"trace_source": "TAKES", "classes": 6, "mirror": False, "synthesize": False}
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", **fields) == {"FINISHED"}
     assert len(given) == 1

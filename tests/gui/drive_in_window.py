@@ -33,10 +33,10 @@ VIEW = math.radians(45)  # its heading, counter-clockwise from +Y
 DRAWS = 10  # of the panels, of which the quickest counts
 
 session = window.module("drive.session")
-overlays = window.module("drive.overlays")
+overlays = window.module("drive.hud.overlays")
 button = window.module("operators.drive")
-takes = window.module("takes")
-sdl = window.module("drive.sdl").load()
+takes = window.module("recordings.recordings")
+sdl = window.module("drive.input.sdl").load()
 costs = window.watch_panels()
 
 

@@ -27,7 +27,7 @@ PROPERTIES = (1450, 200)  # of the first window; the second one shows its 3D vie
 NOTE = "fragmotion_put_aside"
 
 session = window.module("drive.session")
-overlays = window.module("drive.overlays")
+overlays = window.module("drive.hud.overlays")
 
 
 def windows() -> list[Any]:

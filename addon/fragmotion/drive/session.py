@@ -9,17 +9,21 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from .. import classes, preferences
-from ..building import has_character, load
-from ..takes import Take, add_take, trace_of
-from . import aside, overlays, views
-from .actor import Actor
+from ..character import classes
+from ..character.building import has_character, load
+from ..compat.data_blocks import is_alive
+from ..recordings.recordings import Take, add_take, trace_of
+from ..settings import preferences
+from .acting.actor import Actor
+from .acting.recorder import Recorder
 from .follow import FollowCamera
-from .inputs import Inputs
-from .readings import Readings
-from .recording import Recording
-from .scene_state import SceneState, is_alive
-from .steering import Control, Steering, view_heading
+from .hud import overlays, views
+from .hud.readings import Readings
+from .hud.shown import Shown
+from .input.inputs import Inputs
+from .input.steering import Control, Steering, view_heading
+from .state import suspended_state
+from .state.scene_state import SceneState
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
@@ -51,7 +55,7 @@ class Session:
         space = self.actor.space
         self._steering = Steering(space, self.actor.turns_well(space.walk), self.actor.turns_well(space.run))
         self.readings = Readings(self.actor, RATE)
-        self.recording: Recording | None = None
+        self.recording: Recorder | None = None
         self._elapsed, self._steps = 0.0, 0
         self.cost = self.interval = 0.0
         """Our own time for an update and the time between updates, s; running means."""
@@ -60,7 +64,7 @@ class Session:
         self.windows: set[int] = set()
         """Those whose keys it hears, by their addresses."""
         self.inputs = Inputs(preferences.get(context), RATE)
-        aside.put_aside(obj)
+        suspended_state.put_aside(obj)
 
     @property
     def armature(self) -> str:
@@ -92,8 +96,8 @@ class Session:
     def update(self, seconds: float) -> None:
         """Go on by the time since the last update: read the inputs, step, and pose the armature."""
         begin = time.perf_counter()
-        if aside.NOTE not in self.obj:  # given back for a save
-            aside.put_aside(self.obj)
+        if suspended_state.NOTE not in self.obj:  # given back for a save
+            suspended_state.put_aside(self.obj)
         if self.inputs.poll():
             self.toggle_recording()
         self._elapsed += min(seconds, _HICCUP)
@@ -144,7 +148,7 @@ class Session:
         if self.recording is None:
             if math.hypot(*self.readings.velocity) < _STILL and not any(self.control):
                 self.actor.start_afresh()
-            self.recording = Recording(self.actor, RATE)
+            self.recording = Recorder(self.actor, RATE)
             self.readings = Readings(self.actor, RATE)
         elif self._keep_recording():
             bpy.ops.ed.undo_push(message="Record")
@@ -185,10 +189,28 @@ class Session:
             return f"Bones of armature '{self.armature}' were added or deleted"
         return self._state.trouble()
 
+    def shown(self) -> Shown | None:
+        """What is drawn of it now; None where it cannot go on."""
+        if self.trouble():
+            return None
+        recording, inputs = self.recording, self.inputs
+        title = f"Recording {recording.seconds:.1f} s" if recording else f"Driving {self.armature}: Esc ends"
+        return Shown(
+            title,
+            recording is not None,
+            inputs.label,
+            inputs.shown,
+            inputs.stick,
+            self.readings,
+            self.settings,
+            self.cost,
+            self.interval,
+        )
+
     def give_back(self) -> None:
         """Let the armature have its own pose and animation until the next update: the file is saved."""
-        if is_alive(self.obj) and aside.NOTE in self.obj:
-            aside.give_back(self.obj, self._state.layer)
+        if is_alive(self.obj) and suspended_state.NOTE in self.obj:
+            suspended_state.give_back(self.obj, self._state.layer)
 
     def close(self) -> bool:
         """Let go of the inputs and give everything back; whether a take was kept that no undo step holds yet.
@@ -216,7 +238,7 @@ def start(context: bpy.types.Context, obj: bpy.types.Object, seed: int = -1, pol
     stop()
     current = Session(context, obj, seed, policy)
     classes.session = current if current.actor.character else None
-    overlays.add(current)
+    overlays.add(current.shown, current.views)
     return current
 
 

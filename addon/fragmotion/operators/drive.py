@@ -10,13 +10,14 @@ from typing import Any, ClassVar
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
-from .. import preferences
-from ..drive import session, views
-from ..drive.pads import Pads
-from ..drive.sdl import SdlMissing
+from ..drive import session
+from ..drive.hud import views
+from ..drive.input.pads import Pads
+from ..drive.input.sdl import SdlMissing
 from ..errors import UserError, core_errors, reported
-from ..movers import movers
-from ..traces import make_trace
+from ..recordings.traces import make_trace
+from ..rig.external_motion import movers
+from ..settings import preferences
 from .background import poll_idle
 from .context import active_armature, poll_armature
 

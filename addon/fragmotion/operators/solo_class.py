@@ -8,10 +8,10 @@ from typing import ClassVar
 
 import bpy
 
-from .. import classes
-from ..drive import views
+from ..character import classes
+from ..character.solo import Solo
+from ..drive.hud import views
 from ..errors import reported
-from ..solo import Solo
 from . import background
 from .context import active_armature
 from .force_class import poll_class

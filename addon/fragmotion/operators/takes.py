@@ -10,11 +10,11 @@ import bpy
 from bpy.props import CollectionProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ..core import core
+from ..bake.performing import measure_quality, origin_frame
+from ..compat.core import core
 from ..errors import UserError, core_errors, reported
 from ..files import check_regular
-from ..performing import measure_quality, origin_frame
-from ..takes import TRACE_RATE, active_take, add_take, duplicate_take, remove_take, trace_of, trim_take
+from ..recordings.recordings import TRACE_RATE, active_take, add_take, duplicate_take, remove_take, trace_of, trim_take
 from .context import active_armature, poll_armature
 from .saving import Saving
 
