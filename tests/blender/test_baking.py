@@ -44,9 +44,9 @@ def obj(obj: bpy.types.Object) -> bpy.types.Object:
 
 
 @pytest.fixture
-def take(addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray) -> Any:
-    """A take of the trace, selected."""
-    return addon.recordings.recordings.add_take(obj, trace, name="Stroll", seed=SEED, start=(2, -1, 0.7 + np.pi))
+def recording(addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray) -> Any:
+    """A recording of the trace, selected."""
+    return addon.recordings.recordings.add_recording(obj, trace, name="Stroll", seed=SEED, start=(2, -1, 0.7 + np.pi))
 
 
 def play(
@@ -113,18 +113,18 @@ def bake(**fields: Any) -> None:
     assert bpy.ops.fragmotion.bake(frame_start=FIRST, **fields) == {"FINISHED"}
 
 
-def bake_take(**fields: Any) -> None:
-    bake(trace_source="TAKE", **fields)
+def bake_recording(**fields: Any) -> None:
+    bake(trace_source="RECORDING", **fields)
 
 
 @pytest.mark.parametrize("root", ["BONE", "OBJECT", "IN_PLACE"])
 @pytest.mark.parametrize("target", ["NEW", "NLA"])
-def test_a_take_is_shown_as_the_player_plays_it(
-    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any, root: str, target: str
+def test_a_recording_is_shown_as_the_player_plays_it(
+    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, recording: Any, root: str, target: str
 ) -> None:
     oracle = play(addon, obj, trace)
     assert np.ptp(oracle.performance.frames, axis=0).min() > 0.5, "the character neither travels nor turns"
-    bake_take(root=root, target=target)
+    bake_recording(root=root, target=target)
     assert_seen(obj, on_a_treadmill(oracle) if root == "IN_PLACE" else oracle)
     assert "Stroll" in bpy.data.actions
     hips = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation
@@ -133,7 +133,7 @@ def test_a_take_is_shown_as_the_player_plays_it(
 
 
 def test_the_object_carries_the_character_and_its_root_bone_rests(
-    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any
+    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, recording: Any
 ) -> None:
     obj.rotation_mode = "QUATERNION"
     obj.rotation_quaternion = (np.cos(0.35), 0, 0, np.sin(0.35))
@@ -142,7 +142,7 @@ def test_the_object_carries_the_character_and_its_root_bone_rests(
     obj.parent = parent
     bpy.context.view_layer.update()
     obj.matrix_parent_inverse = parent.matrix_world.inverted()
-    bake_take(root="OBJECT")
+    bake_recording(root="OBJECT")
     assert_seen(obj, play(addon, obj, trace))
     character = addon.character.building.load(obj)
     root = seen_at(obj, range(FIRST, FIRST + 100, 9), [character.skeleton.names[0]])[0][:, 0]
@@ -158,45 +158,45 @@ def test_a_bake_moves_as_the_armature_is_set_to(
     addon: ModuleType, obj: bpy.types.Object, setting: str, option: str, value: Any
 ) -> None:
     trace = np.repeat([(0, 1.2, 0, 0), (0, -1.2, 0, 0), (1.2, 0, 0, 0), (0, 3.0, 0, 0), (0, 1.2, 1, 0)], 9, axis=0)
-    addon.recordings.recordings.add_take(obj, trace, seed=SEED, start=(2, -1, 0.7 + np.pi))
+    addon.recordings.recordings.add_recording(obj, trace, seed=SEED, start=(2, -1, 0.7 + np.pi))
     usual, oracle = play(addon, obj, trace), play(addon, obj, trace, **{option: value})
     assert np.abs(oracle.heads - usual.heads).max() > 1e-3, "it makes no difference here"
     setattr(obj.fragmotion.feel, setting, value)
-    bake_take()
+    bake_recording()
     assert_seen(obj, oracle)
 
 
 @pytest.mark.parametrize(("fps", "base"), [(24, 1.001), (60, 1.0), (12, 1.0)])
 def test_a_bake_keeps_time_at_any_frame_rate(
-    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any, fps: int, base: float
+    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, recording: Any, fps: int, base: float
 ) -> None:
     render = bpy.context.scene.render
     render.fps, render.fps_base = fps, base
-    bake_take()
+    bake_recording()
     frames = obj.animation_data.action.frame_range
     assert (frames[1] - frames[0]) / (fps / base) == pytest.approx(4, abs=0.5 / fps)
     assert_seen(obj, play(addon, obj, trace, fps / render.fps_base), step=3)
 
 
-def test_a_take_is_baked_with_its_own_seed_policy_and_start_or_others(
-    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any
+def test_a_recording_is_baked_with_its_own_seed_policy_and_start_or_others(
+    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, recording: Any
 ) -> None:
-    take.policy, take.start = "greedy", (-3, 4, 1.5)
-    bake_take(seed=99)
+    recording.policy, recording.start = "greedy", (-3, 4, 1.5)
+    bake_recording(seed=99)
     assert_seen(obj, play(addon, obj, trace, start=(-3, 4, 1.5), policy="greedy"))
-    bake_take(as_recorded=False, seed=SEED, policy="svm")
+    bake_recording(as_recorded=False, seed=SEED, policy="svm")
     assert_seen(obj, play(addon, obj, trace, policy="svm"))
-    bake_take(as_recorded=False, seed=SEED)
+    bake_recording(as_recorded=False, seed=SEED)
     assert_seen(obj, play(addon, obj, trace))
-    take.policy = "unheard-of"
+    recording.policy = "unheard-of"
     before = making.contents()
     with pytest.raises(RuntimeError, match=r"Bake: .*unheard-of"):
-        bake_take()
+        bake_recording()
     assert making.contents() == before
 
 
-def test_a_take_that_was_seen_is_baked_as_it_was_seen(
-    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any
+def test_a_recording_that_was_seen_is_baked_as_it_was_seen(
+    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, recording: Any
 ) -> None:
     oracle = play(addon, obj, trace)
     played, motion = oracle.performance, addon.rig.motion.Motion
@@ -204,18 +204,18 @@ def test_a_take_that_was_seen_is_baked_as_it_was_seen(
     uneven = np.sort(np.random.default_rng(1).permutation(len(shown.classes))[:-20])  # a preview that left frames out
     uneven[[0, -1]] = 0, len(shown.classes) - 1
     some = motion(*(values[uneven] for values in shown))
-    addon.recordings.recordings.set_shown(take, uneven / RATE, some)
-    take.seed = 99  # what was seen counts
-    bake_take()
+    addon.recordings.recordings.set_shown(recording, uneven / RATE, some)
+    recording.seed = 99  # what was seen counts
+    bake_recording()
     heads, _ = seen_at(obj, FIRST + uneven[::5], oracle.names)
     np.testing.assert_allclose(heads, oracle.heads[uneven[::5]], atol=1e-4)
     between = np.setdiff1d(np.arange(len(shown.classes)), uneven)
     heads, _ = seen_at(obj, FIRST + between, oracle.names)
     np.testing.assert_allclose(heads, oracle.heads[between], atol=0.05)
 
-    addon.recordings.recordings.trim_take(take, 1.0, 3.0)
-    assert tuple(take.start) == pytest.approx(tuple(played.frames[uneven[uneven >= RATE][0]]), abs=1e-4)
-    bake_take()
+    addon.recordings.recordings.trim_recording(recording, 1.0, 3.0)
+    assert tuple(recording.start) == pytest.approx(tuple(played.frames[uneven[uneven >= RATE][0]]), abs=1e-4)
+    bake_recording()
     assert tuple(obj.animation_data.action.frame_range) == pytest.approx((FIRST, FIRST + 2 * RATE), abs=1)
     inside = uneven[(uneven >= RATE) & (uneven <= 3 * RATE)]
     heads, _ = seen_at(obj, FIRST + inside - RATE, oracle.names)
@@ -223,14 +223,14 @@ def test_a_take_that_was_seen_is_baked_as_it_was_seen(
 
 
 def test_a_bake_into_the_current_action_replaces_its_keys_from_the_playhead_on(
-    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any
+    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, recording: Any
 ) -> None:
     bake(trace_source="PLAYER", player="runner", seconds=8)
     action = obj.animation_data.action
     names = play(addon, obj, trace).names
     before = seen_at(obj, range(FIRST, FIRST + 240, 10), names)[0]
     bpy.context.scene.frame_set(60)
-    assert bpy.ops.fragmotion.bake(trace_source="TAKE", target="CURRENT", fit_end=False) == {"FINISHED"}
+    assert bpy.ops.fragmotion.bake(trace_source="RECORDING", target="CURRENT", fit_end=False) == {"FINISHED"}
     assert obj.animation_data.action == action and tuple(action.frame_range) == (FIRST, FIRST + 240)
     assert_seen(obj, play(addon, obj, trace), first=60)
     after = seen_at(obj, range(FIRST, FIRST + 240, 10), names)[0]
@@ -242,12 +242,12 @@ def test_a_bake_into_the_current_action_replaces_its_keys_from_the_playhead_on(
 
 
 def test_a_bake_goes_on_where_the_character_stands(
-    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any
+    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, recording: Any
 ) -> None:
-    bake_take()
+    bake_recording()
     played = play(addon, obj, trace).performance
     bpy.context.scene.frame_set(FIRST + 100)
-    bake(trace_source="TAKE", as_recorded=False, place="CHARACTER", seed=SEED, target="CURRENT")
+    bake(trace_source="RECORDING", as_recorded=False, place="CHARACTER", seed=SEED, target="CURRENT")
     x, y, heading = played.frames[100]
     heads = seen_at(obj, [FIRST + 100], play(addon, obj, trace).names)[0]
     np.testing.assert_allclose(heads[0, 0, :2], (x, y), atol=0.01)
@@ -259,13 +259,13 @@ def test_a_bake_goes_on_where_the_character_stands(
 
 
 def test_an_nla_strip_covers_what_played_only_while_it_lasts(
-    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any
+    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, recording: Any
 ) -> None:
     bake(trace_source="PLAYER", player="runner", seconds=8, action="Run")
     names = play(addon, obj, trace).names
     outside = [*range(FIRST, 50, 6), *range(200, 240, 6)]
     before = seen_at(obj, outside, names)[0]
-    assert bpy.ops.fragmotion.bake(trace_source="TAKE", target="NLA", frame_start=60) == {"FINISHED"}
+    assert bpy.ops.fragmotion.bake(trace_source="RECORDING", target="NLA", frame_start=60) == {"FINISHED"}
     data = obj.animation_data
     assert data.action is None
     assert [(track.name, len(track.strips)) for track in data.nla_tracks] == [("Run", 1), ("Stroll", 1)]
@@ -276,12 +276,12 @@ def test_an_nla_strip_covers_what_played_only_while_it_lasts(
 @pytest.mark.parametrize("below", ["NEW", "NLA"])
 @pytest.mark.parametrize("frame", [1, 80])
 def test_a_strip_over_keys_that_move_the_object_shows_its_own_path(
-    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any, below: str, frame: int
+    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, recording: Any, below: str, frame: int
 ) -> None:
     """Wherever the playhead is, and so the object, when it is baked."""
-    bake_take(root="OBJECT", target=below, action="Below")
+    bake_recording(root="OBJECT", target=below, action="Below")
     bpy.context.scene.frame_set(frame)
-    bake_take(target="NLA", root="BONE")
+    bake_recording(target="NLA", root="BONE")
     assert_seen(obj, play(addon, obj, trace))
     assert [track.name for track in obj.animation_data.nla_tracks][-2:] == ["Below", "Stroll"]
 
@@ -289,17 +289,17 @@ def test_a_strip_over_keys_that_move_the_object_shows_its_own_path(
 @pytest.mark.parametrize("root", ["BONE", "OBJECT"])
 @pytest.mark.parametrize("modes", [("QUATERNION",), ("XYZ", "AXIS_ANGLE", "ZYX", "QUATERNION")])
 def test_reduced_keys_keep_every_bone_within_the_bound_on_every_frame(
-    addon: ModuleType, obj: bpy.types.Object, take: Any, root: str, modes: tuple[str, ...]
+    addon: ModuleType, obj: bpy.types.Object, recording: Any, root: str, modes: tuple[str, ...]
 ) -> None:
     for index, bone in enumerate(obj.pose.bones):
         bone.rotation_mode = modes[index % len(modes)]
     names = obj.pose.bones.keys()
-    bake_take(root=root, action="all")
+    bake_recording(root=root, action="all")
     expected = seen_at(obj, range(FIRST, FIRST + 121), names)
     every = count_keys(addon, obj)
     counts = []
     for distance, angle in ((0.02, 3.0), (0.005, 0.5)):
-        bake_take(root=root, action="few", reduce=True, reduce_distance=distance, reduce_angle=np.radians(angle))
+        bake_recording(root=root, action="few", reduce=True, reduce_distance=distance, reduce_angle=np.radians(angle))
         heads, turned = seen_at(obj, range(FIRST, FIRST + 121), names)
         assert np.linalg.norm(heads - expected[0], axis=-1).max() <= distance + 2e-6
         chord = np.linalg.norm(turned - expected[1], axis=(-2, -1))
@@ -315,14 +315,14 @@ def count_keys(addon: ModuleType, obj: bpy.types.Object) -> int:
 
 
 @pytest.mark.parametrize("root", ["BONE", "IN_PLACE"])
-def test_a_loop_ends_as_it_began(addon: ModuleType, obj: bpy.types.Object, take: Any, root: str) -> None:
+def test_a_loop_ends_as_it_began(addon: ModuleType, obj: bpy.types.Object, recording: Any, root: str) -> None:
     names = play(addon, obj, np.zeros((10, 4))).names
-    bake_take(root=root, action="once")
+    bake_recording(root=root, action="once")
     once = seen_from_itself(obj, names, root)
-    bake_take(root=root, action="round", loop=True, loop_seconds=0.5)
+    bake_recording(root=root, action="round", loop=True, loop_seconds=0.5)
     heads, turned, path = seen_from_itself(obj, names, root)
     np.testing.assert_allclose(heads[:-15], once[0][:-15], atol=1e-4, err_msg="it began to turn too early")
-    assert np.abs(once[0][-1] - once[0][0]).max() > 0.05, "the take ends as it began by itself"
+    assert np.abs(once[0][-1] - once[0][0]).max() > 0.05, "the recording ends as it began by itself"
     np.testing.assert_allclose(heads[-1], heads[0], atol=1e-4)
     np.testing.assert_allclose(turned[-1], turned[0], atol=1e-4)
     steps = np.diff(heads, axis=0)  # the bones turn as fast, so that their heads, on circles, move nearly as fast
@@ -361,31 +361,31 @@ def changes_of_class(oracle: Oracle, names: list[str]) -> list[tuple[int, str]]:
 
 
 def test_markers_stand_where_the_class_changes(
-    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, take: Any
+    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, recording: Any
 ) -> None:
     oracle = play(addon, obj, trace)
     obj.fragmotion.classes[oracle.performance.classes[60]].name = "my own wave"
     expected = changes_of_class(oracle, [row.name for row in obj.fragmotion.classes])
     assert len(expected) > 5 and "my own wave" in dict(expected).values()
     scene = bpy.context.scene
-    bake_take(action="none")
+    bake_recording(action="none")
     assert not scene.timeline_markers and not obj.animation_data.action.pose_markers
-    bake_take(action="scene", markers="SCENE")
+    bake_recording(action="scene", markers="SCENE")
     assert sorted((m.frame, m.name) for m in scene.timeline_markers) == expected
     for _ in range(2):
-        bake_take(action="action", markers="ACTION")
+        bake_recording(action="action", markers="ACTION")
         markers = bpy.data.actions["action"].pose_markers
         assert sorted((m.frame, m.name) for m in markers) == expected
     assert len(scene.timeline_markers) == len(expected)
 
 
 @pytest.mark.parametrize("target", ["NEW", "CURRENT", "NLA"])
-def test_every_bake_is_one_undo_step(obj: bpy.types.Object, take: Any, target: str) -> None:
-    bake_take(action="Former")
+def test_every_bake_is_one_undo_step(obj: bpy.types.Object, recording: Any, target: str) -> None:
+    bake_recording(action="Former")
     bpy.ops.ed.undo_push(message="before")
     before = digest()
     fields = {"target": target, "markers": "SCENE", "root": "IN_PLACE", "loop": True}
-    assert bpy.ops.fragmotion.bake("EXEC_DEFAULT", True, trace_source="TAKE", **fields) == {"FINISHED"}
+    assert bpy.ops.fragmotion.bake("EXEC_DEFAULT", True, trace_source="RECORDING", **fields) == {"FINISHED"}
     assert digest() != before
     bpy.ops.ed.undo()
     assert digest() == before
@@ -396,12 +396,12 @@ def test_every_bake_is_one_undo_step(obj: bpy.types.Object, take: Any, target: s
     [("NEW", True), ("NLA", True), ("NEW", False), ("NLA", False), ("CURRENT", False), ("REPLACED", False)],
 )
 def test_a_bake_that_fails_while_it_writes_changes_nothing(
-    addon: ModuleType, obj: bpy.types.Object, take: Any, target: str, fresh: bool, monkeypatch: pytest.MonkeyPatch
+    addon: ModuleType, obj: bpy.types.Object, recording: Any, target: str, fresh: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if fresh:
         obj.animation_data_clear()
     else:
-        bake_take(action="Former", markers="ACTION", root="OBJECT", seed=2)
+        bake_recording(action="Former", markers="ACTION", root="OBJECT", seed=2)
     bpy.context.view_layer.update()
     before = digest()
 
@@ -411,16 +411,16 @@ def test_a_bake_that_fails_while_it_writes_changes_nothing(
     monkeypatch.setattr(addon.bake.targets, "_mark", fail)
     fields = {"action": "Former", "target": "NEW"} if target == "REPLACED" else {"target": target}
     with pytest.raises(RuntimeError, match="no memory"):
-        bake_take(root="OBJECT", **fields)
+        bake_recording(root="OBJECT", **fields)
     assert digest() == before
 
 
 @pytest.mark.parametrize("stage", ["Playing", "Reducing keys"])
 def test_a_bake_that_is_cancelled_changes_nothing(
-    addon: ModuleType, obj: bpy.types.Object, take: Any, stage: str
+    addon: ModuleType, obj: bpy.types.Object, recording: Any, stage: str
 ) -> None:
     settings = obj.fragmotion.bake
-    settings.trace_source, settings.as_recorded, settings.reduce = "TAKE", False, True
+    settings.trace_source, settings.as_recorded, settings.reduce = "RECORDING", False, True
     before = digest()
     job = addon.jobs.Job("test", addon.bake.baking.prepare(bpy.context, obj, settings).task)
     heard = []
@@ -468,29 +468,31 @@ def keys_of(action: bpy.types.Action) -> list[Any]:
     return [(c.data_path, c.array_index, [tuple(key.co) for key in c.keyframe_points]) for c in curves]
 
 
-def test_what_cannot_be_baked_is_said_and_changes_nothing(addon: ModuleType, obj: bpy.types.Object, take: Any) -> None:
+def test_what_cannot_be_baked_is_said_and_changes_nothing(
+    addon: ModuleType, obj: bpy.types.Object, recording: Any
+) -> None:
     def refuses(message: str, **fields: Any) -> None:
         before = digest()
         with pytest.raises(RuntimeError, match=message):
             bpy.ops.fragmotion.bake(**fields)
         assert digest() == before
 
-    refuses("'Fragmotion Sample' has no such take: record or import", trace_source="TAKE", take=7)
+    refuses("'Fragmotion Sample' has no such recording: record or import", trace_source="RECORDING", recording=7)
     refuses("is a take that Build learns from", target="CURRENT")
-    bake_take(root="OBJECT", action="Moves")
-    refuses("'Moves' moves the armature object itself", target="CURRENT", trace_source="TAKE")
+    bake_recording(root="OBJECT", action="Moves")
+    refuses("'Moves' moves the armature object itself", target="CURRENT", trace_source="RECORDING")
     obj.delta_location.x = 1
-    refuses("has delta transforms.* or choose Root Bone", root="OBJECT", trace_source="TAKE")
-    refuses("has delta transforms.* or bake to a new Action", target="NLA", trace_source="TAKE")
+    refuses("has delta transforms.* or choose Root Bone", root="OBJECT", trace_source="RECORDING")
+    refuses("has delta transforms.* or bake to a new Action", target="NLA", trace_source="RECORDING")
     obj.delta_location.x = 0
     obj.animation_data_clear()
-    refuses("plays no Action to bake into: bake to a new", target="CURRENT", trace_source="TAKE")
-    take.controls = b"?"
-    refuses("Take 'Stroll' is damaged", trace_source="TAKE")
+    refuses("plays no Action to bake into: bake to a new", target="CURRENT", trace_source="RECORDING")
+    recording.controls = b"?"
+    refuses("Recording 'Stroll' is damaged", trace_source="RECORDING")
 
 
 def test_esc_stops_a_bake_and_changes_nothing(
-    addon: ModuleType, obj: bpy.types.Object, take: Any, monkeypatch: pytest.MonkeyPatch
+    addon: ModuleType, obj: bpy.types.Object, recording: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     button, play_on = addon.operators.background, addon.bake.performing.prepare
 
@@ -506,6 +508,6 @@ def test_esc_stops_a_bake_and_changes_nothing(
 
     monkeypatch.setattr(addon.bake.performing, "prepare", slow)
     before = digest()
-    assert bpy.ops.fragmotion.bake(trace_source="TAKE", target="NLA") == {"CANCELLED"}
+    assert bpy.ops.fragmotion.bake(trace_source="RECORDING", target="NLA") == {"CANCELLED"}
     assert digest() == before
     assert button.current is None and bpy.ops.fragmotion.bake.poll()

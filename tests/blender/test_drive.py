@@ -128,25 +128,25 @@ def test_what_is_recorded_replays_as_it_was_seen(addon: ModuleType, session: Mod
     driven = start(session, obj)
     go_on(driven, 0.5)
     begin, seen = driven.player.frame, record(driven)
-    (take,) = obj.fragmotion.takes
-    trace = import_module(f"{addon.__name__}.recordings.recordings").trace_of(take)
+    (recording,) = obj.fragmotion.takes
+    trace = import_module(f"{addon.__name__}.recordings.recordings").trace_of(recording)
     assert len(trace) == math.ceil(len(seen) / 6) == 26
     assert trace[:, 3].sum() == 1, "the tap on the jump button is lost, or lasts"
-    assert tuple(take.start) == pytest.approx(begin) and take.policy == driven.actor.character.policy
-    player = addon.compat.core.core.Player(driven.actor.character, take.seed)
+    assert tuple(recording.start) == pytest.approx(begin) and recording.policy == driven.actor.character.policy
+    player = addon.compat.core.core.Player(driven.actor.character, recording.seed)
     player.reset(*begin)
     performance = player.run(trace, RATE)
     assert way(seen) > 3, "the character stood while it was recorded"
     np.testing.assert_allclose(performance.frames[1 : len(seen) + 1, :2], np.array(seen)[:, :2], atol=1e-9)
-    assert take.quality == pytest.approx(performance.quality, abs=0.01)
+    assert recording.quality == pytest.approx(performance.quality, abs=0.01)
 
 
-def test_a_take_is_replayed_live(session: ModuleType, obj: bpy.types.Object) -> None:
+def test_a_recording_is_replayed_live(session: ModuleType, obj: bpy.types.Object) -> None:
     driven = start(session, obj)
     seen = record(driven)
-    (take,) = obj.fragmotion.takes
-    driven = session.replay(bpy.context, obj, take)
-    assert driven.inputs.label == "Trace" and driven.seed == take.seed
+    (recording,) = obj.fragmotion.takes
+    driven = session.replay(bpy.context, obj, recording)
+    assert driven.inputs.label == "Trace" and driven.seed == recording.seed
     replayed = []
     for _ in seen:
         driven.update(1 / RATE)
@@ -155,11 +155,11 @@ def test_a_take_is_replayed_live(session: ModuleType, obj: bpy.types.Object) -> 
     np.testing.assert_allclose(replayed, seen, atol=1e-4)
     go_on(driven, 1)
     assert driven.control == (0, 0, 0, 0) and not driven.inputs.trace.playing
-    other = session.replay(bpy.context, obj, take, seed=7, policy="greedy")
+    other = session.replay(bpy.context, obj, recording, seed=7, policy="greedy")
     assert (other.seed, other.actor.policy) == (7, "greedy")
 
 
-def test_a_take_that_begins_in_motion_keeps_what_was_seen(
+def test_a_recording_that_begins_in_motion_keeps_what_was_seen(
     addon: ModuleType, session: ModuleType, obj: bpy.types.Object
 ) -> None:
     driven = start(session, obj)
@@ -169,8 +169,8 @@ def test_a_take_that_begins_in_motion_keeps_what_was_seen(
     before = driven.player.frame
     seen = record(driven)
     assert math.dist(before[:2], seen[0][:2]) < 0.1, "the character leaps where the recording begins"
-    (take,) = obj.fragmotion.takes
-    times, motion = import_module(f"{addon.__name__}.recordings.recordings").shown_of(take)
+    (recording,) = obj.fragmotion.takes
+    times, motion = import_module(f"{addon.__name__}.recordings.recordings").shown_of(recording)
     np.testing.assert_allclose(times, np.arange(len(seen) + 1) / RATE, atol=1e-5)
     np.testing.assert_allclose(motion.frames, [before, *seen], atol=1e-5)
 
@@ -182,9 +182,9 @@ def test_a_recording_under_way_is_kept_when_the_drive_ends(session: ModuleType, 
     driven.inputs.keyboard.press("W")
     go_on(driven, 1)
     session.stop()
-    assert [take.seconds for take in obj.fragmotion.takes] == [1]
+    assert [each.seconds for each in obj.fragmotion.takes] == [1]
     bpy.ops.ed.undo()
-    assert not bpy.context.view_layer.objects.active.fragmotion.takes, "a take is one undo step"
+    assert not bpy.context.view_layer.objects.active.fragmotion.takes, "a recording is one undo step"
     bpy.ops.ed.redo()
     assert len(bpy.context.view_layer.objects.active.fragmotion.takes) == 1
 
@@ -195,10 +195,10 @@ def test_before_build_a_trace_is_recorded_too(addon: ModuleType, session: Module
     driven.inputs.keyboard.press("W")
     go_on(driven, 0.5)
     driven.toggle_recording()
-    (take,) = driven.obj.fragmotion.takes
-    trace = import_module(f"{addon.__name__}.recordings.recordings").trace_of(take)
+    (recording,) = driven.obj.fragmotion.takes
+    trace = import_module(f"{addon.__name__}.recordings.recordings").trace_of(recording)
     np.testing.assert_allclose(trace, [(0, driven.actor.space.walk, 0, 0)] * 5)
-    assert take.policy == "" and take.quality == 0
+    assert recording.policy == "" and recording.quality == 0
 
 
 def test_the_figures_say_what_plays(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:

@@ -138,9 +138,9 @@ class User:
     def do_add(self) -> None:
         making.activate(making.add_mesh())
 
-    def do_remove_take(self) -> None:
+    def do_remove_recording(self) -> None:
         if self.rig is not None and self.rig.fragmotion.takes:
-            self.addon.recordings.recordings.remove_take(self.rig, 0)
+            self.addon.recordings.recordings.remove_recording(self.rig, 0)
 
     def do_rename(self) -> None:
         self.rig.name = self.random.choice(("Rig", "Hero", "\N{SNOWMAN}"))

@@ -33,14 +33,17 @@ def armature(name: str) -> bpy.types.Object:
 
 
 def assert_complete(addon: ModuleType, obj: bpy.types.Object) -> None:
-    """The character, its classes and its takes are those that were saved."""
+    """The character, its classes and its recordings are those that were saved."""
     character = addon.character.building.load(obj)
     assert len(character.labels) == obj.fragmotion.figures.fragments == 6
     names = [row.name for row in obj.fragmotion.classes]
     assert len(names) == len(character.class_names) == 4 and names[1] == "Stride" and all(names)
     assert addon.character.classes.excluded(obj) == (2,)
     assert obj.fragmotion.feel.promptness == 0.25
-    assert [(take.name, take.train) for take in obj.fragmotion.takes] == [("Imported", True), ("Recorded", False)]
+    assert [(each.name, each.train) for each in obj.fragmotion.takes] == [
+        ("Imported", True),
+        ("Recorded", False),
+    ]
     np.testing.assert_allclose(
         addon.recordings.recordings.trace_of(obj.fragmotion.takes[0]), making.waves(30, 4, 1) ** 2, atol=1e-12
     )
@@ -53,7 +56,7 @@ def test_there_is_a_file_of_the_first_version() -> None:
 
 
 @pytest.mark.parametrize("name", ["Hero", "Twin"])
-def test_the_character_and_its_takes_are_there(addon: ModuleType, file: Path, name: str) -> None:
+def test_the_character_and_its_recordings_are_there(addon: ModuleType, file: Path, name: str) -> None:
     assert_complete(addon, armature(name))
     assert [action.fragmotion.use for action in bpy.data.actions] == [True, True]
     assert addon.mocap.left_out.spans_of(bpy.data.actions["way 0"]) == [(1, 3)]
@@ -73,7 +76,7 @@ def test_a_recording_is_replayed_and_baked(addon: ModuleType, session: ModuleTyp
         np.testing.assert_allclose(driven.player.frame, frame, atol=1e-4)
     session.stop()
     bpy.context.scene.render.fps = 60
-    assert bpy.ops.fragmotion.bake(trace_source="TAKE", take=1, as_recorded=True) == {"FINISHED"}
+    assert bpy.ops.fragmotion.bake(trace_source="RECORDING", recording=1, as_recorded=True) == {"FINISHED"}
     action = obj.animation_data.action
     assert action.name == "Recorded" and tuple(action.frame_range) == (1, 61)
 

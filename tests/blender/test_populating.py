@@ -85,15 +85,15 @@ def test_copies_share_their_data_and_have_names_actions_and_parts_of_their_own(o
     assert {o for o in bpy.data.collections[f"{obj.name} Crowd"].objects} >= set(copies)
 
 
-def test_ticked_takes_drive_in_turn(addon: ModuleType, obj: bpy.types.Object) -> None:
-    with pytest.raises(RuntimeError, match="is ticked: tick some under Takes"):
-        bpy.ops.fragmotion.populate(traces="TAKES")
+def test_ticked_recordings_drive_in_turn(addon: ModuleType, obj: bpy.types.Object) -> None:
+    with pytest.raises(RuntimeError, match="is ticked: tick some under Recordings"):
+        bpy.ops.fragmotion.populate(traces="RECORDINGS")
     for rows in (10, 20, 30):
-        take = addon.recordings.recordings.add_take(obj, np.tile([0.0, 1.2, 0, 0], (rows, 1)))
-        take.train = rows != 20
+        recording = addon.recordings.recordings.add_recording(obj, np.tile([0.0, 1.2, 0, 0], (rows, 1)))
+        recording.train = rows != 20
     first = obj.fragmotion.bake.frame_start
     rate = bpy.context.scene.render.fps
-    lengths = [copy.animation_data.action.frame_range[1] - first for copy in populate(count=3, traces="TAKES")]
+    lengths = [copy.animation_data.action.frame_range[1] - first for copy in populate(count=3, traces="RECORDINGS")]
     assert lengths == [rate, 3 * rate, rate]
 
 

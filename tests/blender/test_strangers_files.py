@@ -40,7 +40,7 @@ def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
         action = making.add_action(obj, 60, seed=seed, name=f"take {seed}")
         action.use_fake_user = action.fragmotion.use = True
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=6, seconds=5) == {"FINISHED"}
-    addon.recordings.recordings.add_take(
+    addon.recordings.recordings.add_recording(
         obj, making.waves(20, 4, 1) ** 2, name="Seen", shown=_shown(addon, len(obj.data.bones))
     )
     path = tmp_path_factory.mktemp("built") / "built.blend"
@@ -202,7 +202,7 @@ def test_pipes_that_are_chosen_are_refused(addon: ModuleType, obj: bpy.types.Obj
     policy, trace, take = map(str, pipes)
     calls = (
         lambda: bpy.ops.fragmotion.load_policy(filepath=policy),
-        lambda: bpy.ops.fragmotion.import_takes(filepath=trace),
+        lambda: bpy.ops.fragmotion.import_recordings(filepath=trace),
         lambda: bpy.ops.fragmotion.bake(trace_source="FILE", trace_file=trace),
         lambda: bpy.ops.fragmotion.import_mocap("EXEC_DEFAULT", directory=str(tmp_path), files=[{"name": "x.bvh"}]),
     )
@@ -245,15 +245,17 @@ def test_a_policy_of_another_tree_of_the_armature_says_so(
 
 
 @pytest.mark.parametrize(("field", "value"), [("start", (1e20, 0, 0)), ("shown_bones", -1)])
-def test_an_impossible_take_is_damaged_and_starts_no_drive(
+def test_an_impossible_recording_is_damaged_and_starts_no_drive(
     addon: ModuleType, obj: bpy.types.Object, field: str, value: Any
 ) -> None:
-    take = addon.recordings.recordings.add_take(obj, np.tile((0, 1.2, 0, 0), (20, 1)))
-    take.shown = b"x"
+    recording = addon.recordings.recordings.add_recording(obj, np.tile((0, 1.2, 0, 0), (20, 1)))
+    recording.shown = b"x"
     with suppress(ValueError):  # out of the property's bounds, which a file need not keep
-        setattr(take, field, value)
+        setattr(recording, field, value)
     with pytest.raises(addon.errors.UserError, match="is damaged"):
-        addon.recordings.recordings.trace_of(take) if field == "start" else addon.recordings.recordings.shown_of(take)
+        addon.recordings.recordings.trace_of(recording) if field == "start" else addon.recordings.recordings.shown_of(
+            recording
+        )
     assert addon.drive.session.current is None
 
 
@@ -295,30 +297,34 @@ def shown(rows: np.ndarray) -> bytes:
 def test_a_recording_with_impossible_numbers_is_damaged_or_baked(
     addon: ModuleType, obj: bpy.types.Object, column: int, value: float
 ) -> None:
-    take = obj.fragmotion.takes[0]
-    rows = np.frombuffer(zlib.decompress(take.shown), "<f4").reshape(60, -1).copy()
+    recording = obj.fragmotion.takes[0]
+    rows = np.frombuffer(zlib.decompress(recording.shown), "<f4").reshape(60, -1).copy()
     rows[-1, column] = value
-    take.shown = shown(rows)
+    recording.shown = shown(rows)
     possible = np.isfinite(value) and column not in (0, 7)
     if possible:
-        addon.recordings.recordings.shown_of(take)
+        addon.recordings.recordings.shown_of(recording)
         return
-    refused(bpy.ops.fragmotion.bake, "Take 'Seen' is damaged: delete it", trace_source="TAKE", take=0)
+    refused(bpy.ops.fragmotion.bake, "Recording 'Seen' is damaged: delete it", trace_source="RECORDING", recording=0)
 
 
 def test_a_recording_without_rotations_or_rows_is_damaged(addon: ModuleType, obj: bpy.types.Object) -> None:
-    take = obj.fragmotion.takes[0]
-    rows = np.frombuffer(zlib.decompress(take.shown), "<f4").reshape(60, -1).copy()
+    recording = obj.fragmotion.takes[0]
+    rows = np.frombuffer(zlib.decompress(recording.shown), "<f4").reshape(60, -1).copy()
     rows[3, 8:] = 0
     for data in (shown(rows), zlib.compress(b""), shown(np.zeros((1, 3)))):
-        take.shown = data
-        refused(bpy.ops.fragmotion.bake, "Take 'Seen' is damaged: delete it", trace_source="TAKE", take=0)
-    take.shown_bones = -2  # no columns at all
-    refused(bpy.ops.fragmotion.bake, "Take 'Seen' is damaged: delete it", trace_source="TAKE", take=0)
-    take.shown = b""
+        recording.shown = data
+        refused(
+            bpy.ops.fragmotion.bake, "Recording 'Seen' is damaged: delete it", trace_source="RECORDING", recording=0
+        )
+    recording.shown_bones = -2  # no columns at all
+    refused(bpy.ops.fragmotion.bake, "Recording 'Seen' is damaged: delete it", trace_source="RECORDING", recording=0)
+    recording.shown = b""
     for trace in (np.full((5, 4), np.nan), np.full((5, 4), 7.0), np.zeros((0, 4))):
-        take.controls = zlib.compress(trace.tobytes())
-        refused(bpy.ops.fragmotion.bake, "Take 'Seen' is damaged: delete it", trace_source="TAKE", take=0)
+        recording.controls = zlib.compress(trace.tobytes())
+        refused(
+            bpy.ops.fragmotion.bake, "Recording 'Seen' is damaged: delete it", trace_source="RECORDING", recording=0
+        )
 
 
 @pytest.mark.parametrize("rate", ["fast", 0.0, -30, np.nan, np.inf, 1e300, [1, 2], b"\xff"])
@@ -412,10 +418,18 @@ def test_damaged_settings_are_mended_and_every_button_ends_in_a_sentence(
 
 def press_every_button(folder: Path) -> None:
     """Whatever each does, it says so in one sentence."""
-    fields = {"save_policy": {"filepath": str(folder / "x")}, "export_take": {"filepath": str(folder / "x")}}
+    fields = {"save_policy": {"filepath": str(folder / "x")}, "export_recording": {"filepath": str(folder / "x")}}
     fields["build"] = fields["suggest_classes"] = {"seconds": 2.0}
     for name in (
-        *("suggest_classes", "bake", "populate", "duplicate_take", "trim_take", "export_take", "delete_take"),
+        *(
+            "suggest_classes",
+            "bake",
+            "populate",
+            "duplicate_recording",
+            "trim_recording",
+            "export_recording",
+            "delete_recording",
+        ),
         *("save_policy", "force_class", "solo_class", "leave_out", "build", "bake"),
     ):
         operator = getattr(bpy.ops.fragmotion, name)

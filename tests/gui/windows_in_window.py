@@ -155,7 +155,7 @@ def lose_a_window(before: list[Any]) -> Iterator[None]:
     yield from go_on()
     close_window()
     yield
-    assert [take.name for take in bpy.data.objects["Rig"].fragmotion.takes] == ["Take"], "the recording is lost"
+    assert [each.name for each in bpy.data.objects["Rig"].fragmotion.takes] == ["Recording"], "the recording is lost"
     yield from assert_nothing_is_left(before)
 
 

@@ -82,8 +82,8 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
     context.view_layer.update()
     rig = make_rig(obj)
     check_skeleton(obj, character, rig)
-    take = performing.chosen_take(obj, settings)
-    target = find_target(context, obj, settings, take.name if take else "")
+    recording = performing.chosen_recording(obj, settings)
+    target = find_target(context, obj, settings, recording.name if recording else "")
     holds = settings.root == "BONE" and settings.target == "NLA" and places_object(obj)
     if settings.root == "OBJECT":
         _check_object(obj, "choose Root Bone as root motion")
@@ -93,7 +93,7 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
         _check_still(obj, target.action)
     play = performing.prepare(context, obj, character, rig, settings)
     stage = _make_stage(obj, rig)
-    options = _make_options(context.scene, settings, holds, recorded=take is not None and settings.as_recorded)
+    options = _make_options(context.scene, settings, holds, recorded=recording is not None and settings.as_recorded)
     return Prepared(lambda report: _compute(stage, options, play, report), target)
 
 

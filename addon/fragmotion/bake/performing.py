@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A trace played by the armature's character: what a bake writes and a take is judged by."""
+"""A trace played by the armature's character: what a bake writes and a recording is judged by."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..character.building import has_character, load, make_player
 from ..errors import UserError, core_errors
 from ..jobs import Report
 from ..mocap.sampling import scene_rate
-from ..recordings.recordings import Take, active_take, shown_of, trace_of
+from ..recordings.recordings import Recording, active_recording, shown_of, trace_of
 from ..recordings.traces import make_trace
 from ..rig.motion import Motion, resampled
 from ..settings.bake_fields import DRIVING
@@ -22,7 +22,7 @@ from ..settings.bake_fields import DRIVING
 if TYPE_CHECKING:
     from fragmotion_core import Character, Performance, Rig
 
-_JUDGING_RATE = 30.0  # frames a second at which a take's quality is measured
+_JUDGING_RATE = 30.0  # frames a second at which a recording's quality is measured
 _CLIP_FRAMES = 2  # a clip has at least so many
 
 
@@ -33,28 +33,30 @@ class Played(NamedTuple):
     remark: str
 
 
-def chosen_take(obj: bpy.types.Object, settings: Any) -> Take | None:
-    """The take that BakeFields ask for, None where the trace is another; UserError where there is no such take."""
-    if settings.trace_source != "TAKE":
+def chosen_recording(obj: bpy.types.Object, settings: Any) -> Recording | None:
+    """The recording that BakeFields ask for, None where the trace is another; UserError where it is not there."""
+    if settings.trace_source != "RECORDING":
         return None
-    takes, index = obj.fragmotion.takes, settings.take
-    take = active_take(obj) if index < 0 else takes[index] if index < len(takes) else None
-    if take is None:
-        raise UserError(f"Armature '{obj.name}' has no such take: record or import one, and select it under Takes")
-    return take
+    recordings, index = obj.fragmotion.takes, settings.recording
+    recording = active_recording(obj) if index < 0 else recordings[index] if index < len(recordings) else None
+    if recording is None:
+        raise UserError(
+            f"Armature '{obj.name}' has no such recording: record or import one, and select it under Recordings"
+        )
+    return recording
 
 
 def prepare(
     context: bpy.types.Context, obj: bpy.types.Object, character: Character, rig: Rig, settings: Any
 ) -> Callable[[Report], Played]:
     """Read what a performance needs; the task that it returns plays it and calls nothing of Blender."""
-    take, rate = chosen_take(obj, settings), scene_rate(context.scene)
-    recorded = take if settings.as_recorded else None
+    recording, rate = chosen_recording(obj, settings), scene_rate(context.scene)
+    recorded = recording if settings.as_recorded else None
     if recorded is not None:
         shown = shown_of(recorded)
         if shown is not None and recorded.shown_bones == len(character.skeleton.names):
             return lambda _report: Played(resampled(*shown, rate), "as it was recorded")
-    trace = make_trace(settings, character.space) if take is None else trace_of(take)
+    trace = make_trace(settings, character.space) if recording is None else trace_of(recording)
     player = _player_for(obj, character, recorded, settings)
     player.reset(*(_place(context, obj, rig, settings) if recorded is None else recorded.start))
 
@@ -66,18 +68,18 @@ def prepare(
     return play
 
 
-def measure_quality(obj: bpy.types.Object, take: Take) -> float:
-    """Eq. 2's mean over time when the armature's character replays the take; 0 where there is no character."""
+def measure_quality(obj: bpy.types.Object, recording: Recording) -> float:
+    """Eq. 2's mean over time when the armature's character replays the recording; 0 where there is no character."""
     if not has_character(obj):
         return 0.0
     character = load(obj)
-    policy = take.policy if take.policy in character.policies else ""
-    with core_errors(f"Take '{take.name}'"):
-        player = make_player(obj, character, take.seed, policy)
-        return float(player.run(trace_of(take), _JUDGING_RATE).quality)
+    policy = recording.policy if recording.policy in character.policies else ""
+    with core_errors(f"Recording '{recording.name}'"):
+        player = make_player(obj, character, recording.seed, policy)
+        return float(player.run(trace_of(recording), _JUDGING_RATE).quality)
 
 
-def _player_for(obj: bpy.types.Object, character: Character, recorded: Take | None, settings: Any) -> Any:
+def _player_for(obj: bpy.types.Object, character: Character, recorded: Recording | None, settings: Any) -> Any:
     if recorded is not None:
         policy, seed = recorded.policy, recorded.seed
     else:

@@ -70,16 +70,18 @@ def populate(
 def _bakes(obj: bpy.types.Object, settings: Any) -> Iterator[SimpleNamespace]:
     """What each copy bakes: Bake's own settings, with a trace and a seed of its own."""
     ticked = []
-    if settings.traces == "TAKES":
-        ticked = [index for index, take in enumerate(obj.fragmotion.takes) if take.train]
+    if settings.traces == "RECORDINGS":
+        ticked = [index for index, recording in enumerate(obj.fragmotion.takes) if recording.train]
         if not ticked:
-            raise UserError(f"No take of armature '{obj.name}' is ticked: tick some under Takes, or choose Simulated")
+            raise UserError(
+                f"No recording of armature '{obj.name}' is ticked: tick some under Recordings, or choose Simulated"
+            )
     habits = core.PLAYERS if settings.player == MIXED else [settings.player]
     for index in range(settings.count):
         each = _bake_settings(obj)
         each.seed, each.seconds, each.player = settings.seed + index, settings.seconds, habits[index % len(habits)]
-        each.trace_source = "TAKE" if ticked else "PLAYER"
-        each.take = ticked[index % len(ticked)] if ticked else -1
+        each.trace_source = "RECORDING" if ticked else "PLAYER"
+        each.recording = ticked[index % len(ticked)] if ticked else -1
         yield each
 
 

@@ -31,11 +31,11 @@ class Target(NamedTuple):
     first: int
 
 
-def find_target(context: bpy.types.Context, obj: bpy.types.Object, settings: Any, take: str) -> Target:
-    """Where settings with BakeFields want the bake of a take of that name; UserError where keys would be lost."""
+def find_target(context: bpy.types.Context, obj: bpy.types.Object, settings: Any, recording: str) -> Target:
+    """Where settings with BakeFields want the bake of a recording of that name; UserError where keys would be lost."""
     if settings.target == "CURRENT":
         return Target("CURRENT", _current_action(obj), "", context.scene.frame_current)
-    name = settings.action or take or f"{obj.name} Bake"
+    name = settings.action or recording or f"{obj.name} Bake"
     return Target(settings.target, _replaceable(settings.action), name, settings.frame_start)
 
 
@@ -152,7 +152,7 @@ def _mark(
 
 
 def _name_of(obj: bpy.types.Object, number: int) -> str:
-    """A class as the user calls it; a take may have been recorded with a character of more classes."""
+    """A class as the user calls it; a recording may be of a character of more classes."""
     rows = obj.fragmotion.classes
     return str(rows[number].name) if number < len(rows) else f"Class {number}"
 

@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 from bpy.app.handlers import persistent
 
-from ..recordings.recordings import add_take
+from ..recordings.recordings import add_recording
 from . import session
 from .state import suspended_state
 
@@ -53,7 +53,7 @@ def _go_on_after_undo(*_arguments: Any) -> None:
     for name, recording in recordings:
         obj = bpy.data.objects.get(name)
         if obj is not None:
-            add_take(obj, **recording)
+            add_recording(obj, **recording)
             bpy.ops.ed.undo_push(message="Record")
 
 

@@ -12,7 +12,7 @@ import bpy
 from ..character import classes
 from ..character.building import has_character, load
 from ..compat.data_blocks import is_alive
-from ..recordings.recordings import Take, add_take, trace_of
+from ..recordings.recordings import Recording, add_recording, trace_of
 from ..settings import preferences
 from .acting.actor import Actor
 from .acting.recorder import Recorder
@@ -141,7 +141,7 @@ class Session:
         self.inputs.play(trace)
 
     def toggle_recording(self) -> None:
-        """Begin a take; or end it and keep it with the armature, an undo step.
+        """Begin a recording; or end it and keep it with the armature, an undo step.
 
         Where the character stands still it begins as its replay will, so that the replay shows the same.
         """
@@ -154,16 +154,16 @@ class Session:
             bpy.ops.ed.undo_push(message="Record")
 
     def _keep_recording(self) -> bool:
-        """End the recording; whether there is a take of it."""
+        """End the recording; whether anything was recorded."""
         kept = self.end_recording()
         if kept is None:
             return False
-        take = add_take(self.obj, **kept)
-        self.inputs.messages.append(f"Recorded '{take.name}': {take.seconds:.1f} s")
+        recording = add_recording(self.obj, **kept)
+        self.inputs.messages.append(f"Recorded '{recording.name}': {recording.seconds:.1f} s")
         return True
 
     def end_recording(self) -> dict[str, Any] | None:
-        """End the recording; what `add_take` keeps of it beside the armature, if anything was recorded."""
+        """End the recording; what `add_recording` keeps of it beside the armature, if anything was recorded."""
         recording, self.recording = self.recording, None
         if recording is None or not len(recording.trace):
             return None
@@ -213,7 +213,7 @@ class Session:
             suspended_state.give_back(self.obj, self._state.layer)
 
     def close(self) -> bool:
-        """Let go of the inputs and give everything back; whether a take was kept that no undo step holds yet.
+        """Let go of the inputs and give everything back; whether a recording was kept that no undo step holds yet.
 
         What was deleted meanwhile stays deleted.
         """
@@ -242,15 +242,17 @@ def start(context: bpy.types.Context, obj: bpy.types.Object, seed: int = -1, pol
     return current
 
 
-def replay(context: bpy.types.Context, obj: bpy.types.Object, take: Take, seed: int = -1, policy: str = "") -> Session:
-    """Begin a drive by a take, from where it was recorded; by default with its seed, and its policy where there is it.
+def replay(
+    context: bpy.types.Context, obj: bpy.types.Object, recording: Recording, seed: int = -1, policy: str = ""
+) -> Session:
+    """Begin a drive by a recording, from where it began; by default with its seed, and its policy where there is it.
 
-    UserError where the take is damaged.
+    UserError where the recording is damaged.
     """
-    trace, begin = trace_of(take), tuple(take.start)
+    trace, begin = trace_of(recording), tuple(recording.start)
     known = load(obj).policies if has_character(obj) else []
-    chosen = policy or (take.policy if take.policy in known else "")
-    driven = start(context, obj, take.seed if seed < 0 else seed, chosen)
+    chosen = policy or (recording.policy if recording.policy in known else "")
+    driven = start(context, obj, recording.seed if seed < 0 else seed, chosen)
     try:
         driven.play(trace, begin)
     except BaseException:
@@ -274,7 +276,7 @@ def rest(timer: bpy.types.Timer) -> None:
 
 
 def stop(push: bool = True) -> None:
-    """End the drive that is under way, if any. A take that it was recording becomes an undo step, if that may be.
+    """End the drive that is under way, if any. What it was recording becomes an undo step, if that may be.
 
     Its operators end themselves when they are woken next.
     """

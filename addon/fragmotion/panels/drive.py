@@ -46,7 +46,7 @@ class FRAGMOTION_PT_drive(Sidebar, bpy.types.Panel):
             row.operator("fragmotion.drive", text="Stop", icon="SNAP_FACE")
             layout.operator(
                 "fragmotion.record",
-                text="Record" if driven.recording is None else f"End Take ({driven.recording.seconds:.0f} s)",
+                text="Record" if driven.recording is None else f"End Recording ({driven.recording.seconds:.0f} s)",
                 icon="REC" if driven.recording is None else "CHECKMARK",
                 depress=driven.recording is not None,
             )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Takes panel of the sidebar, and what belongs to Bake below it."""
+"""The Recordings panel of the sidebar, and what belongs to Bake below it."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from typing import Any
 import bpy
 
 from ..operators.context import active_armature
-from ..recordings.recordings import active_take
+from ..recordings.recordings import active_recording
 from ..settings.drawing import aligned, draw_bake_options, draw_populate
 from .sidebar import Sidebar, SubPanel
 
 _ROWS = 4
 
 
-class FRAGMOTION_UL_takes(bpy.types.UIList):
-    """The armature's takes, each with a tick to train on it, its name and its length."""
+class FRAGMOTION_UL_recordings(bpy.types.UIList):
+    """The armature's recordings, each with a tick to train on it, its name and its length."""
 
-    bl_idname = "FRAGMOTION_UL_takes"
+    bl_idname = "FRAGMOTION_UL_recordings"
 
     def draw_item(
         self,
@@ -39,11 +39,11 @@ class FRAGMOTION_UL_takes(bpy.types.UIList):
         length.label(text=f"{item.seconds:.0f} s")
 
 
-class FRAGMOTION_PT_takes(Sidebar, bpy.types.Panel):
+class FRAGMOTION_PT_recordings(Sidebar, bpy.types.Panel):
     """What was recorded or imported, to be replayed, baked or learned from."""
 
-    bl_idname = "FRAGMOTION_PT_takes"
-    bl_label = "Takes"
+    bl_idname = "FRAGMOTION_PT_recordings"
+    bl_label = "Recordings"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, obj = self.layout, active_armature(context)
@@ -52,13 +52,13 @@ class FRAGMOTION_PT_takes(Sidebar, bpy.types.Panel):
             return
         settings = obj.fragmotion
         row = layout.row()
-        row.template_list("FRAGMOTION_UL_takes", "", settings, "takes", settings, "active_take", rows=_ROWS)
+        row.template_list("FRAGMOTION_UL_recordings", "", settings, "takes", settings, "active_take", rows=_ROWS)
         _draw_buttons(row.column(align=True))
-        take = active_take(obj)
-        if take is None:
-            layout.label(text="Record or import a take", icon="INFO")
+        recording = active_recording(obj)
+        if recording is None:
+            layout.label(text="Record or import a recording", icon="INFO")
             return
-        _draw_figures(layout, take)
+        _draw_figures(layout, recording)
         _draw_uses(layout, settings)
 
 
@@ -87,21 +87,21 @@ class FRAGMOTION_PT_populate(SubPanel, bpy.types.Panel):
 
 def _draw_buttons(column: bpy.types.UILayout) -> None:
     for name, icon in (
-        ("import_takes", "IMPORT"),
-        ("export_take", "EXPORT"),
-        ("duplicate_take", "DUPLICATE"),
-        ("trim_take", "DRIVER_DISTANCE"),
-        ("delete_take", "TRASH"),
+        ("import_recordings", "IMPORT"),
+        ("export_recording", "EXPORT"),
+        ("duplicate_recording", "DUPLICATE"),
+        ("trim_recording", "DRIVER_DISTANCE"),
+        ("delete_recording", "TRASH"),
     ):
         column.operator(f"fragmotion.{name}", text="", icon=icon)
 
 
-def _draw_figures(layout: bpy.types.UILayout, take: Any) -> None:
+def _draw_figures(layout: bpy.types.UILayout, recording: Any) -> None:
     column = layout.column(align=True)
     for label, value in (
-        ("Recorded", take.date),
-        ("Length", f"{take.seconds:.1f} s"),
-        ("Quality", f"{take.quality:.2f} of 1" if take.quality > 0 else "not measured"),
+        ("Recorded", recording.date),
+        ("Length", f"{recording.seconds:.1f} s"),
+        ("Quality", f"{recording.quality:.2f} of 1" if recording.quality > 0 else "not measured"),
     ):
         row = column.split(factor=0.36)
         row.label(text=label)
@@ -116,12 +116,12 @@ def _draw_uses(layout: bpy.types.UILayout, settings: Any) -> None:
         column.prop(drive, "seed")
     row = layout.row(align=True)
     replay = row.operator("fragmotion.drive", text="Replay", icon="PLAY")
-    replay.source, replay.take = "TAKE", index
+    replay.source, replay.recording = "RECORDING", index
     if drive.replay != "RECORDED":
         replay.policy, replay.seed = drive.replay, drive.seed
     bake = row.operator("fragmotion.bake", text="Bake", icon="ACTION_TWEAK")
-    bake.trace_source, bake.take = "TAKE", index
+    bake.trace_source, bake.recording = "RECORDING", index
 
 
-CLASSES = (FRAGMOTION_UL_takes, FRAGMOTION_PT_takes)
+CLASSES = (FRAGMOTION_UL_recordings, FRAGMOTION_PT_recordings)
 BAKE_CLASSES = (FRAGMOTION_PT_bake_options, FRAGMOTION_PT_populate)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Takes: joystick sessions kept in the .blend with the armature object that they drove, as `obj.fragmotion.takes`.
+"""Recordings: joystick sessions kept in the .blend with the armature object that they drove, as `obj.fragmotion.takes`.
 
-A take holds all that its replay needs: the trace, the seed, the policy and where the character stood. It may also hold
-what was shown while it was recorded, which a bake then writes as it was seen.
+A recording holds all that its replay needs: the trace, the seed, the policy and where the character stood. It may also
+hold what was shown meanwhile, which a bake then writes as it was seen.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ _FIELDS = ("name", "date", "seconds", "quality", "policy", "seed", "start", "tra
 _BESIDE_BONES = 1 + 3 + 3 + 1  # columns of what was shown: time, root position, character frame, class
 
 
-class Take(bpy.types.PropertyGroup):
+class Recording(bpy.types.PropertyGroup):
     """A joystick session, by its `name`: what the user did and how the character that followed was set up."""
 
     date: StringProperty(  # type: ignore[valid-type]
-        name="Date", description="When the take was recorded or imported: year-month-day hour:minute"
+        name="Date", description="When it was recorded or imported: year-month-day hour:minute"
     )
     seconds: FloatProperty(  # type: ignore[valid-type]
-        name="Length", description="Length of the take in seconds", min=0, unit="TIME_ABSOLUTE"
+        name="Length", description="Length of the recording in seconds", min=0, unit="TIME_ABSOLUTE"
     )
     quality: FloatProperty(  # type: ignore[valid-type]
         name="Quality",
@@ -67,14 +67,16 @@ class Take(bpy.types.PropertyGroup):
         size=3,
     )
     train: BoolProperty(  # type: ignore[valid-type]
-        name="Train on It", description="Build learns from the ticked takes where its trace is Takes", default=False
+        name="Train on It",
+        description="Build learns from the ticked recordings where its trace is Recordings",
+        default=False,
     )
     controls: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     shown: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     shown_bones: IntProperty(min=0, options={"HIDDEN"})  # type: ignore[valid-type]
 
 
-def add_take(
+def add_recording(
     obj: bpy.types.Object,
     trace: Doubles,
     *,
@@ -84,110 +86,113 @@ def add_take(
     start: Sequence[float] = (0.0, 0.0, 0.0),
     quality: float = 0.0,
     shown: tuple[Doubles, Motion] | None = None,
-) -> Take:
+) -> Recording:
     """Keep a trace [T,4] (10 controls a second, in the character frame) with the armature, and select it in the list.
 
-    The name (default "Take") gets a number where another take has it. `start` is the character frame, as Player.frame:
-    x, y in metres and the heading in radians. `shown` are the poses that the user saw, where there were any, and their
-    times [F] in seconds from the first control on. UserError on what is no trace; the file is changed only afterwards.
+    The name (default "Recording") gets a number where another one has it. `start` is the character frame, as
+    Player.frame: x, y in metres and the heading in radians. `shown` are the poses that the user saw, where there
+    were any, and their times [F] in seconds from the first control on. UserError on what is no trace; the file is
+    changed only afterwards.
     """
     data = _packed(trace)
     settings = obj.fragmotion
-    name = unique_name(name or "Take", [take.name for take in settings.takes])
-    take: Take = settings.takes.add()
-    take.name, take.seed, take.policy, take.start, take.quality = name, seed, policy, start, quality
-    take.date = datetime.now().strftime("%Y-%m-%d %H:%M")
-    _store(take, data, len(trace))
+    name = unique_name(name or "Recording", [recording.name for recording in settings.takes])
+    recording: Recording = settings.takes.add()
+    recording.name, recording.seed, recording.policy = name, seed, policy
+    recording.start, recording.quality = start, quality
+    recording.date = datetime.now().strftime("%Y-%m-%d %H:%M")
+    _store(recording, data, len(trace))
     if shown is not None:
-        set_shown(take, *shown)
+        set_shown(recording, *shown)
     settings.active_take = len(settings.takes) - 1
-    return take
+    return recording
 
 
-def trace_of(take: Take) -> Doubles:
-    """The take's trace [T,4], to the bit as it was given; UserError where the .blend is damaged."""
-    trace: Doubles = _unpacked(take, take.controls, _NUMBER, _COLUMNS, _LONGEST * _COLUMNS * 8)
-    if not _is_trace(trace) or not (np.abs(take.start) <= _FARTHEST).all():
-        raise _damaged(take)
+def trace_of(recording: Recording) -> Doubles:
+    """The recording's trace [T,4], to the bit as it was given; UserError where the .blend is damaged."""
+    trace: Doubles = _unpacked(recording, recording.controls, _NUMBER, _COLUMNS, _LONGEST * _COLUMNS * 8)
+    if not _is_trace(trace) or not (np.abs(recording.start) <= _FARTHEST).all():
+        raise _damaged(recording)
     return trace
 
 
-def shown_of(take: Take) -> tuple[Doubles, Motion] | None:
+def shown_of(recording: Recording) -> tuple[Doubles, Motion] | None:
     """The times [F] and poses that were shown while it was recorded, if kept; UserError where the .blend is damaged."""
-    if not take.shown:
+    if not recording.shown:
         return None
-    if take.shown_bones < 1:
-        raise _damaged(take)
-    rows = _unpacked(take, take.shown, _SMALL, _BESIDE_BONES + 4 * take.shown_bones, _MOST_BYTES)
+    if recording.shown_bones < 1:
+        raise _damaged(recording)
+    rows = _unpacked(recording, recording.shown, _SMALL, _BESIDE_BONES + 4 * recording.shown_bones, _MOST_BYTES)
     times, roots, frames, classes = rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7]
     rotations = rows[:, _BESIDE_BONES:].reshape(len(rows), -1, 4)
     if not _is_in_time(times) or not ((classes >= 0) & (classes < _MOST_CLASSES)).all() or not rotations.any(-1).all():
-        raise _damaged(take)
+        raise _damaged(recording)
     return times, Motion(roots, rotations, frames, classes.astype(np.int32))
 
 
-def set_shown(take: Take, times: Doubles, motion: Motion) -> None:
-    """Keep the poses that were shown at times [F] (s, ascending) while the take was recorded, if it lasts an hour or so
-    at most; a longer one is played anew."""
+def set_shown(recording: Recording, times: Doubles, motion: Motion) -> None:
+    """Keep the poses that were shown at times [F] (s, ascending) meanwhile, if it lasts an hour or so at most; a
+    longer recording is played anew."""
     rotations = np.asarray(motion.rotations)
     columns = (times, motion.root_positions, motion.frames, motion.classes, rotations.reshape(len(rotations), -1))
     data = np.column_stack(columns).astype(_SMALL).tobytes()
-    take.shown = zlib.compress(data) if len(data) <= _MOST_BYTES else b""
-    take.shown_bones = rotations.shape[1]
+    recording.shown = zlib.compress(data) if len(data) <= _MOST_BYTES else b""
+    recording.shown_bones = rotations.shape[1]
 
 
-def set_trace(take: Take, trace: Doubles) -> None:
-    """Replace the take's trace; UserError on what is no trace."""
-    _store(take, _packed(trace), len(trace))
+def set_trace(recording: Recording, trace: Doubles) -> None:
+    """Replace the recording's trace; UserError on what is no trace."""
+    _store(recording, _packed(trace), len(trace))
 
 
-def duplicate_take(obj: bpy.types.Object, index: int) -> Take:
-    """A copy of a take after it in the list, selected."""
-    takes = obj.fragmotion.takes
-    copy = takes.add()
+def duplicate_recording(obj: bpy.types.Object, index: int) -> Recording:
+    """A copy of a recording after it in the list, selected."""
+    recordings = obj.fragmotion.takes
+    copy = recordings.add()
     for key in _FIELDS:
-        setattr(copy, key, getattr(takes[index], key))
-    copy.name = unique_name(copy.name, [take.name for take in takes[:-1]])
-    takes.move(len(takes) - 1, index + 1)
+        setattr(copy, key, getattr(recordings[index], key))
+    copy.name = unique_name(copy.name, [recording.name for recording in recordings[:-1]])
+    recordings.move(len(recordings) - 1, index + 1)
     obj.fragmotion.active_take = index + 1
-    moved: Take = takes[index + 1]
+    moved: Recording = recordings[index + 1]
     return moved
 
 
-def remove_take(obj: bpy.types.Object, index: int) -> None:
-    """Delete a take, and select the one that comes into its place, or the last."""
+def remove_recording(obj: bpy.types.Object, index: int) -> None:
+    """Delete a recording, and select the one that comes into its place, or the last."""
     settings = obj.fragmotion
     settings.takes.remove(index)
     settings.active_take = max(min(index, len(settings.takes) - 1), 0)
 
 
-def trim_take(take: Take, start: float, end: float) -> None:
+def trim_recording(recording: Recording, start: float, end: float) -> None:
     """Keep the seconds from `start` to `end`, to the nearest control; UserError where nothing is left.
 
     A motion that was shown is cut likewise. Its quality was another stretch's: it is unknown then.
     """
-    trace = trace_of(take)
+    trace = trace_of(recording)
     first, last = round(max(start, 0) * TRACE_RATE), min(round(end * TRACE_RATE), len(trace))
     if first >= last:
         raise UserError(
-            f"Take '{take.name}' lasts {take.seconds:.1f} s: nothing is left between {start:.1f} s and {end:.1f} s"
+            f"Recording '{recording.name}' lasts {recording.seconds:.1f} s: nothing is left between {start:.1f} s and "
+            f"{end:.1f} s"
         )
-    shown = shown_of(take)
-    _store(take, _packed(trace[first:last]), last - first)
-    take.quality = 0
+    shown = shown_of(recording)
+    _store(recording, _packed(trace[first:last]), last - first)
+    recording.quality = 0
     if shown is not None:
-        _trim_shown(take, *shown, first / TRACE_RATE, last / TRACE_RATE)
+        _trim_shown(recording, *shown, first / TRACE_RATE, last / TRACE_RATE)
 
 
-def trained_on(obj: bpy.types.Object) -> list[Take]:
-    """The armature's takes that are ticked to be learned from, in the list's order."""
-    return [take for take in obj.fragmotion.takes if take.train]
+def trained_on(obj: bpy.types.Object) -> list[Recording]:
+    """The armature's recordings that are ticked to be learned from, in the list's order."""
+    return [recording for recording in obj.fragmotion.takes if recording.train]
 
 
-def active_take(obj: bpy.types.Object) -> Take | None:
-    """The take that is selected in the list, if any."""
-    takes, index = obj.fragmotion.takes, obj.fragmotion.active_take
-    return takes[index] if 0 <= index < len(takes) else None
+def active_recording(obj: bpy.types.Object) -> Recording | None:
+    """The recording that is selected in the list, if any."""
+    recordings, index = obj.fragmotion.takes, obj.fragmotion.active_take
+    return recordings[index] if 0 <= index < len(recordings) else None
 
 
 def unique_name(name: str, others: Iterable[str]) -> str:
@@ -199,33 +204,33 @@ def unique_name(name: str, others: Iterable[str]) -> str:
     return unique
 
 
-def _trim_shown(take: Take, times: Doubles, motion: Motion, start: float, end: float) -> None:
-    """Keep what was shown from `start` to `end` (s), where there is anything, and begin the take there."""
+def _trim_shown(recording: Recording, times: Doubles, motion: Motion, start: float, end: float) -> None:
+    """Keep what was shown from `start` to `end` (s), where there is anything, and begin the recording there."""
     inside = (times >= start - _SAME_TIME) & (times <= end + _SAME_TIME)
     if not inside.any():
-        take.shown = b""
+        recording.shown = b""
         return
     roots, rotations, frames, classes = motion
     kept = Motion(roots[inside], rotations[inside], frames[inside], classes[inside])
-    set_shown(take, np.maximum(times[inside] - start, 0), kept)
-    take.start = motion.frames[inside][0]
+    set_shown(recording, np.maximum(times[inside] - start, 0), kept)
+    recording.start = motion.frames[inside][0]
 
 
-def _store(take: Any, data: bytes, length: int) -> None:
-    take.controls, take.seconds = data, length / TRACE_RATE
+def _store(recording: Any, data: bytes, length: int) -> None:
+    recording.controls, recording.seconds = data, length / TRACE_RATE
 
 
 def _packed(trace: Doubles) -> bytes:
     """The trace as compressed little-endian numbers with a checksum; UserError on what is no trace."""
     values = np.asarray(trace, float)
     if values.ndim != 2 or values.shape[1] != _COLUMNS or not 0 < len(values) <= _LONGEST:
-        raise UserError("A take needs between one control and a day of them, of four numbers each")
+        raise UserError("A recording needs between one control and a day of them, of four numbers each")
     if not _is_trace(values):
-        raise UserError("A take's controls must be finite, its turn within -1 and 1, and its jump within 0 and 1")
+        raise UserError("A recording's controls must be finite, its turn within -1 and 1, and its jump within 0 and 1")
     return zlib.compress(values.astype(_NUMBER).tobytes())
 
 
-def _unpacked(take: Take, packed: bytes, kind: str, columns: int, most: int) -> Doubles:
+def _unpacked(recording: Recording, packed: bytes, kind: str, columns: int, most: int) -> Doubles:
     """Rows of finite numbers of a kind, one at least and at most so many bytes; UserError where they are not there."""
     try:
         unpacker = zlib.decompressobj()
@@ -236,12 +241,12 @@ def _unpacked(take: Take, packed: bytes, kind: str, columns: int, most: int) -> 
         if not np.isfinite(rows).all():
             raise ValueError
     except (zlib.error, ValueError):
-        raise _damaged(take) from None
+        raise _damaged(recording) from None
     return rows
 
 
-def _damaged(take: Take) -> UserError:
-    return UserError(f"Take '{take.name}' is damaged: delete it, and record or import it again")
+def _damaged(recording: Recording) -> UserError:
+    return UserError(f"Recording '{recording.name}' is damaged: delete it, and record or import it again")
 
 
 def _is_trace(values: Doubles) -> bool:

@@ -19,15 +19,15 @@ if TYPE_CHECKING:
 
 def make_traces(obj: bpy.types.Object, settings: Any) -> list[Doubles]:
     """The traces [T,4] that Build learns from, as settings with BuildFields say."""
-    if settings.trace_source != "TAKES":
+    if settings.trace_source != "RECORDINGS":
         return [make_trace(settings)]
     ticked = trained_on(obj)
     if not ticked:
         raise UserError(
-            f"No take of armature '{obj.name}' is ticked to train on: record or import one and tick it under Takes, or "
-            "choose Simulated as the trace"
+            f"No recording of armature '{obj.name}' is ticked to train on: record or import one and tick it under "
+            "Recordings, or choose Simulated as the trace"
         )
-    return [trace_of(take) for take in ticked]
+    return [trace_of(recording) for recording in ticked]
 
 
 def make_trace(settings: Any, space: ControlSpace | None = None) -> Doubles:

@@ -18,7 +18,7 @@ from bpy.props import (
 from ..character.classes import ClassRow
 from ..character.coverage import COLUMNS
 from ..character.suggesting import NumberTried
-from ..recordings.recordings import Take
+from ..recordings.recordings import Recording
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import TraceFields, factor_field, length_field, player_field, policy_field, seed_field
@@ -60,9 +60,9 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
     )
     seed: seed_field("Draws which fragment of a class plays: the same controls and the same seed, the same motion")  # type: ignore[valid-type]
     replay: policy_field(  # type: ignore[valid-type]
-        "The policy that replays a take",
+        "The policy that replays a recording",
         "RECORDED",
-        ("RECORDED", "As Recorded", "The policy and the seed that the take was recorded with"),
+        ("RECORDED", "As Recorded", "The policy and the seed that it was recorded with"),
         name="Replay With",
     )
     follow: BoolProperty(  # type: ignore[valid-type]
@@ -151,7 +151,7 @@ class BuildFigures(bpy.types.PropertyGroup):
 
 
 class CharacterSettings(bpy.types.PropertyGroup):
-    """An armature object's `fragmotion`: settings, figures, the policy file's bytes and the takes."""
+    """An armature object's `fragmotion`: settings, figures, the policy file's bytes and the recordings."""
 
     build: PointerProperty(type=BuildSettings)  # type: ignore[valid-type]
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
@@ -169,7 +169,8 @@ class CharacterSettings(bpy.types.PropertyGroup):
         name="Policy File", description="Where the policy is kept; // is the folder of the .blend"
     )
     policy_digest: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
-    takes: CollectionProperty(type=Take)  # type: ignore[valid-type]
-    active_take: IntProperty(name="Take", description="The take that is selected in the list")  # type: ignore[valid-type]
+    # The recordings, under the names that saved files have.
+    takes: CollectionProperty(type=Recording)  # type: ignore[valid-type]
+    active_take: IntProperty(name="Recording", description="The recording that is selected in the list")  # type: ignore[valid-type]
     digest: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
     """Of the policy's bytes, by which panels know it without reading it."""

@@ -16,10 +16,10 @@ DRIVING = "DRIVING"
 MIXED = "MIXED"
 """The choice of all simulated players in turn."""
 
-_TAKE = ("TAKE", "Take", "The take that is selected in the Takes panel")
+_RECORDING = ("RECORDING", "Recording", "The recording that is selected in the Recordings panel")
 
 _TARGETS = (
-    ("NEW", "New Action", "A new Action, named after the take"),
+    ("NEW", "New Action", "A new Action, named after the recording"),
     ("CURRENT", "Current Action", "The Action that plays, from the playhead on: its keys there are replaced"),
     (
         "NLA",
@@ -53,7 +53,11 @@ _LAYOUTS = (
 
 _CROWD_TRACES = (
     ("PLAYERS", "Simulated", "A simulated player for each copy"),
-    ("TAKES", "Ticked Takes", "The ticked takes of the Takes panel, in turn, each copy with a seed of its own"),
+    (
+        "RECORDINGS",
+        "Ticked Recordings",
+        "The ticked recordings of the Recordings panel, in turn, each copy with a seed of its own",
+    ),
 )
 
 _LAST_FRAME = 1_048_574  # that a scene can have
@@ -66,16 +70,16 @@ def _suggest_actions(_settings: object, _context: bpy.types.Context, text: str) 
 class BakeFields(TraceFields):
     """What a bake can be told."""
 
-    trace_source: source_field(_TAKE)  # type: ignore[valid-type]
-    take: IntProperty(  # type: ignore[valid-type]
-        name="Take Number",
-        description="Which take of the Takes panel is baked, from 0; -1 is the one that is selected there",
+    trace_source: source_field(_RECORDING)  # type: ignore[valid-type]
+    recording: IntProperty(  # type: ignore[valid-type]
+        name="Recording Number",
+        description="Which recording of the Recordings panel is baked, from 0; -1 is the one that is selected there",
         default=-1,
         min=-1,
     )
     as_recorded: BoolProperty(  # type: ignore[valid-type]
         name="As Recorded",
-        description="Bake the take as it was seen, with the policy, seed and start that it was recorded with",
+        description="Bake the recording as it was seen, with the policy, seed and start that it was recorded with",
         default=True,
     )
     policy: policy_field(CHOOSING, DRIVING, (DRIVING, "Driving", "The policy that Build was told to drive with"))  # type: ignore[valid-type]
@@ -145,7 +149,7 @@ class BakeFields(TraceFields):
         name="Action",
         description=(
             "Action to write to: this armature's keys in it are replaced. A new name makes a new one; empty means one "
-            "named after the take"
+            "named after the recording"
         ),
         search=_suggest_actions,
         search_options={"SUGGESTION"},

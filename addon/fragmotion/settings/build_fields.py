@@ -10,7 +10,7 @@ from .common import CHOOSING, TraceFields, length_field, player_field, policy_fi
 
 _DEFAULTS = core.BuildOptions()
 
-_TAKES = ("TAKES", "Takes", "The ticked takes of the Takes panel")
+_RECORDINGS = ("RECORDINGS", "Recordings", "The ticked recordings of the Recordings panel")
 
 _CUTS = (
     ("gait", "At Footsteps", "Cut where a foot strikes the ground; by windows where the armature has no feet"),
@@ -21,7 +21,7 @@ _CUTS = (
 class BuildFields(TraceFields):
     """What a build can be told."""
 
-    trace_source: source_field(_TAKES)  # type: ignore[valid-type]
+    trace_source: source_field(_RECORDINGS)  # type: ignore[valid-type]
     longest: FloatProperty(  # type: ignore[valid-type]
         name="Longest Fragment",
         description="Longest fragment in seconds; shorter ones respond faster, longer ones move more naturally",

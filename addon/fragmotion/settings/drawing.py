@@ -44,8 +44,8 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields) -> None:
     """The fields of a bake that are changed most."""
     layout = aligned(layout)
     draw_trace(layout, settings, "Trace")
-    recorded = settings.trace_source == "TAKE" and settings.as_recorded
-    if settings.trace_source == "TAKE":
+    recorded = settings.trace_source == "RECORDING" and settings.as_recorded
+    if settings.trace_source == "RECORDING":
         layout.prop(settings, "as_recorded")
     if not recorded:
         layout.prop(settings, "policy")

@@ -13,7 +13,7 @@ from ..character.classes import ClassRow
 from ..character.inspector import InspectorSettings
 from ..character.suggesting import NumberTried
 from ..mocap.left_out import FrameSpan
-from ..recordings.recordings import Take
+from ..recordings.recordings import Recording
 from .armature import (
     BakeSettings,
     BuildFigures,
@@ -47,7 +47,7 @@ class WindowSettings(bpy.types.PropertyGroup):
 CLASSES = (
     ClassRow,
     NumberTried,
-    Take,
+    Recording,
     FrameSpan,
     InspectorSettings,
     BuildSettings,

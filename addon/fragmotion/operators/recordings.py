@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Keep the active armature's takes in order."""
+"""Keep the active armature's recordings in order."""
 
 from __future__ import annotations
 
@@ -14,7 +14,15 @@ from ..bake.performing import measure_quality, origin_frame
 from ..compat.core import core
 from ..errors import UserError, core_errors, reported
 from ..files import check_regular
-from ..recordings.recordings import TRACE_RATE, active_take, add_take, duplicate_take, remove_take, trace_of, trim_take
+from ..recordings.recordings import (
+    TRACE_RATE,
+    active_recording,
+    add_recording,
+    duplicate_recording,
+    remove_recording,
+    trace_of,
+    trim_recording,
+)
 from .context import active_armature, poll_armature
 from .saving import Saving
 
@@ -22,8 +30,8 @@ EXTENSION = ".csv"
 _FEWEST_ROWS = 2  # of a trace file
 
 
-class _OnTake:
-    """An operator on the take that is selected in the list."""
+class _OnRecording:
+    """An operator on the recording that is selected in the list."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
@@ -32,42 +40,42 @@ class _OnTake:
         if not poll_armature(cls, context):
             return False
         obj: Any = active_armature(context)
-        if active_take(obj) is None:
-            cls.poll_message_set(f"Armature '{obj.name}' has no takes: record or import one")  # type: ignore[attr-defined]
-        return active_take(obj) is not None
+        if active_recording(obj) is None:
+            cls.poll_message_set(f"Armature '{obj.name}' has no recordings: record or import one")  # type: ignore[attr-defined]
+        return active_recording(obj) is not None
 
 
-class FRAGMOTION_OT_delete_take(_OnTake, bpy.types.Operator):
-    """Delete the selected take"""
+class FRAGMOTION_OT_delete_recording(_OnRecording, bpy.types.Operator):
+    """Delete the selected recording"""
 
-    bl_idname = "fragmotion.delete_take"
-    bl_label = "Delete Take"
+    bl_idname = "fragmotion.delete_recording"
+    bl_label = "Delete Recording"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
         name = _selected(context).name
-        remove_take(obj, obj.fragmotion.active_take)
-        self.report({"INFO"}, f"Deleted take '{name}'")
+        remove_recording(obj, obj.fragmotion.active_take)
+        self.report({"INFO"}, f"Deleted recording '{name}'")
         return {"FINISHED"}
 
 
-class FRAGMOTION_OT_duplicate_take(_OnTake, bpy.types.Operator):
-    """Copy the selected take, to trim the copy or train on it"""
+class FRAGMOTION_OT_duplicate_recording(_OnRecording, bpy.types.Operator):
+    """Copy the selected recording, to trim the copy or train on it"""
 
-    bl_idname = "fragmotion.duplicate_take"
-    bl_label = "Duplicate Take"
+    bl_idname = "fragmotion.duplicate_recording"
+    bl_label = "Duplicate Recording"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
-        duplicate_take(obj, obj.fragmotion.active_take)
+        duplicate_recording(obj, obj.fragmotion.active_take)
         return {"FINISHED"}
 
 
 def _cut(name: str, dropped: str, default: float, least: float) -> Any:
-    """A time in a take, to the tenth of a second that a control lasts."""
+    """A time in a recording, to the tenth of a second that a control lasts."""
     return FloatProperty(
         name=name,
-        description=f"What comes {dropped} is dropped; seconds from the take's beginning, to the nearest tenth",
+        description=f"What comes {dropped} is dropped; seconds from the recording's beginning, to the nearest tenth",
         default=default,
         min=least,
         step=10,
@@ -76,11 +84,11 @@ def _cut(name: str, dropped: str, default: float, least: float) -> Any:
     )
 
 
-class FRAGMOTION_OT_trim_take(_OnTake, bpy.types.Operator):
-    """Keep only a part of the selected take. What the character did in that part is kept, too"""
+class FRAGMOTION_OT_trim_recording(_OnRecording, bpy.types.Operator):
+    """Keep only a part of the selected recording. What the character did in that part is kept, too"""
 
-    bl_idname = "fragmotion.trim_take"
-    bl_label = "Trim Take"
+    bl_idname = "fragmotion.trim_recording"
+    bl_label = "Trim Recording"
 
     start: _cut("Start", "before", 0.0, 0.0)  # type: ignore[valid-type]
     end: _cut("End", "after", 60.0, 0.1)  # type: ignore[valid-type]
@@ -92,18 +100,18 @@ class FRAGMOTION_OT_trim_take(_OnTake, bpy.types.Operator):
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        obj, take = active_armature(context), _selected(context)
-        trim_take(take, self.start, self.end)
-        take.quality = measure_quality(obj, take)
-        self.report({"INFO"}, f"Take '{take.name}' lasts {take.seconds:.1f} s now")
+        obj, recording = active_armature(context), _selected(context)
+        trim_recording(recording, self.start, self.end)
+        recording.quality = measure_quality(obj, recording)
+        self.report({"INFO"}, f"Recording '{recording.name}' lasts {recording.seconds:.1f} s now")
         return {"FINISHED"}
 
 
-class FRAGMOTION_OT_export_take(_OnTake, Saving, bpy.types.Operator):
-    """Write the selected take's controls to a CSV file: velocity_x,velocity_y (m/s),turn,jump; 10 rows a second"""
+class FRAGMOTION_OT_export_recording(_OnRecording, Saving, bpy.types.Operator):
+    """Write the selected recording's controls to a CSV file: velocity_x,velocity_y (m/s),turn,jump; 10 rows a second"""
 
-    bl_idname = "fragmotion.export_take"
-    bl_label = "Export Take"
+    bl_idname = "fragmotion.export_recording"
+    bl_label = "Export Recording"
     bl_options: ClassVar[set[str]] = {"REGISTER"}
 
     filename_ext = EXTENSION
@@ -115,24 +123,24 @@ class FRAGMOTION_OT_export_take(_OnTake, Saving, bpy.types.Operator):
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         path = self._path()
-        take = _selected(context)
-        trace = trace_of(take)
+        recording = _selected(context)
+        trace = trace_of(recording)
         if len(trace) < _FEWEST_ROWS:
-            raise UserError(f"Take '{take.name}' holds a single control: record a longer one to export")
+            raise UserError(f"Recording '{recording.name}' holds a single control: record a longer one to export")
         with core_errors():
             core.write_trace(path, trace)
-        self.report({"INFO"}, f"Saved take '{take.name}' ({take.seconds:.1f} s) to '{path}'")
+        self.report({"INFO"}, f"Saved recording '{recording.name}' ({recording.seconds:.1f} s) to '{path}'")
         return {"FINISHED"}
 
 
-class FRAGMOTION_OT_import_takes(ImportHelper, bpy.types.Operator):
-    """Read takes from CSV files; nothing is imported where one is malformed."""
+class FRAGMOTION_OT_import_recordings(ImportHelper, bpy.types.Operator):
+    """Read recordings from CSV files; nothing is imported where one is malformed."""
 
-    bl_idname = "fragmotion.import_takes"
-    bl_label = "Import Takes"
+    bl_idname = "fragmotion.import_recordings"
+    bl_label = "Import Recordings"
     bl_description = (
-        "Read takes from CSV files with the header velocity_x,velocity_y,turn,jump: velocity to the right and forward "
-        "in m/s, turn from -1 (right) to 1 (left), jump 0 or 1; 10 rows a second"
+        "Read recordings from CSV files with the header velocity_x,velocity_y,turn,jump: velocity to the right and "
+        "forward in m/s, turn from -1 (right) to 1 (left), jump 0 or 1; 10 rows a second"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
@@ -156,9 +164,11 @@ class FRAGMOTION_OT_import_takes(ImportHelper, bpy.types.Operator):
             with core_errors():
                 traces[path] = core.read_trace(path)
         for path, trace in traces.items():
-            take = add_take(obj, trace, name=path.stem, start=origin_frame(obj))
-            take.quality = measure_quality(obj, take)
-        self.report({"INFO"}, f"Imported {len(traces)} takes ({sum(map(len, traces.values())) / TRACE_RATE:.1f} s)")
+            recording = add_recording(obj, trace, name=path.stem, start=origin_frame(obj))
+            recording.quality = measure_quality(obj, recording)
+        self.report(
+            {"INFO"}, f"Imported {len(traces)} recordings ({sum(map(len, traces.values())) / TRACE_RATE:.1f} s)"
+        )
         return {"FINISHED"}
 
     def _paths(self) -> list[Path]:
@@ -172,14 +182,14 @@ class FRAGMOTION_OT_import_takes(ImportHelper, bpy.types.Operator):
 
 
 def _selected(context: bpy.types.Context) -> Any:
-    """The take that `_OnTake.poll` found."""
-    return active_take(active_armature(context))
+    """The recording that `_OnRecording.poll` found."""
+    return active_recording(active_armature(context))
 
 
 CLASSES = (
-    FRAGMOTION_OT_delete_take,
-    FRAGMOTION_OT_duplicate_take,
-    FRAGMOTION_OT_trim_take,
-    FRAGMOTION_OT_export_take,
-    FRAGMOTION_OT_import_takes,
+    FRAGMOTION_OT_delete_recording,
+    FRAGMOTION_OT_duplicate_recording,
+    FRAGMOTION_OT_trim_recording,
+    FRAGMOTION_OT_export_recording,
+    FRAGMOTION_OT_import_recordings,
 )
