@@ -192,6 +192,16 @@ def test_the_preview_of_a_deleted_armature_says_so_and_ends(addon: ModuleType, o
     assert armature.pose_position == "REST"
 
 
+def test_a_preview_that_is_too_far_away_says_so(addon: ModuleType, obj: bpy.types.Object) -> None:
+    before = making.contents()
+    obj.location.x = 1e6
+    solo = addon.character.solo.Solo(bpy.context, obj, 0)
+    with pytest.raises(addon.errors.UserError, match=f"^Armature '{obj.name}': .*more than 1000 km from the origin"):
+        solo.step(1 / 8)
+    solo.end()
+    assert making.contents() == before
+
+
 def test_the_inspector_shows_the_best_and_the_chosen(addon: ModuleType, obj: bpy.types.Object) -> None:
     core, character = addon.compat.core.core, addon.character.building.load(obj)
     settings = bpy.context.window_manager.fragmotion.inspector

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import resource
 import shutil
 import signal
@@ -126,6 +127,16 @@ def test_where_the_file_cannot_be_written_the_policy_stays_inside(
     assert addon.character.storing.troubles == {obj.name: "the disk is full"}
     assert [file.name for file in tmp_path.iterdir() if "policy" in file.name] == []
     assert bakes(reopened(addon, path))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows opens no folder")
+def test_a_new_file_and_its_name_are_on_the_disk(
+    addon: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settled = []
+    monkeypatch.setattr(addon.files.os, "fsync", lambda file: settled.append(os.fstat(file).st_ino))
+    addon.files.write_new(tmp_path / "x.policy", b"?")
+    assert settled == [(tmp_path / "x.policy").stat().st_ino, tmp_path.stat().st_ino]
 
 
 def test_without_a_file_a_copy_leaves_the_policy_inside(
@@ -255,6 +266,22 @@ def test_a_backup_of_the_file_keeps_its_policy(addon: ModuleType, small: Path) -
     assert policies_in(small.parent) == sorted((former, before))
     assert addon.character.building.load(open_small(addon, small.with_suffix(".blend1"))).to_bytes() == former
     assert addon.character.building.load(open_small(addon, small)).to_bytes() == before
+
+
+def test_armatures_of_like_names_have_backups_of_their_own(addon: ModuleType, small: Path) -> None:
+    obj = open_small(addon, small)
+    bpy.context.preferences.filepaths.save_version = 1
+    twin = obj.copy()
+    bpy.context.scene.collection.objects.link(twin)
+    kept = set()
+    for seed in (2, 3):
+        for each, name in ((obj, "Hero.1"), (twin, "Hero:1")):
+            making.activate(each)
+            each.name = "Hero"  # for rebuild
+            kept.add(rebuild(each, seed=seed if each == obj else seed + 10))
+            each.name = name
+        bpy.ops.wm.save_mainfile()
+    assert kept <= set(policies_in(small.parent))
 
 
 def test_saving_the_startup_file_lets_go_of_nothing(addon: ModuleType, small: Path) -> None:

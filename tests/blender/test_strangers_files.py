@@ -6,6 +6,7 @@ from __future__ import annotations
 import hashlib
 import os
 import struct
+import tracemalloc
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -325,6 +326,20 @@ def test_a_recording_without_rotations_or_rows_is_damaged(addon: ModuleType, obj
         refused(
             bpy.ops.fragmotion.bake, "Recording 'Seen' is damaged: delete it", trace_source="RECORDING", recording=0
         )
+
+
+def test_a_recording_that_claims_more_poses_than_were_shown_takes_no_memory(
+    addon: ModuleType, obj: bpy.types.Object
+) -> None:
+    recording = obj.fragmotion.takes[0]
+    recording.shown = zlib.compress(bytes(1 << 27))
+    tracemalloc.start()
+    try:
+        with pytest.raises(addon.errors.UserError, match="Recording 'Seen' is damaged: delete it"):
+            addon.recordings.recordings.shown_of(recording)
+        assert tracemalloc.get_traced_memory()[1] < 1 << 22
+    finally:
+        tracemalloc.stop()
 
 
 @pytest.mark.parametrize("rate", ["fast", 0.0, -30, np.nan, np.inf, 1e300, [1, 2], b"\xff"])

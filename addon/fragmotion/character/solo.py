@@ -11,6 +11,7 @@ import bpy
 
 from ..compat.core import core
 from ..compat.data_blocks import is_alive
+from ..errors import core_errors
 from ..rig import posing
 from ..rig.keys import from_quaternions
 from ..rig.rigs import make_rig
@@ -51,14 +52,16 @@ class Solo:
         return int(number), int(fragment)
 
     def step(self, seconds: float) -> None:
-        """Play on and pose the armature."""
+        """Play on and pose the armature; UserError where it comes to stand too far from the world's origin."""
         while seconds > self._left:
             self._player.step(_STAND, self._left)
             seconds -= self._left
             self._next()
         root, rotations = self._player.step(_STAND, seconds)
         self._left -= seconds
-        self._pose(*self._rig.channels(root[None], rotations[None]))
+        with core_errors(f"Armature '{self._name}'"):
+            channels = self._rig.channels(root[None], rotations[None])
+        self._pose(*channels)
         if math.dist(root[:2], self._place[:2]) > self._reach:
             self._begin()
 

@@ -30,6 +30,7 @@ troubles: dict[str, str] = {}
 """Why the policy of an armature, by name, could not be moved when the file was saved last."""
 
 _DIGITS = 16  # of the digest that a policy file's name ends in
+_NAME_DIGITS = 8  # of the digest of an armature's name
 _PLAIN = re.compile(r"[^/\\:\x00-\x1f]+\.policy")  # a file's name, whatever the system, and nothing of a path
 _OWN = re.compile(rf"(?P<blend>.+)\.(?P<armature>[^.]*)\.(?P<digest>[0-9a-f]{{{_DIGITS}}})\.policy")
 _Kept = tuple[bytes, str, str]  # policy, policy_file, policy_digest
@@ -211,7 +212,13 @@ def _is_there(obj: Any, blend: Path) -> bool:
 
 def _name_for(obj: Any, digest: str, blend: Path) -> str:
     """The policy's file beside a .blend: another for each content, so that none is ever written over."""
-    return f"{_stem(blend)}.{bpy.path.clean_name(obj.name)}.{digest[:_DIGITS]}.policy"
+    return f"{_stem(blend)}.{_plain(obj.name)}.{digest[:_DIGITS]}.policy"
+
+
+def _plain(name: str) -> str:
+    """An armature's name as a file's may have it, another for each: the backups of each armature are counted alone."""
+    plain = str(bpy.path.clean_name(name))
+    return plain if plain == name else f"{plain}-{_digest(name.encode())[:_NAME_DIGITS]}"
 
 
 def _stem(blend: Path) -> str:

@@ -12,7 +12,7 @@ import bpy
 from ..character import classes
 from ..character.building import has_character, load
 from ..compat.data_blocks import is_alive
-from ..recordings.recordings import Recording, add_recording, trace_of
+from ..recordings.recordings import POSE_RATE, Recording, add_recording, trace_of
 from ..settings import preferences
 from .acting.actor import Actor
 from .acting.recorder import Recorder
@@ -28,7 +28,7 @@ from .state.scene_state import SceneState
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
 
-RATE = 60
+RATE = POSE_RATE
 """Steps a second. All are equally long, so that a recorded trace shows the same motion when it is replayed."""
 
 _HICCUP = 0.1  # s; a longer pause does not make the character leap

@@ -22,14 +22,18 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from fragmotion_core import Doubles
+    from numpy.typing import NDArray
 
 TRACE_RATE = 10
 """Controls a second of a trace."""
 
+POSE_RATE = 60
+"""Poses a second that a drive shows; a recording keeps no more of them."""
+
 _COLUMNS = 4
 _NUMBER, _SMALL = "<f8", "<f4"
 _LONGEST = 24 * 3600 * TRACE_RATE  # controls; what claims to be longer than a day is damaged
-_MOST_BYTES = 1 << 28  # of what was shown: over an hour of 60 poses a second on 70 bones
+_MOST_BYTES = 1 << 28  # of what was shown: over an hour of POSE_RATE on 70 bones
 _MOST_CLASSES = 1 << 16
 _SAME_TIME = 1e-4  # s
 _FARTHEST = 1e9  # m, and rad: where the core's player still stands
@@ -110,10 +114,10 @@ def add_recording(
 
 def trace_of(recording: Recording) -> Doubles:
     """The recording's trace [T,4], to the bit as it was given; UserError where the .blend is damaged."""
-    trace: Doubles = _unpacked(recording, recording.controls, _NUMBER, _COLUMNS, _LONGEST * _COLUMNS * 8)
+    trace = _unpacked(recording, recording.controls, _NUMBER, _COLUMNS, _LONGEST)
     if not _is_trace(trace) or not (np.abs(recording.start) <= _FARTHEST).all():
         raise _damaged(recording)
-    return trace
+    return trace.astype(float)
 
 
 def shown_of(recording: Recording) -> tuple[Doubles, Motion] | None:
@@ -122,12 +126,14 @@ def shown_of(recording: Recording) -> tuple[Doubles, Motion] | None:
         return None
     if recording.shown_bones < 1:
         raise _damaged(recording)
-    rows = _unpacked(recording, recording.shown, _SMALL, _BESIDE_BONES + 4 * recording.shown_bones, _MOST_BYTES)
+    most = len(trace_of(recording)) * POSE_RATE // TRACE_RATE + 1  # the pose before the first control, too
+    rows = _unpacked(recording, recording.shown, _SMALL, _BESIDE_BONES + 4 * recording.shown_bones, most)
     times, roots, frames, classes = rows[:, 0], rows[:, 1:4], rows[:, 4:7], rows[:, 7]
     rotations = rows[:, _BESIDE_BONES:].reshape(len(rows), -1, 4)
     if not _is_in_time(times) or not ((classes >= 0) & (classes < _MOST_CLASSES)).all() or not rotations.any(-1).all():
         raise _damaged(recording)
-    return times, Motion(roots, rotations, frames, classes.astype(np.int32))
+    motion = Motion(roots.astype(float), rotations.astype(float), frames.astype(float), classes.astype(np.int32))
+    return times.astype(float), motion
 
 
 def set_shown(recording: Recording, times: Doubles, motion: Motion) -> None:
@@ -230,14 +236,17 @@ def _packed(trace: Doubles) -> bytes:
     return zlib.compress(values.astype(_NUMBER).tobytes())
 
 
-def _unpacked(recording: Recording, packed: bytes, kind: str, columns: int, most: int) -> Doubles:
-    """Rows of finite numbers of a kind, one at least and at most so many bytes; UserError where they are not there."""
+def _unpacked(recording: Recording, packed: bytes, kind: str, columns: int, most: int) -> NDArray[Any]:
+    """Rows of finite numbers of a kind, one at least and at most so many; UserError where they are not there.
+
+    A few bytes may claim to be a thousand times as many: no more is unpacked, or copied, than may be there.
+    """
     try:
         unpacker = zlib.decompressobj()
-        data = unpacker.decompress(packed, most)
+        data = unpacker.decompress(packed, min(most * columns * np.dtype(kind).itemsize, _MOST_BYTES))
         if not unpacker.eof or not data:
             raise ValueError
-        rows: Doubles = np.frombuffer(data, kind).reshape(-1, columns).astype(float)
+        rows = np.frombuffer(data, kind).reshape(-1, columns)
         if not np.isfinite(rows).all():
             raise ValueError
     except (zlib.error, ValueError):
@@ -249,12 +258,12 @@ def _damaged(recording: Recording) -> UserError:
     return UserError(f"Recording '{recording.name}' is damaged: delete it, and record or import it again")
 
 
-def _is_trace(values: Doubles) -> bool:
+def _is_trace(values: NDArray[Any]) -> bool:
     """Whether rows of four numbers can be a trace."""
     turn, jump = values[:, 2], values[:, 3]
     return bool(np.isfinite(values).all() and (np.abs(turn) <= 1).all() and ((jump >= 0) & (jump <= 1)).all())
 
 
-def _is_in_time(times: Doubles) -> bool:
+def _is_in_time(times: NDArray[Any]) -> bool:
     """Whether poses can have been shown then: in order, and more often than there are controls."""
     return bool(times[0] >= 0 and (np.diff(times) >= 0).all() and times[-1] * TRACE_RATE <= len(times))
