@@ -56,7 +56,7 @@ class FRAGMOTION_PT_recordings(Sidebar, bpy.types.Panel):
         _draw_buttons(row.column(align=True))
         recording = active_recording(obj)
         if recording is None:
-            layout.label(text="Record or import a recording", icon="INFO")
+            layout.label(text="Record or import one", icon="INFO")
             return
         _draw_figures(layout, recording)
         _draw_uses(layout, settings)
