@@ -98,7 +98,7 @@ def pictures_of_building() -> Iterator[None]:
     manager.active_class = next(number for number, row in enumerate(rows) if row.suggested.startswith("run"))
     yield from panels("classes", "Classes")
     yield from panels("inspector", "Inspector")
-    window.show_only("Mocap", "Build", "Drive", "Takes")
+    window.show_only("Mocap", "Build", "Drive", "Recordings")
     yield from crop("panel", window.sidebar()["area"], target=DOCS / "panel.png")
     Path(f"{window.FOLDER}/panel.png").unlink()
 
@@ -113,7 +113,7 @@ def hold(key: str, seconds: float, **modifiers: bool) -> Iterator[None]:
 
 
 def pictures_of_driving() -> Iterator[None]:
-    """A drive with a recording, and the take that it leaves."""
+    """A drive with a recording, and the recording that it leaves."""
     window.show_only("Drive", "Gamepads", "Overlays")
     window.press(bpy.ops.fragmotion.drive)
     yield from window.send("R", "PRESS", *MIDDLE)
@@ -125,15 +125,15 @@ def pictures_of_driving() -> Iterator[None]:
     yield from crop("driving", window.view()["region"])
     yield from crop("drive", window.sidebar()["region"], fit=True)
     yield from window.send("ESC", "PRESS", *MIDDLE)
-    take = character().fragmotion.takes[0]
-    take.name = "To the right"
-    yield from panels("takes", "Takes")
+    recording = character().fragmotion.takes[0]
+    recording.name = "To the right"
+    yield from panels("recordings", "Recordings")
 
 
 def pictures_of_baking() -> Iterator[None]:
-    """Bake, of that take."""
+    """Bake, of that recording."""
     bake = character().fragmotion.bake
-    bake.trace_source, bake.loop, bake.reduce = "TAKE", True, True
+    bake.trace_source, bake.loop, bake.reduce = "RECORDING", True, True
     yield from panels("bake", "Bake", "Loop, Keys and Markers")
 
 

@@ -136,7 +136,7 @@ def main(output: str, package: str) -> None:
     folder = Path(output).resolve()
     folder.mkdir(parents=True, exist_ok=True)
     install(package)
-    core = import_module("fragmotion.core").core
+    core = import_module("fragmotion.compat.core").core
     armature = open_sample()
     takes = len(bpy.data.actions)
     build()

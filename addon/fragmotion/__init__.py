@@ -5,23 +5,13 @@ from __future__ import annotations
 
 import bpy
 
-from . import (
-    actions,
-    building,
-    coverage_picture,
-    inspector,
-    keymaps,
-    mending,
-    menus,
-    operators,
-    panel,
-    preferences,
-    properties,
-    staleness,
-    storing,
-)
+from . import operators
+from .character import building, coverage_picture, inspector, staleness, storing
 from .drive import handlers, session
+from .mocap import actions
 from .operators import background, solo_class
+from .panels import menus, panel
+from .settings import keymaps, mending, preferences, properties
 
 bl_info = {
     "name": "Fragmotion",

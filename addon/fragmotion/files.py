@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 import secrets
 import stat
+from contextlib import suppress
 from pathlib import Path
 
 from .errors import UserError
@@ -51,6 +52,17 @@ def write_new(path: Path, data: bytes) -> None:
     except OSError:
         temporary.unlink(missing_ok=True)
         raise
+    _settle(path.parent)
+
+
+def _settle(folder: Path) -> None:
+    """Bring the names in a folder onto the disk. Not every system can; the file is whole all the same."""
+    with suppress(OSError):
+        opened = os.open(folder, os.O_RDONLY)  # Windows opens no folder
+        try:
+            os.fsync(opened)
+        finally:
+            os.close(opened)
 
 
 def _check(path: Path, mode: int) -> None:

@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from .core import core
+from .compat.core import core
 
 Report = Callable[[float, str], bool]
 

@@ -49,7 +49,7 @@ def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture
 def obj(addon: ModuleType, built: Path) -> bpy.types.Object:
     """The built armature, active, after loading the file."""
-    addon.building.forget()
+    addon.character.building.forget()
     bpy.ops.wm.open_mainfile(filepath=str(built))
     return bpy.context.view_layer.objects.active
 

@@ -61,9 +61,9 @@ def test_an_action_of_another_rig(addon: ModuleType) -> None:
     add_takes(other, 1)
     obj = making.add_armature()
     refuses(bpy.ops.fragmotion.build, "'take 0' is of another rig: it animates 'fin', 'tail'.*'Rig'")
-    rig = addon.rigs.make_rig(obj)
+    rig = addon.rig.rigs.make_rig(obj)
     with pytest.raises(addon.errors.UserError, match="'take 0' animates no bone of armature 'Rig'"):
-        addon.sampling.sample(bpy.context, obj, bpy.data.actions["take 0"], rig)
+        addon.mocap.sampling.sample(bpy.context, obj, bpy.data.actions["take 0"], rig)
 
 
 def test_actions_of_other_rigs_are_not_listed(addon: ModuleType) -> None:
@@ -72,8 +72,8 @@ def test_actions_of_other_rigs_are_not_listed(addon: ModuleType) -> None:
     add_takes(other, 1)
     obj = making.add_armature()
     mine = making.add_action(obj, name="mine")
-    assert addon.actions.fitting(obj) == [mine]
-    assert [action.name for action in addon.actions.fitting(other)] == ["take 0"]
+    assert addon.mocap.actions.fitting(obj) == [mine]
+    assert [action.name for action in addon.mocap.actions.fitting(other)] == ["take 0"]
 
 
 def test_more_classes_than_fragments() -> None:
@@ -109,10 +109,10 @@ def test_without_feet_takes_are_cut_by_windows(addon: ModuleType, tmp_path: Path
     bones += [(f"part{i}", f"part{i - 1}" if i else "base", (0, 0, i + 0.3), (0, 0, i + 1.3)) for i in range(4)]
     obj = making.add_armature(bones)
     add_takes(obj, 3, 90)
-    assert not any("foot" in role for role in addon.rigs.make_rig(obj).skeleton.roles)
+    assert not any("foot" in role for role in addon.rig.rigs.make_rig(obj).skeleton.roles)
     fields = {"classes": 8, "seconds": 10, "mirror": False}
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", **fields) == {"FINISHED"}
-    durations = addon.building.load(obj).fragment_durations
+    durations = addon.character.building.load(obj).fragment_durations
     assert len(durations) >= 8 and durations.max() < 0.5 + 1e-6
     assert bpy.ops.fragmotion.bake(seconds=2) == {"FINISHED"}
 
@@ -251,9 +251,9 @@ def test_what_else_moves_the_armature_is_named(
     obj = making.add_armature()
     add_takes(obj, 3, 90)
     obj.parent = making.add_mesh()  # one that stands still
-    assert addon.baking.hindrances(obj) == []
+    assert addon.bake.baking.hindrances(obj) == []
     hinder(obj)
-    assert addon.baking.hindrances(obj) == [named]
+    assert addon.bake.baking.hindrances(obj) == [named]
     build_small(obj)
     assert f"learned as Blender shows them, moved also by {named}" in capfd.readouterr().out
     assert bpy.ops.fragmotion.bake(seconds=1) == {"FINISHED"}
@@ -265,7 +265,7 @@ def test_the_nla_and_the_rest_position_hide_a_bake(addon: ModuleType) -> None:
     add_takes(obj, 1)
     obj.animation_data.nla_tracks.new().name = "Dance"
     obj.data.pose_position = "REST"
-    assert addon.baking.hindrances(obj) == ["NLA track 'Dance'", "the armature's Rest Position"]
+    assert addon.bake.baking.hindrances(obj) == ["NLA track 'Dance'", "the armature's Rest Position"]
 
 
 def test_an_action_of_a_single_pose_is_named(capfd: pytest.CaptureFixture[str]) -> None:
@@ -340,6 +340,6 @@ def test_a_take_with_a_value_that_is_no_number(addon: ModuleType) -> None:
     obj = making.add_armature()
     action = making.add_action(obj, 60)
     action.fragmotion.use = True
-    curve = next(c for c in addon.versions.curves_of(action, obj) if "spine" in c.data_path)
+    curve = next(c for c in addon.compat.versions.curves_of(action, obj) if "spine" in c.data_path)
     curve.keyframe_points[4].co.y = np.nan
     refuses(bpy.ops.fragmotion.build, "'take'.*frame 4.*'spine'")

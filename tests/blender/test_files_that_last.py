@@ -21,7 +21,7 @@ def file(request: pytest.FixtureRequest, addon: ModuleType, tmp_path: Path) -> P
     """The .blend that a version saved, with the policy beside it, open."""
     folder = tmp_path / "kept"
     shutil.copytree(request.param, folder)
-    addon.building.forget()
+    addon.character.building.forget()
     bpy.ops.wm.open_mainfile(filepath=str(folder / "kept.blend"))
     return folder / "kept.blend"
 
@@ -33,16 +33,21 @@ def armature(name: str) -> bpy.types.Object:
 
 
 def assert_complete(addon: ModuleType, obj: bpy.types.Object) -> None:
-    """The character, its classes and its takes are those that were saved."""
-    character = addon.building.load(obj)
+    """The character, its classes and its recordings are those that were saved."""
+    character = addon.character.building.load(obj)
     assert len(character.labels) == obj.fragmotion.figures.fragments == 6
     names = [row.name for row in obj.fragmotion.classes]
     assert len(names) == len(character.class_names) == 4 and names[1] == "Stride" and all(names)
-    assert addon.classes.excluded(obj) == (2,)
+    assert addon.character.classes.excluded(obj) == (2,)
     assert obj.fragmotion.feel.promptness == 0.25
-    assert [(take.name, take.train) for take in obj.fragmotion.takes] == [("Imported", True), ("Recorded", False)]
-    np.testing.assert_allclose(addon.takes.trace_of(obj.fragmotion.takes[0]), making.waves(30, 4, 1) ** 2, atol=1e-12)
-    times, motion = addon.takes.shown_of(obj.fragmotion.takes[1])
+    assert [(each.name, each.train) for each in obj.fragmotion.takes] == [
+        ("Imported", True),
+        ("Recorded", False),
+    ]
+    np.testing.assert_allclose(
+        addon.recordings.recordings.trace_of(obj.fragmotion.takes[0]), making.waves(30, 4, 1) ** 2, atol=1e-12
+    )
+    times, motion = addon.recordings.recordings.shown_of(obj.fragmotion.takes[1])
     assert len(times) == 61 and motion.rotations.shape == (61, len(obj.data.bones), 4)
 
 
@@ -51,12 +56,12 @@ def test_there_is_a_file_of_the_first_version() -> None:
 
 
 @pytest.mark.parametrize("name", ["Hero", "Twin"])
-def test_the_character_and_its_takes_are_there(addon: ModuleType, file: Path, name: str) -> None:
+def test_the_character_and_its_recordings_are_there(addon: ModuleType, file: Path, name: str) -> None:
     assert_complete(addon, armature(name))
     assert [action.fragmotion.use for action in bpy.data.actions] == [True, True]
-    assert addon.left_out.spans_of(bpy.data.actions["way 0"]) == [(1, 3)]
+    assert addon.mocap.left_out.spans_of(bpy.data.actions["way 0"]) == [(1, 3)]
     bpy.ops.wm.save_mainfile()
-    addon.building.forget()
+    addon.character.building.forget()
     bpy.ops.wm.open_mainfile(filepath=str(file))
     assert_complete(addon, armature(name))
 
@@ -64,14 +69,14 @@ def test_the_character_and_its_takes_are_there(addon: ModuleType, file: Path, na
 @pytest.mark.parametrize("name", ["Hero", "Twin"])
 def test_a_recording_is_replayed_and_baked(addon: ModuleType, session: ModuleType, file: Path, name: str) -> None:
     obj = armature(name)
-    _, shown = addon.takes.shown_of(obj.fragmotion.takes[1])
+    _, shown = addon.recordings.recordings.shown_of(obj.fragmotion.takes[1])
     driven = session.replay(bpy.context, obj, obj.fragmotion.takes[1])
     for frame in shown.frames[1:]:
         driven.update(1 / 60)
         np.testing.assert_allclose(driven.player.frame, frame, atol=1e-4)
     session.stop()
     bpy.context.scene.render.fps = 60
-    assert bpy.ops.fragmotion.bake(trace_source="TAKE", take=1, as_recorded=True) == {"FINISHED"}
+    assert bpy.ops.fragmotion.bake(trace_source="RECORDING", recording=1, as_recorded=True) == {"FINISHED"}
     action = obj.animation_data.action
     assert action.name == "Recorded" and tuple(action.frame_range) == (1, 61)
 
@@ -94,4 +99,4 @@ def test_a_drive_that_was_cut_off_by_the_save_is_healed_and_another_gives_all_ba
 def test_build_learns_as_before(addon: ModuleType, file: Path) -> None:
     obj = armature("Hero")
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=4, seconds=2.0, synthesize=False) == {"FINISHED"}
-    assert addon.building.load(obj).table.shape == (4, 102)
+    assert addon.character.building.load(obj).table.shape == (4, 102)

@@ -33,8 +33,8 @@ def make_character(module: str) -> bpy.types.Object:
     obj.fragmotion.classes[1].name, obj.fragmotion.classes[2].excluded = "Stride", True
     obj.fragmotion.feel.promptness = 0.25
     bpy.data.actions["way 0"].fragmotion.left_out.add().last = 3
-    session, takes = import_module(f"{module}.drive.session"), import_module(f"{module}.takes")
-    takes.add_take(obj, making.waves(30, 4, 1) ** 2, name="Imported", seed=7, start=(1, 2, 0.5)).train = True
+    session, recordings = import_module(f"{module}.drive.session"), import_module(f"{module}.recordings.recordings")
+    recordings.add_recording(obj, making.waves(30, 4, 1) ** 2, name="Imported", seed=7, start=(1, 2, 0.5)).train = True
     driven = driving.start(session, obj)
     driven.inputs.keyboard.press("W")
     driven.toggle_recording()
@@ -57,7 +57,7 @@ def add_twin(obj: bpy.types.Object, module: str) -> None:
     twin.name = "Twin"
     bpy.context.scene.collection.objects.link(twin)
     twin.fragmotion.keep_policy = "BESIDE"
-    import_module(f"{module}.drive.aside").put_aside(twin)
+    import_module(f"{module}.drive.state.suspended_state").put_aside(twin)
 
 
 def main(package: str, folder: Path) -> None:

@@ -68,7 +68,7 @@ def preview(solo: Any, obj: bpy.types.Object) -> Iterator[None]:
 
 def steps() -> Iterator[None]:
     """The whole session."""
-    building, classes = window.module("building"), window.module("classes")
+    building, classes = window.module("character.building"), window.module("character.classes")
     solo = window.module("operators.solo_class")
     bpy.context.preferences.system.viewport_aa = "OFF"  # drawn by software, it takes most of the time
     bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE), load_ui=False)
@@ -86,7 +86,7 @@ def steps() -> Iterator[None]:
     yield from picture("1 suggested")
     show_only("Coverage")
     yield from picture("2 coverage")
-    icons = window.module("coverage_picture")._previews
+    icons = window.module("character.coverage_picture")._previews
     assert len(icons) == 9 and all(icon.icon_id > 0 for icon in icons.values())
     show_only("Classes")
     manager.active_class = 3

@@ -33,10 +33,10 @@ VIEW = math.radians(45)  # its heading, counter-clockwise from +Y
 DRAWS = 10  # of the panels, of which the quickest counts
 
 session = window.module("drive.session")
-overlays = window.module("drive.overlays")
+overlays = window.module("drive.hud.overlays")
 button = window.module("operators.drive")
-takes = window.module("takes")
-sdl = window.module("drive.sdl").load()
+recordings = window.module("recordings.recordings")
+sdl = window.module("drive.input.sdl").load()
 costs = window.watch_panels()
 
 
@@ -181,7 +181,7 @@ def session_of_tests() -> Iterator[None]:
     obj = build_character(Path(window.FOLDER) / "takes")
     yield from window.open_tab()
     yield from measure_panels("at rest")
-    window.show_only("Drive", "Overlays", "Takes")
+    window.show_only("Drive", "Overlays", "Recordings")
     yield from window.picture("1 before")
     before = state(obj)
     yield from drive_with_all_inputs(obj, clock)
@@ -229,7 +229,7 @@ def steer(pad: VirtualPad, clock: Clock) -> Iterator[None]:
 
 
 def record(driven: Any, pad: VirtualPad) -> Iterator[None]:
-    """A take that the pad's Start begins while the character stands; the pad vanishes, and the key ends it."""
+    """A recording that the pad's Start begins while the character stands; the pad vanishes, and the key ends it."""
     pad.push()
     yield from wait(2)
     pad.push(buttons=(START,))
@@ -245,8 +245,8 @@ def record(driven: Any, pad: VirtualPad) -> Iterator[None]:
     assert driven.inputs.pads == [] and driven.readings.control == (0, 0, 0, 0), "a pad that is gone drives"
     yield from window.send("R", "PRESS", *MIDDLE)
     yield from window.send("R", "RELEASE", *MIDDLE)
-    (take,) = driven.obj.fragmotion.takes
-    assert take.seconds > 1.9 and driven.recording is None
+    (recording,) = driven.obj.fragmotion.takes
+    assert recording.seconds > 1.9 and driven.recording is None
 
 
 def use_keys(driven: Any) -> Iterator[None]:
@@ -276,7 +276,7 @@ def drag_stick(driven: Any) -> Iterator[None]:
 def use_the_panel(driven: Any) -> Iterator[None]:
     """While one drives, the sidebar can be used."""
     yield from measure_panels("while driving")
-    window.show_only("Drive", "Gamepads", "Overlays", "Trace", "Takes")
+    window.show_only("Drive", "Gamepads", "Overlays", "Trace", "Recordings")
     yield from window.picture("6 panels")
     yield from window.click_button("follow")
     assert not driven.settings.follow, "the panel does not answer"
@@ -286,11 +286,11 @@ def use_the_panel(driven: Any) -> Iterator[None]:
 
 def bake_and_undo(obj: bpy.types.Object, before: dict[str, Any]) -> Generator[None, None, bpy.types.Object]:
     """The take's button bakes what was seen, and one undo takes it back."""
-    (take,) = obj.fragmotion.takes
-    _, motion = takes.shown_of(take)
-    window.show_only("Takes")
+    (recording,) = obj.fragmotion.takes
+    _, motion = recordings.shown_of(recording)
+    window.show_only("Recordings")
     yield from window.click_button("fragmotion.bake")
-    yield from window.until(lambda: obj.animation_data.action.name == take.name, "the bake of the take")
+    yield from window.until(lambda: obj.animation_data.action.name == recording.name, "the bake of the recording")
     scene = bpy.context.scene
     last = round(obj.animation_data.action.frame_range[1])
     shown = making.play(obj, obj.animation_data.action, last)
@@ -305,23 +305,23 @@ def bake_and_undo(obj: bpy.types.Object, before: dict[str, Any]) -> Generator[No
 
 
 def reload(obj: bpy.types.Object) -> Generator[None, None, bpy.types.Object]:
-    """The file is saved and loaded: the takes, the character and the settings are there."""
-    (take,), name, path = obj.fragmotion.takes, obj.name, f"{window.FOLDER}/driven.blend"
-    kept = (take.name, take.seconds, takes.trace_of(take).tolist(), obj.fragmotion.policy)
+    """The file is saved and loaded: the recordings, the character and the settings are there."""
+    (recording,), name, path = obj.fragmotion.takes, obj.name, f"{window.FOLDER}/driven.blend"
+    kept = (recording.name, recording.seconds, recordings.trace_of(recording).tolist(), obj.fragmotion.policy)
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
     yield
     obj = bpy.data.objects[name]
-    (take,) = obj.fragmotion.takes
-    assert (take.name, take.seconds, takes.trace_of(take).tolist(), obj.fragmotion.policy) == kept
+    (recording,) = obj.fragmotion.takes
+    assert (recording.name, recording.seconds, recordings.trace_of(recording).tolist(), obj.fragmotion.policy) == kept
     return obj
 
 
 def replay(obj: bpy.types.Object) -> Iterator[None]:
-    """The take's button lets it drive as it was recorded, until Esc; and the scene is as before."""
-    before, (take,) = state(obj), obj.fragmotion.takes
-    trace, (_, motion) = takes.trace_of(take), takes.shown_of(take)
-    window.show_only("Takes")
+    """The recording's button lets it drive as it was recorded, until Esc; and the scene is as before."""
+    before, (recording,) = state(obj), obj.fragmotion.takes
+    trace, (_, motion) = recordings.trace_of(recording), recordings.shown_of(recording)
+    window.show_only("Recordings")
     yield from window.click_button("fragmotion.drive")
     yield from wait(1)
     driven = session.current

@@ -59,7 +59,7 @@ def disable_while_building(build: Any) -> Iterator[None]:
 def steps() -> Iterator[None]:
     """The whole session."""
     build = window.module("operators.background")
-    building = window.module("building")
+    building = window.module("character.building")
     go_on = hold_builds(building.core)
     bpy.data.objects.remove(bpy.data.objects["Cube"])
     yield from open_tab()

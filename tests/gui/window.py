@@ -124,7 +124,7 @@ def _hovered() -> str:
 
 def panels() -> list[Any]:
     """The add-on's panels, in the order of the sidebar."""
-    return [cls for cls in module("panel").CLASSES if issubclass(cls, bpy.types.Panel)]
+    return [cls for cls in module("panels.panel").CLASSES if issubclass(cls, bpy.types.Panel)]
 
 
 def show_only(*labels: str) -> None:

@@ -27,7 +27,7 @@ PROPERTIES = (1450, 200)  # of the first window; the second one shows its 3D vie
 NOTE = "fragmotion_put_aside"
 
 session = window.module("drive.session")
-overlays = window.module("drive.overlays")
+overlays = window.module("drive.hud.overlays")
 
 
 def windows() -> list[Any]:
@@ -155,7 +155,7 @@ def lose_a_window(before: list[Any]) -> Iterator[None]:
     yield from go_on()
     close_window()
     yield
-    assert [take.name for take in bpy.data.objects["Rig"].fragmotion.takes] == ["Take"], "the recording is lost"
+    assert [each.name for each in bpy.data.objects["Rig"].fragmotion.takes] == ["Recording"], "the recording is lost"
     yield from assert_nothing_is_left(before)
 
 

@@ -7,8 +7,8 @@ import re
 from pathlib import Path
 
 import pytest
+from layers import TOP, assert_in_order
 
-TOP = Path(__file__).parents[2]
 STAGES = [
     "base",
     "skeleton",
@@ -43,7 +43,4 @@ def test_every_folder_is_a_stage(root: Path) -> None:
 
 @pytest.mark.parametrize("stage", STAGES)
 def test_a_stage_needs_none_further_down(stage: str) -> None:
-    assert sources(stage)
-    allowed = set(STAGES[: STAGES.index(stage) + 1])
-    for path in sources(stage):
-        assert stages_needed_by(path) <= allowed, path.relative_to(TOP)
+    assert_in_order(STAGES, stage, {path: stages_needed_by(path) for path in sources(stage)})

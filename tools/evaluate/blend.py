@@ -17,7 +17,9 @@ from tools.shell import Failure, say
 def read_actions(path: Path) -> tuple[core.Skeleton, list[core.Clip]]:
     """The skeleton of the armature that most Actions fit, and these as clips; those of a single pose are left out."""
     bpy = _open(path)
-    actions, rigs, sampling, errors = (addon(name) for name in ("actions", "rigs", "sampling", "errors"))
+    actions, rigs, sampling, errors = (
+        addon(name) for name in ("mocap.actions", "rig.rigs", "mocap.sampling", "errors")
+    )
     armatures: list[Any] = [thing for thing in bpy.context.scene.objects if thing.type == "ARMATURE"]
     fits = [(len(actions.fitting(armature)), armature) for armature in armatures]
     count, obj = max(fits, key=lambda fit: fit[0], default=(0, None))

@@ -8,8 +8,9 @@ from typing import Any
 import bpy
 from bpy.app.handlers import persistent
 
-from ..takes import add_take
-from . import aside, session
+from ..recordings.recordings import add_recording
+from . import session
+from .state import suspended_state
 
 _recordings: list[tuple[str, dict[str, Any]]] = []  # with their armatures' names, on their way across an undo or a redo
 
@@ -46,18 +47,18 @@ def _carry_recording() -> bool:
 
 def _go_on_after_undo(*_arguments: Any) -> None:
     """Heal what the step holds of the middle of a drive, and give the armature what was recorded: a step after it."""
-    aside.heal()
+    suspended_state.heal()
     recordings = list(_recordings)
     _recordings.clear()
     for name, recording in recordings:
         obj = bpy.data.objects.get(name)
         if obj is not None:
-            add_take(obj, **recording)
+            add_recording(obj, **recording)
             bpy.ops.ed.undo_push(message="Record")
 
 
 def _heal(*_arguments: Any) -> None:
-    aside.heal()
+    suspended_state.heal()
 
 
 def _give_back(*_arguments: Any) -> None:

@@ -9,22 +9,26 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from .. import classes, preferences
-from ..building import has_character, load
-from ..takes import Take, add_take, trace_of
-from . import aside, overlays, views
-from .actor import Actor
+from ..character import classes
+from ..character.building import has_character, load
+from ..compat.data_blocks import is_alive
+from ..recordings.recordings import POSE_RATE, Recording, add_recording, trace_of
+from ..settings import preferences
+from .acting.actor import Actor
+from .acting.recorder import Recorder
 from .follow import FollowCamera
-from .inputs import Inputs
-from .readings import Readings
-from .recording import Recording
-from .scene_state import SceneState, is_alive
-from .steering import Control, Steering, view_heading
+from .hud import overlays, views
+from .hud.readings import Readings
+from .hud.shown import Shown
+from .input.inputs import Inputs
+from .input.steering import Control, Steering, view_heading
+from .state import suspended_state
+from .state.scene_state import SceneState
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
 
-RATE = 60
+RATE = POSE_RATE
 """Steps a second. All are equally long, so that a recorded trace shows the same motion when it is replayed."""
 
 _HICCUP = 0.1  # s; a longer pause does not make the character leap
@@ -51,7 +55,7 @@ class Session:
         space = self.actor.space
         self._steering = Steering(space, self.actor.turns_well(space.walk), self.actor.turns_well(space.run))
         self.readings = Readings(self.actor, RATE)
-        self.recording: Recording | None = None
+        self.recording: Recorder | None = None
         self._elapsed, self._steps = 0.0, 0
         self.cost = self.interval = 0.0
         """Our own time for an update and the time between updates, s; running means."""
@@ -60,7 +64,7 @@ class Session:
         self.windows: set[int] = set()
         """Those whose keys it hears, by their addresses."""
         self.inputs = Inputs(preferences.get(context), RATE)
-        aside.put_aside(obj)
+        suspended_state.put_aside(obj)
 
     @property
     def armature(self) -> str:
@@ -92,8 +96,8 @@ class Session:
     def update(self, seconds: float) -> None:
         """Go on by the time since the last update: read the inputs, step, and pose the armature."""
         begin = time.perf_counter()
-        if aside.NOTE not in self.obj:  # given back for a save
-            aside.put_aside(self.obj)
+        if suspended_state.NOTE not in self.obj:  # given back for a save
+            suspended_state.put_aside(self.obj)
         if self.inputs.poll():
             self.toggle_recording()
         self._elapsed += min(seconds, _HICCUP)
@@ -137,29 +141,29 @@ class Session:
         self.inputs.play(trace)
 
     def toggle_recording(self) -> None:
-        """Begin a take; or end it and keep it with the armature, an undo step.
+        """Begin a recording; or end it and keep it with the armature, an undo step.
 
         Where the character stands still it begins as its replay will, so that the replay shows the same.
         """
         if self.recording is None:
             if math.hypot(*self.readings.velocity) < _STILL and not any(self.control):
                 self.actor.start_afresh()
-            self.recording = Recording(self.actor, RATE)
+            self.recording = Recorder(self.actor, RATE)
             self.readings = Readings(self.actor, RATE)
         elif self._keep_recording():
             bpy.ops.ed.undo_push(message="Record")
 
     def _keep_recording(self) -> bool:
-        """End the recording; whether there is a take of it."""
+        """End the recording; whether anything was recorded."""
         kept = self.end_recording()
         if kept is None:
             return False
-        take = add_take(self.obj, **kept)
-        self.inputs.messages.append(f"Recorded '{take.name}': {take.seconds:.1f} s")
+        recording = add_recording(self.obj, **kept)
+        self.inputs.messages.append(f"Recorded '{recording.name}': {recording.seconds:.1f} s")
         return True
 
     def end_recording(self) -> dict[str, Any] | None:
-        """End the recording; what `add_take` keeps of it beside the armature, if anything was recorded."""
+        """End the recording; what `add_recording` keeps of it beside the armature, if anything was recorded."""
         recording, self.recording = self.recording, None
         if recording is None or not len(recording.trace):
             return None
@@ -185,13 +189,31 @@ class Session:
             return f"Bones of armature '{self.armature}' were added or deleted"
         return self._state.trouble()
 
+    def shown(self) -> Shown | None:
+        """What is drawn of it now; None where it cannot go on."""
+        if self.trouble():
+            return None
+        recording, inputs = self.recording, self.inputs
+        title = f"Recording {recording.seconds:.1f} s" if recording else f"Driving {self.armature}: Esc ends"
+        return Shown(
+            title,
+            recording is not None,
+            inputs.label,
+            inputs.shown,
+            inputs.stick,
+            self.readings,
+            self.settings,
+            self.cost,
+            self.interval,
+        )
+
     def give_back(self) -> None:
         """Let the armature have its own pose and animation until the next update: the file is saved."""
-        if is_alive(self.obj) and aside.NOTE in self.obj:
-            aside.give_back(self.obj, self._state.layer)
+        if is_alive(self.obj) and suspended_state.NOTE in self.obj:
+            suspended_state.give_back(self.obj, self._state.layer)
 
     def close(self) -> bool:
-        """Let go of the inputs and give everything back; whether a take was kept that no undo step holds yet.
+        """Let go of the inputs and give everything back; whether a recording was kept that no undo step holds yet.
 
         What was deleted meanwhile stays deleted.
         """
@@ -216,19 +238,21 @@ def start(context: bpy.types.Context, obj: bpy.types.Object, seed: int = -1, pol
     stop()
     current = Session(context, obj, seed, policy)
     classes.session = current if current.actor.character else None
-    overlays.add(current)
+    overlays.add(current.shown, current.views)
     return current
 
 
-def replay(context: bpy.types.Context, obj: bpy.types.Object, take: Take, seed: int = -1, policy: str = "") -> Session:
-    """Begin a drive by a take, from where it was recorded; by default with its seed, and its policy where there is it.
+def replay(
+    context: bpy.types.Context, obj: bpy.types.Object, recording: Recording, seed: int = -1, policy: str = ""
+) -> Session:
+    """Begin a drive by a recording, from where it began; by default with its seed, and its policy where there is it.
 
-    UserError where the take is damaged.
+    UserError where the recording is damaged.
     """
-    trace, begin = trace_of(take), tuple(take.start)
+    trace, begin = trace_of(recording), tuple(recording.start)
     known = load(obj).policies if has_character(obj) else []
-    chosen = policy or (take.policy if take.policy in known else "")
-    driven = start(context, obj, take.seed if seed < 0 else seed, chosen)
+    chosen = policy or (recording.policy if recording.policy in known else "")
+    driven = start(context, obj, recording.seed if seed < 0 else seed, chosen)
     try:
         driven.play(trace, begin)
     except BaseException:
@@ -252,7 +276,7 @@ def rest(timer: bpy.types.Timer) -> None:
 
 
 def stop(push: bool = True) -> None:
-    """End the drive that is under way, if any. A take that it was recording becomes an undo step, if that may be.
+    """End the drive that is under way, if any. What it was recording becomes an undo step, if that may be.
 
     Its operators end themselves when they are woken next.
     """

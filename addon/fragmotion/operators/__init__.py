@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from . import takes
+from . import recordings
 from .background import FRAGMOTION_OT_cancel
 from .bake import FRAGMOTION_OT_bake
 from .build import FRAGMOTION_OT_build
@@ -35,7 +35,7 @@ CLASSES = (
     FRAGMOTION_OT_cancel,
     FRAGMOTION_OT_save_policy,
     FRAGMOTION_OT_load_policy,
-    *takes.CLASSES,
+    *recordings.CLASSES,
     FRAGMOTION_OT_solo_class,
     FRAGMOTION_OT_force_class,
     FRAGMOTION_OT_show_fragment,

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 import bpy
 
-from ..core import core
+from ..compat.core import core
 from ..errors import UserError, core_errors, reported
 from ..jobs import Job
 from .context import active_armature, adopt_settings

@@ -7,12 +7,12 @@ from typing import Any, ClassVar
 
 import bpy
 
-from ..baking import Baked, hindrances, prepare
-from ..building import has_character
-from ..drawing import draw_bake, draw_bake_options
+from ..bake.baking import Baked, hindrances, prepare
+from ..bake.targets import find_target, write
+from ..character.building import has_character
 from ..jobs import Job
-from ..properties import BakeFields
-from ..targets import find_target, write
+from ..settings.bake_fields import BakeFields
+from ..settings.drawing import draw_bake, draw_bake_options
 from .background import Background, poll_idle
 from .context import active_armature, poll_armature
 

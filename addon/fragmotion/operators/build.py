@@ -7,10 +7,10 @@ from typing import Any, ClassVar
 
 import bpy
 
-from .. import building
-from ..actions import fitting
+from ..character import building
 from ..jobs import Job
-from ..properties import BuildFields
+from ..mocap.actions import fitting
+from ..settings.build_fields import BuildFields
 from .background import Background, poll_idle
 from .context import active_armature, poll_armature
 

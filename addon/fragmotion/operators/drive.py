@@ -10,13 +10,14 @@ from typing import Any, ClassVar
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
-from .. import preferences
-from ..drive import session, views
-from ..drive.pads import Pads
-from ..drive.sdl import SdlMissing
+from ..drive import session
+from ..drive.hud import views
+from ..drive.input.pads import Pads
+from ..drive.input.sdl import SdlMissing
 from ..errors import UserError, core_errors, reported
-from ..movers import movers
-from ..traces import make_trace
+from ..recordings.traces import make_trace
+from ..rig.external_motion import movers
+from ..settings import preferences
 from .background import poll_idle
 from .context import active_armature, poll_armature
 
@@ -102,27 +103,27 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
         description="What drives first; touching another input takes over",
         items=(
             ("INPUTS", "Inputs", "The input that is touched last"),
-            ("TAKE", "Take", "A take, from where it was recorded"),
+            ("RECORDING", "Recording", "A recording, from where it began"),
         ),
         default="INPUTS",
         options={"SKIP_SAVE"},
     )
-    take: IntProperty(  # type: ignore[valid-type]
-        name="Take",
-        description="Number of the take in the list, from 0",
+    recording: IntProperty(  # type: ignore[valid-type]
+        name="Recording",
+        description="Number of the recording in the list, from 0",
         min=0,
         options={"SKIP_SAVE"},
     )
     seed: IntProperty(  # type: ignore[valid-type]
         name="Seed",
-        description="Draws which fragment of a class plays; -1: the take's seed, or the panel's",
+        description="Draws which fragment of a class plays; -1: the recording's seed, or the panel's",
         default=-1,
         min=-1,
         options={"SKIP_SAVE"},
     )
     policy: StringProperty(  # type: ignore[valid-type]
         name="Policy",
-        description="The policy that drives; empty: the take's, or the one that Build put first",
+        description="The policy that drives; empty: the recording's, or the one that Build put first",
         options={"SKIP_SAVE"},
     )
 
@@ -150,10 +151,10 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
     def _start(self, context: bpy.types.Context, obj: bpy.types.Object) -> session.Session:
         if self.source == "INPUTS":
             return session.start(context, obj, self.seed, self.policy)
-        takes = obj.fragmotion.takes
-        if self.take >= len(takes):
-            raise UserError(f"Armature '{obj.name}' has no such take: record or import one")
-        return session.replay(context, obj, takes[self.take], self.seed, self.policy)
+        recordings = obj.fragmotion.takes
+        if self.recording >= len(recordings):
+            raise UserError(f"Armature '{obj.name}' has no such recording: record or import one")
+        return session.replay(context, obj, recordings[self.recording], self.seed, self.policy)
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Without this window there is nothing to update the drive."""
@@ -300,13 +301,13 @@ class _WhileDriving:
 
 
 class FRAGMOTION_OT_record(_WhileDriving, bpy.types.Operator):
-    """Start a take, or end it and keep it."""
+    """Start a recording, or end it and keep it."""
 
     bl_idname = "fragmotion.record"
     bl_label = "Record"
     bl_description = (
-        "Record what you do, 10 controls a second, as a take of the armature. The take begins where the character "
-        "stands now; press again to end it and keep it"
+        "Record what you do, 10 controls a second, and keep it with the armature. A recording begins where the "
+        "character stands now; press again to end it"
     )
 
     @reported

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import bpy
 from bpy.props import IntProperty
 
-from .. import classes
+from ..character import classes
 from ..errors import UserError, reported
 from .context import active_armature
 

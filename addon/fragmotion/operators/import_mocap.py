@@ -10,7 +10,7 @@ import bpy
 from bpy.props import CollectionProperty, EnumProperty, StringProperty
 
 from ..errors import UserError, reported
-from ..importing import METRES, find_takes, import_takes
+from ..mocap.importing import METRES, find_takes, import_takes
 
 _UNITS = (
     ("CENTIMETRES", "Centimetres", "One BVH unit is 0.01 m"),

@@ -8,8 +8,8 @@ from typing import Any, ClassVar
 import bpy
 from bpy.props import IntProperty
 
-from ..actions import chosen
-from ..left_out import choose_span
+from ..mocap.actions import chosen
+from ..mocap.left_out import choose_span
 from .context import active_armature, poll_armature
 
 

@@ -10,7 +10,7 @@ import bpy
 from bpy.props import StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ..building import load_policy
+from ..character.building import load_policy
 from ..errors import UserError, reported
 from .background import poll_idle
 from .context import active_armature, poll_armature

@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import bpy
 
-from ..baking import Baked
-from ..drawing import draw_populate
+from ..bake.baking import Baked
+from ..bake.populating import populate, prepare
 from ..jobs import Job
-from ..populating import populate, prepare
-from ..properties import PopulateFields
+from ..settings.bake_fields import PopulateFields
+from ..settings.drawing import draw_populate
 from .bake import Baking
 
 

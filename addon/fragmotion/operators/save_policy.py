@@ -8,7 +8,7 @@ from typing import ClassVar
 import bpy
 from bpy.props import StringProperty
 
-from ..building import has_character, save_policy
+from ..character.building import has_character, save_policy
 from ..errors import reported
 from .context import active_armature
 from .saving import Saving

@@ -8,10 +8,10 @@ from typing import ClassVar
 import bpy
 from bpy.props import FloatProperty, StringProperty
 
+from ..bake.targets import keep_former
+from ..character.inspector import show
 from ..errors import UserError, reported
-from ..inspector import show
-from ..posing import check_free
-from ..targets import keep_former
+from ..rig.posing import check_free
 from .context import active_armature, poll_armature
 
 

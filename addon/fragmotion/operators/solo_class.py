@@ -8,10 +8,10 @@ from typing import ClassVar
 
 import bpy
 
-from .. import classes
-from ..drive import views
-from ..errors import reported
-from ..solo import Solo
+from ..character import classes
+from ..character.solo import Solo
+from ..drive.hud import views
+from ..errors import UserError, reported
 from . import background
 from .context import active_armature
 from .force_class import poll_class
@@ -77,10 +77,17 @@ class FRAGMOTION_OT_solo_class(bpy.types.Operator):
         now = time.perf_counter()
         trouble = solo.trouble()
         if not trouble:
-            solo.step(min(now - self._before, _LONGEST))
-            views.tag_redraw()
+            trouble = self._step(solo, min(now - self._before, _LONGEST))
         self._before = now
         return trouble
+
+    def _step(self, solo: Solo, seconds: float) -> str:
+        try:
+            solo.step(seconds)
+        except UserError as error:
+            return str(error)
+        views.tag_redraw()
+        return ""
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """Blender ends the operator: its window is closed, another file is loaded, or Blender quits."""

@@ -7,9 +7,9 @@ from typing import Any
 
 import bpy
 
-from .. import suggesting
+from ..character import suggesting
 from ..jobs import Job
-from ..properties import BuildFields
+from ..settings.build_fields import BuildFields
 from .build import Building
 
 

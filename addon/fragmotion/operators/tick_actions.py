@@ -8,7 +8,7 @@ from typing import ClassVar
 import bpy
 from bpy.props import BoolProperty
 
-from ..actions import fitting
+from ..mocap.actions import fitting
 from .context import active_armature, poll_armature
 
 

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A trace played by the armature's character: what a bake writes and a recording is judged by."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import bpy
+import numpy as np
+
+from ..character.building import has_character, load, make_player
+from ..errors import UserError, core_errors
+from ..jobs import Report
+from ..mocap.sampling import scene_rate
+from ..recordings.recordings import Recording, active_recording, shown_of, trace_of
+from ..recordings.traces import make_trace
+from ..rig.motion import Motion, resampled
+from ..settings.bake_fields import DRIVING
+
+if TYPE_CHECKING:
+    from fragmotion_core import Character, Performance, Rig
+
+_JUDGING_RATE = 30.0  # frames a second at which a recording's quality is measured
+_CLIP_FRAMES = 2  # a clip has at least so many
+
+
+class Played(NamedTuple):
+    """A motion, and how well it follows its trace in words."""
+
+    motion: Motion
+    remark: str
+
+
+def chosen_recording(obj: bpy.types.Object, settings: Any) -> Recording | None:
+    """The recording that BakeFields ask for, None where the trace is another; UserError where it is not there."""
+    if settings.trace_source != "RECORDING":
+        return None
+    recordings, index = obj.fragmotion.takes, settings.recording
+    recording = active_recording(obj) if index < 0 else recordings[index] if index < len(recordings) else None
+    if recording is None:
+        raise UserError(
+            f"Armature '{obj.name}' has no such recording: record or import one, and select it under Recordings"
+        )
+    return recording
+
+
+def prepare(
+    context: bpy.types.Context, obj: bpy.types.Object, character: Character, rig: Rig, settings: Any
+) -> Callable[[Report], Played]:
+    """Read what a performance needs; the task that it returns plays it and calls nothing of Blender."""
+    recording, rate = chosen_recording(obj, settings), scene_rate(context.scene)
+    recorded = recording if settings.as_recorded else None
+    if recorded is not None:
+        shown = shown_of(recorded)
+        if shown is not None and recorded.shown_bones == len(character.skeleton.names):
+            return lambda _report: Played(resampled(*shown, rate), "as it was recorded")
+    trace = make_trace(settings, character.space) if recording is None else trace_of(recording)
+    player = _player_for(obj, character, recorded, settings)
+    player.reset(*(_place(context, obj, rig, settings) if recorded is None else recorded.start))
+
+    def play(report: Report) -> Played:
+        performance = player.run(trace, rate, report)
+        motion = Motion(performance.root_positions, performance.rotations, performance.frames, performance.classes)
+        return Played(motion, _judge(performance))
+
+    return play
+
+
+def measure_quality(obj: bpy.types.Object, recording: Recording) -> float:
+    """Eq. 2's mean over time when the armature's character replays the recording; 0 where there is no character."""
+    if not has_character(obj):
+        return 0.0
+    character = load(obj)
+    policy = recording.policy if recording.policy in character.policies else ""
+    with core_errors(f"Recording '{recording.name}'"):
+        player = make_player(obj, character, recording.seed, policy)
+        return float(player.run(trace_of(recording), _JUDGING_RATE).quality)
+
+
+def _player_for(obj: bpy.types.Object, character: Character, recorded: Recording | None, settings: Any) -> Any:
+    if recorded is not None:
+        policy, seed = recorded.policy, recorded.seed
+    else:
+        policy, seed = settings.policy if settings.policy != DRIVING else "", settings.seed
+    with core_errors("Bake"):
+        return make_player(obj, character, seed, policy)
+
+
+def _place(context: bpy.types.Context, obj: bpy.types.Object, rig: Rig, settings: Any) -> tuple[float, float, float]:
+    """Where the character starts: x, y and heading."""
+    if settings.place == "CHARACTER":
+        return character_frame(context, obj, rig)
+    return origin_frame(obj)
+
+
+def origin_frame(obj: bpy.types.Object) -> tuple[float, float, float]:
+    """The character frame, x, y (m) and heading (rad), under the armature's origin facing its -Y (Blender's front)."""
+    place = obj.matrix_world
+    return place.translation.x, place.translation.y, place.to_euler().z + math.pi
+
+
+def character_frame(context: bpy.types.Context, obj: bpy.types.Object, rig: Rig) -> tuple[float, float, float]:
+    """Where the character stands as Blender shows it now: x, y (m) and heading (rad)."""
+    posed = obj.evaluated_get(context.evaluated_depsgraph_get())
+    matrices = np.array([[posed.pose.bones[bone.name].matrix for bone in obj.data.bones]] * _CLIP_FRAMES)
+    with core_errors(f"Armature '{obj.name}'"):
+        clip = rig.clip_from_matrices(obj.name, 1.0, matrices, np.array([posed.matrix_world] * _CLIP_FRAMES))
+        x, y, heading = clip.character_frames(rig.skeleton)[0]
+    return float(x), float(y), float(heading)
+
+
+def _judge(performance: Performance) -> str:
+    error, speed = performance.velocity_error, performance.commanded_speed
+    return f"velocity error {error:.2f} m/s of {speed:.2f} m/s"

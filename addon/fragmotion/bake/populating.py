@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A crowd: copies of an armature and what belongs to it, each with a trace of its own, baked."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from types import SimpleNamespace
+from typing import Any
+
+import bpy
+from mathutils import Matrix
+
+from ..compat.core import core
+from ..errors import UserError
+from ..jobs import Report
+from ..settings.bake_fields import MIXED, BakeFields
+from . import baking
+from .targets import Target, write
+
+Spot = tuple[float, float, float]
+"""Where a copy stands as the original sees it on the ground: x, y (m) and how far it is turned (rad)."""
+
+_FIXED = {"target": "NEW", "action": "", "root": "BONE", "place": "ORIGIN", "as_recorded": False, "markers": "NONE"}
+
+
+def spots(count: int, layout: str, spacing: float) -> list[Spot]:
+    """Places around the original: SQUARE fills a grid from the middle, RING is a circle that faces outwards. No two,
+    and none and the original, are nearer than the spacing."""
+    if layout == "RING":
+        radius = spacing / min(2 * math.sin(math.pi / count), 1) if count > 1 else spacing
+        angles = [2 * math.pi * index / count for index in range(count)]
+        return [(radius * math.sin(angle), -radius * math.cos(angle), angle) for angle in angles]
+    reach = math.ceil((math.sqrt(count + 1) - 1) / 2)
+    cells = itertools.product(range(-reach, reach + 1), repeat=2)
+    nearest = sorted(cells, key=lambda cell: (max(map(abs, cell)), math.hypot(*cell), cell))
+    return [(spacing * x, spacing * y, 0.0) for x, y in nearest[1 : count + 1]]
+
+
+def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Callable[[Report], list[baking.Baked]]:
+    """Read what the bakes need, as settings with PopulateFields say; the task that it returns calls nothing of Blender.
+
+    A copy plays at its place just what the original would at its own, so that all are computed there.
+    """
+    tasks = [baking.prepare(context, obj, each).task for each in _bakes(obj, settings)]
+
+    def task(report: Report) -> list[baking.Baked]:
+        return [each(_share(report, index, len(tasks))) for index, each in enumerate(tasks)]
+
+    return task
+
+
+def populate(
+    context: bpy.types.Context, obj: bpy.types.Object, crowd: Sequence[baking.Baked], settings: Any
+) -> bpy.types.Collection:
+    """Add a copy for each bake to a new collection; on an error the file is as before."""
+    bake = _bake_settings(obj)
+    with _whole_or_not_at_all(context) as collection:
+        collection.name = f"{obj.name} Crowd"
+        places = spots(len(crowd), settings.layout, settings.spacing)
+        for number, (baked, spot) in enumerate(zip(crowd, places), 1):
+            copy = _copy(obj, _around(obj, spot), number, collection)
+            target = Target("NEW", None, copy.name, bake.frame_start)
+            write(context, copy, target, baked.tracks, baked.classes, bake)
+    return collection
+
+
+def _bakes(obj: bpy.types.Object, settings: Any) -> Iterator[SimpleNamespace]:
+    """What each copy bakes: Bake's own settings, with a trace and a seed of its own."""
+    ticked = []
+    if settings.traces == "RECORDINGS":
+        ticked = [index for index, recording in enumerate(obj.fragmotion.takes) if recording.train]
+        if not ticked:
+            raise UserError(
+                f"No recording of armature '{obj.name}' is ticked: tick some under Recordings, or choose Simulated"
+            )
+    habits = core.PLAYERS if settings.player == MIXED else [settings.player]
+    for index in range(settings.count):
+        each = _bake_settings(obj)
+        each.seed, each.seconds, each.player = settings.seed + index, settings.seconds, habits[index % len(habits)]
+        each.trace_source = "RECORDING" if ticked else "PLAYER"
+        each.recording = ticked[index % len(ticked)] if ticked else -1
+        yield each
+
+
+def _bake_settings(obj: bpy.types.Object) -> SimpleNamespace:
+    """The settings of the Bake panel with what a crowd needs."""
+    names = {name for base in BakeFields.__mro__ for name in getattr(base, "__annotations__", {})}
+    bake = obj.fragmotion.bake
+    return SimpleNamespace(**{name: getattr(bake, name) for name in names} | _FIXED)
+
+
+def _share(report: Report, index: int, count: int) -> Report:
+    return lambda fraction, _stage: report((index + fraction) / count, f"{index + 1} of {count}")
+
+
+def _around(obj: bpy.types.Object, spot: Spot) -> Matrix:
+    """What moves the world from the original to a spot."""
+    x, y, turn = spot
+    to_original = Matrix.Translation(obj.matrix_world.translation)
+    facing = Matrix.Rotation(obj.matrix_world.to_euler().z, 4, "Z")
+    moved = facing @ Matrix.Translation((x, y, 0)) @ facing.inverted() @ Matrix.Rotation(turn, 4, "Z")
+    return to_original @ moved @ to_original.inverted()
+
+
+def _copy(obj: bpy.types.Object, moved: Matrix, number: int, collection: bpy.types.Collection) -> bpy.types.Object:
+    """A copy of the armature and of what it carries or deforms, moved; their data are the originals'."""
+    copies = {original: original.copy() for original in (obj, *_belongings(obj))}
+    for original, copy in copies.items():
+        copy.name = f"{original.name} {number}"
+        collection.objects.link(copy)
+        _tie(copy, copies)
+        if original.parent not in copies:
+            copy.parent = None
+            copy.matrix_world = moved @ original.matrix_world
+    armature = copies[obj]
+    armature.animation_data_clear()
+    armature.property_unset("fragmotion")
+    return armature
+
+
+def _belongings(obj: bpy.types.Object) -> list[bpy.types.Object]:
+    """What the armature carries, and what it deforms without carrying it."""
+    carried = list(obj.children_recursive)
+    deformed = [
+        other
+        for other in bpy.context.scene.objects
+        if any(modifier.type == "ARMATURE" and modifier.object == obj for modifier in other.modifiers)
+    ]
+    return list(dict.fromkeys((*carried, *deformed)))
+
+
+def _tie(copy: bpy.types.Object, copies: dict[bpy.types.Object, bpy.types.Object]) -> None:
+    """Let the copy belong to copies where the original belongs to originals."""
+    if copy.parent in copies:
+        copy.parent = copies[copy.parent]
+    for modifier in copy.modifiers:
+        if getattr(modifier, "object", None) in copies:
+            modifier.object = copies[modifier.object]
+
+
+@contextmanager
+def _whole_or_not_at_all(context: bpy.types.Context) -> Iterator[bpy.types.Collection]:
+    """A new collection of the scene; on an error it goes, and all that was added since."""
+    scene = context.scene
+    end, before = scene.frame_end, (set(bpy.data.objects), set(bpy.data.actions))
+    collection = bpy.data.collections.new("Crowd")
+    scene.collection.children.link(collection)
+    try:
+        yield collection
+    except BaseException:
+        for kind, former in zip((bpy.data.objects, bpy.data.actions), before):
+            for added in set(kind) - former:
+                kind.remove(added)
+        bpy.data.collections.remove(collection)
+        scene.frame_end = end
+        context.view_layer.update()
+        raise

@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ticked Actions to a character, and the character kept in the .blend."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import bpy
+import numpy as np
+
+from ..compat.core import core
+from ..errors import SinglePose, UserError, core_errors
+from ..files import read_regular
+from ..jobs import Report
+from ..mocap import actions
+from ..mocap.sampling import sample_parts
+from ..recordings.traces import make_traces
+from ..rig.external_motion import movers
+from ..rig.rigs import carriers, make_rig
+from ..rig.skeletons import difference
+from . import classes
+from .coverage import measure_coverage
+from .staleness import sources_of
+from .storing import keep_policy, key_of, read_policy
+
+if TYPE_CHECKING:
+    from fragmotion_core import BuildOptions, Character, Clip, Doubles, Player, Rig
+
+_EXAM_SECONDS = 60.0
+_EXAM_SEED = 7_001
+_EXAMINERS = ("explorer", "runner")
+_FROM_TAKES = ("captured", "mirrored")
+_BUILD_SHARE = 0.95  # of the progress; the exam has the rest
+_cache: dict[tuple[str, tuple[int, ...]], Character] = {}  # by the policy's digest and the classes left out
+
+
+class Built(NamedTuple):
+    """A finished build: the character and how its policies did on a player that they did not learn from."""
+
+    character: Character
+    qualities: dict[str, float]  # percent of Optimal; the first is of the policy that drives
+    examiner: str
+    sources: str = ""  # what it was built from, as staleness.sources_of tells it; empty where that is unknown
+
+
+class Prepared(NamedTuple):
+    """What a build has read of the file: the task that does the rest, and what the user should know of it."""
+
+    task: Callable[[Report], Built]
+    warnings: list[str]
+
+
+class Material(NamedTuple):
+    """What a build has read of the file to learn from, and what the user should know of it."""
+
+    rig: Rig
+    clips: list[Clip]
+    traces: list[Doubles]
+    options: BuildOptions
+    warnings: list[str]
+
+
+def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Material:
+    """Sample the ticked Actions; UserError on what cannot be built from."""
+    takes = _ticked(obj)
+    context.view_layer.update()
+    rig = make_rig(obj)
+    carriers(obj, rig)
+    traces = make_traces(obj, settings)
+    clips, warnings = _sample_all(context, obj, takes, rig)
+    return Material(rig, clips, traces, make_options(settings), warnings)
+
+
+def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Prepared:
+    """Sample the ticked Actions for a build; UserError on what cannot be built from."""
+    rig, clips, traces, options, warnings = gather(context, obj, settings)
+    sources = sources_of(obj)
+    teacher = settings.player if settings.trace_source == "PLAYER" else ""
+
+    def task(report: Report) -> Built:
+        character = core.build(
+            rig.skeleton, clips, traces, options, lambda fraction, stage: report(_BUILD_SHARE * fraction, stage)
+        )
+        report(_BUILD_SHARE, "Examining")
+        return examine(character, teacher)._replace(sources=sources)
+
+    return Prepared(task, warnings)
+
+
+def examine(character: Character, teacher: str) -> Built:
+    """Measure the character's policies on a simulated player who is not the teacher."""
+    examiner = next(name for name in _EXAMINERS if name != teacher)
+    exam = core.simulate_trace(examiner, _EXAM_SECONDS, _EXAM_SEED, character.space)
+    return Built(character, {name: character.percent_of_optimal(exam, name) for name in character.policies}, examiner)
+
+
+def _sample_all(
+    context: bpy.types.Context, obj: bpy.types.Object, takes: list[bpy.types.Action], rig: Rig
+) -> tuple[list[Clip], list[str]]:
+    """The takes as clips, and what to warn of. Takes of a single pose are left out where there are others."""
+    clips, poses, warnings = [], [], []
+    for action in takes:
+        try:
+            clips.extend(sample_parts(context, obj, action, rig))
+        except SinglePose:
+            poses.append(action.name)
+            if len(poses) == len(takes):
+                raise
+    if poses:
+        warnings.append(f"Left out, as they hold a single pose: {', '.join(poses)}")
+    others = movers(obj)
+    if others:
+        warnings.append(f"The takes were learned as Blender shows them, moved also by {'; '.join(others)}")
+    return clips, warnings
+
+
+def _ticked(obj: bpy.types.Object) -> list[bpy.types.Action]:
+    takes = actions.ticked(obj)
+    if takes:
+        return takes
+    foreign = [action for action in bpy.data.actions if action.fragmotion.use]
+    if foreign:
+        bones = ", ".join(f"'{name}'" for name in sorted(actions.animated_bones(foreign[0], obj))[:3]) or "no bones"
+        raise UserError(
+            f"Action '{foreign[0].name}' is of another rig: it animates {bones}, few of which "
+            f"armature '{obj.name}' has. Import takes onto this armature, or tick its own Actions"
+        )
+    raise UserError(f"No Action is ticked for armature '{obj.name}': import mocap, or tick its Actions")
+
+
+def make_options(settings: Any) -> Any:
+    """The core's options as BuildFields say."""
+    options = core.BuildOptions()
+    for name in ("longest", "cut", "classes", "seed", "mirror", "synthesize"):
+        setattr(options, name, getattr(settings, name))
+    options.policies = sorted(options.policies, key=lambda policy: policy != settings.policy)
+    return options
+
+
+def keep(obj: bpy.types.Object, built: Built) -> None:
+    """Store the character and its figures with the armature."""
+    character, figures = built.character, obj.fragmotion.figures
+    with core_errors():
+        data = character.to_bytes()
+    keep_policy(obj, data)
+    obj.fragmotion.digest = key_of(obj)
+    _cache.clear()
+    _cache[obj.fragmotion.digest, ()] = character
+    classes.keep_rows(obj.fragmotion.classes, character)
+    figures.captured = sum(origin in _FROM_TAKES for origin in character.fragment_origins)
+    figures.fragments = len(character.labels)
+    figures.classes, figures.controls = character.table.shape
+    figures.seconds = character.report.get("seconds", 0)
+    figures.quality = next(iter(built.qualities.values()))
+    figures.policies.clear()
+    for policy, quality in built.qualities.items():
+        row = figures.policies.add()
+        row.name, row.quality = policy, quality
+    figures.examiner, figures.sources = built.examiner, built.sources
+    _keep_coverage(figures, character)
+
+
+def _keep_coverage(figures: Any, character: Character) -> None:
+    figures.distances = np.asarray(character.coverage_distances, np.float32).tobytes()
+    figures.coverage.clear()
+    for name, performed, total in measure_coverage(character.coverage_distances):
+        row = figures.coverage.add()
+        row.name, row.performed, row.total = name, performed, total
+    figures.performed = sum(sum(row.performed) for row in figures.coverage)
+
+
+def save_policy(obj: bpy.types.Object, path: Path) -> None:
+    """Write the armature's character to a policy file; UserError where the file cannot be written."""
+    character = load(obj)
+    with core_errors():
+        character.save(path)
+
+
+def load_policy(context: bpy.types.Context, obj: bpy.types.Object, path: Path) -> None:
+    """Give the armature the character of a policy file; UserError where it is damaged or of another skeleton."""
+    character = _decode(read_regular(path, follow=True), f"'{path}'")
+    context.view_layer.update()
+    other = difference(character.skeleton, make_rig(obj).skeleton, obj.data.bones.keys())
+    if other:
+        raise UserError(f"'{path}' was built for another skeleton than armature '{obj.name}' has: here {other}")
+    keep(obj, examine(character, ""))
+
+
+def has_character(obj: bpy.types.Object) -> bool:
+    """Whether Build has been done for this armature."""
+    return bool(obj.fragmotion.figures.classes > 0)
+
+
+def load(obj: bpy.types.Object) -> Character:
+    """The armature's character as it drives: never sent to the classes that are left out. Made once for each choice."""
+    whole, excluded = load_whole(obj), classes.excluded(obj)
+    classes.check_rows(obj, whole)
+    if not excluded:
+        return whole
+    key = (next(digest for digest, left in _cache if not left), excluded)
+    if key not in _cache:
+        with core_errors(f"Armature '{obj.name}'"):
+            left = whole.without(excluded)
+        forget()
+        _cache[key[0], ()], _cache[key] = whole, left
+    return _cache[key]
+
+
+def check_skeleton(obj: bpy.types.Object, character: Character, rig: Rig) -> None:
+    """UserError where the armature's bones are not those that the character was built on."""
+    changed = difference(character.skeleton, rig.skeleton, obj.data.bones.keys())
+    if changed:
+        raise UserError(f"Armature '{obj.name}' has changed since Build: {changed}. Undo that, or press Build again")
+
+
+def make_player(obj: bpy.types.Object, character: Character, seed: int, policy: str = "") -> Player:
+    """What plays the character, with the armature's settings of how it moves."""
+    feel = obj.fragmotion.feel
+    player: Player = core.Player(
+        character,
+        seed,
+        policy=policy,
+        responsiveness=feel.promptness,
+        root_adjustment=feel.pull,
+        lock_feet=feel.lock_feet,
+    )
+    return player
+
+
+def load_to_draw(obj: bpy.types.Object) -> Character:
+    """As `load`, quick enough for drawing: it takes Build's word for what the policy holds."""
+    character = _cache.get((obj.fragmotion.digest, classes.excluded(obj)))
+    if character is None:
+        return load(obj)
+    classes.check_rows(obj, character)
+    return character
+
+
+def load_whole(obj: bpy.types.Object) -> Character:
+    """The armature's character with all its classes; decoded once for each content."""
+    key = (key_of(obj), ())
+    if key not in _cache:
+        character = _decode(read_policy(obj), f"The policy kept in armature '{obj.name}'")
+        _cache.clear()
+        _cache[key] = character
+    return _cache[key]
+
+
+def _decode(data: bytes, place: str) -> Character:
+    """The character of a policy file's bytes; a UserError begins with the place."""
+    with core_errors(place):
+        character: Character = core.Character.from_bytes(data)
+    return character
+
+
+def forget() -> None:
+    """Let go of all decoded characters."""
+    _cache.clear()

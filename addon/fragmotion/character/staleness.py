@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether the Actions that an armature's character was built from have changed since, or others are ticked."""
+
+from __future__ import annotations
+
+import hashlib
+import time
+
+import bpy
+import numpy as np
+from bpy.app.handlers import persistent
+
+from ..compat import versions
+from ..mocap.actions import RATE, SCENE_RATE, ticked
+from ..rig.writing import LINEAR
+
+_PATIENCE = 0.03  # s that one look may take; what is not read by then waits for the next look
+_digests: dict[tuple[object, ...], str] = {}
+
+
+def sources_of(obj: bpy.types.Object) -> str:
+    """A digest of all that Build reads of the ticked Actions; their names do not count."""
+    return _joined([_digest(action) for action in ticked(obj)])
+
+
+def is_stale(obj: bpy.types.Object) -> bool:
+    """Whether Build would read something else now than for the armature's character; quick enough for drawing.
+
+    After loading a file with many Actions it takes a few looks to find out; until then they count as unchanged.
+    """
+    built = obj.fragmotion.figures.sources
+    if not built:
+        return False
+    actions, until = ticked(obj), time.perf_counter() + _PATIENCE
+    digests = []
+    for action in actions:
+        digests.append(_digest(action))
+        if time.perf_counter() > until and any(_key(other) not in _digests for other in actions):
+            return False
+    return bool(_joined(digests) != built)
+
+
+def register() -> None:
+    """Begin to notice which Actions change."""
+    bpy.app.handlers.depsgraph_update_post.append(_notice)
+    for handlers in _forgetful():
+        handlers.append(_forget)
+
+
+def unregister() -> None:
+    """Stop noticing."""
+    bpy.app.handlers.depsgraph_update_post.remove(_notice)
+    for handlers in _forgetful():
+        handlers.remove(_forget)
+    _digests.clear()
+
+
+def _forgetful() -> tuple[list[object], ...]:
+    """What happens to a file after which any Action may be another."""
+    return bpy.app.handlers.load_post, bpy.app.handlers.undo_post, bpy.app.handlers.redo_post
+
+
+@persistent  # type: ignore[untyped-decorator]
+def _notice(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
+    changed = {update.id.name for update in depsgraph.updates if isinstance(update.id, bpy.types.Action)}
+    if changed:
+        for key in [key for key in _digests if key[0] in changed]:
+            del _digests[key]
+
+
+@persistent  # type: ignore[untyped-decorator]
+def _forget(*_: object) -> None:
+    _digests.clear()
+
+
+def _key(action: bpy.types.Action) -> tuple[object, ...]:
+    """What tells, without reading the keys, that an Action may be another, also where no change of it was noticed."""
+    return action.name, action.library, versions.count_curves(action), tuple(action.frame_range)
+
+
+def _digest(action: bpy.types.Action) -> str:
+    key = _key(action)
+    if key not in _digests:
+        _digests[key] = _read(action)
+    return _digests[key]
+
+
+def _read(action: bpy.types.Action) -> str:
+    digest = hashlib.sha256()
+    kept = (action.get(RATE), action.get(SCENE_RATE), action.use_frame_range, *action.frame_range)
+    digest.update(repr(kept).encode())
+    for curve in versions.all_curves(action):
+        named = (curve.data_path, curve.array_index, versions.is_muted(curve), curve.extrapolation)
+        digest.update(repr((*named, [modifier.type for modifier in curve.modifiers])).encode())
+        digest.update(_keys(curve))
+    return digest.hexdigest()
+
+
+def _keys(curve: bpy.types.FCurve) -> bytes:
+    """The curve's keys, with their handles where these shape it."""
+    keys = curve.keyframe_points
+    kinds = np.empty(len(keys), np.int32)
+    keys.foreach_get("interpolation", kinds)
+    names = ("co",) if (kinds == LINEAR).all() else ("co", "handle_left", "handle_right")
+    values = np.empty((len(names), 2 * len(keys)), np.float32)
+    for row, name in zip(values, names):
+        keys.foreach_get(name, row)
+    return values.tobytes() + kinds.tobytes()
+
+
+def _joined(digests: list[str]) -> str:
+    return hashlib.sha256(" ".join(sorted(digests)).encode()).hexdigest()

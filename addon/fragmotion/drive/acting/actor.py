@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The armature and what plays it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import numpy as np
+
+from ...bake.performing import origin_frame
+from ...character.building import check_skeleton, has_character, load, make_player
+from ...compat.core import core
+from ...errors import core_errors
+from ...rig.posing import check_free
+from ...rig.rigs import carriers, make_rig
+from ..input.steering import Control
+from .slider import Slider
+
+if TYPE_CHECKING:
+    from fragmotion_core import Doubles, Player
+
+_TURNS_WELL = 0.75  # of the turn rate that is asked for
+_START, _TRIAL = 1.0, 2.0  # s of going straight, and of turning then
+_STEP = 1 / 60  # s
+
+
+class Actor:
+    """Poses an armature by its character, or lets it slide where it has none. UserError where it cannot be driven."""
+
+    def __init__(self, obj: bpy.types.Object, seed: int, policy: str = "") -> None:
+        check_free(obj)
+        self._obj, self._rig = obj, make_rig(obj)
+        self.skeleton = self._rig.skeleton
+        carriers(obj, self._rig)
+        self.character = load(obj) if has_character(obj) else None
+        self.policy = policy or (self.character.policy if self.character else "")
+        self.space = self.character.space if self.character else core.ControlSpace()
+        self.player: Any
+        if self.character is None:
+            self.player = Slider(self.skeleton, self.space)
+        else:
+            check_skeleton(obj, self.character, self._rig)
+            with core_errors("Drive"):
+                self.player = make_player(obj, self.character, seed, policy)
+        self._order = [obj.data.bones.find(bone.name) for bone in obj.pose.bones]
+        self.player.reset(*origin_frame(obj))
+
+    def step(self, control: Control, seconds: float) -> tuple[Doubles, Doubles]:
+        """Play on, and return the pose: root position [3] and rotations [B,4]."""
+        pose: tuple[Doubles, Doubles] = self.player.step(control, seconds)
+        return pose
+
+    def turns_well(self, pace: float) -> bool:
+        """Whether it turns about as fast as it is told while it goes ahead at a speed in m/s."""
+        if self.character is None:
+            return True
+        turned = sum(_turned(make_player(self._obj, self.character, 1, self.policy), pace, turn) for turn in (1, -1))
+        return bool(turned / 2 > _TURNS_WELL * self.space.turn_rate * _TRIAL)
+
+    def start_afresh(self) -> None:
+        """Stand where the character is, as a replay will begin."""
+        self.player.reset(*self.player.frame)
+
+    def show(self, root: Doubles, rotations: Doubles) -> None:
+        """Write a pose to the armature, whose bones rotate by quaternions."""
+        locations, turns = self._rig.channels(root[None], rotations[None])
+        bones = self._obj.pose.bones
+        bones.foreach_set("location", locations[0, self._order].astype(np.float32).ravel())
+        bones.foreach_set("rotation_quaternion", turns[0, self._order].astype(np.float32).ravel())
+        self._obj.update_tag()
+
+    @property
+    def frame(self) -> tuple[float, float, float]:
+        """Where the character is, m, and its heading, radians from +Y."""
+        frame: tuple[float, float, float] = self.player.frame
+        return frame
+
+
+def _turned(player: Player, pace: float, turn: float) -> float:
+    """How far a player turns to the asked side in a trial, radians."""
+    for _ in range(round(_START / _STEP)):
+        player.step(Control(forward=pace), _STEP)
+    before: float = player.frame[2]
+    for _ in range(round(_TRIAL / _STEP)):
+        player.step(Control(forward=pace, turn=turn), _STEP)
+    after: float = player.frame[2]
+    return turn * (after - before)

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is seen and read while driving: the ways, the velocities, the feet and the figures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..acting.actor import Actor
+from ..acting.slider import Track
+from ..input.steering import Control, rotate
+from .feet import Feet
+from .gauges import Judge, Speedometer, Stopwatch
+from .trail import Trail
+
+if TYPE_CHECKING:
+    from fragmotion_core import ControlSpace, Doubles
+
+
+class Readings:
+    """All gauges of one drive, or of one recording."""
+
+    def __init__(self, actor: Actor, rate: int) -> None:
+        self._actor, self._seconds = actor, 1 / rate
+        self._speedometer, self.stopwatch = Speedometer(rate), Stopwatch(actor.space)
+        self.feet = Feet(actor.skeleton)
+        self.judge = Judge(actor.character) if actor.character is not None else None
+        self.path, self.ideal_path = Trail(), Trail()
+        self.ideal = Track(actor.space, actor.frame)
+        self.control = Control()
+
+    def step(self, control: Control, pose: tuple[Doubles, Doubles], with_feet: bool) -> None:
+        """The actor has gone a step under a control, to a pose."""
+        self.control = control
+        frame = self._actor.frame
+        self._speedometer.step(frame)
+        self.stopwatch.step(control, rotate(*self.velocity, -frame[2]), self._seconds)
+        if self.judge is not None:
+            self.judge.step(self._actor.player, control, self._seconds)
+        if with_feet:
+            self.feet.step(*pose, self._seconds)
+        self.path.step(frame[:2])
+        self.ideal.step(control, self._seconds)
+        self.ideal_path.step(self.ideal.frame[:2])
+
+    @property
+    def space(self) -> ControlSpace:
+        """What the controls mean for this actor."""
+        space: ControlSpace = self._actor.space
+        return space
+
+    @property
+    def frame(self) -> tuple[float, float, float]:
+        """Where the character is, m, and its heading, radians from +Y."""
+        return self._actor.frame
+
+    @property
+    def velocity(self) -> tuple[float, float]:
+        """The character's, in the world, m/s."""
+        return self._speedometer.velocity
+
+    @property
+    def commanded(self) -> tuple[float, float]:
+        """The control's velocity, in the world, m/s."""
+        return rotate(self.control.right, self.control.forward, self._actor.frame[2])

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a drive hands to what draws it."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from ..input.screen_stick import ScreenStick
+from ..input.steering import Intent
+from .readings import Readings
+
+
+class Shown(NamedTuple):
+    """A drive at the moment when it is drawn."""
+
+    title: str
+    recording: bool
+    input: str
+    """What drives, in words; empty where nothing was touched yet."""
+    intent: Intent
+    stick: ScreenStick
+    readings: Readings
+    settings: Any
+    """The armature's DriveSettings: what the user wants to see."""
+    cost: float
+    interval: float
+    """Our own time for an update and the time between updates, s."""

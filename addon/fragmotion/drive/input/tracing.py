@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A trace as an input."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ...recordings.recordings import TRACE_RATE
+from .steering import REST, Control, Intent
+
+if TYPE_CHECKING:
+    from fragmotion_core import Doubles
+
+
+class TraceInput:
+    """Plays a trace once, step by step; stands before and after."""
+
+    label = "Trace"
+
+    def __init__(self, rate: int) -> None:
+        self._rate = rate  # steps a second
+        self._steps = 0
+        self._trace: list[Control] = []
+
+    def play(self, trace: Doubles) -> None:
+        """Begin with the trace [T,4]."""
+        self._steps, self._trace = 0, [Control(*row) for row in trace.tolist()]
+
+    def advance(self) -> None:
+        """A step has been made."""
+        self._steps += 1
+        if self._steps * TRACE_RATE >= len(self._trace) * self._rate:
+            self.release()
+
+    def release(self) -> None:
+        """Stop the trace."""
+        self._trace = []
+
+    def intent(self) -> Intent:
+        return Intent(control=self._trace[self._steps * TRACE_RATE // self._rate]) if self._trace else REST
+
+    @property
+    def playing(self) -> bool:
+        return bool(self._trace)

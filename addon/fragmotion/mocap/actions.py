@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which of the file's Actions can move an armature."""
+
+from __future__ import annotations
+
+import re
+
+import bpy
+
+from ..compat import versions
+
+RATE = "fragmotion_rate"
+"""Custom property of an imported Action: the take's frames a second."""
+
+SCENE_RATE = "fragmotion_scene_rate"
+"""Custom property of an imported Action: the scene's frames a second when its keys were laid."""
+
+BAKED = "fragmotion_baked"
+"""Custom property of an Action that Bake wrote: not to learn from."""
+
+_RATES = (1e-3, 1e5)  # frames a second that a take can have
+_BONE = re.compile(r'pose\.bones\["((?:[^"\\]|\\.)*)"\]\.')
+_OWN_SHARE = 1 / 2  # of the bones that the Action animates, so many must be the armature's ...
+_ARMATURE_SHARE = 1 / 4  # ... and so many of the armature's (fingers and helpers may rest)
+_cache: dict[tuple[object, ...], bool] = {}
+
+
+def rate_of(action: bpy.types.Action, key: str, default: float) -> float:
+    """The Action's RATE or SCENE_RATE; the default where it has none, or what it has is no rate."""
+    rate = action.get(key, default)
+    return float(rate) if isinstance(rate, (int, float)) and _RATES[0] <= rate <= _RATES[1] else default
+
+
+def animated_bones(action: bpy.types.Action, obj: bpy.types.Object) -> set[str]:
+    """Names of the bones that the Action's F-curves move, whether or not the armature has them."""
+    matches = (_BONE.match(curve.data_path) for curve in versions.curves_of(action, obj))
+    return {re.sub(r"\\(.)", r"\1", match[1]) for match in matches if match}
+
+
+def fits(action: bpy.types.Action, obj: bpy.types.Object) -> bool:
+    """Whether most of what the Action animates is this armature's."""
+    animated = animated_bones(action, obj)
+    known = sum(name in obj.data.bones for name in animated)
+    return known > 0 and known >= _OWN_SHARE * len(animated) and known >= _ARMATURE_SHARE * len(obj.data.bones)
+
+
+def fits_cached(action: bpy.types.Action, obj: bpy.types.Object) -> bool:
+    """As `fits`, quick enough for drawing; a bake is not offered."""
+    if BAKED in action:
+        return False
+    key = (bpy.data.filepath, action.name, versions.count_curves(action), obj.name, len(obj.data.bones))
+    if key not in _cache:
+        if len(_cache) > 10_000:
+            _cache.clear()
+        _cache[key] = fits(action, obj)
+    return _cache[key]
+
+
+def ticked(obj: bpy.types.Object) -> list[bpy.types.Action]:
+    """The Actions ticked to be learned from that fit the armature, by name."""
+    return [action for action in bpy.data.actions if action.fragmotion.use and fits_cached(action, obj)]
+
+
+def fitting(obj: bpy.types.Object) -> list[bpy.types.Action]:
+    """All Actions that fit the armature, by name."""
+    return [action for action in bpy.data.actions if fits_cached(action, obj)]
+
+
+def chosen(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Action | None:
+    """The Action that is chosen in the panel's list, or None where it does not fit the armature."""
+    index = context.window_manager.fragmotion.active_action
+    action = bpy.data.actions[index] if 0 <= index < len(bpy.data.actions) else None
+    return action if action is not None and fits_cached(action, obj) else None
+
+
+def forget() -> None:
+    """Let go of what was found out about the file's Actions."""
+    _cache.clear()

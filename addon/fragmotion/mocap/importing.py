@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Motion capture files onto one armature, an Action for each take."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import bpy
+import numpy as np
+
+from ..compat import versions
+from ..compat.core import core
+from ..errors import UserError, core_errors
+from ..files import check_regular
+from ..rig.rigs import carriers, make_rig
+from ..rig.writing import write_poses
+from .actions import RATE, SCENE_RATE
+from .sampling import scene_rate
+
+if TYPE_CHECKING:
+    from fragmotion_core import Doubles, Skeleton, Take
+
+METRES = {"CENTIMETRES": 0.01, "METRES": 1.0, "INCHES": 0.0254}
+"""Metres in one unit of a BVH file."""
+
+FIRST_FRAME = 1
+_SHORTEST_BONE = 0.001  # m; Blender deletes bones without length
+_STUB = 0.01  # m; length of a bone that has none
+_ROOT_LENGTH = 0.2  # of the stature, at most
+_LONGEST_NAME = 63  # bytes
+_STILL = 1e-6  # m; a location that stays below never leaves its rest
+_READING = 0.5  # share of the progress that reading takes
+
+Advance = Callable[[float], None]
+
+
+class TakeFile(NamedTuple):
+    """A take's file, and the Acclaim skeleton that it belongs to."""
+
+    path: Path
+    asf: Path | None
+
+
+def find_takes(directory: Path, names: Sequence[str] = ()) -> list[TakeFile]:
+    """The takes among the named files of a folder, or all that are not hidden. UserError says what is missing."""
+    if not directory.is_dir():
+        raise UserError(f"'{directory}' is not a folder")
+    paths = [directory / name for name in names] or _visible_files(directory)
+    takes = [_take_file(path) for path in paths if path.suffix.lower() in {".bvh", ".amc"}]
+    if not takes:
+        where = ", ".join(f"'{path}'" for path in paths) if names else f"Folder '{directory}'"
+        raise UserError(f"{where}: no takes here (.bvh, or .amc with its .asf)")
+    return takes
+
+
+def _visible_files(directory: Path) -> list[Path]:
+    """The folder's files without hidden ones, such as the "._NAME" that macOS puts beside each file."""
+    return sorted(path for path in directory.iterdir() if path.is_file() and not path.name.startswith("."))
+
+
+def _take_file(path: Path) -> TakeFile:
+    """An .amc belongs to the .asf named by what stands before its underscore, or to the folder's only one."""
+    if path.suffix.lower() == ".bvh":
+        return TakeFile(path, None)
+    skeletons = [p for p in _visible_files(path.parent) if p.suffix.lower() == ".asf"]
+    stem = path.stem.partition("_")[0].lower()
+    named = [asf for asf in skeletons if asf.stem.lower() in {stem, path.stem.lower()}]
+    if not named and len(skeletons) != 1:
+        raise UserError(f"'{path}': its skeleton '{stem}.asf' is not in the folder")
+    return TakeFile(path, (named or skeletons)[0])
+
+
+def read_take(file: TakeFile, unit: float) -> Take:
+    """Read one take; the core's message names file and line."""
+    for path in (file.asf, file.path):
+        if path is not None:
+            check_regular(path)
+    with core_errors():
+        take: Take = core.read_asf_amc(file.asf, file.path) if file.asf else core.read_bvh(file.path, unit)
+        return take
+
+
+def import_takes(
+    context: bpy.types.Context, name: str, files: Sequence[TakeFile], unit: float, advance: Advance
+) -> tuple[bpy.types.Object, list[bpy.types.Action]]:
+    """Make an armature from the first take and an Action from each. On an error nothing stays in the file."""
+    takes = []
+    for index, file in enumerate(files):
+        takes.append(read_take(file, unit))
+        _check_bones(file, takes[-1], files[0], takes[0])
+        advance(_READING * index / len(files))
+    with _undone_on_error(context):
+        obj = make_armature(context, name, takes[0].skeleton)
+        rig = make_rig(obj)
+        channels = [rig.take_channels(take) for take in takes]
+        moving = _moving_bones(obj, channels) | set(carriers(obj, rig))
+        actions = []
+        for index, (take, (locations, rotations)) in enumerate(zip(takes, channels)):
+            action = _make_action(context.scene, take)
+            actions.append(action)
+            write_poses(action, obj, _key_times(action, len(rotations)), locations, rotations, moving)
+            advance(_READING + (1 - _READING) * index / len(files))
+    versions.assign(obj, actions[0])
+    context.view_layer.update()
+    return obj, actions
+
+
+@contextmanager
+def _undone_on_error(context: bpy.types.Context) -> Iterator[None]:
+    """On an error remove the objects and Actions made inside, and give back the selection, active object and mode."""
+    selected, active = context.selected_objects, context.view_layer.objects.active
+    mode = active.mode if active else "OBJECT"
+    in_mode = [obj for obj in context.view_layer.objects if obj.mode == mode != "OBJECT"]
+    known_objects, known_actions = set(bpy.data.objects), set(bpy.data.actions)
+    try:
+        yield
+    except BaseException:
+        _remove(context, set(bpy.data.objects) - known_objects, set(bpy.data.actions) - known_actions)
+        if in_mode:
+            _select(context, in_mode, active)
+            bpy.ops.object.mode_set(mode=mode)
+        _select(context, selected, active)
+        raise
+
+
+def _check_bones(file: TakeFile, take: Take, first_file: TakeFile, first: Take) -> None:
+    """UserError where a take cannot go onto the first one's armature."""
+    missing = [name for name in take.skeleton.names if name not in first.skeleton.names]
+    if missing:
+        raise UserError(
+            f"'{file.path}': bone '{missing[0]}' is not in the armature that '{first_file.path.name}' makes; "
+            "import the takes of one skeleton at a time (select their files)"
+        )
+    long = [name for name in take.skeleton.names if len(name.encode()) > _LONGEST_NAME]
+    if long:
+        raise UserError(f"'{file.path}': bone name '{long[0]}' is longer than Blender's {_LONGEST_NAME} bytes")
+
+
+def make_armature(context: bpy.types.Context, name: str, skeleton: Skeleton) -> bpy.types.Object:
+    """An armature with the skeleton's bones at rest, active and alone selected."""
+    if context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    obj = bpy.data.objects.new(name, bpy.data.armatures.new(name))
+    context.collection.objects.link(obj)
+    _select(context, [obj], obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    try:
+        _add_bones(obj.data, skeleton)
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
+    return obj
+
+
+def _select(context: bpy.types.Context, objects: Sequence[bpy.types.Object], active: bpy.types.Object | None) -> None:
+    for other in context.selected_objects:
+        other.select_set(False)
+    for obj in objects:
+        obj.select_set(True)
+    context.view_layer.objects.active = active
+
+
+def _add_bones(armature: bpy.types.Armature, skeleton: Skeleton) -> None:
+    heads, tails = skeleton.rest_heads(), skeleton.rest_tails()
+    for name, parent, head, tail in zip(skeleton.names, skeleton.parents, heads, tails):
+        bone = armature.edit_bones.new(name)
+        bone.head = head
+        bone.tail = tail if np.linalg.norm(tail - head) >= _SHORTEST_BONE else head + np.array((0, 0, _STUB))
+        bone.parent = armature.edit_bones[skeleton.names[parent]] if parent >= 0 else None
+    root = armature.edit_bones[skeleton.names[0]]
+    if root.name != skeleton.roles["hips"]:  # it reaches to where the hips happened to stand at rest, often metres away
+        root.length = min(root.length, _ROOT_LENGTH * skeleton.stature)
+
+
+def _moving_bones(obj: bpy.types.Object, channels: Sequence[tuple[Doubles, Doubles]]) -> set[str]:
+    """The bones that any take moves from their rest; all takes key these, so that none leaves its mark on the next."""
+    furthest = np.max([np.abs(locations).max(axis=(0, 2)) for locations, _ in channels], axis=0)
+    return {bone.name for bone, distance in zip(obj.data.bones, furthest) if distance > _STILL}
+
+
+def _make_action(scene: bpy.types.Scene, take: Take) -> bpy.types.Action:
+    action = bpy.data.actions.new(take.name)
+    action.use_fake_user = True
+    action[RATE], action[SCENE_RATE] = _tidy_rate(take.rate), scene_rate(scene)
+    action.fragmotion.use = True
+    return action
+
+
+def _key_times(action: bpy.types.Action, frames: int) -> Doubles:
+    """Scene frames on which the take plays in its own time at the scene's rate now."""
+    return FIRST_FRAME + float(action[SCENE_RATE]) / float(action[RATE]) * np.arange(frames, dtype=float)
+
+
+def _tidy_rate(rate: float) -> float:
+    """The usual rate that a rounded frame time such as 0.033333 s means."""
+    usual = [float(round(rate)), round(rate) / 1.001]
+    nearest = min(usual, key=lambda other: abs(other - rate))
+    return nearest if abs(nearest - rate) < 1e-4 * rate else rate
+
+
+def _remove(
+    context: bpy.types.Context, objects: Collection[bpy.types.Object], actions: Collection[bpy.types.Action]
+) -> None:
+    for obj in objects:
+        armature = obj.data
+        bpy.data.objects.remove(obj)
+        bpy.data.armatures.remove(armature)
+    for action in actions:
+        bpy.data.actions.remove(action)
+    context.view_layer.update()

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An Action as a Clip: read from its F-curves, or from Blender's evaluated pose where they are not all that moves."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Quaternion, Vector
+
+from ..compat import versions
+from ..errors import SinglePose, UserError, core_errors
+from ..rig import posing
+from ..rig.keys import to_quaternions
+from ..rig.rigs import bone_path, is_tied
+from . import left_out
+from .actions import RATE, SCENE_RATE, animated_bones, rate_of
+
+if TYPE_CHECKING:
+    from fragmotion_core import Clip, Doubles, Rig
+
+Curves = dict[tuple[str, int], bpy.types.FCurve]
+
+_FEWEST_FRAMES = 2
+_MOST_FRAMES = 2_000_000  # of an Action: more than four hours at 120 frames a second
+_SAME_FRAME = 0.01  # keys closer than this to a frame are on it
+_ROTATIONS: dict[str, tuple[str, tuple[float, ...]]] = {
+    "QUATERNION": ("rotation_quaternion", (1, 0, 0, 0)),
+    "AXIS_ANGLE": ("rotation_axis_angle", (0, 0, 1, 0)),
+}
+_EULER: tuple[str, tuple[float, ...]] = ("rotation_euler", (0, 0, 0))
+_OBJECT_CHANNELS = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
+
+
+def sample(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action, rig: Rig) -> Clip:
+    """The Action on the armature at its own rate; SinglePose where it lasts one frame.
+
+    A channel without keys or muted rests; the file is as before.
+    """
+    curves = _playing_curves(obj, action)
+    place = f"Action '{action.name}'"
+    if not any(name in obj.data.bones for name in animated_bones(action, obj)):
+        raise UserError(f"{place} animates no bone of armature '{obj.name}': it belongs to another rig")
+    if not curves:
+        raise UserError(f"{place}: all of its channels are muted: unmute them, or untick it")
+    rate, times = frame_times(context.scene, action, curves)
+    if len(times) < _FEWEST_FRAMES:
+        raise SinglePose(f"{place} holds a single pose (frame {times[0]:g}), no motion to learn from: untick it")
+    with core_errors(place):
+        if posing.is_needed(obj, curves):
+            matrices, worlds = posing.sample_poses(context, obj, action, times)
+            return rig.clip_from_matrices(action.name, rate, matrices, worlds)
+        locations, rotations = _sample_bones(obj, curves, times)
+        return rig.clip(action.name, rate, locations, rotations, _sample_object(obj, curves, times))
+
+
+def sample_parts(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action, rig: Rig) -> list[Clip]:
+    """As `sample`, cut into parts around the frames that are left out of the Action."""
+    clip, spans = sample(context, obj, action, rig), left_out.spans_of(action)
+    if not spans:
+        return [clip]
+    _, times = frame_times(context.scene, action, _playing_curves(obj, action))
+    return left_out.cut(clip, rig.skeleton, times, spans)
+
+
+def scene_rate(scene: bpy.types.Scene) -> float:
+    """The scene's frames a second."""
+    return float(scene.render.fps / scene.render.fps_base)
+
+
+def frame_times(scene: bpy.types.Scene, action: bpy.types.Action, curves: Curves) -> tuple[float, Doubles]:
+    """The rate at which to sample (an imported take's own, else the scene's), and the scene frames of the samples.
+
+    An imported take keeps its own time when the scene's rate is changed after the import, as it remembers the rate for
+    which its keys were laid. Any other Action lasts as long as the scene plays it now.
+    """
+    rate = rate_of(action, RATE, scene_rate(scene))
+    step = rate_of(action, SCENE_RATE, scene_rate(scene)) / rate
+    if action.use_frame_range:
+        first, last = action.frame_range
+    else:
+        ranges = [curve.range() for curve in curves.values()]
+        first, last = min(r[0] for r in ranges), max(r[1] for r in ranges)
+    frames = max((last - first) / step, 0)
+    if not frames < _MOST_FRAMES:
+        raise UserError(
+            f"Action '{action.name}' goes from frame {first:g} to {last:g}, more than {_MOST_FRAMES:,} samples: "
+            "delete the stray key, or untick it"
+        )
+    return rate, first + step * np.arange(math.floor(frames + _SAME_FRAME) + 1)
+
+
+def _playing_curves(obj: bpy.types.Object, action: bpy.types.Action) -> Curves:
+    return {(c.data_path, c.array_index): c for c in versions.curves_of(action, obj) if not versions.is_muted(c)}
+
+
+def _sample_bones(obj: bpy.types.Object, curves: Curves, times: Doubles) -> tuple[Doubles, Doubles]:
+    """Locations [F,B,3] and quaternions [F,B,4] of all bones, in the armature's order."""
+    bones = obj.data.bones
+    locations = np.zeros((len(times), len(bones), 3))
+    rotations = np.zeros((len(times), len(bones), 4))
+    for index, bone in enumerate(bones):
+        if not is_tied(bone):
+            locations[:, index] = _channel(curves, bone_path(bone.name, "location"), (0, 0, 0), times)
+        mode = obj.pose.bones[bone.name].rotation_mode
+        channel, rest = _ROTATIONS.get(mode, _EULER)
+        rotations[:, index] = to_quaternions(mode, _channel(curves, bone_path(bone.name, channel), rest, times))
+    return locations, rotations
+
+
+def _sample_object(obj: bpy.types.Object, curves: Curves, times: Doubles) -> Doubles | None:
+    """World matrices [F,4,4] of an object that its own F-curves move, else None."""
+    if not any((channel, index) in curves for channel in _OBJECT_CHANNELS for index in range(4)):
+        return None
+    channel, _ = _ROTATIONS.get(obj.rotation_mode, _EULER)
+    locations = _channel(curves, "location", obj.location, times)
+    scales = _channel(curves, "scale", obj.scale, times)
+    rotations = to_quaternions(obj.rotation_mode, _channel(curves, channel, getattr(obj, channel), times))
+    return np.array(
+        [
+            Matrix.LocRotScale(Vector(location), Quaternion(rotation).normalized(), Vector(scale))
+            for location, rotation, scale in zip(locations, rotations, scales)
+        ]
+    )
+
+
+def _channel(curves: Curves, path: str, rest: tuple[float, ...], times: Doubles) -> Doubles:
+    """A vector channel at the times, [F, len(rest)]."""
+    values = np.empty((len(times), len(rest)))
+    for index, default in enumerate(rest):
+        curve = curves.get((path, index))
+        values[:, index] = default if curve is None else read_curve(curve, times)
+    return values
+
+
+def read_curve(curve: bpy.types.FCurve, times: Doubles) -> Doubles:
+    """An F-curve's values at the times: its keys where they sit on them, else evaluated."""
+    keys = curve.keyframe_points
+    if len(keys) >= len(times) and not curve.modifiers:
+        points = np.empty(2 * len(keys), np.float32)
+        keys.foreach_get("co", points)
+        first = int(np.searchsorted(points[::2], times[0] - _SAME_FRAME))
+        near = points.reshape(-1, 2)[first : first + len(times)]
+        if len(near) == len(times) and np.abs(near[:, 0] - times).max() < _SAME_FRAME:
+            return near[:, 1].astype(float)
+    return np.fromiter((curve.evaluate(time) for time in times), float, len(times))

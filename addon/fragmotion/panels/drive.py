@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Drive panel of the sidebar, with its sub-panels."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ..compat import versions
+from ..drive import session
+from ..drive.input.pads import PadState
+from ..operators import drive as drive_operator
+from ..operators.context import active_armature
+from ..settings.drawing import aligned, draw_trace
+from .sidebar import Sidebar, SubPanel
+
+
+def _armature(context: bpy.types.Context) -> Any:
+    """The armature that is driven, else the active one, if any."""
+    driven = session.current
+    return active_armature(context) if driven is None or driven.trouble() else driven.obj
+
+
+class _DriveSubPanel(SubPanel):
+    bl_parent_id = "FRAGMOTION_PT_drive"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return _armature(context) is not None
+
+
+class FRAGMOTION_PT_drive(Sidebar, bpy.types.Panel):
+    """One large button, and what drives."""
+
+    bl_idname = "FRAGMOTION_PT_drive"
+    bl_label = "Drive"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, driven, obj = self.layout, session.current, _armature(context)
+        row = layout.row()
+        row.scale_y = 1.6
+        if driven is None:
+            row.operator("fragmotion.drive", text="Drive", icon="PLAY")
+        else:
+            row.operator("fragmotion.drive", text="Stop", icon="SNAP_FACE")
+            layout.operator(
+                "fragmotion.record",
+                text="Record" if driven.recording is None else f"End Recording ({driven.recording.seconds:.0f} s)",
+                icon="REC" if driven.recording is None else "CHECKMARK",
+                depress=driven.recording is not None,
+            )
+            layout.label(text=f"Input: {driven.inputs.label or 'none touched yet'}")
+        if obj is not None:
+            layout.row().prop(obj.fragmotion.drive, "relative", expand=True)
+            layout.prop(obj.fragmotion.drive, "follow")
+
+
+class FRAGMOTION_PT_drive_pads(_DriveSubPanel, bpy.types.Panel):
+    """The gamepads that are connected, and how their sticks stand."""
+
+    bl_idname = "FRAGMOTION_PT_drive_pads"
+    bl_label = "Gamepads"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        layout, driven = self.layout, session.current
+        if driven is None:
+            for name in drive_operator.seen_pads:
+                layout.label(text=name, icon="CHECKMARK", translate=False)
+            if not drive_operator.seen_pads:
+                layout.label(text="None found yet", icon="INFO")
+            layout.operator("fragmotion.find_pads", icon="FILE_REFRESH")
+            return
+        for pad in driven.inputs.pads:
+            _draw_pad(layout.box().column(align=True), pad.label, pad.state)
+        if not driven.inputs.pads:
+            layout.label(text="None connected", icon="INFO")
+
+
+class FRAGMOTION_PT_drive_overlays(_DriveSubPanel, bpy.types.Panel):
+    """What is drawn over the view."""
+
+    bl_idname = "FRAGMOTION_PT_drive_overlays"
+    bl_label = "Overlays"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = _armature(context).fragmotion.drive
+        grid = self.layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+        for name in ("show_velocity", "show_path", "show_ideal", "show_feet", "show_figures", "show_stick"):
+            grid.prop(settings, name)
+
+
+class FRAGMOTION_PT_drive_trace(_DriveSubPanel, bpy.types.Panel):
+    """A trace as an input."""
+
+    bl_idname = "FRAGMOTION_PT_drive_trace"
+    bl_label = "Trace"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = _armature(context).fragmotion.drive
+        column = aligned(self.layout)
+        draw_trace(column, settings, "Trace")
+        column.prop(settings, "seed")
+        self.layout.operator("fragmotion.play_trace", icon="PLAY")
+
+
+class FRAGMOTION_PT_drive_feel(_DriveSubPanel, bpy.types.Panel):
+    """How the character moves; Bake and Populate go by it, too."""
+
+    bl_idname = "FRAGMOTION_PT_drive_feel"
+    bl_label = "Feel"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = _armature(context).fragmotion.feel
+        column = aligned(self.layout)
+        column.active = session.current is None
+        for name in ("promptness", "pull", "lock_feet"):
+            column.prop(settings, name)
+
+
+def _draw_pad(layout: bpy.types.UILayout, label: str, state: PadState) -> None:
+    """A pad's name, its sticks and its buttons."""
+    layout.label(text=label, translate=False)
+    for name, (x, y) in (("Left", state.left), ("Right", state.right)):
+        row = layout.split(factor=0.2, align=True)
+        row.label(text=name)
+        values = row.row(align=True)
+        versions.draw_deflection(values, x)
+        versions.draw_deflection(values, y)
+    turn = {1: "turn left", -1: "turn right"}.get(state.shoulders, "")
+    pressed = [word for word in (turn, "jump" if state.jump else "", "record" if state.record else "") if word]
+    layout.label(text=f"Buttons: {', '.join(pressed) or 'none'}")
+
+
+CLASSES = (
+    FRAGMOTION_PT_drive,
+    FRAGMOTION_PT_drive_feel,
+    FRAGMOTION_PT_drive_pads,
+    FRAGMOTION_PT_drive_overlays,
+    FRAGMOTION_PT_drive_trace,
+)

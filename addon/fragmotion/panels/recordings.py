@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Recordings panel of the sidebar, and what belongs to Bake below it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ..operators.context import active_armature
+from ..recordings.recordings import active_recording
+from ..settings.drawing import aligned, draw_bake_options, draw_populate
+from .sidebar import Sidebar, SubPanel
+
+_ROWS = 4
+
+
+class FRAGMOTION_UL_recordings(bpy.types.UIList):
+    """The armature's recordings, each with a tick to train on it, its name and its length."""
+
+    bl_idname = "FRAGMOTION_UL_recordings"
+
+    def draw_item(
+        self,
+        _context: bpy.types.Context,
+        layout: bpy.types.UILayout,
+        _data: object,
+        item: Any,
+        _icon: int,
+        _active_data: object,
+        _active_name: str,
+    ) -> None:
+        row = layout.row(align=True)
+        row.prop(item, "train", text="")
+        split = row.split(factor=0.7)
+        split.prop(item, "name", text="", emboss=False)
+        length = split.row()
+        length.alignment = "RIGHT"
+        length.label(text=f"{item.seconds:.0f} s")
+
+
+class FRAGMOTION_PT_recordings(Sidebar, bpy.types.Panel):
+    """What was recorded or imported, to be replayed, baked or learned from."""
+
+    bl_idname = "FRAGMOTION_PT_recordings"
+    bl_label = "Recordings"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, obj = self.layout, active_armature(context)
+        if obj is None:
+            layout.label(text="No armature is active", icon="INFO")
+            return
+        settings = obj.fragmotion
+        row = layout.row()
+        row.template_list("FRAGMOTION_UL_recordings", "", settings, "takes", settings, "active_take", rows=_ROWS)
+        _draw_buttons(row.column(align=True))
+        recording = active_recording(obj)
+        if recording is None:
+            layout.label(text="Record or import one", icon="INFO")
+            return
+        _draw_figures(layout, recording)
+        _draw_uses(layout, settings)
+
+
+class FRAGMOTION_PT_bake_options(SubPanel, bpy.types.Panel):
+    """The fields of a bake that are changed less."""
+
+    bl_idname = "FRAGMOTION_PT_bake_options"
+    bl_label = "Loop, Keys and Markers"
+    bl_parent_id = "FRAGMOTION_PT_bake"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_bake_options(self.layout, active_armature(context).fragmotion.bake)
+
+
+class FRAGMOTION_PT_populate(SubPanel, bpy.types.Panel):
+    """A crowd of the armature's copies."""
+
+    bl_idname = "FRAGMOTION_PT_populate"
+    bl_label = "Populate"
+    bl_parent_id = "FRAGMOTION_PT_bake"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_populate(self.layout, active_armature(context).fragmotion.populate)
+        self.layout.operator("fragmotion.populate", icon="COMMUNITY")
+
+
+def _draw_buttons(column: bpy.types.UILayout) -> None:
+    for name, icon in (
+        ("import_recordings", "IMPORT"),
+        ("export_recording", "EXPORT"),
+        ("duplicate_recording", "DUPLICATE"),
+        ("trim_recording", "DRIVER_DISTANCE"),
+        ("delete_recording", "TRASH"),
+    ):
+        column.operator(f"fragmotion.{name}", text="", icon=icon)
+
+
+def _draw_figures(layout: bpy.types.UILayout, recording: Any) -> None:
+    column = layout.column(align=True)
+    for label, value in (
+        ("Recorded", recording.date),
+        ("Length", f"{recording.seconds:.1f} s"),
+        ("Quality", f"{recording.quality:.2f} of 1" if recording.quality > 0 else "not measured"),
+    ):
+        row = column.split(factor=0.36)
+        row.label(text=label)
+        row.label(text=value, translate=False)
+
+
+def _draw_uses(layout: bpy.types.UILayout, settings: Any) -> None:
+    drive, index = settings.drive, settings.active_take
+    column = aligned(layout)
+    column.prop(drive, "replay", text="Replay")
+    if drive.replay != "RECORDED":
+        column.prop(drive, "seed")
+    row = layout.row(align=True)
+    replay = row.operator("fragmotion.drive", text="Replay", icon="PLAY")
+    replay.source, replay.recording = "RECORDING", index
+    if drive.replay != "RECORDED":
+        replay.policy, replay.seed = drive.replay, drive.seed
+    bake = row.operator("fragmotion.bake", text="Bake", icon="ACTION_TWEAK")
+    bake.trace_source, bake.recording = "RECORDING", index
+
+
+CLASSES = (FRAGMOTION_UL_recordings, FRAGMOTION_PT_recordings)
+BAKE_CLASSES = (FRAGMOTION_PT_bake_options, FRAGMOTION_PT_populate)

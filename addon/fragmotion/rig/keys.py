@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A motion as keys of an armature's channels: one on every frame, or as few as keep every bone within a bound."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..compat.core import core
+from .motion import angles_between, rotation_matrices, thinned
+from .rigs import bone_path, is_tied
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
+
+    import bpy
+    from fragmotion_core import Doubles, Ints, Rig
+
+    from ..jobs import Report
+
+_ROUNDS = 8
+_AIM = 0.95  # of the bound, were deviations in proportion to a track's tolerance
+_FASTEST = 2.0  # growth of the tolerance from round to round
+_OBJECT = -1
+_LOCATION = "LOCATION"
+
+
+class Bone(NamedTuple):
+    """How a bone, or with its name empty the object, is keyed: its rotation mode, and whether its location is."""
+
+    name: str
+    mode: str
+    moves: bool
+
+
+class Poses(NamedTuple):
+    """Locations [F,B,3] and rotations [F,B,4] of all bones in the armature's order, and the object's own [F,3], [F,4]
+    where it moves."""
+
+    locations: Doubles
+    rotations: Doubles
+    places: Doubles | None = None
+    turns: Doubles | None = None
+
+
+class Place(NamedTuple):
+    """What stands above the object's own location and rotation [4,4], and its scale [3]."""
+
+    above: Doubles
+    scale: Doubles
+
+
+class Track(NamedTuple):
+    """A keyed property: data path and group, whose it is (a bone's number or -1), the rotation mode or LOCATION, its
+    values [F,N] on all frames, and the frames [K] that have keys."""
+
+    path: str
+    group: str
+    owner: int
+    mode: str
+    values: Doubles
+    kept: Ints
+
+    def drawn(self) -> Doubles:
+        """The values [F,N] that Blender shows, on straight lines between the keys."""
+        frames = np.arange(len(self.values))
+        return np.column_stack([np.interp(frames, self.kept, column[self.kept]) for column in self.values.T])
+
+
+class Deviation(NamedTuple):
+    """How far a bone is at most from its place, in metres, and from its direction, in radians."""
+
+    distance: float
+    angle: float
+
+
+def make_layout(obj: bpy.types.Object, moving: Collection[str]) -> list[Bone]:
+    """How the armature's bones are keyed, in its order, the `moving` ones with their location; then the object."""
+    modes = {bone.name: bone.rotation_mode for bone in obj.pose.bones}
+    bones = [Bone(bone.name, modes[bone.name], bone.name in moving and not is_tied(bone)) for bone in obj.data.bones]
+    return [*bones, Bone("", obj.rotation_mode, True)]
+
+
+def make_tracks(layout: Sequence[Bone], poses: Poses) -> list[Track]:
+    """Tracks with a key on every frame, each bone in its own rotation mode."""
+    tracks = []
+    for index, bone in enumerate(layout[:-1]):
+        tracks += _tracks_of(bone, index, poses.locations[:, index], poses.rotations[:, index])
+    if poses.places is not None and poses.turns is not None:
+        tracks += _tracks_of(layout[-1], _OBJECT, poses.places, poses.turns)
+    return tracks
+
+
+def reduce_tracks(
+    tracks: Sequence[Track], rig: Rig, poses: Poses, place: Place, bound: Deviation, report: Report
+) -> tuple[list[Track], Deviation]:
+    """Tracks with so few keys that on no frame a bone is further than the bound from where it was, seen in the world.
+
+    Tells how far a bone is then at most. A track's own tolerance is found by trial, as its error adds to those of the
+    bones above it. core.Cancelled where `report` says so.
+    """
+    best, reached, share = list(tracks), Deviation(0.0, 0.0), 1.0
+    for turn in range(_ROUNDS):
+        if not report(turn / _ROUNDS, "Reducing keys"):
+            raise core.Cancelled("cancelled")
+        reduced = [_thin(track, share * bound.distance / _size_of(place), share * bound.angle) for track in tracks]
+        found = _deviation(rig, poses, _drawn_poses(reduced, poses), place)
+        excess = max(found.distance / bound.distance, found.angle / bound.angle)
+        if excess <= 1 and count_keys(reduced) < count_keys(best):
+            best, reached = reduced, found
+        share *= _AIM / max(excess, _AIM / _FASTEST)
+    return best, reached
+
+
+def count_keys(tracks: Sequence[Track]) -> int:
+    """Keys of all the tracks' F-curves."""
+    return sum(len(track.kept) * track.values.shape[1] for track in tracks)
+
+
+def from_quaternions(mode: str, rotations: Doubles) -> tuple[str, Doubles]:
+    """The channel of a rotation mode, and the rotations [F,4] in its terms."""
+    if mode == "QUATERNION":
+        return "rotation_quaternion", rotations
+    if mode == "AXIS_ANGLE":
+        return "rotation_axis_angle", core.quaternion_to_axis_angle(rotations)
+    return "rotation_euler", core.quaternion_to_euler(mode, rotations)
+
+
+def to_quaternions(mode: str, values: Doubles) -> Doubles:
+    """A rotation channel's values in the mode's terms to quaternions [F,4]."""
+    if mode == "QUATERNION":
+        return values
+    rotations: Doubles = (
+        core.axis_angle_to_quaternion(values) if mode == "AXIS_ANGLE" else core.euler_to_quaternion(mode, values)
+    )
+    return rotations
+
+
+def _tracks_of(bone: Bone, owner: int, locations: Doubles, rotations: Doubles) -> list[Track]:
+    name, values = from_quaternions(bone.mode, rotations)
+    every = np.arange(len(values), dtype=np.int32)
+    tracks = [Track(_path(bone, name), bone.name, owner, bone.mode, values, every)]
+    if bone.moves:
+        tracks.insert(0, Track(_path(bone, "location"), bone.name, owner, _LOCATION, locations, every))
+    return tracks
+
+
+def _path(bone: Bone, channel: str) -> str:
+    return bone_path(bone.name, channel) if bone.name else channel
+
+
+def _size_of(place: Place) -> float:
+    """Metres in one unit of the armature."""
+    return float(np.linalg.norm(place.above[:3, 0]) * abs(place.scale[0]))
+
+
+def _thin(track: Track, distance: float, angle: float) -> Track:
+    """Fewer keys, so that the track alone does not move its bone by more, in the armature's units and radians."""
+    # A quaternion's components change half as fast as its angle.
+    turn = angle / 2 if track.mode == "QUATERNION" else angle
+    return track._replace(kept=thinned(track.values, distance if track.mode == _LOCATION else turn))
+
+
+def _drawn_poses(tracks: Sequence[Track], poses: Poses) -> Poses:
+    """The poses that the tracks' keys show."""
+    locations, rotations = poses.locations.copy(), poses.rotations.copy()
+    places, turns = poses.places, poses.turns
+    for track in tracks:
+        values = track.drawn()
+        if track.mode != _LOCATION:
+            values = to_quaternions(track.mode, values)
+        if track.owner == _OBJECT:
+            places, turns = (values, turns) if track.mode == _LOCATION else (places, values)
+        else:
+            (locations if track.mode == _LOCATION else rotations)[:, track.owner] = values
+    return Poses(locations, rotations, places, turns)
+
+
+def _deviation(rig: Rig, before: Poses, after: Poses, place: Place) -> Deviation:
+    """Between poses of all bones in the world, and between their channels, as clips leave out those above the hips."""
+    heads, turned = _world(rig, before, place)
+    other_heads, other_turned = _world(rig, after, place)
+    shift = np.linalg.norm(before.locations - after.locations, axis=-1).max() * _size_of(place)
+    return Deviation(
+        max(float(np.linalg.norm(heads - other_heads, axis=-1).max()), float(shift)),
+        float(
+            max(
+                angles_between(turned, other_turned).max(),
+                angles_between(before.rotations, _unit(after.rotations)).max(),
+            )
+        ),
+    )
+
+
+def _world(rig: Rig, poses: Poses, place: Place) -> tuple[Doubles, Doubles]:
+    clip = rig.clip("", 1.0, poses.locations, poses.rotations, _object_matrices(poses, place))
+    transforms: tuple[Doubles, Doubles] = clip.world_transforms(rig.skeleton)
+    return transforms
+
+
+def _object_matrices(poses: Poses, place: Place) -> Doubles | None:
+    """World matrices [F,4,4] of an object that moves."""
+    if poses.places is None or poses.turns is None:
+        return None
+    matrices = np.tile(np.eye(4), (len(poses.places), 1, 1))
+    matrices[:, :3, :3] = rotation_matrices(_unit(poses.turns)) * place.scale
+    matrices[:, :3, 3] = poses.places
+    worlds: Doubles = place.above @ matrices
+    return worlds
+
+
+def _unit(rotations: Doubles) -> Doubles:
+    units: Doubles = rotations / np.linalg.norm(rotations, axis=-1, keepdims=True)
+    return units

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender's own evaluated poses, frame by frame, for armatures that constraints, drivers or scale move too."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, NamedTuple
+
+import bpy
+import numpy as np
+
+from ..compat import versions
+from ..errors import UserError
+
+if TYPE_CHECKING:
+    from fragmotion_core import Doubles
+    from numpy.typing import NDArray
+
+_REST = {
+    "location": (0, 0, 0),
+    "rotation_quaternion": (1, 0, 0, 0),
+    "rotation_euler": (0, 0, 0),
+    "rotation_axis_angle": (0, 0, 1, 0),
+    "scale": (1, 1, 1),
+}
+CHANNELS = tuple(_REST)
+"""What poses a bone, or an object."""
+_BEYOND_KEYS = ("scale", "rotation_mode", "delta_location", "delta_rotation_euler", "delta_rotation_quaternion")
+
+
+def is_needed(obj: bpy.types.Object, curves: Iterable[tuple[str, int]]) -> bool:
+    """Whether anything but location and rotation keys of the bones and the object moves the armature."""
+    drivers = obj.animation_data.drivers if obj.animation_data else ()
+    return (
+        obj.parent is not None
+        or any(not constraint.mute for constraint in obj.constraints)
+        or any(not driver.mute for driver in drivers)
+        or any(not constraint.mute for bone in obj.pose.bones for constraint in bone.constraints)
+        or any(bone.inherit_scale != "FULL" for bone in obj.data.bones)
+        or any(path.startswith("pose.") and path.rpartition(".")[2] in _BEYOND_KEYS for path, _ in curves)
+        or any(path in _BEYOND_KEYS for path, _ in curves)
+        or any((*obj.delta_location, *obj.delta_rotation_euler))
+    )
+
+
+def sample_poses(
+    context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action, times: Doubles
+) -> tuple[Doubles, Doubles]:
+    """Pose matrices [F,B,4,4] in the armature's space and order of bones, and the object's world matrices [F,4,4]."""
+    bones = obj.pose.bones
+    order = [bones.find(bone.name) for bone in obj.data.bones]
+    matrices = np.empty((len(times), len(bones), 4, 4))
+    worlds = np.empty((len(times), 4, 4))
+    column_major = np.empty(16 * len(bones), np.float32)
+    with playing(context, obj, action):
+        for index, time in enumerate(times):
+            _go_to(context.scene, time)
+            posed = obj.evaluated_get(context.evaluated_depsgraph_get())
+            posed.pose.bones.foreach_get("matrix", column_major)
+            matrices[index] = column_major.reshape(-1, 4, 4).transpose(0, 2, 1)[order]
+            worlds[index] = posed.matrix_world
+    return matrices, worlds
+
+
+def reset_pose(obj: bpy.types.Object, channels: Iterable[str] = CHANNELS) -> None:
+    """Let these channels of all the armature's bones rest."""
+    for channel in channels:
+        obj.pose.bones.foreach_set(channel, np.tile(np.array(_REST[channel], np.float32), len(obj.pose.bones)))
+    obj.update_tag()
+
+
+class Pose(NamedTuple):
+    """An armature's channels, those of all its bones and the object's own."""
+
+    bones: dict[str, NDArray[np.float32]]
+    place: dict[str, tuple[float, ...]]
+
+
+def pose_of(obj: bpy.types.Object) -> Pose:
+    """The channels as they are set now."""
+    bones = {channel: get_channel(obj, channel) for channel in CHANNELS}
+    return Pose(bones, {channel: tuple(getattr(obj, channel)) for channel in CHANNELS})
+
+
+def set_pose(obj: bpy.types.Object, pose: Pose) -> None:
+    """Set what `pose_of` told."""
+    for channel in CHANNELS:
+        obj.pose.bones.foreach_set(channel, pose.bones[channel])
+        setattr(obj, channel, pose.place[channel])
+    obj.update_tag()
+
+
+@contextmanager
+def playing(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action | None) -> Iterator[None]:
+    """The object plays the Action (or none) alone from a resting pose; afterwards everything is as it was."""
+    check_free(obj)
+    had_data, played, frame = (
+        obj.animation_data is not None,
+        versions.assignment(obj),
+        context.scene.frame_current_final,
+    )
+    pose = pose_of(obj)
+    data = obj.animation_data or obj.animation_data_create()
+    armature, use_nla, position = obj.data, data.use_nla, obj.data.pose_position
+    try:
+        data.use_nla, armature.pose_position = False, "POSE"
+        reset_pose(obj)
+        versions.assign(obj, action)
+        yield
+    finally:
+        armature.pose_position = position  # first, as another object may show it when this one was deleted
+        versions.restore(obj, played)
+        data.use_nla = use_nla
+        if not had_data:
+            obj.animation_data_clear()
+        _go_to(context.scene, frame)
+        set_pose(obj, pose)
+        context.view_layer.update()
+
+
+def check_free(obj: bpy.types.Object) -> None:
+    """UserError where the NLA editor forbids to assign an Action."""
+    if obj.animation_data is not None and obj.animation_data.use_tweak_mode:
+        raise UserError(f"Armature '{obj.name}' is in the NLA's tweak mode: leave it first (Tab in the NLA editor)")
+
+
+def get_channel(obj: bpy.types.Object, channel: str) -> NDArray[np.float32]:
+    """A channel of all the armature's bones, flat."""
+    values = np.empty(len(_REST[channel]) * len(obj.pose.bones), np.float32)
+    obj.pose.bones.foreach_get(channel, values)
+    return values
+
+
+def _go_to(scene: bpy.types.Scene, time: float) -> None:
+    """Fractional frames as frame and subframe; the nearest whole frame where that is meant."""
+    whole = math.floor(time + 1e-4)
+    scene.frame_set(whole, subframe=min(max(time - whole, 0.0), 0.9999))

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An armature object as the core's Rig."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ..compat.core import core
+from ..errors import UserError, core_errors
+
+if TYPE_CHECKING:
+    from fragmotion_core import Rig
+
+FEWEST_BONES = 2
+"""A character needs a bone that moves against another."""
+
+
+def make_rig(obj: bpy.types.Object) -> Rig:
+    """The armature at its place in the world now; UserError on what no character can have."""
+    bones = obj.data.bones
+    if len(bones) < FEWEST_BONES:
+        count = {0: "no bones", 1: f"only one bone, '{bones[0].name}'" if bones else ""}[len(bones)]
+        raise UserError(f"Armature '{obj.name}' has {count}; a character needs a body of several bones")
+    with core_errors(f"Armature '{obj.name}'"):
+        rig: Rig = core.Rig(
+            names=[bone.name for bone in bones],
+            parents=[bones.find(bone.parent.name) if bone.parent else -1 for bone in bones],
+            rest=np.array([bone.matrix_local for bone in bones]),
+            lengths=[bone.length for bone in bones],
+            world=np.array(obj.matrix_world),
+            inherit_rotation=[bone.use_inherit_rotation for bone in bones],
+            local_location=[bone.use_local_location for bone in bones],
+        )
+        return rig
+
+
+def carriers(obj: bpy.types.Object, rig: Rig) -> list[str]:
+    """The bones whose location moves the character: its root bone and its hips."""
+    names = list(dict.fromkeys((rig.skeleton.names[0], rig.skeleton.roles["hips"])))
+    tied = [name for name in names if is_tied(obj.data.bones[name])]
+    if tied:
+        raise UserError(
+            f"Armature '{obj.name}': bone '{tied[0]}' carries the body, but is connected to its parent and so cannot "
+            "move: switch Connected off for it (Edit Mode, Bone properties, Relations)"
+        )
+    return names
+
+
+def is_tied(bone: bpy.types.Bone) -> bool:
+    """Whether Blender ignores the bone's location because it is connected to its parent."""
+    return bone.use_connect and bone.parent is not None
+
+
+def bone_path(name: str, channel: str) -> str:
+    """Data path of a pose bone's channel, as F-curves spell it."""
+    return f'pose.bones["{bpy.utils.escape_identifier(name)}"].{channel}'

@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an armature keeps in the .blend: settings of its stages, what was built, the policy and the recordings."""
+
+from __future__ import annotations
+
+import bpy
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    IntVectorProperty,
+    PointerProperty,
+    StringProperty,
+)
+
+from ..character.classes import ClassRow
+from ..character.coverage import COLUMNS
+from ..character.suggesting import NumberTried
+from ..recordings.recordings import Recording
+from .bake_fields import BakeFields, PopulateFields
+from .build_fields import BuildFields
+from .common import TraceFields, factor_field, length_field, player_field, policy_field, seed_field
+
+_RELATIVE = (
+    (
+        "VIEW",
+        "By View",
+        "Up on the stick is away from you. The character turns to where the stick points and goes there, on the spot "
+        "first where that is behind it. While you turn it yourself, or if its takes hold no good turns, it goes there "
+        "at once, sidewards or backwards if need be",
+    ),
+    ("CHARACTER", "By Character", "Up on the stick is where the character faces. It turns only as you turn it"),
+)
+
+_KEEPING = (
+    ("PACKED", "In the .blend", "Inside the .blend file"),
+    ("BESIDE", "Beside It", "In a policy file beside the .blend, written when that is saved"),
+)
+
+
+class BuildSettings(BuildFields, bpy.types.PropertyGroup):
+    """The panel's settings of Build."""
+
+
+class PopulateSettings(PopulateFields, bpy.types.PropertyGroup):
+    """The panel's settings of Populate."""
+
+
+class BakeSettings(BakeFields, bpy.types.PropertyGroup):
+    """The panel's settings of Bake."""
+
+
+class DriveSettings(TraceFields, bpy.types.PropertyGroup):
+    """The panel's settings of Drive."""
+
+    relative: EnumProperty(  # type: ignore[valid-type]
+        name="Stick", description="What the direction of the stick is relative to", items=_RELATIVE, default="VIEW"
+    )
+    seed: seed_field("Draws which fragment of a class plays: the same controls and the same seed, the same motion")  # type: ignore[valid-type]
+    replay: policy_field(  # type: ignore[valid-type]
+        "The policy that replays a recording",
+        "RECORDED",
+        ("RECORDED", "As Recorded", "The policy and the seed that it was recorded with"),
+        name="Replay With",
+    )
+    follow: BoolProperty(  # type: ignore[valid-type]
+        name="Follow", description="Move the view with the character; it goes back when the drive ends", default=True
+    )
+    show_velocity: BoolProperty(  # type: ignore[valid-type]
+        name="Velocity",
+        description="Arrows on the ground, half a second long: the velocity asked for (blue), the character's (orange)",
+        default=True,
+    )
+    show_path: BoolProperty(  # type: ignore[valid-type]
+        name="Path", description="The way that the character went", default=True
+    )
+    show_ideal: BoolProperty(  # type: ignore[valid-type]
+        name="Ideal Path",
+        description="The way of a ghost that does just what the controls say, since the drive or the recording began",
+        default=True,
+    )
+    show_feet: BoolProperty(  # type: ignore[valid-type]
+        name="Feet", description="Discs under the feet that stand on the ground", default=True
+    )
+    show_figures: BoolProperty(  # type: ignore[valid-type]
+        name="Figures",
+        description="Class, control, rest of the fragment, quality, response time and updates a second",
+        default=True,
+    )
+    show_stick: BoolProperty(  # type: ignore[valid-type]
+        name="Stick",
+        description="A stick in the corner of the view, to be dragged with the mouse",
+        default=True,
+    )
+    player: player_field("Whose habits the trace has", "walker")  # type: ignore[valid-type]
+    seconds: length_field(20.0)  # type: ignore[valid-type]
+
+
+class FeelSettings(bpy.types.PropertyGroup):
+    """How the character moves when it is driven and baked, whatever its policy."""
+
+    # PlayerOptions' responsiveness and root_adjustment, under the names that saved files have.
+    promptness: factor_field(  # type: ignore[valid-type]
+        "Responsiveness",
+        "How soon the character answers when the stick moves a lot: at 0 it waits, half a second at most, for the "
+        "moment where what it does next joins on best; at 1 it answers at once, and its feet may slide",
+        0.5,
+    )
+    pull: factor_field(  # type: ignore[valid-type]
+        "Root Adjustment",
+        "How much the body does of what the stick says beyond what its takes do: at 0 it moves as the actor did, "
+        "at 1 it goes and turns up to two fifths faster, slower or aside",
+        1.0,
+    )
+    lock_feet: BoolProperty(  # type: ignore[valid-type]
+        name="Planted Feet", description="Feet that stand stay where they are, and legs follow", default=True
+    )
+
+
+class PolicyFigure(bpy.types.PropertyGroup):
+    """How one policy did, by its `name`."""
+
+    quality: FloatProperty()  # type: ignore[valid-type]
+
+
+class CoverageFigure(bpy.types.PropertyGroup):
+    """A row, by its `name`, of the table that says how many controls are performed well."""
+
+    performed: IntVectorProperty(size=len(COLUMNS))  # type: ignore[valid-type]
+    total: IntVectorProperty(size=len(COLUMNS))  # type: ignore[valid-type]
+
+
+class BuildFigures(bpy.types.PropertyGroup):
+    """What the last build found."""
+
+    captured: IntProperty()  # type: ignore[valid-type]
+    fragments: IntProperty()  # type: ignore[valid-type]
+    classes: IntProperty()  # type: ignore[valid-type]
+    controls: IntProperty()  # type: ignore[valid-type]
+    seconds: FloatProperty()  # type: ignore[valid-type]
+    quality: FloatProperty()  # type: ignore[valid-type]
+    examiner: StringProperty()  # type: ignore[valid-type]
+    sources: StringProperty()  # type: ignore[valid-type]
+    policies: CollectionProperty(type=PolicyFigure)  # type: ignore[valid-type]
+    performed: IntProperty()  # type: ignore[valid-type]
+    coverage: CollectionProperty(type=CoverageFigure)  # type: ignore[valid-type]
+    distances: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
+    """[102] float32: ControlDis to the nearest fragment."""
+
+
+class CharacterSettings(bpy.types.PropertyGroup):
+    """An armature object's `fragmotion`: settings, figures, the policy file's bytes and the recordings."""
+
+    build: PointerProperty(type=BuildSettings)  # type: ignore[valid-type]
+    bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
+    populate: PointerProperty(type=PopulateSettings)  # type: ignore[valid-type]
+    drive: PointerProperty(type=DriveSettings)  # type: ignore[valid-type]
+    feel: PointerProperty(type=FeelSettings)  # type: ignore[valid-type]
+    figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
+    classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]
+    tried: CollectionProperty(type=NumberTried)  # type: ignore[valid-type]
+    policy: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
+    keep_policy: EnumProperty(  # type: ignore[valid-type]
+        name="Keep Policy", description="Where the policy is kept from the next time that you save", items=_KEEPING
+    )
+    policy_file: StringProperty(  # type: ignore[valid-type]
+        name="Policy File", description="Where the policy is kept; // is the folder of the .blend"
+    )
+    policy_digest: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    # The recordings, under the names that saved files have.
+    takes: CollectionProperty(type=Recording)  # type: ignore[valid-type]
+    active_take: IntProperty(name="Recording", description="The recording that is selected in the list")  # type: ignore[valid-type]
+    digest: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    """Of the policy's bytes, by which panels know it without reading it."""

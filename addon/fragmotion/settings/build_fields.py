@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a build can be told."""
+
+from __future__ import annotations
+
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+
+from ..compat.core import core
+from .common import CHOOSING, TraceFields, length_field, player_field, policy_field, seed_field, source_field
+
+_DEFAULTS = core.BuildOptions()
+
+_RECORDINGS = ("RECORDINGS", "Recordings", "The ticked recordings of the Recordings panel")
+
+_CUTS = (
+    ("gait", "At Footsteps", "Cut where a foot strikes the ground; by windows where the armature has no feet"),
+    ("windows", "By Windows", "Cut into windows of equal length, whatever the feet do"),
+)
+
+
+class BuildFields(TraceFields):
+    """What a build can be told."""
+
+    trace_source: source_field(_RECORDINGS)  # type: ignore[valid-type]
+    longest: FloatProperty(  # type: ignore[valid-type]
+        name="Longest Fragment",
+        description="Longest fragment in seconds; shorter ones respond faster, longer ones move more naturally",
+        default=_DEFAULTS.longest,
+        min=_DEFAULTS.shortest,
+        max=2.0,
+        soft_max=0.5,
+        step=5,
+        precision=2,
+        unit="TIME_ABSOLUTE",
+    )
+    cut: EnumProperty(  # type: ignore[valid-type]
+        name="Cut", description="Where takes are cut into fragments", items=_CUTS, default=_DEFAULTS.cut
+    )
+    classes: IntProperty(  # type: ignore[valid-type]
+        name="Classes",
+        description="Number of clusters of similar fragments; there must be at least as many fragments",
+        default=_DEFAULTS.classes,
+        min=2,
+        soft_max=500,
+    )
+    seed: seed_field("Same takes and same seed: same character")  # type: ignore[valid-type]
+    mirror: BoolProperty(  # type: ignore[valid-type]
+        name="Mirror",
+        description="Learn from the mirror image of every take too (left and right bones by name)",
+        default=_DEFAULTS.mirror,
+    )
+    synthesize: BoolProperty(  # type: ignore[valid-type]
+        name="Fill Gaps",
+        description="Synthesize fragments for the directions and speeds that the takes lack",
+        default=_DEFAULTS.synthesize,
+    )
+    policy: policy_field(CHOOSING, _DEFAULTS.policies[0])  # type: ignore[valid-type]
+    player: player_field("Whose habits the policy learns from", "explorer")  # type: ignore[valid-type]
+    seconds: length_field(60.0, 1.0)  # type: ignore[valid-type]

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The fields of the stages, as the panel and the redo panel show them."""
+
+from __future__ import annotations
+
+import textwrap
+
+import bpy
+
+from ..character.coverage import COLUMNS
+from ..character.storing import BESIDE, troubles
+from ..compat import versions
+from .armature import BuildFigures, DriveSettings
+from .bake_fields import BakeFields, PopulateFields
+from .build_fields import BuildFields
+from .common import POLICY_NAMES
+
+# pixels of a sidebar at the scale 1: what no text can use, an icon with the room around it, and a letter on average
+_FRAME, _ICON, _LETTER = 30, 30, 6.3
+
+
+def draw_build(layout: bpy.types.UILayout, settings: BuildFields) -> None:
+    """The fields of a build that are changed most."""
+    layout = aligned(layout)
+    layout.prop(settings, "longest", text="Longest")
+    row = layout.row(align=True)
+    row.prop(settings, "classes")
+    row.operator("fragmotion.suggest_classes", text="", icon="VIEWZOOM")
+    column = layout.column(heading="Add")
+    column.prop(settings, "mirror")
+    column.prop(settings, "synthesize")
+
+
+def draw_training(layout: bpy.types.UILayout, settings: BuildFields) -> None:
+    """The other fields of a build."""
+    layout = aligned(layout)
+    layout.prop(settings, "cut")
+    layout.prop(settings, "policy")
+    draw_trace(layout, settings, "Learn from")
+    layout.prop(settings, "seed")
+
+
+def draw_bake(layout: bpy.types.UILayout, settings: BakeFields) -> None:
+    """The fields of a bake that are changed most."""
+    layout = aligned(layout)
+    draw_trace(layout, settings, "Trace")
+    recorded = settings.trace_source == "RECORDING" and settings.as_recorded
+    if settings.trace_source == "RECORDING":
+        layout.prop(settings, "as_recorded")
+    if not recorded:
+        layout.prop(settings, "policy")
+        layout.prop(settings, "seed")
+        layout.prop(settings, "place")
+    layout.separator()
+    layout.prop(settings, "target")
+    if settings.target != "CURRENT":
+        versions.draw_named(layout, settings, "action", "New Action")
+        layout.prop(settings, "frame_start")
+    layout.prop(settings, "fit_end")
+    layout.prop(settings, "root")
+
+
+def draw_bake_options(layout: bpy.types.UILayout, settings: BakeFields) -> None:
+    """The other fields of a bake."""
+    layout = aligned(layout)
+    layout.prop(settings, "loop")
+    if settings.loop:
+        layout.prop(settings, "loop_seconds")
+    layout.prop(settings, "reduce")
+    if settings.reduce:
+        layout.prop(settings, "reduce_distance", text="Within")
+        layout.prop(settings, "reduce_angle", text="and")
+    layout.prop(settings, "markers")
+
+
+def draw_populate(layout: bpy.types.UILayout, settings: PopulateFields) -> None:
+    """The fields of a crowd."""
+    layout = aligned(layout)
+    for name in ("count", "layout", "spacing", "traces"):
+        layout.prop(settings, name)
+    if settings.traces == "PLAYERS":
+        layout.prop(settings, "player")
+        layout.prop(settings, "seconds")
+    layout.prop(settings, "seed")
+
+
+def draw_summary(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
+    """The last build in a line: the classes, and the quality of Optimal's."""
+    layout.label(text=f"{figures.classes} classes, {figures.quality:.0f} %", icon="CHECKMARK")
+
+
+def draw_figures(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
+    """What the last build found."""
+    box = layout.box().column(align=True)
+    _draw_row(box, "Fragments", str(figures.fragments))
+    _draw_row(box, "from takes", str(figures.captured))
+    _draw_row(box, "Classes", str(figures.classes))
+    if figures.coverage:
+        _draw_row(box, "Performed well", f"{figures.performed} of {figures.controls}")
+    if figures.seconds > 0:
+        _draw_row(box, "Built in", f"{figures.seconds:.2f} s")
+    box.separator()
+    box.label(text="Quality, of Optimal:")
+    for policy in figures.policies:
+        _draw_row(box, POLICY_NAMES.get(policy.name, policy.name), f"{policy.quality:.1f} %")
+    _draw_row(box, "Measured on", figures.examiner.title())
+
+
+def draw_keeping(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """Where the policy is kept."""
+    settings = obj.fragmotion
+    column = aligned(layout)
+    column.prop(settings, "keep_policy", text="Keep")
+    if obj.name in troubles:
+        column.label(text="Not moved: see the console", icon="ERROR")
+    elif settings.keep_policy == BESIDE and settings.policy:
+        column.label(text="Written when you save", icon="INFO")
+    elif settings.policy_digest and not settings.policy:
+        column.label(text=settings.policy_file, icon="FILE", translate=False)
+
+
+def draw_coverage(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
+    """How many controls of each kind are performed well; greyed where not all are."""
+    column = layout.column(align=True)
+    column.label(text="Controls performed well:")
+    _draw_cells(column, "", [(name, True) for name in COLUMNS])
+    for row in figures.coverage:
+        counts = zip(row.performed, row.total)
+        _draw_cells(column, row.name, [(f"{performed}/{total}", performed == total) for performed, total in counts])
+
+
+def _draw_cells(layout: bpy.types.UILayout, label: str, cells: list[tuple[str, bool]]) -> None:
+    """A row of a table: a label, and cells of text that are bright or greyed."""
+    split = layout.split(factor=0.42, align=True)
+    split.label(text=label)
+    row = split.row(align=True)
+    for text, bright in cells:
+        cell = row.row()
+        cell.active = bright
+        cell.label(text=text)
+
+
+def _draw_row(layout: bpy.types.UILayout, label: str, value: str) -> None:
+    row = layout.split(factor=0.6)
+    row.label(text=label)
+    row.label(text=value)
+
+
+def draw_trace(layout: bpy.types.UILayout, settings: BuildFields | BakeFields | DriveSettings, label: str) -> None:
+    """Where a trace comes from."""
+    layout.prop(settings, "trace_source", text=label)
+    if settings.trace_source == "FILE":
+        layout.prop(settings, "trace_file", text="File")
+    elif settings.trace_source == "PLAYER":
+        layout.prop(settings, "player")
+        layout.prop(settings, "seconds")
+
+
+def draw_wrapped(
+    layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "NONE", share: float = 1.0
+) -> None:
+    """A text in as many lines as it takes in this share of the sidebar's width, the first with the icon."""
+    width = context.region.width / context.preferences.system.ui_scale - _FRAME
+    room = share * width - (_ICON if icon != "NONE" else 0)
+    for line in textwrap.wrap(text, max(int(room / _LETTER), 10)):
+        layout.label(text=line, icon=icon, translate=False)
+        icon = "BLANK1" if icon != "NONE" else icon
+
+
+def aligned(layout: bpy.types.UILayout) -> bpy.types.UILayout:
+    """A column of fields whose names stand in a column of their own."""
+    column = layout.column()
+    column.use_property_split = True
+    column.use_property_decorate = False
+    return column

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What our property groups are, and what of the .blend has one: armature objects, Actions and the window manager.
+
+The fields of a stage are written down once: the panel's settings and the stage's operator both have them.
+"""
+
+from __future__ import annotations
+
+import bpy
+from bpy.props import BoolProperty, CollectionProperty, IntProperty, PointerProperty
+
+from ..character.classes import ClassRow
+from ..character.inspector import InspectorSettings
+from ..character.suggesting import NumberTried
+from ..mocap.left_out import FrameSpan
+from ..recordings.recordings import Recording
+from .armature import (
+    BakeSettings,
+    BuildFigures,
+    BuildSettings,
+    CharacterSettings,
+    CoverageFigure,
+    DriveSettings,
+    FeelSettings,
+    PolicyFigure,
+    PopulateSettings,
+)
+
+
+class ActionSettings(bpy.types.PropertyGroup):
+    """An Action's `fragmotion`."""
+
+    use: BoolProperty(  # type: ignore[valid-type]
+        name="Learn from it", description="Build cuts fragments from the ticked Actions", default=False
+    )
+    left_out: CollectionProperty(type=FrameSpan)  # type: ignore[valid-type]
+
+
+class WindowSettings(bpy.types.PropertyGroup):
+    """The window manager's `fragmotion`: what no file need remember."""
+
+    active_action: IntProperty()  # type: ignore[valid-type]
+    active_class: IntProperty(min=0)  # type: ignore[valid-type]
+    inspector: PointerProperty(type=InspectorSettings)  # type: ignore[valid-type]
+
+
+CLASSES = (
+    ClassRow,
+    NumberTried,
+    Recording,
+    FrameSpan,
+    InspectorSettings,
+    BuildSettings,
+    BakeSettings,
+    PopulateSettings,
+    DriveSettings,
+    FeelSettings,
+    PolicyFigure,
+    CoverageFigure,
+    BuildFigures,
+    CharacterSettings,
+    ActionSettings,
+    WindowSettings,
+)
+_OWNERS = (
+    (bpy.types.Object, CharacterSettings),
+    (bpy.types.Action, ActionSettings),
+    (bpy.types.WindowManager, WindowSettings),
+)
+
+
+def register() -> None:
+    """Give objects, Actions and the window manager their `fragmotion`; its classes are registered."""
+    for owner, settings in _OWNERS:
+        owner.fragmotion = PointerProperty(type=settings)
+
+
+def unregister() -> None:
+    """Take it away again."""
+    for owner, _ in _OWNERS:
+        del owner.fragmotion

@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: MIT
+"""A folder of takes becomes one armature and an Action for each take; a bad file changes nothing."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from types import ModuleType
+
+import bpy
+import making
+import numpy as np
+import pytest
+
+
+def import_folder(folder: Path, **options: object) -> bpy.types.Object:
+    """Import as a script does, and return the armature."""
+    assert bpy.ops.fragmotion.import_mocap("EXEC_DEFAULT", directory=str(folder), **options) == {"FINISHED"}
+    return bpy.context.view_layer.objects.active
+
+
+def check_take(addon: ModuleType, obj: bpy.types.Object, take: object, times: np.ndarray, rows: np.ndarray) -> None:
+    """Blender's pose bones stand where the take's bones do."""
+    names = take.skeleton.names
+    heads, rotations = take.world_transforms()
+    matrices = making.blender_poses(obj, bpy.data.actions[take.name], times, names)
+    making.assert_same_poses(matrices, heads[rows], None, 1e-4)
+    rests = np.array([np.array(obj.data.bones[name].matrix_local)[:3, :3] for name in names])
+    turned = making.to_matrices(rotations[rows]) @ rests  # a BVH joint's frame at rest is the world's
+    np.testing.assert_allclose(matrices[..., :3, :3], turned, atol=1e-4)
+
+
+def test_takes_move_the_armature_as_their_files_say(addon: ModuleType, tmp_path: Path) -> None:
+    bpy.context.scene.render.fps = 30
+    files = [making.write_bvh(tmp_path / f"take {seed}.bvh", seed=seed) for seed in (1, 2)]
+    obj = import_folder(tmp_path)
+    assert obj.type == "ARMATURE" and obj.name == tmp_path.name
+    assert bpy.context.selected_objects == [obj]
+    assert obj.animation_data.action == bpy.data.actions["take 1"]
+    for path in files:
+        action = bpy.data.actions[path.stem]
+        assert action.use_fake_user and action.fragmotion.use and action[addon.mocap.actions.RATE] == 30
+        assert tuple(action.frame_range) == (1, 40)
+        take = addon.compat.core.core.read_bvh(path)
+        check_take(addon, obj, take, np.arange(1, 41), np.arange(40))
+
+
+def test_the_sampled_take_is_the_take(addon: ModuleType, tmp_path: Path) -> None:
+    path = making.write_bvh(tmp_path / "walk.bvh", frame_time=0.008333)
+    obj = import_folder(tmp_path)
+    rig = addon.rig.rigs.make_rig(obj)
+    clip = addon.mocap.sampling.sample(bpy.context, obj, bpy.data.actions["walk"], rig)
+    heads, _ = addon.compat.core.core.read_bvh(path).world_transforms()
+    assert clip.rate == 120 and len(clip.root_positions) == 40
+    body = making.body_bones(rig.skeleton)
+    np.testing.assert_allclose(clip.world_transforms(rig.skeleton)[0][:, body], heads[:, body], atol=1e-4)
+
+
+def test_a_take_plays_in_its_own_time_whatever_the_scenes_rate(addon: ModuleType, tmp_path: Path) -> None:
+    scene = bpy.context.scene
+    scene.render.fps, scene.render.fps_base = 24, 1.001
+    path = making.write_bvh(tmp_path / "walk.bvh", frames=61, frame_time=1 / 60)
+    obj = import_folder(tmp_path)
+    start, end = bpy.data.actions["walk"].frame_range
+    assert start == 1 and end == pytest.approx(1 + 24 / 1.001, abs=1e-4)
+    rows = np.array([0, 1, 7, 33, 60])
+    check_take(addon, obj, addon.compat.core.core.read_bvh(path), 1 + rows * 24 / 1.001 / 60, rows)
+
+
+def test_a_take_is_learned_in_its_own_time_whatever_the_scenes_rate_becomes(addon: ModuleType, tmp_path: Path) -> None:
+    scene = bpy.context.scene
+    scene.render.fps = 24
+    making.write_bvh(tmp_path / "walk.bvh", frames=61, frame_time=1 / 60)
+    obj = import_folder(tmp_path)
+    rig = addon.rig.rigs.make_rig(obj)
+    before = addon.mocap.sampling.sample(bpy.context, obj, bpy.data.actions["walk"], rig)
+    scene.render.fps, scene.render.fps_base = 60, 1.001
+    after = addon.mocap.sampling.sample(bpy.context, obj, bpy.data.actions["walk"], rig)
+    assert before.rate == after.rate == 60 and len(after.root_positions) == 61
+    np.testing.assert_array_equal(after.root_positions, before.root_positions)
+    np.testing.assert_array_equal(after.rotations, before.rotations)
+
+
+def test_still_locations_get_no_keys(addon: ModuleType, tmp_path: Path) -> None:
+    making.write_bvh(tmp_path / "walk.bvh")
+    obj = import_folder(tmp_path)
+    paths = {curve.data_path for curve in addon.compat.versions.curves_of(bpy.data.actions["walk"], obj)}
+    assert {p for p in paths if "location" in p} == {'pose.bones["Root"].location', 'pose.bones["Hips"].location'}
+
+
+def test_takes_key_the_same_channels_so_that_none_marks_the_next(addon: ModuleType, tmp_path: Path) -> None:
+    bpy.context.scene.render.fps = 30
+    making.write_bvh(tmp_path / "a.bvh", seed=1)
+    other = making.write_bvh(tmp_path / "b.bvh", seed=2)
+    other.write_text(other.read_text().replace("OFFSET 10 0 0", "OFFSET 12 0 0"))  # a wider left hip
+    obj = import_folder(tmp_path)
+    for name in ("a", "b", "a"):
+        take = addon.compat.core.core.read_bvh(tmp_path / f"{name}.bvh")
+        check_take(addon, obj, take, np.array([1, 9]), np.array([0, 8]))
+    paths = [{c.data_path for c in addon.compat.versions.curves_of(bpy.data.actions[name], obj)} for name in "ab"]
+    assert paths[0] == paths[1] and 'pose.bones["LeftUpLeg"].location' in paths[0]
+
+
+def test_only_the_selected_files_are_imported(tmp_path: Path) -> None:
+    for name in ("a", "b", "c"):
+        making.write_bvh(tmp_path / f"{name}.bvh")
+    import_folder(tmp_path, files=[{"name": "a.bvh"}, {"name": "c.bvh"}])
+    assert [action.name for action in bpy.data.actions] == ["a", "c"]
+
+
+@pytest.mark.parametrize(("unit", "metres"), [("METRES", 1), ("CENTIMETRES", 0.01), ("INCHES", 0.0254)])
+def test_the_unit_scales_the_armature(tmp_path: Path, unit: str, metres: float) -> None:
+    making.write_bvh(tmp_path / "walk.bvh")
+    obj = import_folder(tmp_path, unit=unit)
+    assert obj.data.bones["Hips"].head_local.z == pytest.approx(95 * metres, rel=1e-5)
+
+
+def test_short_bones_survive(tmp_path: Path) -> None:
+    making.write_bvh(tmp_path / "walk.bvh")
+    obj = import_folder(tmp_path)  # the left foot is 0.1 mm long
+    assert obj.data.bones["LeftFoot"].length == pytest.approx(0.01, rel=1e-4)
+
+
+def test_an_amc_belongs_to_the_asf_of_its_subject(addon: ModuleType, tmp_path: Path) -> None:
+    for name in ("01.asf", "02.asf", "01_03.amc", "02_01.AMC"):
+        (tmp_path / name).write_text("")
+    find = addon.mocap.importing.find_takes
+    assert [(t.path.name, t.asf.name) for t in find(tmp_path)] == [("01_03.amc", "01.asf"), ("02_01.AMC", "02.asf")]
+    (tmp_path / "03_01.amc").write_text("")
+    with pytest.raises(addon.errors.UserError, match=r"03_01\.amc.*03\.asf"):
+        find(tmp_path)
+    (tmp_path / "01.asf").unlink()
+    assert find(tmp_path, ["03_01.amc"])[0].asf.name == "02.asf"
+
+
+def test_hidden_files_are_no_takes(addon: ModuleType, tmp_path: Path) -> None:
+    for name in ("02.asf", "02_01.amc", "walk.bvh", "._walk.bvh", "._02.asf", "._02_01.amc", ".old.bvh"):
+        (tmp_path / name).write_text("")
+    (tmp_path / "folder.bvh").mkdir()
+    takes = addon.mocap.importing.find_takes(tmp_path)
+    assert [take.path.name for take in takes] == ["02_01.amc", "walk.bvh"]
+    (tmp_path / "03_01.amc").write_text("")
+    assert addon.mocap.importing.find_takes(tmp_path)[1].asf.name == "02.asf", "the folder's only skeleton"
+
+
+def test_importing_is_one_undo_step(tmp_path: Path) -> None:
+    making.write_bvh(tmp_path / "walk.bvh")
+    bpy.ops.ed.undo_push(message="before")
+    assert bpy.ops.fragmotion.import_mocap("EXEC_DEFAULT", True, directory=str(tmp_path)) == {"FINISHED"}
+    assert len(bpy.data.objects) == 1 and "walk" in bpy.data.actions
+    bpy.ops.ed.undo()
+    assert len(bpy.data.objects) == 0 and "walk" not in bpy.data.actions
+
+
+def _broken(text: str, name: str) -> str:
+    return {
+        "truncated": "\n".join(text.splitlines()[:-5]),
+        "cut in a row": text[: len(text) - 60],
+        "not a number": text.replace("MOTION", "MOTION", 1)[:-30] + "nan" + text[-27:],
+        "channel count": text.replace("CHANNELS 3 Yrotation Xrotation Zrotation", "CHANNELS 2 Yrotation Xrotation", 1),
+        "empty": "",
+    }[name]
+
+
+@pytest.mark.parametrize("name", ["truncated", "cut in a row", "not a number", "channel count", "empty"])
+def test_a_broken_bvh_is_named_by_line_and_changes_nothing(tmp_path: Path, name: str) -> None:
+    making.add_action(making.add_armature())
+    path = making.write_bvh(tmp_path / "b broken.bvh")
+    path.write_text(_broken(path.read_text(), name))
+    making.write_bvh(tmp_path / "a good.bvh")
+    before = making.contents()
+    with pytest.raises(RuntimeError, match=rf"{path.name}:\d+: "):
+        import_folder(tmp_path)
+    assert making.contents() == before
+
+
+@pytest.mark.parametrize("mode", ["POSE", "EDIT"])
+def test_a_refused_import_gives_back_mode_and_selection(tmp_path: Path, mode: str) -> None:
+    idle, third = making.add_armature(name="Idle"), making.add_armature(name="Third")
+    obj = making.add_armature(name="Active")
+    third.select_set(True)
+    bpy.ops.object.mode_set(mode=mode)
+    idle.select_set(True)
+    path = making.write_bvh(tmp_path / "single.bvh")
+    head, tail = path.read_text().split("  JOINT", 1)[0], path.read_text().partition("MOTION")[2]
+    rows = [" ".join(row.split()[:6]) for row in tail.splitlines()[3:]]
+    end = "  End Site\n  {\n    OFFSET 0 10 0\n  }\n}\nMOTION\nFrames: 40\nFrame Time: 0.0333333\n"
+    path.write_text(head + end + "\n".join(rows) + "\n")
+    before = making.contents()
+    modes = {o.name: o.mode for o in bpy.data.objects}
+    assert modes == {"Active": mode, "Third": mode, "Idle": "OBJECT"}
+    with pytest.raises(RuntimeError, match="only one bone, 'Root'"):
+        import_folder(tmp_path)
+    assert making.contents() == before
+    assert {o.name: o.mode for o in bpy.data.objects} == modes and bpy.context.object == obj
+
+
+def test_a_take_of_another_skeleton_is_named_with_its_bone(tmp_path: Path) -> None:
+    making.write_bvh(tmp_path / "a.bvh")
+    other = making.write_bvh(tmp_path / "b.bvh")
+    other.write_text(other.read_text().replace("RightUpLeg", "Tail"))
+    before = making.contents()
+    with pytest.raises(RuntimeError, match=r"b\.bvh.*'Tail'.*a\.bvh"):
+        import_folder(tmp_path)
+    assert making.contents() == before
+
+
+@pytest.mark.parametrize("files", [(), ("notes.txt",), ("01.asf",)])
+def test_a_folder_without_takes_is_named(tmp_path: Path, files: tuple[str, ...]) -> None:
+    for name in files:
+        (tmp_path / name).write_text("")
+    with pytest.raises(RuntimeError, match=f"{re.escape(str(tmp_path))}.*no takes"):
+        import_folder(tmp_path)
+    with pytest.raises(RuntimeError, match="is not a folder"):
+        import_folder(tmp_path / "missing")
+
+
+def test_an_import_that_stops_in_the_middle_removes_what_it_made(addon: ModuleType, tmp_path: Path) -> None:
+    making.add_action(making.add_armature())
+    for seed in (1, 2, 3):
+        making.write_bvh(tmp_path / f"{seed}.bvh", seed=seed)
+    files = addon.mocap.importing.find_takes(tmp_path)
+    before = making.contents()
+    made = []
+
+    def stop(fraction: float) -> None:
+        made.append(len(bpy.data.objects))
+        if fraction > 0.7:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        addon.mocap.importing.import_takes(bpy.context, "stopped", files, 0.01, stop)
+    assert max(made) == 2, "nothing had been made, so nothing had to be removed"
+    assert making.contents() == before
