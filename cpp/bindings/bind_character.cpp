@@ -6,11 +6,12 @@
 
 #include "arrays.hpp"
 #include "fragmotion/build/build.hpp"
-#include "fragmotion/character/exclude_classes.hpp"
+#include "fragmotion/build/exclude_classes.hpp"
 #include "fragmotion/character/naming.hpp"
 #include "fragmotion/character/policy_file.hpp"
 #include "fragmotion/evaluate/suggest.hpp"
 #include "fragmotion/policy/greedy.hpp"
+#include "fragmotion/policy/optimal.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -2,7 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "fragmotion/character/explain.hpp"
+#include "fragmotion/evaluate/explain.hpp"
 
 namespace fragmotion::bindings {
 

@@ -4,8 +4,7 @@
 #include "arrays.hpp"
 #include "fragmotion/evaluate/motion_metrics.hpp"
 #include "fragmotion/evaluate/response.hpp"
-#include "fragmotion/runtime/crowd.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "fragmotion/runtime/step_on_threads.hpp"
 
 namespace fragmotion::bindings {
 namespace {
@@ -109,7 +108,7 @@ py::tuple step_many(OneCrowd& one, const Doubles& controls, double seconds, cons
   py::array_t<double> to_roots = target(roots, "roots", {count, 3}),
                       to_rotations = target(rotations, "rotations", {count, crowd->bones(), 4});
   double *first_root = to_roots.mutable_data(), *first_rotation = to_rotations.mutable_data();
-  without_gil([&] { crowd->step(wanted.data(), seconds, first_root, first_rotation); });
+  without_gil([&] { step_on_threads(*crowd, wanted.data(), seconds, first_root, first_rotation); });
   return py::make_tuple(to_roots, to_rotations);
 }
 
@@ -138,7 +137,7 @@ void bind_crowd(py::module_& m) {
     crowd.def(py::init(with_options(Types<SharedCharacter, int>{}, Types<int>{},
                                     [](SharedCharacter character, int count, const PlayerOptions& given, int threads) {
                                       return std::make_unique<OneCrowd>("Crowd", std::move(character), count, given,
-                                                                        threads);
+                                                                        thread_count(threads));
                                     })),
               py::arg("character").none(false), py::arg("count"), options..., py::arg("threads") = 0);
   });

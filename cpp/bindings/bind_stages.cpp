@@ -10,6 +10,7 @@
 #include "fragmotion/policy/anticipate.hpp"
 #include "fragmotion/policy/greedy.hpp"
 #include "fragmotion/policy/iterate.hpp"
+#include "fragmotion/policy/optimal.hpp"
 #include "fragmotion/policy/svm.hpp"
 
 namespace fragmotion::bindings {

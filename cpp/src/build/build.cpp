@@ -12,7 +12,9 @@
 #include "build/stages.hpp"
 #include "fragmotion/base/parallel.hpp"
 #include "fragmotion/classes/clustering.hpp"
+#include "fragmotion/fragments/entry_poses.hpp"
 #include "fragmotion/fragments/evident.hpp"
+#include "fragmotion/fragments/packed_pool.hpp"
 #include "fragmotion/fragments/synthesis.hpp"
 #include "fragmotion/motion/legs.hpp"
 #include "fragmotion/motion/mirror.hpp"
@@ -20,6 +22,8 @@
 #include "fragmotion/policy/bridge.hpp"
 #include "fragmotion/policy/greedy.hpp"
 #include "fragmotion/policy/iterate.hpp"
+#include "fragmotion/policy/optimal.hpp"
+#include "fragmotion/policy/quality_table.hpp"
 #include "fragmotion/policy/svm.hpp"
 
 namespace fragmotion {
@@ -297,7 +301,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   c.report["synthesize_seconds"] = stage.lap();
   report(progress, 0.9, "Measuring fragments");
   material.trajectories = trajectories(pool, kPoses, options.threads);
-  c.openings = openings(c.pool, options.threads);
+  c.entry_poses = entry_poses(c.pool);
   for (const Trace& trace : traces) material.traces.push_back(snap(c.space, trace));
   c.report["measure_seconds"] = stage.lap();
   return material;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fragmotion/policy/quality.hpp"
+#include "fragmotion/classes/classes.hpp"
+#include "fragmotion/control/control.hpp"
+#include "fragmotion/fragments/distance.hpp"
 
 namespace fragmotion {
 
