@@ -68,7 +68,7 @@ std::pair<double, double> gait_speeds(const std::vector<Control>& evident, doubl
   std::vector<double> speeds;
   for (const Control& ev : evident) {
     const double speed = ev.speed() * scale;
-    if (speed > kMoving && ev.jump < 0.5) speeds.push_back(speed);
+    if (speed > kMoving && !ev.jumps()) speeds.push_back(speed);
   }
   if (speeds.empty()) return {1.2, 3.3};
   std::sort(speeds.begin(), speeds.end());
@@ -171,17 +171,17 @@ std::vector<float> balanced_weights(const Character& c) {
     const Control control = c.space.point(nearest);
     const double share = std::pow(c.coverage.counts[nearest], kBalance);
     const bool turns = control.turn != 0, ahead = control.x == 0 && control.y >= 0;
-    const double wanted = control.jump == 0 ? 1 : turns ? kTurningHop : ahead ? 1 : kSideHop;
+    const double wanted = !control.jumps() ? 1 : turns ? kTurningHop : ahead ? 1 : kSideHop;
     weights.push_back(static_cast<float>(share * wanted));
   }
   return weights;
 }
 
-// Which fragments hop: 1 each.
-std::vector<char> hops(const std::vector<Fragment>& fragments) {
-  std::vector<char> hops;
-  for (const Fragment& f : fragments) hops.push_back(f.evident.jump > 0.5 ? 1 : 0);
-  return hops;
+// Which fragments jump: 1 each.
+std::vector<char> jumping(const std::vector<Fragment>& fragments) {
+  std::vector<char> jumping;
+  for (const Fragment& f : fragments) jumping.push_back(f.evident.jumps() ? 1 : 0);
+  return jumping;
 }
 
 // Scores classes by the quality of Optimal's paths over the traces.
@@ -316,7 +316,7 @@ void learn(const Material& material, const BuildOptions& options, const Progress
   clustering.restarts = options.restarts;
   clustering.seed = options.seed;
   clustering.threads = options.threads;
-  clustering.kinds = hops(c.pool.fragments);
+  clustering.kinds = jumping(c.pool.fragments);
   c.classes =
       cluster(t, balanced_weights(c), clustering, serves_traces(c, t, material.traces), part_of(progress, 0, 0.5));
   c.report["classes"] = c.classes.count;

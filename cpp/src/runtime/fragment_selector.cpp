@@ -9,17 +9,12 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kHop = 0.9;          // evident jump of what is no run
 constexpr double kJoinsWell = 1.3;    // times the Dis of the fragment that joins best, and
 constexpr double kJoinsNear = 0.3;    // m, summed as Dis, more
 constexpr double kAsWell = 0.5;       // of the way from the least error to the representative's
 constexpr double kLook = kEntry / 2;  // s between the moments at which a fragment may be left early
 
 }  // namespace
-
-bool matches_jump(double evident_jump, const Control& wanted) {
-  return wanted.jump > kInTheAir ? evident_jump > kInTheAir : evident_jump < kHop;
-}
 
 FragmentSelector::FragmentSelector(const Character& character, Workspace& workspace, std::uint64_t seed)
     : character_(&character), workspace_(&workspace), seed_(seed), random_(seed) {}
@@ -48,7 +43,7 @@ void FragmentSelector::extrapolate(const CharacterFrame& frame, const BodyTips& 
 // does not, as is wanted, they do so too.
 void FragmentSelector::find_candidates(int next_class, const Control& control) const {
   const Character& c = *character_;
-  const auto matches = [&](int fragment) { return matches_jump(c.pool.fragments[fragment].evident.jump, control); };
+  const auto matches = [&](int fragment) { return matches_jump(c.pool.fragments[fragment].evident, control); };
   const int representative = c.classes.representatives[next_class];
   const auto error = [&](int fragment) {
     if (matches(representative) && !matches(fragment)) return std::numeric_limits<double>::infinity();

@@ -33,7 +33,7 @@ TEST(FragmentSelector, ChoosesMembersThatPerformTheControlAtLeastAsWellAsTheRepr
       const Control &its = c.pool.fragments[chosen].evident,
                     &usual = c.pool.fragments[c.classes.representatives[k]].evident;
       EXPECT_LE(c.space.distance(its, control), c.space.distance(usual, control) + 1e-12);
-      if (matches_jump(usual.jump, control)) EXPECT_TRUE(matches_jump(its.jump, control));
+      if (matches_jump(usual, control)) EXPECT_TRUE(matches_jump(its, control));
     }
   }
 }
@@ -69,14 +69,6 @@ TEST(FragmentSelector, LeavesAFragmentWithinItsTimeAndAtOnceWhereWaitingCostsMuc
     }
   }
   EXPECT_GT(moments.size(), 5U);
-}
-
-TEST(MatchesJump, TakesABouncyRunForARun) {
-  const Control run{0, 3, 0, 0}, leap{0, 3, 0, 1};
-  EXPECT_TRUE(matches_jump(0.7, run));
-  EXPECT_FALSE(matches_jump(0.95, run));
-  EXPECT_TRUE(matches_jump(0.7, leap));
-  EXPECT_FALSE(matches_jump(0.4, leap));
 }
 
 }  // namespace

@@ -36,10 +36,4 @@ class FragmentSelector {
   Random random_;
 };
 
-/// Evident jump above which a fragment is in the air.
-constexpr double kInTheAir = 0.5;
-
-/// Whether what shows so much of a jump jumps, or does not, as is wanted.
-bool matches_jump(double evident_jump, const Control& wanted);
-
 }  // namespace fragmotion
