@@ -7,10 +7,20 @@
 
 namespace fragmotion {
 
+double tip_reach(const Skeleton& skeleton) {
+  const std::vector<int> bones = measured_bones(skeleton);
+  std::vector<double> ways(skeleton.size(), 0);  // from the hips to each bone's head
+  double sum = skeleton.tips[bones[0]].norm();
+  for (int b = bones[0] + 1; b < skeleton.size(); ++b) ways[b] = ways[skeleton.parents[b]] + skeleton.offsets[b].norm();
+  for (std::size_t i = 1; i < bones.size(); ++i) sum += ways[bones[i]] + skeleton.tips[bones[i]].norm();
+  return sum * standard_scale(skeleton);
+}
+
 BodyTips::BodyTips(const Skeleton& skeleton)
     : kinematics_(skeleton),
       bones_(measured_bones(skeleton)),
       scale_(standard_scale(skeleton)),
+      reach_(tip_reach(skeleton)),
       posed_(skeleton.size()) {}
 
 void BodyTips::pose(const Vector3& root, const double* rotations) {

@@ -19,6 +19,7 @@ Trajectories trajectories(const Pool<AnyClip>& pool, int poses, int threads) {
   Trajectories t;
   t.count = static_cast<int>(pool.fragments.size());
   t.tips = points;
+  t.reach = tip_reach(pool.skeleton);
   t.stride = padded(points * poses);
   t.pose_stride = padded(points);
   t.whole.assign(static_cast<std::size_t>(t.count) * 3 * t.stride, 0);

@@ -7,10 +7,10 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kInstant = 1e-9;  // s: no time
-constexpr double kChange = 1;      // ControlDis between controls that is "a lot"
-constexpr double kHaste = 10;      // m, as Dis, that a second of waiting costs by default
-constexpr double kWorthIt = 0.05;  // s that must be left of a fragment for leaving it early
+constexpr double kInstant = 1e-9;            // s: no time
+constexpr double kChange = 1;                // ControlDis between controls that is "a lot"
+constexpr double kHaste = 10 / kTunedReach;  // m a metre of reach that a second of waiting costs by default
+constexpr double kWorthIt = 0.05;            // s that must be left of a fragment for leaving it early
 
 // Whether what would play goes back from where is wanted, though what plays goes there: a table may find that such a
 // detour joins best, both ways.

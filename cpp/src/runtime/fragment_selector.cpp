@@ -9,10 +9,10 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kJoinsWell = 1.3;    // times the Dis of the fragment that joins best, and
-constexpr double kJoinsNear = 0.3;    // m, summed as Dis, more
-constexpr double kAsWell = 0.5;       // of the way from the least error to the representative's
-constexpr double kLook = kEntry / 2;  // s between the moments at which a fragment may be left early
+constexpr double kJoinsWell = 1.3;                // times the Dis of the fragment that joins best, and
+constexpr double kJoinsNear = 0.3 / kTunedReach;  // m a metre of reach more
+constexpr double kAsWell = 0.5;                   // of the way from the least error to the representative's
+constexpr double kLook = kEntry / 2;              // s between the moments at which a fragment may be left early
 
 }  // namespace
 
@@ -79,7 +79,8 @@ int FragmentSelector::choose(int next_class, const Control& control, const Playb
   extrapolate(pose_tips(playback, playback.seconds(), now), before, now);
   const float least = measure_candidates();
   std::vector<std::pair<float, int>>& candidates = workspace_->candidates;
-  const auto joins = [&](const auto& each) { return each.first <= kJoinsWell * least + kJoinsNear; };
+  const double allowed = kJoinsWell * least + kJoinsNear * now.reach();
+  const auto joins = [&](const auto& each) { return each.first <= allowed; };
   const auto end = std::partition(candidates.begin(), candidates.end(), joins);
   return candidates[random_.below(static_cast<int>(end - candidates.begin()))].second;
 }
@@ -96,6 +97,7 @@ double FragmentSelector::best_exit(int next_class, const Control& control, const
   const double seconds = playback.seconds(), rest = playback.left();
   find_candidates(next_class, control);
   auto& [long_before, before, now] = workspace_->tips;
+  haste *= now.reach();
   pose_tips(playback, seconds - kEntry, long_before);
   pose_tips(playback, seconds - kLook, before);
   double best = 0, least = std::numeric_limits<double>::infinity();

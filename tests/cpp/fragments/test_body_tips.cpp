@@ -5,6 +5,7 @@
 
 #include "fragmotion/base/random.hpp"
 #include "fragmotion/fragments/body_tips.hpp"
+#include "small_skeleton.hpp"
 
 namespace fragmotion {
 namespace {
@@ -76,6 +77,15 @@ TEST(TipDistance, IsANormOfTheDifference) {
     for (std::size_t i = 0; i < half.size(); ++i) half[i] = 0.5F * (a[i] + b[i]);
     EXPECT_NEAR(distance(a, half), 0.5 * distance(a, b), 1e-5 * distance(a, b));
   }
+}
+
+// hips (0.2), spine (0.2 + 0.3), and two legs of a thigh and a foot.
+TEST(TipReach, IsTheWayFromTheHipsToEachTipOfACharacterOfOneEighty) {
+  const Skeleton skeleton = small_skeleton();
+  const double thigh = std::hypot(0.1, 0.05), shin = std::hypot(0.02, 0.4);
+  const double sum = 0.2 + 0.5 + 2 * (thigh + 0.4) + 2 * (thigh + shin + 0.2);
+  EXPECT_NEAR(tip_reach(skeleton), sum * 1.8 / stature(skeleton), 1e-12);
+  EXPECT_EQ(BodyTips(skeleton).reach(), tip_reach(skeleton));
 }
 
 }  // namespace

@@ -10,6 +10,14 @@ namespace fragmotion {
 /// Bone tips as Dis sees them: x, y and z each in a row of floats, padded with zeros to whole blocks of kLanes.
 constexpr int kLanes = 8;
 
+/// What Dis grows with from rig to rig: the length of the bones from the hips to each of its tips, summed, m of a
+/// character of 1.8 m. A tip moves the more the further out it is, so that the number of tips does not do where limbs
+/// are divided otherwise. Thresholds on Dis are told for one metre of it, to mean the same on any rig.
+double tip_reach(const Skeleton& skeleton);
+
+/// That of Bandai-Namco's skeleton of 21 tips, on which the thresholds were found.
+constexpr double kTunedReach = 17.4;
+
 /// The floats in a row of so many points.
 constexpr int padded(int points) { return (points + kLanes - 1) / kLanes * kLanes; }
 
@@ -23,6 +31,8 @@ class BodyTips {
   explicit BodyTips(const Skeleton& skeleton);
 
   int points() const { return static_cast<int>(bones_.size()); }
+  /// tip_reach() of the skeleton.
+  double reach() const { return reach_; }
   /// Takes a pose: the hips' place and rotations [bones, 4] as in Clip.
   void pose(const Vector3& root, const double* rotations);
   /// Writes its tips as seen from `frame`, as points offset .. of three rows of `stride` floats.
@@ -31,7 +41,7 @@ class BodyTips {
  private:
   Kinematics kinematics_;
   std::vector<int> bones_;
-  double scale_;
+  double scale_, reach_;
   PosedBones posed_;
 };
 

@@ -17,6 +17,7 @@ constexpr int kPoses = 16;
 struct Trajectories {
   int count = 0;
   int tips = 0;              ///< Points of each pose, one behind another in a row; 0 where there is but one pose.
+  double reach = 0;          ///< tip_reach() of the skeleton; as tips.
   int stride = 0;            ///< Floats in a row of a trajectory.
   int pose_stride = 0;       ///< Floats in a row of an end pose.
   std::vector<float> whole;  ///< [count, 3, stride]
