@@ -15,3 +15,12 @@ target_link_libraries(fragmotion_tests PRIVATE fragmotion GTest::gtest_main)
 # What is debugged and sanitized is the core; its tests are compiled in half the time without optimisation.
 target_compile_options(fragmotion_tests PRIVATE -Wall -Wextra -Wpedantic $<$<CONFIG:Debug>:-O0>)
 gtest_discover_tests(fragmotion_tests WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 60)
+
+# What a game does, with fragmotion_runtime and its public headers alone.
+add_executable(fragmotion_runtime_tests tests/cpp/test_runtime_alone.cpp)
+target_link_libraries(fragmotion_runtime_tests PRIVATE fragmotion_runtime GTest::gtest_main)
+target_compile_options(fragmotion_runtime_tests PRIVATE -Wall -Wextra -Wpedantic)
+gtest_discover_tests(fragmotion_runtime_tests WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 60)
+add_test(NAME RuntimeLibrary.StartsNoThreadAndKnowsNoLibsvm
+         COMMAND ${CMAKE_COMMAND} -D "NM=${CMAKE_NM}" -D "LIBRARY=$<TARGET_FILE:fragmotion_runtime>"
+                 -P "${PROJECT_SOURCE_DIR}/cmake/check_symbols.cmake")

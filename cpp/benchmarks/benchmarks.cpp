@@ -5,9 +5,10 @@
 #include "fragmotion/base/random.hpp"
 #include "fragmotion/build/build.hpp"
 #include "fragmotion/policy/iterate.hpp"
+#include "fragmotion/policy/optimal.hpp"
+#include "fragmotion/policy/quality_table.hpp"
 #include "fragmotion/policy/svm.hpp"
-#include "fragmotion/runtime/crowd.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "fragmotion/runtime/step_on_threads.hpp"
 #include "large.hpp"
 #include "workload.hpp"
 
@@ -114,7 +115,7 @@ void measure_crowd(benchmark::State& state) {
     const std::size_t now = frame++ / kFramesPerControl;
     for (int i = 0; i < kCrowd; ++i) controls[i] = w.trace[(now + 7 * i) % w.trace.size()];
     state.ResumeTiming();
-    crowd.step(controls.data(), 1 / kFrameRate, roots.data(), rotations.data());
+    step_on_threads(crowd, controls.data(), 1 / kFrameRate, roots.data(), rotations.data());
     benchmark::DoNotOptimize(rotations.data());
   }
 }

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "fragmotion/policy/iterate.hpp"
+#include "fragmotion/policy/optimal.hpp"
 #include "fragmotion/policy/svm.hpp"
 #include "workload.hpp"
 

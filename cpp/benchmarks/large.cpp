@@ -5,6 +5,8 @@
 
 #include "fragmotion/base/random.hpp"
 #include "fragmotion/policy/iterate.hpp"
+#include "fragmotion/policy/optimal.hpp"
+#include "fragmotion/policy/quality_table.hpp"
 
 namespace fragmotion::benchmarks {
 namespace {

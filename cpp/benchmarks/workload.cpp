@@ -3,6 +3,7 @@
 
 #include "fragmotion/build/build.hpp"
 #include "fragmotion/control/simulated_players.hpp"
+#include "fragmotion/policy/quality_table.hpp"
 #include "fragmotion/policy/svm.hpp"
 #include "synthetic_takes.hpp"
 

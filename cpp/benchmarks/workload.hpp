@@ -7,6 +7,7 @@
 
 #include "fragmotion/character/character.hpp"
 #include "fragmotion/classes/clustering.hpp"
+#include "fragmotion/control/trace.hpp"
 
 namespace fragmotion::benchmarks {
 

@@ -16,6 +16,7 @@ namespace fragmotion::bindings {
 /// Arrays as C++ reads them; what comes otherwise, as from a view of packed bytes, is copied.
 constexpr int kPlain = py::array::c_style | py::array::forcecast | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
 using Doubles = py::array_t<double, kPlain>;
+using Floats = py::array_t<float, kPlain>;
 using Flags = py::array_t<bool, kPlain>;
 
 /// Throws std::logic_error unless so many values fill an array of this shape.
@@ -54,15 +55,23 @@ Control to_control(const Doubles& values);
 /// A trace from [T,4], with the same checks.
 Trace to_trace(const Doubles& controls);
 
+/// Traces from [T,4] each.
+std::vector<Trace> to_traces(const std::vector<Doubles>& traces);
+
 /// Throws ValueError unless a name is UTF-8, as bytes for a string need not be.
 void check_name(const std::string& name);
 
+void bind_errors(py::module_& m);
+void bind_skeleton(py::module_& m);
 void bind_motion(py::module_& m);
-void bind_rig(py::module_& m);
+void bind_io(py::module_& m);
 void bind_control(py::module_& m);
+void bind_fragments(py::module_& m);
+void bind_classes(py::module_& m);
+void bind_policy(py::module_& m);
 void bind_character(py::module_& m);
-void bind_player(py::module_& m);
-void bind_explain(py::module_& m);
-void bind_stages(py::module_& m);
+void bind_runtime(py::module_& m);
+void bind_build(py::module_& m);
+void bind_evaluate(py::module_& m);
 
 }  // namespace fragmotion::bindings

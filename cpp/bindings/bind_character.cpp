@@ -2,15 +2,12 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
-
 #include "arrays.hpp"
-#include "fragmotion/build/build.hpp"
-#include "fragmotion/character/exclude_classes.hpp"
+#include "fragmotion/build/exclude_classes.hpp"
 #include "fragmotion/character/naming.hpp"
 #include "fragmotion/character/policy_file.hpp"
-#include "fragmotion/evaluate/suggest.hpp"
-#include "fragmotion/policy/greedy.hpp"
+#include "fragmotion/control/trace.hpp"
+#include "fragmotion/policy/optimal.hpp"
 
 namespace fragmotion::bindings {
 namespace {
@@ -40,39 +37,7 @@ auto of_fragments(int width, Fill fill) {
   };
 }
 
-void bind_options(py::module_& m) {
-  py::class_<BuildOptions>(m, "BuildOptions", py::module_local())
-      .def(py::init<>())
-      .def_property(
-          "cut", [](const BuildOptions& o) { return o.cut.at_gait_events ? "gait" : "windows"; },
-          [](BuildOptions& o, const std::string& cut) {
-            if (cut != "gait" && cut != "windows")
-              throw std::invalid_argument("cut is \"gait\" or \"windows\", not \"" + cut + "\"");
-            o.cut.at_gait_events = cut == "gait";
-          })
-      .def_property(
-          "shortest", [](const BuildOptions& o) { return o.cut.shortest; },
-          [](BuildOptions& o, double seconds) { o.cut.shortest = seconds; })
-      .def_property(
-          "longest", [](const BuildOptions& o) { return o.cut.longest; },
-          [](BuildOptions& o, double seconds) { o.cut.longest = seconds; })
-      .def_readwrite("mirror", &BuildOptions::mirror)
-      .def_readwrite("synthesize", &BuildOptions::synthesize)
-      .def_readwrite("classes", &BuildOptions::classes)
-      .def_readwrite("restarts", &BuildOptions::restarts)
-      .def_readwrite("seed", &BuildOptions::seed)
-      .def_readwrite("policies", &BuildOptions::policies)
-      .def_property(
-          "policy", [](const BuildOptions& o) { return o.policies.empty() ? std::string() : o.policies.front(); },
-          [](BuildOptions& o, const std::string& name) {
-            o.policies.erase(std::remove(o.policies.begin(), o.policies.end(), name), o.policies.end());
-            o.policies.insert(o.policies.begin(), name);
-          })
-      .def_readwrite("threads", &BuildOptions::threads);
-  m.attr("POLICIES") = policy_names();
-}
-
-void bind_fragments(py::class_<Character, Holder>& character) {
+void bind_pool(py::class_<Character, Holder>& character) {
   character
       .def_property_readonly("clip_names",
                              [](const Character& c) {
@@ -181,45 +146,15 @@ void bind_use(py::class_<Character, Holder>& character) {
 }  // namespace
 
 void bind_character(py::module_& m) {
-  bind_options(m);
   py::class_<Character, Holder> character(m, "Character", py::module_local());
   character.def_property_readonly("skeleton", [](const Character& c) { return c.pool.skeleton; })
       .def_property_readonly("space", [](const Character& c) { return c.space; })
       .def_property_readonly("policies", &policies_of)
       .def_property_readonly("policy", [](const Character& c) { return c.policy().name; })
       .def_readonly("report", &Character::report);
-  bind_fragments(character);
+  bind_pool(character);
   bind_tables(character);
   bind_use(character);
-  m.def(
-      "build",
-      [](const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Doubles>& traces,
-         const std::optional<BuildOptions>& options, const py::object& progress) {
-        std::vector<Trace> controls;
-        for (const Doubles& trace : traces) controls.push_back(to_trace(trace));
-        return without_gil(progress, [&](const Progress& told) {
-          return std::make_shared<Character>(build(skeleton, clips, controls, options.value_or(BuildOptions{}), told));
-        });
-      },
-      py::arg("skeleton"), py::arg("clips"), py::arg("traces"), py::arg("options") = py::none(),
-      py::arg("progress") = py::none());
-  py::class_<ClassesTried>(m, "ClassesTried", py::module_local())
-      .def_readonly("classes", &ClassesTried::classes)
-      .def_readonly("quality", &ClassesTried::quality)
-      .def_readonly("velocity_error", &ClassesTried::velocity_error);
-  m.def(
-      "suggest_classes",
-      [](const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Doubles>& traces,
-         const std::optional<BuildOptions>& options, const py::object& progress) {
-        std::vector<Trace> controls;
-        for (const Doubles& trace : traces) controls.push_back(to_trace(trace));
-        Suggestion suggestion = without_gil(progress, [&](const Progress& told) {
-          return suggest_classes(skeleton, clips, controls, options.value_or(BuildOptions{}), told);
-        });
-        return py::make_tuple(suggestion.classes, std::move(suggestion.tried));
-      },
-      py::arg("skeleton"), py::arg("clips"), py::arg("traces"), py::arg("options") = py::none(),
-      py::arg("progress") = py::none());
 }
 
 }  // namespace fragmotion::bindings

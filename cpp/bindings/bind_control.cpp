@@ -24,7 +24,9 @@ py::array_t<double> points(const ControlSpace& space) {
 }  // namespace
 
 void bind_control(py::module_& m) {
-  py::class_<ControlSpace>(m, "ControlSpace", py::module_local())
+  py::class_<ControlSpace> space(m, "ControlSpace", py::module_local());
+  space.attr("SHAPE") = py::make_tuple(ControlSpace::kVelocities, ControlSpace::kTurns, ControlSpace::kJumps);
+  space
       .def(py::init([](double walk, double run, double turn_rate, double scale) {
              return ControlSpace(walk, run, turn_rate, scale);
            }),

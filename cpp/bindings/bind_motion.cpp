@@ -1,60 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
-#include <map>
 
 #include "arrays.hpp"
-#include "fragmotion/io/asf_amc.hpp"
-#include "fragmotion/io/bvh.hpp"
-#include "fragmotion/io/rotation.hpp"
 #include "fragmotion/motion/clip.hpp"
 #include "fragmotion/skeleton/kinematics.hpp"
-#include "fragmotion/skeleton/role_names.hpp"
 
 namespace fragmotion::bindings {
 namespace {
-
-using RoleNames = std::map<std::string, std::string>;
-
-py::array_t<double> quaternions(const std::vector<Quaternion>& values) {
-  std::vector<double> result(4 * values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) store_quaternion(values[i], &result[4 * i]);
-  return to_array(std::move(result), {static_cast<py::ssize_t>(values.size()), 4});
-}
-
-py::array_t<double> vectors(const std::vector<Vector3>& values) {
-  std::vector<double> result(3 * values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) store_vector(values[i], &result[3 * i]);
-  return to_array(std::move(result), {static_cast<py::ssize_t>(values.size()), 3});
-}
-
-Skeleton new_skeleton(const std::vector<std::string>& names, const std::vector<int>& parents, const Doubles& rotations,
-                      const Doubles& offsets, const Doubles& tips, const std::optional<RoleNames>& roles) {
-  const auto bones = static_cast<py::ssize_t>(names.size());
-  check_shape(rotations, "rest_rotations", {bones, 4});
-  check_shape(offsets, "offsets", {bones, 3});
-  check_shape(tips, "tips", {bones, 3});
-  for (const std::string& name : names) check_name(name);
-  Skeleton skeleton;
-  skeleton.names = names;
-  skeleton.parents = parents;
-  for (py::ssize_t b = 0; b < bones; ++b) {
-    skeleton.rest_rotations.push_back(load_quaternion(rotations.data(b, 0)));
-    skeleton.offsets.push_back(load_vector(offsets.data(b, 0)));
-    skeleton.tips.push_back(load_vector(tips.data(b, 0)));
-  }
-  if (roles) assign_roles(*roles, skeleton);
-  return make_skeleton(std::move(skeleton));
-}
-
-py::array_t<double> rest_points(const Skeleton& skeleton, bool tails) {
-  std::vector<Vector3> heads;
-  std::vector<Quaternion> rotations;
-  rest_pose(skeleton, heads, rotations);
-  for (int b = 0; tails && b < skeleton.size(); ++b) heads[b] += rotations[b] * skeleton.tips[b];
-  return vectors(heads);
-}
 
 // World positions [F, B, 3] and rotations [F, B, 4].
 struct Transforms {
@@ -118,21 +70,6 @@ Clip new_clip(const Skeleton& skeleton, const std::string& name, double rate, co
   return without_gil([&] { return make_clip(skeleton, std::move(clip)); });
 }
 
-void bind_skeleton(py::module_& m) {
-  py::class_<Skeleton>(m, "Skeleton", py::module_local())
-      .def(py::init(&new_skeleton), py::arg("names"), py::arg("parents"), py::arg("rest_rotations"), py::arg("offsets"),
-           py::arg("tips"), py::arg("roles") = py::none())
-      .def_readonly("names", &Skeleton::names)
-      .def_readonly("parents", &Skeleton::parents)
-      .def_property_readonly("rest_rotations", [](const Skeleton& s) { return quaternions(s.rest_rotations); })
-      .def_property_readonly("offsets", [](const Skeleton& s) { return vectors(s.offsets); })
-      .def_property_readonly("tips", [](const Skeleton& s) { return vectors(s.tips); })
-      .def_property_readonly("roles", &named_roles)
-      .def_property_readonly("stature", &stature)
-      .def("rest_heads", [](const Skeleton& s) { return rest_points(s, false); })
-      .def("rest_tails", [](const Skeleton& s) { return rest_points(s, true); });
-}
-
 void bind_take(py::module_& m) {
   py::class_<Take>(m, "Take", py::module_local())
       .def_readonly("name", &Take::name)
@@ -151,9 +88,6 @@ void bind_take(py::module_& m) {
       .def("world_transforms", [](const Take& take) {
         return to_tuple(without_gil([&] { return take_transforms(take); }), take.frames, take.skeleton.size());
       });
-  m.def("read_bvh", &read_bvh, py::arg("path"), py::arg("unit") = 0.01, py::call_guard<GilRelease>());
-  m.def("read_asf_amc", &read_asf_amc, py::arg("asf"), py::arg("amc"), py::arg("rate") = 120.0,
-        py::call_guard<GilRelease>());
 }
 
 void bind_clip(py::module_& m) {
@@ -193,48 +127,11 @@ void bind_clip(py::module_& m) {
           py::arg("skeleton"));
 }
 
-void bind_rotations(py::module_& m) {
-  m.def(
-      "euler_to_quaternion",
-      [](const std::string& order, const Doubles& angles) {
-        check_shape(angles, "angles", {-1, 3});
-        return to_array(euler_to_quaternion(order, angles.data(), static_cast<int>(angles.shape(0))),
-                        {angles.shape(0), 4});
-      },
-      py::arg("order"), py::arg("angles"));
-  m.def(
-      "quaternion_to_euler",
-      [](const std::string& order, const Doubles& rotations) {
-        check_shape(rotations, "rotations", {-1, 4});
-        return to_array(quaternion_to_euler(order, rotations.data(), static_cast<int>(rotations.shape(0))),
-                        {rotations.shape(0), 3});
-      },
-      py::arg("order"), py::arg("rotations"));
-  m.def(
-      "axis_angle_to_quaternion",
-      [](const Doubles& values) {
-        check_shape(values, "axis_angles", {-1, 4});
-        return to_array(axis_angle_to_quaternion(values.data(), static_cast<int>(values.shape(0))),
-                        {values.shape(0), 4});
-      },
-      py::arg("axis_angles"));
-  m.def(
-      "quaternion_to_axis_angle",
-      [](const Doubles& values) {
-        check_shape(values, "rotations", {-1, 4});
-        return to_array(quaternion_to_axis_angle(values.data(), static_cast<int>(values.shape(0))),
-                        {values.shape(0), 4});
-      },
-      py::arg("rotations"));
-}
-
 }  // namespace
 
 void bind_motion(py::module_& m) {
-  bind_skeleton(m);
   bind_take(m);
   bind_clip(m);
-  bind_rotations(m);
 }
 
 }  // namespace fragmotion::bindings

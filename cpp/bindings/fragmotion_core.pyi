@@ -153,6 +153,10 @@ class ControlSpace:
     """The 102 controls (Sec. 4): 17 velocities x turn {-1,0,1} x jump {0,1}. Control i = 6 velocity + 2 (turn + 1) +
     jump; velocity 0 stands, 1-8 walk, 9-16 run, both counter-clockwise from forward."""
 
+    SHAPE: tuple[int, int, int]
+    """(17, 3, 2): what is told of each of the 102 controls, reshaped to it, is a table of velocity, turn (right, none,
+    left) and jump (no, yes)."""
+
     def __init__(self, walk: float = 1.2, run: float = 3.3, turn_rate: float = ..., scale: float = 1.0) -> None:
         """Speeds in m/s, turn rate in rad/s (default 70 degrees/s), scale: 1.8 m / stature; all over 0, to 1e9."""
     walk: float

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "fragmotion/base/random.hpp"
+#include "fragmotion/fragments/cutting.hpp"
 #include "fragmotion/fragments/evident.hpp"
-#include "fragmotion/fragments/fragment.hpp"
 
 namespace fragmotion {
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from fnmatch import fnmatch
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,9 @@ STAGES = [
 ROOTS = [TOP / "cpp" / "include" / "fragmotion", TOP / "cpp" / "src"]
 
 
+RUNTIME_PARTS = re.search(r"set\(fragmotion_runtime_parts\s+([^)]+)\)", (TOP / "CMakeLists.txt").read_text())
+
+
 def sources(stage: str) -> list[Path]:
     """The headers and sources of a stage."""
     return [path for root in ROOTS for path in sorted((root / stage).glob("*.?pp"))]
@@ -44,3 +48,33 @@ def test_every_folder_is_a_stage(root: Path) -> None:
 @pytest.mark.parametrize("stage", STAGES)
 def test_a_stage_needs_none_further_down(stage: str) -> None:
     assert_in_order(STAGES, stage, {path: stages_needed_by(path) for path in sources(stage)})
+
+
+def of_runtime(path: Path) -> bool:
+    """Whether a header or source belongs to fragmotion_runtime, by the list in CMakeLists.txt."""
+    assert RUNTIME_PARTS
+    name = f"{path.parent.name}/{path.stem}"
+    return any(fnmatch(name, part) for part in RUNTIME_PARTS[1].split())
+
+
+def headers_needed_by(path: Path) -> set[Path]:
+    """The project's headers that a file includes."""
+    names = re.findall(r'^#include "([\w/]+\.hpp)"', path.read_text(), re.MULTILINE)
+    return {
+        root / name
+        for name in names
+        for root in (TOP / "cpp" / "include", TOP / "cpp" / "src")
+        if (root / name).exists()
+    }
+
+
+def test_the_runtime_library_needs_no_header_of_another_and_no_thread() -> None:
+    left = [path for stage in STAGES for path in sources(stage) if path.suffix == ".cpp" and of_runtime(path)]
+    assert {path.parent.name for path in left} >= {"character", "runtime"}
+    seen: set[Path] = set()
+    while left:
+        path = left.pop()
+        assert of_runtime(path), path.relative_to(TOP)
+        assert not re.search(r"^#include <(thread|future|mutex|svm\.h)>", path.read_text(), re.MULTILINE), path
+        seen.add(path)
+        left += headers_needed_by(path) - seen

@@ -180,8 +180,8 @@ def coverage(result: Result) -> Figure:
 
 
 def _coverage_panel(axes: Axes, result: Result, turn: int, jump: int, limit: float) -> Any:
-    indices = [6 * velocity + 2 * (turn + 1) + jump for velocity in range(17)]
     space = result["control_space"]
+    indices = [i for i, point in enumerate(space["points"]) if tuple(point[2:]) == (turn, jump)]
     points = np.array([space["points"][i][:2] for i in indices])
     distances = np.array([result["coverage"][i] for i in indices])
     for speed in (space["walk"], space["run"]):

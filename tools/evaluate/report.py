@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import statistics
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
@@ -149,16 +150,23 @@ def stitchings_table(result: Result) -> Table:
 
 def coverage_table(result: Result) -> Table:
     """How many of the controls of each kind have a fragment near."""
+    kinds = [_kind_of(point, result["control_space"]) for point in result["control_space"]["points"]]
+    performed = [distance <= HOLE for distance in result["coverage"]]
     rows = []
-    for jump in (0, 1):
-        for name, turns in (("no turn", (0,)), ("turning", (-1, 1))):
-            cells = []
-            for velocities in (range(1), range(1, 9), range(9, 17)):
-                wanted = [6 * velocity + 2 * (turn + 1) + jump for velocity in velocities for turn in turns]
-                good = sum(result["coverage"][i] <= HOLE for i in wanted)
-                cells.append(f"{good} of {len(wanted)}")
-            rows.append([f"{'jump' if jump else 'no jump'}, {name}", *cells])
+    for jump, turn in ((False, False), (False, True), (True, False), (True, True)):
+        cells = []
+        for gait in range(3):
+            good = [well for kind, well in zip(kinds, performed) if kind == (jump, turn, gait)]
+            cells.append(f"{sum(good)} of {len(good)}")
+        rows.append([f"{'jump' if jump else 'no jump'}, {'turning' if turn else 'no turn'}", *cells])
     return Table(f"Controls with a fragment within ControlDis {HOLE}", ["", "stand", "walk", "run"], rows)
+
+
+def _kind_of(point: list[float], space: Result) -> tuple[bool, bool, int]:
+    """Whether a control jumps, whether it turns, and whether it stands (0), walks (1) or runs (2)."""
+    x, y, turn, jump = point
+    speed = math.hypot(x, y)
+    return jump > 0, turn != 0, (speed > 0) + (speed > (space["walk"] + space["run"]) / 2)
 
 
 _CURVE = ("of Optimal, %", "quality a step", "velocity error, m/s", "build, s")

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from .core import core
+
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
 
@@ -39,7 +41,7 @@ class Row(NamedTuple):
 
 def measure_coverage(distances: Doubles) -> list[Row]:
     """A table of all controls, from each control's ControlDis [102] to the nearest fragment."""
-    well = (np.asarray(distances) <= WELL).reshape(-1, 3, 2)  # velocity, turn, jump
+    well = (np.asarray(distances) <= WELL).reshape(core.ControlSpace.SHAPE)
     table = []
     for name, velocities in _ROWS.items():
         cells = [well[velocities][:, turns, jump] for turns, jump in _COLUMNS.values()]

@@ -6,6 +6,7 @@ The panel shows them as icons, which every Blender draws, in a window or not.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import bpy
@@ -13,6 +14,7 @@ import bpy.utils.previews
 import numpy as np
 from numpy.typing import NDArray
 
+from .core import core
 from .coverage import WELL
 
 SIZE = 128
@@ -33,7 +35,6 @@ _SWATCHES = {"well": 0.0, "nearly": (WELL + _POOR) / 2, "not": np.inf}  # the le
 _SMALLEST = 2.0  # widgets' heights
 _UNIT, _MARGIN = 20, 60  # pixels of a widget's height, and of what the sidebar needs besides
 
-_CONTROLS = 102
 _ICON = 4  # pixels of a picture that make one of its icon
 
 _previews: Any = None
@@ -97,10 +98,11 @@ def icon_of(name: str, pixels: Any, stamp: bytes) -> int:
 def draw_pictures(layout: bpy.types.UILayout, stored: bytes, width: float) -> None:
     """Six pictures with their legend, from the 102 distances that Build has kept, in a region so many pixels wide; none
     where the .blend is damaged."""
-    if len(stored) != _CONTROLS * np.dtype(np.float32).itemsize:
+    shape = core.ControlSpace.SHAPE
+    if len(stored) != math.prod(shape) * np.dtype(np.float32).itemsize:
         return
     scale = max(_SMALLEST, (width / bpy.context.preferences.system.ui_scale - _MARGIN) / 3 / _UNIT)
-    distances = np.frombuffer(stored, np.float32).reshape(17, 3, 2)
+    distances = np.frombuffer(stored, np.float32).reshape(shape)
     column = layout.column(align=True)
     heads = column.row(align=True)
     for head in ("Turn left", "Straight", "Turn right"):

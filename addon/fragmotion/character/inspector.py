@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
+import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty
 
 from ..compat import versions
@@ -101,7 +102,8 @@ def decision(obj: bpy.types.Object, settings: Any, active_class: int) -> tuple[i
         space = building.load_to_draw(obj).space
         return drive.player.playing[0], int(space.nearest([list(drive.control)])[0]), True
     playing = min(active_class, len(obj.fragmotion.classes) - 1)
-    return playing, 6 * int(settings.velocity) + 2 * int(settings.turn) + int(settings.jump), False
+    parts = (int(settings.velocity), int(settings.turn), int(settings.jump))
+    return playing, int(np.ravel_multi_index(parts, core.ControlSpace.SHAPE)), False
 
 
 def explain(obj: bpy.types.Object, playing: int, control: int) -> list[Line]:

@@ -12,7 +12,9 @@
 #include "build/stages.hpp"
 #include "fragmotion/base/parallel.hpp"
 #include "fragmotion/classes/clustering.hpp"
+#include "fragmotion/fragments/entry_poses.hpp"
 #include "fragmotion/fragments/evident.hpp"
+#include "fragmotion/fragments/packed_pool.hpp"
 #include "fragmotion/fragments/synthesis.hpp"
 #include "fragmotion/motion/legs.hpp"
 #include "fragmotion/motion/mirror.hpp"
@@ -20,6 +22,8 @@
 #include "fragmotion/policy/bridge.hpp"
 #include "fragmotion/policy/greedy.hpp"
 #include "fragmotion/policy/iterate.hpp"
+#include "fragmotion/policy/optimal.hpp"
+#include "fragmotion/policy/quality_table.hpp"
 #include "fragmotion/policy/svm.hpp"
 
 namespace fragmotion {
@@ -64,7 +68,7 @@ std::pair<double, double> gait_speeds(const std::vector<Control>& evident, doubl
   std::vector<double> speeds;
   for (const Control& ev : evident) {
     const double speed = ev.speed() * scale;
-    if (speed > kMoving && ev.jump < 0.5) speeds.push_back(speed);
+    if (speed > kMoving && !ev.jumps()) speeds.push_back(speed);
   }
   if (speeds.empty()) return {1.2, 3.3};
   std::sort(speeds.begin(), speeds.end());
@@ -167,17 +171,17 @@ std::vector<float> balanced_weights(const Character& c) {
     const Control control = c.space.point(nearest);
     const double share = std::pow(c.coverage.counts[nearest], kBalance);
     const bool turns = control.turn != 0, ahead = control.x == 0 && control.y >= 0;
-    const double wanted = control.jump == 0 ? 1 : turns ? kTurningHop : ahead ? 1 : kSideHop;
+    const double wanted = !control.jumps() ? 1 : turns ? kTurningHop : ahead ? 1 : kSideHop;
     weights.push_back(static_cast<float>(share * wanted));
   }
   return weights;
 }
 
-// Which fragments hop: 1 each.
-std::vector<char> hops(const std::vector<Fragment>& fragments) {
-  std::vector<char> hops;
-  for (const Fragment& f : fragments) hops.push_back(f.evident.jump > 0.5 ? 1 : 0);
-  return hops;
+// Which fragments jump: 1 each.
+std::vector<char> jumping(const std::vector<Fragment>& fragments) {
+  std::vector<char> jumping;
+  for (const Fragment& f : fragments) jumping.push_back(f.evident.jumps() ? 1 : 0);
+  return jumping;
 }
 
 // Scores classes by the quality of Optimal's paths over the traces.
@@ -297,7 +301,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   c.report["synthesize_seconds"] = stage.lap();
   report(progress, 0.9, "Measuring fragments");
   material.trajectories = trajectories(pool, kPoses, options.threads);
-  c.openings = openings(c.pool, options.threads);
+  c.entry_poses = entry_poses(c.pool);
   for (const Trace& trace : traces) material.traces.push_back(snap(c.space, trace));
   c.report["measure_seconds"] = stage.lap();
   return material;
@@ -312,7 +316,7 @@ void learn(const Material& material, const BuildOptions& options, const Progress
   clustering.restarts = options.restarts;
   clustering.seed = options.seed;
   clustering.threads = options.threads;
-  clustering.kinds = hops(c.pool.fragments);
+  clustering.kinds = jumping(c.pool.fragments);
   c.classes =
       cluster(t, balanced_weights(c), clustering, serves_traces(c, t, material.traces), part_of(progress, 0, 0.5));
   c.report["classes"] = c.classes.count;

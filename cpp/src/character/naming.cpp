@@ -9,8 +9,8 @@ constexpr const char* kDirections[] = {"forward", "forward left", "left",  "back
 
 // The gait or jump with its direction, without a turn.
 std::string moving(int velocity, bool jumps) {
-  const bool runs = velocity > 8;
-  const int direction = (velocity - 1) % 8;
+  const bool runs = ControlSpace::runs(velocity);
+  const int direction = ControlSpace::direction_of(velocity);
   const bool aside = direction % 4 == 2;
   const char* verb = runs ? "run" : aside ? "sidestep" : "walk";
   if (jumps) verb = runs ? "running jump" : "jump";
@@ -21,8 +21,8 @@ std::string moving(int velocity, bool jumps) {
 
 std::string control_name(const ControlSpace& space, const Control& control) {
   const int point = space.nearest(control);
-  const int velocity = point / 6, turn = point % 6 / 2 - 1;
-  const bool jumps = point % 2 == 1;
+  const int velocity = ControlSpace::velocity_of(point), turn = ControlSpace::turn_of(point);
+  const bool jumps = ControlSpace::jumps(point);
   const std::string side = turn > 0 ? "left" : "right";
   if (velocity == 0 && !jumps) return turn == 0 ? "stand" : "turn " + side + " in place";
   const std::string name = velocity == 0 ? "jump up" : moving(velocity, jumps);

@@ -13,7 +13,8 @@
 #include "base/write_file.hpp"
 #include "character/policy_bytes.hpp"
 #include "fragmotion/base/utf8.hpp"
-#include "fragmotion/fragments/distance.hpp"
+#include "fragmotion/fragments/body_tips.hpp"
+#include "fragmotion/fragments/entry_poses.hpp"
 #include "fragmotion/skeleton/role_names.hpp"
 #include "fragmotion/skeleton/two_bone_ik.hpp"
 
@@ -29,7 +30,8 @@ constexpr double kRounding = 1e-6;
 constexpr double kShortest = (1 - kRounding) * kShortestFragment, kLongest = 3600;  // s that a fragment may last
 constexpr double kMost = 1e9;  // of what is in m/s, rad/s or a ratio: its square is a number, and no body is so fast
 constexpr double kHighest = 1e10;  // m of a floor: above any chain of bones at any place
-// Memory of the openings, which a player needs beside the file: a file takes at most 20 times its size, beyond 50 MB.
+// Memory of the entry poses, which a player needs beside the file: a file takes at most 20 times its size, beyond 50
+// MB.
 constexpr std::size_t kRoom = 48000000, kTimes = 16;  // bytes, and for each byte of the file
 
 std::uint64_t checksum(const char* data, std::size_t size) {
@@ -300,7 +302,7 @@ void check_contacts(const Character& c) {
   }
 }
 
-// That the openings of a file of `size` bytes are in proportion.
+// That the entry poses of a file of `size` bytes are in proportion.
 void check_memory(const Character& c, std::size_t size) {
   const std::size_t fragments = c.pool.fragments.size(), tips = measured_bones(c.pool.skeleton).size(),
                     bytes = fragments * 3 * padded(2 * static_cast<int>(tips)) * sizeof(float);
@@ -392,7 +394,7 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     for (std::size_t side = 0; side < legs.size(); ++side) legs[side].hinge = character.legs[side].hinge;
     character.legs = legs;
     character.coverage = coverage(character.pool.fragments, character.space);
-    character.openings = openings(character.pool);
+    character.entry_poses = entry_poses(character.pool);
     return character;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(name + " is refused: " + error.what());

@@ -34,9 +34,9 @@ Vector2 direction(int index) {
   return {directions[index][0], directions[index][1]};
 }
 
-Vector2 velocity(int index, double walk, double run) {
-  if (index == 0) return Vector2::Zero();
-  return index <= 8 ? walk * direction(index - 1) : run * direction(index - 9);
+Vector2 velocity(int number, double walk, double run) {
+  if (number == 0) return Vector2::Zero();
+  return (ControlSpace::runs(number) ? run : walk) * direction(ControlSpace::direction_of(number));
 }
 
 double square(double value) { return value * value; }
@@ -55,7 +55,13 @@ int least(const Value& value) {
   return best;
 }
 
+constexpr double kLeap = 0.9;  // evident jump of what is no run
+
 }  // namespace
+
+bool matches_jump(const Control& evident, const Control& wanted) {
+  return wanted.jumps() ? evident.jumps() : evident.jump < kLeap;
+}
 
 ControlSpace::ControlSpace(double walk, double run, double turn_rate, double scale, ControlWeights weights)
     : walk_(walk), run_(run), turn_rate_(turn_rate), scale_(scale), weights_(weights) {
@@ -68,8 +74,8 @@ ControlSpace::ControlSpace(double walk, double run, double turn_rate, double sca
   require_weight("turn weight", weights.turn);
   require_weight("jump weight", weights.jump);
   for (int i = 0; i < kPoints; ++i) {
-    const Vector2 v = velocity(i / 6, walk, run);
-    points_[i] = {v.x(), v.y(), static_cast<double>(i % 6 / 2 - 1), static_cast<double>(i % 2)};
+    const Vector2 v = velocity(velocity_of(i), walk, run);
+    points_[i] = {v.x(), v.y(), static_cast<double>(turn_of(i)), jumps(i) ? 1.0 : 0.0};
   }
 }
 
@@ -78,12 +84,12 @@ ControlSpace::ControlSpace(double walk, double run, double turn_rate, double sca
 int ControlSpace::nearest(const Control& control) const {
   const double velocity_weight = square(weights_.velocity * scale_);
   const int velocity = least<kVelocities>([&](int i) {
-    const Control& point = points_[6 * i];
+    const Control& point = points_[index(i, 0, false)];
     return velocity_weight * (square(point.x - control.x) + square(point.y - control.y));
   });
-  const int turn = least<3>([&](int i) { return square(weights_.turn * (points_[2 * i].turn - control.turn)); });
-  const int jump = least<2>([&](int i) { return square(weights_.jump * (points_[i].jump - control.jump)); });
-  return 6 * velocity + 2 * turn + jump;
+  const int turn = least<kTurns>([&](int i) { return square(weights_.turn * (i - 1 - control.turn)); });
+  const int jump = least<kJumps>([&](int i) { return square(weights_.jump * (i - control.jump)); });
+  return index(velocity, turn - 1, jump == 1);
 }
 
 double ControlSpace::distance(const Control& a, const Control& b) const {

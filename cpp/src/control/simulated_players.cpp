@@ -59,9 +59,8 @@ class PlayerSimulation {
     if (expired(turn_left_)) choose_turn();
     if (expired(jump_left_) && chance(habits_.jumps / kTraceRate)) jump_left_ = between(0.3, 0.6);
     for (int i = 0; i < kSteps; ++i) move_stick();
-    const int turn = turn_, jump = jump_left_ > 0;
-    const int velocity = space_.nearest({stick_.x(), stick_.y(), 0, 0}) / 6;
-    return space_.point(6 * velocity + 2 * (turn + 1) + jump);
+    const int velocity = ControlSpace::velocity_of(space_.nearest({stick_.x(), stick_.y(), 0, 0}));
+    return space_.point(ControlSpace::index(velocity, turn_, jump_left_ > 0));
   }
 
  private:

@@ -11,10 +11,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRounding = 1e-9;  // frames
-constexpr double kAround = 0.5;     // s over which speeds are measured
-constexpr double kSpan = 2;         // s over which the root drifts
-constexpr double kJumps = 0.5;
+constexpr double kRounding = 1e-9;         // frames
+constexpr double kAround = 0.5;            // s over which speeds are measured
+constexpr double kSpan = 2;                // s over which the root drifts
 constexpr double kLongestShortest = 3600;  // s: the longest step of a player, too
 
 // The slope a frame of the least-squares line through frames first .. last of a path.
@@ -159,10 +158,10 @@ void judge(Performance& p, const Character& character, const Trace& trace) {
     const Control& control = trace[control_at(f, p.rate, trace.size())];
     const Vector3 speed = slope(p.path, std::max(0, f - half), std::min(p.frames - 1, f + half)) * p.rate;
     const Vector2 velocity = Eigen::Rotation2Dd(-p.path[std::size_t{3} * f + 2]) * speed.head<2>();
-    const bool jumps = character.pool.fragments[p.fragments[f]].evident.jump > kJumps;
+    const bool jumps = character.pool.fragments[p.fragments[f]].evident.jumps();
     p.velocity_error += weight * (velocity - Vector2{control.x, control.y}).norm();
     p.turn_error += weight * std::abs(speed.z() - control.turn * character.space.turn_rate());
-    p.jump_error += jumps != (control.jump > kJumps) ? weight : 0;
+    p.jump_error += jumps != (control.jumps()) ? weight : 0;
     p.commanded_speed += weight * control.speed();
   }
   p.drift = drift(p, exact_path(p, trace, character.space.turn_rate()));

@@ -46,7 +46,7 @@ std::vector<double> response_times(const std::shared_ptr<const Character>& chara
   Player player(character, options);
   Runner runner(player);
   Random random(options.seed);
-  const auto point = [&](int velocity) { return character->space.point(6 * velocity + 2); };
+  const auto point = [&](int velocity) { return character->space.point(ControlSpace::index(velocity, 0, false)); };
   std::vector<double> times;
   for (int from = 0; from < ControlSpace::kVelocities; ++from) {
     for (int to = 0; to < ControlSpace::kVelocities; ++to) {

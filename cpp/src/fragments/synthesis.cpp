@@ -18,16 +18,17 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kJumpHeight = 0.22;  // m, of a 1.8 m character
-constexpr double kSimilar = 0.12;     // m a bone tip: fragments this near may be interpolated
-constexpr int kCandidates = 24;       // neighbours of a control that interpolation tries in pairs
-constexpr double kHurry = 1.2;        // the most by which steps ahead are hurried, or slowed down
-constexpr double kShuffle = 1.2;      // how much more often feet step sideways, where strides are short
+constexpr double kJumpHeight = 0.22;             // m, of a 1.8 m character
+constexpr double kSimilar = 2.52 / kTunedReach;  // m a metre of reach: fragments this near may be interpolated
+constexpr int kCandidates = 24;                  // neighbours of a control that interpolation tries in pairs
+constexpr double kHurry = 1.2;                   // the most by which steps ahead are hurried, or slowed down
+constexpr double kShuffle = 1.2;                 // how much more often feet step sideways, where strides are short
 constexpr double kStandSeconds = 0.5;
 constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
 constexpr double kBackward = 1;                              // of effort: to be played backward
 constexpr double kAlike = 1e-6;                              // of effort
-constexpr double kClosed = 3;                                // m: Dis between the ends of a cycle
+constexpr double kClosed = 3 / kTunedReach;                  // m a metre of reach between the ends of a cycle
+constexpr double kOpen = kTunedReach;                        // of effort, for each such between them
 
 double angle_between(const Control& a, const Control& b) {
   return std::remainder(std::atan2(b.y, b.x) - std::atan2(a.y, a.x), 2 * kPi);
@@ -133,7 +134,7 @@ class Synthesizer {
 
   // Interpolates up to `count` pairs of similar fragments that together perform the control.
   void interpolate(const Control& control, int count) {
-    const float similar = static_cast<float>(kSimilar * trajectory_points());
+    const float similar = static_cast<float>(kSimilar * kPoses * trajectories_.reach);
     const std::vector<int> near = nearest_originals(control);
     std::vector<Pair> pairs;
     for (const int a : near) {
@@ -157,14 +158,12 @@ class Synthesizer {
     }
   }
 
-  int trajectory_points() const { return kPoses * static_cast<int>(measured_bones(pool_.skeleton).size()); }
-
   // Fragments that follow each other in a take and end nearly as they began: played again and again, they are a gait.
   // Played backward, they go where they came from.
   struct Cycle {
     int clip = 0, begin = 0, end = 0;  // frames
     Control evident;
-    double gap = 0;  // Dis from its last pose to its first
+    double gap = 0;  // m a metre of reach from its last pose to its first
 
     bool backward() const { return end < begin; }
   };
@@ -186,7 +185,7 @@ class Synthesizer {
         cycle.end = f.end;
         cycle.evident = mix(cycle.evident, f.evident, share);
         if (seconds > kLongestCycle) break;
-        cycle.gap = transition_distance(trajectories_, last, first);
+        cycle.gap = double{transition_distance(trajectories_, last, first)} / trajectories_.reach;
         if (seconds < kShortestCycle || cycle.gap > kClosed) continue;
         cycles_.push_back(cycle);
         cycles_.push_back(backward(cycle));
@@ -201,7 +200,7 @@ class Synthesizer {
     const double moving = kMoving / space_.scale();
     const bool moves = ev.speed() > moving, wants = control.speed() > moving, steps = wants || control.turn != 0;
     if (moves != steps) return std::numeric_limits<double>::infinity();
-    double effort = cycle.gap + 0.5 * std::abs(control.turn - ev.turn) + 2 * ev.jump;
+    double effort = kOpen * cycle.gap + 0.5 * std::abs(control.turn - ev.turn) + 2 * ev.jump;
     if (cycle.backward()) effort += kBackward;
     if (steps && !wants) effort += ev.speed() / space_.walk();  // it steps in place
     if (wants) {

@@ -9,6 +9,7 @@ namespace fragmotion {
 std::vector<int> stand_bridges(const std::vector<Fragment>& fragments, const Trajectories& t, const Classes& classes,
                                const ControlSpace& space, double threshold, const std::vector<bool>& allowed) {
   const std::vector<int>& representatives = classes.representatives;
+  const double far = threshold * t.reach;
   const int still = space.nearest({});
   std::vector<int> standing;
   for (int k = 0; k < classes.count; ++k) {
@@ -26,7 +27,7 @@ std::vector<int> stand_bridges(const std::vector<Fragment>& fragments, const Tra
                      on = transition_distance(t, representatives[stand], to);
         if (std::max(there, on) < direct && there + on < shortest) shortest = there + on, bridge = stand;
       }
-      bridges.push_back(direct > threshold ? bridge : -1);
+      bridges.push_back(direct > far ? bridge : -1);
     }
   }
   return bridges;

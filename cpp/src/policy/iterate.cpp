@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/policy/iterate.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,11 +9,15 @@
 
 #include "base/ranges.hpp"
 #include "base/transposed.hpp"
+#include "fragmotion/policy/optimal.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr int kPoints = ControlSpace::kPoints;
+constexpr double kValueTolerance = 1e-6;
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 void add(std::vector<double>& sums, std::size_t at, double weight, const double* values, int count) {
   for (int i = 0; i < count; ++i) sums[at + i] += weight * values[i];
@@ -93,6 +98,26 @@ Policy value_iteration(const Quality& quality, const std::vector<double>& model,
 Policy iterate_policy(const Quality& quality, const std::vector<std::vector<int>>& traces,
                       const IterateOptions& options) {
   return value_iteration(quality, control_model(traces, kKept), options);
+}
+
+std::vector<double> values_to_come(const Quality& quality, const Policy& policy, const std::vector<double>& model) {
+  const int n = quality.classes;
+  const Matrix steps = IterateOptions().discount * Eigen::Map<const Matrix>(model.data(), kPoints, kPoints);
+  Matrix value = Matrix::Zero(kPoints, n), to_come = value;
+  double change = 1;
+  while (change > kValueTolerance) {
+    to_come = steps * value;
+    change = 0;
+    for (int c = 0; c < kPoints; ++c) {
+      for (int from = 0; from < n; ++from) {
+        const int next = policy(from, c);
+        const double better = quality(from, next, c) + to_come(c, next);
+        change = std::max(change, std::abs(better - value(c, from)));
+        value(c, from) = better;
+      }
+    }
+  }
+  return {to_come.data(), to_come.data() + to_come.size()};
 }
 
 }  // namespace fragmotion

@@ -12,6 +12,7 @@
 
 #include "base/ranges.hpp"
 #include "fragmotion/base/parallel.hpp"
+#include "fragmotion/policy/optimal.hpp"
 
 namespace fragmotion {
 namespace {

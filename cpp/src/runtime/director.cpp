@@ -7,10 +7,10 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kInstant = 1e-9;  // s: no time
-constexpr double kChange = 1;      // ControlDis between controls that is "a lot"
-constexpr double kHaste = 10;      // m, as Dis, that a second of waiting costs by default
-constexpr double kWorthIt = 0.05;  // s that must be left of a fragment for leaving it early
+constexpr double kInstant = 1e-9;            // s: no time
+constexpr double kChange = 1;                // ControlDis between controls that is "a lot"
+constexpr double kHaste = 10 / kTunedReach;  // m a metre of reach that a second of waiting costs by default
+constexpr double kWorthIt = 0.05;            // s that must be left of a fragment for leaving it early
 
 // Whether what would play goes back from where is wanted, though what plays goes there: a table may find that such a
 // detour joins best, both ways.
@@ -46,7 +46,7 @@ void Director::reset() {
 }
 
 void Director::observe(const Control& control) {
-  const bool pressed = control.jump > 0.5;
+  const bool pressed = control.jumps();
   jump_latched_ = jump_latched_ || (pressed && !jump_pressed_);
   jump_pressed_ = pressed;
 }
@@ -68,10 +68,10 @@ bool Director::has_changed(const Control& wanted) const {
 // and does not: nothing is worse than a button that does nothing, and a hop that nobody asked for.
 int Director::look_up_class(const Control& wanted, const Control& playing) const {
   const Character& c = *character_;
-  const bool free = wanted.jump > kInTheAir && !jump_latched_;
+  const bool free = wanted.jumps() && !jump_latched_;
   const auto suits = [&](int k) {
     const Control& ev = c.pool.fragments[c.classes.representatives[k]].evident;
-    return (free || matches_jump(ev.jump, wanted)) && !turns_back(playing, ev, wanted);
+    return (free || matches_jump(ev, wanted)) && !turns_back(playing, ev, wanted);
   };
   const int control = c.space.nearest(wanted);
   int told = (*policy_)(class_, control);
@@ -111,7 +111,7 @@ bool Director::makes_way(const Playback& playback) const {
 bool Director::leaves_early(const Control& wanted, const Playback& playback, const FragmentSelector& selector) {
   const bool too_soon = playback.seconds() <= soonest(playback) - kInstant;
   if (too_soon || playback.left() <= kWorthIt || waiting_ >= 0 || plays_forced_) return false;
-  if (playback.evident().jump >= kInTheAir || !has_changed(wanted)) return false;
+  if (playback.evident().jumps() || !has_changed(wanted)) return false;
   if (exit_ < 0 || character_->space.distance(wanted, planned_for_) > 0) {
     exit_ = selector.best_exit(look_up_class(wanted, playback.evident()), wanted, playback, haste_);
     planned_for_ = wanted;

@@ -4,20 +4,17 @@
 #include <algorithm>
 #include <limits>
 
+#include "fragmotion/fragments/entry_poses.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr double kHop = 0.9;            // evident jump of what is no run
-constexpr double kJoinsWell = 1.3;      // times the Dis of the fragment that joins best, and
-constexpr double kJoinsNear = 0.3;      // m, summed as Dis, more
-constexpr double kAsWell = 0.5;         // of the way from the least error to the representative's
-constexpr double kLook = kOpening / 2;  // s between the moments at which a fragment may be left early
+constexpr double kJoinsWell = 1.3;                // times the Dis of the fragment that joins best, and
+constexpr double kJoinsNear = 0.3 / kTunedReach;  // m a metre of reach more
+constexpr double kAsWell = 0.5;                   // of the way from the least error to the representative's
+constexpr double kLook = kEntry / 2;              // s between the moments at which a fragment may be left early
 
 }  // namespace
-
-bool matches_jump(double evident_jump, const Control& wanted) {
-  return wanted.jump > kInTheAir ? evident_jump > kInTheAir : evident_jump < kHop;
-}
 
 FragmentSelector::FragmentSelector(const Character& character, Workspace& workspace, std::uint64_t seed)
     : character_(&character), workspace_(&workspace), seed_(seed), random_(seed) {}
@@ -30,7 +27,7 @@ CharacterFrame FragmentSelector::pose_tips(const Playback& playback, double seco
   return {pose.root.head<2>(), pose.heading};
 }
 
-// The tips of what plays, seen from its frame, and where they would be kOpening later at the speed of as long before.
+// The tips of what plays, seen from its frame, and where they would be kEntry later at the speed of as long before.
 void FragmentSelector::extrapolate(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const {
   std::vector<float>& onward = workspace_->onward;
   const int stride = static_cast<int>(onward.size()) / 3, points = now.points();
@@ -46,7 +43,7 @@ void FragmentSelector::extrapolate(const CharacterFrame& frame, const BodyTips& 
 // does not, as is wanted, they do so too.
 void FragmentSelector::find_candidates(int next_class, const Control& control) const {
   const Character& c = *character_;
-  const auto matches = [&](int fragment) { return matches_jump(c.pool.fragments[fragment].evident.jump, control); };
+  const auto matches = [&](int fragment) { return matches_jump(c.pool.fragments[fragment].evident, control); };
   const int representative = c.classes.representatives[next_class];
   const auto error = [&](int fragment) {
     if (matches(representative) && !matches(fragment)) return std::numeric_limits<double>::infinity();
@@ -68,7 +65,7 @@ float FragmentSelector::measure_candidates() const {
   const std::vector<float>& onward = workspace_->onward;
   float least = std::numeric_limits<float>::infinity();
   for (auto& [distance, fragment] : workspace_->candidates) {
-    const float* entry = &character_->openings[onward.size() * fragment];
+    const float* entry = &character_->entry_poses[onward.size() * fragment];
     distance = tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3) / 2;
     least = std::min(least, distance);
   }
@@ -78,11 +75,12 @@ float FragmentSelector::measure_candidates() const {
 int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback) {
   auto& [before, now, unused] = workspace_->tips;
   find_candidates(next_class, control);
-  pose_tips(playback, playback.seconds() - kOpening, before);
+  pose_tips(playback, playback.seconds() - kEntry, before);
   extrapolate(pose_tips(playback, playback.seconds(), now), before, now);
   const float least = measure_candidates();
   std::vector<std::pair<float, int>>& candidates = workspace_->candidates;
-  const auto joins = [&](const auto& each) { return each.first <= kJoinsWell * least + kJoinsNear; };
+  const double allowed = kJoinsWell * least + kJoinsNear * now.reach();
+  const auto joins = [&](const auto& each) { return each.first <= allowed; };
   const auto end = std::partition(candidates.begin(), candidates.end(), joins);
   return candidates[random_.below(static_cast<int>(end - candidates.begin()))].second;
 }
@@ -92,18 +90,19 @@ int FragmentSelector::choose_any(int next_class) {
   return members[random_.below(static_cast<int>(members.size()))];
 }
 
-// No later moment is looked at once waiting alone costs too much. What is shown kOpening before a moment is known from
+// No later moment is looked at once waiting alone costs too much. What is shown kEntry before a moment is known from
 // the last but one.
 double FragmentSelector::best_exit(int next_class, const Control& control, const Playback& playback,
                                    double haste) const {
   const double seconds = playback.seconds(), rest = playback.left();
   find_candidates(next_class, control);
   auto& [long_before, before, now] = workspace_->tips;
-  pose_tips(playback, seconds - kOpening, long_before);
+  haste *= now.reach();
+  pose_tips(playback, seconds - kEntry, long_before);
   pose_tips(playback, seconds - kLook, before);
   double best = 0, least = std::numeric_limits<double>::infinity();
   for (double wait = 0; haste * wait < least; wait = std::min(wait + kLook, rest)) {
-    if (wait == rest) pose_tips(playback, seconds + wait - kOpening, long_before);
+    if (wait == rest) pose_tips(playback, seconds + wait - kEntry, long_before);
     extrapolate(pose_tips(playback, seconds + wait, now), long_before, now);
     const double cost = measure_candidates() + haste * wait;
     if (cost < least) least = cost, best = wait;

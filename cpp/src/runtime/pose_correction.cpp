@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fragmotion/runtime/fragment_selector.hpp"
-
 namespace fragmotion {
 namespace {
 
@@ -48,8 +46,7 @@ void PoseCorrection::correct(const Playback& playback, double seconds) {
 }
 
 bool PoseCorrection::stands(const Control& evident) const {
-  return evident.speed() * character_->space.scale() < kStill && std::abs(evident.turn) < kStill &&
-         evident.jump < kInTheAir;
+  return evident.speed() * character_->space.scale() < kStill && std::abs(evident.turn) < kStill && !evident.jumps();
 }
 
 void PoseCorrection::lock_feet(const Playback& playback, double seconds) {

@@ -8,7 +8,7 @@ Workspace::Workspace(const Character& character)
       body(std::make_shared<FootLock::Body>(kinematics, character.legs)),
       members(character.classes.members()),
       tips{BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton)},
-      onward(character.openings.size() / character.pool.fragments.size()) {
+      onward(character.entry_poses.size() / character.pool.fragments.size()) {
   candidates.reserve(character.pool.fragments.size());
   shown.rotations.resize(std::size_t{4} * kinematics.bones());
   poses.fill(shown);

@@ -12,6 +12,7 @@
 #include "fragmotion/control/simulated_players.hpp"
 #include "fragmotion/evaluate/performance.hpp"
 #include "fragmotion/policy/greedy.hpp"
+#include "fragmotion/policy/optimal.hpp"
 #include "fragmotion/runtime/player.hpp"
 #include "mocap_files.hpp"
 #include "small_character.hpp"
@@ -113,10 +114,10 @@ TEST(Build, IsTheSameCharacterTenTimesAsLarge) {
     EXPECT_NEAR(giant.pool.fragments[i].evident.y, 10 * usual.pool.fragments[i].evident.y, 1e-2) << i;
     EXPECT_NEAR(giant.pool.fragments[i].evident.turn, usual.pool.fragments[i].evident.turn, 1e-2) << i;
   }
-  ASSERT_EQ(giant.openings.size(), usual.openings.size());
-  for (std::size_t i = 0; i < usual.openings.size(); ++i) {
-    EXPECT_NEAR(giant.openings[i], usual.openings[i], 0.01)
-        << "of fragment " << i / (usual.openings.size() / usual.pool.fragments.size());
+  ASSERT_EQ(giant.entry_poses.size(), usual.entry_poses.size());
+  for (std::size_t i = 0; i < usual.entry_poses.size(); ++i) {
+    EXPECT_NEAR(giant.entry_poses[i], usual.entry_poses[i], 0.01)
+        << "of fragment " << i / (usual.entry_poses.size() / usual.pool.fragments.size());
   }
 }
 

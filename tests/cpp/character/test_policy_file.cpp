@@ -18,6 +18,7 @@
 #include "fragmotion/character/policy_file.hpp"
 #include "fragmotion/control/simulated_players.hpp"
 #include "fragmotion/evaluate/performance.hpp"
+#include "fragmotion/fragments/packed_pool.hpp"
 #include "fragmotion/policy/anticipate.hpp"
 #include "fragmotion/runtime/player.hpp"
 #include "fragmotion/skeleton/role_names.hpp"

@@ -22,6 +22,29 @@ TEST(ControlSpace, NumbersItsPointsAsDocumented) {
   }
 }
 
+TEST(ControlSpace, TellsAPointsPartsAndThePointOfThem) {
+  const ControlSpace space;
+  for (int i = 0; i < ControlSpace::kPoints; ++i) {
+    const Control& point = space.point(i);
+    const int velocity = ControlSpace::velocity_of(i);
+    EXPECT_EQ(velocity, i / 6);
+    EXPECT_EQ(ControlSpace::turn_of(i), point.turn);
+    EXPECT_EQ(ControlSpace::jumps(i), point.jumps());
+    EXPECT_EQ(ControlSpace::index(velocity, ControlSpace::turn_of(i), ControlSpace::jumps(i)), i);
+    EXPECT_EQ(ControlSpace::runs(velocity), point.speed() > 2);
+  }
+  for (const int gait : {1, 9}) EXPECT_EQ(ControlSpace::direction_of(gait + 5), 5);
+}
+
+TEST(MatchesJump, TakesABouncyRunForARun) {
+  const Control run{0, 3, 0, 0}, leap{0, 3, 0, 1};
+  const auto evident = [](double jump) { return Control{0, 3, 0, jump}; };
+  EXPECT_TRUE(matches_jump(evident(0.7), run));
+  EXPECT_FALSE(matches_jump(evident(0.95), run));
+  EXPECT_TRUE(matches_jump(evident(0.7), leap));
+  EXPECT_FALSE(matches_jump(evident(0.4), leap));
+}
+
 TEST(ControlSpace, CountsDirectionsCounterClockwiseFromForward) {
   const ControlSpace space(1, 2);
   const auto velocity = [&](int index) { return Vector2{space.point(6 * index).x, space.point(6 * index).y}; };

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "fragmotion/evaluate/joint_limits.hpp"
+#include "fragmotion/fragments/packed_pool.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

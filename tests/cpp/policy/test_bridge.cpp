@@ -5,6 +5,8 @@
 
 #include "fragmotion/base/random.hpp"
 #include "fragmotion/policy/bridge.hpp"
+#include "small_character.hpp"
+#include "split_bones.hpp"
 
 namespace fragmotion {
 namespace {
@@ -18,6 +20,7 @@ struct Line {
   explicit Line(std::uint64_t seed, int count = 12) {
     Random random(seed);
     t.count = count;
+    t.reach = 1;
     t.pose_stride = kLanes;
     t.first.assign(std::size_t{3} * count * kLanes, 0);
     t.last = t.first;
@@ -85,6 +88,31 @@ TEST(StandBridges, AreNoneWhereNothingStandsOrNothingIsFar) {
   for (Fragment& f : line.pool.fragments) f.evident = {0, 1.2, 0, 0};
   const std::vector<int> none = stand_bridges(line.pool.fragments, line.t, line.classes, ControlSpace(), 0.1);
   EXPECT_EQ(std::count(none.begin(), none.end(), -1), 144);
+}
+
+// Stands, or lies as one who fell forward or backward by an angle.
+Clip fallen(double angle) {
+  Gait stand;
+  stand.y = 0;
+  Clip clip = gait_clip(stand);
+  const std::size_t width = clip.rotations.size() / clip.frames;
+  for (int f = 0; f < clip.frames; ++f) {
+    double* hips = &clip.rotations[width * f];
+    store_quaternion(load_quaternion(hips) * Quaternion(Eigen::AngleAxisd(angle, Vector3::UnitX())), hips);
+  }
+  return make_clip(humanoid(), clip);
+}
+
+TEST(StandBridges, AreTheSameWhereTheSameLimbsAreOfMoreBones) {
+  BuildOptions options;
+  options.classes = 6;
+  options.synthesize = false;
+  options.policies = {"greedy"};
+  const std::vector<Clip> takes{gait_clip({}), fallen(0), fallen(1.2), fallen(-1.2)};
+  const Character character = build(humanoid(), takes, {{{}, {}}}, options);
+  const std::vector<int> none(character.bridges.size(), -1);
+  EXPECT_NE(character.bridges, none);  // from the one fall to the other
+  EXPECT_EQ(with_split_bones(character)->bridges, character.bridges);
 }
 
 }  // namespace

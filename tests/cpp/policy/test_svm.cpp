@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fragmotion/policy/greedy.hpp"
+#include "fragmotion/policy/optimal.hpp"
 #include "fragmotion/policy/svm.hpp"
 #include "mocap_files.hpp"
 #include "random_quality.hpp"

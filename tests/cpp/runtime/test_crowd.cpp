@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "fragmotion/runtime/crowd.hpp"
+#include "fragmotion/runtime/step_on_threads.hpp"
 #include "mocap_files.hpp"
 #include "small_character.hpp"
 
@@ -23,15 +23,15 @@ std::vector<Control> any_controls(Random& random) {
   return controls;
 }
 
-// What a crowd shows at last: roots, then rotations.
-std::vector<double> shown_at_last(int threads) {
-  Crowd crowd(gait_character(), kCount, {5}, threads);
+// What a crowd shows at last that stands in so many parts, each with a thread: roots, then rotations.
+std::vector<double> shown_at_last(int parts) {
+  Crowd crowd(gait_character(), kCount, {5}, parts);
   Random random(7);
   std::vector<double> roots(3 * kCount), rotations(4 * kCount * std::size_t(crowd.bones()));
   for (int i = 0; i < kSteps; ++i) {
     if (i == 50) crowd.force(3, 2);
     if (i == 70) crowd.reset(4, {{1, 2}, 3});
-    crowd.step(any_controls(random).data(), kStep, roots.data(), rotations.data());
+    step_on_threads(crowd, any_controls(random).data(), kStep, roots.data(), rotations.data());
   }
   roots.insert(roots.end(), rotations.begin(), rotations.end());
   return roots;
@@ -39,7 +39,7 @@ std::vector<double> shown_at_last(int threads) {
 
 TEST(Crowd, ShowsTheSameBitsWhateverTheThreads) {
   const std::vector<double> expected = shown_at_last(1);
-  for (const int threads : {2, 3, 64}) EXPECT_EQ(shown_at_last(threads), expected) << threads;
+  for (const int parts : {2, 3, 64}) EXPECT_EQ(shown_at_last(parts), expected) << parts;
 }
 
 TEST(Crowd, ShowsWhatPlayersShowThatAreSteppedAlone) {
@@ -59,12 +59,13 @@ TEST(Crowd, ShowsWhatPlayersShowThatAreSteppedAlone) {
 }
 
 TEST(Crowd, MovesNobodyWhereOneControlIsRefused) {
-  Crowd crowd(gait_character(), kCount);
+  Crowd crowd(gait_character(), kCount, {}, 2);
   std::vector<double> before(3 * kCount), after = before;
   std::vector<Control> controls(kCount, Control{0, 1.2, 0, 0});
   for (int i = 0; i < 30; ++i) crowd.step(controls.data(), kStep, before.data());
   controls.back().turn = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(error_of([&] { crowd.step(controls.data(), kStep); }).find("not a number"), std::string::npos);
+  EXPECT_NE(error_of([&] { step_on_threads(crowd, controls.data(), kStep); }).find("not a number"), std::string::npos);
   controls.back().turn = 0;
   EXPECT_NE(error_of([&] { crowd.step(controls.data(), -1); }).find("step"), std::string::npos);
   crowd.step(controls.data(), 0, after.data());

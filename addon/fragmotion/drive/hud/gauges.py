@@ -54,7 +54,7 @@ class Stopwatch:
 
     def step(self, control: Control, velocity: tuple[float, float], seconds: float) -> None:
         """Some seconds have gone under a control; the velocity is in the character frame."""
-        asked = int(self._space.nearest([control])[0]) // 6
+        asked = int(np.unravel_index(self._space.nearest([control])[0], self._space.SHAPE)[0])
         if asked != self._asked:
             self._asked, self._before, self._wanted = asked, velocity, (control.right, control.forward)
             self._since = 0.0 if math.dist(self._before, self._wanted) > _STEP else None

@@ -4,6 +4,7 @@
 #include "fragmotion/base/progress.hpp"
 #include "fragmotion/character/character.hpp"
 #include "fragmotion/control/trace.hpp"
+#include "fragmotion/fragments/cutting.hpp"
 
 namespace fragmotion {
 

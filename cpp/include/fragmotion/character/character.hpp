@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "fragmotion/control/trace.hpp"
+#include "fragmotion/classes/classes.hpp"
+#include "fragmotion/control/control.hpp"
 #include "fragmotion/fragments/coverage.hpp"
-#include "fragmotion/fragments/packed_pool.hpp"
+#include "fragmotion/fragments/fragment.hpp"
 #include "fragmotion/motion/contacts.hpp"
 #include "fragmotion/policy/policy.hpp"
+#include "fragmotion/policy/quality.hpp"
 #include "fragmotion/skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
@@ -27,7 +29,7 @@ struct Character {
   Coverage coverage;
   std::vector<Contacts> contacts;        ///< Of each clip of the pool.
   Legs legs;                             ///< As they bend in the clips.
-  std::vector<float> openings;           ///< openings() of the fragments.
+  std::vector<float> entry_poses;        ///< entry_poses() of the fragments. Not saved.
   std::map<std::string, double> report;  ///< Figures of the build: counts, and seconds of each stage. Not saved.
 
   /// The policy of that name, or the one that drives where the name is empty. Throws std::invalid_argument listing

@@ -19,7 +19,12 @@ struct Control {
   double jump = 0;  ///< 1: jumping.
 
   double speed() const { return std::sqrt(x * x + y * y); }
+  /// Whether it asks for a jump, or what it is evident of is in the air as in one.
+  bool jumps() const { return jump > 0.5; }
 };
+
+/// Whether what is evident jumps as is wanted, or does not. A bouncy run, which is in the air too, will do for a run.
+bool matches_jump(const Control& evident, const Control& wanted);
 
 /// The weights of ControlDis (Eq. 2). Defaults: going 0.5 m/s too fast (at 1.8 m stature) weighs as much as the whole
 /// turn rate, and 3/8 of a jump, so that no jump is made to please a velocity. A weight of 0 ignores its part of a
@@ -35,8 +40,20 @@ struct ControlWeights {
 /// both counter-clockwise from forward.
 class ControlSpace {
  public:
-  static constexpr int kVelocities = 17;
-  static constexpr int kPoints = 102;
+  static constexpr int kDirections = 8;
+  static constexpr int kVelocities = 1 + 2 * kDirections, kTurns = 3, kJumps = 2;
+  static constexpr int kPoints = kVelocities * kTurns * kJumps;
+
+  /// The point of a velocity 0 .. 16, a turn -1 (right) .. 1, and a jump or none; and these of a point.
+  static constexpr int index(int velocity, int turn, bool jump) {
+    return (velocity * kTurns + turn + 1) * kJumps + (jump ? 1 : 0);
+  }
+  static constexpr int velocity_of(int index) { return index / (kTurns * kJumps); }
+  static constexpr int turn_of(int index) { return index / kJumps % kTurns - 1; }
+  static constexpr bool jumps(int index) { return index % kJumps == 1; }
+  /// Whether a velocity is a run; and its direction 0 .. 7 where it does not stand.
+  static constexpr bool runs(int velocity) { return velocity > kDirections; }
+  static constexpr int direction_of(int velocity) { return (velocity - 1) % kDirections; }
 
   /// Speeds in m/s with 0 < walk < run, turn rate in rad/s, scale = 1.8 m / stature (distances are those of a character
   /// of 1.8 m). Throws std::invalid_argument naming the value that is out of range.

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fragmotion/fragments/packed_pool.hpp"
+#include "fragmotion/fragments/fragment.hpp"
 
 namespace fragmotion {
 

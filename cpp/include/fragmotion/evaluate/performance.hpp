@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fragmotion/base/progress.hpp"
+#include "fragmotion/control/trace.hpp"
 #include "fragmotion/runtime/player.hpp"
 
 namespace fragmotion {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fragmotion/policy/policy.hpp"
+#include "fragmotion/policy/quality.hpp"
 
 namespace fragmotion {
 

@@ -3,6 +3,7 @@
 
 #include "fragmotion/policy/control_model.hpp"
 #include "fragmotion/policy/policy.hpp"
+#include "fragmotion/policy/quality.hpp"
 
 namespace fragmotion {
 
@@ -23,5 +24,9 @@ constexpr ControlPrior kKept{0.5, 0};
 /// value_iteration with the control model of traces and kKept.
 Policy iterate_policy(const Quality& quality, const std::vector<std::vector<int>>& traces,
                       const IterateOptions& options = {});
+
+/// Eq. 2 expected of all steps after each control and class [102, classes], discounted, where the policy goes on
+/// choosing and the controls follow the model [102, 102].
+std::vector<double> values_to_come(const Quality& quality, const Policy& policy, const std::vector<double>& model);
 
 }  // namespace fragmotion

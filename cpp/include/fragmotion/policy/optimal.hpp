@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "fragmotion/policy/policy.hpp"
 #include "fragmotion/policy/quality.hpp"
 
 namespace fragmotion {
@@ -35,5 +36,11 @@ struct OptimalPath {
 /// Dynamic programming over a trace of control indices (Eqs. 1, 3 and 4): O(steps classes^2).
 /// Ties go to the lower class. Throws std::invalid_argument on an empty trace or an index outside 0..101.
 OptimalPath optimal_path(const Quality& quality, const std::vector<int>& trace);
+
+/// The sum of Eq. 2 along the path that the policy takes from class `start` over a trace of control indices.
+double trace_quality(const Quality& quality, const Policy& policy, const std::vector<int>& trace, int start);
+
+/// trace_quality in percent of Optimal's, both from Optimal's Q_0 (Fig. 5).
+double percent_of_optimal(const Quality& quality, const Policy& policy, const std::vector<int>& trace);
 
 }  // namespace fragmotion

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
+#include <vector>
 
-#include "fragmotion/policy/optimal.hpp"
+#include "fragmotion/control/control.hpp"
 
 namespace fragmotion {
 
@@ -20,11 +22,5 @@ struct Policy {
   /// Whether it ever leads to a class.
   bool leads_to(int k) const { return std::find(next.begin(), next.end(), k) != next.end(); }
 };
-
-/// The sum of Eq. 2 along the path that the policy takes from class `start` over a trace of control indices.
-double trace_quality(const Quality& quality, const Policy& policy, const std::vector<int>& trace, int start);
-
-/// trace_quality in percent of Optimal's, both from Optimal's Q_0 (Fig. 5).
-double percent_of_optimal(const Quality& quality, const Policy& policy, const std::vector<int>& trace);
 
 }  // namespace fragmotion

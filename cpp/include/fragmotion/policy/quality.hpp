@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fragmotion/classes/classes.hpp"
+#include <cstddef>
+#include <vector>
+
 #include "fragmotion/control/control.hpp"
-#include "fragmotion/fragments/distance.hpp"
 
 namespace fragmotion {
 
@@ -18,9 +19,5 @@ struct Quality {
            match[static_cast<std::size_t>(to) * ControlSpace::kPoints + control];
   }
 };
-
-/// The table for the representatives of the classes.
-Quality quality_table(const std::vector<Fragment>& fragments, const Trajectories& t, const Classes& classes,
-                      const ControlSpace& space);
 
 }  // namespace fragmotion

@@ -2,7 +2,10 @@
 #pragma once
 
 #include "fragmotion/base/progress.hpp"
+#include "fragmotion/classes/classes.hpp"
+#include "fragmotion/fragments/distance.hpp"
 #include "fragmotion/policy/policy.hpp"
+#include "fragmotion/policy/quality.hpp"
 
 namespace fragmotion {
 

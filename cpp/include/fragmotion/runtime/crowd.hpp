@@ -12,15 +12,17 @@ namespace fragmotion {
 constexpr int kMostPlayers = 100000;
 
 /// Many players of one character that step together. Player i shows, to the bit, what a Player of the same options with
-/// the seed `options.seed` + i shows that is stepped alone, whatever the number of threads.
+/// the seed `options.seed` + i shows that is stepped alone. The players stand in parts, which share nothing that
+/// changes: those who have threads step parts at the same time, in any order.
 class Crowd {
  public:
-  /// `threads`: of a step; 0: as many as the machine has. Throws std::invalid_argument on an option that is out of its
-  /// range and on a count that is not 0 to kMostPlayers.
-  Crowd(std::shared_ptr<const Character> character, int count, const PlayerOptions& options = {}, int threads = 0);
+  /// `parts`: from 1 to as many as there are players; other numbers become the nearest of these. Throws
+  /// std::invalid_argument on an option that is out of its range and on a count that is not 0 to kMostPlayers.
+  Crowd(std::shared_ptr<const Character> character, int count, const PlayerOptions& options = {}, int parts = 1);
 
   int size() const { return static_cast<int>(players_.size()); }
   int bones() const { return bones_; }
+  int parts() const { return parts_; }
   /// Where a player is and what it plays. How it is posed, step() tells alone.
   const Player& operator[](int player) const { return players_[player]; }
 
@@ -32,12 +34,20 @@ class Crowd {
 
   /// Steps each player under its control, [size()], as Player::step; throws before any has moved. What is shown then is
   /// written to `roots` [size(), 3], m, and `rotations` [size(), bones(), 4] as in Clip, unless they are null.
-  /// Allocates nothing on one thread.
+  /// Allocates nothing.
   void step(const Control* controls, double seconds, double* roots = nullptr, double* rotations = nullptr);
+
+  /// The same of one part's players; the arrays are the whole crowd's. Once check_step() has let the controls pass, it
+  /// does not throw. `part` must be 0 .. parts() - 1.
+  void step_part(int part, const Control* controls, double seconds, double* roots = nullptr,
+                 double* rotations = nullptr);
+
+  /// Throws as step(), and moves nobody.
+  void check_step(const Control* controls, double seconds) const;
 
  private:
   Player& existing(int player);
-  void step(int player, const Control& control, double seconds, double* roots, double* rotations);
+  void step_player(int player, const Control& control, double seconds, double* roots, double* rotations);
 
   int bones_, parts_;
   std::vector<Player> players_;  // those of a part share a workspace

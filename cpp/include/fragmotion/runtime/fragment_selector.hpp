@@ -21,7 +21,7 @@ class FragmentSelector {
   int choose_any(int next_class);
 
   /// The moment at which what plays is best left for this class, s since the fragment's first pose: every second of
-  /// waiting costs as much as `haste` metres (as Dis) between the poses that are joined.
+  /// waiting costs as much as `haste` metres a metre of tip_reach() between the poses that are joined.
   double best_exit(int next_class, const Control& control, const Playback& playback, double haste) const;
 
  private:
@@ -35,11 +35,5 @@ class FragmentSelector {
   std::uint64_t seed_;
   Random random_;
 };
-
-/// Evident jump above which a fragment is in the air.
-constexpr double kInTheAir = 0.5;
-
-/// Whether what shows so much of a jump jumps, or does not, as is wanted.
-bool matches_jump(double evident_jump, const Control& wanted);
 
 }  // namespace fragmotion

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fragmotion/character/character.hpp"
-#include "fragmotion/fragments/distance.hpp"
+#include "fragmotion/fragments/body_tips.hpp"
 #include "fragmotion/motion/foot_lock.hpp"
 
 namespace fragmotion {

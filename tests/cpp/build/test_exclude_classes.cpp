@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "fragmotion/character/exclude_classes.hpp"
-#include "fragmotion/character/explain.hpp"
+#include "fragmotion/build/exclude_classes.hpp"
 #include "fragmotion/character/policy_file.hpp"
+#include "fragmotion/evaluate/explain.hpp"
 #include "fragmotion/runtime/player.hpp"
 #include "small_character.hpp"
 

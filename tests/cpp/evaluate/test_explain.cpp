@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "fragmotion/character/explain.hpp"
+#include "fragmotion/evaluate/explain.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

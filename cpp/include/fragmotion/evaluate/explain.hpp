@@ -23,10 +23,6 @@ struct Alternative {
 
 constexpr int kNearest = 3;
 
-/// Eq. 2 expected of all steps after each control and class [102, classes], discounted, where the policy goes on
-/// choosing and the controls follow the model [102, 102].
-std::vector<double> values_to_come(const Quality& quality, const Policy& policy, const std::vector<double>& model);
-
 /// Why a policy plays what it plays: its choices among all classes, by their value under the character's control model.
 /// Evaluates the policy once, when it is made; a table that looks ahead well chooses the first alternative or one near.
 class Explainer {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "fragmotion/character/exclude_classes.hpp"
+#include "fragmotion/build/exclude_classes.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "fragmotion/character/explain.hpp"
 #include "fragmotion/policy/bridge.hpp"
+#include "fragmotion/policy/iterate.hpp"
 
 namespace fragmotion {
 namespace {

@@ -1,40 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "fragmotion/character/explain.hpp"
+#include "fragmotion/evaluate/explain.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "fragmotion/policy/iterate.hpp"
+#include "fragmotion/policy/optimal.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr int kPoints = ControlSpace::kPoints;
-constexpr double kTolerance = 1e-6;
-
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 }  // namespace
-
-std::vector<double> values_to_come(const Quality& quality, const Policy& policy, const std::vector<double>& model) {
-  const int n = quality.classes;
-  const Matrix steps = IterateOptions().discount * Eigen::Map<const Matrix>(model.data(), kPoints, kPoints);
-  Matrix value = Matrix::Zero(kPoints, n), to_come = value;
-  double change = 1;
-  while (change > kTolerance) {
-    to_come = steps * value;
-    change = 0;
-    for (int c = 0; c < kPoints; ++c) {
-      for (int from = 0; from < n; ++from) {
-        const int next = policy(from, c);
-        const double better = quality(from, next, c) + to_come(c, next);
-        change = std::max(change, std::abs(better - value(c, from)));
-        value(c, from) = better;
-      }
-    }
-  }
-  return {to_come.data(), to_come.data() + to_come.size()};
-}
 
 Explainer::Explainer(std::shared_ptr<const Character> character, const std::string& policy)
     : character_(std::move(character)),

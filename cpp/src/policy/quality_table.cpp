@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fragmotion/policy/quality.hpp"
+#include "fragmotion/policy/quality_table.hpp"
 
 namespace fragmotion {
 

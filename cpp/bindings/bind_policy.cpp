@@ -1,69 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
 
-#include <climits>
-#include <cmath>
-
 #include "arrays.hpp"
 #include "fragmotion/character/character.hpp"
-#include "fragmotion/classes/clustering.hpp"
 #include "fragmotion/policy/anticipate.hpp"
 #include "fragmotion/policy/greedy.hpp"
 #include "fragmotion/policy/iterate.hpp"
+#include "fragmotion/policy/optimal.hpp"
 #include "fragmotion/policy/svm.hpp"
 
 namespace fragmotion::bindings {
 namespace {
 
-using Floats = py::array_t<float, kPlain>;
 using Indices = Doubles;  // of any kind, so that no number is cut or wrapped before it is looked at
 
 constexpr py::ssize_t kPoints = ControlSpace::kPoints;
 constexpr double kMostFeature = 1e6;  // class_features gives a few units; the SVM squares differences
-
-// Points [N, K, 3] as trajectories of one pose, padded as Dis wants them.
-Trajectories to_trajectories(const Floats& points) {
-  check_shape(points, "points", {-1, -1, 3});
-  const auto values = points.unchecked<3>();
-  const int count = static_cast<int>(values.shape(0)), size = static_cast<int>(values.shape(1));
-  if (size > INT_MAX / 3 - kLanes) throw std::invalid_argument("a fragment of " + std::to_string(size) + " points");
-  Trajectories t;
-  t.count = count;
-  t.stride = padded(size);
-  t.whole.assign(std::size_t{3} * count * t.stride, 0);
-  for (int i = 0; i < count; ++i) {
-    for (int k = 0; k < size; ++k) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const float value = values(i, k, axis);
-        if (!std::isfinite(value)) throw std::invalid_argument("point " + std::to_string(i) + " is not a number");
-        t.whole[(std::size_t{3} * i + axis) * t.stride + k] = value;
-      }
-    }
-  }
-  return t;
-}
-
-std::vector<float> to_weights(const std::optional<Floats>& weights, py::ssize_t count) {
-  if (!weights) return std::vector<float>(count, 1);
-  check_shape(*weights, "weights", {count});
-  std::vector<float> values(weights->data(), weights->data() + count);
-  for (const float value : values) {
-    if (!(value > 0 && std::isfinite(value))) throw std::invalid_argument("the weights must be over 0");
-  }
-  return values;
-}
-
-// The rows of tips [count, 3, stride] as [count, size, 3].
-py::array_t<float> to_points(const std::vector<float>& rows, int count, int stride, int size) {
-  py::array_t<float> points({count, size, 3});
-  auto values = points.mutable_unchecked<3>();
-  for (int i = 0; i < count; ++i) {
-    for (int k = 0; k < size; ++k) {
-      for (int axis = 0; axis < 3; ++axis) values(i, k, axis) = rows[(std::size_t{3} * i + axis) * stride + k];
-    }
-  }
-  return points;
-}
 
 Quality to_quality(const Doubles& smoothness, const Doubles& match) {
   const py::ssize_t n = smoothness.ndim() > 0 ? smoothness.shape(0) : 0;
@@ -88,7 +40,7 @@ std::vector<int> to_controls(const Indices& trace) {
   return to_indices(trace, "a trace of controls", kPoints);
 }
 
-std::vector<std::vector<int>> to_traces(const std::vector<Indices>& traces) {
+std::vector<std::vector<int>> to_control_traces(const std::vector<Indices>& traces) {
   std::vector<std::vector<int>> result;
   for (const Indices& trace : traces) result.push_back(to_controls(trace));
   return result;
@@ -104,37 +56,6 @@ py::array_t<int> to_table(Policy policy) { return to_array(std::move(policy.next
 Policy to_policy(const Indices& table, int classes) {
   check_shape(table, "table", {classes, kPoints});
   return {"table", classes, to_indices(table, "a table of classes", classes)};
-}
-
-void bind_measuring(py::module_& m) {
-  m.def(
-      "trajectories",
-      [](const Character& c, int poses) {
-        const Trajectories t = without_gil([&] { return trajectories(c.pool, poses); });
-        const int tips = static_cast<int>(measured_bones(c.pool.skeleton).size());
-        return py::make_tuple(to_points(t.whole, t.count, t.stride, poses * tips),
-                              to_points(t.first, t.count, t.pose_stride, tips),
-                              to_points(t.last, t.count, t.pose_stride, tips));
-      },
-      py::arg("character"), py::arg("poses") = kPoses);
-  m.def(
-      "cluster",
-      [](const Floats& points, int classes, const std::optional<Floats>& weights, int restarts, std::uint64_t seed,
-         int threads, const py::object& progress) {
-        const Trajectories t = to_trajectories(points);
-        const std::vector<float> counted = to_weights(weights, t.count);
-        ClusterOptions options;
-        options.classes = classes;
-        options.restarts = restarts;
-        options.seed = seed;
-        options.threads = threads;
-        Classes found =
-            without_gil(progress, [&](const Progress& told) { return cluster(t, counted, options, {}, told); });
-        return py::make_tuple(to_array(std::move(found.labels), {t.count}),
-                              to_array(std::move(found.representatives), {found.count}), found.inertia);
-      },
-      py::arg("points"), py::arg("classes"), py::arg("weights") = py::none(), py::arg("restarts") = 4,
-      py::arg("seed") = 1, py::arg("threads") = 0, py::arg("progress") = py::none());
 }
 
 void bind_paths(py::module_& m) {
@@ -170,13 +91,13 @@ void bind_policies(py::module_& m) {
   m.def(
       "control_model",
       [](const std::vector<Indices>& traces, double stays, double goes_anywhere) {
-        return to_array(control_model(to_traces(traces), {stays, goes_anywhere}), {kPoints, kPoints});
+        return to_array(control_model(to_control_traces(traces), {stays, goes_anywhere}), {kPoints, kPoints});
       },
       py::arg("traces"), py::arg("stays") = kAnyPlayer.stays, py::arg("goes_anywhere") = kAnyPlayer.goes_anywhere);
   m.def(
       "anticipate_table",
       [](const Doubles& smoothness, const Doubles& match, const std::vector<Indices>& traces) {
-        return to_table(anticipate_policy(to_quality(smoothness, match), to_traces(traces)));
+        return to_table(anticipate_policy(to_quality(smoothness, match), to_control_traces(traces)));
       },
       py::arg("smoothness"), py::arg("match"), py::arg("traces"));
   m.def(
@@ -184,7 +105,7 @@ void bind_policies(py::module_& m) {
       [](const Doubles& smoothness, const Doubles& match, const std::vector<Indices>& traces, double discount,
          double tolerance) {
         const Quality quality = to_quality(smoothness, match);
-        const std::vector<std::vector<int>> controls = to_traces(traces);
+        const std::vector<std::vector<int>> controls = to_control_traces(traces);
         return to_table(without_gil([&] { return iterate_policy(quality, controls, {discount, tolerance}); }));
       },
       py::arg("smoothness"), py::arg("match"), py::arg("traces"), py::arg("discount") = IterateOptions().discount,
@@ -206,7 +127,7 @@ void bind_svm(py::module_& m) {
          const ControlSpace& space) {
         const Quality quality = to_quality(smoothness, match);
         const std::vector<double> described = to_features(features, quality.classes);
-        const std::vector<std::vector<int>> controls = to_traces(traces);
+        const std::vector<std::vector<int>> controls = to_control_traces(traces);
         SvmSamples samples = without_gil([&] { return svm_samples(quality, controls, described, space); });
         const auto count = static_cast<py::ssize_t>(samples.labels.size());
         return py::make_tuple(to_array(std::move(samples.inputs), {count, samples.width}),
@@ -219,7 +140,7 @@ void bind_svm(py::module_& m) {
          const ControlSpace& space, double c, double gamma, int threads) {
         const Quality quality = to_quality(smoothness, match);
         const std::vector<double> described = to_features(features, quality.classes);
-        const std::vector<std::vector<int>> controls = to_traces(traces);
+        const std::vector<std::vector<int>> controls = to_control_traces(traces);
         SvmOptions options;
         options.c = c;
         options.gamma = gamma;
@@ -233,8 +154,7 @@ void bind_svm(py::module_& m) {
 
 }  // namespace
 
-void bind_stages(py::module_& m) {
-  bind_measuring(m);
+void bind_policy(py::module_& m) {
   bind_paths(m);
   bind_policies(m);
   bind_svm(m);

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <map>
 
 #include "arrays.hpp"
+#include "fragmotion/io/asf_amc.hpp"
+#include "fragmotion/io/bvh.hpp"
 #include "fragmotion/io/rig.hpp"
+#include "fragmotion/io/rotation.hpp"
 
 namespace fragmotion::bindings {
 namespace {
@@ -45,7 +51,46 @@ py::tuple to_tuple(Channels channels, py::ssize_t bones) {
                         to_array(std::move(channels.rotations), {channels.frames, bones, 4}));
 }
 
-}  // namespace
+void bind_readers(py::module_& m) {
+  m.def("read_bvh", &read_bvh, py::arg("path"), py::arg("unit") = 0.01, py::call_guard<GilRelease>());
+  m.def("read_asf_amc", &read_asf_amc, py::arg("asf"), py::arg("amc"), py::arg("rate") = 120.0,
+        py::call_guard<GilRelease>());
+}
+
+void bind_rotations(py::module_& m) {
+  m.def(
+      "euler_to_quaternion",
+      [](const std::string& order, const Doubles& angles) {
+        check_shape(angles, "angles", {-1, 3});
+        return to_array(euler_to_quaternion(order, angles.data(), static_cast<int>(angles.shape(0))),
+                        {angles.shape(0), 4});
+      },
+      py::arg("order"), py::arg("angles"));
+  m.def(
+      "quaternion_to_euler",
+      [](const std::string& order, const Doubles& rotations) {
+        check_shape(rotations, "rotations", {-1, 4});
+        return to_array(quaternion_to_euler(order, rotations.data(), static_cast<int>(rotations.shape(0))),
+                        {rotations.shape(0), 3});
+      },
+      py::arg("order"), py::arg("rotations"));
+  m.def(
+      "axis_angle_to_quaternion",
+      [](const Doubles& values) {
+        check_shape(values, "axis_angles", {-1, 4});
+        return to_array(axis_angle_to_quaternion(values.data(), static_cast<int>(values.shape(0))),
+                        {values.shape(0), 4});
+      },
+      py::arg("axis_angles"));
+  m.def(
+      "quaternion_to_axis_angle",
+      [](const Doubles& values) {
+        check_shape(values, "rotations", {-1, 4});
+        return to_array(quaternion_to_axis_angle(values.data(), static_cast<int>(values.shape(0))),
+                        {values.shape(0), 4});
+      },
+      py::arg("rotations"));
+}
 
 void bind_rig(py::module_& m) {
   py::class_<Rig>(m, "Rig", py::module_local())
@@ -95,6 +140,14 @@ void bind_rig(py::module_& m) {
             return to_tuple(without_gil([&] { return rig.take_channels(take); }), rig.bones());
           },
           py::arg("take"));
+}
+
+}  // namespace
+
+void bind_io(py::module_& m) {
+  bind_readers(m);
+  bind_rotations(m);
+  bind_rig(m);
 }
 
 }  // namespace fragmotion::bindings

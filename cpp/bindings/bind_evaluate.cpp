@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "fragmotion/evaluate/explain.hpp"
+#include "fragmotion/evaluate/motion_metrics.hpp"
+#include "fragmotion/evaluate/response.hpp"
+#include "fragmotion/evaluate/suggest.hpp"
+#include "player_options.hpp"
+
+namespace fragmotion::bindings {
+namespace {
+
+template <typename T>
+auto viewed(std::vector<T> Performance::*member, std::vector<py::ssize_t> rest) {
+  return [=](const py::object& self) {
+    const auto& p = self.cast<const Performance&>();
+    std::vector<py::ssize_t> shape{p.frames};
+    shape.insert(shape.end(), rest.begin(), rest.end());
+    return view(p.*member, shape, self);
+  };
+}
+
+void bind_performance(py::module_& m) {
+  py::class_<Performance>(m, "Performance", py::module_local())
+      .def_readonly("rate", &Performance::rate)
+      .def_property_readonly("root_positions", viewed(&Performance::root_positions, {3}))
+      .def_property_readonly("rotations",
+                             [](const py::object& self) {
+                               const auto& p = self.cast<const Performance&>();
+                               const auto bones = static_cast<py::ssize_t>(p.rotations.size()) / p.frames / 4;
+                               return view(p.rotations, {p.frames, bones, 4}, self);
+                             })
+      .def_property_readonly("frames", viewed(&Performance::path, {3}))
+      .def_property_readonly("classes", viewed(&Performance::classes, {}))
+      .def_property_readonly("fragments", viewed(&Performance::fragments, {}))
+      .def_property_readonly("entered", viewed(&Performance::entered, {}))
+      .def_readonly("quality", &Performance::quality)
+      .def_readonly("velocity_error", &Performance::velocity_error)
+      .def_readonly("turn_error", &Performance::turn_error)
+      .def_readonly("jump_error", &Performance::jump_error)
+      .def_readonly("commanded_speed", &Performance::commanded_speed)
+      .def_readonly("drift", &Performance::drift);
+}
+
+void bind_measures(py::module_& m) {
+  py::class_<Steps>(m, "Steps", py::module_local())
+      .def_readonly("p99", &Steps::p99)
+      .def_readonly("p999", &Steps::p999)
+      .def_readonly("worst", &Steps::worst);
+  py::class_<Excess>(m, "Excess", py::module_local())
+      .def_readonly("share", &Excess::share)
+      .def_readonly("worst", &Excess::worst);
+  py::class_<MotionMeasures>(m, "MotionMeasures", py::module_local())
+      .def_readonly("foot_skate", &MotionMeasures::foot_skate)
+      .def_readonly("sliding_share", &MotionMeasures::sliding_share)
+      .def_readonly("penetration", &MotionMeasures::penetration)
+      .def_readonly("positions", &MotionMeasures::positions)
+      .def_readonly("velocities", &MotionMeasures::velocities)
+      .def_readonly("accelerations", &MotionMeasures::accelerations)
+      .def_readonly("turns", &MotionMeasures::turns);
+  py::class_<MotionYardstick>(m, "MotionYardstick", py::module_local())
+      .def(py::init([](const Character& character) { return MotionYardstick(character); }), py::arg("character"),
+           py::call_guard<GilRelease>())
+      .def_property_readonly("takes", &MotionYardstick::takes)
+      .def("of", &MotionYardstick::of, py::arg("performance"), py::call_guard<GilRelease>());
+}
+
+void bind_yardsticks(py::module_& m) {
+  m.def(
+      "optimal_performance",
+      [](const Character& character, const Doubles& trace, double rate, double shortest) {
+        const Trace controls = to_trace(trace);
+        return without_gil([&] { return optimal_performance(character, controls, rate, shortest); });
+      },
+      py::arg("character"), py::arg("trace"), py::arg("rate"), py::arg("shortest") = kSoonest);
+  for_option_arguments([&](const auto&... options) {
+    m.def("response_times",
+          with_options(Types<SharedCharacter>{}, Types<>{},
+                       [](const SharedCharacter& character, const PlayerOptions& given) {
+                         std::vector<double> times = without_gil([&] { return response_times(character, given); });
+                         const auto count = static_cast<py::ssize_t>(times.size());
+                         return to_array(std::move(times), {count});
+                       }),
+          py::arg("character").none(false), options...);
+  });
+}
+
+void bind_suggestion(py::module_& m) {
+  py::class_<ClassesTried>(m, "ClassesTried", py::module_local())
+      .def_readonly("classes", &ClassesTried::classes)
+      .def_readonly("quality", &ClassesTried::quality)
+      .def_readonly("velocity_error", &ClassesTried::velocity_error);
+  m.def(
+      "suggest_classes",
+      [](const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Doubles>& traces,
+         const std::optional<BuildOptions>& options, const py::object& progress) {
+        const std::vector<Trace> controls = to_traces(traces);
+        Suggestion suggestion = without_gil(progress, [&](const Progress& told) {
+          return suggest_classes(skeleton, clips, controls, options.value_or(BuildOptions{}), told);
+        });
+        return py::make_tuple(suggestion.classes, std::move(suggestion.tried));
+      },
+      py::arg("skeleton"), py::arg("clips"), py::arg("traces"), py::arg("options") = py::none(),
+      py::arg("progress") = py::none());
+}
+
+void bind_explain(py::module_& m) {
+  py::class_<Alternative>(m, "Alternative", py::module_local())
+      .def_readonly("next", &Alternative::next)
+      .def_readonly("smoothness", &Alternative::smoothness)
+      .def_readonly("match", &Alternative::match)
+      .def_readonly("to_come", &Alternative::to_come)
+      .def_property_readonly("value", &Alternative::value)
+      .def_readonly("fragments", &Alternative::fragments);
+  py::class_<Explainer>(m, "Explainer", py::module_local())
+      .def(py::init([](std::shared_ptr<Character> character, const std::string& policy) {
+             return Explainer(std::move(character), policy);
+           }),
+           py::arg("character").none(false), py::arg("policy") = "", py::call_guard<GilRelease>())
+      .def("__call__", &Explainer::operator(), py::arg("playing"), py::arg("control"));
+}
+
+}  // namespace
+
+void bind_evaluate(py::module_& m) {
+  bind_performance(m);
+  bind_measures(m);
+  bind_yardsticks(m);
+  bind_suggestion(m);
+  bind_explain(m);
+}
+
+}  // namespace fragmotion::bindings

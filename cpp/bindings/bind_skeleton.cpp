@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include <map>
+
+#include "arrays.hpp"
+#include "fragmotion/skeleton/role_names.hpp"
+#include "fragmotion/skeleton/skeleton.hpp"
+
+namespace fragmotion::bindings {
+namespace {
+
+using RoleNames = std::map<std::string, std::string>;
+
+py::array_t<double> quaternions(const std::vector<Quaternion>& values) {
+  std::vector<double> result(4 * values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) store_quaternion(values[i], &result[4 * i]);
+  return to_array(std::move(result), {static_cast<py::ssize_t>(values.size()), 4});
+}
+
+py::array_t<double> vectors(const std::vector<Vector3>& values) {
+  std::vector<double> result(3 * values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) store_vector(values[i], &result[3 * i]);
+  return to_array(std::move(result), {static_cast<py::ssize_t>(values.size()), 3});
+}
+
+Skeleton new_skeleton(const std::vector<std::string>& names, const std::vector<int>& parents, const Doubles& rotations,
+                      const Doubles& offsets, const Doubles& tips, const std::optional<RoleNames>& roles) {
+  const auto bones = static_cast<py::ssize_t>(names.size());
+  check_shape(rotations, "rest_rotations", {bones, 4});
+  check_shape(offsets, "offsets", {bones, 3});
+  check_shape(tips, "tips", {bones, 3});
+  for (const std::string& name : names) check_name(name);
+  Skeleton skeleton;
+  skeleton.names = names;
+  skeleton.parents = parents;
+  for (py::ssize_t b = 0; b < bones; ++b) {
+    skeleton.rest_rotations.push_back(load_quaternion(rotations.data(b, 0)));
+    skeleton.offsets.push_back(load_vector(offsets.data(b, 0)));
+    skeleton.tips.push_back(load_vector(tips.data(b, 0)));
+  }
+  if (roles) assign_roles(*roles, skeleton);
+  return make_skeleton(std::move(skeleton));
+}
+
+py::array_t<double> rest_points(const Skeleton& skeleton, bool tails) {
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> rotations;
+  rest_pose(skeleton, heads, rotations);
+  for (int b = 0; tails && b < skeleton.size(); ++b) heads[b] += rotations[b] * skeleton.tips[b];
+  return vectors(heads);
+}
+
+}  // namespace
+
+void bind_skeleton(py::module_& m) {
+  py::class_<Skeleton>(m, "Skeleton", py::module_local())
+      .def(py::init(&new_skeleton), py::arg("names"), py::arg("parents"), py::arg("rest_rotations"), py::arg("offsets"),
+           py::arg("tips"), py::arg("roles") = py::none())
+      .def_readonly("names", &Skeleton::names)
+      .def_readonly("parents", &Skeleton::parents)
+      .def_property_readonly("rest_rotations", [](const Skeleton& s) { return quaternions(s.rest_rotations); })
+      .def_property_readonly("offsets", [](const Skeleton& s) { return vectors(s.offsets); })
+      .def_property_readonly("tips", [](const Skeleton& s) { return vectors(s.tips); })
+      .def_property_readonly("roles", &named_roles)
+      .def_property_readonly("stature", &stature)
+      .def("rest_heads", [](const Skeleton& s) { return rest_points(s, false); })
+      .def("rest_tails", [](const Skeleton& s) { return rest_points(s, true); });
+}
+
+}  // namespace fragmotion::bindings

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "fragmotion/runtime/player.hpp"
+
+namespace fragmotion::bindings {
+
+namespace py = pybind11;
+
+/// As pybind11 holds characters.
+using SharedCharacter = std::shared_ptr<Character>;
+
+/// The stitching of that name; throws ValueError on another.
+Stitching to_stitching(const std::string& name);
+
+template <typename... T>
+struct Types {};
+
+/// A function of `First...`, a player's options one by one, and `Last...`, made of one that takes them as
+/// PlayerOptions.
+template <typename... First, typename... Last, typename Function>
+auto with_options(Types<First...> /*before*/, Types<Last...> /*after*/, Function function) {
+  return [function](First... first, std::uint64_t seed, double stitch, const std::string& policy,
+                    const std::string& stitching, bool lock_feet, double root_adjustment, double responsiveness,
+                    Last... last) {
+    const PlayerOptions options{seed,      stitch,          policy,        to_stitching(stitching),
+                                lock_feet, root_adjustment, responsiveness};
+    return function(std::move(first)..., options, std::move(last)...);
+  };
+}
+
+/// Calls `define` with the arguments of a player's options, in the order of `with_options`.
+template <typename Define>
+void for_option_arguments(const Define& define) {
+  const PlayerOptions defaults;
+  define(py::arg("seed") = defaults.seed, py::arg("stitch") = defaults.stitch, py::arg("policy") = defaults.policy,
+         py::arg("stitching") = "inertialize", py::arg("lock_feet") = defaults.lock_feet,
+         py::arg("root_adjustment") = defaults.root_adjustment, py::arg("responsiveness") = defaults.responsiveness);
+}
+
+}  // namespace fragmotion::bindings
