@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from .core import core
+from ..compat.core import core
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles

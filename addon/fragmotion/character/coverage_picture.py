@@ -14,7 +14,7 @@ import bpy.utils.previews
 import numpy as np
 from numpy.typing import NDArray
 
-from .core import core
+from ..compat.core import core
 from .coverage import WELL
 
 SIZE = 128
