@@ -34,8 +34,8 @@ class Actor:
     """An armature whose Action is the motion that it was last given; without meshes it is drawn as sticks."""
 
     def __init__(self, armature: Any) -> None:
-        self.armature, self.rig = armature, addon("rigs").make_rig(armature)
-        self._moving = addon("rigs").carriers(armature, self.rig)
+        self.armature, self.rig = armature, addon("rig.rigs").make_rig(armature)
+        self._moving = addon("rig.rigs").carriers(armature, self.rig)
         self.stature = self.rig.skeleton.stature
 
     def play(self, motion: Motion) -> None:
@@ -43,8 +43,8 @@ class Actor:
         action = bpy.data.actions.new(motion.name)
         channels = self.rig.channels(motion.roots, motion.rotations)
         times = np.arange(len(motion.roots), dtype=float) + _FIRST
-        addon("writing").write_poses(action, self.armature, times, *channels, self._moving)
-        addon("versions").assign(self.armature, action)
+        addon("rig.writing").write_poses(action, self.armature, times, *channels, self._moving)
+        addon("compat.versions").assign(self.armature, action)
 
     def strip(
         self, motion: Motion, frames: Sequence[int], places: Sequence[float], width: float, pixels: tuple[int, int]
@@ -78,7 +78,7 @@ def open_folder(folder: Path) -> tuple[Actor, list[core.Clip]]:
     """An armature with the bones of the folder's BVH files, and these on it."""
     bpy.ops.wm.read_homefile(use_empty=True)
     takes = [core.read_bvh(path) for path in sorted(folder.glob("*.bvh"))]
-    actor = Actor(addon("importing").make_armature(bpy.context, folder.name, takes[0].skeleton))
+    actor = Actor(addon("mocap.importing").make_armature(bpy.context, folder.name, takes[0].skeleton))
     return actor, [actor.rig.clip(take.name, take.rate, *actor.rig.take_channels(take)) for take in takes]
 
 
