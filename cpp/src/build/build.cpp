@@ -330,6 +330,7 @@ void learn(const Material& material, const BuildOptions& options, const Progress
     c.policies.push_back(policy_named(name, c, t, material.traces, options.threads, part_of(progress, 0.5, 1)));
     c.report[name + "_seconds"] = stage.lap();
   }
+  repair_policies(c);
 }
 
 Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,

@@ -55,6 +55,7 @@ Character without_classes(const Character& character, const std::vector<int>& ex
   const std::vector<bool> allowed = allowed_classes(character.classes.count, excluded);
   Character result = character;
   for (Policy& policy : result.policies) avoid(allowed, character, policy);
+  repair_policies(result);
   for (const int k : excluded) std::fill_n(&result.quality.match[static_cast<std::size_t>(k) * kPoints], kPoints, 0.0);
   result.bridges = stand_bridges(result.pool.fragments, trajectories(result.pool, 2), result.classes, result.space,
                                  kBridgeDistance, allowed);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/listed.hpp"
+#include "fragmotion/policy/repair.hpp"
 
 namespace fragmotion {
 
@@ -14,6 +15,13 @@ const Policy& Character::policy(const std::string& name) const {
     names.push_back(policy.name);
   }
   throw std::invalid_argument("this character has no policy \"" + name + "\"; it has " + listed(names));
+}
+
+void repair_policies(Character& character) {
+  std::vector<Control> evident;
+  for (const int fragment : character.classes.representatives)
+    evident.push_back(character.pool.fragments[fragment].evident);
+  for (Policy& policy : character.policies) repair_policy(policy, character.quality, character.space, evident);
 }
 
 }  // namespace fragmotion

@@ -393,6 +393,7 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     Legs legs = resting_legs(character.pool.skeleton);
     for (std::size_t side = 0; side < legs.size(); ++side) legs[side].hinge = character.legs[side].hinge;
     character.legs = legs;
+    repair_policies(character);  // of a program that repaired as it played
     character.coverage = coverage(character.pool.fragments, character.space);
     character.entry_poses = entry_poses(character.pool);
     return character;

@@ -12,13 +12,6 @@ constexpr double kChange = 1;                // ControlDis between controls that
 constexpr double kHaste = 10 / kTunedReach;  // m a metre of reach that a second of waiting costs by default
 constexpr double kWorthIt = 0.05;            // s that must be left of a fragment for leaving it early
 
-// Whether what would play goes back from where is wanted, though what plays goes there: a table may find that such a
-// detour joins best, both ways.
-bool turns_back(const Control& playing, const Control& next, const Control& wanted) {
-  const auto along = [&](const Control& ev) { return ev.x * wanted.x + ev.y * wanted.y; };
-  return along(playing) > 0 && along(next) < 0;
-}
-
 }  // namespace
 
 Director::Director(const Character& character, const Policy& policy, double responsiveness)
@@ -53,7 +46,7 @@ void Director::observe(const Control& control) {
 
 Control Director::wanted(const Control& control) const {
   Control wanted = control;
-  if (jump_latched_) wanted.jump = 1;
+  wanted.jump = jump_latched_ ? 1 : 0;
   return wanted;
 }
 
@@ -63,28 +56,8 @@ bool Director::has_changed(const Control& wanted) const {
   return character_->space.distance(wanted, decided_for_) > kChange;
 }
 
-// The class that the table tells. Where a jump was pressed and that class does not jump, or the other way round, since
-// the transition is thought too bad or too good for it, or where it turns back, the one of the table's that suits best
-// and does not: nothing is worse than a button that does nothing, and a hop that nobody asked for.
-int Director::look_up_class(const Control& wanted, const Control& playing) const {
-  const Character& c = *character_;
-  const bool free = wanted.jumps() && !jump_latched_;
-  const auto suits = [&](int k) {
-    const Control& ev = c.pool.fragments[c.classes.representatives[k]].evident;
-    return (free || matches_jump(ev, wanted)) && !turns_back(playing, ev, wanted);
-  };
-  const int control = c.space.nearest(wanted);
-  int told = (*policy_)(class_, control);
-  if (suits(told)) return told;
-  double best = 0;
-  for (int k = 0; k < c.classes.count; ++k) {
-    const double match = c.quality.match[static_cast<std::size_t>(k) * ControlSpace::kPoints + control],
-                 worth = c.quality(class_, k, control) * match;
-    if (!suits(k) || worth <= best || !policy_->leads_to(k)) continue;
-    best = worth;
-    told = k;
-  }
-  return told;
+int Director::look_up_class(const Control& wanted) const {
+  return (*policy_)(class_, character_->space.nearest(wanted));
 }
 
 int Director::next_class(const Control& control, const Playback& playback) {
@@ -94,7 +67,7 @@ int Director::next_class(const Control& control, const Playback& playback) {
   int next = waiting;
   if (waiting < 0 || has_changed(wanted)) {
     decided_for_ = wanted;
-    next = look_up_class(wanted, playback.evident());
+    next = look_up_class(wanted);
     const int bridge = c.bridges[static_cast<std::size_t>(class_) * c.classes.count + next];
     // The jump, too, waits for the end of the stand-in-place fragment.
     if (bridge >= 0) return waiting_ = next, bridge;
@@ -113,7 +86,7 @@ bool Director::leaves_early(const Control& wanted, const Playback& playback, con
   if (too_soon || playback.left() <= kWorthIt || waiting_ >= 0 || plays_forced_) return false;
   if (playback.evident().jumps() || !has_changed(wanted)) return false;
   if (exit_ < 0 || character_->space.distance(wanted, planned_for_) > 0) {
-    exit_ = selector.best_exit(look_up_class(wanted, playback.evident()), wanted, playback, haste_);
+    exit_ = selector.best_exit(look_up_class(wanted), wanted, playback, haste_);
     planned_for_ = wanted;
   }
   return playback.seconds() > exit_ - kInstant;

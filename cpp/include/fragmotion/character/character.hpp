@@ -37,4 +37,7 @@ struct Character {
   const Policy& policy(const std::string& name = {}) const;
 };
 
+/// repair_policy() of all its policies.
+void repair_policies(Character& character);
+
 }  // namespace fragmotion

@@ -10,7 +10,7 @@ constexpr double kSoonest = 0.1;
 
 /// Decides which class is played next, and when (Sec. 3.3): at a fragment's end what the table tells, or the
 /// stand-in-place class between; before it, unless in the air, when the control changes a lot. A jump that is pressed,
-/// however shortly, is latched until the decision that plays it. Allocates nothing.
+/// however shortly, is latched until the decision that plays it; held on, it is one jump. Allocates nothing.
 class Director {
  public:
   /// `responsiveness` as PlayerOptions::responsiveness. Character and policy must outlive it.
@@ -43,7 +43,7 @@ class Director {
   bool makes_way(const Playback& playback) const;
   bool leaves_early(const Control& wanted, const Playback& playback, const FragmentSelector& selector);
   bool has_changed(const Control& wanted) const;
-  int look_up_class(const Control& wanted, const Control& playing) const;
+  int look_up_class(const Control& wanted) const;
   int next_class(const Control& control, const Playback& playback);
 
   const Character* character_;
