@@ -58,7 +58,7 @@ void Inertialization::begin(const WorldPose& old_before, const WorldPose& old, c
   damping_ = kFades / seconds;
   end_ = kLasts * seconds;
   root_ = old.root - fresh.root;
-  root_speed_ = (old.root - old_before.root - (fresh_later.root - fresh.root)) / apart;
+  root_speed_ = {0, 0, (old.root.z() - old_before.root.z() - (fresh_later.root.z() - fresh.root.z())) / apart};
   heading_ = old.heading - fresh.heading;
   heading_speed_ = (old.heading - old_before.heading - (fresh_later.heading - fresh.heading)) / apart;
   for (std::size_t b = 0; b < static_cast<std::size_t>(bones_); ++b) {

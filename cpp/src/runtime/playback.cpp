@@ -54,17 +54,18 @@ void Playback::sample_stitched(Placed placed, double seconds, WorldPose& pose) c
 
 void Playback::sample(double seconds, WorldPose& pose) const { sample_stitched(now_, seconds, pose); }
 
-void Playback::start(int fragment) {
+Vector2 Playback::start(int fragment) {
   before_ = now_;
   now_ = place(fragment, frame_);
   const bool inertializes = stitching_ == Stitching::inertialize;
-  if (inertializes && stitch_ > 0) begin_stitch(before_);
+  const Vector2 faster = inertializes && stitch_ > 0 ? begin_stitch(before_) : Vector2::Zero();
   faded_ = inertializes ? 0 : std::min(stitch_, left());
   show();
+  return faster;
 }
 
-// Begins a stitch from the old fragment, as it is shown, to the one that plays now.
-void Playback::begin_stitch(const Placed& old) {
+// Begins a stitch from the old fragment, as it is shown, to the one that plays now; returns what start() does.
+Vector2 Playback::begin_stitch(const Placed& old) {
   constexpr double kApart = 1.0 / 60;  // s over which speeds are measured, within both fragments
   auto& [old_before, old_now, fresh, fresh_later] = workspace_->poses;
   sample_stitched(old, old.seconds, old_now);
@@ -74,6 +75,8 @@ void Playback::begin_stitch(const Placed& old) {
   later.seconds += kApart;
   sample(later, fresh_later);
   inertialization_.begin(old_before, old_now, fresh, fresh_later, kApart, stitch_);
+  const Vector3 faster = (old_now.root - old_before.root - (fresh_later.root - fresh.root)) / kApart;
+  return Eigen::Rotation2Dd(-frame_.heading) * faster.head<2>();
 }
 
 void Playback::advance(double seconds) {

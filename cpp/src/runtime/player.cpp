@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/runtime/player.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -11,12 +12,18 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLongest = 3600;  // s that a step may last
-constexpr double kFarthest = 1e9;  // m, and rad: where steps are still told apart
+constexpr double kLongest = 3600;     // s that a step may last
+constexpr double kFarthest = 1e9;     // m, and rad: where steps are still told apart
+constexpr double kLaziest = 2.5;      // m/s^2 of a 1.8 m character, at a responsiveness of 0
+constexpr double kFinest = 1 / 60.0;  // s for which a command is the same at most
 
 double within_one(double value, const char* name) {
   if (value >= 0 && value <= 1) return value;
   throw std::invalid_argument(std::string("the ") + name + " must be 0 to 1");
+}
+
+double acceleration_of(double responsiveness, const ControlSpace& space) {
+  return kLaziest / (1 - responsiveness) / space.scale();
 }
 
 }  // namespace
@@ -28,10 +35,12 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
                std::shared_ptr<Workspace> workspace)
     : character_(std::move(character)),
       workspace_(std::move(workspace)),
+      limit_(acceleration_of(options.responsiveness, character_->space)),
       director_(*character_, character_->policy(options.policy), within_one(options.responsiveness, "responsiveness")),
       selector_(*character_, *workspace_, options.seed),
       playback_(*character_, *workspace_, options.stitching, within_one(options.stitch, "stitching time, in s,")),
-      correction_(*character_, *workspace_, within_one(options.root_adjustment, "root adjustment"), options.lock_feet) {
+      correction_(*character_, *workspace_, within_one(options.root_adjustment, "root adjustment"),
+                  acceleration_of(options.responsiveness, character_->space), options.lock_feet) {
   reset();
 }
 
@@ -51,9 +60,10 @@ void Player::check_step(const Control& control, double seconds) {
 void Player::reset(const CharacterFrame& frame) {
   for (const double value : {frame.position.x(), frame.position.y(), frame.heading})
     require_range("the place and the heading to stand at", value, -kFarthest, kFarthest);
+  limit_.reset(frame.heading);
   director_.reset();
   selector_.reset();
-  correction_.reset();
+  correction_.reset(frame.heading);
   playback_.reset(character_->classes.representatives[director_.playing_class()], frame);
   correct(0);
 }
@@ -69,7 +79,9 @@ void Player::force(int next_class) {
 void Player::go_on(const Control& control) {
   const Control wanted = director_.wanted(control);
   const int next = director_.decide(control, playback_);
-  playback_.start(director_.plays_forced() ? selector_.choose_any(next) : selector_.choose(next, wanted, playback_));
+  const int fragment =
+      director_.plays_forced() ? selector_.choose_any(next) : selector_.choose(next, wanted, playback_);
+  correction_.keep_velocity(playback_.start(fragment));
   ++entered_;
 }
 
@@ -87,10 +99,13 @@ void Player::step(const Control& control, double seconds) {
   director_.observe(control);
   if (seconds == 0) playback_.show();
   for (double rest = seconds; rest > 0;) {
-    if (director_.is_due(control, playback_, selector_)) go_on(control);
-    const double part = director_.until_due(playback_, rest);
+    const double heading = frame().heading, next = std::min(rest, kFinest);
+    const Control asked = limit_.after(control, heading, next);
+    if (director_.is_due(asked, playback_, selector_)) go_on(asked);
+    const double part = director_.until_due(playback_, next);
+    limit_.advance(control, heading, part);
     playback_.advance(part);
-    correction_.adjust_root(control, part, playback_);
+    correction_.adjust_root(asked, part, playback_);
     rest -= part;
     playback_.show();
   }

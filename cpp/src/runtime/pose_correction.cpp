@@ -7,36 +7,55 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kMostAdjusted = 0.4;  // of a fragment's speed and of the turn rate
-constexpr double kAdjusting = 0.1;     // s: time constant of the adjustment
+constexpr double kMostAdjusted = 0.6;  // of a fragment's speed,
+constexpr double kMostTurned = 1;      // and of the turn rate
+constexpr double kAdjusting = 0.05;    // s: time constant of the velocity's adjustment,
+constexpr double kTurning = 0.1;       // and of the turn rate's
+constexpr double kHeading = 0.15;      // s in which the heading gets to where it is led,
+constexpr double kLeash = 0.5;         // rad by which it is led at most
 constexpr double kStill = 0.2;         // m/s of a 1.8 m character, and of the turn rate, below which it stands
 
 }  // namespace
 
-PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace, double root_adjustment, bool lock_feet)
+PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace, double root_adjustment,
+                               double acceleration, bool lock_feet)
     : character_(&character),
       workspace_(&workspace),
       root_adjustment_(root_adjustment),
+      acceleration_(acceleration),
       lock_feet_(lock_feet),
       foot_lock_(workspace.body),
       breathing_(workspace.kinematics.skeleton()) {}
 
-void PoseCorrection::reset() {
+void PoseCorrection::reset(double heading) {
   velocity_ = Vector2::Zero();
   turn_rate_ = 0;
+  led_ = heading;
   foot_lock_.reset();
   breathing_.reset();
 }
 
+// The velocity that the fragment lacks, as far as its strides can be changed.
+Vector2 PoseCorrection::velocity_to_add(const Control& control, const Control& evident) const {
+  const Vector2 lacks{control.x - evident.x, control.y - evident.y};
+  return root_adjustment_ * clamp_length(lacks, kMostAdjusted * evident.speed());
+}
+
+// The turn rate that the fragment lacks, and what brings back the heading that it has lost.
+double PoseCorrection::turn_to_add(const Control& control, const Playback& playback, double seconds) {
+  const double unit = character_->space.turn_rate(), heading = playback.frame().heading;
+  led_ += seconds * control.turn * unit;
+  const double behind = std::clamp(std::remainder(led_ - heading, 2 * kPi), -kLeash, kLeash);
+  led_ = heading + behind;
+  const double lacks = control.turn - playback.evident().turn + behind / kHeading / unit;
+  return root_adjustment_ * unit * std::clamp(lacks, -kMostTurned, kMostTurned);
+}
+
 void PoseCorrection::adjust_root(const Control& control, double seconds, Playback& playback) {
-  const Control& ev = playback.evident();
-  Vector2 missing{control.x - ev.x, control.y - ev.y};
-  const double most = kMostAdjusted * ev.speed();
-  if (missing.norm() > most) missing *= most / missing.norm();
-  const double turn = std::clamp(control.turn - ev.turn, -kMostAdjusted, kMostAdjusted) * character_->space.turn_rate();
-  const double share = 1 - std::exp(-seconds / kAdjusting);
-  velocity_ += share * (root_adjustment_ * missing - velocity_);
-  turn_rate_ += share * (root_adjustment_ * turn - turn_rate_);
+  const auto part = [&](double time) { return 1 - std::exp(-seconds / time); };
+  const Vector2 change = part(kAdjusting) * (velocity_to_add(control, playback.evident()) - velocity_);
+  velocity_ += clamp_length(change, acceleration_ * seconds);
+  turn_rate_ += part(kTurning) * (turn_to_add(control, playback, seconds) - turn_rate_);
   playback.move(velocity_, turn_rate_, seconds);
 }
 

@@ -71,7 +71,7 @@ TEST(MotionYardstick, SeesAKneeThatBendsBackward) {
 
 TEST(MotionYardstick, LooksAtStitchesOfAFragmentToItself) {
   const auto character = std::make_shared<const Character>(tiny_character({tiny_clip(1.5)}));
-  const Performance p = perform(Player(character), Trace(20, Control{}), 60);
+  const Performance p = perform(Player(character), Trace(20, Control{0, 1.5, 0, 0}), 60);
   EXPECT_EQ(p.fragments.front(), p.fragments.back());
   const MotionYardstick yardstick(*character);
   EXPECT_GT(yardstick.of(p).positions.worst, 0.5 * yardstick.takes().positions.worst);

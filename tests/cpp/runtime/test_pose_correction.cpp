@@ -7,6 +7,8 @@
 namespace fragmotion {
 namespace {
 
+constexpr double kAcceleration = 50;  // m/s^2
+
 // The fragment that goes forward fastest.
 int forward_fragment(const Character& c) {
   int best = 0;
@@ -23,8 +25,9 @@ std::pair<Vector2, double> adjusted(double adjustment, const Control& beyond) {
   const auto character = gait_character();
   Workspace workspace(*character);
   Playback playback(*character, workspace, Stitching::inertialize, 0.2);
-  PoseCorrection correction(*character, workspace, adjustment, true);
+  PoseCorrection correction(*character, workspace, adjustment, kAcceleration, true);
   playback.reset(forward_fragment(*character), {});
+  correction.reset(0);
   const Control& ev = playback.evident();
   const Control control{ev.x + beyond.x, ev.y + beyond.y, ev.turn + beyond.turn, 0};
   for (int i = 0; i < 30; ++i) {
@@ -47,7 +50,46 @@ TEST(PoseCorrection, MovesTheRootByWhatIsMissingUpToALimit) {
   EXPECT_LT(little, 0.1);  // 0.2 m/s for half a second, eased in
   EXPECT_NEAR(half, little / 2, 1e-6);
   EXPECT_GT(most, little);
-  EXPECT_LT(most, 0.4 * speed * 0.5);
+  EXPECT_LT(most, 0.6 * speed * 0.5);
+}
+
+TEST(PoseCorrection, LetsGoOfAVelocityNoFasterThanABodyCan) {
+  const auto character = gait_character();
+  Workspace workspace(*character);
+  Playback playback(*character, workspace, Stitching::inertialize, 0.2);
+  PoseCorrection correction(*character, workspace, 1, 5, true);
+  playback.reset(character->classes.representatives[0], {});
+  correction.reset(0);
+  correction.keep_velocity({0, 2});
+  const Control& ev = playback.evident();
+  double before = 2;
+  for (int i = 0; i < 60; ++i) {
+    const double from = playback.frame().position.y();
+    correction.adjust_root(ev, 0.01, playback);
+    playback.show();
+    const double speed = (playback.frame().position.y() - from) / 0.01;
+    EXPECT_LE(std::abs(speed - before), 0.05 + 1e-6) << i;
+    before = speed;
+  }
+  EXPECT_NEAR(before, 0, 0.01);
+}
+
+TEST(PoseCorrection, BringsBackTheHeadingThatWasLost) {
+  const auto character = gait_character();
+  Workspace workspace(*character);
+  Playback playback(*character, workspace, Stitching::inertialize, 0.2);
+  PoseCorrection correction(*character, workspace, 1, 5, true);
+  playback.reset(forward_fragment(*character), {});
+  correction.reset(0);
+  playback.move({0, 0}, 0.3, 1);  // turned by something else
+  playback.show();
+  const double turn = playback.evident().turn;
+  for (int i = 0; i < 60; ++i) {
+    correction.adjust_root({0, 1, turn, 0}, 0.02, playback);
+    playback.move({0, 0}, -turn * character->space.turn_rate(), 0.02);  // as if the fragment did not
+    playback.show();
+  }
+  EXPECT_NEAR(playback.frame().heading, 0, 0.01);
 }
 
 TEST(PoseCorrection, TurnsTheWayThatIsAsked) {

@@ -27,4 +27,10 @@ inline Vector3 load_vector(const double* xyz) { return {xyz[0], xyz[1], xyz[2]};
 
 inline void store_vector(const Vector3& v, double* xyz) { Eigen::Map<Vector3>{xyz} = v; }
 
+/// The vector, or where it is longer than `most` the one of that length in its direction.
+inline Vector2 clamp_length(const Vector2& v, double most) {
+  const double length = v.norm();
+  return length > most ? Vector2{v * (most / length)} : v;
+}
+
 }  // namespace fragmotion

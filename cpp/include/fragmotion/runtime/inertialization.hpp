@@ -17,7 +17,8 @@ struct BoneOffsets {
 /// of War", GDC 2018): the new motion is shown with the old one's offset and relative speed, which fade like a
 /// critically damped spring. (Against Bollo's polynomials and the paper's ease-in-ease-out weights of the same
 /// smoothness at the beginning, it is at its fastest little more than half as fast.) It needs nothing of the old motion
-/// once it has begun, so it may begin anew at any time.
+/// once it has begun, so it may begin anew at any time. How fast the root goes over the ground is not faded here: that
+/// is a body's velocity (pose_correction.hpp).
 class Inertialization {
  public:
   explicit Inertialization(int bones);

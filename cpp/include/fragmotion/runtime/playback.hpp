@@ -21,8 +21,9 @@ class Playback {
 
   /// Nothing but this fragment plays, from its first pose, placed at `frame`.
   void reset(int fragment, const CharacterFrame& frame);
-  /// Stitches a fragment on to what is shown.
-  void start(int fragment);
+  /// Stitches a fragment on to what is shown. Returns how much faster what played went over the ground, m/s in the
+  /// character frame: a stitch with inertialization leaves it to the caller to let a body go on so. 0 with a crossfade.
+  Vector2 start(int fragment);
   void advance(double seconds);
   /// Moves the character for `seconds` at a velocity, m/s in its own frame, and a turn rate, rad/s.
   void move(const Vector2& velocity, double turn_rate, double seconds);
@@ -57,7 +58,7 @@ class Playback {
   Placed place(int fragment, const CharacterFrame& frame) const;
   void sample(const Placed& placed, WorldPose& pose) const;
   void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
-  void begin_stitch(const Placed& old);
+  Vector2 begin_stitch(const Placed& old);
   void crossfade(double weight, WorldPose& pose) const;
 
   const Character* character_;

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "fragmotion/control/control.hpp"
+
+namespace fragmotion {
+
+/// The command as a body can follow it: its velocity goes towards the stick's by so much a second at most, seen from
+/// the world, so that a body that turns as it goes has less left for going faster.
+class CommandLimit {
+ public:
+  /// `acceleration`: m/s^2 at most; infinity: none.
+  explicit CommandLimit(double acceleration) : acceleration_(acceleration) {}
+
+  /// Stands, facing `heading`.
+  void reset(double heading);
+  /// What the control becomes `seconds` from the last advance(), of a body that faces `heading` then.
+  Control after(const Control& control, double heading, double seconds) const;
+  /// Goes so far.
+  void advance(const Control& control, double heading, double seconds);
+
+ private:
+  double acceleration_;
+  Vector2 velocity_ = Vector2::Zero();  // m/s, in the character frame
+  double heading_ = 0;                  // of that frame, rad
+};
+
+}  // namespace fragmotion

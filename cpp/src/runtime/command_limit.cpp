@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/runtime/command_limit.hpp"
+
+namespace fragmotion {
+
+void CommandLimit::reset(double heading) {
+  velocity_ = Vector2::Zero();
+  heading_ = heading;
+}
+
+Control CommandLimit::after(const Control& control, double heading, double seconds) const {
+  const Vector2 going = Eigen::Rotation2Dd(heading_ - heading) * velocity_, asked{control.x, control.y};
+  const double most = acceleration_ * seconds;
+  if (!((asked - going).norm() > most)) return control;
+  const Vector2 velocity = going + clamp_length(asked - going, most);
+  return {velocity.x(), velocity.y(), control.turn, control.jump};
+}
+
+void CommandLimit::advance(const Control& control, double heading, double seconds) {
+  const Control now = after(control, heading, seconds);
+  velocity_ = {now.x, now.y};
+  heading_ = heading;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "fragmotion/base/random.hpp"
+#include "fragmotion/runtime/command_limit.hpp"
+
+namespace fragmotion {
+namespace {
+
+Vector2 velocity(const Control& control) { return {control.x, control.y}; }
+
+TEST(CommandLimit, GetsToTheCommandWithTheAccelerationAndStaysThere) {
+  CommandLimit limit(5);
+  limit.reset(0.7);
+  const Control run{0, 3, -1, 1};
+  for (int f = 1; f <= 90; ++f) {
+    const Control now = limit.after(run, 0.7, 1.0 / 60);
+    limit.advance(run, 0.7, 1.0 / 60);
+    EXPECT_NEAR(now.y, std::min(3.0, 5 * f / 60.0), 1e-9);
+    EXPECT_NEAR(now.x, 0, 1e-9);
+    EXPECT_EQ(now.turn, -1);
+    EXPECT_EQ(now.jump, 1);
+  }
+}
+
+TEST(CommandLimit, NeverChangesTheVelocityInTheWorldFaster) {
+  Random random(3);
+  CommandLimit limit(5);
+  limit.reset(0);
+  Vector2 before = Vector2::Zero();
+  double heading = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Control control{6 * random.uniform() - 3, 6 * random.uniform() - 3, 0, 0};
+    const double seconds = 0.1 * random.uniform();
+    heading += random.uniform() - 0.5;
+    const Vector2 now = Eigen::Rotation2Dd(heading) * velocity(limit.after(control, heading, seconds));
+    limit.advance(control, heading, seconds);
+    EXPECT_LE((now - before).norm(), 5 * seconds + 1e-9);
+    before = now;
+  }
+}
+
+TEST(CommandLimit, WithoutALimitIsTheCommand) {
+  CommandLimit limit(std::numeric_limits<double>::infinity());
+  limit.reset(0);
+  const Control control{1, -2, 0.5, 0};
+  for (const double seconds : {0.01, 10.0}) {
+    const Control now = limit.after(control, 2, seconds);
+    EXPECT_NEAR((velocity(now) - velocity(control)).norm(), 0, 1e-12) << seconds;
+  }
+}
+
+}  // namespace
+}  // namespace fragmotion
