@@ -51,6 +51,12 @@ void bind_measures(py::module_& m) {
   py::class_<Excess>(m, "Excess", py::module_local())
       .def_readonly("share", &Excess::share)
       .def_readonly("worst", &Excess::worst);
+  py::class_<Pushes>(m, "Pushes", py::module_local())
+      .def_readonly("p50", &Pushes::p50)
+      .def_readonly("p99", &Pushes::p99)
+      .def_readonly("p999", &Pushes::p999)
+      .def_readonly("worst", &Pushes::worst)
+      .def_readonly("over_6", &Pushes::over_6);
   py::class_<MotionMeasures>(m, "MotionMeasures", py::module_local())
       .def_readonly("foot_skate", &MotionMeasures::foot_skate)
       .def_readonly("sliding_share", &MotionMeasures::sliding_share)
@@ -58,6 +64,8 @@ void bind_measures(py::module_& m) {
       .def_readonly("positions", &MotionMeasures::positions)
       .def_readonly("velocities", &MotionMeasures::velocities)
       .def_readonly("accelerations", &MotionMeasures::accelerations)
+      .def_readonly("center_of_mass", &MotionMeasures::center_of_mass)
+      .def_readonly("hips", &MotionMeasures::hips)
       .def_readonly("turns", &MotionMeasures::turns);
   py::class_<MotionYardstick>(m, "MotionYardstick", py::module_local())
       .def(py::init([](const Character& character) { return MotionYardstick(character); }), py::arg("character"),

@@ -461,6 +461,16 @@ class Excess:
     worst: float
     """rad"""
 
+class Pushes:
+    """How hard a body is pushed along the ground: the change over 0.2 s of its mean velocity over 0.2 s, m/s^2."""
+
+    p50: float
+    p99: float
+    p999: float
+    worst: float
+    over_6: float
+    """Share of the time in which it is more than 6 m/s^2."""
+
 class MotionMeasures:
     """What a viewer finds fault with, for a character of 1.8 m."""
 
@@ -476,6 +486,8 @@ class MotionMeasures:
     """m/s"""
     accelerations: Steps
     """m/s^2"""
+    center_of_mass: Pushes
+    hips: Pushes
     turns: Excess
     """Of the takes: each beyond all others."""
 

@@ -21,7 +21,7 @@ from tools.evaluate import curves, inputs, loading, run_time, synthesis
 from tools.evaluate.__main__ import main
 from tools.evaluate.controllers import summarise, unseen
 from tools.evaluate.loading import Session, Sessions
-from tools.evaluate.report import Table, run_time_table, text
+from tools.evaluate.report import Table, acceleration_table, run_time_table, text
 from tools.paths import TOP
 from tools.shell import Failure
 
@@ -128,7 +128,7 @@ def test_the_json_file_is_laid_out_as_documented(run: Run) -> None:
         assert set(figures) == {"percent_of_optimal", "synthesis_seconds", "peak_bytes", "online", "run_time"}
         assert set(figures["percent_of_optimal"]) == {"mean", "sd", "min", "by_trace"}
         assert set(figures["percent_of_optimal"]["by_trace"]) == set(core.PLAYERS) == set(result["bound"])
-        assert set(figures["run_time"]) == set(run_time.FIGURES)
+        assert set(figures["run_time"]) == {*run_time.FIGURES, *run_time.ACCELERATIONS}
         assert figures["synthesis_seconds"] > 0 and figures["online"] == (name != "optimal")
     assert len(result["coverage"]) == len(result["coverage_counts"]) == 102
     assert sum(result["coverage_counts"]) == result["fragments"]
@@ -153,13 +153,6 @@ def test_optimal_is_100_and_has_no_run_time(run: Run) -> None:
     figures = dict(optimal["run_time"])
     assert figures.pop("percent_of_optimal") == 100
     assert set(figures.values()) == {None}
-
-
-def test_percents_after_the_first_session_are_the_characters(run: Run, character: core.Character) -> None:
-    for name in character.policies:
-        row = run.result["adaptability"][name]["matrix"][0]
-        percents = [character.percent_of_optimal(trace(run, "test", test), name) for test in run.result["test"]]
-        assert row == pytest.approx(percents, rel=1e-12), name
 
 
 def test_percents_after_any_session_are_the_cores(run: Run, character: core.Character) -> None:
@@ -239,9 +232,22 @@ def test_run_time_is_the_players(run: Run, character: core.Character) -> None:
 
 
 def test_every_figure_of_the_run_time_is_shown(run: Run) -> None:
-    table = run_time_table(run.result)
-    assert len(table.header) == 1 + len(run_time.FIGURES)
-    assert all(len(row) == len(table.header) for row in table.rows)
+    for table, figures in (
+        (run_time_table(run.result), run_time.FIGURES),
+        (acceleration_table(run.result), run_time.ACCELERATIONS),
+    ):
+        assert len(table.header) == 1 + len(figures)
+        assert all(len(row) == len(table.header) for row in table.rows)
+
+
+def test_accelerations_are_second_differences(character: core.Character) -> None:
+    performance = core.Player(character, 1).run(core.simulate_trace("walker", 20, 3, character.space), 60)
+    path = character.space.scale * performance.root_positions[:, :2]
+    pushes = np.linalg.norm(path[24:] - 2 * path[12:-12] + path[:-24], axis=1) / 0.2**2
+    hips = core.MotionYardstick(character).of(performance).hips
+    assert hips.worst == pytest.approx(pushes.max(), rel=1e-4)
+    assert hips.p50 == pytest.approx(np.median(pushes), rel=0.01)
+    assert hips.over_6 == pytest.approx((pushes > 6).mean(), abs=1e-3)
 
 
 def without_costs(value: Any) -> Any:

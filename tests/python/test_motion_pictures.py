@@ -54,5 +54,6 @@ def test_a_ball_stands_where_it_is_low_and_still(skeleton: core.Skeleton, clips:
 def test_every_change_of_fragment_is_a_stitch(character: core.Character) -> None:
     performance = core.Player(character).run(trace_of(MOVEMENTS[0].parts, character.space), 60)
     motion: Motion = of_performance("ours", performance)
-    fragments = performance.fragments
-    assert [f for f in range(1, len(fragments)) if fragments[f] != fragments[f - 1]] == motion.stitches.tolist()
+    fragments = performance.fragments  # one may follow itself
+    assert {f for f in range(1, len(fragments)) if fragments[f] != fragments[f - 1]} <= set(motion.stitches.tolist())
+    assert len(motion.stitches) == performance.entered[-1]

@@ -126,6 +126,28 @@ def run_time_table(result: Result) -> Table:
     return Table(heading, ["controller", *(head for head, _ in _RUN_TIME)], rows)
 
 
+_ACCELERATIONS: tuple[tuple[str, Callable[[Result], str]], ...] = (
+    ("p50", lambda r: number(r["acceleration_p50"], 2)),
+    ("p99", lambda r: number(r["acceleration_p99"], 2)),
+    ("p99.9", lambda r: number(r["acceleration_p999"], 2)),
+    ("greatest", lambda r: number(r["acceleration_max"])),
+    ("over 6, %", lambda r: number(_percent(r["acceleration_over_6"]), 2)),
+    ("hips over 6, %", lambda r: number(_percent(r["hips_acceleration_over_6"]), 2)),
+    ("hips, greatest", lambda r: number(r["hips_acceleration_max"])),
+)
+
+
+def acceleration_table(result: Result) -> Table:
+    """How hard the body is pushed along the ground, beside the takes."""
+    played = {title(name, result): each["run_time"] for name, each in result["controllers"].items() if each["online"]}
+    rows = [
+        [name, *(cell(figures) for _, cell in _ACCELERATIONS)]
+        for name, figures in {"the takes": result["takes"], **played}.items()
+    ]
+    heading = "Acceleration along the ground over 0.2 s, m/s\u00b2: of the centre of mass, then of the hips"
+    return Table(heading, ["", *(head for head, _ in _ACCELERATIONS)], rows)
+
+
 _STITCHINGS: tuple[tuple[str, Callable[[Result], str]], ...] = (
     ("foot skate, m/s", lambda r: number(r["foot_skate"], 3)),
     ("sliding, %", lambda r: number(100 * r["sliding_share"])),
@@ -200,7 +222,7 @@ def minutes_table(result: Result) -> Table:
 
 def tables(result: Result) -> Iterable[Table]:
     """All tables that the run has figures for."""
-    for make in (synthesis_table, trace_table, adaptability_table, matrix_table, run_time_table):
+    for make in (synthesis_table, trace_table, adaptability_table, matrix_table, run_time_table, acceleration_table):
         yield make(result)
     yield stitchings_table(result)
     yield coverage_table(result)
@@ -226,7 +248,7 @@ def summary(result: Result) -> str:
     """What was built."""
     space = result["control_space"]
     return (
-        f"{result['takes']} takes, {result['fragments']} fragments ({result['captured']} not synthesized), "
+        f"{result['takes']['count']} takes, {result['fragments']} fragments ({result['captured']} not synthesized), "
         f"{result['classes']} classes, built in {result['build_seconds']:.1f} s; "
         f"walk {space['walk']:.2f} m/s, run {space['run']:.2f} m/s, turn {space['turn_rate']:.0f} degrees/s"
     )

@@ -31,11 +31,20 @@ FIGURES = (
     "beyond_limits_share",
     "beyond_limits_degrees",
 )
+ACCELERATIONS = (
+    "acceleration_p50",
+    "acceleration_p99",
+    "acceleration_p999",
+    "acceleration_max",
+    "acceleration_over_6",
+    "hips_acceleration_over_6",
+    "hips_acceleration_max",
+)
 
 
 def no_figures() -> dict[str, float | None]:
     """Optimal's run time: it is the yardstick, and cannot be played."""
-    return {**dict.fromkeys(FIGURES), "percent_of_optimal": 100.0}
+    return {**dict.fromkeys((*FIGURES, *ACCELERATIONS)), "percent_of_optimal": 100.0}
 
 
 def best_qualities(character: core.Character, sessions: Sequence[Session]) -> list[float]:
@@ -77,7 +86,23 @@ def looks(yardstick: core.MotionYardstick, performances: list[list[core.Performa
         "foot_skate_ratio": statistics.fmean(m.foot_skate for m in every) / max(takes.foot_skate, _STILL),
         "joint_step_ratio": max(m.positions.worst for m in every) / max(takes.positions.p999, _STILL),
         "sliding_contact_share": statistics.fmean(m.sliding_share for m in every),
+        **accelerations(every),
         **_turns(every),
+    }
+
+
+def accelerations(measured: Sequence[core.MotionMeasures]) -> dict[str, float]:
+    """Horizontal accelerations over 0.2 s, m/s^2 of a 1.8 m character, of the centre of mass and of the hips: means of
+    the performances' percentiles, the greatest of all, and the share of the time over 6 m/s^2."""
+    bodies, hips = [m.center_of_mass for m in measured], [m.hips for m in measured]
+    return {
+        "acceleration_p50": statistics.fmean(body.p50 for body in bodies),
+        "acceleration_p99": statistics.fmean(body.p99 for body in bodies),
+        "acceleration_p999": statistics.fmean(body.p999 for body in bodies),
+        "acceleration_max": max(body.worst for body in bodies),
+        "acceleration_over_6": statistics.fmean(body.over_6 for body in bodies),
+        "hips_acceleration_over_6": statistics.fmean(each.over_6 for each in hips),
+        "hips_acceleration_max": max(each.worst for each in hips),
     }
 
 

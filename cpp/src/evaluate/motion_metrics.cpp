@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fragmotion/motion/center_of_mass.hpp"
 #include "fragmotion/motion/pose.hpp"
 #include "fragmotion/skeleton/two_bone_ik.hpp"
 
@@ -14,6 +15,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kRate = 60, kHeight = 0.025, kSliding = 0.1, kStitched = 0.25;
+constexpr double kPush = 0.2, kHard = 6;  // s, m/s^2
 constexpr double kNeverLow = std::numeric_limits<double>::infinity();
 
 using PointFloors = std::array<double, 4>;  // heights of left ball, left heel, right ball, right heel
@@ -23,6 +25,7 @@ struct Joints {
   double rate = 0;
   int bones = 0, frames = 0;
   std::vector<Vector3> places;                 // [frames, bones]
+  std::vector<Vector3> centers, hips;          // [frames]
   std::array<std::vector<Vector3>, 4> points;  // of the feet, as PointFloors; empty without feet
   std::vector<bool> judged;                    // frames whose steps count
 
@@ -35,6 +38,7 @@ class JointReader {
       : kinematics_(skeleton),
         scale_(standard_scale(skeleton)),
         measured_(measured_bones(skeleton)),
+        masses_(segment_masses(skeleton)),
         posed_(kinematics_.bones()) {}
 
   void add(Joints& joints, const Vector3& root, const double* rotations) {
@@ -42,6 +46,8 @@ class JointReader {
     joints.bones = static_cast<int>(measured_.size());
     for (const int b : measured_) joints.places.push_back(posed_.heads[b] * scale_);
     const Roles& roles = kinematics_.skeleton().roles;
+    joints.hips.push_back(posed_.heads[roles.hips] * scale_);
+    joints.centers.push_back(center_of_mass(kinematics_.skeleton(), masses_, posed_) * scale_);
     if (roles.left_foot >= 0 && roles.right_foot >= 0) {
       add_foot(joints, 0, roles.left_foot, roles.left_toe);
       add_foot(joints, 2, roles.right_foot, roles.right_toe);
@@ -58,6 +64,7 @@ class JointReader {
   Kinematics kinematics_;
   double scale_;
   std::vector<int> measured_;
+  std::vector<double> masses_;
   PosedBones posed_;
 };
 
@@ -107,6 +114,8 @@ class Measurement {
     for (int f = 3; f < joints.frames; ++f) {
       if (joints.judged[f]) add_steps(joints, f);
     }
+    add_pushes(joints.centers, joints.rate, center_pushes_);
+    add_pushes(joints.hips, joints.rate, hips_pushes_);
   }
 
   MotionMeasures result() {
@@ -117,6 +126,8 @@ class Measurement {
     m.positions = steps(positions_);
     m.velocities = steps(velocities_);
     m.accelerations = steps(accelerations_);
+    m.center_of_mass = pushes(center_pushes_);
+    m.hips = pushes(hips_pushes_);
     return m;
   }
 
@@ -145,19 +156,35 @@ class Measurement {
     }
   }
 
+  static void add_pushes(const std::vector<Vector3>& path, double rate, std::vector<float>& pushes) {
+    const auto apart = static_cast<std::size_t>(std::max(1L, std::lround(kPush * rate)));
+    for (std::size_t f = 2 * apart; f < path.size(); ++f) {
+      const Vector3 change = path[f] - 2 * path[f - apart] + path[f - 2 * apart];
+      pushes.push_back(static_cast<float>(change.head<2>().norm() / (kPush * kPush)));
+    }
+  }
+
+  static double percentile(std::vector<float>& values, double share) {
+    const auto i = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), i, values.end());
+    return static_cast<double>(*i);
+  }
+
   static Steps steps(std::vector<float>& values) {
     if (values.empty()) return {};
-    const auto at = [&](double share) {
-      const auto i = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-      std::nth_element(values.begin(), i, values.end());
-      return static_cast<double>(*i);
-    };
-    return {at(0.99), at(0.999), at(1)};
+    return {percentile(values, 0.99), percentile(values, 0.999), percentile(values, 1)};
+  }
+
+  static Pushes pushes(std::vector<float>& values) {
+    if (values.empty()) return {};
+    const auto hard = std::count_if(values.begin(), values.end(), [](float push) { return push > kHard; });
+    return {percentile(values, 0.5), percentile(values, 0.99), percentile(values, 0.999), percentile(values, 1),
+            static_cast<double>(hard) / static_cast<double>(values.size())};
   }
 
   PointFloors floors_;
   double skate_ = 0, count_ = 0, low_ = 0, sliding_ = 0, depth_ = 0;
-  std::vector<float> positions_, velocities_, accelerations_;
+  std::vector<float> positions_, velocities_, accelerations_, center_pushes_, hips_pushes_;
 };
 
 void check(const Performance& p, std::size_t width) {

@@ -45,16 +45,22 @@ std::vector<double> segment_masses(const Skeleton& skeleton) {
   return masses;
 }
 
+Vector3 center_of_mass(const Skeleton& skeleton, const std::vector<double>& masses, const PosedBones& posed) {
+  Vector3 center = Vector3::Zero();
+  for (std::size_t b = 0; b < masses.size(); ++b) {
+    if (masses[b] > 0) center += masses[b] * (posed.heads[b] + posed.rotations[b] * (0.5 * skeleton.tips[b]));
+  }
+  return center;
+}
+
 std::vector<Vector3> center_of_mass(const Kinematics& kinematics, const Clip& clip) {
   const Skeleton& skeleton = kinematics.skeleton();
   const std::vector<double> masses = segment_masses(skeleton);
-  std::vector<Vector3> heads(kinematics.bones()), centers(clip.frames, Vector3::Zero());
-  std::vector<Quaternion> rotations(kinematics.bones());
+  std::vector<Vector3> centers;
+  PosedBones posed(kinematics.bones());
   for (int f = 0; f < clip.frames; ++f) {
-    world(kinematics, clip, f, heads.data(), rotations.data());
-    for (int b = 0; b < kinematics.bones(); ++b) {
-      if (masses[b] > 0) centers[f] += masses[b] * (heads[b] + rotations[b] * (0.5 * skeleton.tips[b]));
-    }
+    world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
+    centers.push_back(center_of_mass(skeleton, masses, posed));
   }
   return centers;
 }

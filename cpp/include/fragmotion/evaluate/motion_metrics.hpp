@@ -14,6 +14,13 @@ struct Steps {
   double p99 = 0, p999 = 0, worst = 0;
 };
 
+/// How hard a body is pushed along the ground: the change over 0.2 s of its mean velocity over 0.2 s, m/s^2. A body can
+/// push itself by some 5, a sprinter's start is 6, and near 8 a shoe slips.
+struct Pushes {
+  double p50 = 0, p99 = 0, p999 = 0, worst = 0;
+  double over_6 = 0;  ///< Share of the time in which it is more than 6 m/s^2.
+};
+
 /// What a viewer finds fault with. Lengths are those of a character of 1.8 m. Feet are judged by ball and heel (heads
 /// of toe and foot), whose height is that over where they stand in the takes.
 struct MotionMeasures {
@@ -23,7 +30,8 @@ struct MotionMeasures {
   Steps positions;           ///< m
   Steps velocities;          ///< m/s
   Steps accelerations;       ///< m/s^2
-  Excess turns;              ///< Beyond what joints do in the takes; of a take, in all others.
+  Pushes center_of_mass, hips;
+  Excess turns;  ///< Beyond what joints do in the takes; of a take, in all others.
 };
 
 /// Measures performances by what the takes do themselves.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fragmotion/motion/clip.hpp"
+#include "fragmotion/skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
 
@@ -12,7 +13,10 @@ namespace fragmotion {
 /// thigh 10.0, shank 4.65, foot 1.45), equal masses where the skeleton has no head, hands and feet.
 std::vector<double> segment_masses(const Skeleton& skeleton);
 
-/// World position of the centre of mass in every frame of the clip, m: the mean of the bones' midpoints by mass.
+/// World position of the centre of mass of a pose, m: the mean of the bones' midpoints by segment_masses().
+Vector3 center_of_mass(const Skeleton& skeleton, const std::vector<double>& masses, const PosedBones& posed);
+
+/// World position of the centre of mass in every frame of the clip, m.
 std::vector<Vector3> center_of_mass(const Kinematics& kinematics, const Clip& clip);
 
 }  // namespace fragmotion
