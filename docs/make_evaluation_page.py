@@ -24,7 +24,7 @@ from tools.evaluate.report import Table, number  # noqa: E402
 Result = dict[str, Any]
 PAGE = DOCS / "evaluation.md"
 _BLOCK = re.compile(r"(<!-- made: (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
-_PLAYERS = DOCS.parent / "cpp" / "src" / "simulated_players.cpp"
+_PLAYERS = DOCS.parent / "cpp" / "src" / "control" / "simulated_players.cpp"
 _PLAYER = re.compile(r'^ +\{"(\w+)", +(.*)\},$', re.MULTILINE)
 
 # The paper's Table 1 and Sec. 4.
@@ -97,6 +97,11 @@ def limits(result: Result) -> str:
 def run_time(result: Result) -> str:
     """The player's figures."""
     return markdown(report.run_time_table(result))
+
+
+def accelerations(result: Result) -> str:
+    """How hard the body is pushed."""
+    return markdown(report.acceleration_table(result))
 
 
 def stitchings(result: Result) -> str:
@@ -182,6 +187,7 @@ _MADE: dict[str, Callable[[Result], str]] = {
         svm_least,
         limits,
         run_time,
+        accelerations,
         stitchings,
         coverage,
         classes,

@@ -104,14 +104,14 @@ class FeelSettings(bpy.types.PropertyGroup):
     # PlayerOptions' responsiveness and root_adjustment, under the names that saved files have.
     promptness: factor_field(  # type: ignore[valid-type]
         "Responsiveness",
-        "How soon the character answers when the stick moves a lot: at 0 it waits, half a second at most, for the "
-        "moment where what it does next joins on best; at 1 it answers at once, and its feet may slide",
+        "How soon the character follows the stick: in the middle it speeds up and brakes as a body does, at 5 metres a "
+        "second in a second; at 0 half as fast; at 1 at once, as if it weighed nothing, and its feet may slide",
         0.5,
     )
     pull: factor_field(  # type: ignore[valid-type]
         "Root Adjustment",
         "How much the body does of what the stick says beyond what its takes do: at 0 it moves as the actor did, "
-        "at 1 it goes and turns up to two fifths faster, slower or aside",
+        "at 1 it goes up to three fifths faster, slower or aside, and turns as the stick says",
         1.0,
     )
     lock_feet: BoolProperty(  # type: ignore[valid-type]
