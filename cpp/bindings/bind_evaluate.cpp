@@ -67,11 +67,11 @@ void bind_measures(py::module_& m) {
       .def_readonly("center_of_mass", &MotionMeasures::center_of_mass)
       .def_readonly("hips", &MotionMeasures::hips)
       .def_readonly("turns", &MotionMeasures::turns);
-  py::class_<MotionYardstick>(m, "MotionYardstick", py::module_local())
-      .def(py::init([](const Character& character) { return MotionYardstick(character); }), py::arg("character"),
+  py::class_<MotionMetrics>(m, "MotionMetrics", py::module_local())
+      .def(py::init([](const Character& character) { return MotionMetrics(character); }), py::arg("character"),
            py::call_guard<GilRelease>())
-      .def_property_readonly("takes", &MotionYardstick::takes)
-      .def("of", &MotionYardstick::of, py::arg("performance"), py::call_guard<GilRelease>());
+      .def_property_readonly("takes", &MotionMetrics::takes)
+      .def("of", &MotionMetrics::of, py::arg("performance"), py::call_guard<GilRelease>());
 }
 
 void bind_yardsticks(py::module_& m) {
@@ -118,7 +118,7 @@ void bind_explain(py::module_& m) {
       .def_readonly("next", &Alternative::next)
       .def_readonly("smoothness", &Alternative::smoothness)
       .def_readonly("match", &Alternative::match)
-      .def_readonly("to_come", &Alternative::to_come)
+      .def_readonly("future_value", &Alternative::future_value)
       .def_property_readonly("value", &Alternative::value)
       .def_readonly("fragments", &Alternative::fragments);
   py::class_<Explainer>(m, "Explainer", py::module_local())

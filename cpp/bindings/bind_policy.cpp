@@ -93,7 +93,8 @@ void bind_policies(py::module_& m) {
       [](const std::vector<Indices>& traces, double stays, double goes_anywhere) {
         return to_array(control_model(to_control_traces(traces), {stays, goes_anywhere}), {kPoints, kPoints});
       },
-      py::arg("traces"), py::arg("stays") = kAnyPlayer.stays, py::arg("goes_anywhere") = kAnyPlayer.goes_anywhere);
+      py::arg("traces"), py::arg("stays") = kGenericPrior.stays,
+      py::arg("goes_anywhere") = kGenericPrior.goes_anywhere);
   m.def(
       "anticipate_table",
       [](const Doubles& smoothness, const Doubles& match, const std::vector<Indices>& traces) {

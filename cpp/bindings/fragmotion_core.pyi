@@ -430,10 +430,10 @@ class Alternative:
     """First factor of Eq. 2."""
     match: float
     """Second factor of Eq. 2."""
-    to_come: float
+    future_value: float
     """Eq. 2 expected of all later steps, discounted, if the policy goes on from there."""
     value: float
-    """smoothness * match + to_come"""
+    """smoothness * match + future_value"""
     fragments: list[int]
     """Up to three of the class's fragments: those of the greatest Eq. 2 of their own, best first."""
 
@@ -491,7 +491,7 @@ class MotionMeasures:
     turns: Excess
     """Of the takes: each beyond all others."""
 
-class MotionYardstick:
+class MotionMetrics:
     """Measures performances by what the takes do themselves. ValueError where the character holds no captured
     fragment."""
 

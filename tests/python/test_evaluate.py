@@ -188,12 +188,12 @@ def test_means_are_over_pairs_of_different_players(run: Run) -> None:
 
 def test_ways_to_play_are_measured_beside_the_takes(run: Run, character: core.Character) -> None:
     found = run.result["stitchings"]
-    takes = core.MotionYardstick(character).takes
+    takes = core.MotionMetrics(character).takes
     assert next(iter(found)) == "the takes" and found["the takes"]["foot_skate"] == takes.foot_skate
     assert found["the takes"]["joint_step"] == takes.positions.p999
     traces = [trace(run, "test", test) for test in run.result["test"]]
     plain = {"stitching": "crossfade", "lock_feet": False, "root_adjustment": 0.0, "responsiveness": 1.0}
-    yardstick = core.MotionYardstick(character)
+    yardstick = core.MotionMetrics(character)
     measured = [yardstick.of(core.Player(character, SEED, **plain).run(t, 60)) for t in traces]
     assert found["the takes"]["beyond_limits_share"] == takes.turns.share
     figures = found["plain, as in the paper"]
@@ -220,7 +220,7 @@ def test_run_time_is_the_players(run: Run, character: core.Character) -> None:
     assert figures["turn_error"] == pytest.approx(np.degrees(np.mean([p.turn_error for some in played for p in some])))
     assert 0 <= figures["jump_error"] <= 1
     assert 0 < figures["response_p50_s"] <= figures["response_p95_s"] <= 3
-    yardstick = core.MotionYardstick(character)
+    yardstick = core.MotionMetrics(character)
     measured = [yardstick.of(p) for some in played for p in some]
     assert figures["foot_skate_ratio"] == pytest.approx(
         np.mean([m.foot_skate for m in measured]) / yardstick.takes.foot_skate
@@ -244,7 +244,7 @@ def test_accelerations_are_second_differences(character: core.Character) -> None
     performance = core.Player(character, 1).run(core.simulate_trace("walker", 20, 3, character.space), 60)
     path = character.space.scale * performance.root_positions[:, :2]
     pushes = np.linalg.norm(path[24:] - 2 * path[12:-12] + path[:-24], axis=1) / 0.2**2
-    hips = core.MotionYardstick(character).of(performance).hips
+    hips = core.MotionMetrics(character).of(performance).hips
     assert hips.worst == pytest.approx(pushes.max(), rel=1e-4)
     assert hips.p50 == pytest.approx(np.median(pushes), rel=0.01)
     assert hips.over_6 == pytest.approx((pushes > 6).mean(), abs=1e-3)

@@ -220,8 +220,8 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "optimal_performance": {"character": made, "trace": trace, "rate": 30.0, "shortest": 0.1},
         "response_times": {"character": other, **player},
         "Explainer": {"character": made, "policy": ""},
-        "MotionYardstick": {"character": made},
-        "MotionYardstick.of": {"self": core.MotionYardstick(other), "performance": performance},
+        "MotionMetrics": {"character": made},
+        "MotionMetrics.of": {"self": core.MotionMetrics(other), "performance": performance},
         "trajectories": {"character": made, "poses": 4},
         "cluster": {
             "points": core.trajectories(made, 2)[0],

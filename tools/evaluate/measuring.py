@@ -38,7 +38,7 @@ def _describe(
     return {
         "default": DEFAULT,
         "seed": options.seed,
-        "takes": {"count": len(recordings.clips), **run_time.accelerations([core.MotionYardstick(character).takes])},
+        "takes": {"count": len(recordings.clips), **run_time.accelerations([core.MotionMetrics(character).takes])},
         "fragments": len(character.labels),
         "captured": int(character.report["captured"]),
         "classes": len(character.representatives),

@@ -78,7 +78,7 @@ def errors(performances: list[list[core.Performance]]) -> dict[str, float | None
     }
 
 
-def looks(yardstick: core.MotionYardstick, performances: list[list[core.Performance]]) -> dict[str, float]:
+def looks(yardstick: core.MotionMetrics, performances: list[list[core.Performance]]) -> dict[str, float]:
     """Foot skate over the takes' own, the worst joint step at a stitch over the takes' 99.9th percentile (of places, a
     frame), the share of the time on the ground in which a foot slides, and turns beyond the takes' limits."""
     takes, every = yardstick.takes, [yardstick.of(p) for some in performances for p in some]
@@ -140,7 +140,7 @@ def measure_stitchings(
     character: core.Character, sessions: Sequence[Session], seed: int
 ) -> dict[str, dict[str, float]]:
     """What a viewer sees and what a player feels, by the way of playing; the takes' own figures first."""
-    yardstick = core.MotionYardstick(character)
+    yardstick = core.MotionMetrics(character)
     found = {"the takes": _look([yardstick.takes], yardstick.takes.positions.p999)}
     for name, options in STITCHINGS.items():
         played = [core.Player(character, seed, **options).run(session.controls, RATE) for session in sessions]
@@ -172,7 +172,7 @@ def measure_run_time(
 ) -> dict[str, dict[str, Any]]:
     """Each policy's figures, the percent of Optimal for each session among them as `by_trace`."""
     best = best_qualities(character, sessions)
-    yardstick = core.MotionYardstick(character)
+    yardstick = core.MotionMetrics(character)
     found: dict[str, dict[str, Any]] = {}
     for policy in policies:
         played = play(character, policy, sessions, seed)

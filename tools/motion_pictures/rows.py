@@ -33,7 +33,7 @@ class Cast:
         options = core.BuildOptions()
         options.policies = options.policies[:1]
         self.character = core.build(skeleton, clips, [core.simulate_trace("explorer")], options)
-        self._yardstick = core.MotionYardstick(self.character)
+        self._yardstick = core.MotionMetrics(self.character)
 
     def rows(self, movement: Movement) -> list[Row]:
         """The take that is nearest to the movement, where there is one, and what two players make of it."""
@@ -63,7 +63,7 @@ class Cast:
         options.classes, options.restarts, options.policies = 1, 1, ["greedy"]
         options.mirror = options.synthesize = False
         alone = core.build(self.skeleton, [clip], [core.simulate_trace("explorer", 1)], options)
-        return core.MotionYardstick(alone).takes
+        return core.MotionMetrics(alone).takes
 
     def _describe(self, measures: core.MotionMeasures) -> str:
         takes = self._yardstick.takes

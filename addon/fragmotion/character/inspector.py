@@ -142,7 +142,7 @@ class _Inspected:
     def line(self, each: Alternative, name: str, chosen: bool) -> Line:
         """An alternative as the panel shows it."""
         fragments = [self.fragment(fragment) for fragment in each.fragments]
-        return Line(each.next, name, chosen, each.smoothness, each.match, each.to_come, each.value, fragments)
+        return Line(each.next, name, chosen, each.smoothness, each.match, each.future_value, each.value, fragments)
 
     def fragment(self, number: int) -> FragmentShown:
         """A fragment by where it was cut, where it was."""

@@ -4,6 +4,6 @@
 namespace fragmotion {
 
 /// Each of `best` [count] becomes row * match + value where that is more.
-void raise(double* best, const double* row, int count, double match, double value);
+void max_accumulate(double* best, const double* row, int count, double match, double value);
 
 }  // namespace fragmotion

@@ -324,7 +324,7 @@ void learn(const Material& material, const BuildOptions& options, const Progress
   c.quality = quality_table(c.pool.fragments, t, c.classes, c.space);
   c.bridges = stand_bridges(c.pool.fragments, t, c.classes, c.space);
   c.report["quality_seconds"] = stage.lap();
-  c.control_model = control_model(material.traces, kAnyPlayer);
+  c.control_model = control_model(material.traces, kGenericPrior);
   c.policies.clear();
   for (const std::string& name : options.policies) {
     c.policies.push_back(policy_named(name, c, t, material.traces, options.threads, part_of(progress, 0.5, 1)));

@@ -25,10 +25,10 @@ std::vector<bool> allowed_classes(int count, const std::vector<int>& excluded) {
 }
 
 // The allowed class of the greatest value after `from`.
-int best_of(const std::vector<bool>& allowed, const Quality& quality, const std::vector<double>& to_come, int from,
+int best_of(const std::vector<bool>& allowed, const Quality& quality, const std::vector<double>& future_value, int from,
             int control) {
   const auto value = [&](int next) {
-    return quality(from, next, control) + to_come[static_cast<std::size_t>(control) * quality.classes + next];
+    return quality(from, next, control) + future_value[static_cast<std::size_t>(control) * quality.classes + next];
   };
   int best = -1;
   for (int next = 0; next < quality.classes; ++next) {
@@ -40,11 +40,11 @@ int best_of(const std::vector<bool>& allowed, const Quality& quality, const std:
 void avoid(const std::vector<bool>& allowed, const Character& whole, Policy& policy) {
   const auto is_allowed = [&](int next) { return allowed[next]; };
   if (std::all_of(policy.next.begin(), policy.next.end(), is_allowed)) return;
-  const std::vector<double> to_come = values_to_come(whole.quality, policy, whole.control_model);
+  const std::vector<double> future_value = future_values(whole.quality, policy, whole.control_model);
   for (int from = 0; from < policy.classes; ++from) {
     for (int c = 0; c < kPoints; ++c) {
       int& next = policy.next[static_cast<std::size_t>(from) * kPoints + c];
-      if (!allowed[next]) next = best_of(allowed, whole.quality, to_come, from, c);
+      if (!allowed[next]) next = best_of(allowed, whole.quality, future_value, from, c);
     }
   }
 }

@@ -19,7 +19,7 @@ Explainer::Explainer(std::shared_ptr<const Character> character, const std::stri
       policy_(character_->policy(policy)),
       poses_(trajectories(character_->pool, 2)),
       members_(character_->classes.members()),
-      to_come_(values_to_come(character_->quality, policy_, character_->control_model)) {}
+      future_value_(future_values(character_->quality, policy_, character_->control_model)) {}
 
 std::vector<Alternative> Explainer::operator()(int from, int control) const {
   const Quality& quality = character_->quality;
@@ -32,7 +32,8 @@ std::vector<Alternative> Explainer::operator()(int from, int control) const {
     const auto q = static_cast<std::size_t>(next);
     ranked.push_back({next, quality.smoothness[static_cast<std::size_t>(from) * quality.classes + q],
                       quality.match[q * kPoints + control],
-                      to_come_[static_cast<std::size_t>(control) * quality.classes + q], nearest(from, next, control)});
+                      future_value_[static_cast<std::size_t>(control) * quality.classes + q],
+                      nearest(from, next, control)});
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const Alternative& a, const Alternative& b) { return a.value() > b.value(); });

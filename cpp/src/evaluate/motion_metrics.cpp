@@ -201,8 +201,7 @@ void check(const Performance& p, std::size_t width) {
 
 }  // namespace
 
-MotionYardstick::MotionYardstick(const Character& character)
-    : skeleton_(character.pool.skeleton), limits_(character.pool) {
+MotionMetrics::MotionMetrics(const Character& character) : skeleton_(character.pool.skeleton), limits_(character.pool) {
   const std::vector<Joints> takes = takes_of(character);
   if (takes.empty()) throw std::invalid_argument("the character holds no captured fragment to measure by");
   floors_ = floors_of(takes);
@@ -212,7 +211,7 @@ MotionYardstick::MotionYardstick(const Character& character)
   takes_.turns = limits_.takes();
 }
 
-MotionMeasures MotionYardstick::of(const Performance& p) const {
+MotionMeasures MotionMetrics::of(const Performance& p) const {
   const std::size_t width = std::size_t{4} * skeleton_.size();
   check(p, width);
   JointReader reader(skeleton_);

@@ -96,7 +96,7 @@ class Hindsight {
     const double* smoothness = &smoothness_[at(to, 0)];
     const int last = std::min(frames_, f + longest_[to]);
     for (int end = std::min(frames_, f + shortest_[to]); end <= last; ++end) {
-      raise(value, smoothness, n_, match_[at(end, to)] - match_[at(f, to)], value_[at(end, to)]);
+      max_accumulate(value, smoothness, n_, match_[at(end, to)] - match_[at(f, to)], value_[at(end, to)]);
     }
   }
 

@@ -11,7 +11,7 @@
 #include "base/ranges.hpp"
 #include "fragmotion/fragments/blend.hpp"
 #include "fragmotion/fragments/distance.hpp"
-#include "fragmotion/fragments/transform.hpp"
+#include "fragmotion/fragments/gait_edit.hpp"
 #include "fragmotion/motion/contacts.hpp"
 #include "fragmotion/motion/legs.hpp"
 
@@ -233,7 +233,7 @@ class Synthesizer {
     const Cycle* best = cheapest(control);
     if (!best) return;
     const Clip& clip = pool_.clips[best->clip];
-    Transform change;
+    GaitEdit change;
     change.turn = (control.turn - best->evident.turn) * space_.turn_rate();
     const bool moves = best->evident.speed() > kMoving / space_.scale();
     const double faster = moves ? control.speed() / best->evident.speed() : 1;

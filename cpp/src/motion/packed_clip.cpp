@@ -82,9 +82,9 @@ Quaternion rotation_of(const Vector3& turn) {
 }
 
 // The turns of a clip's poses in whole steps. Each bone's turn makes good what its parent's leaves.
-class Stepper {
+class Quantizer {
  public:
-  Stepper(const Skeleton& skeleton, const PoseGrid& grid)
+  Quantizer(const Skeleton& skeleton, const PoseGrid& grid)
       : skeleton_(skeleton), grid_(grid), follows_(skeleton.size()), exact_(skeleton.size()), kept_(skeleton.size()) {
     const int hips = skeleton.roles.hips;
     for (int b = 0; b < skeleton.size(); ++b) {
@@ -170,9 +170,9 @@ void measure_root(const Clip& clip, double scale, PackedClip& packed) {
 std::vector<std::int32_t> steps_of(const Skeleton& skeleton, const PoseGrid& grid, const Clip& clip) {
   const std::size_t width = std::size_t{3} * kBoneBlock * grid.blocks();
   std::vector<std::int32_t> steps(width * clip.frames, 0);
-  Stepper stepper(skeleton, grid);
+  Quantizer quantizer(skeleton, grid);
   for (int f = 0; f < clip.frames; ++f) {
-    stepper(&clip.rotations[std::size_t{4} * skeleton.size() * f], &steps[width * f]);
+    quantizer(&clip.rotations[std::size_t{4} * skeleton.size() * f], &steps[width * f]);
   }
   return steps;
 }

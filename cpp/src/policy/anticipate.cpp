@@ -4,7 +4,7 @@
 namespace fragmotion {
 
 Policy anticipate_policy(const Quality& quality, const std::vector<std::vector<int>>& traces) {
-  Policy policy = value_iteration(quality, control_model(traces, kAnyPlayer));
+  Policy policy = value_iteration(quality, control_model(traces, kGenericPrior));
   policy.name = "anticipate";
   return policy;
 }

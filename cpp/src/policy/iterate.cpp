@@ -97,27 +97,27 @@ Policy value_iteration(const Quality& quality, const std::vector<double>& model,
 
 Policy iterate_policy(const Quality& quality, const std::vector<std::vector<int>>& traces,
                       const IterateOptions& options) {
-  return value_iteration(quality, control_model(traces, kKept), options);
+  return value_iteration(quality, control_model(traces, kPersistencePrior), options);
 }
 
-std::vector<double> values_to_come(const Quality& quality, const Policy& policy, const std::vector<double>& model) {
+std::vector<double> future_values(const Quality& quality, const Policy& policy, const std::vector<double>& model) {
   const int n = quality.classes;
   const Matrix steps = IterateOptions().discount * Eigen::Map<const Matrix>(model.data(), kPoints, kPoints);
-  Matrix value = Matrix::Zero(kPoints, n), to_come = value;
+  Matrix value = Matrix::Zero(kPoints, n), future_value = value;
   double change = 1;
   while (change > kValueTolerance) {
-    to_come = steps * value;
+    future_value = steps * value;
     change = 0;
     for (int c = 0; c < kPoints; ++c) {
       for (int from = 0; from < n; ++from) {
         const int next = policy(from, c);
-        const double better = quality(from, next, c) + to_come(c, next);
+        const double better = quality(from, next, c) + future_value(c, next);
         change = std::max(change, std::abs(better - value(c, from)));
         value(c, from) = better;
       }
     }
   }
-  return {to_come.data(), to_come.data() + to_come.size()};
+  return {future_value.data(), future_value.data() + future_value.size()};
 }
 
 }  // namespace fragmotion

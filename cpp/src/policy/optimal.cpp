@@ -19,7 +19,7 @@ void check_controls(const std::vector<int>& trace) {
   }
 }
 
-FRAGMOTION_VECTORISED void raise(double* best, const double* row, int count, double match, double value) {
+FRAGMOTION_VECTORISED void max_accumulate(double* best, const double* row, int count, double match, double value) {
   for (int i = 0; i < count; ++i) {
     const double candidate = row[i] * match + value;
     best[i] = candidate > best[i] ? candidate : best[i];
@@ -32,7 +32,7 @@ NextClass::NextClass(const Quality& quality)
 void NextClass::values(const double* match, const double* value, double* best) const {
   std::fill_n(best, classes_, -std::numeric_limits<double>::infinity());
   for (int to = 0; to < classes_; ++to) {
-    raise(best, &smoothness_[static_cast<std::size_t>(to) * classes_], classes_, match[to], value[to]);
+    max_accumulate(best, &smoothness_[static_cast<std::size_t>(to) * classes_], classes_, match[to], value[to]);
   }
 }
 

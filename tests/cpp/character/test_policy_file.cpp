@@ -426,7 +426,7 @@ Character same_fragments(int bones, int fragments) {
   c.quality = {1, {1}, std::vector<double>(ControlSpace::kPoints, 1)};
   c.policies = {{"greedy", 1, std::vector<int>(ControlSpace::kPoints, 0)}};
   c.bridges = {-1};
-  c.control_model = control_model({}, kAnyPlayer);
+  c.control_model = control_model({}, kGenericPrior);
   c.contacts.resize(1);
   return c;
 }

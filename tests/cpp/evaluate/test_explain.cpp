@@ -79,7 +79,7 @@ TEST(Explainer, ExpectsWhatPlayingGivesOnAverage) {
     for (int n = 0; n < 4000; ++n) {
       mean += played(*character, character->policy("svm"), ranked[rank].next, 10, random) / 4000;
     }
-    EXPECT_NEAR(ranked[rank].to_come, mean, 0.02 * mean);
+    EXPECT_NEAR(ranked[rank].future_value, mean, 0.02 * mean);
   }
 }
 

@@ -25,9 +25,9 @@ Performance carried(const Clip& clip, double speed, double lift = 0) {
   return p;
 }
 
-TEST(MotionYardstick, FindsNoFaultInStanding) {
+TEST(MotionMetrics, FindsNoFaultInStanding) {
   const auto character = gait_character();
-  const MotionYardstick yardstick(*character);
+  const MotionMetrics yardstick(*character);
   const MotionMeasures m = yardstick.of(carried(gait_clip({0, 0, 0}), 0));
   EXPECT_EQ(m.foot_skate, 0);
   EXPECT_EQ(m.sliding_share, 0);
@@ -35,9 +35,9 @@ TEST(MotionYardstick, FindsNoFaultInStanding) {
   EXPECT_EQ(m.turns.share, 0);
 }
 
-TEST(MotionYardstick, SeesFeetThatSlide) {
+TEST(MotionMetrics, SeesFeetThatSlide) {
   const auto character = gait_character();
-  const MotionYardstick yardstick(*character);
+  const MotionMetrics yardstick(*character);
   const double scale = standard_scale(character->pool.skeleton);
   const Clip standing = gait_clip({0, 0, 0});
   const MotionMeasures slow = yardstick.of(carried(standing, 0.5)), fast = yardstick.of(carried(standing, 1));
@@ -49,9 +49,9 @@ TEST(MotionYardstick, SeesFeetThatSlide) {
   EXPECT_NEAR(fast.velocities.worst, 0, 1e-6);
 }
 
-TEST(MotionYardstick, SeesThatFeetInTheAirDoNotSlideAndThatSunkenOnesPenetrate) {
+TEST(MotionMetrics, SeesThatFeetInTheAirDoNotSlideAndThatSunkenOnesPenetrate) {
   const auto character = gait_character();
-  const MotionYardstick yardstick(*character);
+  const MotionMetrics yardstick(*character);
   const Clip standing = gait_clip({0, 0, 0});
   const MotionMeasures flies = yardstick.of(carried(standing, 1, 1)), sinks = yardstick.of(carried(standing, 0, -0.1));
   EXPECT_EQ(flies.foot_skate, 0);
@@ -59,26 +59,26 @@ TEST(MotionYardstick, SeesThatFeetInTheAirDoNotSlideAndThatSunkenOnesPenetrate) 
   EXPECT_NEAR(sinks.penetration, 0.1 * standard_scale(character->pool.skeleton), 0.03);
 }
 
-TEST(MotionYardstick, SeesAKneeThatBendsBackward) {
+TEST(MotionMetrics, SeesAKneeThatBendsBackward) {
   const auto character = gait_character();
   Clip standing = gait_clip({0, 0, 0});
   const int bones = character->pool.skeleton.size(), shin = character->pool.skeleton.find("shin.L");
   store_quaternion(Quaternion{Eigen::AngleAxisd(-0.5, Vector3::UnitX())}, &standing.rotations[std::size_t{4} * shin]);
-  const Excess turns = MotionYardstick(*character).of(carried(standing, 0)).turns;
+  const Excess turns = MotionMetrics(*character).of(carried(standing, 0)).turns;
   EXPECT_GT(turns.worst, 0.5);
   EXPECT_NEAR(turns.share, 1.0 / (bones - 1), 1e-9);  // of all joints but the hips
 }
 
-TEST(MotionYardstick, LooksAtStitchesOfAFragmentToItself) {
+TEST(MotionMetrics, LooksAtStitchesOfAFragmentToItself) {
   const auto character = std::make_shared<const Character>(tiny_character({tiny_clip(1.5)}));
   const Performance p = perform(Player(character), Trace(20, Control{0, 1.5, 0, 0}), 60);
   EXPECT_EQ(p.fragments.front(), p.fragments.back());
-  const MotionYardstick yardstick(*character);
+  const MotionMetrics yardstick(*character);
   EXPECT_GT(yardstick.of(p).positions.worst, 0.5 * yardstick.takes().positions.worst);
 }
 
-TEST(MotionYardstick, MeasuresTheTakes) {
-  const MotionYardstick yardstick(*gait_character());
+TEST(MotionMetrics, MeasuresTheTakes) {
+  const MotionMetrics yardstick(*gait_character());
   const MotionMeasures& takes = yardstick.takes();
   EXPECT_GT(takes.foot_skate, 0);
   EXPECT_LT(takes.foot_skate, 0.5);
@@ -86,24 +86,24 @@ TEST(MotionYardstick, MeasuresTheTakes) {
   EXPECT_LE(takes.positions.p999, takes.positions.worst);
 }
 
-TEST(MotionYardstick, NeedsCapturedFragments) {
+TEST(MotionMetrics, NeedsCapturedFragments) {
   Character made = *gait_character();
   for (Fragment& f : made.pool.fragments) f.origin = Origin::transformed;
-  EXPECT_THROW(MotionYardstick{made}, std::invalid_argument);
+  EXPECT_THROW(MotionMetrics{made}, std::invalid_argument);
 }
 
-TEST(MotionYardstick, RefusesPerformancesOfAnotherSkeletonOrOfNothing) {
+TEST(MotionMetrics, RefusesPerformancesOfAnotherSkeletonOrOfNothing) {
   const auto other = std::make_shared<const Character>(tiny_character());
-  const MotionYardstick yardstick(*gait_character()), others(*other);
+  const MotionMetrics yardstick(*gait_character()), others(*other);
   const Performance performance = perform(Player(other), Trace(10, Control{}), 60);
   EXPECT_THROW(yardstick.of(performance), std::invalid_argument);
   EXPECT_THROW(yardstick.of({}), std::invalid_argument);
   EXPECT_NO_THROW(others.of(performance));
 }
 
-TEST(MotionYardstick, FindsLessSkateWhereFeetAreLocked) {
+TEST(MotionMetrics, FindsLessSkateWhereFeetAreLocked) {
   const auto character = gait_character();
-  const MotionYardstick yardstick(*character);
+  const MotionMetrics yardstick(*character);
   const Trace trace = simulate_trace("walker", 60, 3, character->space);
   PlayerOptions paper;
   paper.stitching = Stitching::crossfade;

@@ -7,8 +7,8 @@
 #include "fragmotion/fragments/blend.hpp"
 #include "fragmotion/fragments/coverage.hpp"
 #include "fragmotion/fragments/distance.hpp"
+#include "fragmotion/fragments/gait_edit.hpp"
 #include "fragmotion/fragments/synthesis.hpp"
-#include "fragmotion/fragments/transform.hpp"
 #include "fragmotion/motion/legs.hpp"
 #include "fragmotion/motion/mirror.hpp"
 #include "fragmotion/motion/pose.hpp"
@@ -71,7 +71,7 @@ TEST(Transformed, ByNothingIsTheSourceRoundAndRound) {
 TEST(Transformed, LeadsBackToItsBeginning) {
   const Clip clip = gait_clip({1.2, 0, 0});
   const Legs legs = find_legs(kKinematics, {clip});
-  Transform change;
+  GaitEdit change;
   change.direction = 0.7;
   change.speed = 1.3;
   for (const int length : {26, 28, 33}) {  // no cycles
@@ -149,7 +149,7 @@ TEST(Transformed, SidewaysTheFeetAreLiftedFlat) {
   }
   const double before = roll_of(clip);
   ASSERT_GT(before, 0.3);
-  Transform change;
+  GaitEdit change;
   change.direction = kPi / 2;
   const Clip made = transformed(kKinematics, find_legs(kKinematics, {clip}), clip, {}, 20, 20 + cycle, cycle, change);
   EXPECT_LT(roll_of(made), 0.4 * before);
@@ -163,7 +163,7 @@ TEST(Transformed, SidewaysTheFeetDoNotCross) {
   const double before = least_apart(clip);
   ASSERT_GT(before, 0.05);
   for (const double direction : {-kPi / 2, -kPi / 4, kPi / 4, kPi / 2}) {
-    Transform change;
+    GaitEdit change;
     change.direction = direction;
     const Clip made = transformed(kKinematics, find_legs(kKinematics, {clip}), clip, find_contacts(kKinematics, clip),
                                   20, 20 + cycle, cycle, change);
@@ -182,7 +182,7 @@ TEST(Transformed, DoesToTheEvidentControlWhatItSays) {
     const Clip clip = gait_clip(gait);
     const double usual = usual_of({clip});
     const int begin = random.below(30), end = begin + cycle_of(gait, clip);
-    Transform change;
+    GaitEdit change;
     change.direction = n % 4 == 0 ? 2 * random.uniform() - 1 : 0;
     change.speed = n % 4 == 1 ? 0.5 + random.uniform() : 1;
     change.turn = n % 4 == 2 ? 2 * random.uniform() - 1 : 0;
@@ -270,7 +270,7 @@ TEST(Transformed, KeepsPlantedFeetWhereTheyAre) {
   const Clip clip = gait_clip({1.2, 0, 0});
   const Contacts contacts = find_contacts(kKinematics, clip);
   for (const double direction : {kPi / 4, -kPi / 2}) {
-    Transform change;
+    GaitEdit change;
     change.direction = direction;
     change.speed = 0.8;
     change.turn = 0.5;

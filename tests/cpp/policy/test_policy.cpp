@@ -206,7 +206,7 @@ TEST(ControlModel, ExpectsAControlOfWhichNothingIsKnownToStay) {
 }
 
 TEST(ControlModel, RefusesIndicesThatAreNoControl) {
-  EXPECT_THROW(control_model({{3, kPoints}}, kKept), std::invalid_argument);
+  EXPECT_THROW(control_model({{3, kPoints}}, kPersistencePrior), std::invalid_argument);
 }
 
 TEST(AnticipatePolicy, ForeseesForControlsThatWereNeverSeen) {
@@ -248,7 +248,7 @@ TEST(IteratePolicy, UnderOneControlThatStaysFollowsTheBestLoop) {
 // Value iteration word by word.
 Policy plain_iteration(const Quality& quality, const std::vector<std::vector<int>>& traces, double discount) {
   const int n = quality.classes;
-  const std::vector<double> model = control_model(traces, kKept);
+  const std::vector<double> model = control_model(traces, kPersistencePrior);
   std::vector<double> value(n * kPoints, 0);
   Policy policy{"plain", n, std::vector<int>(n * kPoints)};
   for (double change = 1; change > 1e-4;) {

@@ -24,7 +24,7 @@ struct Character {
   Quality quality;
   std::vector<Policy> policies;  ///< The first one drives.
   std::vector<int> bridges;      ///< [classes, classes]: stand_bridges().
-  /// [102, 102]: control_model() of the traces that taught the policies, with kAnyPlayer.
+  /// [102, 102]: control_model() of the traces that taught the policies, with kGenericPrior.
   std::vector<double> control_model;
   Coverage coverage;
   std::vector<Contacts> contacts;        ///< Of each clip of the pool.

@@ -12,13 +12,13 @@ namespace fragmotion {
 /// A class that might be played next, and what speaks for it.
 struct Alternative {
   int next = 0;
-  double smoothness = 0;  ///< First factor of Eq. 2.
-  double match = 0;       ///< Second factor of Eq. 2.
-  double to_come = 0;     ///< Eq. 2 expected of all later steps, discounted, if the policy goes on from there.
+  double smoothness = 0;    ///< First factor of Eq. 2.
+  double match = 0;         ///< Second factor of Eq. 2.
+  double future_value = 0;  ///< Eq. 2 expected of all later steps, discounted, if the policy goes on from there.
   std::vector<int>
       fragments;  ///< Up to kNearest of its fragments: those of the greatest Eq. 2 of their own, best first.
 
-  double value() const { return smoothness * match + to_come; }
+  double value() const { return smoothness * match + future_value; }
 };
 
 constexpr int kNearest = 3;
@@ -43,7 +43,7 @@ class Explainer {
   const Policy& policy_;
   Trajectories poses_;
   std::vector<std::vector<int>> members_;
-  std::vector<double> to_come_;  // [102, classes]
+  std::vector<double> future_value_;  // [102, classes]
 };
 
 }  // namespace fragmotion

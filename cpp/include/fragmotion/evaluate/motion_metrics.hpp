@@ -35,10 +35,10 @@ struct MotionMeasures {
 };
 
 /// Measures performances by what the takes do themselves.
-class MotionYardstick {
+class MotionMetrics {
  public:
   /// Throws std::invalid_argument on a character that holds no captured fragment.
-  explicit MotionYardstick(const Character& character);
+  explicit MotionMetrics(const Character& character);
 
   /// The captured takes' own measures.
   const MotionMeasures& takes() const { return takes_; }

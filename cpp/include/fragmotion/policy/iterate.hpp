@@ -19,14 +19,14 @@ struct IterateOptions {
 Policy value_iteration(const Quality& quality, const std::vector<double>& model, const IterateOptions& options = {});
 
 /// McCann and Pollard's prior: a control that was never seen is kept.
-constexpr ControlPrior kKept{0.5, 0};
+constexpr ControlPrior kPersistencePrior{0.5, 0};
 
-/// value_iteration with the control model of traces and kKept.
+/// value_iteration with the control model of traces and kPersistencePrior.
 Policy iterate_policy(const Quality& quality, const std::vector<std::vector<int>>& traces,
                       const IterateOptions& options = {});
 
 /// Eq. 2 expected of all steps after each control and class [102, classes], discounted, where the policy goes on
 /// choosing and the controls follow the model [102, 102].
-std::vector<double> values_to_come(const Quality& quality, const Policy& policy, const std::vector<double>& model);
+std::vector<double> future_values(const Quality& quality, const Policy& policy, const std::vector<double>& model);
 
 }  // namespace fragmotion

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fragmotion/fragments/transform.hpp"
+#include "fragmotion/fragments/gait_edit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +19,10 @@ constexpr double kWidest = 0.2;   // m of a 1.8 m character that each foot is se
 constexpr double kLevel = 0.8;    // of the way to flat, where feet go straight to the side
 constexpr double kTuck = 0.35;    // of the body's height: how much further the feet are lifted
 
-// One round of a gait, each pose seen from its character frame, and the way from each to the next.
-struct Round {
+// One cycle of a gait, each pose seen from its character frame, and the way from each to the next.
+struct GaitCycle {
   std::vector<BodyPose> poses;
-  CharacterFrame end;  // where the next round begins
+  CharacterFrame end;  // where the next cycle begins
 
   int frames() const { return static_cast<int>(poses.size()); }
 };
@@ -31,16 +31,16 @@ struct Round {
 int frame_of(int f, int begin, int end) { return begin < end ? begin + f % (end - begin) : begin - f % (begin - end); }
 
 // Frames begin .. end of a clip. Where the last is not as the first, the second half leads to that.
-Round round_of(const Kinematics& kinematics, const Clip& clip, int begin, int end) {
-  Round round;
+GaitCycle gait_cycle_of(const Kinematics& kinematics, const Clip& clip, int begin, int end) {
+  GaitCycle cycle;
   for (int f = 0; f < std::abs(end - begin); ++f) {
-    round.poses.push_back(body_pose(kinematics, clip, frame_of(f, begin, end)));
+    cycle.poses.push_back(body_pose(kinematics, clip, frame_of(f, begin, end)));
   }
-  const BodyPose first = round.poses.front(), last = body_pose(kinematics, clip, end);
-  round.end = last.frame;
-  for (int f = 0; f < round.frames(); ++f) {
-    const double weight = ease_in_ease_out(2.0 * f / round.frames() - 1);
-    BodyPose& pose = round.poses[f];
+  const BodyPose first = cycle.poses.front(), last = body_pose(kinematics, clip, end);
+  cycle.end = last.frame;
+  for (int f = 0; f < cycle.frames(); ++f) {
+    const double weight = ease_in_ease_out(2.0 * f / cycle.frames() - 1);
+    BodyPose& pose = cycle.poses[f];
     pose.height += weight * (first.height - last.height);
     for (std::size_t b = 0; b < pose.rotations.size(); b += 4) {
       const Quaternion missing = load_quaternion(&first.rotations[b]) * load_quaternion(&last.rotations[b]).conjugate();
@@ -48,7 +48,7 @@ Round round_of(const Kinematics& kinematics, const Clip& clip, int begin, int en
       store_quaternion((by * load_quaternion(&pose.rotations[b])).normalized(), &pose.rotations[b]);
     }
   }
-  return round;
+  return cycle;
 }
 
 // The strides of a gait as its path is changed: what the balls of the feet do about their middle is turned and scaled
@@ -57,23 +57,23 @@ Round round_of(const Kinematics& kinematics, const Clip& clip, int begin, int en
 // lifted flat.
 class Strides {
  public:
-  Strides(const Kinematics& kinematics, const Legs& legs, const Round& round, const Transform& transform)
-      : kinematics_(kinematics), legs_(legs), transform_(transform), posed_(kinematics.bones()) {
+  Strides(const Kinematics& kinematics, const Legs& legs, const GaitCycle& cycle, const GaitEdit& edit)
+      : kinematics_(kinematics), legs_(legs), edit_(edit), posed_(kinematics.bones()) {
     if (!exist()) return;
-    for (const BodyPose& body : round.poses) {
+    for (const BodyPose& body : cycle.poses) {
       pose(body);
       for (int side = 0; side < 2; ++side) {
-        middles_[side] += balls(side) / round.frames();
+        middles_[side] += balls(side) / cycle.frames();
         find_flat(side, body);
       }
     }
-    set_apart(round);
+    set_apart(cycle);
   }
 
   void change(BodyPose& body) {
     if (!exist()) return;
     pose(body);
-    const double level = kLevel * std::abs(std::sin(transform_.direction));
+    const double level = kLevel * std::abs(std::sin(edit_.direction));
     for (int side = 0; side < 2; ++side) {
       const Leg& leg = legs_[side];
       const Vector3 from = ball(kinematics_.skeleton(), leg, posed_);
@@ -96,7 +96,7 @@ class Strides {
   Vector2 balls(int side) const { return ball(kinematics_.skeleton(), legs_[side], posed_).head<2>(); }
   Vector2 changed(int side) const {
     const Vector2 outward{side == 0 ? -apart_ : apart_, 0};
-    return middles_[side] + outward + transform_.speed * turned(balls(side) - middles_[side], transform_.direction);
+    return middles_[side] + outward + edit_.speed * turned(balls(side) - middles_[side], edit_.direction);
   }
 
   // A foot as it stands flat: the lowest that it gets, and its toe relative to it.
@@ -114,9 +114,9 @@ class Strides {
   }
 
   // Finds how far each foot is to go outward for them to come no nearer to crossing than they did, or at most may.
-  void set_apart(const Round& round) {
+  void set_apart(const GaitCycle& cycle) {
     double least = std::numeric_limits<double>::infinity(), least_changed = least;
-    for (const BodyPose& body : round.poses) {
+    for (const BodyPose& body : cycle.poses) {
       pose(body);
       least = std::min(least, balls(1).x() - balls(0).x());
       least_changed = std::min(least_changed, changed(1).x() - changed(0).x());
@@ -126,7 +126,7 @@ class Strides {
 
   const Kinematics& kinematics_;
   const Legs& legs_;
-  const Transform& transform_;
+  const GaitEdit& edit_;
   std::array<Vector2, 2> middles_{Vector2::Zero(), Vector2::Zero()};
   std::array<Flat, 2> flat_;
   double apart_ = 0;  // m
@@ -164,28 +164,28 @@ double hop_at(double phase) {
 }  // namespace
 
 Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
-                 int end, int frames, const Transform& transform) {
-  const bool other_path = transform.direction != 0 || transform.speed != 1, plants = other_path || transform.turn != 0;
-  const Round round = round_of(kinematics, clip, begin, end);
+                 int end, int frames, const GaitEdit& edit) {
+  const bool other_path = edit.direction != 0 || edit.speed != 1, plants = other_path || edit.turn != 0;
+  const GaitCycle cycle = gait_cycle_of(kinematics, clip, begin, end);
   std::optional<Strides> strides;
-  if (other_path) strides.emplace(kinematics, legs, round, transform);
+  if (other_path) strides.emplace(kinematics, legs, cycle, edit);
   Clip result;
   result.name = clip.name + " transformed";
-  result.rate = clip.rate * transform.tempo;
-  const int length = round.frames(), before = plants ? length : 0;  // a round more, in which the feet find their places
-  const CharacterFrame start = round.poses[0].frame;
-  const double bend = round.end.heading - start.heading;  // of the path, each round
+  result.rate = clip.rate * edit.tempo;
+  const int length = cycle.frames(), before = plants ? length : 0;  // a cycle more, in which the feet find their places
+  const CharacterFrame start = cycle.poses[0].frame;
+  const double bend = cycle.end.heading - start.heading;  // of the path, each cycle
   Vector2 position = Vector2::Zero(), origin = Vector2::Zero();
   for (int f = -before; f <= frames; ++f) {
-    const int at = (f + before) % length, rounds = (f + before) / length - (before > 0 ? 1 : 0);
-    BodyPose pose = round.poses[at];
+    const int at = (f + before) % length, cycles = (f + before) / length - (before > 0 ? 1 : 0);
+    BodyPose pose = cycle.poses[at];
     if (strides) strides->change(pose);
     if (f == 0) origin = position;
-    const double seconds = f / result.rate, heading = pose.frame.heading + rounds * bend;
-    append(kinematics, result, {position, heading + transform.turn * seconds}, pose);
-    const Vector2 next = at + 1 < length ? round.poses[at + 1].frame.position : round.end.position;
-    const double middle = transform.turn * (seconds + 0.5 / result.rate);
-    position += transform.speed * turned(next - pose.frame.position, transform.direction + middle + rounds * bend);
+    const double seconds = f / result.rate, heading = pose.frame.heading + cycles * bend;
+    append(kinematics, result, {position, heading + edit.turn * seconds}, pose);
+    const Vector2 next = at + 1 < length ? cycle.poses[at + 1].frame.position : cycle.end.position;
+    const double middle = edit.turn * (seconds + 0.5 / result.rate);
+    position += edit.speed * turned(next - pose.frame.position, edit.direction + middle + cycles * bend);
   }
   for (int f = 0; f < result.frames; ++f) {
     Eigen::Map<Vector2>(&result.root_positions[std::size_t{3} * f]) += start.position - origin;

@@ -8,7 +8,7 @@ namespace fragmotion {
 
 /// "Simple transforming of the original fragments" (Sec. 4): how the path of a fragment is changed; the body goes
 /// along.
-struct Transform {
+struct GaitEdit {
   double direction = 0;  ///< Turns the direction of travel against the body, rad, left is positive.
   double speed = 1;      ///< Scales the path.
   double tempo = 1;      ///< The steps follow each other so much faster.
@@ -21,7 +21,7 @@ struct Transform {
 /// side with flat feet, which keep apart rather than cross, as far as 0.2 m a foot allow. Feet that `contacts` (of the
 /// clip) say are planted stay planted.
 Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
-                 int end, int frames, const Transform& transform);
+                 int end, int frames, const GaitEdit& edit);
 
 /// Makes a hop of frames 0 .. end of a clip: the body goes down over the feet, through the air in a parabola of so many
 /// metres with the feet drawn up, and is caught by the knees.
