@@ -128,7 +128,7 @@ def test_the_json_file_is_laid_out_as_documented(run: Run) -> None:
         assert set(figures) == {"percent_of_optimal", "synthesis_seconds", "peak_bytes", "online", "run_time"}
         assert set(figures["percent_of_optimal"]) == {"mean", "sd", "min", "by_trace"}
         assert set(figures["percent_of_optimal"]["by_trace"]) == set(core.PLAYERS) == set(result["bound"])
-        assert set(figures["run_time"]) == {*run_time.FIGURES, *run_time.ACCELERATIONS}
+        assert set(figures["run_time"]) == {*run_time.FIGURES, *run_time.ACCELERATIONS, *run_time.BEYOND_PHYSICS}
         assert figures["synthesis_seconds"] > 0 and figures["online"] == (name != "optimal")
     assert len(result["coverage"]) == len(result["coverage_counts"]) == 102
     assert sum(result["coverage_counts"]) == result["fragments"]
@@ -234,10 +234,19 @@ def test_run_time_is_the_players(run: Run, character: core.Character) -> None:
 def test_every_figure_of_the_run_time_is_shown(run: Run) -> None:
     for table, figures in (
         (run_time_table(run.result), run_time.FIGURES),
-        (acceleration_table(run.result), run_time.ACCELERATIONS),
+        (acceleration_table(run.result), run_time.ACCELERATIONS + run_time.BEYOND_PHYSICS),
     ):
         assert len(table.header) == 1 + len(figures)
         assert all(len(row) == len(table.header) for row in table.rows)
+
+
+def test_response_beyond_physics_is_what_a_body_does_not_need(character: core.Character) -> None:
+    space, found = character.space, run_time.responses(character, [3])
+    velocities = [space.points[i][:2] for i in range(0, 102, 6)]
+    changes = [np.linalg.norm(b - a) for a in velocities for b in velocities if a is not b]
+    rest = core.response_times(character, 3) - np.array(changes) * space.scale / 5
+    assert found["response_beyond_physics_p50_s"] == pytest.approx(np.median(rest))
+    assert found["response_p50_s"] > found["response_beyond_physics_p50_s"]
 
 
 def test_accelerations_are_second_differences(character: core.Character) -> None:

@@ -134,6 +134,8 @@ _ACCELERATIONS: tuple[tuple[str, Callable[[Result], str]], ...] = (
     ("over 6, %", lambda r: number(_percent(r["acceleration_over_6"]), 2)),
     ("hips over 6, %", lambda r: number(_percent(r["hips_acceleration_over_6"]), 2)),
     ("hips, greatest", lambda r: number(r["hips_acceleration_max"])),
+    ("response beyond physics p50, s", lambda r: number(r.get("response_beyond_physics_p50_s"), 2)),
+    ("p95, s", lambda r: number(r.get("response_beyond_physics_p95_s"), 2)),
 )
 
 

@@ -40,11 +40,13 @@ ACCELERATIONS = (
     "hips_acceleration_over_6",
     "hips_acceleration_max",
 )
+BEYOND_PHYSICS = ("response_beyond_physics_p50_s", "response_beyond_physics_p95_s")
+_BODY = 5.0  # m/s^2 by which a body of 1.8 m can change its velocity
 
 
 def no_figures() -> dict[str, float | None]:
     """Optimal's run time: it is the yardstick, and cannot be played."""
-    return {**dict.fromkeys((*FIGURES, *ACCELERATIONS)), "percent_of_optimal": 100.0}
+    return {**dict.fromkeys((*FIGURES, *ACCELERATIONS, *BEYOND_PHYSICS)), "percent_of_optimal": 100.0}
 
 
 def best_qualities(character: core.Character, sessions: Sequence[Session]) -> list[float]:
@@ -115,10 +117,21 @@ def _turns(measured: Sequence[core.MotionMeasures]) -> dict[str, float]:
 
 
 def responses(character: core.Character, seeds: Iterable[int], **options: Any) -> dict[str, float]:
-    """Half of all changes of velocity are answered within p50, 95 of 100 within p95, s, by players of these seeds."""
-    times = [core.response_times(character, seed, **options) for seed in seeds]
-    p50, p95 = np.percentile(np.concatenate(times), [50, 95])
-    return {"response_p50_s": float(p50), "response_p95_s": float(p95)}
+    """Half of all changes of velocity are answered within p50, 95 of 100 within p95, s, by players of these seeds; and
+    the same of what is left of each answer's time without the time that a body needs for the change."""
+    times = np.array([core.response_times(character, seed, **options) for seed in seeds])
+    quickest = _changes(character.space) * character.space.scale / _BODY
+    names = ("response_p50_s", "response_p95_s", *BEYOND_PHYSICS)
+    figures = [*np.percentile(times, [50, 95]), *np.percentile(times - quickest, [50, 95])]
+    return {name: float(figure) for name, figure in zip(names, figures)}
+
+
+def _changes(space: core.ControlSpace) -> core.Doubles:
+    """How much the velocity changes, m/s, in each of the core's response times: from each velocity to every other."""
+    velocities = space.points.reshape(*space.SHAPE, -1)[:, 0, 0, :2]
+    changes: core.Doubles = np.linalg.norm(velocities[:, None] - velocities[None], axis=2)
+    different: core.Doubles = changes[~np.eye(len(changes), dtype=bool)]
+    return different
 
 
 STITCHINGS: dict[str, dict[str, Any]] = {
