@@ -74,8 +74,8 @@ def test_a_recording_is_replayed_and_baked(addon: ModuleType, session: ModuleTyp
     for frame in shown.frames[1:]:
         driven.update(1 / 60)
         *place, heading = driven.player.frame  # much as by the program before, whose bodies had no weight
-        np.testing.assert_allclose(place, frame[:2], atol=0.2)
-        assert heading == pytest.approx(frame[2], abs=0.5)
+        np.testing.assert_allclose(place, frame[:2], atol=0.5)
+        assert heading == pytest.approx(frame[2], abs=1)
     session.stop()
     bpy.context.scene.render.fps = 60
     assert bpy.ops.fragmotion.bake(trace_source="RECORDING", recording=1, as_recorded=True) == {"FINISHED"}

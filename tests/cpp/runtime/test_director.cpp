@@ -99,7 +99,7 @@ int drawn_act(int of_class, const Control& its_own, int other, const Control& ot
   acts.character->pool.fragments[shown[of_class]].evident = its_own;
   acts.character->pool.fragments[shown[other]].evident = others;
   Player player(acts.character, at_once());
-  player.step(control, 0.7);
+  player.step(control, 0.3);
   return static_cast<int>(std::find(shown.begin(), shown.end(), player.playing_fragment()) - shown.begin());
 }
 
