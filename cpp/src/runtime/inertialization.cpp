@@ -53,12 +53,13 @@ FRAGMOTION_VECTORISED void add_turns(const BoneOffsets* blocks, int bones, float
 
 Inertialization::Inertialization(int bones) : bones_(bones), blocks_((bones + kBoneBlock - 1) / kBoneBlock) {}
 
-void Inertialization::begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh,
-                            const WorldPose& fresh_later, double apart, double seconds) {
+Vector2 Inertialization::begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh,
+                               const WorldPose& fresh_later, double apart, double seconds) {
   damping_ = kFades / seconds;
   end_ = kLasts * seconds;
   root_ = old.root - fresh.root;
-  root_speed_ = {0, 0, (old.root.z() - old_before.root.z() - (fresh_later.root.z() - fresh.root.z())) / apart};
+  const Vector3 faster = (old.root - old_before.root - (fresh_later.root - fresh.root)) / apart;
+  root_speed_ = {0, 0, faster.z()};
   heading_ = old.heading - fresh.heading;
   heading_speed_ = (old.heading - old_before.heading - (fresh_later.heading - fresh.heading)) / apart;
   for (std::size_t b = 0; b < static_cast<std::size_t>(bones_); ++b) {
@@ -75,6 +76,7 @@ void Inertialization::begin(const WorldPose& old_before, const WorldPose& old, c
       blocks_[b / kBoneBlock].turning[axis][b % kBoneBlock] = static_cast<float>(turning[axis]);
     }
   }
+  return faster.head<2>();
 }
 
 void Inertialization::apply(double time, WorldPose& pose) const {

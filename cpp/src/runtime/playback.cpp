@@ -74,9 +74,8 @@ Vector2 Playback::begin_stitch(const Placed& old) {
   Placed later = now_;
   later.seconds += kApart;
   sample(later, fresh_later);
-  inertialization_.begin(old_before, old_now, fresh, fresh_later, kApart, stitch_);
-  const Vector3 faster = (old_now.root - old_before.root - (fresh_later.root - fresh.root)) / kApart;
-  return Eigen::Rotation2Dd(-frame_.heading) * faster.head<2>();
+  const Vector2 faster = inertialization_.begin(old_before, old_now, fresh, fresh_later, kApart, stitch_);
+  return Eigen::Rotation2Dd(-frame_.heading) * faster;
 }
 
 void Playback::advance(double seconds) {

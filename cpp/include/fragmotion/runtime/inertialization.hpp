@@ -31,8 +31,9 @@ class Inertialization {
 
   /// From `old` to `fresh`: after `seconds` three tenths of the offset are left, after four times that nothing. The old
   /// motion is also given `apart` seconds before, the new one `apart` seconds later: speeds are those inside either.
-  void begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh, const WorldPose& fresh_later,
-             double apart, double seconds);
+  /// Returns how much faster the old root goes over the ground, m/s.
+  Vector2 begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh, const WorldPose& fresh_later,
+                double apart, double seconds);
 
   /// Lets its memory be on its way to the processor.
   void prefetch() const { fragmotion::prefetch(blocks_.data(), blocks_.size()); }

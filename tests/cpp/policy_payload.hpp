@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fragmotion/character/policy_file.hpp"
+#include "small_character.hpp"
+
+namespace fragmotion {
+
+/// The file of tiny_character().
+inline const std::string& tiny_file() {
+  static const std::string bytes = to_bytes(tiny_character());
+  return bytes;
+}
+
+/// FNV-1a, as policy_file.hpp says.
+inline std::uint64_t fnv1a(const std::string& payload) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char byte : payload) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
+  return hash;
+}
+
+/// A file around a payload: magic, version, length, payload, checksum.
+inline std::string file_around(const std::string& payload) {
+  std::string bytes = tiny_file().substr(0, 12);
+  const std::uint64_t numbers[] = {payload.size(), fnv1a(payload)};
+  bytes.append(reinterpret_cast<const char*>(&numbers[0]), 8);
+  bytes += payload;
+  bytes.append(reinterpret_cast<const char*>(&numbers[1]), 8);
+  return bytes;
+}
+
+inline std::string payload_of(const std::string& bytes) { return bytes.substr(20, bytes.size() - 28); }
+
+/// Where bytes of a tiny file, or of its payload, are spoilt: everywhere but in the control model, of whose
+/// probabilities, all alike, each 101st byte is.
+inline std::vector<std::size_t> spots(std::size_t size) {
+  constexpr std::size_t kModel = sizeof(double) * ControlSpace::kPoints * ControlSpace::kPoints, kAfter = 1000;
+  std::vector<std::size_t> spots;
+  for (std::size_t at = 0; at < size; at += at + kAfter + kModel < size || at + kAfter >= size ? 1 : 101) {
+    spots.push_back(at);
+  }
+  return spots;
+}
+
+}  // namespace fragmotion
