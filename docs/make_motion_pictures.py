@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Make the pictures of docs/motion.md in docs/motion: a sheet for each of five movements, and a turntable of a drive.
+"""Make the pictures of docs/motion.md in docs/motion: a sheet for each movement, and a turntable of a drive.
 
 python3 docs/make_motion_pictures.py                  (the sample character)
 python3 docs/make_motion_pictures.py FOLDER           (a character of the folder's BVH files; pictures in build/motion)

@@ -42,6 +42,8 @@ void bind_control(py::module_& m) {
                                return py::make_tuple(w.velocity, w.turn, w.jump);
                              })
       .def_property_readonly("points", &points)
+      .def_property_readonly("quickest_turn", &ControlSpace::quickest_turn)
+      .def("turn_towards", &ControlSpace::turn_towards, py::arg("off"))
       .def(
           "nearest",
           [](const ControlSpace& space, const Doubles& controls) {

@@ -57,3 +57,21 @@ def test_every_change_of_fragment_is_a_stitch(character: core.Character) -> None
     fragments = performance.fragments  # one may follow itself
     assert {f for f in range(1, len(fragments)) if fragments[f] != fragments[f - 1]} <= set(motion.stitches.tolist())
     assert len(motion.stitches) == performance.entered[-1]
+
+
+def test_the_acceleration_is_seen_from_where_the_character_faced_at_first(
+    skeleton: core.Skeleton, clips: list[core.Clip]
+) -> None:
+    rotations = clips[0].rotations[:1].repeat(121, axis=0)
+    seconds = np.arange(121) / 60
+    for heading in (0.0, 1.0):
+        forward = np.array([-np.sin(heading), np.cos(heading), 0])
+        roots = [0, 0, 0.9] + (2.5 * seconds**2)[:, None] * forward
+        motion = Motion("faster", 60, roots, rotations, np.full((121, 3), [0, 0, heading]), np.empty(0, int))
+        np.testing.assert_allclose(motion.acceleration(60), [0, 5, 0], atol=1e-9)
+
+
+def test_a_quick_turn_is_the_quickest_that_the_character_has(character: core.Character) -> None:
+    trace = trace_of((Part(0.2, "jog", turn=-9),), character.space)
+    space = character.space
+    np.testing.assert_allclose(trace, [[0, (space.walk + space.run) / 2, -space.quickest_turn, 0]] * 2, atol=1e-12)

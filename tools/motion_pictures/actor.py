@@ -27,6 +27,7 @@ stage: Any = import_module("stage")
 PAPER = (0.93, 0.93, 0.92)
 _GROUND = (1.6, 1.6, 1.56)  # much more than white, as it is lit at a slant
 _FROM = (-62.0, 9.0)  # degrees, of the camera of a strip: to the left of the character's front, and upward
+_BELOW = 0.1  # statures of ground that a strip shows
 _FIRST = 1  # frame
 
 
@@ -68,6 +69,19 @@ class Actor:
             return upright(stage.render(scene, pixels))
 
 
+def seen(vector: NDArray[Any]) -> NDArray[Any]:
+    """A vector [3], m in the character frame of a strip's first pose, as a strip shows it: m to the right and up."""
+    side, up = np.radians(_FROM)
+    front = np.array([-np.sin(side), np.cos(side), 0])
+    right = np.array([-front[1], front[0], 0])
+    return np.array([vector @ right, vector @ [0, 0, np.cos(up)] - vector @ front * np.sin(up)])
+
+
+def above_the_lower_edge(height: float, stature: float) -> float:
+    """How far over a strip's lower edge it shows what is so high over the ground, m."""
+    return float((height + _BELOW * stature) * np.cos(np.radians(_FROM[1])))
+
+
 def open_blend(path: Path) -> tuple[Actor, list[core.Clip]]:
     """The armature of a .blend, and its Actions."""
     _, clips = read_actions(path)
@@ -90,7 +104,7 @@ def _aim(
     camera.data.type, camera.data.sensor_fit, camera.data.ortho_scale = "ORTHO", "HORIZONTAL", width
     camera.data.clip_end = 100 * stature
     tall = width * pixels[1] / pixels[0]
-    target = right * (width / 2) + mathutils.Vector((0, 0, tall / 2 / math.cos(up) - 0.1 * stature))
+    target = right * (width / 2) + mathutils.Vector((0, 0, tall / 2 / math.cos(up) - _BELOW * stature))
     position = target + (front * math.cos(up) + mathutils.Vector((0, 0, math.sin(up)))) * 20 * stature
     camera.matrix_world = stage.looking_at(position, target)
 

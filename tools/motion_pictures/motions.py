@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 STATURE = 1.8  # m; the lengths below are those of a character of this height
 LOW = 0.025  # m over where a ball stands
 SLIDING = 0.1  # m/s
+_PUSH = 0.2  # s over which a velocity and its change are measured
 
 
 class Motion(NamedTuple):
@@ -28,6 +29,15 @@ class Motion(NamedTuple):
     def seconds(self) -> float:
         """From the first pose to the last."""
         return (len(self.roots) - 1) / self.rate
+
+    def acceleration(self, frame: int) -> core.Doubles:
+        """Of the hips over the ground [3], m/s^2, as the character frame of the first pose sees it: the change over
+        0.2 s of a velocity over 0.2 s, of which the frame is the middle."""
+        apart = round(_PUSH * self.rate)
+        before, now, after = self.roots[np.clip([frame - apart, frame, frame + apart], 0, len(self.roots) - 1)]
+        x, y, _ = (after - 2 * now + before) / _PUSH**2
+        cosine, sine = np.cos(self.frames[0, 2]), np.sin(self.frames[0, 2])
+        return np.array([cosine * x + sine * y, cosine * y - sine * x, 0])
 
 
 def of_performance(name: str, performance: core.Performance) -> Motion:

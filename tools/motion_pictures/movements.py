@@ -13,14 +13,16 @@ from numpy.typing import NDArray
 STEPS_A_SECOND = 10  # of a trace
 _FASTEST = 3  # times as fast as asked for, at which a take may do a movement
 _WAITING = 0.5  # ControlDis that it costs to wait for the movement in a moment of the take
+_QUICKLY = 9.0  # turn rates: more than any character's
 _UNLIKE = 1.5  # mean ControlDis of a movement's parts from which on a take is no example of it
 
 
 class Part(NamedTuple):
-    """A control that is held: speed by name, direction in degrees (left positive), turn (1 left), jump (0, 1)."""
+    """A control that is held: speed by name, direction in degrees (left positive), turn (1 left; what is more than the
+    character's quickest turn is that), jump (0, 1)."""
 
     seconds: float
-    speed: str  # stand, walk or run
+    speed: str  # stand, slow, walk, jog or run
     direction: float = 0
     turn: float = 0
     jump: float = 0
@@ -66,16 +68,46 @@ MOVEMENTS = (
         (Part(0.8, "stand"), Part(1.4, "walk"), Part(1.2, "stand"), Part(1.4, "walk"), Part(1.2, "stand")),
         (Part(0.8, "stand"), Part(1.4, "walk"), Part(1.2, "stand")),
     ),
+    Movement(
+        "run-stop",
+        "Start into a run, and stop from it",
+        (Part(0.6, "stand"), Part(2.2, "run"), Part(1.6, "stand")),
+    ),
+    Movement(
+        "reversal",
+        "From a run forward to a walk backward",
+        (Part(1.8, "run"), Part(2.4, "walk", 180)),
+        (Part(1.6, "walk", 180),),
+    ),
+    Movement(
+        "about-face",
+        "About-face in a walk",
+        (Part(1.4, "walk"), Part(1.1, "stand", turn=_QUICKLY), Part(1.7, "walk")),
+        (Part(1.4, "walk"), Part(1.4, "stand", turn=1)),
+    ),
+    Movement(
+        "jump",
+        "Jump on the spot",
+        (Part(0.8, "stand"), Part(0.3, "stand", jump=1), Part(1.9, "stand")),
+        (Part(0.3, "stand"), Part(0.4, "stand", jump=1), Part(0.6, "stand")),
+    ),
+    Movement(
+        "slow-to-fast",
+        "From slow to fast: under a walk, a walk, between walk and run, a run",
+        (Part(1.4, "slow"), Part(1.4, "walk"), Part(1.4, "jog"), Part(1.4, "run")),
+        (Part(1.4, "walk"), Part(1.4, "run")),
+    ),
 )  # fmt: skip
 
 
 def trace_of(parts: tuple[Part, ...], space: core.ControlSpace) -> core.Doubles:
     """[T,4]: the parts as controls."""
-    speeds = {"stand": 0.0, "walk": space.walk, "run": space.run}
+    jog = (space.walk + space.run) / 2
+    speeds = {"stand": 0.0, "slow": space.walk / 2, "walk": space.walk, "jog": jog, "run": space.run}
     rows = []
     for part in parts:
         angle, speed = np.radians(part.direction), speeds[part.speed]
-        row = (-speed * np.sin(angle), speed * np.cos(angle), part.turn, part.jump)
+        row = (-speed * np.sin(angle), speed * np.cos(angle), np.clip(part.turn, -space.quickest_turn, space.quickest_turn), part.jump)
         rows += [row] * _steps(part)
     return np.array(rows)
 

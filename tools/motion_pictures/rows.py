@@ -68,9 +68,11 @@ class Cast:
     def _describe(self, measures: core.MotionMeasures) -> str:
         takes = self._yardstick.takes
         skate, step = measures.foot_skate / takes.foot_skate, measures.positions.worst / takes.positions.p999
+        hips = measures.hips
         return (
             f"foot skate {100 * measures.foot_skate:.1f} cm/s, {skate:.2f} times that of all takes;   "
-            f"worst joint step {step:.2f} times the takes' 99.9th percentile"
+            f"worst joint step {step:.2f} times the takes' 99.9th percentile;   "
+            f"hips' acceleration up to {hips.worst:.1f} m/s²"
         )
 
 

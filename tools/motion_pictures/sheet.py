@@ -18,8 +18,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from tools.motion_pictures.actor import PAPER, Actor
-from tools.motion_pictures.motions import Feet, Motion
+from tools.motion_pictures.actor import PAPER, Actor, above_the_lower_edge, seen
+from tools.motion_pictures.motions import STATURE, Feet, Motion
 from tools.motion_pictures.movements import Movement
 from tools.motion_pictures.rows import Row
 
@@ -29,9 +29,14 @@ STRIP, AXIS, PLAN, LINE = 245, 26, 210, 20  # pixels, heights
 INTERVAL = 0.5  # s between moments, about
 ROOM = 0.62  # statures that a moment is wide
 LEFT, RIGHT, SLIDES, INK, FAINT = "#0b7d9c", "#d3691f", "#e0003c", "#222222", "#9a9a9a"
+PUSHES, PUSHED = "#2c9440", SLIDES
+HARD = 6.0  # m/s^2 of a 1.8 m character: a sprinter's start
+_GRAVITY = 9.81  # m/s^2
+_SHORTEST = 6  # pixels of an arrow
 _LEGEND = (
     "Blue: ball of the left foot; orange: of the right. Dots: it stands. Red: it moves while less than 2.5 cm over the "
-    "ground, the redder the lower. Grey: the hips.  ▼ ◆: a stitch."
+    "ground, the redder the lower. Grey: the hips.  ▼ ◆: a stitch.\nThe arrow at the hips: their acceleration, as long as "
+    "the body is high for gravity's; red: over 6 m/s²."
 )
 
 
@@ -40,7 +45,7 @@ def draw_sheet(movement: Movement, rows: Sequence[Row], actor: Actor, feet: Feet
     plans = [_seen_from_above(row.motion, feet) for row in rows]
     scale = min(_scale(plan) for plan in plans)
     heights = [_height(plan, scale) for plan in plans]
-    tall = 2 * LINE + 8 + sum(LINE + STRIP + AXIS + height + LINE + 12 for height in heights) + LINE
+    tall = 2 * LINE + 8 + sum(LINE + STRIP + AXIS + height + LINE + 12 for height in heights) + 2 * LINE
     figure = pyplot.figure(figsize=(WIDTH / DPI, tall / DPI), dpi=DPI, facecolor=PAPER)
     _write(figure, tall, LINE, movement.title, size=15, weight="bold")
     top: float = 2 * LINE + 8
@@ -51,7 +56,7 @@ def draw_sheet(movement: Movement, rows: Sequence[Row], actor: Actor, feet: Feet
         top += LINE + STRIP + AXIS + height
         _write(figure, tall, top + LINE / 2, row.figures, size=11)
         top += LINE + 12
-    _write(figure, tall, top + LINE / 2, _LEGEND, size=9, color="#555555")
+    _write(figure, tall, top + LINE, _LEGEND, size=9, color="#555555")
     figure.savefig(path, pil_kwargs={"quality": 88} if path.suffix == ".jpg" else None)
     pyplot.close(figure)
 
@@ -78,13 +83,27 @@ def _draw_row(figure: Figure, tall: float, top: float, row: Row, actor: Actor, d
     frames = [min(round(time * motion.rate), len(motion.roots) - 1) for time in times]
     _write(figure, tall, top + LINE / 2, row.title, size=11, weight="bold")
     picture = actor.strip(motion, frames, places, width, (INNER, STRIP))
-    _axes(figure, tall, top + LINE, STRIP).imshow(picture, aspect="auto")
+    strip = _axes(figure, tall, top + LINE, STRIP)
+    strip.imshow(picture, aspect="auto")
+    for frame, place in zip(frames, places):
+        _draw_acceleration(strip, motion, frame, place, INNER / width, actor.stature)
     line = _axes(figure, tall, top + LINE + STRIP, AXIS)
     line.set(xlim=(-interval / 2, duration + interval / 2), ylim=(0, 1))
     line.plot([0, motion.seconds], [0.85, 0.85], color=FAINT, lw=0.8)
     line.plot(motion.stitches / motion.rate, np.full(len(motion.stitches), 0.85), "v", color=INK, ms=5)
     for time in times:
         line.text(time, 0.32, f"{time:.1f} s", ha="center", va="center", size=8, color="#555555")
+
+
+def _draw_acceleration(axes: Axes, motion: Motion, frame: int, place: float, scale: float, stature: float) -> None:
+    """An arrow at the hips of a body that stands at `place` m in a strip of `scale` pixels a metre."""
+    acceleration = motion.acceleration(frame)
+    right, up = seen(acceleration * (stature / _GRAVITY)) * scale
+    x, y = place * scale, STRIP - above_the_lower_edge(motion.roots[frame, 2], stature) * scale
+    colour = PUSHED if np.linalg.norm(acceleration) * STATURE / stature > HARD else PUSHES
+    arrow = {"arrowstyle": "-|>", "color": colour, "lw": 2, "shrinkA": 0, "shrinkB": 0}
+    if np.hypot(right, up) > _SHORTEST:
+        axes.annotate("", (x + right, y - up), (x, y), arrowprops=arrow, annotation_clip=False)
 
 
 def _seen_from_above(motion: Motion, feet: Feet) -> NDArray[np.float64]:

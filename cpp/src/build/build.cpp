@@ -16,6 +16,7 @@
 #include "fragmotion/fragments/evident.hpp"
 #include "fragmotion/fragments/packed_pool.hpp"
 #include "fragmotion/fragments/synthesis.hpp"
+#include "fragmotion/fragments/whole_jumps.hpp"
 #include "fragmotion/motion/legs.hpp"
 #include "fragmotion/motion/mirror.hpp"
 #include "fragmotion/policy/anticipate.hpp"
@@ -296,6 +297,8 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   c.contacts = contacts_of(pool, options.threads);
   c.legs = find_legs(kinematics, pool.clips);
   c.pool = pack(pool, options.threads);
+  find_whole_jumps(c.pool);
+  pool.fragments = c.pool.fragments;
   c.coverage = coverage(c.pool.fragments, c.space);
   c.report["fragments"] = static_cast<double>(c.pool.fragments.size());
   c.report["synthesize_seconds"] = stage.lap();

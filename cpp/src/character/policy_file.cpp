@@ -15,6 +15,7 @@
 #include "fragmotion/base/utf8.hpp"
 #include "fragmotion/fragments/body_tips.hpp"
 #include "fragmotion/fragments/entry_poses.hpp"
+#include "fragmotion/fragments/whole_jumps.hpp"
 #include "fragmotion/skeleton/role_names.hpp"
 #include "fragmotion/skeleton/two_bone_ik.hpp"
 
@@ -395,6 +396,7 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     character.legs = legs;
     repair_policies(character);  // of a program that repaired as it played
     character.coverage = coverage(character.pool.fragments, character.space);
+    find_whole_jumps(character.pool);
     character.entry_poses = entry_poses(character.pool);
     return character;
   } catch (const std::invalid_argument& error) {

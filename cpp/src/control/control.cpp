@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/control/control.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -56,6 +57,8 @@ int least(const Value& value) {
 }
 
 constexpr double kLeap = 0.9;  // evident jump of what is no run
+constexpr double kQuickest = 170 * kPi / 180;  // rad/s
+constexpr double kFacing = 0.25;               // s: time constant of the last of a turn
 
 }  // namespace
 
@@ -90,6 +93,12 @@ int ControlSpace::nearest(const Control& control) const {
   const int turn = least<kTurns>([&](int i) { return square(weights_.turn * (i - 1 - control.turn)); });
   const int jump = least<kJumps>([&](int i) { return square(weights_.jump * (i - control.jump)); });
   return index(velocity, turn - 1, jump == 1);
+}
+
+double ControlSpace::quickest_turn() const { return std::max(1.0, kQuickest / turn_rate_); }
+
+double ControlSpace::turn_towards(double off) const {
+  return std::clamp(off / kFacing / turn_rate_, -quickest_turn(), quickest_turn());
 }
 
 double ControlSpace::distance(const Control& a, const Control& b) const {

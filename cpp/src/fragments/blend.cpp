@@ -3,32 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fragments/body_pose.hpp"
 #include "fragmotion/motion/pose.hpp"
 
 namespace fragmotion {
-namespace {
-
-double lowest_tip(const Kinematics& kinematics, const Clip& clip, int frame) {
-  std::vector<Vector3> heads(kinematics.bones());
-  std::vector<Quaternion> orientations(kinematics.bones());
-  world(kinematics, clip, frame, heads.data(), orientations.data());
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const int b : measured_bones(kinematics.skeleton())) {
-    lowest = std::min(lowest, (heads[b] + orientations[b] * kinematics.skeleton().tips[b]).z());
-  }
-  return lowest;
-}
-
-void add_to_mean(BodyPose& mean, const BodyPose& pose) {
-  mean.height += pose.height;
-  if (mean.rotations.empty()) mean.rotations.resize(pose.rotations.size(), 0);
-  for (std::size_t b = 0; b < pose.rotations.size(); b += 4) add_rotation(&pose.rotations[b], &mean.rotations[b]);
-}
-
-}  // namespace
 
 Clip interpolated(const Kinematics& kinematics, const FragmentPool& pool, const Fragment& a, const Fragment& b,
                   double w, int tail) {
@@ -58,36 +37,6 @@ Clip interpolated(const Kinematics& kinematics, const FragmentPool& pool, const 
            pose);
   }
   return result;
-}
-
-Clip standing(const Kinematics& kinematics, const FragmentPool& pool, int frames, double rate) {
-  std::vector<int> slowest(pool.fragments.size());
-  for (std::size_t i = 0; i < slowest.size(); ++i) slowest[i] = static_cast<int>(i);
-  std::stable_sort(slowest.begin(), slowest.end(),
-                   [&](int a, int b) { return pool.fragments[a].evident.speed() < pool.fragments[b].evident.speed(); });
-  slowest.resize(std::min(slowest.size(), std::max<std::size_t>(10, slowest.size() / 5)));
-  BodyPose mean;
-  double floor = 0, count = 0;
-  for (const int i : slowest) {
-    const Fragment& fragment = pool.fragments[i];
-    for (int f = fragment.begin; f < fragment.end; ++f) {
-      add_to_mean(mean, body_pose(kinematics, pool.clips[fragment.clip], f));
-      floor += lowest_tip(kinematics, pool.clips[fragment.clip], f);
-      ++count;
-    }
-  }
-  for (int b = 0; b < 4 * kinematics.bones(); b += 4) {
-    store_quaternion(load_quaternion(&mean.rotations[b]).normalized(), &mean.rotations[b]);
-  }
-  mean.height /= count;
-  Clip clip;
-  clip.name = "standing";
-  clip.rate = rate;
-  append(kinematics, clip, {}, mean);
-  mean.height += floor / count - lowest_tip(kinematics, clip, 0);
-  clip.root_positions[2] = mean.height;
-  while (clip.frames < frames) append(kinematics, clip, {}, mean);
-  return clip;
 }
 
 }  // namespace fragmotion

@@ -39,15 +39,15 @@ Trajectories trajectories(const Pool<AnyClip>& pool, int poses, int threads) {
       for (int pose = 0; pose < poses; ++pose) {
         const double at = f.begin + (f.end - f.begin) * static_cast<double>(pose) / (poses - 1);
         const CharacterFrame frame = sample(clip, at);
-        if (pose == 0) {
-          start = frame;
-          tips.write(frame, &t.first[static_cast<std::size_t>(i) * 3 * t.pose_stride], t.pose_stride, 0);
-        }
+        if (pose == 0) start = frame;
         tips.write(start, &t.whole[static_cast<std::size_t>(i) * 3 * t.stride], t.stride, pose * points);
-        if (pose == poses - 1) {
-          tips.write(frame, &t.last[static_cast<std::size_t>(i) * 3 * t.pose_stride], t.pose_stride, 0);
-        }
       }
+      const auto end_pose = [&](int at, std::vector<float>& poses_at) {
+        const CharacterFrame frame = sample(clip, at);
+        tips.write(frame, &poses_at[static_cast<std::size_t>(i) * 3 * t.pose_stride], t.pose_stride, 0);
+      };
+      end_pose(f.first_played(), t.first);
+      end_pose(f.last_played(), t.last);
     }
   });
   return t;

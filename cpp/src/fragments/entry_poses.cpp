@@ -14,9 +14,9 @@ std::vector<float> entry_poses(const PackedPool& pool) {
   float* rows = poses.data();
   for (const Fragment& f : pool.fragments) {
     const PackedClip& clip = pool.clips[f.clip];
-    const CharacterFrame frame = frame_at(clip, f.begin);
+    const CharacterFrame frame = frame_at(clip, f.first_played());
     for (int later = 0; later < 2; ++later) {
-      tips.pose(sample_pose(clip, f.begin + later * kEntry * clip.rate, rotations.data()), rotations.data());
+      tips.pose(sample_pose(clip, f.first_played() + later * kEntry * clip.rate, rotations.data()), rotations.data());
       tips.write(frame, rows, stride, later * points);
     }
     rows += std::ptrdiff_t{3} * stride;

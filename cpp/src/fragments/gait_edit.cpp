@@ -10,11 +10,13 @@
 #include "fragments/body_pose.hpp"
 #include "fragmotion/motion/foot_lock.hpp"
 #include "fragmotion/motion/pose.hpp"
+#include "fragmotion/motion/trunk.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kCrouch = 0.16;  // of a hop's time: before it, and after it
+constexpr double kGravity = 9.81;  // m/s^2
+constexpr double kBow = 2;          // rad that the trunk bows forward for each m of a crouch, of a 1.8 m character
 constexpr double kWidest = 0.2;   // m of a 1.8 m character that each foot is set out so as not to cross the other
 constexpr double kLevel = 0.8;    // of the way to flat, where feet go straight to the side
 constexpr double kTuck = 0.35;    // of the body's height: how much further the feet are lifted
@@ -152,14 +154,6 @@ void plant_feet(const Kinematics& kinematics, const Legs& legs, Clip& clip, cons
   }
 }
 
-// The height of a hop by its phase, of its greatest: a crouch, a parabola that takes off as fast as the crouch ends,
-// and a crouch again.
-double hop_at(double phase) {
-  constexpr double kFlight = 1 - 2 * kCrouch, kDip = 4 * kCrouch / (kPi * kFlight);
-  const double air = (phase - kCrouch) / kFlight;
-  if (air > 0 && air < 1) return 4 * air * (1 - air);
-  return -kDip * std::sin(kPi * std::min(phase, 1 - phase) / kCrouch);
-}
 
 }  // namespace
 
@@ -195,10 +189,26 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
   return part(result, before, result.frames - 1);
 }
 
-void hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, int end, double height) {
+Hop::Hop(double height, double dip, double sinking)
+    : dip_(dip), sinking_(sinking), speed_(std::sqrt(2 * kGravity * height)), pushing_(2 * dip / speed_) {}
+
+double Hop::flight() const { return 2 * speed_ / kGravity; }
+
+double Hop::at(double seconds) const {
+  const double air = seconds - crouch();
+  if (air > flight()) return at(2 * crouch() + flight() - seconds);
+  if (air >= 0) return air * (speed_ - kGravity * air / 2);
+  if (seconds < sinking_) return -dip_ * ease_in_ease_out(seconds / sinking_);
+  const double pushed = (seconds - sinking_) / pushing_;
+  return dip_ * (pushed * pushed - 1);
+}
+
+void add_hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, const Hop& hop) {
+  const Skeleton& skeleton = kinematics.skeleton();
+  const Trunk trunk(skeleton);
   PosedBones posed(kinematics.bones());
-  for (int f = 0; f < end; ++f) {
-    const double rise = height * hop_at(static_cast<double>(f) / end);
+  for (int f = 0; f < clip.frames && f < hop.seconds() * clip.rate; ++f) {
+    const double height = hop.at(f / clip.rate), rise = height / standard_scale(skeleton);
     const double tuck = std::max(0.0, rise) * (1 + kTuck) - rise;  // of the feet, towards the hips
     double* root = &clip.root_positions[std::size_t{3} * f];
     double* rotations = &clip.rotations[std::size_t{4} * kinematics.bones() * f];
@@ -207,8 +217,10 @@ void hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, int end, do
     for (const Leg& leg : legs) {
       if (!leg.exists()) continue;
       const Vector3 ankle = posed.heads[leg.foot] + tuck * Vector3::UnitZ();
-      reach(kinematics.skeleton(), leg, posed, ankle, rotations);
+      reach(skeleton, leg, posed, ankle, rotations);
     }
+    const Vector3 left{-std::cos(clip.headings[f]), -std::sin(clip.headings[f]), 0};
+    turn_spine(skeleton, trunk, left, kBow * std::max(0.0, -height), rotations);
   }
 }
 

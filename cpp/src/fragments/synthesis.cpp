@@ -12,13 +12,16 @@
 #include "fragmotion/fragments/blend.hpp"
 #include "fragmotion/fragments/distance.hpp"
 #include "fragmotion/fragments/gait_edit.hpp"
+#include "fragmotion/fragments/standing.hpp"
 #include "fragmotion/motion/contacts.hpp"
 #include "fragmotion/motion/legs.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kJumpHeight = 0.22;             // m, of a 1.8 m character
+constexpr double kJumpHeight = 0.22, kJumpDip = 0.16;  // m, of a 1.8 m character that jumps on the spot
+constexpr double kRunningDip = 0.07;                   // m, of one that runs
+constexpr double kSinking = 0.2;                       // s into a crouch; half of that as it runs
 constexpr double kSimilar = 2.52 / kTunedReach;  // m a metre of reach: fragments this near may be interpolated
 constexpr int kCandidates = 24;                  // neighbours of a control that interpolation tries in pairs
 constexpr double kHurry = 1.2;                   // the most by which steps ahead are hurried, or slowed down
@@ -40,13 +43,14 @@ Control mix(const Control& a, const Control& b, double w) {
 
 // Adds a fragment that stands in place.
 void add_standing(FragmentPool& pool, const SynthesisOptions& options) {
+  const Kinematics kinematics(pool.skeleton);
   const double rate = pool.clips[0].rate;
   Fragment fragment;
   fragment.clip = static_cast<int>(pool.clips.size());
   fragment.end = std::max(1, static_cast<int>(std::lround(kStandSeconds * rate)));
   fragment.origin = Origin::transformed;
   const int frames = fragment.end + 1 + static_cast<int>(std::lround(options.tail * rate));
-  pool.clips.push_back(make_clip(pool.skeleton, standing(Kinematics(pool.skeleton), pool, frames, rate)));
+  pool.clips.push_back(make_clip(pool.skeleton, standing(kinematics, find_legs(kinematics, pool.clips), pool, frames, rate)));
   pool.fragments.push_back(fragment);
 }
 
@@ -244,18 +248,28 @@ class Synthesizer {
     const double sideways = std::abs(std::sin(change.direction)), hurry = 1 + sideways * (kShuffle - 1);
     change.tempo = std::max(usual / pieces, hurry * std::clamp(std::sqrt(faster), 1 / kHurry, kHurry));
     change.speed = faster / change.tempo;
-    const int longest = std::max(1, static_cast<int>(options_.longest * clip.rate * change.tempo + 1e-6));
     const int beyond = tail(clip.rate * change.tempo);
+    const Hop hop = hop_at(control.speed());
+    const int whole = static_cast<int>(std::ceil(hop.seconds() * clip.rate * change.tempo));
     const Clip made = transformed(kinematics_, legs_, clip, contacts(best->clip), best->begin, best->end,
-                                  length + longest + beyond, change);
+                                  length + whole + beyond, change);
     std::vector<int> ends;
     for (int piece = 0; piece <= pieces; ++piece) ends.push_back(length * piece / pieces);
     if (control.jump <= best->evident.jump) return add(part(made, 0, length + beyond), ends, Origin::transformed);
-    for (int piece = 0; piece < pieces; ++piece) {
-      Clip jump = part(made, ends[piece], ends[piece] + longest + beyond);
-      hop(kinematics_, legs_, jump, longest, kJumpHeight / space_.scale());
-      add(std::move(jump), {0, longest}, Origin::transformed);
-    }
+    for (int piece = 0; piece < pieces; ++piece) add_jump(part(made, ends[piece], ends[piece] + whole + beyond), hop);
+  }
+
+  // Of a character that goes so fast.
+  Hop hop_at(double speed) const {
+    const double haste = std::min(1.0, speed / space_.run());
+    return {kJumpHeight, kJumpDip + haste * (kRunningDip - kJumpDip), kSinking * (1 - haste / 2)};
+  }
+
+  // Adds a clip with a hop in it, whose flight is the fragment.
+  void add_jump(Clip clip, const Hop& hop) {
+    add_hop(kinematics_, legs_, clip, hop);
+    const auto frame = [&](double seconds) { return static_cast<int>(std::lround(seconds * clip.rate)); };
+    add(std::move(clip), {frame(hop.crouch()), frame(hop.crouch() + hop.flight())}, Origin::transformed);
   }
 
   FragmentPool& pool_;

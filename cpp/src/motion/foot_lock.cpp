@@ -114,23 +114,28 @@ double FootLock::height(int side, const FootHeights& floor) const {
   return std::min(toe - floor.ball, heel - floor.heel);
 }
 
-void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds) {
+void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds,
+                     const Matrix2& stride) {
   auto& [kinematics, legs, scale, bones, posed] = *body_;
   if (!legs[0].exists() || !legs[1].exists()) return;
   const Skeleton& skeleton = kinematics.skeleton();
   kinematics.world(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
+  const Matrix2 heading = Eigen::Rotation2Dd(pose.heading).toRotationMatrix(),
+                longer = heading * stride * heading.transpose();
   std::array<Vector3, 2> ankles;
   double sink = 0;
   settle(seconds);
   for (int side = 0; side < 2; ++side) {
     const double over = height(side, contacts.floors[side]);
     const bool stands = contacts.feet[side][frame] && (feet_[side].locked || over * scale < kLanding);
-    const Vector2 by = away(feet_[side], ball(skeleton, legs[side], posed).head<2>(), stands, seconds);
+    const Vector2 place = ball(skeleton, legs[side], posed).head<2>();
+    const Vector2 strides = longer * (place - pose.root.head<2>());
+    const Vector2 held = away(feet_[side], place + strides, stands, seconds), by = strides + held;
     const double lift = lifted(-over * scale) / scale + step_height(feet_[side]);
     ankles[side] = posed.heads[legs[side].foot] + Vector3{by.x(), by.y(), lift};
     if (by.isZero(1e-9) && over >= 0) continue;
     const double strain = sinking(legs[side], posed, ankles[side]);
-    if (feet_[side].locked && strain * scale > kStrained) release(feet_[side], by);
+    if (feet_[side].locked && strain * scale > kStrained) release(feet_[side], held);
     sink = std::max(sink, std::min(kDeepest / scale, strain));
   }
   fresh_ = false;

@@ -16,10 +16,12 @@ Control CommandLimit::after(const Control& control, double heading, double secon
   return {velocity.x(), velocity.y(), control.turn, control.jump};
 }
 
-void CommandLimit::advance(const Control& control, double heading, double seconds) {
+Vector2 CommandLimit::advance(const Control& control, double heading, double seconds) {
   const Control now = after(control, heading, seconds);
+  const Vector2 going = Eigen::Rotation2Dd(heading_ - heading) * velocity_;
   velocity_ = {now.x, now.y};
   heading_ = heading;
+  return (velocity_ - going) / seconds;
 }
 
 }  // namespace fragmotion

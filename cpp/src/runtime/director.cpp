@@ -56,11 +56,19 @@ bool Director::has_changed(const Control& wanted) const {
   return character_->space.distance(wanted, decided_for_) > kChange;
 }
 
+// Whatever goes slower than a walk, and does not stand, is walked.
 int Director::look_up_class(const Control& wanted) const {
-  return (*policy_)(class_, character_->space.nearest(wanted));
+  const ControlSpace& space = character_->space;
+  Control asked = wanted;
+  const double speed = wanted.speed();
+  if (speed * space.scale() > kMoving && speed < space.walk()) {
+    asked.x *= space.walk() / speed;
+    asked.y *= space.walk() / speed;
+  }
+  return (*policy_)(class_, space.nearest(asked));
 }
 
-int Director::next_class(const Control& control, const Playback& playback) {
+int Director::next_class(const Control& control) {
   const Character& c = *character_;
   const Control wanted = this->wanted(control);
   const int waiting = std::exchange(waiting_, -1);
@@ -84,7 +92,7 @@ bool Director::makes_way(const Playback& playback) const {
 bool Director::leaves_early(const Control& wanted, const Playback& playback, const FragmentSelector& selector) {
   const bool too_soon = playback.seconds() <= soonest(playback) - kInstant;
   if (too_soon || playback.left() <= kWorthIt || waiting_ >= 0 || plays_forced_) return false;
-  if (playback.evident().jumps() || !has_changed(wanted)) return false;
+  if (playback.is_jumping() || !has_changed(wanted)) return false;
   if (exit_ < 0 || character_->space.distance(wanted, planned_for_) > 0) {
     exit_ = selector.best_exit(look_up_class(wanted), wanted, playback, haste_);
     planned_for_ = wanted;
@@ -99,7 +107,7 @@ bool Director::is_due(const Control& control, const Playback& playback, const Fr
 int Director::decide(const Control& control, const Playback& playback) {
   plays_forced_ = makes_way(playback);
   if (plays_forced_) waiting_ = -1;
-  const int next = plays_forced_ ? std::exchange(forced_, -1) : next_class(control, playback);
+  const int next = plays_forced_ ? std::exchange(forced_, -1) : next_class(control);
   previous_ = std::exchange(class_, next);
   exit_ = -1;
   soonest_ = kSoonest;

@@ -24,7 +24,7 @@ void Playback::reset(int fragment, const CharacterFrame& frame) {
 
 Playback::Placed Playback::place(int fragment, const CharacterFrame& frame) const {
   const Fragment& f = character_->pool.fragments[fragment];
-  const CharacterFrame first = frame_at(character_->pool.clips[f.clip], f.begin);
+  const CharacterFrame first = frame_at(character_->pool.clips[f.clip], f.first_played());
   Placed placed;
   placed.fragment = fragment;
   placed.heading = frame.heading - first.heading;
@@ -35,7 +35,7 @@ Playback::Placed Playback::place(int fragment, const CharacterFrame& frame) cons
 void Playback::sample(const Placed& placed, WorldPose& pose) const {
   const Fragment& f = character_->pool.fragments[placed.fragment];
   const PackedClip& clip = character_->pool.clips[f.clip];
-  const double at = f.begin + placed.seconds * clip.rate;
+  const double at = f.first_played() + placed.seconds * clip.rate;
   const Vector3 root = sample_pose(clip, at, pose.rotations.data());
   // By half the angle, for the quaternion as well as for the plane.
   const double w = std::cos(placed.heading / 2), z = std::sin(placed.heading / 2), c = w * w - z * z, s = 2 * w * z;
@@ -113,8 +113,29 @@ void Playback::crossfade(double weight, WorldPose& pose) const {
   pose.heading = old.heading + weight * (pose.heading - old.heading);
 }
 
+bool Playback::is_jumping() const {
+  const Fragment& f = character_->pool.fragments[now_.fragment];
+  const double landed = f.end + f.lead_out / 2.0 - f.first_played();
+  return f.evident.jumps() && now_.seconds * character_->pool.clips[f.clip].rate < landed;
+}
+
+std::size_t Playback::frame_of_clip() const {
+  const Fragment& f = character_->pool.fragments[now_.fragment];
+  const PackedClip& clip = character_->pool.clips[f.clip];
+  const long at = std::lround(f.first_played() + now_.seconds * clip.rate);
+  return static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(clip.frames) - 1));
+}
+
+bool Playback::is_in_the_air() const {
+  if (!evident().jumps()) return false;
+  const auto& [left, right] = character_->contacts[character_->pool.fragments[now_.fragment].clip].feet;
+  const std::size_t frame = frame_of_clip();
+  return !left.empty() && !left[frame] && !right[frame];
+}
+
 double Playback::left() const {
-  return character_->pool.seconds(character_->pool.fragments[now_.fragment]) - now_.seconds;
+  const Fragment& f = character_->pool.fragments[now_.fragment];
+  return (f.last_played() - f.first_played()) / character_->pool.clips[f.clip].rate - now_.seconds;
 }
 
 }  // namespace fragmotion

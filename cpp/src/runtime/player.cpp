@@ -64,6 +64,7 @@ void Player::reset(const CharacterFrame& frame) {
   director_.reset();
   selector_.reset();
   correction_.reset(frame.heading);
+  acceleration_ = Vector2::Zero();
   playback_.reset(character_->classes.representatives[director_.playing_class()], frame);
   correct(0);
 }
@@ -81,12 +82,12 @@ void Player::go_on(const Control& control) {
   const int next = director_.decide(control, playback_);
   const int fragment =
       director_.plays_forced() ? selector_.choose_any(next) : selector_.choose(next, wanted, playback_);
-  correction_.keep_velocity(playback_.start(fragment));
+  correction_.keep_velocity(correction_.tempo() * playback_.start(fragment));
   ++entered_;
 }
 
 void Player::correct(double seconds) {
-  correction_.correct(playback_, seconds);
+  correction_.correct(playback_, acceleration_, seconds);
   root_ = workspace_->shown.root;
 }
 
@@ -102,9 +103,10 @@ void Player::step(const Control& control, double seconds) {
     const double heading = frame().heading, next = std::min(rest, kFinest);
     const Control asked = limit_.after(control, heading, next);
     if (director_.is_due(asked, playback_, selector_)) go_on(asked);
-    const double part = director_.until_due(playback_, next);
-    limit_.advance(control, heading, part);
-    playback_.advance(part);
+    const double tempo = correction_.tempo(), played = director_.until_due(playback_, next * tempo),
+                 part = played / tempo;
+    acceleration_ = limit_.advance(control, heading, part);
+    playback_.advance(played);
     correction_.adjust_root(asked, part, playback_);
     rest -= part;
     playback_.show();

@@ -8,9 +8,12 @@ namespace fragmotion {
 namespace {
 
 constexpr double kMostAdjusted = 0.6;  // of a fragment's speed,
-constexpr double kMostTurned = 1;      // and of the turn rate
+constexpr double kMostTurned = 1;      // and of the turn rate, for the heading
 constexpr double kAdjusting = 0.05;    // s: time constant of the velocity's adjustment,
 constexpr double kTurning = 0.1;       // and of the turn rate's
+constexpr double kSlowest = 0.75;      // of the tempo
+constexpr double kPacing = 0.15;       // s: time constant of the tempo's,
+constexpr double kStriding = 0.1;      // s: time constant of the strides'
 constexpr double kHeading = 0.15;      // s in which the heading gets to where it is led,
 constexpr double kLeash = 0.5;         // rad by which it is led at most
 constexpr double kStill = 0.2;         // m/s of a 1.8 m character, and of the turn rate, below which it stands
@@ -25,19 +28,23 @@ PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace,
       acceleration_(acceleration),
       lock_feet_(lock_feet),
       foot_lock_(workspace.body),
-      breathing_(workspace.kinematics.skeleton()) {}
+      breathing_(Trunk(workspace.kinematics.skeleton())),
+      lean_(Trunk(workspace.kinematics.skeleton()), character.space.scale()) {}
 
 void PoseCorrection::reset(double heading) {
   velocity_ = Vector2::Zero();
   turn_rate_ = 0;
+  tempo_ = 1;
   led_ = heading;
+  stride_ = Matrix2::Zero();
   foot_lock_.reset();
   breathing_.reset();
+  lean_.reset();
 }
 
 // The velocity that the fragment lacks, as far as its strides can be changed.
 Vector2 PoseCorrection::velocity_to_add(const Control& control, const Control& evident) const {
-  const Vector2 lacks{control.x - evident.x, control.y - evident.y};
+  const Vector2 lacks{control.x - tempo_ * evident.x, control.y - tempo_ * evident.y};
   return root_adjustment_ * clamp_length(lacks, kMostAdjusted * evident.speed());
 }
 
@@ -47,21 +54,44 @@ double PoseCorrection::turn_to_add(const Control& control, const Playback& playb
   led_ += seconds * control.turn * unit;
   const double behind = std::clamp(std::remainder(led_ - heading, 2 * kPi), -kLeash, kLeash);
   led_ = heading + behind;
-  const double lacks = control.turn - playback.evident().turn + behind / kHeading / unit;
-  return root_adjustment_ * unit * std::clamp(lacks, -kMostTurned, kMostTurned);
+  const double quickest = std::max(kMostTurned, character_->space.quickest_turn()),
+               lacks = std::clamp(control.turn - tempo_ * playback.evident().turn, -quickest, quickest);
+  return root_adjustment_ * unit * (lacks + std::clamp(behind / kHeading / unit, -kMostTurned, kMostTurned));
+}
+
+void PoseCorrection::adjust_tempo(const Control& control, const Control& evident, double seconds) {
+  const double least = kMoving / character_->space.scale();
+  const bool goes = evident.speed() > least && control.speed() > least && !evident.jumps();
+  const double faster = goes ? std::sqrt(control.speed() / evident.speed()) : 1,
+               wanted = 1 + root_adjustment_ * (std::clamp(faster, kSlowest, 1.0) - 1);
+  tempo_ += (1 - std::exp(-seconds / kPacing)) * (wanted - tempo_);
 }
 
 void PoseCorrection::adjust_root(const Control& control, double seconds, Playback& playback) {
+  adjust_tempo(control, playback.evident(), seconds);
   const auto part = [&](double time) { return 1 - std::exp(-seconds / time); };
   const Vector2 change = part(kAdjusting) * (velocity_to_add(control, playback.evident()) - velocity_);
-  velocity_ += clamp_length(change, acceleration_ * seconds);
+  if (!playback.is_in_the_air()) velocity_ += clamp_length(change, acceleration_ * seconds);
   turn_rate_ += part(kTurning) * (turn_to_add(control, playback, seconds) - turn_rate_);
   playback.move(velocity_, turn_rate_, seconds);
 }
 
-void PoseCorrection::correct(const Playback& playback, double seconds) {
-  breathing_.apply(workspace_->kinematics.skeleton(), workspace_->shown, stands(playback.evident()), seconds);
+void PoseCorrection::correct(const Playback& playback, const Vector2& acceleration, double seconds) {
+  const Skeleton& skeleton = workspace_->kinematics.skeleton();
+  breathing_.apply(skeleton, workspace_->shown, stands(playback.evident()), seconds);
+  lean_.apply(skeleton, workspace_->shown, acceleration, seconds);
+  adjust_strides(playback.evident(), seconds);
   if (lock_feet_) lock_feet(playback, seconds);
+}
+
+// A foot that stands goes back under the hips as fast as the fragment goes forward; by what the adjustment makes that
+// faster or slower its place from the hips, which grows with the same time, must change.
+void PoseCorrection::adjust_strides(const Control& evident, double seconds) {
+  const Vector2 velocity{evident.x, evident.y};
+  const bool goes = evident.speed() * character_->space.scale() > kMoving;
+  const Matrix2 wanted =
+      goes ? Matrix2{velocity_ * velocity.transpose() / (tempo_ * velocity.squaredNorm())} : Matrix2{Matrix2::Zero()};
+  stride_ += (1 - std::exp(-seconds / kStriding)) * (wanted - stride_);
 }
 
 bool PoseCorrection::stands(const Control& evident) const {
@@ -69,13 +99,9 @@ bool PoseCorrection::stands(const Control& evident) const {
 }
 
 void PoseCorrection::lock_feet(const Playback& playback, double seconds) {
-  const Fragment& f = character_->pool.fragments[playback.fragment()];
-  const Contacts& contacts = character_->contacts[f.clip];
+  const Contacts& contacts = character_->contacts[character_->pool.fragments[playback.fragment()].clip];
   if (contacts.feet[0].empty()) return;
-  const PackedClip& clip = character_->pool.clips[f.clip];
-  const long at = std::lround(f.begin + playback.seconds() * clip.rate);
-  const auto frame = static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(clip.frames) - 1));
-  foot_lock_.apply(workspace_->shown, contacts, frame, seconds);
+  foot_lock_.apply(workspace_->shown, contacts, playback.frame_of_clip(), seconds, stride_);
 }
 
 }  // namespace fragmotion

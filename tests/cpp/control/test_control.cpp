@@ -41,8 +41,27 @@ TEST(MatchesJump, TakesABouncyRunForARun) {
   const auto evident = [](double jump) { return Control{0, 3, 0, jump}; };
   EXPECT_TRUE(matches_jump(evident(0.7), run));
   EXPECT_FALSE(matches_jump(evident(0.95), run));
-  EXPECT_TRUE(matches_jump(evident(0.7), leap));
-  EXPECT_FALSE(matches_jump(evident(0.4), leap));
+  EXPECT_TRUE(matches_jump(evident(0.8), leap));
+  EXPECT_FALSE(matches_jump(evident(0.7), leap));
+}
+
+TEST(ControlSpace, TurnsTowardsWhereItShallFaceNoFasterThanItCan) {
+  const double slow = 60 * kPi / 180, fast = 4;
+  EXPECT_NEAR(ControlSpace(1, 2, slow).quickest_turn() * slow, 170 * kPi / 180, 1e-12);
+  EXPECT_EQ(ControlSpace(1, 2, fast).quickest_turn(), 1);
+  for (const double rate : {slow, fast}) {
+    const ControlSpace space(1, 2, rate);
+    EXPECT_EQ(space.turn_towards(kPi), space.quickest_turn());
+    EXPECT_EQ(space.turn_towards(-kPi), -space.quickest_turn());
+    double off = 2.5;
+    for (int f = 0; f < 120; ++f) {
+      const double next = off - space.turn_towards(off) * rate / 60;
+      EXPECT_LT(next, off);
+      EXPECT_GE(next, 0);
+      off = next;
+    }
+    EXPECT_LT(off, 0.02);
+  }
 }
 
 TEST(ControlSpace, CountsDirectionsCounterClockwiseFromForward) {

@@ -14,7 +14,7 @@ constexpr double kFrame = 1.0 / 60;
 struct Body {
   Skeleton skeleton = humanoid();
   Kinematics kinematics{skeleton};
-  Breathing breathing{skeleton};
+  Breathing breathing{Trunk(skeleton)};
   Clip clip = gait_clip({0, 0, 0});
 
   PosedBones shown(bool stands) {
@@ -58,7 +58,7 @@ TEST(Breathing, FadesWhereTheBodyGoes) {
 TEST(Breathing, LeavesASkeletonWithoutArmsAsItIs) {
   Body body;
   body.skeleton.roles.left_hand = -1;
-  body.breathing = Breathing(body.skeleton);
+  body.breathing = Breathing(Trunk(body.skeleton));
   const PosedBones still = body.shown(false);
   for (int f = 0; f < 100; ++f) EXPECT_EQ(body.shown(true).heads, still.heads);
 }

@@ -17,7 +17,9 @@ TEST(CommandLimit, GetsToTheCommandWithTheAccelerationAndStaysThere) {
   const Control run{0, 3, -1, 1};
   for (int f = 1; f <= 90; ++f) {
     const Control now = limit.after(run, 0.7, 1.0 / 60);
-    limit.advance(run, 0.7, 1.0 / 60);
+    const Vector2 acceleration = limit.advance(run, 0.7, 1.0 / 60);
+    EXPECT_NEAR(acceleration.y(), f <= 36 ? 5 : 0, 1e-9) << f;
+    EXPECT_NEAR(acceleration.x(), 0, 1e-9);
     EXPECT_NEAR(now.y, std::min(3.0, 5 * f / 60.0), 1e-9);
     EXPECT_NEAR(now.x, 0, 1e-9);
     EXPECT_EQ(now.turn, -1);

@@ -56,6 +56,13 @@ std::vector<int> acts_of(Player& player, const std::vector<std::pair<Control, do
   return acts;
 }
 
+TEST(Player, WalksWhereLessThanHalfAWalkIsAskedFor) {
+  Player player(Acts().character, at_once());
+  EXPECT_EQ(acts_of(player, {{{0, 0.4, 0, 0}, 1.2}}), (std::vector<int>{Acts::forward}));
+  player.reset();
+  EXPECT_EQ(acts_of(player, {{{0, 0.2, 0, 0}, 1.2}}), (std::vector<int>{Acts::stand}));
+}
+
 TEST(Player, StandsBetweenActsThatDoNotFitAndThenDoesWhatWasAskedFor) {
   Player player(Acts().character, at_once());
   EXPECT_EQ(acts_of(player, {{kForward, 0.7}, {kBack, 1.5}}),

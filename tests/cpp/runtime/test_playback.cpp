@@ -23,7 +23,7 @@ struct Stage {
   std::pair<CharacterFrame, CharacterFrame> in_clip(int fragment, double seconds) const {
     const Fragment& f = character->pool.fragments[fragment];
     const PackedClip& clip = character->pool.clips[f.clip];
-    return {frame_at(clip, f.begin), frame_at(clip, f.begin + seconds * clip.rate)};
+    return {frame_at(clip, f.first_played()), frame_at(clip, f.first_played() + seconds * clip.rate)};
   }
 };
 

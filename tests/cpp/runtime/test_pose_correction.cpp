@@ -74,6 +74,26 @@ TEST(PoseCorrection, LetsGoOfAVelocityNoFasterThanABodyCan) {
   EXPECT_NEAR(before, 0, 0.01);
 }
 
+TEST(PoseCorrection, StepsSlowerWhereLessIsAskedForAndNeverFaster) {
+  const auto character = gait_character();
+  Workspace workspace(*character);
+  Playback playback(*character, workspace, Stitching::inertialize, 0.2);
+  playback.reset(forward_fragment(*character), {});
+  const Control& ev = playback.evident();
+  const auto tempo = [&](double adjustment, double share) {
+    PoseCorrection correction(*character, workspace, adjustment, kAcceleration, true);
+    correction.reset(0);
+    EXPECT_EQ(correction.tempo(), 1);
+    for (int i = 0; i < 120; ++i) correction.adjust_root({share * ev.x, share * ev.y, 0, 0}, 0.01, playback);
+    return correction.tempo();
+  };
+  EXPECT_NEAR(tempo(1, 0.7), std::sqrt(0.7), 0.01);
+  EXPECT_NEAR(tempo(0.5, 0.7), (1 + std::sqrt(0.7)) / 2, 0.01);
+  EXPECT_NEAR(tempo(1, 0.2), 0.75, 0.01);
+  EXPECT_NEAR(tempo(1, 1.5), 1, 1e-9);
+  EXPECT_EQ(tempo(0, 0.2), 1);
+}
+
 TEST(PoseCorrection, BringsBackTheHeadingThatWasLost) {
   const auto character = gait_character();
   Workspace workspace(*character);

@@ -23,13 +23,13 @@ _DIRECTIONS = (
     "forward-right",
 )
 _RUNS = 0.75  # of the stick's way; the speed beyond is nearer to a run
-_FULL_TURN_AT = math.radians(30)  # off the stick's direction; the core takes half a turn and more for a turn
 _ON_THE_SPOT = math.radians(100)  # off by more, a character that turns well stops for it
 _BEHIND = math.radians(160)  # off by more, a turn goes on to the side on which it began
 
 
 class Control(NamedTuple):
-    """Velocity to the right and forward in m/s, turn from -1 to 1 (left), and jump 0 or 1, as the character sees it."""
+    """Velocity to the right and forward in m/s, turn (1 is left at the character's turn rate; it may be more where it has
+    to face about), and jump 0 or 1, as the character sees it."""
 
     right: float = 0.0
     forward: float = 0.0
@@ -109,7 +109,7 @@ class Steering:
         """The turn that brings round what is off by an angle, positive to the left."""
         if abs(off) < _BEHIND:
             self._side = math.copysign(1.0, off)
-        return self._side * min(abs(off) / _FULL_TURN_AT, 1.0)
+        return self._side * self._space.turn_towards(abs(off))
 
 
 def view_heading(rotation: list[list[float]]) -> float:

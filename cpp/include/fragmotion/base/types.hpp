@@ -11,6 +11,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
+using Matrix2 = Eigen::Matrix2d;
 using Quaternion = Eigen::Quaterniond;
 
 /// Arrays hold rotations as (w, x, y, z); Eigen stores (x, y, z, w).

@@ -19,8 +19,8 @@ struct Control {
   double jump = 0;  ///< 1: jumping.
 
   double speed() const { return std::sqrt(x * x + y * y); }
-  /// Whether it asks for a jump, or what it is evident of is in the air as in one.
-  bool jumps() const { return jump > 0.5; }
+  /// Whether it asks for a jump, or what it is evident of is in the air as in one: higher than a bouncy run.
+  bool jumps() const { return jump > 0.75; }
 };
 
 /// Whether what is evident jumps as is wanted, or does not. A bouncy run, which is in the air too, will do for a run.
@@ -64,6 +64,10 @@ class ControlSpace {
   double run() const { return run_; }
   double turn_rate() const { return turn_rate_; }
   double scale() const { return scale_; }
+  /// The most that a turn of a control asks for, in turn rates: 1 or, where the takes turn slowly, 170 degrees/s.
+  double quickest_turn() const;
+  /// The turn of a control for a character to face where is `off` rad to the left of where it faces, soon and softly.
+  double turn_towards(double off) const;
   const ControlWeights& weights() const { return weights_; }
   const Control& point(int index) const { return points_[index]; }
 

@@ -11,8 +11,4 @@ namespace fragmotion {
 Clip interpolated(const Kinematics& kinematics, const FragmentPool& pool, const Fragment& a, const Fragment& b,
                   double w, int tail);
 
-/// A character that stands for `frames` frames: the mean pose of the pool's slowest fragments, on the ground that they
-/// stand on. Symmetric where the pool holds the fragments' mirror images.
-Clip standing(const Kinematics& kinematics, const FragmentPool& pool, int frames, double rate);
-
 }  // namespace fragmotion

@@ -13,7 +13,7 @@ constexpr int kPoses = 16;
 
 /// The fragments as points of the space in which Dis is a norm. Lengths are those of a character of 1.8 m.
 /// A trajectory is `poses` poses at equal times, all in the character frame of the first; `first` and `last` are the
-/// fragment's end poses, each in its own character frame.
+/// poses with which the fragment's playing begins and ends, each in its own character frame.
 struct Trajectories {
   int count = 0;
   int tips = 0;              ///< Points of each pose, one behind another in a row; 0 where there is but one pose.

@@ -23,6 +23,12 @@ struct Fragment {
   int end = 0;
   Origin origin = Origin::captured;
   Control evident;  ///< Ev(f), see evident.hpp.
+  /// Frames of the clip that are played before `begin` and after `end` as well: of a jump, the crouch and the landing
+  /// (whole_jumps.hpp).
+  int lead_in = 0, lead_out = 0;
+
+  int first_played() const { return begin - lead_in; }
+  int last_played() const { return end + lead_out; }
 };
 
 /// All fragments, with the clips that hold their poses.

@@ -23,8 +23,24 @@ struct GaitEdit {
 Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
                  int end, int frames, const GaitEdit& edit);
 
-/// Makes a hop of frames 0 .. end of a clip: the body goes down over the feet, through the air in a parabola of so many
-/// metres with the feet drawn up, and is caught by the knees.
-void hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, int end, double height);
+/// How a hop lifts and lowers the body, m over time: it sinks into a crouch, pushes off with a constant force, flies as a
+/// body falls, and lands as it took off. Lengths in m of a 1.8 m character, times in s, all above 0.
+class Hop {
+ public:
+  /// `height` of the flight, `dip` of the crouch, and the time to sink into it.
+  Hop(double height, double dip, double sinking);
+
+  double crouch() const { return sinking_ + pushing_; }  ///< s until the take-off, and from the landing on.
+  double flight() const;                                 ///< s
+  double seconds() const { return 2 * crouch() + flight(); }
+  double at(double seconds) const;  ///< The height at a time from the beginning, 0 .. seconds().
+
+ private:
+  double dip_, sinking_, speed_, pushing_;
+};
+
+/// Adds a hop to a clip, from its first frame on: the knees bend and the trunk bows as the body goes down over the feet,
+/// and in the air the feet are drawn up.
+void add_hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, const Hop& hop);
 
 }  // namespace fragmotion

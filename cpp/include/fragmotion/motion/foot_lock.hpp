@@ -35,8 +35,10 @@ class FootLock {
   void reset();
 
   /// Moves the legs of the pose that is shown `seconds` after the last one, and is, or is to become, a frame with these
-  /// contacts. A foot that stands in that frame is planted once it is near the ground.
-  void apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds);
+  /// contacts. A foot that stands in that frame is planted once it is near the ground. Before that the strides are
+  /// changed: each foot is moved by `stride` times its place from the hips, both in the character frame.
+  void apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds,
+             const Matrix2& stride = Matrix2::Zero());
 
   bool locked(int side) const { return feet_[side].locked; }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fragmotion/runtime/inertialization.hpp"
-#include "fragmotion/skeleton/skeleton.hpp"
+#include "fragmotion/motion/pose.hpp"
+#include "fragmotion/motion/trunk.hpp"
 
 namespace fragmotion {
 
@@ -11,7 +11,7 @@ namespace fragmotion {
 /// arms hang from. Allocates nothing once it is made.
 class Breathing {
  public:
-  explicit Breathing(const Skeleton& skeleton);
+  explicit Breathing(const Trunk& trunk);
 
   /// Has not begun.
   void reset();
@@ -20,7 +20,7 @@ class Breathing {
   void apply(const Skeleton& skeleton, WorldPose& pose, bool stands, double seconds);
 
  private:
-  int chest_ = -1, head_ = -1;
+  Trunk trunk_;
   double time_ = 0, depth_ = 0;  // s, 0 .. 1
 };
 

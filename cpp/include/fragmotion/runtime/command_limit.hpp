@@ -16,8 +16,8 @@ class CommandLimit {
   void reset(double heading);
   /// What the control becomes `seconds` from the last advance(), of a body that faces `heading` then.
   Control after(const Control& control, double heading, double seconds) const;
-  /// Goes so far.
-  void advance(const Control& control, double heading, double seconds);
+  /// Goes so far. Returns the acceleration of the command, m/s^2 in the character frame.
+  Vector2 advance(const Control& control, double heading, double seconds);
 
  private:
   double acceleration_;

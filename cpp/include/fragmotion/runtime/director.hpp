@@ -44,7 +44,7 @@ class Director {
   bool leaves_early(const Control& wanted, const Playback& playback, const FragmentSelector& selector);
   bool has_changed(const Control& wanted) const;
   int look_up_class(const Control& wanted) const;
-  int next_class(const Control& control, const Playback& playback);
+  int next_class(const Control& control);
 
   const Character* character_;
   const Policy* policy_;

@@ -35,7 +35,13 @@ class Playback {
 
   int fragment() const { return now_.fragment; }
   const Control& evident() const { return character_->pool.fragments[now_.fragment].evident; }
-  /// Since the fragment's first pose, s.
+  /// Whether it is in a jump that cannot be left: until it has landed and is half up again.
+  bool is_jumping() const;
+  /// Whether it jumps and touches no ground now.
+  bool is_in_the_air() const;
+  /// The frame of the clip that is nearest to now.
+  std::size_t frame_of_clip() const;
+  /// Since the first pose that is played of the fragment, s.
   double seconds() const { return now_.seconds; }
   /// Until the fragment's end, s.
   double left() const;

@@ -83,7 +83,8 @@ class Player {
   Playback playback_;
   PoseCorrection correction_;
   int entered_ = 0;
-  Vector3 root_ = Vector3::Zero();  // as it is shown
+  Vector3 root_ = Vector3::Zero();          // as it is shown
+  Vector2 acceleration_ = Vector2::Zero();  // of the command, m/s^2 in the character frame
 };
 
 }  // namespace fragmotion

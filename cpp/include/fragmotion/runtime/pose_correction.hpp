@@ -2,13 +2,14 @@
 #pragma once
 
 #include "fragmotion/runtime/breathing.hpp"
+#include "fragmotion/runtime/lean.hpp"
 #include "fragmotion/runtime/playback.hpp"
 
 namespace fragmotion {
 
 /// Corrects what fragments show: the root goes more as the control says and no faster away from its velocity than a
-/// body can, it keeps the heading that the control leads to, a body that stands breathes (breathing.hpp), and planted
-/// feet stay where they are (foot_lock.hpp). Allocates nothing once it is made.
+/// body can, it keeps the heading that the control leads to, a body that stands breathes (breathing.hpp), one that is
+/// accelerated leans (lean.hpp), and planted feet stay where they are (foot_lock.hpp). Allocates nothing once it is made.
 class PoseCorrection {
  public:
   /// `root_adjustment` and `lock_feet` as in PlayerOptions; `acceleration` of a body at most, m/s^2. Character and
@@ -19,14 +20,20 @@ class PoseCorrection {
   void reset(double heading);
   /// Lets the root keep the velocity by which it was faster than what begins to play, m/s in the character frame.
   void keep_velocity(const Vector2& faster) { velocity_ += faster; }
+  /// How much faster than captured what plays is to be played, at most 1: where the control is slower than the fragment,
+  /// its steps make up for half of that by following each other later, and for the rest by being shorter.
+  double tempo() const { return tempo_; }
   /// Moves and turns what plays over `seconds`, so that it does more of what the control says.
   void adjust_root(const Control& control, double seconds, Playback& playback);
-  /// Corrects Workspace::shown, `seconds` after the pose that was shown last.
-  void correct(const Playback& playback, double seconds);
+  /// Corrects Workspace::shown, `seconds` after the pose that was shown last, of a body that is accelerated by so many
+  /// m/s^2 in the character frame.
+  void correct(const Playback& playback, const Vector2& acceleration, double seconds);
 
  private:
+  void adjust_tempo(const Control& control, const Control& evident, double seconds);
   Vector2 velocity_to_add(const Control& control, const Control& evident) const;
   double turn_to_add(const Control& control, const Playback& playback, double seconds);
+  void adjust_strides(const Control& evident, double seconds);
   bool stands(const Control& evident) const;
   void lock_feet(const Playback& playback, double seconds);
 
@@ -36,9 +43,12 @@ class PoseCorrection {
   bool lock_feet_;
   Vector2 velocity_ = Vector2::Zero();  // of the adjustment, m/s, in the character frame
   double turn_rate_ = 0;                // of the adjustment, rad/s
+  double tempo_ = 1;
   double led_ = 0;                      // the heading that the controls lead to, rad
+  Matrix2 stride_ = Matrix2::Zero();    // how the strides follow the adjustment, FootLock::apply()
   FootLock foot_lock_;
   Breathing breathing_;
+  Lean lean_;
 };
 
 }  // namespace fragmotion

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "fragmotion/motion/pose.hpp"
+#include "fragmotion/motion/trunk.hpp"
+
+namespace fragmotion {
+
+/// Leans the trunk of a body that gets faster, slower or turns aside into its acceleration, as what pushes at its feet
+/// must not tip it over: by part of the angle whose tangent is the acceleration over gravity. The head goes back by
+/// half of that. Does nothing to a skeleton without a spine. Allocates nothing once it is made.
+class Lean {
+ public:
+  /// `scale` as ControlSpace::scale().
+  Lean(const Trunk& trunk, double scale) : trunk_(trunk), scale_(scale) {}
+
+  /// Stands upright.
+  void reset() { acceleration_ = Vector2::Zero(); }
+  /// Changes the pose that is shown `seconds` after the last one, of a body that is accelerated by so many m/s^2 in the
+  /// character frame.
+  void apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, double seconds);
+
+ private:
+  Trunk trunk_;
+  double scale_;
+  Vector2 acceleration_ = Vector2::Zero();  // as the lean follows it
+};
+
+}  // namespace fragmotion
