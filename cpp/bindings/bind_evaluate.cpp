@@ -2,14 +2,19 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
+#include "fragmotion/evaluate/about_face.hpp"
+#include "fragmotion/evaluate/change_pushes.hpp"
 #include "fragmotion/evaluate/explain.hpp"
 #include "fragmotion/evaluate/motion_metrics.hpp"
 #include "fragmotion/evaluate/response.hpp"
+#include "fragmotion/evaluate/speed_ripple.hpp"
 #include "fragmotion/evaluate/suggest.hpp"
 #include "player_options.hpp"
 
 namespace fragmotion::bindings {
 namespace {
+
+constexpr const char* kChangeNames[kChanges] = {"start", "stop", "reverse", "turn", "gait"};
 
 template <typename T>
 auto viewed(std::vector<T> Performance::*member, std::vector<py::ssize_t> rest) {
@@ -40,7 +45,11 @@ void bind_performance(py::module_& m) {
       .def_readonly("turn_error", &Performance::turn_error)
       .def_readonly("jump_error", &Performance::jump_error)
       .def_readonly("commanded_speed", &Performance::commanded_speed)
-      .def_readonly("drift", &Performance::drift);
+      .def_readonly("drift", &Performance::drift)
+      .def_readonly("drift_heading", &Performance::drift_heading)
+      .def_readonly("velocity_error_limited", &Performance::velocity_error_limited)
+      .def_readonly("drift_limited", &Performance::drift_limited)
+      .def_readonly("drift_heading_limited", &Performance::drift_heading_limited);
 }
 
 void bind_measures(py::module_& m) {
@@ -51,12 +60,21 @@ void bind_measures(py::module_& m) {
   py::class_<Excess>(m, "Excess", py::module_local())
       .def_readonly("share", &Excess::share)
       .def_readonly("worst", &Excess::worst);
-  py::class_<Pushes>(m, "Pushes", py::module_local())
-      .def_readonly("p50", &Pushes::p50)
-      .def_readonly("p99", &Pushes::p99)
-      .def_readonly("p999", &Pushes::p999)
-      .def_readonly("worst", &Pushes::worst)
-      .def_readonly("over_6", &Pushes::over_6);
+  py::class_<Spread>(m, "Spread", py::module_local())
+      .def_readonly("p50", &Spread::p50)
+      .def_readonly("p99", &Spread::p99)
+      .def_readonly("p999", &Spread::p999)
+      .def_readonly("worst", &Spread::worst);
+  py::class_<Pushes, Spread>(m, "Pushes", py::module_local()).def_readonly("over_6", &Pushes::over_6);
+  py::class_<JumpMeans>(m, "JumpMeans", py::module_local())
+      .def_readonly("count", &JumpMeans::count)
+      .def_readonly("dip", &JumpMeans::dip)
+      .def_readonly("landing_dip", &JumpMeans::landing_dip)
+      .def_readonly("flight_ratio", &JumpMeans::flight_ratio);
+  py::class_<Footfalls>(m, "Footfalls", py::module_local())
+      .def_readonly("count", &Footfalls::count)
+      .def_readonly("same_foot", &Footfalls::same_foot)
+      .def_readonly("quick", &Footfalls::quick);
   py::class_<MotionMeasures>(m, "MotionMeasures", py::module_local())
       .def_readonly("foot_skate", &MotionMeasures::foot_skate)
       .def_readonly("sliding_share", &MotionMeasures::sliding_share)
@@ -66,12 +84,31 @@ void bind_measures(py::module_& m) {
       .def_readonly("accelerations", &MotionMeasures::accelerations)
       .def_readonly("center_of_mass", &MotionMeasures::center_of_mass)
       .def_readonly("hips", &MotionMeasures::hips)
+      .def_readonly("yaw", &MotionMeasures::yaw)
+      .def_readonly("unsupported", &MotionMeasures::unsupported)
+      .def_readonly("jumps", &MotionMeasures::jumps)
+      .def_readonly("footfalls", &MotionMeasures::footfalls)
       .def_readonly("turns", &MotionMeasures::turns);
   py::class_<MotionMetrics>(m, "MotionMetrics", py::module_local())
       .def(py::init([](const Character& character) { return MotionMetrics(character); }), py::arg("character"),
            py::call_guard<GilRelease>())
       .def_property_readonly("takes", &MotionMetrics::takes)
       .def("of", &MotionMetrics::of, py::arg("performance"), py::call_guard<GilRelease>());
+}
+
+using Trials = std::vector<double> (*)(const std::shared_ptr<const Character>&, const PlayerOptions&);
+
+void define_trials(py::module_& m, const char* name, Trials trials) {
+  for_option_arguments([&](const auto&... options) {
+    m.def(name,
+          with_options(Types<SharedCharacter>{}, Types<>{},
+                       [trials](const SharedCharacter& character, const PlayerOptions& given) {
+                         std::vector<double> times = without_gil([&] { return trials(character, given); });
+                         const auto count = static_cast<py::ssize_t>(times.size());
+                         return to_array(std::move(times), {count});
+                       }),
+          py::arg("character").none(false), options...);
+  });
 }
 
 void bind_yardsticks(py::module_& m) {
@@ -82,13 +119,32 @@ void bind_yardsticks(py::module_& m) {
         return without_gil([&] { return optimal_performance(character, controls, rate, shortest); });
       },
       py::arg("character"), py::arg("trace"), py::arg("rate"), py::arg("shortest") = kSoonest);
+  define_trials(m, "response_times", response_times);
+  define_trials(m, "about_face_times", about_face_times);
+}
+
+void bind_speeds(py::module_& m) {
+  py::class_<SpeedRipple>(m, "SpeedRipple", py::module_local())
+      .def_readonly("commanded", &SpeedRipple::commanded)
+      .def_readonly("speed", &SpeedRipple::speed)
+      .def_readonly("ripple", &SpeedRipple::ripple)
+      .def_readonly("takes_speed", &SpeedRipple::takes_speed)
+      .def_readonly("takes_ripple", &SpeedRipple::takes_ripple);
   for_option_arguments([&](const auto&... options) {
-    m.def("response_times",
+    m.def("speed_ripples",
           with_options(Types<SharedCharacter>{}, Types<>{},
                        [](const SharedCharacter& character, const PlayerOptions& given) {
-                         std::vector<double> times = without_gil([&] { return response_times(character, given); });
-                         const auto count = static_cast<py::ssize_t>(times.size());
-                         return to_array(std::move(times), {count});
+                         return without_gil([&] { return speed_ripples(character, given); });
+                       }),
+          py::arg("character").none(false), options...);
+    m.def("change_pushes",
+          with_options(Types<SharedCharacter>{}, Types<>{},
+                       [](const SharedCharacter& character, const PlayerOptions& given) {
+                         const auto found = without_gil([&] { return change_pushes(character, given); });
+                         py::dict by_kind;
+                         for (std::size_t kind = 0; kind < found.size(); ++kind)
+                           by_kind[kChangeNames[kind]] = found[kind];
+                         return by_kind;
                        }),
           py::arg("character").none(false), options...);
   });
@@ -135,6 +191,7 @@ void bind_evaluate(py::module_& m) {
   bind_performance(m);
   bind_measures(m);
   bind_yardsticks(m);
+  bind_speeds(m);
   bind_suggestion(m);
   bind_explain(m);
 }

@@ -390,6 +390,15 @@ class Performance:
     drift: float
     """How far the root gets in a second from where the trace, followed exactly, would have led it, m/s: mean over all
     spans of two seconds, from the place and heading at the beginning of each."""
+    drift_heading: float
+    """How far its heading gets from that in two seconds, rad: mean over these spans."""
+    velocity_error_limited: float
+    """m/s: as `velocity_error`, against the trace as a body can follow it, whose velocity changes by no more than
+    5 m/s^2 of a 1.8 m character."""
+    drift_limited: float
+    """m/s: as `drift`, against the trace so limited."""
+    drift_heading_limited: float
+    """rad: as `drift_heading`, against the trace so limited."""
 
 def optimal_performance(character: Character, trace: ArrayLike, rate: float, shortest: float = 0.1) -> float:
     """The greatest `Performance.quality` that a player could reach who knew the whole trace: it may play a class for
@@ -407,6 +416,61 @@ def response_times(
 ) -> Doubles:
     """[272] seconds from each step of the command between two of the 17 velocities until the velocity over the last
     0.1 s has made 90 % of the way; 3 where it takes longer."""
+
+def about_face_times(
+    character: Character,
+    seed: int = 1,
+    stitch: float = 0.2,
+    policy: str = "",
+    stitching: str = "inertialize",
+    lock_feet: bool = True,
+    root_adjustment: float = 1.0,
+    responsiveness: float = 0.5,
+) -> Doubles:
+    """[16] seconds from the command to turn, left and right in turn, given to a player that walks forward, until it has
+    turned by 180 degrees and walks straight back at nine tenths of the walk; 10 where it takes longer. The whole turn
+    rate is held until it has turned so far."""
+
+class SpeedRipple:
+    """How evenly a character goes at a commanded speed, m/s of a 1.8 m character; NaN where the takes do not go
+    steadily."""
+
+    commanded: float
+    speed: float
+    """Mean of the centre of mass along the ground."""
+    ripple: float
+    """Standard deviation of its speed over 0.1 s within a second, mean over all seconds."""
+    takes_speed: float
+    """Of the takes' steady seconds, the speed nearest to the command."""
+    takes_ripple: float
+    """Of the takes' steady seconds within 0.1 m/s of that."""
+
+def speed_ripples(
+    character: Character,
+    seed: int = 1,
+    stitch: float = 0.2,
+    policy: str = "",
+    stitching: str = "inertialize",
+    lock_feet: bool = True,
+    root_adjustment: float = 1.0,
+    responsiveness: float = 0.5,
+) -> list[SpeedRipple]:
+    """For forward commands of 0.5, 1, 1.5 ... 3 m/s of a 1.8 m character, each held for 11 s, of which the first three
+    do not count."""
+
+def change_pushes(
+    character: Character,
+    seed: int = 1,
+    stitch: float = 0.2,
+    policy: str = "",
+    stitching: str = "inertialize",
+    lock_feet: bool = True,
+    root_adjustment: float = 1.0,
+    responsiveness: float = 0.5,
+) -> dict[str, Pushes]:
+    """How hard the centre of mass is pushed in the 1.5 s after a change of the command, by its kind: start, stop,
+    reverse (by more than 100 degrees), turn (to another direction, or the turn rate) and gait (another speed). Of every
+    change between two of the 17 velocities, and of walking and running forward between no turn and either turn."""
 
 class ClassesTried:
     """What a number of classes is good for: means over a minute of each simulated player."""
@@ -466,15 +530,40 @@ class Excess:
     worst: float
     """rad"""
 
-class Pushes:
-    """How hard a body is pushed along the ground: the change over 0.2 s of its mean velocity over 0.2 s, m/s^2."""
+class Spread:
+    """Percentiles of some values, and the greatest; 0 where there are none."""
 
     p50: float
     p99: float
     p999: float
     worst: float
+
+class Pushes(Spread):
+    """How hard a body is pushed along the ground: the change over 0.2 s of its mean velocity over 0.2 s, m/s^2."""
+
     over_6: float
     """Share of the time in which it is more than 6 m/s^2."""
+
+class JumpMeans:
+    """The jumps of a motion: means over those in which the centre of mass rises 0.14 m or more; NaN where there are
+    none."""
+
+    count: int
+    dip: float
+    """m by which the hips get under their usual height in the half second before the flight."""
+    landing_dip: float
+    """m, in the half second after it."""
+    flight_ratio: float
+    """The time in the air over that of a ballistic flight that rises and falls as far."""
+
+class Footfalls:
+    """The steps of a body that goes faster than 0.5 m/s."""
+
+    count: int
+    same_foot: int
+    """Of these, how many are of the foot that came down last."""
+    quick: int
+    """Of these, how many are of the other foot less than 0.2 s later."""
 
 class MotionMeasures:
     """What a viewer finds fault with, for a character of 1.8 m."""
@@ -493,6 +582,14 @@ class MotionMeasures:
     """m/s^2"""
     center_of_mass: Pushes
     hips: Pushes
+    yaw: Spread
+    """rad/s^2: the change over 0.2 s of the mean turn rate over 0.2 s of where the body faces."""
+    unsupported: float
+    """Share of the time in which nothing under the body can give its centre of mass the acceleration that it has: on
+    feet whose hull the zero-moment point leaves by more than 0.27 m, or in the air by more than 3 m/s^2 from falling.
+    NaN without feet."""
+    jumps: JumpMeans
+    footfalls: Footfalls
     turns: Excess
     """Of the takes: each beyond all others."""
 

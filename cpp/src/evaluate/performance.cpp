@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "base/max_accumulate.hpp"
 #include "base/transposed.hpp"
+#include "fragmotion/runtime/command_limit.hpp"
 
 namespace fragmotion {
 namespace {
@@ -28,13 +30,20 @@ Vector3 slope(const std::vector<double>& path, int first, int last) {
   return sum / square;
 }
 
-// Where a trace that is followed exactly leads from the origin: the character frame of each frame.
-std::vector<CharacterFrame> exact_path(const Performance& p, const Trace& trace, double turn_rate) {
+// What a control becomes within a limit, which goes on.
+Control advanced(CommandLimit& limit, const Control& control, double heading, double seconds) {
+  const Control able = limit.after(control, heading, seconds);
+  limit.advance(control, heading, seconds);
+  return able;
+}
+
+// Where a trace that is followed exactly, within a limit, leads from the origin: the character frame of each frame.
+std::vector<CharacterFrame> exact_path(const Performance& p, const Trace& trace, double turn_rate, CommandLimit limit) {
   std::vector<CharacterFrame> path(1);
   for (int f = 1; f < p.frames; ++f) {
-    const Control& control = trace[control_at(f, p.rate, trace.size())];
-    const double angle = control.turn * turn_rate / p.rate;
     CharacterFrame next = path.back();
+    const Control control = advanced(limit, trace[control_at(f, p.rate, trace.size())], next.heading, 1 / p.rate);
+    const double angle = control.turn * turn_rate / p.rate;
     next.position += Eigen::Rotation2Dd(next.heading + angle / 2) * Vector2{control.x, control.y} / p.rate;
     next.heading += angle;
     path.push_back(next);
@@ -42,17 +51,23 @@ std::vector<CharacterFrame> exact_path(const Performance& p, const Trace& trace,
   return path;
 }
 
-double drift(const Performance& p, const std::vector<CharacterFrame>& exact) {
-  if (p.frames < 2) return 0;
+struct Drift {
+  double place = 0;    // m/s
+  double heading = 0;  // rad
+};
+
+Drift drift(const Performance& p, const std::vector<CharacterFrame>& exact) {
+  if (p.frames < 2) return {};
   const int span = std::clamp(static_cast<int>(std::lround(kSpan * p.rate)), 1, p.frames - 1), spans = p.frames - span;
   const auto place = [&](int f) { return Vector2{p.path[std::size_t{3} * f], p.path[std::size_t{3} * f + 1]}; };
-  double sum = 0;
+  const auto off = [&](int f) { return p.path[std::size_t{3} * f + 2] - exact[f].heading; };
+  Drift sum;
   for (int f = 0; f < spans; ++f) {
-    const double turned = p.path[std::size_t{3} * f + 2] - exact[f].heading;
-    const Vector2 led = Eigen::Rotation2Dd(turned) * (exact[f + span].position - exact[f].position);
-    sum += (place(f + span) - place(f) - led).norm();
+    const Vector2 led = Eigen::Rotation2Dd(off(f)) * (exact[f + span].position - exact[f].position);
+    sum.place += (place(f + span) - place(f) - led).norm();
+    sum.heading += std::abs(off(f + span) - off(f));
   }
-  return sum / spans * p.rate / span;
+  return {sum.place / spans * p.rate / span, sum.heading / spans};
 }
 
 // Dynamic programming over frames, from the last to the first (Eq. 1 with classes that last).
@@ -153,18 +168,30 @@ Performance perform(Player& player, const Trace& trace, double rate, const Progr
 void judge(Performance& p, const Character& character, const Trace& trace) {
   const int half = std::max(1, static_cast<int>(std::lround(kAround / 2 * p.rate)));
   const double weight = 1.0 / (p.frames - 1);
-  p.velocity_error = p.turn_error = p.jump_error = p.commanded_speed = 0;
+  const CommandLimit unlimited(std::numeric_limits<double>::infinity());
+  const CommandLimit body(kBodyAcceleration / character.space.scale());
+  CommandLimit limit = body;
+  limit.reset(p.path[2]);
+  p.velocity_error = p.velocity_error_limited = p.turn_error = p.jump_error = p.commanded_speed = 0;
   for (int f = 1; f < p.frames; ++f) {
     const Control& control = trace[control_at(f, p.rate, trace.size())];
     const Vector3 speed = slope(p.path, std::max(0, f - half), std::min(p.frames - 1, f + half)) * p.rate;
     const Vector2 velocity = Eigen::Rotation2Dd(-p.path[std::size_t{3} * f + 2]) * speed.head<2>();
     const bool jumps = character.pool.fragments[p.fragments[f]].evident.jumps();
     p.velocity_error += weight * (velocity - Vector2{control.x, control.y}).norm();
+    const Control able = advanced(limit, control, p.path[std::size_t{3} * f + 2], 1 / p.rate);
+    p.velocity_error_limited += weight * (velocity - Vector2{able.x, able.y}).norm();
     p.turn_error += weight * std::abs(speed.z() - control.turn * character.space.turn_rate());
     p.jump_error += jumps != (control.jumps()) ? weight : 0;
     p.commanded_speed += weight * control.speed();
   }
-  p.drift = drift(p, exact_path(p, trace, character.space.turn_rate()));
+  const double turn_rate = character.space.turn_rate();
+  const Drift whole = drift(p, exact_path(p, trace, turn_rate, unlimited));
+  const Drift limited = drift(p, exact_path(p, trace, turn_rate, body));
+  p.drift = whole.place;
+  p.drift_heading = whole.heading;
+  p.drift_limited = limited.place;
+  p.drift_heading_limited = limited.heading;
 }
 
 double optimal_performance(const Character& character, const Trace& trace, double rate, double shortest) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-
+#include "fragmotion/evaluate/footfalls.hpp"
 #include "fragmotion/evaluate/joint_limits.hpp"
+#include "fragmotion/evaluate/jumps.hpp"
 #include "fragmotion/evaluate/performance.hpp"
+#include "fragmotion/evaluate/spread.hpp"
 
 namespace fragmotion {
 
@@ -14,11 +15,11 @@ struct Steps {
   double p99 = 0, p999 = 0, worst = 0;
 };
 
-/// How hard a body is pushed along the ground: the change over 0.2 s of its mean velocity over 0.2 s, m/s^2. A body can
-/// push itself by some 5, a sprinter's start is 6, and near 8 a shoe slips.
-struct Pushes {
-  double p50 = 0, p99 = 0, p999 = 0, worst = 0;
-  double over_6 = 0;  ///< Share of the time in which it is more than 6 m/s^2.
+/// The means of find_jumps(); NaN where there are none.
+struct JumpMeans {
+  int count = 0;
+  double dip = 0, landing_dip = 0;  ///< m
+  double flight_ratio = 0;
 };
 
 /// What a viewer finds fault with. Lengths are those of a character of 1.8 m. Feet are judged by ball and heel (heads
@@ -31,6 +32,10 @@ struct MotionMeasures {
   Steps velocities;          ///< m/s
   Steps accelerations;       ///< m/s^2
   Pushes center_of_mass, hips;
+  Spread yaw;              ///< rad/s^2: the change over 0.2 s of the mean turn rate over 0.2 s, of facing().
+  double unsupported = 0;  ///< find_support(): share of the time; NaN without feet.
+  JumpMeans jumps;
+  Footfalls footfalls;
   Excess turns;  ///< Beyond what joints do in the takes; of a take, in all others.
 };
 
@@ -48,7 +53,8 @@ class MotionMetrics {
 
  private:
   Skeleton skeleton_;
-  std::array<double, 4> floors_{};  // where left ball, left heel, right ball and right heel stand, m
+  Floors floors_;  // m of a 1.8 m character
+  UsualHeights usual_;
   JointLimits limits_;
   MotionMeasures takes_;
 };

@@ -28,7 +28,15 @@ struct Performance {
   /// How far the root gets in a second from where the trace, followed exactly, would have led it, m/s: mean over all
   /// spans of two seconds, from the place and heading at the beginning of each.
   double drift = 0;
+  double drift_heading = 0;  ///< How far its heading gets from that in two seconds, rad: mean over these spans.
+  /// Likewise against the trace as a body can follow it: whose velocity changes by no more than kBodyAcceleration
+  /// (CommandLimit), from standing.
+  double velocity_error_limited = 0;                    ///< m/s
+  double drift_limited = 0, drift_heading_limited = 0;  ///< m/s; rad
 };
+
+/// By how much a body of 1.8 m changes its velocity, m/s^2.
+constexpr double kBodyAcceleration = 5;
 
 /// The most frames that a performance may have: Blender has no more, and they are five hours at 60 a second.
 constexpr int kMostFrames = 1048574;

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "fragmotion/evaluate/performance.hpp"
+#include "fragmotion/fragments/fragment.hpp"
+
+namespace fragmotion {
+
+/// The clips of a pool that hold captured fragments, at 60 frames a second; they have no headings.
+std::vector<Clip> captured_takes(const PackedPool& pool);
+
+/// What was played, as a clip without headings.
+Clip clip_of(const Performance& performance);
+
+}  // namespace fragmotion

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fragmotion/evaluate/about_face.hpp"
+#include "small_character.hpp"
+
+namespace fragmotion {
+namespace {
+
+TEST(AboutFaceTimes, TakeAboutAsLongAsTheTurnRateAllows) {
+  const auto character = gait_character();
+  const std::vector<double> times = about_face_times(character);
+  EXPECT_EQ(times.size(), 16u);
+  const double least = kPi / (2.2 * character->space.turn_rate());
+  for (const double time : times) EXPECT_TRUE(time > least && time < kPi / character->space.turn_rate() + 1.5) << time;
+  EXPECT_EQ(times, about_face_times(character));
+}
+
+TEST(AboutFaceTimes, TellThatACharacterCannotTurn) {
+  PlayerOptions plain;
+  plain.root_adjustment = 0;
+  const std::vector<double> times = about_face_times(std::make_shared<const Character>(tiny_character()), plain);
+  EXPECT_EQ(*std::min_element(times.begin(), times.end()), kNoAboutFace);
+}
+
+}  // namespace
+}  // namespace fragmotion

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "fragmotion/evaluate/speed_ripple.hpp"
+#include "made_track.hpp"
+#include "small_character.hpp"
+
+namespace fragmotion {
+namespace {
+
+TEST(Goings, TellTheSpeedAndItsStandardDeviation) {
+  // Speed 1.5 + 0.3 sin(2 pi t / 0.25) m/s: four ripples a second, which a mean over 0.1 s makes smaller.
+  const double w = 2 * kPi / 0.25, smoothed = std::sin(w * 0.05) / (w * 0.05);
+  BodyTrack track = standing_track(4);
+  move(track, true, [&](double t) { return Vector3(0, 1.5 * t - 0.3 / w * std::cos(w * t), 0); });
+  const std::vector<Going> found = goings(track);
+  ASSERT_EQ(found.size(), 241u - 60u);
+  EXPECT_EQ(goings(track, 100).size(), 81u);
+  for (const Going& going : found) {
+    EXPECT_NEAR(going.speed, 1.5, 1e-9);
+    EXPECT_NEAR(going.ripple, 0.3 * smoothed / std::sqrt(2), 0.015);
+  }
+}
+
+TEST(SteadyGoings, AreForwardAndEven) {
+  const auto going = [](const Vector3& velocity, double acceleration) {
+    BodyTrack track = standing_track(4);
+    move(track, true, [&](double t) { return Vector3(velocity * t + Vector3(0, 0.5 * acceleration * t * t, 0)); });
+    return steady_goings(track).size();
+  };
+  EXPECT_EQ(going({0, 1, 0}, 0), 241u - 90u);
+  EXPECT_EQ(going({0.4, 1, 0}, 0), 241u - 90u);
+  EXPECT_EQ(going({0.8, 1, 0}, 0), 0u);
+  EXPECT_EQ(going({0, -1, 0}, 0), 0u);
+  EXPECT_EQ(going({0, 1, 0}, 1), 0u);
+  EXPECT_TRUE(goings(standing_track(0.5)).empty());
+}
+
+TEST(SpeedRipples, AreOfASpeedEachBesideTheTakes) {
+  const std::vector<SpeedRipple> rows = speed_ripples(gait_character());
+  ASSERT_EQ(rows.size(), 6u);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_NEAR(rows[i].commanded, 0.5 * static_cast<double>(i + 1), 1e-9);
+    EXPECT_GT(rows[i].speed, 0);
+    EXPECT_GE(rows[i].ripple, 0);
+  }
+  // The takes go forward at 1.2 and 3 m/s, times 1.8 / 1.76, at constant speed.
+  EXPECT_NEAR(rows[1].takes_speed, 1.2 * 1.8 / 1.76, 0.03);
+  EXPECT_NEAR(rows[5].takes_speed, 3 * 1.8 / 1.76, 0.05);
+  EXPECT_LT(rows[5].takes_ripple, 0.05);
+  EXPECT_NEAR(rows[1].speed, 1, 0.15);
+}
+
+TEST(SpeedRipples, HaveNothingToCompareWhereNoTakeGoes) {
+  const auto stands = std::make_shared<const Character>(tiny_character());
+  for (const SpeedRipple& row : speed_ripples(stands)) {
+    EXPECT_TRUE(std::isnan(row.takes_ripple));
+    EXPECT_FALSE(std::isnan(row.ripple));
+  }
+}
+
+}  // namespace
+}  // namespace fragmotion
