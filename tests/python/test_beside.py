@@ -22,7 +22,7 @@ from tools.beside.setting import Setting, frame_controls, make_setting, sessions
 from tools.beside.systems import Fragments, Matching, Shown, matching
 from tools.beside.table import ROWS, beside_table
 from tools.evaluate.loading import Recordings, read_recordings
-from tools.motion_matching.bodies import RATE, Motion
+from tools.motion_matching.bodies import RATE, Motion, facing
 from tools.motion_matching.constants import Constants, load
 from tools.motion_matching.library import floors_of
 from tools.shell import Failure
@@ -92,6 +92,11 @@ def test_both_show_as_many_frames_as_the_trace_asks_for(made: Setting, peer: Mat
     for shown in (Fragments(made).play([short, long], [0, 1]), peer.play([short, long], [0, 1])):
         assert [len(each.motion.root) for each in shown] == [79, 121]
         assert [len(each.take) for each in shown] == [len(each.at) for each in shown] == [79, 121]
+
+
+def test_a_body_faces_where_the_core_sees_it_face(made: Setting, traces: dict[str, Array]) -> None:
+    shown = Fragments(made).play([traces["circler"]], [0])[0]
+    np.testing.assert_allclose(facing(made.body, shown.motion.rotations), shown.judged.frames[:, 2], atol=1e-6)
 
 
 def test_answers_are_timed_as_the_core_times_them(made: Setting) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tools.motion_matching.bodies import RATE, Body, Motion, world
+from tools.motion_matching.bodies import RATE, Body, Motion, facing, world
 from tools.motion_matching.rotations import Array, turned
 
 APART, POSES = round(0.1 * RATE), 6
@@ -23,12 +23,11 @@ _SAMPLE, _BLOCK = 8000, 256  # windows
 def windows(body: Body, motion: Motion, stride: int) -> tuple[Array, Array]:
     """[K,D] float32, and the first frame of each."""
     heads = world(body, motion.root, motion.rotations)[0] * body.scale
-    frames = body.clip(motion).character_frames(body.skeleton)
     first = np.arange(0, len(heads) - REACH, stride)
     joints = heads[first[:, None] + np.arange(POSES) * APART]
-    middle = frames[first + REACH // 2]
-    joints[..., :2] -= body.scale * middle[:, None, None, :2]
-    joints[..., :2] = turned(joints[..., :2], -middle[:, None, None, 2])
+    middle = first + REACH // 2
+    joints[..., :2] -= heads[middle, None, :1, :2]
+    joints[..., :2] = turned(joints[..., :2], -facing(body, motion.rotations)[middle, None, None])
     places, ways = (_mean_square(part) for part in (joints, np.diff(joints, axis=1)))
     return np.concatenate((places, ways), 1).astype(np.float32), first
 

@@ -17,6 +17,7 @@ from tools.shell import Failure
 
 RATE = 60.0
 _SIDES = ("left", "right")
+_SWAY = 0.25 * RATE  # frames: standard deviation of what is smoothed by
 _LONGEST_REST = 1e-9  # s by which a take's end may be missed
 
 
@@ -135,6 +136,23 @@ def hips_heading(body: Body, rotations: Array) -> Array:
     """[F] rad, unwrapped, of the line between the thighs; 0 faces +y."""
     right = q.rotate(rotations[:, 0], body.right)
     return np.unwrap(np.arctan2(right[:, 1], right[:, 0]))
+
+
+def facing(body: Body, rotations: Array) -> Array:
+    """[F] rad, unwrapped: where the body faces, as the core tells it. It is the hips' heading, smoothed: the middle of
+    the line that fits what is around each frame best, weighted by a Gaussian."""
+    reach = np.arange(-round(3 * _SWAY), round(3 * _SWAY) + 1)
+    weight = np.exp(-0.5 * (reach / _SWAY) ** 2)
+    heading = hips_heading(body, rotations)
+
+    def moment(power: int, values: Array) -> Array:
+        sums: Array = np.correlate(np.pad(values, reach[-1]), weight * reach**power, "valid")
+        return sums
+
+    w, wx, wxx = (moment(power, np.ones(len(heading))) for power in range(3))
+    wy, wxy = (moment(power, heading) for power in range(2))
+    line: Array = (wy * wxx - wxy * wx) / (w * wxx - wx * wx)
+    return line
 
 
 def derived(values: Array) -> Array:
