@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 from tools import benchmarks, demo, evaluating, fuzzing, machine, packages, testing
+from tools.beside import inputs as beside_inputs
 from tools.evaluate import inputs
 from tools.shell import Failure, say
 
@@ -28,6 +29,8 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     bench.add_argument("--json", type=Path, metavar="FILE", help="save the figures there too")
     evaluate = commands.add_parser("evaluate", help="measure the policies on takes and traces, as the paper does")
     inputs.add_arguments(evaluate)
+    beside = commands.add_parser("beside", help="measure Fragmotion beside motion matching, on the same takes")
+    beside_inputs.add_arguments(beside)
     commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
     return parser.parse_args(arguments)
 
@@ -55,6 +58,8 @@ def main(arguments: list[str]) -> int:
             return benchmarks.run_benchmarks(options.json)
         if options.command == "evaluate":
             return evaluating.run_evaluation(options, arguments[1:])
+        if options.command == "beside":
+            return evaluating.run_comparison(options, arguments[1:])
         return package()
     except Failure as failure:
         print(f"dev.py: {failure}", file=sys.stderr)

@@ -57,7 +57,7 @@ STYLE = Needs(("python3-venv",), {"3.11": ("clang-format==14.0.6", "mypy==2.4.1"
 CPP_TESTS = BUILD_311 | Needs(_CPP_TEST_PACKAGES)
 SANITIZED_TESTS = CPP_TESTS | Needs(_CLANG_PACKAGES)
 FUZZ = BUILD_311 | Needs(_CLANG_PACKAGES)
-PYTHON_TESTS = BUILD_311 | Needs((), {"3.11": ("numpy", "pytest", "scikit-learn", "matplotlib")})
+PYTHON_TESTS = BUILD_311 | Needs((), {"3.11": ("numpy", "pytest", "scikit-learn", "scipy", "matplotlib")})
 BLENDER_45 = BUILD_311 | Needs(_BPY_PACKAGES, {"3.11": ("bpy==4.5.*", "numpy", "pytest")})
 BLENDER_52 = BUILD_313 | Needs(_BPY_PACKAGES, {"3.13": ("bpy==5.2.*", "numpy", "pytest")})
 DEMO = BUILD_311 | Needs(_BLENDER_PACKAGES)
@@ -66,6 +66,7 @@ WINDOWS = BLENDER_34 | PYTHON_TESTS | Needs(_WINDOW_PACKAGES)
 BENCH = CPP_TESTS | PYTHON_TESTS
 EVALUATE = BUILD_311 | Needs((), {"3.11": ("numpy", "matplotlib")})
 EVALUATE_BLEND = EVALUATE | BLENDER_45
+BESIDE = EVALUATE | Needs((), {"3.11": ("scipy",)})
 
 
 def has_python_313() -> bool:

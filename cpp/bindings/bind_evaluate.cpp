@@ -113,6 +113,13 @@ void define_trials(py::module_& m, const char* name, Trials trials) {
 
 void bind_yardsticks(py::module_& m) {
   m.def(
+      "judge_clip",
+      [](const Character& character, const Doubles& trace, const Clip& clip, std::vector<int> entered) {
+        const Trace controls = to_trace(trace);
+        return without_gil([&] { return judge_clip(character, controls, clip, std::move(entered)); });
+      },
+      py::arg("character"), py::arg("trace"), py::arg("clip"), py::arg("entered"));
+  m.def(
       "optimal_performance",
       [](const Character& character, const Doubles& trace, double rate, double shortest) {
         const Trace controls = to_trace(trace);

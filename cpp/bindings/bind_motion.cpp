@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "fragmotion/motion/clip.hpp"
+#include "fragmotion/motion/mirror.hpp"
 #include "fragmotion/skeleton/kinematics.hpp"
 
 namespace fragmotion::bindings {
@@ -70,6 +71,16 @@ Clip new_clip(const Skeleton& skeleton, const std::string& name, double rate, co
   return without_gil([&] { return make_clip(skeleton, std::move(clip)); });
 }
 
+std::vector<Clip> mirrored(const Skeleton& skeleton, const std::vector<Clip>& clips) {
+  for (const Clip& clip : clips) check_bones(clip, skeleton);
+  if (clips.empty()) return {};
+  const Kinematics kinematics(skeleton);
+  const Mirror mirror(kinematics, clips);
+  std::vector<Clip> images;
+  for (const Clip& clip : clips) images.push_back(mirror(clip));
+  return images;
+}
+
 void bind_take(py::module_& m) {
   py::class_<Take>(m, "Take", py::module_local())
       .def_readonly("name", &Take::name)
@@ -132,6 +143,7 @@ void bind_clip(py::module_& m) {
 void bind_motion(py::module_& m) {
   bind_take(m);
   bind_clip(m);
+  m.def("mirrored", &mirrored, py::arg("skeleton"), py::arg("clips"), py::call_guard<GilRelease>());
 }
 
 }  // namespace fragmotion::bindings

@@ -149,6 +149,11 @@ class Clip:
         """[F,3]: the character frame's x, y and heading (rad, within a half turn; of the hips' thighs, not
         smoothed)."""
 
+def mirrored(skeleton: Skeleton, clips: Sequence[Clip]) -> list[Clip]:
+    """The clips' mirror images, left for right, in the plane x = 0. Which of a bone's axes is which on the other side
+    is told by the rest pose where that is symmetric, else by the clips' mean pose. ValueError where a clip has not the
+    skeleton's number of bones."""
+
 class ControlSpace:
     """The 102 controls (Sec. 4): 17 velocities x turn {-1,0,1} x jump {0,1}. Control i = 6 velocity + 2 (turn + 1) +
     jump; velocity 0 stands, 1-8 walk, 9-16 run, both counter-clockwise from forward."""
@@ -399,6 +404,11 @@ class Performance:
     """m/s: as `drift`, against the trace so limited."""
     drift_heading_limited: float
     """rad: as `drift_heading`, against the trace so limited."""
+
+def judge_clip(character: Character, trace: ArrayLike, clip: Clip, entered: Sequence[int]) -> Performance:
+    """A clip that anything made under a trace [T,4], judged as a player's performance is. Where the character faces is
+    told by the poses alone; there are no classes, fragments, quality and jump error. `entered` [F] as in Performance.
+    ValueError unless the clip has the character's bones and frames 0 .. round(T/10 * rate)."""
 
 def optimal_performance(character: Character, trace: ArrayLike, rate: float, shortest: float = 0.1) -> float:
     """The greatest `Performance.quality` that a player could reach who knew the whole trace: it may play a class for

@@ -122,6 +122,18 @@ class Hindsight {
   std::vector<double> value_;            // [frames + 1, classes] of what follows a class that ends at a frame
 };
 
+void check_shown(const Character& character, const Trace& trace, const Clip& clip, std::size_t entered) {
+  const int bones = character.pool.skeleton.size(), frames = frame_count(trace.size(), clip.rate);
+  if (clip.rotations.size() != std::size_t{4} * bones * clip.frames) {
+    throw std::invalid_argument("the clip has not the character's " + std::to_string(bones) + " bones");
+  }
+  if (clip.frames != frames || entered != static_cast<std::size_t>(frames)) {
+    throw std::invalid_argument("a trace of " + std::to_string(trace.size()) + " controls makes " +
+                                std::to_string(frames) + " frames at this rate, the clip has " +
+                                std::to_string(clip.frames) + " and what was entered " + std::to_string(entered));
+  }
+}
+
 }  // namespace
 
 std::size_t control_at(int frame, double rate, std::size_t controls) {
@@ -177,7 +189,7 @@ void judge(Performance& p, const Character& character, const Trace& trace) {
     const Control& control = trace[control_at(f, p.rate, trace.size())];
     const Vector3 speed = slope(p.path, std::max(0, f - half), std::min(p.frames - 1, f + half)) * p.rate;
     const Vector2 velocity = Eigen::Rotation2Dd(-p.path[std::size_t{3} * f + 2]) * speed.head<2>();
-    const bool jumps = character.pool.fragments[p.fragments[f]].evident.jumps();
+    const bool jumps = !p.fragments.empty() && character.pool.fragments[p.fragments[f]].evident.jumps();
     p.velocity_error += weight * (velocity - Vector2{control.x, control.y}).norm();
     const Control able = advanced(limit, control, p.path[std::size_t{3} * f + 2], 1 / p.rate);
     p.velocity_error_limited += weight * (velocity - Vector2{able.x, able.y}).norm();
@@ -192,6 +204,24 @@ void judge(Performance& p, const Character& character, const Trace& trace) {
   p.drift_heading = whole.heading;
   p.drift_limited = limited.place;
   p.drift_heading_limited = limited.heading;
+}
+
+Performance judge_clip(const Character& character, const Trace& trace, const Clip& clip, std::vector<int> entered) {
+  if (trace.empty()) throw std::invalid_argument("the trace has no controls");
+  check_shown(character, trace, clip, entered.size());
+  Performance p;
+  p.rate = clip.rate;
+  p.frames = clip.frames;
+  p.root_positions = clip.root_positions;
+  p.rotations = clip.rotations;
+  for (int f = 0; f < clip.frames; ++f) {
+    const double* root = &clip.root_positions[std::size_t{3} * f];
+    p.path.insert(p.path.end(), {root[0], root[1], clip.headings[f]});
+  }
+  p.entered = std::move(entered);
+  judge(p, character, trace);
+  p.jump_error = 0;
+  return p;
 }
 
 double optimal_performance(const Character& character, const Trace& trace, double rate, double shortest) {

@@ -119,6 +119,38 @@ TEST(Judge, MeasuresAPathAgainstItsTrace) {
   EXPECT_NEAR(p.jump_error, 1, 1e-12);
 }
 
+// What a player showed, as a clip that faces as the player did.
+Clip shown_clip(const Performance& p) {
+  Clip clip{"shown", p.rate, p.frames, p.root_positions, p.rotations, {}};
+  for (int f = 0; f < p.frames; ++f) clip.headings.push_back(p.path[std::size_t{3} * f + 2]);
+  return clip;
+}
+
+TEST(JudgeClip, JudgesWhatAPlayerShowedAsThePlayer) {
+  const auto character = gait_character();
+  const Trace trace = simulate_trace("explorer", 20, 5, character->space);
+  const Performance played = perform(Player(character, {1}), trace, kRate);
+  const Performance judged = judge_clip(*character, trace, shown_clip(played), played.entered);
+  EXPECT_DOUBLE_EQ(judged.velocity_error, played.velocity_error);
+  EXPECT_DOUBLE_EQ(judged.turn_error, played.turn_error);
+  EXPECT_DOUBLE_EQ(judged.drift, played.drift);
+  EXPECT_DOUBLE_EQ(judged.commanded_speed, played.commanded_speed);
+  EXPECT_EQ(judged.entered, played.entered);
+  EXPECT_EQ(judged.jump_error, 0);
+  EXPECT_TRUE(judged.fragments.empty());
+}
+
+TEST(JudgeClip, RefusesWhatDoesNotFit) {
+  const auto character = gait_character();
+  const Trace trace(20, kForward);
+  const Performance played = perform(Player(character, {1}), trace, kRate);
+  const Clip clip = shown_clip(played);
+  EXPECT_THROW(judge_clip(*character, {}, clip, played.entered), std::invalid_argument);
+  EXPECT_THROW(judge_clip(*character, Trace(21, kForward), clip, played.entered), std::invalid_argument);
+  EXPECT_THROW(judge_clip(*character, trace, clip, {0, 1}), std::invalid_argument);
+  EXPECT_THROW(judge_clip(tiny_character(), trace, clip, played.entered), std::invalid_argument);
+}
+
 // Goes as the control says from a place on, in circles, `drift` m/s to the north too.
 Performance circling(const Control& control, double turn_rate, double seconds, double drift) {
   Performance p;

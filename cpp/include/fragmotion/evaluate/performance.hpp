@@ -58,6 +58,12 @@ inline Performance perform(Player&& player, const Trace& trace, double rate, con
 /// Fills the errors, the commanded speed and the drift of a performance of a trace.
 void judge(Performance& performance, const Character& character, const Trace& trace);
 
+/// A clip that anything made under a trace, judged as a player's performance is. Where the character faces is what the
+/// clip's headings say. What plays is unknown: there are no classes, fragments, quality and jump error. `entered` as in
+/// Performance. Throws std::invalid_argument unless the clip has the character's bones and the frames that a player
+/// would have shown at its rate.
+Performance judge_clip(const Character& character, const Trace& trace, const Clip& clip, std::vector<int> entered);
+
 /// The yardstick of Performance::quality: the greatest mean over time of Eq. 2 that a player could reach on a trace who
 /// knew all of it, played at `rate`. It may play a class for any time from `shortest` seconds to the longest of its
 /// fragments, so no player that ends no fragment sooner is better.

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: MIT
+"""Play the same sessions with Fragmotion and with motion matching, measure both alike, and print the table.
+
+`python3 dev.py beside` runs this with the built core; python -m tools.beside --help tells what there is.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+
+from tools.beside import inputs
+from tools.beside.comparing import compare
+from tools.beside.setting import make_setting
+from tools.beside.table import beside_table
+from tools.beside.tuning import tune
+from tools.evaluate.loading import read_recordings
+from tools.evaluate.report import text
+from tools.motion_matching.constants import TUNED, load
+from tools.shell import Failure, say
+
+
+def beside(options: argparse.Namespace) -> None:
+    """Do all that the options ask for; Failure says what was wrong with them."""
+    inputs.check(options)
+    path = options.constants or TUNED
+    recordings = read_recordings(options.mocap, options.unit)
+    say(f"building a character from {len(recordings.clips)} takes, and filling their gaps for motion matching")
+    setting = make_setting(recordings, options.seed)
+    if options.tune is not None:
+        tune(setting, options.tune, path, options.seed)
+        say(f"\nconstants: {path}")
+        return
+    result = compare(setting, load(path), options.seed)
+    say(f"\n{text(beside_table(result))}")
+    if options.json:
+        options.json.write_text(json.dumps(result, indent=1, allow_nan=False) + "\n")
+        say(f"\nfigures: {options.json}")
+
+
+def main(arguments: list[str]) -> int:
+    """Run, and return the exit code."""
+    parser = argparse.ArgumentParser(prog="dev.py beside", description=__doc__)
+    inputs.add_arguments(parser)
+    try:
+        beside(parser.parse_args(arguments))
+    except (Failure, OSError) as failure:
+        print(f"beside: {failure}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
