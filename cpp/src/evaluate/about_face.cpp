@@ -9,16 +9,17 @@ namespace fragmotion {
 namespace {
 
 constexpr int kTrials = 16;
-constexpr double kShare = 0.9;  // of the walk
+constexpr double kShare = 0.9;                  // of the walk
+constexpr double kGoesOn = 100 * kPi / 180;     // rad off where it shall face, from which on it walks
+constexpr double kFaces = 15 * kPi / 180;       // and from which on it faces there
 
-double about_face(Runner& runner, double walk, double side) {
-  const double begun = runner.heading();
+double about_face(Runner& runner, const ControlSpace& space, double side) {
+  const double begun = runner.heading(), walk = space.walk();
   const Vector2 back{std::sin(begun), -std::cos(begun)};
-  bool turned = false;
   for (int f = 1; f <= kNoAboutFace * Runner::kRate; ++f) {
-    runner.frame({0, walk, turned ? 0 : side, 0});
-    turned = turned || side * (runner.heading() - begun) >= kPi;
-    if (turned && runner.world_velocity().dot(back) >= kShare * walk) return f / Runner::kRate;
+    const double off = kPi - side * (runner.heading() - begun);
+    runner.frame({0, off < kGoesOn ? walk : 0, side * space.turn_towards(off), 0});
+    if (std::abs(off) < kFaces && runner.world_velocity().dot(back) >= kShare * walk) return f / Runner::kRate;
   }
   return kNoAboutFace;
 }
@@ -29,11 +30,10 @@ std::vector<double> about_face_times(const std::shared_ptr<const Character>& cha
   Player player(character, options);
   Runner runner(player);
   Random random(options.seed);
-  const double walk = character->space.walk();
   std::vector<double> times;
   for (int trial = 0; trial < kTrials; ++trial) {
-    runner.hold({0, walk, 0, 0}, random);
-    times.push_back(about_face(runner, walk, trial % 2 == 0 ? 1 : -1));
+    runner.hold({0, character->space.walk(), 0, 0}, random);
+    times.push_back(about_face(runner, character->space, trial % 2 == 0 ? 1 : -1));
   }
   return times;
 }

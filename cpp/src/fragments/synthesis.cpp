@@ -19,9 +19,12 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kJumpHeight = 0.22, kJumpDip = 0.16;  // m, of a 1.8 m character that jumps on the spot
-constexpr double kRunningDip = 0.07;                   // m, of one that runs
-constexpr double kSinking = 0.2;                       // s into a crouch; half of that as it runs
+constexpr double kJumpHeight = 0.22;             // m, of a 1.8 m character
+constexpr double kLeastDip = 0.16;               // m that it crouches for a jump on the spot where no take jumps,
+constexpr double kMostDip = 0.3;                 // and at most where takes do
+constexpr double kCrouching = 0.5;               // s before a jump in which takes crouch
+constexpr double kRunningDip = 0.6;              // of that dip, as it runs
+constexpr double kSinking = 0.2;                 // s into a crouch; half of that as it runs
 constexpr double kSimilar = 2.52 / kTunedReach;  // m a metre of reach: fragments this near may be interpolated
 constexpr int kCandidates = 24;                  // neighbours of a control that interpolation tries in pairs
 constexpr double kHurry = 1.2;                   // the most by which steps ahead are hurried, or slowed down
@@ -39,6 +42,12 @@ double angle_between(const Control& a, const Control& b) {
 
 Control mix(const Control& a, const Control& b, double w) {
   return {a.x + w * (b.x - a.x), a.y + w * (b.y - a.y), a.turn + w * (b.turn - a.turn), a.jump + w * (b.jump - a.jump)};
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 // Adds a fragment that stands in place.
@@ -67,6 +76,7 @@ class Synthesizer {
         trajectories_(trajectories(pool)),
         originals_(static_cast<int>(pool.fragments.size())) {
     find_cycles();
+    find_dip();
   }
 
   void fill() {
@@ -197,6 +207,24 @@ class Synthesizer {
     }
   }
 
+  // The median dip of the takes' hips, under their usual height, before a jump.
+  void find_dip() {
+    std::vector<double> heights, dips;
+    for (const Clip& clip : pool_.clips) {
+      for (int f = 0; f < clip.frames; ++f) heights.push_back(clip.root_positions[std::size_t{3} * f + 2]);
+    }
+    const double usual = median(heights);
+    for (const Fragment& f : pool_.fragments) {
+      if (!f.evident.jumps()) continue;
+      const Clip& clip = pool_.clips[f.clip];
+      double lowest = usual;
+      for (int at = std::max(0, f.begin - static_cast<int>(kCrouching * clip.rate)); at <= f.begin; ++at)
+        lowest = std::min(lowest, clip.root_positions[std::size_t{3} * at + 2]);
+      dips.push_back((usual - lowest) * space_.scale());
+    }
+    if (!dips.empty()) dip_ = std::clamp(median(dips), kLeastDip, kMostDip);
+  }
+
   // What it costs a cycle's looks to be made to perform a control. Whether it jumps makes no difference: what hops is
   // made of what goes, so that the one follows the other.
   double effort(const Cycle& cycle, const Control& control) const {
@@ -262,7 +290,7 @@ class Synthesizer {
   // Of a character that goes so fast.
   Hop hop_at(double speed) const {
     const double haste = std::min(1.0, speed / space_.run());
-    return {kJumpHeight, kJumpDip + haste * (kRunningDip - kJumpDip), kSinking * (1 - haste / 2)};
+    return {kJumpHeight, dip_ * (1 + haste * (kRunningDip - 1)), kSinking * (1 - haste / 2)};
   }
 
   // Adds a clip with a hop in it, whose flight is the fragment.
@@ -281,6 +309,7 @@ class Synthesizer {
   Trajectories trajectories_;
   int originals_;
   std::vector<Cycle> cycles_;
+  double dip_ = kLeastDip;  // m of a 1.8 m character that jumps on the spot
   std::map<int, Contacts> contacts_;  // of the clips that were transformed
 };
 

@@ -115,13 +115,14 @@ double FootLock::height(int side, const FootHeights& floor) const {
 }
 
 void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds,
-                     const Matrix2& stride) {
+                     const StepEdit& edit) {
   auto& [kinematics, legs, scale, bones, posed] = *body_;
   if (!legs[0].exists() || !legs[1].exists()) return;
   const Skeleton& skeleton = kinematics.skeleton();
   kinematics.world(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
   const Matrix2 heading = Eigen::Rotation2Dd(pose.heading).toRotationMatrix(),
-                longer = heading * stride * heading.transpose();
+                longer = heading * edit.stride * heading.transpose();
+  const Vector2 shift = heading * edit.shift;
   std::array<Vector3, 2> ankles;
   double sink = 0;
   settle(seconds);
@@ -129,8 +130,8 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     const double over = height(side, contacts.floors[side]);
     const bool stands = contacts.feet[side][frame] && (feet_[side].locked || over * scale < kLanding);
     const Vector2 place = ball(skeleton, legs[side], posed).head<2>();
-    const Vector2 strides = longer * (place - pose.root.head<2>());
-    const Vector2 held = away(feet_[side], place + strides, stands, seconds), by = strides + held;
+    const Vector2 edited = longer * (place - pose.root.head<2>()) + shift;
+    const Vector2 held = away(feet_[side], place + edited, stands, seconds), by = edited + held;
     const double lift = lifted(-over * scale) / scale + step_height(feet_[side]);
     ankles[side] = posed.heads[legs[side].foot] + Vector3{by.x(), by.y(), lift};
     if (by.isZero(1e-9) && over >= 0) continue;

@@ -14,11 +14,10 @@ constexpr double kMost = 6, kLeast = 0.1;  // m/s^2 of a 1.8 m character that it
 }  // namespace
 
 void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, double seconds) {
-  if (trunk_.base < 0) return;
   const Vector2 wanted = clamp_length(scale_ * acceleration, kMost);
   acceleration_ += (1 - std::exp(-seconds / kFollows)) * (wanted - acceleration_);
   const double strength = acceleration_.norm();
-  if (strength < kLeast) return;
+  if (strength < kLeast || trunk_.base < 0) return;
   const double angle = kShare * std::atan(strength / kGravity);
   const Vector2 across = Eigen::Rotation2Dd(pose.heading) * Vector2{-acceleration_.y(), acceleration_.x()} / strength;
   turn_spine(skeleton, trunk_, {across.x(), across.y(), 0}, angle, pose.rotations.data());

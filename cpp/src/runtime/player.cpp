@@ -105,7 +105,7 @@ void Player::step(const Control& control, double seconds) {
     if (director_.is_due(asked, playback_, selector_)) go_on(asked);
     const double tempo = correction_.tempo(), played = director_.until_due(playback_, next * tempo),
                  part = played / tempo;
-    acceleration_ = limit_.advance(control, heading, part);
+    acceleration_ = playback_.is_in_the_air() ? Vector2::Zero() : limit_.advance(control, heading, part);
     playback_.advance(played);
     correction_.adjust_root(asked, part, playback_);
     rest -= part;

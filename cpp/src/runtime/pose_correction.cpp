@@ -13,7 +13,9 @@ constexpr double kAdjusting = 0.05;    // s: time constant of the velocity's adj
 constexpr double kTurning = 0.1;       // and of the turn rate's
 constexpr double kSlowest = 0.75;      // of the tempo
 constexpr double kPacing = 0.15;       // s: time constant of the tempo's,
-constexpr double kStriding = 0.1;      // s: time constant of the strides'
+constexpr double kGravity = 9.81;     // m/s^2
+constexpr double kSetOff = 0.5;       // of what balances it that the feet are set off for a body's acceleration
+constexpr double kStriding = 0.2;      // s: time constant of the steps'
 constexpr double kHeading = 0.15;      // s in which the heading gets to where it is led,
 constexpr double kLeash = 0.5;         // rad by which it is led at most
 constexpr double kStill = 0.2;         // m/s of a 1.8 m character, and of the turn rate, below which it stands
@@ -36,7 +38,7 @@ void PoseCorrection::reset(double heading) {
   turn_rate_ = 0;
   tempo_ = 1;
   led_ = heading;
-  stride_ = Matrix2::Zero();
+  steps_ = {};
   foot_lock_.reset();
   breathing_.reset();
   lean_.reset();
@@ -80,18 +82,21 @@ void PoseCorrection::correct(const Playback& playback, const Vector2& accelerati
   const Skeleton& skeleton = workspace_->kinematics.skeleton();
   breathing_.apply(skeleton, workspace_->shown, stands(playback.evident()), seconds);
   lean_.apply(skeleton, workspace_->shown, acceleration, seconds);
-  adjust_strides(playback.evident(), seconds);
+  edit_steps(playback.evident(), seconds);
   if (lock_feet_) lock_feet(playback, seconds);
 }
 
 // A foot that stands goes back under the hips as fast as the fragment goes forward; by what the adjustment makes that
-// faster or slower its place from the hips, which grows with the same time, must change.
-void PoseCorrection::adjust_strides(const Control& evident, double seconds) {
+// faster or slower its place from the hips, which grows with the same time, must change. And the feet of a body that is
+// accelerated are set where their push goes through it: behind one that gets faster, ahead of one that brakes.
+void PoseCorrection::edit_steps(const Control& evident, double seconds) {
   const Vector2 velocity{evident.x, evident.y};
   const bool goes = evident.speed() * character_->space.scale() > kMoving;
   const Matrix2 wanted =
       goes ? Matrix2{velocity_ * velocity.transpose() / (tempo_ * velocity.squaredNorm())} : Matrix2{Matrix2::Zero()};
-  stride_ += (1 - std::exp(-seconds / kStriding)) * (wanted - stride_);
+  steps_.stride += (1 - std::exp(-seconds / kStriding)) * (wanted - steps_.stride);
+  const Vector2 behind = -kSetOff * workspace_->shown.root.z() / kGravity * lean_.acceleration();
+  steps_.shift += (1 - std::exp(-seconds / kStriding)) * (behind - steps_.shift);
 }
 
 bool PoseCorrection::stands(const Control& evident) const {
@@ -101,7 +106,7 @@ bool PoseCorrection::stands(const Control& evident) const {
 void PoseCorrection::lock_feet(const Playback& playback, double seconds) {
   const Contacts& contacts = character_->contacts[character_->pool.fragments[playback.fragment()].clip];
   if (contacts.feet[0].empty()) return;
-  foot_lock_.apply(workspace_->shown, contacts, playback.frame_of_clip(), seconds, stride_);
+  foot_lock_.apply(workspace_->shown, contacts, playback.frame_of_clip(), seconds, steps_);
 }
 
 }  // namespace fragmotion

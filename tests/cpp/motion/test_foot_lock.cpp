@@ -49,7 +49,7 @@ TEST(FootLock, KeepsAPlantedFootWhereItIs) {
   EXPECT_FALSE(body.lock.locked(1));
 }
 
-TEST(FootLock, ChangesTheStridesByTheFeetsPlacesFromTheHips) {
+TEST(FootLock, EditsStepsByTheFeetsPlacesFromTheHipsAndAShift) {
   Carried body;
   WorldPose pose{load_vector(body.clip.root_positions.data()), 0.5, {}};
   pose.rotations.assign(body.clip.rotations.begin(), body.clip.rotations.begin() + std::ptrdiff_t{4} * body.skeleton.size());
@@ -59,11 +59,12 @@ TEST(FootLock, ChangesTheStridesByTheFeetsPlacesFromTheHips) {
     return Vector2{(ball(body.skeleton, body.legs[0], posed) - shown.root).head<2>()};
   };
   const Vector2 before = place(pose);
-  Matrix2 stride;
-  stride << 0.5, 0, 0.2, -0.3;
-  body.lock.apply(pose, standing(false), 0, 0, stride);
+  StepEdit edit;
+  edit.stride << 0.5, 0, 0.2, -0.3;
+  edit.shift = {0.02, 0.06};
+  body.lock.apply(pose, standing(false), 0, 0, edit);
   const Matrix2 heading = Eigen::Rotation2Dd(0.5).toRotationMatrix();
-  const Vector2 wanted = before + heading * stride * heading.transpose() * before;
+  const Vector2 wanted = before + heading * (edit.stride * heading.transpose() * before + edit.shift);
   EXPECT_LT((place(pose) - wanted).norm(), 0.005);
   EXPECT_GT((wanted - before).norm(), 0.05);
 }

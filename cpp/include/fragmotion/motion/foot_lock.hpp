@@ -10,6 +10,13 @@
 
 namespace fragmotion {
 
+/// How steps differ from those of the motion, in the character frame: each foot is moved by `stride` times its place
+/// from the hips, and by `shift`, m.
+struct StepEdit {
+  Matrix2 stride = Matrix2::Zero();
+  Vector2 shift = Vector2::Zero();
+};
+
 /// Keeps planted feet where they are: the ball of a foot that is planted comes to rest and stays there, the leg follows
 /// (leg.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion smoothly, with
 /// a step where that is far; the hips sink where a leg would be a little too short, and the foot steps on where it
@@ -35,10 +42,9 @@ class FootLock {
   void reset();
 
   /// Moves the legs of the pose that is shown `seconds` after the last one, and is, or is to become, a frame with these
-  /// contacts. A foot that stands in that frame is planted once it is near the ground. Before that the strides are
-  /// changed: each foot is moved by `stride` times its place from the hips, both in the character frame.
-  void apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds,
-             const Matrix2& stride = Matrix2::Zero());
+  /// contacts. A foot that stands in that frame is planted once it is near the ground, where the
+  /// edited step has it.
+  void apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds, const StepEdit& edit = {});
 
   bool locked(int side) const { return feet_[side].locked; }
 

@@ -16,6 +16,8 @@ class Lean {
 
   /// Stands upright.
   void reset() { acceleration_ = Vector2::Zero(); }
+  /// Which it has followed, m/s^2 of a 1.8 m character, in the character frame.
+  const Vector2& acceleration() const { return acceleration_; }
   /// Changes the pose that is shown `seconds` after the last one, of a body that is accelerated by so many m/s^2 in the
   /// character frame.
   void apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, double seconds);

@@ -9,7 +9,7 @@ namespace fragmotion {
 
 /// Corrects what fragments show: the root goes more as the control says and no faster away from its velocity than a
 /// body can, it keeps the heading that the control leads to, a body that stands breathes (breathing.hpp), one that is
-/// accelerated leans (lean.hpp), and planted feet stay where they are (foot_lock.hpp). Allocates nothing once it is made.
+/// accelerated leans (lean.hpp) and sets its feet for it, and planted feet stay where they are (foot_lock.hpp). Allocates nothing once it is made.
 class PoseCorrection {
  public:
   /// `root_adjustment` and `lock_feet` as in PlayerOptions; `acceleration` of a body at most, m/s^2. Character and
@@ -33,7 +33,7 @@ class PoseCorrection {
   void adjust_tempo(const Control& control, const Control& evident, double seconds);
   Vector2 velocity_to_add(const Control& control, const Control& evident) const;
   double turn_to_add(const Control& control, const Playback& playback, double seconds);
-  void adjust_strides(const Control& evident, double seconds);
+  void edit_steps(const Control& evident, double seconds);
   bool stands(const Control& evident) const;
   void lock_feet(const Playback& playback, double seconds);
 
@@ -45,7 +45,7 @@ class PoseCorrection {
   double turn_rate_ = 0;                // of the adjustment, rad/s
   double tempo_ = 1;
   double led_ = 0;                      // the heading that the controls lead to, rad
-  Matrix2 stride_ = Matrix2::Zero();    // how the strides follow the adjustment, FootLock::apply()
+  StepEdit steps_;
   FootLock foot_lock_;
   Breathing breathing_;
   Lean lean_;
