@@ -190,6 +190,7 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "ControlSpace": {"walk": 1.2, "run": 3.3, "turn_rate": 1.2, "scale": 1.0},
         "ControlSpace.nearest": {"self": made.space, "controls": trace},
         "ControlSpace.distance": {"self": made.space, "a": trace[0], "b": trace[1]},
+        "ControlSpace.turn_towards": {"self": made.space, "off": 1.0},
         "read_trace": {"path": folder / "trace.csv"},
         "write_trace": {"path": folder / "written.csv", "trace": trace},
         "simulate_trace": {"player": "walker", "seconds": 5.0, "seed": 1, "space": made.space},

@@ -107,7 +107,8 @@ def trace_of(parts: tuple[Part, ...], space: core.ControlSpace) -> core.Doubles:
     rows = []
     for part in parts:
         angle, speed = np.radians(part.direction), speeds[part.speed]
-        row = (-speed * np.sin(angle), speed * np.cos(angle), np.clip(part.turn, -space.quickest_turn, space.quickest_turn), part.jump)
+        turn = np.clip(part.turn, -space.quickest_turn, space.quickest_turn)
+        row = (-speed * np.sin(angle), speed * np.cos(angle), turn, part.jump)
         rows += [row] * _steps(part)
     return np.array(rows)
 

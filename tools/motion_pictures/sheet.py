@@ -35,8 +35,8 @@ _GRAVITY = 9.81  # m/s^2
 _SHORTEST = 6  # pixels of an arrow
 _LEGEND = (
     "Blue: ball of the left foot; orange: of the right. Dots: it stands. Red: it moves while less than 2.5 cm over the "
-    "ground, the redder the lower. Grey: the hips.  ▼ ◆: a stitch.\nThe arrow at the hips: their acceleration, as long as "
-    "the body is high for gravity's; red: over 6 m/s²."
+    "ground, the redder the lower. Grey: the hips.  ▼ ◆: a stitch.\nThe arrow at the hips: their acceleration, as long "
+    "as the body is high for gravity's; red: over 6 m/s²."
 )
 
 

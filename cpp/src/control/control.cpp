@@ -56,7 +56,7 @@ int least(const Value& value) {
   return best;
 }
 
-constexpr double kLeap = 0.9;  // evident jump of what is no run
+constexpr double kLeap = 0.9;                  // evident jump of what is no run
 constexpr double kQuickest = 170 * kPi / 180;  // rad/s
 constexpr double kFacing = 0.25;               // s: time constant of the last of a turn
 

@@ -9,9 +9,9 @@ namespace fragmotion {
 namespace {
 
 constexpr int kTrials = 16;
-constexpr double kShare = 0.9;                  // of the walk
-constexpr double kGoesOn = 100 * kPi / 180;     // rad off where it shall face, from which on it walks
-constexpr double kFaces = 15 * kPi / 180;       // and from which on it faces there
+constexpr double kShare = 0.9;               // of the walk
+constexpr double kGoesOn = 100 * kPi / 180;  // rad off where it shall face, from which on it walks
+constexpr double kFaces = 15 * kPi / 180;    // and from which on it faces there
 
 double about_face(Runner& runner, const ControlSpace& space, double side) {
   const double begun = runner.heading(), walk = space.walk();

@@ -26,8 +26,8 @@ std::vector<int> slowest_of(const FragmentPool& pool) {
 
 // A foot as it stands flat: where it got lowest.
 struct FlatFoot {
-  double height = std::numeric_limits<double>::infinity();  // m, of ankle and ball together
-  double ankle = 0;                                         // m over the ground
+  double height = std::numeric_limits<double>::infinity();                     // m, of ankle and ball together
+  double ankle = 0;                                                            // m over the ground
   Quaternion rotation = Quaternion::Identity(), toe = Quaternion::Identity();  // in the world; the toe's of its own
 };
 
@@ -90,8 +90,8 @@ class Stance {
   // The foot turned about the vertical to point forward, and a little outward.
   Quaternion pointing(int side) const {
     const Leg& leg = legs_[side];
-    const Vector3 arm = posed_.rotations[leg.foot].conjugate() *
-                        (ball(kinematics_.skeleton(), leg, posed_) - posed_.heads[leg.foot]);
+    const Vector3 arm =
+        posed_.rotations[leg.foot].conjugate() * (ball(kinematics_.skeleton(), leg, posed_) - posed_.heads[leg.foot]);
     const Vector3 points = feet_[side].rotation * arm;
     const double off = std::atan2(-points.x(), points.y()), wanted = side == 0 ? kOutward : -kOutward;
     return Quaternion{Eigen::AngleAxisd(wanted - off, Vector3::UnitZ())} * feet_[side].rotation;

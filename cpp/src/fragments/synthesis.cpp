@@ -59,7 +59,8 @@ void add_standing(FragmentPool& pool, const SynthesisOptions& options) {
   fragment.end = std::max(1, static_cast<int>(std::lround(kStandSeconds * rate)));
   fragment.origin = Origin::transformed;
   const int frames = fragment.end + 1 + static_cast<int>(std::lround(options.tail * rate));
-  pool.clips.push_back(make_clip(pool.skeleton, standing(kinematics, find_legs(kinematics, pool.clips), pool, frames, rate)));
+  pool.clips.push_back(
+      make_clip(pool.skeleton, standing(kinematics, find_legs(kinematics, pool.clips), pool, frames, rate)));
   pool.fragments.push_back(fragment);
 }
 
@@ -309,7 +310,7 @@ class Synthesizer {
   Trajectories trajectories_;
   int originals_;
   std::vector<Cycle> cycles_;
-  double dip_ = kLeastDip;  // m of a 1.8 m character that jumps on the spot
+  double dip_ = kLeastDip;            // m of a 1.8 m character that jumps on the spot
   std::map<int, Contacts> contacts_;  // of the clips that were transformed
 };
 

@@ -9,9 +9,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kToDeepest = 0.7;   // s at most from the highest moment of the flight to the deepest of the crouch
-constexpr double kToUpright = 0.6;   // s at most from there to where the hips are up
-constexpr double kUpright = 0.01;    // m of a 1.8 m character under their highest, from where hips are up
+constexpr double kToDeepest = 0.7;  // s at most from the highest moment of the flight to the deepest of the crouch
+constexpr double kToUpright = 0.6;  // s at most from there to where the hips are up
+constexpr double kUpright = 0.01;   // m of a 1.8 m character under their highest, from where hips are up
 
 // The hips' heights over some frames of a clip.
 class HipsHeights {
@@ -38,11 +38,11 @@ class HipsHeights {
     }
     int up = deepest;
     for (int f = deepest; within(f) && (f - deepest) * step <= kToUpright * rate_; f += step) {
-      if ((*this)(f) < (*this)(up) - tolerance_) break;
+      if ((*this)(f) < (*this)(up)-tolerance_) break;
       if ((*this)(f) > (*this)(up)) up = f;
     }
     for (int f = deepest; f != up; f += step) {
-      if ((*this)(f) >= (*this)(up) - tolerance_) return f;
+      if ((*this)(f) >= (*this)(up)-tolerance_) return f;
     }
     return up;
   }

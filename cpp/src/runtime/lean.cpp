@@ -6,10 +6,11 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kGravity = 9.81;         // m/s^2
-constexpr double kShare = 0.5;            // of the angle that would balance the body
-constexpr double kFollows = 0.12;         // s: time constant
-constexpr double kMost = 6, kLeast = 0.1;  // m/s^2 of a 1.8 m character that it follows, and below which nothing is seen
+constexpr double kGravity = 9.81;  // m/s^2
+constexpr double kShare = 0.5;     // of the angle that would balance the body
+constexpr double kFollows = 0.12;  // s: time constant
+constexpr double kMost = 6,
+                 kLeast = 0.1;  // m/s^2 of a 1.8 m character that it follows, and below which nothing is seen
 
 }  // namespace
 

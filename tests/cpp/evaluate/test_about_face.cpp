@@ -13,8 +13,11 @@ TEST(AboutFaceTimes, TakeAboutAsLongAsTheTurnRateAllows) {
   const auto character = gait_character();
   const std::vector<double> times = about_face_times(character);
   EXPECT_EQ(times.size(), 16u);
-  const double least = kPi / (2.2 * character->space.turn_rate());
-  for (const double time : times) EXPECT_TRUE(time > least && time < kPi / character->space.turn_rate() + 1.5) << time;
+  const double quickest = character->space.quickest_turn() * character->space.turn_rate();
+  for (const double time : times) {
+    EXPECT_GT(time, (kPi - 0.3) / (1.3 * quickest));
+    EXPECT_LT(time, kPi / quickest + 1);
+  }
   EXPECT_EQ(times, about_face_times(character));
 }
 

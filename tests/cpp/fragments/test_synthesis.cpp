@@ -352,7 +352,8 @@ TEST(Standing, StandsStillOnTheGround) {
       EXPECT_LT(down.head<2>().norm(), 0.02);  // the feet under the hips, on legs that are nearly straight
       EXPECT_GT(down.norm(), 0.97 * 0.86);
       const Vector3 forward = posed.rotations[leg.foot] * kSkeleton.tips[leg.foot],
-                    facing = stand.headings[0] == 0 ? Vector3::UnitY() : frame_at(stand, 0).rotation() * Vector3::UnitY();
+                    facing =
+                        stand.headings[0] == 0 ? Vector3::UnitY() : frame_at(stand, 0).rotation() * Vector3::UnitY();
       EXPECT_GT(forward.dot(facing) / forward.head<2>().norm(), std::cos(0.2));
     }
   }

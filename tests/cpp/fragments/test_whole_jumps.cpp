@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kRate = 60;
 
-// A stand of 3 s whose hips go as a jump at 1.5 s does: 0.3 s down by 0.2 m, 0.2 s up, 0.4 s in the air, and the same back.
+// A stand of 3 s whose hips go as a jump at 1.5 s does: 0.3 s down by 0.2 m, 0.2 s up, 0.4 s in the air, and the same
+// back.
 Clip jumping_clip() {
   Gait gait{0, 0, 0};
   gait.rate = kRate;

@@ -52,7 +52,8 @@ TEST(FootLock, KeepsAPlantedFootWhereItIs) {
 TEST(FootLock, EditsStepsByTheFeetsPlacesFromTheHipsAndAShift) {
   Carried body;
   WorldPose pose{load_vector(body.clip.root_positions.data()), 0.5, {}};
-  pose.rotations.assign(body.clip.rotations.begin(), body.clip.rotations.begin() + std::ptrdiff_t{4} * body.skeleton.size());
+  pose.rotations.assign(body.clip.rotations.begin(),
+                        body.clip.rotations.begin() + std::ptrdiff_t{4} * body.skeleton.size());
   const auto place = [&](const WorldPose& shown) {
     PosedBones posed(body.skeleton.size());
     body.kinematics.world(shown.root, shown.rotations.data(), posed.heads.data(), posed.rotations.data());
@@ -61,7 +62,7 @@ TEST(FootLock, EditsStepsByTheFeetsPlacesFromTheHipsAndAShift) {
   const Vector2 before = place(pose);
   StepEdit edit;
   edit.stride << 0.5, 0, 0.2, -0.3;
-  edit.shift = {0.02, 0.06};
+  edit.shift = {0.04, 0.12};
   body.lock.apply(pose, standing(false), 0, 0, edit);
   const Matrix2 heading = Eigen::Rotation2Dd(0.5).toRotationMatrix();
   const Vector2 wanted = before + heading * (edit.stride * heading.transpose() * before + edit.shift);

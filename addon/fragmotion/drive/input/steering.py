@@ -28,8 +28,8 @@ _BEHIND = math.radians(160)  # off by more, a turn goes on to the side on which 
 
 
 class Control(NamedTuple):
-    """Velocity to the right and forward in m/s, turn (1 is left at the character's turn rate; it may be more where it has
-    to face about), and jump 0 or 1, as the character sees it."""
+    """Velocity to the right and forward in m/s, turn (1 is left at the character's turn rate; more where it has to face
+    about), and jump 0 or 1, as the character sees it."""
 
     right: float = 0.0
     forward: float = 0.0

@@ -23,8 +23,8 @@ struct GaitEdit {
 Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
                  int end, int frames, const GaitEdit& edit);
 
-/// How a hop lifts and lowers the body, m over time: it sinks into a crouch, pushes off with a constant force, flies as a
-/// body falls, and lands as it took off. Lengths in m of a 1.8 m character, times in s, all above 0.
+/// How a hop lifts and lowers the body, m over time: it sinks into a crouch, pushes off with a constant force, flies as
+/// a body falls, and lands as it took off. Lengths in m of a 1.8 m character, times in s, all above 0.
 class Hop {
  public:
   /// `height` of the flight, `dip` of the crouch, and the time to sink into it.
@@ -39,8 +39,8 @@ class Hop {
   double dip_, sinking_, speed_, pushing_;
 };
 
-/// Adds a hop to a clip, from its first frame on: the knees bend and the trunk bows as the body goes down over the feet,
-/// and in the air the feet are drawn up.
+/// Adds a hop to a clip, from its first frame on: the knees bend and the trunk bows as the body goes down over the
+/// feet, and in the air the feet are drawn up.
 void add_hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, const Hop& hop);
 
 }  // namespace fragmotion

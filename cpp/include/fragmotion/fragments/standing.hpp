@@ -7,8 +7,8 @@
 namespace fragmotion {
 
 /// A character that stands for `frames` frames: the mean pose of the pool's slowest fragments, on the ground that they
-/// stand on, with both feet flat under their hip joints and the legs nearly straight. Symmetric where the pool holds the
-/// fragments' mirror images. A skeleton without two legs keeps those of the mean pose.
+/// stand on, with both feet flat under their hip joints and the legs nearly straight. Symmetric where the pool holds
+/// the fragments' mirror images. A skeleton without two legs keeps those of the mean pose.
 Clip standing(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool, int frames, double rate);
 
 }  // namespace fragmotion

@@ -9,7 +9,8 @@ namespace fragmotion {
 
 /// Corrects what fragments show: the root goes more as the control says and no faster away from its velocity than a
 /// body can, it keeps the heading that the control leads to, a body that stands breathes (breathing.hpp), one that is
-/// accelerated leans (lean.hpp) and sets its feet for it, and planted feet stay where they are (foot_lock.hpp). Allocates nothing once it is made.
+/// accelerated leans (lean.hpp) and sets its feet for it, and planted feet stay where they are (foot_lock.hpp).
+/// Allocates nothing once it is made.
 class PoseCorrection {
  public:
   /// `root_adjustment` and `lock_feet` as in PlayerOptions; `acceleration` of a body at most, m/s^2. Character and
@@ -20,8 +21,8 @@ class PoseCorrection {
   void reset(double heading);
   /// Lets the root keep the velocity by which it was faster than what begins to play, m/s in the character frame.
   void keep_velocity(const Vector2& faster) { velocity_ += faster; }
-  /// How much faster than captured what plays is to be played, at most 1: where the control is slower than the fragment,
-  /// its steps make up for half of that by following each other later, and for the rest by being shorter.
+  /// How much faster than captured what plays is to be played, at most 1: where the control is slower than the
+  /// fragment, its steps make up for half of that by following each other later, and for the rest by being shorter.
   double tempo() const { return tempo_; }
   /// Moves and turns what plays over `seconds`, so that it does more of what the control says.
   void adjust_root(const Control& control, double seconds, Playback& playback);
@@ -44,7 +45,7 @@ class PoseCorrection {
   Vector2 velocity_ = Vector2::Zero();  // of the adjustment, m/s, in the character frame
   double turn_rate_ = 0;                // of the adjustment, rad/s
   double tempo_ = 1;
-  double led_ = 0;                      // the heading that the controls lead to, rad
+  double led_ = 0;  // the heading that the controls lead to, rad
   StepEdit steps_;
   FootLock foot_lock_;
   Breathing breathing_;
