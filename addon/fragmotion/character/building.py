@@ -21,7 +21,7 @@ from ..rig.external_motion import movers
 from ..rig.rigs import carriers, make_rig
 from ..rig.skeletons import difference
 from . import classes
-from .coverage import measure_coverage
+from .coverage import makes_its_jumps, measure_coverage
 from .staleness import sources_of
 from .storing import keep_policy, key_of, read_policy
 
@@ -164,6 +164,7 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
 
 def _keep_coverage(figures: Any, character: Character) -> None:
     figures.distances = np.asarray(character.coverage_distances, np.float32).tobytes()
+    figures.makes_jumps = makes_its_jumps(character)
     figures.coverage.clear()
     for name, performed, total in measure_coverage(character.coverage_distances):
         row = figures.coverage.add()

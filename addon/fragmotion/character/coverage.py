@@ -10,10 +10,12 @@ import numpy as np
 from ..compat.core import core
 
 if TYPE_CHECKING:
-    from fragmotion_core import Doubles
+    from fragmotion_core import Character, Doubles
 
 WELL = 0.3
 """ControlDis within which a fragment performs a control, as in the core's synthesis."""
+
+_JUMPS = 0.75  # evident jump of what the core calls one
 
 # Numbers of the velocities, counter-clockwise from forward.
 _ROWS = {
@@ -37,6 +39,13 @@ class Row(NamedTuple):
     name: str
     performed: list[int]
     total: list[int]
+
+
+def makes_its_jumps(character: Character) -> bool:
+    """Whether it jumps, but no take does: its jumps were all synthesized."""
+    jumping = character.evident[:, 3] > _JUMPS
+    captured = np.isin(character.fragment_origins, ("captured", "mirrored"))
+    return bool(jumping.any() and not (jumping & captured).any())
 
 
 def measure_coverage(distances: Doubles) -> list[Row]:

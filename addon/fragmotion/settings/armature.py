@@ -145,6 +145,7 @@ class BuildFigures(bpy.types.PropertyGroup):
     sources: StringProperty()  # type: ignore[valid-type]
     policies: CollectionProperty(type=PolicyFigure)  # type: ignore[valid-type]
     performed: IntProperty()  # type: ignore[valid-type]
+    makes_jumps: BoolProperty()  # type: ignore[valid-type]
     coverage: CollectionProperty(type=CoverageFigure)  # type: ignore[valid-type]
     distances: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     """[102] float32: ControlDis to the nearest fragment."""

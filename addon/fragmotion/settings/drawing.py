@@ -127,6 +127,8 @@ def draw_coverage(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
     for row in figures.coverage:
         counts = zip(row.performed, row.total)
         _draw_cells(column, row.name, [(f"{performed}/{total}", performed == total) for performed, total in counts])
+    if figures.makes_jumps:
+        column.label(text="Jumps are made, not captured", icon="INFO")
 
 
 def _draw_cells(layout: bpy.types.UILayout, label: str, cells: list[tuple[str, bool]]) -> None:

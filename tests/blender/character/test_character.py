@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import bpy
 import making
@@ -47,6 +47,18 @@ def test_the_coverage_shown_is_the_cores(addon: ModuleType, obj: bpy.types.Objec
     for name, row in rows.items():
         assert list(figures.coverage[name].total) == [(row & column).sum() for column in columns]
         assert list(figures.coverage[name].performed) == [well[row & column].sum() for column in columns]
+
+
+def test_the_coverage_says_where_no_take_jumps(addon: ModuleType, obj: bpy.types.Object) -> None:
+    character = addon.character.building.load(obj)
+    makes_its_jumps = addon.character.coverage.makes_its_jumps
+    assert makes_its_jumps(character) == obj.fragmotion.figures.makes_jumps
+    origins, evident = np.array(character.fragment_origins), np.array(character.evident)
+    assert not makes_its_jumps(character), "the sample's own take jumps"
+    taken = (evident[:, 3] > 0.75) & np.isin(origins, ["captured", "mirrored"])
+    assert makes_its_jumps(SimpleNamespace(evident=evident[~taken], fragment_origins=list(origins[~taken])))
+    stands = evident[:, 3] == 0
+    assert not makes_its_jumps(SimpleNamespace(evident=evident[stands], fragment_origins=list(origins[stands])))
 
 
 def test_a_character_saved_as_a_policy_file_is_loaded_onto_the_same_bones(
