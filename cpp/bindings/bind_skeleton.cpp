@@ -4,6 +4,7 @@
 #include <map>
 
 #include "arrays.hpp"
+#include "fragmotion/skeleton/role_map.hpp"
 #include "fragmotion/skeleton/role_names.hpp"
 #include "fragmotion/skeleton/skeleton.hpp"
 
@@ -51,6 +52,25 @@ py::array_t<double> rest_points(const Skeleton& skeleton, bool tails) {
   return vectors(heads);
 }
 
+/// Role -> (bone's name, confidence).
+std::map<std::string, std::pair<std::string, double>> role_map(const Skeleton& skeleton,
+                                                               const std::optional<Doubles>& heads) {
+  ObservedPoses motion;
+  if (heads) {
+    check_shape(*heads, "heads", {-1, skeleton.size(), 3});
+    motion.poses = static_cast<int>(heads->shape(0));
+    for (py::ssize_t i = 0; i < heads->size(); i += 3) motion.heads.push_back(load_vector(heads->data() + i));
+    for (const Vector3& head : motion.heads) {
+      if (!head.allFinite()) throw std::invalid_argument("heads: a place is not finite");
+    }
+  }
+  std::map<std::string, std::pair<std::string, double>> roles;
+  for (const RoleBone& bone : find_role_map(skeleton, heads ? &motion : nullptr).bones) {
+    roles[role_label(bone)] = {skeleton.names[bone.bone], bone.confidence};
+  }
+  return roles;
+}
+
 }  // namespace
 
 void bind_skeleton(py::module_& m) {
@@ -63,6 +83,7 @@ void bind_skeleton(py::module_& m) {
       .def_property_readonly("offsets", [](const Skeleton& s) { return vectors(s.offsets); })
       .def_property_readonly("tips", [](const Skeleton& s) { return vectors(s.tips); })
       .def_property_readonly("roles", &named_roles)
+      .def("role_map", &role_map, py::arg("heads") = py::none())
       .def_property_readonly("stature", &stature)
       .def("rest_heads", [](const Skeleton& s) { return rest_points(s, false); })
       .def("rest_tails", [](const Skeleton& s) { return rest_points(s, true); });

@@ -54,6 +54,11 @@ class Skeleton:
     """Role -> bone name, for the roles that the skeleton has."""
     stature: float
     """Height of the standing character, m."""
+    def role_map(self, heads: ArrayLike | None = None) -> dict[str, tuple[str, float]]:
+        """Role -> (bone name, confidence 0.5 to 1) of every bone that is told: root, hips, spine_1 ..., neck_1 ...,
+        head, and with left_ or right_ shoulder, upper_arm, lower_arm, hand, thumb_1 ... pinky_1 ..., thigh, shin, foot,
+        toe. Names tell them, and where those say nothing the shape; `heads` [P,B,3] m, places in a motion, tell more.
+        """
     def rest_heads(self) -> Doubles:
         """World position [B,3] of each bone's head at rest, m."""
     def rest_tails(self) -> Doubles:

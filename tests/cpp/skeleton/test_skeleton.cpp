@@ -419,6 +419,7 @@ TEST(MeasuredBones, HoldTheHipsWhateverTheRoles) {
   skeleton.rest_rotations.assign(3, Quaternion::Identity());
   skeleton.offsets.assign(3, {0, 0, 1});
   skeleton.tips = skeleton.offsets;
+  skeleton.roles.head = 0;
   EXPECT_EQ(measured_bones(make_skeleton(skeleton)), std::vector<int>{1});
 }
 

@@ -8,7 +8,7 @@
 
 namespace fragmotion {
 
-/// What a bone is to the method; found by name (roles.cpp) or given. -1 where the skeleton has none.
+/// What a bone is to the method; found (roles.cpp) or given. -1 where the skeleton has none.
 struct Roles {
   int hips = -1;  ///< The bone that carries the body: the skeleton's root, though bones may stand above it.
   int head = -1;
@@ -42,8 +42,8 @@ struct Skeleton {
 /// bytes and on an offset or tip of more than 1,000 km.
 Skeleton make_skeleton(Skeleton skeleton);
 
-/// The roles that the names and the hierarchy tell: Blender, Mixamo, CMU, Bandai-Namco, Unreal and Biped names.
-/// Without a name that says "hips" or "pelvis", the hips are the first bone with three children or more, else bone 0.
+/// The roles that find_role_map() (role_map.hpp) tells from names, hierarchy and shape. Where it tells no hips, those
+/// are the first bone with three children or more, else bone 0.
 Roles find_roles(const Skeleton& skeleton);
 
 /// For each bone its left/right counterpart by name (`.L`/`.R`, `_L`/`_R`, `Left`/`Right`, `lfemur`/`rfemur`), itself

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "skeleton/body_words.hpp"
+
+namespace fragmotion {
+
+/// A skeleton as its names tell it: which bones may be a body's, and how those hang on each other. Of a rig in layers
+/// (Rigify's DEF-, ORG-, MCH- and controls) the body is one layer, whose bones often hang on those of the others.
+struct BodyTree {
+  explicit BodyTree(const Skeleton& skeleton);
+
+  /// What remains where names lie.
+  void forget_names();
+
+  int size() const { return static_cast<int>(names.size()); }
+  bool is_below(int bone, int ancestor) const;
+  /// The lowest bone that both are below or are; -1 where there is none.
+  int common(int a, int b) const;
+
+  double says(int bone, Role role) const { return said[bone][static_cast<int>(role)]; }
+
+  std::vector<BoneName> names;
+  std::vector<std::array<double, kRoles>> said;  ///< By the names; see says() in body_words.hpp.
+  std::vector<bool> in_layer;
+  std::vector<bool> in_body;               ///< Of the body's layer, and no helper by its name.
+  std::vector<bool> twist;                 ///< By its name.
+  std::vector<int> parents;                ///< Among the bones of the layer, -1 above.
+  std::vector<int> depth;                  ///< Bones of the layer above.
+  std::vector<std::array<bool, 2>> holds;  ///< Whether it, or a bone below it, is named of the left, of the right.
+};
+
+/// A limb from the trunk outward; -1 where a bone is not told.
+struct Limb {
+  static constexpr int kFirst = 0, kUpper = 1, kLower = 2, kEnd = 3, kTip = 4;  ///< kFirst: the shoulder; kTip: the toe
+  std::array<int, 5> bones{-1, -1, -1, -1, -1};
+  std::array<double, 5> confidence{};
+
+  bool whole() const { return bones[kUpper] >= 0 && bones[kLower] >= 0 && bones[kEnd] >= 0; }
+};
+
+/// A body's joints as one way of looking tells them.
+struct Body {
+  int hips = -1, head = -1;
+  int chest = -1;  ///< What the arms hang on, where that is told without them.
+  double hips_confidence = 0, head_confidence = 0;
+  std::array<Limb, 2> arms, legs;  ///< left, right
+};
+
+/// As the names tell; none where they do not agree with each other and the hierarchy.
+std::optional<Body> named_body(const BodyTree& tree);
+
+/// As the shape tells; see find_role_map().
+Body shaped_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion);
+
+}  // namespace fragmotion

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "fragmotion/base/random.hpp"
+#include "fragmotion/skeleton/role_map.hpp"
+#include "humanoids.hpp"
+#include "mocap_files.hpp"
+
+namespace fragmotion {
+namespace {
+
+using Names = std::map<std::string, std::string>;
+
+Family family_named(const std::string& what) {
+  for (const Family& family : families()) {
+    if (family.what == what) return family;
+  }
+  throw std::logic_error("no family '" + what + "'");
+}
+
+/// The humanoid with names that say nothing, and the true roles by those.
+Humanoid nameless(Humanoid body) {
+  Names renamed;
+  for (int b = 0; b < body.skeleton.size(); ++b) {
+    const std::string name = "Bone." + std::to_string(100 + b);
+    renamed[body.skeleton.names[b]] = name;
+    body.skeleton.names[b] = name;
+  }
+  for (auto& [role, bone] : body.roles) bone = renamed[bone];
+  return body;
+}
+
+/// The roles told that are not the true ones.
+std::vector<std::string> wrong(const Humanoid& body, const RoleMap& map) {
+  std::vector<std::string> wrong;
+  for (const auto& [role, bone] : named_bones(body.skeleton, map)) {
+    const auto truth = body.roles.find(role);
+    if (truth == body.roles.end() || truth->second != bone) wrong.push_back(role + " = " + bone);
+  }
+  return wrong;
+}
+
+TEST(RoleMap, IsRightForEveryFamilyOfRigs) {
+  for (const Family& family : families()) {
+    const Humanoid body(family);
+    const RoleMap map = find_role_map(make_skeleton(body.skeleton));
+    EXPECT_EQ(named_bones(body.skeleton, map), body.roles) << family.what;
+    for (const RoleBone& bone : map.bones) {
+      EXPECT_GE(bone.confidence, 0.5) << family.what << ", " << role_label(bone);
+      EXPECT_LE(bone.confidence, 1) << family.what << ", " << role_label(bone);
+    }
+  }
+}
+
+TEST(RoleMap, GivesNoBoneAndNoRoleTwice) {
+  for (const Family& family : families()) {
+    const RoleMap map = find_role_map(Humanoid(family).skeleton);
+    std::set<int> bones;
+    std::set<std::string> labels;
+    for (const RoleBone& bone : map.bones) {
+      bones.insert(bone.bone);
+      labels.insert(role_label(bone));
+    }
+    for (const TwistBone& twist : map.twists) bones.insert(twist.bone);
+    EXPECT_EQ(bones.size(), map.bones.size() + map.twists.size()) << family.what;
+    EXPECT_EQ(labels.size(), map.bones.size()) << family.what;
+  }
+}
+
+TEST(RoleMap, IsToldByTheShapeWhereNamesSayNothing) {
+  const Humanoid body = nameless(Humanoid(family_named("Bandai Namco")));
+  const RoleMap map = find_role_map(body.skeleton);
+  EXPECT_EQ(named_bones(body.skeleton, map), body.roles);
+  EXPECT_LT(map.confidence(Role::kHips),
+            find_role_map(Humanoid(family_named("Mixamo")).skeleton).confidence(Role::kHips));
+}
+
+TEST(RoleMap, WithoutNamesNoFamilyIsToldWrong) {
+  int told = 0, all = 0;
+  for (const Family& family : families()) {
+    if (family.what == "Biped") continue;  // whose legs hang on the spine: names alone tell its hips
+    const Humanoid body = nameless(Humanoid(family));
+    const RoleMap map = find_role_map(body.skeleton);
+    EXPECT_EQ(wrong(body, map), std::vector<std::string>{}) << family.what;
+    told += static_cast<int>(map.bones.size());
+    all += static_cast<int>(body.roles.size());
+  }
+  EXPECT_GE(told, 0.9 * all) << told << " of " << all;
+}
+
+/// Names dealt anew among the bones lie; what is told then must be told by the shape.
+TEST(RoleMap, IsRightOrSilentWhereNamesLie) {
+  Random random(5);
+  const Humanoid honest(family_named("LAFAN1"));
+  for (int trial = 0; trial < 50; ++trial) {
+    Humanoid body = honest;
+    for (int b = body.skeleton.size() - 1; b > 0; --b) {
+      std::swap(body.skeleton.names[b], body.skeleton.names[static_cast<int>(random.uniform() * (b + 1))]);
+    }
+    for (auto& [role, bone] : body.roles) bone = body.skeleton.names[honest.skeleton.find(bone)];
+    EXPECT_EQ(wrong(body, find_role_map(body.skeleton)), std::vector<std::string>{}) << trial;
+  }
+}
+
+/// The same bones hung on another one of them.
+Humanoid rerooted(const Humanoid& body, int root) {
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> rotations;
+  rest_pose(body.skeleton, heads, rotations);
+  const Skeleton& from = body.skeleton;
+  std::vector<int> order{root}, parents{-1};
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (int b = 0; b < from.size(); ++b) {
+      const bool joined = from.parents[b] == order[i] || from.parents[order[i]] == b;
+      if (!joined || std::find(order.begin(), order.end(), b) != order.end()) continue;
+      order.push_back(b);
+      parents.push_back(static_cast<int>(i));
+    }
+  }
+  Humanoid result = body;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    result.skeleton.names[i] = from.names[order[i]];
+    result.skeleton.parents[i] = parents[i];
+    result.skeleton.tips[i] = from.tips[order[i]];
+    result.skeleton.offsets[i] = parents[i] < 0 ? heads[order[i]] : Vector3{heads[order[i]] - heads[order[parents[i]]]};
+  }
+  return result;
+}
+
+TEST(RoleMap, IsRightOrSilentHungOnAnotherBone) {
+  const Humanoid body(family_named("LAFAN1"));
+  for (int root = 1; root < body.skeleton.size(); ++root) {
+    Humanoid other = rerooted(body, root);
+    other.roles["root"] = other.skeleton.names[0];
+    EXPECT_EQ(wrong(other, find_role_map(other.skeleton)), std::vector<std::string>{}) << body.skeleton.names[root];
+    other = nameless(other);
+    EXPECT_EQ(wrong(other, find_role_map(other.skeleton)), std::vector<std::string>{}) << body.skeleton.names[root];
+  }
+}
+
+TEST(RoleMap, SaysNothingOfWhatIsNoBody) {
+  Skeleton chain;
+  for (int b = 0; b < 30; ++b) {
+    chain.names.push_back("joint" + std::to_string(b));
+    chain.parents.push_back(b - 1);
+    chain.rest_rotations.push_back(Quaternion::Identity());
+    chain.offsets.push_back({0, 0, 0.1});
+    chain.tips.push_back({0, 0, 0.1});
+  }
+  EXPECT_TRUE(find_role_map(chain).bones.empty());
+  Skeleton one = chain;
+  one.names.resize(1);
+  one.parents.resize(1);
+  one.rest_rotations.resize(1);
+  one.offsets.resize(1);
+  one.tips.resize(1);
+  EXPECT_TRUE(find_role_map(one).bones.empty());
+}
+
+/// Appends a bone to a skeleton whose frames are the world's axes.
+void append(Skeleton& skeleton, const std::string& name, const std::string& parent, const Vector3& offset) {
+  skeleton.names.push_back(name);
+  skeleton.parents.push_back(skeleton.find(parent));
+  skeleton.rest_rotations.push_back(Quaternion::Identity());
+  skeleton.offsets.push_back(offset);
+  skeleton.tips.push_back({0.02, 0, 0});
+}
+
+TEST(RoleMap, TellsTwistBonesAndTheirShareApart) {
+  Skeleton skeleton = Humanoid(family_named("Unreal")).skeleton;
+  append(skeleton, "lowerarm_twist_01_l", "lowerarm_l", {0.13, -0.01, 0});
+  append(skeleton, "thigh_twist_01_r", "thigh_r", {0, 0, 0});
+  const RoleMap map = find_role_map(skeleton);
+  ASSERT_EQ(map.twists.size(), 2u);
+  EXPECT_EQ(skeleton.names[map.twists[0].bone], "lowerarm_twist_01_l");
+  EXPECT_EQ(map.twists[0].limb, map.bone(Role::kLowerArm, Side::kLeft));
+  EXPECT_NEAR(map.twists[0].share, 0.5, 0.01);
+  EXPECT_EQ(skeleton.names[map.twists[1].bone], "thigh_twist_01_r");
+  EXPECT_NEAR(map.twists[1].share, 0, 1e-9);
+}
+
+struct FingerCase {
+  const char* family;
+  std::vector<std::string> bones;  ///< From the hand.
+  std::string hand, role;
+};
+
+TEST(RoleMap, CountsFingersAsTheFamilyDoes) {
+  const FingerCase cases[] = {
+      {"Mixamo", {"mixamorig:LeftHandIndex1", "mixamorig:LeftHandIndex2"}, "mixamorig:LeftHand", "left_index_"},
+      {"Biped", {"Bip01 L Finger0", "Bip01 L Finger01"}, "Bip01 L Hand", "left_thumb_"},
+      {"MakeHuman", {"finger2-1.L", "finger2-2.L"}, "wrist.L", "left_index_"},
+      {"Unreal", {"pinky_01_l", "pinky_02_l"}, "hand_l", "left_pinky_"},
+      {"MMD", {"左中指１", "左中指２"}, "左手首", "left_middle_"},
+  };
+  for (const FingerCase& finger : cases) {
+    Skeleton skeleton = Humanoid(family_named(finger.family)).skeleton;
+    std::string last = finger.hand;
+    for (const std::string& bone : finger.bones) append(skeleton, bone, last, {0.03, 0, 0}), last = bone;
+    const Names named = named_bones(skeleton, find_role_map(skeleton));
+    for (std::size_t i = 0; i < finger.bones.size(); ++i) {
+      const auto found = named.find(finger.role + std::to_string(i + 1));
+      ASSERT_NE(found, named.end()) << finger.family;
+      EXPECT_EQ(found->second, finger.bones[i]) << finger.family;
+    }
+  }
+}
+
+TEST(RoleMap, OfAUserIsKept) {
+  const Humanoid body(family_named("Daz"));
+  const RoleMap map = role_map_of(body.skeleton, body.roles);
+  EXPECT_EQ(named_bones(body.skeleton, map), body.roles);
+  EXPECT_EQ(map.confidence(Role::kHead), 1);
+  const auto error = [&](const Names& roles) { return error_of([&] { role_map_of(body.skeleton, roles); }); };
+  EXPECT_NE(error({{"hat", "head"}}).find("no role 'hat'; the roles are root, hips"), std::string::npos);
+  EXPECT_NE(error({{"head", "Kopf"}}).find("role 'head': there is no bone 'Kopf'"), std::string::npos);
+  EXPECT_NE(error({{"head", "hip"}, {"hips", "hip"}}).find("bone 'hip' has two roles"), std::string::npos);
+}
+
+TEST(RoleMap, OfAsManyBonesAsAreAllowedIsNoError) {
+  Skeleton wide, deep;
+  for (int b = 0; b < 4096; ++b) {
+    for (Skeleton* skeleton : {&wide, &deep}) {
+      skeleton->names.push_back("foot" + std::to_string(b) + "_L");
+      skeleton->parents.push_back(b == 0 ? -1 : skeleton == &wide ? 0 : b - 1);
+      skeleton->rest_rotations.push_back(Quaternion::Identity());
+      skeleton->offsets.push_back({0.001 * b, 0, 0.1});
+      skeleton->tips.push_back({0, 0, 0.1});
+    }
+  }
+  EXPECT_NO_THROW(make_skeleton(wide));
+  EXPECT_NO_THROW(make_skeleton(deep));
+}
+
+}  // namespace
+}  // namespace fragmotion
