@@ -3,15 +3,13 @@
 
 from __future__ import annotations
 
-import bpy
+from .compat import missing
 
-from . import operators
-from .character import building, coverage_picture, inspector, staleness, storing
-from .drive import handlers, session
-from .mocap import actions
-from .operators import background, solo_class
-from .panels import menus, panel
-from .settings import keymaps, mending, preferences, properties
+_cause: missing.CoreMissing | None = None
+try:
+    from . import registering
+except missing.CoreMissing as error:
+    _cause = error
 
 bl_info = {
     "name": "Fragmotion",
@@ -23,29 +21,18 @@ bl_info = {
     "category": "Animation",
 }
 
-_CLASSES = (preferences.FragmotionPreferences, *properties.CLASSES, *operators.CLASSES, *panel.CLASSES)
-
 
 def register() -> None:
-    """Add the add-on's classes and properties to Blender."""
-    for cls in _CLASSES:
-        bpy.utils.register_class(cls)
-    properties.register()
-    for part in (mending, staleness, storing, keymaps, menus, handlers):
-        part.register()
+    """Add the add-on's classes and properties to Blender; without its core, one panel that says why."""
+    if _cause:
+        missing.register(_cause)
+    else:
+        registering.register()
 
 
 def unregister() -> None:
     """Remove all that `register` added; a build or a drive that runs is stopped."""
-    background.stop()
-    solo_class.stop()
-    session.unregister()
-    for part in (handlers, menus, keymaps, storing, staleness, mending):
-        part.unregister()
-    properties.unregister()
-    for cls in reversed(_CLASSES):
-        bpy.utils.unregister_class(cls)
-    building.forget()
-    inspector.forget()
-    coverage_picture.free()
-    actions.forget()
+    if _cause:
+        missing.unregister()
+    else:
+        registering.unregister()

@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
-import sys
 from importlib import import_module, util
+from pathlib import Path
 from types import ModuleType
+
+from .missing import CoreMissing, explain
 
 ADDON = __package__.rpartition(".")[0]
 """The add-on's package, by which Blender knows it."""
@@ -18,12 +20,7 @@ def _load() -> ModuleType:
     try:
         return import_module(f".{_NAME}", ADDON) if bundled else import_module(_NAME)
     except ImportError as error:
-        python = ".".join(str(part) for part in sys.version_info[:2])
-        raise ImportError(
-            f"Fragmotion's compiled core ({_NAME}) cannot be loaded in this Blender, which runs Python {python} on "
-            f"{sys.platform}: {error}. Fragmotion's zips are built for Python 3.11 and 3.13 on Linux x86_64: install "
-            "the one made for this Blender."
-        ) from error
+        raise CoreMissing(explain(error, Path(__file__).parents[1])) from error
 
 
 core = _load()
