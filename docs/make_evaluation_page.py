@@ -104,6 +104,26 @@ def accelerations(result: Result) -> str:
     return markdown(report.acceleration_table(result))
 
 
+def changes(result: Result) -> str:
+    """How hard, after each kind of change."""
+    return markdown(report.changes_table(result))
+
+
+def weight(result: Result) -> str:
+    """Support, turns, jumps and steps."""
+    return markdown(report.weight_table(result))
+
+
+def speeds(result: Result) -> str:
+    """How even the default policy's speeds are."""
+    return markdown(report.speeds_table(result))
+
+
+def following(result: Result) -> str:
+    """Against the command, and against what a body can do of it."""
+    return markdown(report.following_table(result))
+
+
 def stitchings(result: Result) -> str:
     """The ways to play."""
     return markdown(report.stitchings_table(result))
@@ -188,6 +208,10 @@ _MADE: dict[str, Callable[[Result], str]] = {
         limits,
         run_time,
         accelerations,
+        changes,
+        weight,
+        speeds,
+        following,
         stitchings,
         coverage,
         classes,

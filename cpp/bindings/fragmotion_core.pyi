@@ -560,7 +560,7 @@ class Pushes(Spread):
     """Share of the time in which it is more than 6 m/s^2."""
 
 class JumpMeans:
-    """The jumps of a motion: means over those in which the centre of mass rises 0.14 m or more; NaN where there are
+    """The jumps of a motion: means over those in which the centre of mass rises 0.2 m or more; NaN where there are
     none."""
 
     count: int
@@ -600,9 +600,9 @@ class MotionMeasures:
     yaw: Spread
     """rad/s^2: the change over 0.2 s of the mean turn rate over 0.2 s of where the body faces."""
     unsupported: float
-    """Share of the time in which nothing under the body can give its centre of mass the acceleration that it has: on
-    feet whose hull the zero-moment point leaves by more than 0.27 m, or in the air by more than 3 m/s^2 from falling.
-    NaN without feet."""
+    """Share of the time in which nothing under the body can give its centre of mass the acceleration that it has, which
+    is more than 3 m/s^2 from falling: on feet whose hull the zero-moment point leaves by more than 0.27 m, or in the
+    air. NaN without feet."""
     jumps: JumpMeans
     footfalls: Footfalls
     turns: Excess

@@ -17,11 +17,20 @@ import numpy as np
 import pytest
 from conftest import NAMES, OFFSETS, PARENTS, TIPS, build_options, walking_arrays
 
-from tools.evaluate import curves, inputs, loading, run_time, synthesis
+from tools.evaluate import curves, inputs, loading, run_time, synthesis, weight
 from tools.evaluate.__main__ import main
 from tools.evaluate.controllers import summarise, unseen
 from tools.evaluate.loading import Session, Sessions
-from tools.evaluate.report import Table, acceleration_table, run_time_table, text
+from tools.evaluate.report import (
+    Table,
+    acceleration_table,
+    changes_table,
+    following_table,
+    run_time_table,
+    speeds_table,
+    text,
+    weight_table,
+)
 from tools.paths import TOP
 from tools.shell import Failure
 
@@ -128,8 +137,9 @@ def test_the_json_file_is_laid_out_as_documented(run: Run) -> None:
         assert set(figures) == {"percent_of_optimal", "synthesis_seconds", "peak_bytes", "online", "run_time"}
         assert set(figures["percent_of_optimal"]) == {"mean", "sd", "min", "by_trace"}
         assert set(figures["percent_of_optimal"]["by_trace"]) == set(core.PLAYERS) == set(result["bound"])
-        assert set(figures["run_time"]) == {*run_time.FIGURES, *run_time.ACCELERATIONS, *run_time.BEYOND_PHYSICS}
+        assert set(figures["run_time"]) == set(run_time.ALL)
         assert figures["synthesis_seconds"] > 0 and figures["online"] == (name != "optimal")
+    assert set(result["takes"]) == {"count", *run_time.ACCELERATIONS, *weight.SEEN}
     assert len(result["coverage"]) == len(result["coverage_counts"]) == 102
     assert sum(result["coverage_counts"]) == result["fragments"]
     assert result["classes"] == CLASSES and result["build_seconds"] > 0
@@ -238,6 +248,9 @@ def test_every_figure_of_the_run_time_is_shown(run: Run) -> None:
     ):
         assert len(table.header) == 1 + len(figures)
         assert all(len(row) == len(table.header) for row in table.rows)
+    for make in (weight_table, following_table, changes_table, speeds_table):
+        table = make(run.result)
+        assert table.rows and all(len(row) == len(table.header) for row in table.rows)
 
 
 def test_response_beyond_physics_is_what_a_body_does_not_need(character: core.Character) -> None:
@@ -257,6 +270,114 @@ def test_accelerations_are_second_differences(character: core.Character) -> None
     assert hips.worst == pytest.approx(pushes.max(), rel=1e-4)
     assert hips.p50 == pytest.approx(np.median(pushes), rel=0.01)
     assert hips.over_6 == pytest.approx((pushes > 6).mean(), abs=1e-3)
+
+
+def limited(controls: Any, headings: Any, most: float, rate: float = 60) -> Any:
+    """Commands [F,2] of a body that faces so, whose velocity in the world changes by `most` m/s^2."""
+    going, found = np.zeros(2), []
+    for control, heading in zip(controls, headings):
+        c, s = np.cos(heading), np.sin(heading)
+        asked = np.array([c * control[0] - s * control[1], s * control[0] + c * control[1]])
+        change, length = asked - going, np.linalg.norm(asked - going)
+        going = going + change * min(1, most / rate / length if length > 0 else 1)
+        found.append((c * going[0] + s * going[1], c * going[1] - s * going[0]))
+    return np.array(found)
+
+
+def turned(vectors: Any, angles: Any) -> Any:
+    c, s = np.cos(angles), np.sin(angles)
+    return np.stack([c * vectors[:, 0] - s * vectors[:, 1], s * vectors[:, 0] + c * vectors[:, 1]], 1)
+
+
+def test_what_is_followed_is_what_a_body_can_do(character: core.Character) -> None:
+    """NumPy's limited command, and the path to which it leads, beside the core's."""
+    space, rate = character.space, 60
+    trace = core.simulate_trace("walker", 20, 3, space)
+    performance = core.Player(character, 1).run(trace, rate)
+    path, frames, most = performance.frames, len(performance.frames), 5 / space.scale
+    controls = trace[
+        np.minimum((np.maximum(0, np.arange(1, frames) - 1) / rate * 10 + 1e-9).astype(int), len(trace) - 1)
+    ]
+    able = limited(controls, path[1:, 2], most)
+    slopes = []
+    for f in range(1, frames):
+        around = np.arange(max(0, f - 15), min(frames - 1, f + 15) + 1)
+        slopes.append(np.polyfit(around, path[around, :2], 1)[0] * rate)
+    seen = turned(np.array(slopes), -path[1:, 2])
+    assert performance.velocity_error_limited == pytest.approx(np.linalg.norm(seen - able, axis=1).mean(), rel=1e-6)
+
+    for limit, drift, drift_heading in (
+        (most, performance.drift_limited, performance.drift_heading_limited),
+        (np.inf, performance.drift, performance.drift_heading),
+    ):
+        angle = controls[:, 2] * space.turn_rate / rate
+        headings = np.concatenate([[0], np.cumsum(angle)])
+        exact = limited(controls, headings[:-1], limit)
+        places = np.concatenate([[[0, 0]], np.cumsum(turned(exact, headings[:-1] + angle / 2) / rate, 0)])
+        span, off = 2 * rate, path[:, 2] - headings
+        led = turned(places[span:] - places[:-span], off[:-span])
+        away = np.linalg.norm(path[span:, :2] - path[:-span, :2] - led, axis=1)
+        assert drift == pytest.approx(away.mean() / 2, rel=1e-6)
+        assert drift_heading == pytest.approx(np.abs(off[span:] - off[:-span]).mean(), rel=1e-6)
+
+
+def test_weight_is_that_of_the_performances(run: Run, character: core.Character) -> None:
+    traces = [trace(run, "test", test) for test in run.result["test"]]
+    played = [core.Player(character, SEED + i, policy="iterate").run(t, 60) for t in traces for i in range(3)]
+    yardstick = core.MotionMetrics(character)
+    measured = [yardstick.of(p) for p in played]
+    figures, takes = run.result["controllers"]["iterate"]["run_time"], run.result["takes"]
+    assert figures["unsupported"] == pytest.approx(np.mean([m.unsupported for m in measured]))
+    assert 0 <= figures["unsupported"] <= 1 and takes["unsupported"] == yardstick.takes.unsupported
+    steps = sum(m.footfalls.count for m in measured)
+    assert figures["same_foot"] == pytest.approx(sum(m.footfalls.same_foot for m in measured) / steps)
+    assert figures["quick_steps"] == pytest.approx(sum(m.footfalls.quick for m in measured) / steps)
+    assert figures["yaw_acceleration_max"] == pytest.approx(np.degrees(max(m.yaw.worst for m in measured)))
+    commanded = np.mean([p.commanded_speed for p in played])
+    limited_error = np.mean([p.velocity_error_limited for p in played])
+    assert figures["velocity_error_limited"] == pytest.approx(100 * limited_error / commanded)
+    assert figures["drift"] == figures["drift_percent"]
+    assert figures["drift_heading"] == pytest.approx(np.degrees(np.mean([p.drift_heading for p in played])))
+
+
+def test_dips_are_beside_the_takes_where_these_jump(run: Run) -> None:
+    """The made takes do not."""
+    figures, takes = run.result["controllers"]["anticipate"]["run_time"], run.result["takes"]
+    assert takes["jump_dip"] is None and takes["flight_time_ratio"] is None
+    assert figures["jump_dip_ratio"] is None and figures["landing_dip_ratio"] is None
+    assert weight_table(run.result).rows[0][0] == "the takes" and "-" in weight_table(run.result).rows[0]
+    assert weight.ratio(0.3, 0.6) == 0.5 and weight.ratio(0.3, 0) is None and weight.ratio(None, 1.0) is None
+
+
+def test_trials_are_the_players(run: Run, character: core.Character) -> None:
+    seeds = [SEED, SEED + 1, SEED + 2]
+    figures = run.result["controllers"]["greedy"]["run_time"]
+    times = [core.about_face_times(character, seed, policy="greedy") for seed in seeds]
+    assert figures["about_face_s"] == pytest.approx(np.mean(times))
+    rows = [core.speed_ripples(character, seed, policy="greedy") for seed in seeds]
+    assert [row["speed"] for row in figures["speed_ripple"]] == [0.5, 1, 1.5, 2, 2.5, 3]
+    for i, row in enumerate(figures["speed_ripple"]):
+        assert row["mean"] * row["speed"] == pytest.approx(np.mean([some[i].speed for some in rows]))
+        assert row["ripple"] == pytest.approx(np.mean([some[i].ripple for some in rows]))
+        assert row["takes_ripple"] == rows[0][i].takes_ripple and row["takes_speed"] == rows[0][i].takes_speed
+    ratios = [row["ripple"] / row["takes_ripple"] for row in figures["speed_ripple"] if row["takes_ripple"] > 0]
+    assert figures["speed_ripple_ratio"] == (pytest.approx(np.mean(ratios)) if ratios else None)
+    pushes = [core.change_pushes(character, seed, policy="greedy") for seed in seeds]
+    assert set(figures["acceleration_by_change"]) == {"start", "stop", "reverse", "turn", "gait"}
+    for kind, found in figures["acceleration_by_change"].items():
+        assert found["max"] == max(some[kind].worst for some in pushes)
+        assert found["p99"] == pytest.approx(np.mean([some[kind].p99 for some in pushes]))
+
+
+def test_a_quick_run_has_the_same_figures(run: Run, takes: Path, tmp_path: Path, capsys: Any) -> None:
+    saved = run.folder / "figures" / "traces"
+    train = [saved / "train" / f"{name}.csv" for name in run.result["train"]]
+    test = [saved / "test" / f"{name}.csv" for name in run.result["test"]]
+    quick = evaluate(takes, tmp_path, "--quick", "--train", *train, "--test", *test).result
+    assert quick["takes"] == run.result["takes"]
+    assert quick["controllers"]["anticipate"]["run_time"] == run.result["controllers"]["anticipate"]["run_time"]
+    shown = capsys.readouterr().out
+    assert all(key in shown for key in run_time.ALL if key not in ("speed_ripple", "acceleration_by_change"))
 
 
 def without_costs(value: Any) -> Any:
@@ -388,6 +509,11 @@ BAD: list[tuple[Callable[[Path], list[str | Path]], str]] = [
     (namesakes, "2 traces are called p"),
     (lambda folder: [folder / "take.bvh", "--classes", "0"], "--classes is 0"),
     (lambda folder: [folder / "take.bvh", "--classes", "5000"], "5000"),
+    (lambda folder: [folder / "take.bvh", "--responsiveness", "1.5"], "--responsiveness is 1.5"),
+    (
+        lambda folder: [folder / "take.bvh", "--quick", "--figures", folder / "f"],
+        "--figures draws what --quick does not",
+    ),
     (lambda folder: [folder / "take.bvh", "--json", folder / "take.bvh" / "x.json"], "take.bvh: not a folder"),
     (lambda folder: [folder / "a.blend", folder / "take.bvh"], "a.blend: a .blend has its own rig"),
 ]

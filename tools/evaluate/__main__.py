@@ -13,7 +13,7 @@ from pathlib import Path
 
 from tools.evaluate import figures, inputs, report
 from tools.evaluate.loading import make_sessions, read_recordings, save_sessions
-from tools.evaluate.measuring import Result, measure
+from tools.evaluate.measuring import Result, measure, measure_quickly
 from tools.shell import Failure, say
 
 
@@ -22,9 +22,10 @@ def evaluate(options: argparse.Namespace) -> None:
     inputs.check(options)
     recordings = read_recordings(options.mocap, options.unit)
     sessions = make_sessions(options, recordings)
-    result = measure(recordings, sessions, options)
-    say(f"\n{report.summary(result)}")
-    for table in report.tables(result):
+    result = (measure_quickly if options.quick else measure)(recordings, sessions, options)
+    if not options.quick:
+        say(f"\n{report.summary(result)}")
+    for table in report.quick_tables(result) if options.quick else report.tables(result):
         say(f"\n{report.text(table)}")
     if options.json:
         save(result, options.json)

@@ -43,6 +43,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--no-curves", action="store_true", help="leave out quality against classes and minutes, which takes longest"
     )
+    parser.add_argument(
+        "--quick", action="store_true", help="only the default policy at run time beside the takes: takes seconds"
+    )
+    parser.add_argument(
+        "--responsiveness", type=float, default=0.5, metavar="R", help="of the player, 0 to 1 (default 0.5)"
+    )
 
 
 def check(options: argparse.Namespace) -> None:
@@ -53,6 +59,10 @@ def check(options: argparse.Namespace) -> None:
         raise Failure(f"--seed is {options.seed}, and must be 0 or more")
     if not options.unit > 0:
         raise Failure(f"--unit is {options.unit:g}, and must be over 0")
+    if not 0 <= options.responsiveness <= 1:
+        raise Failure(f"--responsiveness is {options.responsiveness:g}, and must be 0 to 1")
+    if options.quick and options.figures:
+        raise Failure("--figures draws what --quick does not measure: leave one of them out")
     find_takes(options.mocap)
     for traces in (options.train, options.test):
         _check_traces(traces or [])

@@ -26,10 +26,25 @@ def measure(recordings: Recordings, sessions: Sessions, options: argparse.Namesp
     say(f"building a character from {len(recordings.clips)} takes, taught by {teacher.name}")
     character = build(recordings, teacher, options.classes, options.seed, [DEFAULT, *TABLES[:-1]])
     result = _describe(character, recordings, sessions, options)
-    result.update(_measure_controllers(character, sessions, options.seed))
+    result.update(_measure_controllers(character, sessions, options))
     if not options.no_curves:
         result.update(_measure_curves(recordings, sessions, character, options))
     return result
+
+
+def measure_quickly(recordings: Recordings, sessions: Sessions, options: argparse.Namespace) -> Result:
+    """The default policy's run time and the takes' figures alone, where `measure` has them."""
+    character = build(recordings, sessions.train[0], options.classes, options.seed, [DEFAULT])
+    played = run_time.measure_run_time(
+        character, [DEFAULT], sessions.test, options.seed, responsiveness=options.responsiveness
+    )
+    return {
+        "default": DEFAULT,
+        "seed": options.seed,
+        "responsiveness": options.responsiveness,
+        "takes": {"count": len(recordings.clips), **run_time.of_takes(character)},
+        "controllers": {DEFAULT: {"run_time": _without(played[DEFAULT], "by_trace")}},
+    }
 
 
 def _describe(
@@ -38,7 +53,8 @@ def _describe(
     return {
         "default": DEFAULT,
         "seed": options.seed,
-        "takes": {"count": len(recordings.clips), **run_time.accelerations([core.MotionMetrics(character).takes])},
+        "responsiveness": options.responsiveness,
+        "takes": {"count": len(recordings.clips), **run_time.of_takes(character)},
         "fragments": len(character.labels),
         "captured": int(character.report["captured"]),
         "classes": len(character.representatives),
@@ -77,19 +93,21 @@ def _describe_space(space: core.ControlSpace) -> Result:
     }
 
 
-def _measure_controllers(character: core.Character, sessions: Sessions, seed: int) -> Result:
+def _measure_controllers(character: core.Character, sessions: Sessions, options: argparse.Namespace) -> Result:
     factors = factors_of(character)
     say("synthesis: time and memory of each controller")
     synthesis = measure_synthesis(factors, sessions.train[0], sessions.test[0])
     say("quality: every session learned from against every test")
     quality = measure_quality(factors, sessions)
     say("run time: playing every test")
-    played = run_time.measure_run_time(character, TABLES, sessions.test, seed)
+    played = run_time.measure_run_time(
+        character, TABLES, sessions.test, options.seed, responsiveness=options.responsiveness
+    )
     return {
         "controllers": {name: _controller(name, quality, synthesis, played) for name in CONTROLLERS},
         "adaptability": {name: _without(quality[name], "by_trace") for name in TABLES},
         "bound": measure_bound(factors, sessions.test),
-        "stitchings": run_time.measure_stitchings(character, sessions.test, seed),
+        "stitchings": run_time.measure_stitchings(character, sessions.test, options.seed),
         "run_time_by_trace": {name: played[name]["by_trace"] for name in TABLES},
     }
 

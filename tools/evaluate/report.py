@@ -150,6 +150,82 @@ def acceleration_table(result: Result) -> Table:
     return Table(heading, ["", *(head for head, _ in _ACCELERATIONS)], rows)
 
 
+_WEIGHT: tuple[tuple[str, Callable[[Result], str]], ...] = (
+    ("unsupported, %", lambda r: number(_percent(r["unsupported"]), 2)),
+    ("yaw p50, deg/s\u00b2", lambda r: number(r["yaw_acceleration_p50"], 0)),
+    ("p99", lambda r: number(r["yaw_acceleration_p99"], 0)),
+    ("p99.9", lambda r: number(r["yaw_acceleration_p999"], 0)),
+    ("greatest", lambda r: number(r["yaw_acceleration_max"], 0)),
+    ("dip before a jump, m", lambda r: number(r["jump_dip"], 2)),
+    ("x takes'", lambda r: number(r.get("jump_dip_ratio"), 2)),
+    ("dip after it, m", lambda r: number(r["landing_dip"], 2)),
+    ("x takes'", lambda r: number(r.get("landing_dip_ratio"), 2)),
+    ("flight, x ballistic", lambda r: number(r["flight_time_ratio"], 2)),
+    ("same foot, %", lambda r: number(_percent(r["same_foot"]))),
+    ("quick steps, %", lambda r: number(_percent(r["quick_steps"]))),
+    ("speed ripple, x takes'", lambda r: number(r.get("speed_ripple_ratio"), 2)),
+    ("about-face, s", lambda r: number(r.get("about_face_s"), 2)),
+)
+
+
+def weight_table(result: Result) -> Table:
+    """What else tells a body's weight, beside the takes."""
+    played = {title(name, result): each["run_time"] for name, each in result["controllers"].items() if each["online"]}
+    rows = [
+        [name, *(cell(figures) for _, cell in _WEIGHT)]
+        for name, figures in {"the takes": result["takes"], **played}.items()
+    ]
+    return Table("Weight: support, turns, jumps and steps", ["", *(head for head, _ in _WEIGHT)], rows)
+
+
+_FOLLOWING: tuple[tuple[str, Callable[[Result], str]], ...] = (
+    ("velocity error, %", lambda r: number(r["velocity_error_percent"])),
+    ("drift, %", lambda r: number(r["drift"])),
+    ("heading, deg", lambda r: number(r["drift_heading"])),
+    ("limited: velocity error, %", lambda r: number(r["velocity_error_limited"])),
+    ("drift, %", lambda r: number(r["drift_limited"])),
+    ("heading, deg", lambda r: number(r["drift_heading_limited"])),
+)
+
+
+def following_table(result: Result) -> Table:
+    """How well the command is followed, and the command as a body can follow it."""
+    rows = [
+        [title(name, result), *(cell(figures["run_time"]) for _, cell in _FOLLOWING)]
+        for name, figures in result["controllers"].items()
+        if figures["online"]
+    ]
+    heading = "Following the command, and the command limited to 5 m/s\u00b2"
+    return Table(heading, ["controller", *(head for head, _ in _FOLLOWING)], rows)
+
+
+def changes_table(result: Result) -> Table:
+    """The default policy's accelerations after each kind of change."""
+    found = result["controllers"][result["default"]]["run_time"]["acceleration_by_change"]
+    rows = [
+        [kind, *(number(each[key], 2) for key in ("p50", "p99", "p999", "max")), number(100 * each["over_6"], 2)]
+        for kind, each in found.items()
+    ]
+    heading = "Acceleration of the centre of mass within 1.5 s of a change of the command, m/s\u00b2"
+    return Table(heading, ["change", "p50", "p99", "p99.9", "greatest", "over 6, %"], rows)
+
+
+def speeds_table(result: Result) -> Table:
+    """The default policy's speeds at commands held."""
+    rows = [
+        [
+            number(row["speed"]),
+            number(100 * row["mean"]),
+            number(row["ripple"], 3),
+            number(row["takes_ripple"], 3),
+            number(row["takes_speed"], 2),
+        ]
+        for row in result["controllers"][result["default"]]["run_time"]["speed_ripple"]
+    ]
+    header = ["commanded, m/s", "reached, %", "ripple, m/s", "takes' ripple, m/s", "at their speed, m/s"]
+    return Table("Speeds at commands held", header, rows)
+
+
 _STITCHINGS: tuple[tuple[str, Callable[[Result], str]], ...] = (
     ("foot skate, m/s", lambda r: number(r["foot_skate"], 3)),
     ("sliding, %", lambda r: number(100 * r["sliding_share"])),
@@ -226,11 +302,28 @@ def tables(result: Result) -> Iterable[Table]:
     """All tables that the run has figures for."""
     for make in (synthesis_table, trace_table, adaptability_table, matrix_table, run_time_table, acceleration_table):
         yield make(result)
-    yield stitchings_table(result)
-    yield coverage_table(result)
+    for make in (changes_table, weight_table, speeds_table, following_table, stitchings_table, coverage_table):
+        yield make(result)
     if "classes_curve" in result:
         yield classes_table(result)
         yield minutes_table(result)
+
+
+def figures_table(result: Result) -> Table:
+    """Every figure of the default policy's run time that is a number, by its name in the JSON file."""
+    played = result["controllers"][result["default"]]["run_time"]
+    rows = [
+        [key, number(result["takes"].get(key), 4), number(figure, 4)]
+        for key, figure in played.items()
+        if not isinstance(figure, (dict, list))
+    ]
+    return Table("The player at 60 frames a second", ["", "the takes", title(result["default"], result)], rows)
+
+
+def quick_tables(result: Result) -> Iterable[Table]:
+    """What `--quick` measures."""
+    for make in (figures_table, changes_table, speeds_table):
+        yield make(result)
 
 
 def text(table: Table) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 import fragmotion_core as core
 import numpy as np
 
+from tools.evaluate import weight
 from tools.evaluate.loading import Session
 
 RATE = 60.0  # frames a second
@@ -40,13 +41,17 @@ ACCELERATIONS = (
     "hips_acceleration_over_6",
     "hips_acceleration_max",
 )
+FOLLOWING = ("velocity_error_limited", "drift", "drift_heading", "drift_limited", "drift_heading_limited")
 BEYOND_PHYSICS = ("response_beyond_physics_p50_s", "response_beyond_physics_p95_s")
 _BODY = 5.0  # m/s^2 by which a body of 1.8 m can change its velocity
 
 
+ALL = (*FIGURES, *FOLLOWING, *ACCELERATIONS, *BEYOND_PHYSICS, *weight.SEEN, *weight.RATIOS, *weight.TRIALS)
+
+
 def no_figures() -> dict[str, float | None]:
     """Optimal's run time: it is the yardstick, and cannot be played."""
-    return {**dict.fromkeys((*FIGURES, *ACCELERATIONS, *BEYOND_PHYSICS)), "percent_of_optimal": 100.0}
+    return {**dict.fromkeys(ALL), "percent_of_optimal": 100.0}
 
 
 def best_qualities(character: core.Character, sessions: Sequence[Session]) -> list[float]:
@@ -55,12 +60,13 @@ def best_qualities(character: core.Character, sessions: Sequence[Session]) -> li
 
 
 def play(
-    character: core.Character, policy: str, sessions: Sequence[Session], seed: int
+    character: core.Character, policy: str, sessions: Sequence[Session], seed: int, **options: Any
 ) -> list[list[core.Performance]]:
     """Performances [session][player]."""
     seeds = range(seed, seed + PLAYERS)
     return [
-        [core.Player(character, s, policy=policy).run(session.controls, RATE) for s in seeds] for session in sessions
+        [core.Player(character, s, policy=policy, **options).run(session.controls, RATE) for s in seeds]
+        for session in sessions
     ]
 
 
@@ -69,28 +75,54 @@ def errors(performances: list[list[core.Performance]]) -> dict[str, float | None
     the root's drift from the exact path (percent of the mean commanded speed)."""
     every = [performance for some in performances for performance in some]
     velocity = statistics.fmean(p.velocity_error for p in every)
-    drift = statistics.fmean(p.drift for p in every)
-    speed = statistics.fmean(p.commanded_speed for p in every)
     return {
         "velocity_error": velocity,
-        "velocity_error_percent": 100 * velocity / speed if speed > 0 else None,
-        "drift_percent": 100 * drift / speed if speed > 0 else None,
+        "velocity_error_percent": _percent_of_commanded(every, velocity),
+        "drift_percent": _percent_of_commanded(every, statistics.fmean(p.drift for p in every)),
         "turn_error": math.degrees(statistics.fmean(p.turn_error for p in every)),
         "jump_error": statistics.fmean(p.jump_error for p in every),
     }
 
 
-def looks(yardstick: core.MotionMetrics, performances: list[list[core.Performance]]) -> dict[str, float]:
+def following(performances: list[list[core.Performance]]) -> dict[str, float | None]:
+    """Drift in two seconds (percent of the commanded way, and degrees of heading), and velocity error (percent) and
+    drift against the command as a body can follow it, which is limited to 5 m/s^2 of a 1.8 m character."""
+    every = [performance for some in performances for performance in some]
+    return {
+        "velocity_error_limited": _percent_of_commanded(
+            every, statistics.fmean(p.velocity_error_limited for p in every)
+        ),
+        "drift": _percent_of_commanded(every, statistics.fmean(p.drift for p in every)),
+        "drift_heading": math.degrees(statistics.fmean(p.drift_heading for p in every)),
+        "drift_limited": _percent_of_commanded(every, statistics.fmean(p.drift_limited for p in every)),
+        "drift_heading_limited": math.degrees(statistics.fmean(p.drift_heading_limited for p in every)),
+    }
+
+
+def _percent_of_commanded(every: Sequence[core.Performance], speed: float) -> float | None:
+    commanded = statistics.fmean(p.commanded_speed for p in every)
+    return 100 * speed / commanded if commanded > 0 else None
+
+
+def looks(yardstick: core.MotionMetrics, performances: list[list[core.Performance]]) -> dict[str, float | None]:
     """Foot skate over the takes' own, the worst joint step at a stitch over the takes' 99.9th percentile (of places, a
-    frame), the share of the time on the ground in which a foot slides, and turns beyond the takes' limits."""
+    frame), the share of the time on the ground in which a foot slides, accelerations and what else tells a body's
+    weight, and turns beyond the takes' limits."""
     takes, every = yardstick.takes, [yardstick.of(p) for some in performances for p in some]
     return {
         "foot_skate_ratio": statistics.fmean(m.foot_skate for m in every) / max(takes.foot_skate, _STILL),
         "joint_step_ratio": max(m.positions.worst for m in every) / max(takes.positions.p999, _STILL),
         "sliding_contact_share": statistics.fmean(m.sliding_share for m in every),
         **accelerations(every),
+        **weight.beside_takes(yardstick, every),
         **_turns(every),
     }
+
+
+def of_takes(character: core.Character) -> dict[str, float | None]:
+    """The figures that takes have, too, of the captured ones."""
+    takes = [core.MotionMetrics(character).takes]
+    return {**accelerations(takes), **weight.seen(takes)}
 
 
 def accelerations(measured: Sequence[core.MotionMeasures]) -> dict[str, float]:
@@ -181,20 +213,23 @@ def _look(measured: Sequence[core.MotionMeasures], joint_step: float) -> dict[st
 
 
 def measure_run_time(
-    character: core.Character, policies: Sequence[str], sessions: Sequence[Session], seed: int
+    character: core.Character, policies: Sequence[str], sessions: Sequence[Session], seed: int, **options: Any
 ) -> dict[str, dict[str, Any]]:
-    """Each policy's figures, the percent of Optimal for each session among them as `by_trace`."""
+    """Each policy's figures, the percent of Optimal for each session among them as `by_trace`; `options` are the
+    player's."""
     best = best_qualities(character, sessions)
-    yardstick = core.MotionMetrics(character)
+    yardstick, seeds = core.MotionMetrics(character), range(seed, seed + PLAYERS)
     found: dict[str, dict[str, Any]] = {}
     for policy in policies:
-        played = play(character, policy, sessions, seed)
+        played = play(character, policy, sessions, seed, **options)
         percent = [100 * statistics.fmean(p.quality for p in some) / top for some, top in zip(played, best)]
         found[policy] = {
             "percent_of_optimal": statistics.fmean(percent),
             **errors(played),
-            **responses(character, range(seed, seed + PLAYERS), policy=policy),
+            **following(played),
+            **responses(character, seeds, policy=policy, **options),
             **looks(yardstick, played),
+            **weight.trials(character, seeds, policy=policy, **options),
             "by_trace": dict(zip((session.name for session in sessions), percent)),
         }
     return found

@@ -32,9 +32,10 @@ class Motion(NamedTuple):
 
     def acceleration(self, frame: int) -> core.Doubles:
         """Of the hips over the ground [3], m/s^2, as the character frame of the first pose sees it: the change over
-        0.2 s of a velocity over 0.2 s, of which the frame is the middle."""
+        0.2 s of a velocity over 0.2 s, of which the frame is the middle, or the nearest that has as much around it."""
         apart = round(_PUSH * self.rate)
-        before, now, after = self.roots[np.clip([frame - apart, frame, frame + apart], 0, len(self.roots) - 1)]
+        middle = min(max(frame, apart), len(self.roots) - 1 - apart)
+        before, now, after = self.roots[[middle - apart, middle, middle + apart]]
         x, y, _ = (after - 2 * now + before) / _PUSH**2
         cosine, sine = np.cos(self.frames[0, 2]), np.sin(self.frames[0, 2])
         return np.array([cosine * x + sine * y, cosine * y - sine * x, 0])

@@ -27,6 +27,8 @@ WIDTH, MARGIN, DPI = 1500, 20, 100  # pixels
 INNER = WIDTH - 2 * MARGIN
 STRIP, AXIS, PLAN, LINE = 245, 26, 210, 20  # pixels, heights
 INTERVAL = 0.5  # s between moments, about
+FEWEST = 10  # moments: with fewer the bodies would be higher than their row
+LARGEST = 150.0  # pixels a metre, from above
 ROOM = 0.62  # statures that a moment is wide
 LEFT, RIGHT, SLIDES, INK, FAINT = "#0b7d9c", "#d3691f", "#e0003c", "#222222", "#9a9a9a"
 PUSHES, PUSHED = "#2c9440", SLIDES
@@ -74,7 +76,7 @@ def _write(figure: Figure, tall: float, top: float, text: str, **how: Any) -> No
 
 def _draw_row(figure: Figure, tall: float, top: float, row: Row, actor: Actor, duration: float) -> None:
     """The moments over a line of time with the stitches."""
-    count = round(duration / INTERVAL) + 1
+    count = max(FEWEST, round(duration / INTERVAL) + 1)
     interval = duration / (count - 1)
     motion = row.motion
     times = [k * interval for k in range(count) if k * interval <= motion.seconds + 1e-6]
@@ -121,7 +123,7 @@ def _seen_from_above(motion: Motion, feet: Feet) -> NDArray[np.float64]:
 def _scale(plan: NDArray[np.float64]) -> float:
     """Pixels a metre."""
     wide, deep = plan.max(axis=(0, 1))
-    return float(min(INNER / (wide + 0.4), PLAN / (deep + 0.3)))
+    return float(min(INNER / (wide + 0.4), PLAN / (deep + 0.3), LARGEST))
 
 
 def _height(plan: NDArray[np.float64], scale: float) -> float:

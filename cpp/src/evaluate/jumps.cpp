@@ -8,10 +8,10 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLow = 0.045, kRise = 0.14;  // m
-constexpr double kAround = 0.5;               // s
-constexpr double kGravity = 9.81;             // m/s^2
-constexpr double kShortest = 0.05;            // s
+constexpr double kLow = 0.045, kRise = 0.2;  // m
+constexpr double kAround = 0.5;              // s
+constexpr double kGravity = 9.81;            // m/s^2
+constexpr double kShortest = 0.05;           // s
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double median_height(const std::vector<BodyTrack>& tracks, std::vector<Vector3> BodyTrack::*path) {

@@ -8,7 +8,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kAround = 0.1;       // s to each side, which an acceleration is of
+constexpr double kAround = 0.125;     // s to each side, which an acceleration is of
 constexpr double kGravity = 9.81;     // m/s^2
 constexpr double kTolerance = 3;      // m/s^2
 constexpr double kFootLength = 0.27;  // m
@@ -88,8 +88,8 @@ Places standing_points(const BodyTrack& track, int first, int last) {
 
 // Whether a force for each kg of a body whose centre is at `center`, over a ground at 0, can come from the hull.
 bool bears(const Places& hull, const Vector3& center, const Vector3& force) {
-  if (hull.empty()) return force.norm() <= kTolerance;
-  if (force.z() <= 0) return force.z() >= -kTolerance && force.head<2>().norm() <= kTolerance;
+  if (force.norm() <= kTolerance) return true;
+  if (hull.empty() || force.z() <= 0) return false;
   const Vector2 zero_moment = center.head<2>() - center.z() / force.z() * force.head<2>();
   return distance_to_hull(zero_moment, hull) <= kFootLength;
 }

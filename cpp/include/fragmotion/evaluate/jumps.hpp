@@ -15,7 +15,7 @@ struct UsualHeights {
 UsualHeights usual_heights(const std::vector<BodyTrack>& tracks);
 
 /// A time in which neither ball nor heel of either foot is within 4.5 cm of its floor, and the centre of mass rises
-/// 0.14 m or more over its usual height (half of a jump's Ev, evident.hpp).
+/// 0.2 m or more over its usual height: a whole jump by Ev (evident.hpp), and more than a bouncy run.
 struct Jump {
   int take_off = 0;        ///< The last frame before it.
   int landing = 0;         ///< The first frame after it.

@@ -14,13 +14,13 @@ struct Support {
   void add(const Support& other);
 };
 
-/// Whether the ground can give the acceleration of the centre of mass, which is that of the parabola that fits the
-/// fifth of a second around a frame best. On feet that stand at any time of that fifth it cannot where the zero-moment
-/// point of a body whose mass is at its centre, c - (a_x, a_y) height / (a_z + g), is more than 0.27 m, a foot's
-/// length, outside the convex hull of their balls and heels, and where it pulls: a_z + g < -3 m/s^2. Where none stands,
-/// balls and heels within 4.5 cm of their floor count as standing; where there are none either, the body is in the air,
-/// and any acceleration further than 3 m/s^2 from falling is unsupported. Nothing is judged without feet, or nearer
-/// than a tenth of a second to an end.
+/// Whether the ground can give the acceleration (a_x, a_y, a_z) of the centre of mass c, which is that of the parabola
+/// that fits the quarter of a second around a frame best. It can where the body all but falls, within 3 m/s^2; and on
+/// feet that stand at any time of that quarter where it pushes, a_z > -g, and the zero-moment point of a body whose
+/// mass is at its centre, c - (a_x, a_y) height / (a_z + g), is no more than 0.27 m, a foot's length, outside the
+/// convex hull of their balls and heels. Where none stands, balls and heels within 4.5 cm of their floor count as
+/// standing; where there are none either, the body is in the air. Nothing is judged without feet, or within an eighth
+/// of a second of an end.
 Support find_support(const BodyTrack& track);
 
 }  // namespace fragmotion
