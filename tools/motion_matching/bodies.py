@@ -157,7 +157,8 @@ def facing(body: Body, rotations: Array) -> Array:
 
 def derived(values: Array) -> Array:
     """Central differences a second along axis 0."""
-    return np.gradient(values, axis=0) * RATE
+    differences: Array = np.gradient(values, axis=0) * RATE
+    return differences
 
 
 def motion_of(body: Body, clip: core.Clip) -> Motion:

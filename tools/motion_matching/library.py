@@ -208,4 +208,5 @@ def _contacts(library: Library, constants: Constants) -> Array:
     limit = constants.contact_speed + constants.contact_share * frames.hips_speed[:, None]
     stands = (frames.ball_speed < limit) & (frames.ball_height < constants.contact_height)
     takes = np.split(stands.astype(np.uint8), np.flatnonzero(np.diff(library.take)) + 1)
-    return np.concatenate([median_filter(take, size=(_CONTACT_WINDOW, 1)) for take in takes]).astype(bool)
+    filtered: Array = np.concatenate([median_filter(take, size=(_CONTACT_WINDOW, 1)) for take in takes])
+    return filtered.astype(bool)

@@ -57,7 +57,8 @@ def to_vector(rotation: Array) -> Array:
     rotation = np.where(rotation[..., :1] < 0, -rotation, rotation)
     sine = np.linalg.norm(rotation[..., 1:], axis=-1, keepdims=True)
     angle = 2 * np.arctan2(sine, rotation[..., :1])
-    return np.where(sine > _STILL, angle / np.maximum(sine, _STILL), 2.0) * rotation[..., 1:]
+    vector: Array = np.where(sine > _STILL, angle / np.maximum(sine, _STILL), 2.0) * rotation[..., 1:]
+    return vector
 
 
 def of_vector(vector: Array) -> Array:
@@ -83,7 +84,8 @@ def continuous(rotations: Array) -> Array:
     """Along axis 0, each on the side of the one before."""
     signs = np.where(np.sum(rotations[1:] * rotations[:-1], -1) < 0, -1.0, 1.0)
     signs = np.concatenate((np.ones((1, *signs.shape[1:])), np.cumprod(signs, 0)))
-    return rotations * signs[..., None]
+    sides: Array = rotations * signs[..., None]
+    return sides
 
 
 def turned(vectors: Array, angle: Array) -> Array:

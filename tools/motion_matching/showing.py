@@ -81,7 +81,8 @@ def _pull(vectors: Array, most: Array | float) -> Array:
     """What brings vectors [N,2] to a length of `most` where they are longer."""
     length = np.linalg.norm(vectors, axis=1)
     factor = np.where(length > most, most / np.maximum(length, 1e-12) - 1, 0.0)
-    return vectors * factor[:, None]
+    pull: Array = vectors * factor[:, None]
+    return pull
 
 
 class PoseTrack:
