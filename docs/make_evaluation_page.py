@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Fill docs/evaluation.md with the figures of a run of `dev.py evaluate`: all between <!-- made: NAME --> and
-<!-- end --> is written anew.
+"""Fill docs/evaluation.md with the figures of a run of `dev.py evaluate` and one of `dev.py beside`: all between
+<!-- made: NAME --> and <!-- end --> is written anew.
 
-python3 docs/make_evaluation_page.py [JSON]    (default: docs/evaluation/evaluation.json)
+python3 docs/make_evaluation_page.py [JSON]    (default: docs/evaluation/evaluation.json; beside.json lies beside it)
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from typing import Any
 DOCS = Path(__file__).resolve().parent
 sys.path.insert(0, str(DOCS.parent))
 
+from tools.beside.table import beside_table  # noqa: E402
 from tools.evaluate import report  # noqa: E402
 from tools.evaluate.report import Table, number  # noqa: E402
 
@@ -191,6 +192,11 @@ def _share(share: float) -> str:
     return f"{100 * share:.0f} %"
 
 
+def beside(result: Result) -> str:
+    """The character beside motion matching."""
+    return markdown(beside_table(result["beside"]))
+
+
 def visited(result: Result) -> str:
     """How little one session shows."""
     counts = [session["visited"] for session in result["sessions"]["train"].values()]
@@ -219,13 +225,14 @@ _MADE: dict[str, Callable[[Result], str]] = {
         synthesis,
         players,
         visited,
+        beside,
     )
 }
 
 
 def main(path: Path) -> None:
     """Write the page."""
-    result = json.loads(path.read_text())
+    result = {**json.loads(path.read_text()), "beside": json.loads(path.with_name("beside.json").read_text())}
     text = _BLOCK.sub(lambda match: f"{match[1]}\n{_MADE[match[2]](result)}\n\n{match[3]}", PAGE.read_text())
     PAGE.write_text(text)
     print(f"{PAGE}: {len(_BLOCK.findall(text))} places filled from {path}")
