@@ -34,16 +34,22 @@ def test_roles_have_bones_and_confidences() -> None:
     assert all(0.5 <= confidence <= 1 for _, confidence in roles.values())
 
 
-def test_motion_and_shape_tell_what_names_do_not() -> None:
-    files = sorted(BANDAI.glob("*walk_normal*.bvh"))
+def test_motion_and_shape_tell_most_of_what_names_do_and_nothing_wrong() -> None:
+    """The heads of these files are no longer than their necks, and a runner's feet hardly tell the sides."""
+    files = sorted(BANDAI.glob("*_001.bvh"))
     if not files:
         pytest.skip(f"no motion capture at {BANDAI}")
-    take = core.read_bvh(files[0])
-    truth = {role: bone for role, (bone, _) in take.skeleton.role_map().items()}
-    heads, _ = take.world_transforms()
-    told = renamed(take.skeleton).role_map(heads)
-    index = {name: number for number, name in enumerate(take.skeleton.names)}
-    assert {role: NAMELESS.index(bone) for role, (bone, _) in told.items()} == {r: index[b] for r, b in truth.items()}
+    right, roles = 0, 0
+    for path in files:
+        take = core.read_bvh(path)
+        names = take.skeleton.names
+        truth = {role: names.index(bone) for role, (bone, _) in take.skeleton.role_map().items()}
+        heads, _ = take.world_transforms()
+        told = {role: NAMELESS.index(bone) for role, (bone, _) in renamed(take.skeleton).role_map(heads).items()}
+        assert {role: truth[role] for role in told} == told, path.name
+        right += len(told)
+        roles += len(truth)
+    assert right >= 0.6 * roles, f"{right} of {roles}"
 
 
 def test_heads_of_another_shape_are_refused() -> None:

@@ -9,20 +9,22 @@
 namespace fragmotion {
 namespace {
 
-// Lengths are shares of the longest way from the root to a leaf.
-constexpr double kLimb = 0.2;      // a limb at least
-constexpr double kAlike = 0.05;    // of a limb's length: bones of a pair differ by less
-constexpr double kHead = 0.04;     // neck and head at least
-constexpr double kStub = 1e-3;     // a bone that ends where it begins: a marker
-constexpr double kPelvis = 0.03;   // between the hips and a pelvis at most
-constexpr double kSame = 1.05;     // times as long: no longer
-constexpr double kDoubtful = 0.8;  // of the head's length, that a bone beyond it has: which is the head?
-constexpr double kStiff = 0.05;    // rad that a joint bends by at least in a motion, if it is one
-constexpr double kSplit = 0.8;     // a third bone of a limb that is as long as that of the shorter two: no telling
-constexpr double kUpright = 0.5;   // of a leg's length that feet are under the hips
-constexpr double kSure = 1.5;      // votes more for one way to take the pairs than for the other
-constexpr double kSided = 0.5;     // mean cosine to the left
-constexpr double kForward = 0.3;   // of a foot's length that it points level
+// Lengths are shares of the longest way from a leaf to another one.
+constexpr double kLimb = 0.2;       // a limb at least
+constexpr double kAlike = 0.05;     // of a limb's length: bones of a pair differ by less
+constexpr double kHead = 0.04;      // neck and head at least
+constexpr double kStub = 1e-3;      // a bone that ends where it begins: a marker
+constexpr double kPelvis = 0.02;    // between the hips and a pelvis at most
+constexpr double kSame = 1.05;      // times as long: no longer
+constexpr double kStandsOut = 1.5;  // times as long as the neck
+constexpr double kDoubtful = 0.15;  // of the head's length, that a bone beyond it has: which is the head?
+constexpr double kStiff = 0.05;     // rad that a joint bends by at least in a motion, if it is one
+constexpr double kSplit = 0.8;      // a third bone of a limb that is as long as that of the shorter two: no telling
+constexpr double kUpright = 0.5;    // of a leg's length that feet are under the hips
+constexpr double kSure = 1.5;       // votes more for one way to take the pairs than for the other
+constexpr double kSided = 0.5;      // mean cosine to the left
+constexpr double kForward = 0.3;    // of a foot's length that it points level
+constexpr double kTelling = 0.05;   // of the poses that tell the sides at least
 constexpr int kMostPoses = 200;
 
 using Chain = std::vector<int>;
@@ -91,7 +93,18 @@ class ShapeFinder {
     for (int b = bones - 1; b >= 0; --b) {
       if (parents_[b] >= 0) reach_[parents_[b]] = std::max(reach_[parents_[b]], length(b) + reach_[b]);
     }
-    size_ = *std::max_element(reach_.begin(), reach_.end());
+    for (int b = 0; b < bones; ++b) size_ = std::max(size_, across_at(b));
+  }
+
+  // The two longest branches of a bone together. One alone may be as long as the way from the origin to a body.
+  double across_at(int bone) const {
+    double first = 0, second = 0;
+    for (const int child : children_[bone]) {
+      const double branch = length(child) + reach_[child];
+      second = std::max(second, std::min(first, branch));
+      first = std::max(first, branch);
+    }
+    return second > 0 ? first + second : 0;
   }
 
   bool taken(int bone) const { return tree_.in_body[bone] && !tree_.twist[bone]; }
@@ -218,17 +231,19 @@ class ShapeFinder {
     return told > 0 ? std::pair{a, b} : std::pair{b, a};
   }
 
-  // Which bone of a neck and what is beyond is the head: the longest, for faces hang on it and its end may be marked by
-  // a bone that importers make as long as the head. -1 where a later one is nearly as long.
+  // Which bone of a neck and what is beyond is the head: the longest, for faces hang on it, and its end may be marked
+  // by a last bone that an importer made as long. -1 where another one beyond it may be the head.
   int longest_of(const Chain& chain) const {
     const auto length_of = [&](int i) { return skeleton_.tips[chain[i]].norm(); };
+    const int last = static_cast<int>(chain.size()) - 1;
     int head = 0;
-    for (int i = 1; i < static_cast<int>(chain.size()); ++i) {
+    for (int i = 1; i <= last; ++i) {
       if (length_of(i) > kSame * length_of(head)) head = i;
     }
-    for (int i = head + 1; i < static_cast<int>(chain.size()); ++i) {
-      const double share = length_of(i) / length_of(head);
-      if (share > kDoubtful && share < 1 / kSame) return -1;
+    for (int i = head + 1; i <= last; ++i) {
+      const bool is_mark = i == last && i == head + 1 && head > 0 &&
+                           length_of(head) > kStandsOut * length_of(head - 1) && length_of(i) > length_of(head) / kSame;
+      if (!is_mark && length_of(i) > kDoubtful * length_of(head)) return -1;
     }
     return head;
   }
@@ -334,14 +349,18 @@ class ShapeFinder {
   bool tell_sides(Body& body) const {
     if (!body.legs[0].whole() || !body.legs[1].whole()) return false;
     double legs = 0, arms = 0;
+    int telling = 0;  // poses; a runner's feet hardly point forward in most
     const bool has_arms = body.arms[0].whole() && body.arms[1].whole();
     for (const Vector3* heads : poses_) {
       const Vector3 left = left_in(body, heads);
+      if (left.isZero()) continue;
+      ++telling;
       legs += across(body.legs, heads).normalized().dot(left);
       if (has_arms) arms += across(body.arms, heads).normalized().dot(left);
     }
-    legs /= static_cast<double>(poses_.size());
-    arms /= static_cast<double>(poses_.size());
+    if (telling < kTelling * static_cast<double>(poses_.size())) return false;
+    legs /= telling;
+    arms /= telling;
     if (std::abs(legs) < kSided) return false;
     if (legs < 0) std::swap(body.legs[0], body.legs[1]);
     if (arms < 0) std::swap(body.arms[0], body.arms[1]);

@@ -91,6 +91,24 @@ TEST(RoleMap, WithoutNamesNoFamilyIsToldWrong) {
   EXPECT_GE(told, 0.9 * all) << told << " of " << all;
 }
 
+TEST(RoleMap, IsToldByTheShapeWhereverTheBodyStands) {
+  Humanoid body = nameless(Humanoid(family_named("Bandai Namco")));
+  body.skeleton.offsets[1] += Vector3{30, 40, 0};  // of the hips, as in files that begin far from the origin
+  EXPECT_EQ(named_bones(body.skeleton, find_role_map(body.skeleton)), body.roles);
+}
+
+TEST(RoleMap, TellsNoHeadThatIsNoLongerThanANeck) {
+  const Humanoid named(family_named("Bandai Namco"));
+  const Humanoid body = nameless(named);
+  for (const double length : {0.02, 0.05, 0.1}) {
+    Skeleton skeleton = body.skeleton;
+    skeleton.tips[named.skeleton.find("Neck")] = {0, 0, 0.07};
+    skeleton.tips[named.skeleton.find("Head")] = {0, 0, length};
+    const int head = find_role_map(skeleton).bone(Role::kHead);
+    EXPECT_TRUE(head == -1 || skeleton.names[head] == body.roles.at("head")) << length;
+  }
+}
+
 /// Names dealt anew among the bones lie; what is told then must be told by the shape.
 TEST(RoleMap, IsRightOrSilentWhereNamesLie) {
   Random random(5);
