@@ -2,6 +2,9 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
+#include <stdexcept>
+
 #include "arrays.hpp"
 #include "fragmotion/character/character.hpp"
 #include "fragmotion/control/simulated_players.hpp"
@@ -43,7 +46,13 @@ void bind_control(py::module_& m) {
                              })
       .def_property_readonly("points", &points)
       .def_property_readonly("quickest_turn", &ControlSpace::quickest_turn)
-      .def("turn_towards", &ControlSpace::turn_towards, py::arg("off"))
+      .def(
+          "turn_towards",
+          [](const ControlSpace& self, double off) {
+            if (!std::isfinite(off)) throw std::invalid_argument("off must be an angle, rad");
+            return self.turn_towards(off);
+          },
+          py::arg("off"))
       .def(
           "nearest",
           [](const ControlSpace& space, const Doubles& controls) {

@@ -178,10 +178,10 @@ class ControlSpace:
     points: Doubles
     """[102,4]: velocity x (right), velocity y (forward) in m/s, turn (-1, 0, 1; 1 is left), jump (0, 1)."""
     quickest_turn: float
-    """The most that a turn of a control asks for, in turn rates: 1 or, where the takes turn slowly, 170 degrees/s."""
+    """The most that a control's turn is: 1 or, where the takes turn slowly, 170 degrees/s, but no more than 6."""
     def turn_towards(self, off: float) -> float:
         """The turn of a control for a character to face where is `off` rad to the left of where it faces, soon and
-        softly."""
+        softly. ValueError unless `off` is finite."""
     def nearest(self, controls: ArrayLike) -> Ints:
         """Index of the nearest of the 102 points for each of [T,4] controls."""
     def distance(self, a: ArrayLike, b: ArrayLike) -> float:

@@ -438,7 +438,7 @@ def test_peak_memory_is_what_the_work_needed() -> None:
     if large is None or small is None:
         pytest.skip("this system does not tell a process's peak memory")
     assert large == pytest.approx(50e6, rel=0.1)
-    assert small == pytest.approx(5e6, rel=0.1)
+    assert small == pytest.approx(5e6, abs=2e6), "but for what else the process does meanwhile"
 
 
 def test_tables_are_aligned() -> None:

@@ -140,6 +140,7 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "tips": np.array(TIPS, float),
             "roles": {"head": "head"},
         },
+        "Skeleton.role_map": {"self": skeleton, "heads": np.stack([skeleton.rest_heads()] * 2)},
         "Skeleton.rest_heads": {"self": skeleton},
         "Skeleton.rest_tails": {"self": skeleton},
         "Take.world_transforms": {"self": take},

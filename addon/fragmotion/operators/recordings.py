@@ -140,7 +140,7 @@ class FRAGMOTION_OT_import_recordings(ImportHelper, bpy.types.Operator):
     bl_label = "Import Recordings"
     bl_description = (
         "Read recordings from CSV files with the header velocity_x,velocity_y,turn,jump: velocity to the right and "
-        "forward in m/s, turn from -1 (right) to 1 (left), jump 0 or 1; 10 rows a second"
+        "forward in m/s, turn from -1 (right) to 1 (left; more to face about), jump 0 or 1; 10 rows a second"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 

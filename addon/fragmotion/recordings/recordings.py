@@ -31,6 +31,7 @@ POSE_RATE = 60
 """Poses a second that a drive shows; a recording keeps no more of them."""
 
 _COLUMNS = 4
+_MOST_TURN = 6.0  # turn rates, as in the core's trace files
 _NUMBER, _SMALL = "<f8", "<f4"
 _LONGEST = 24 * 3600 * TRACE_RATE  # controls; what claims to be longer than a day is damaged
 _MOST_BYTES = 1 << 28  # of what was shown: over an hour of POSE_RATE on 70 bones
@@ -232,7 +233,7 @@ def _packed(trace: Doubles) -> bytes:
     if values.ndim != 2 or values.shape[1] != _COLUMNS or not 0 < len(values) <= _LONGEST:
         raise UserError("A recording needs between one control and a day of them, of four numbers each")
     if not _is_trace(values):
-        raise UserError("A recording's controls must be finite, its turn within -1 and 1, and its jump within 0 and 1")
+        raise UserError("A recording's controls must be finite, its turn within -6 and 6, and its jump within 0 and 1")
     return zlib.compress(values.astype(_NUMBER).tobytes())
 
 
@@ -261,7 +262,7 @@ def _damaged(recording: Recording) -> UserError:
 def _is_trace(values: NDArray[Any]) -> bool:
     """Whether rows of four numbers can be a trace."""
     turn, jump = values[:, 2], values[:, 3]
-    return bool(np.isfinite(values).all() and (np.abs(turn) <= 1).all() and ((jump >= 0) & (jump <= 1)).all())
+    return bool(np.isfinite(values).all() and (np.abs(turn) <= _MOST_TURN).all() and ((jump >= 0) & (jump <= 1)).all())
 
 
 def _is_in_time(times: NDArray[Any]) -> bool:

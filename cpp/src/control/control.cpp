@@ -58,6 +58,7 @@ int least(const Value& value) {
 
 constexpr double kLeap = 0.9;                  // evident jump of what is no run
 constexpr double kQuickest = 170 * kPi / 180;  // rad/s
+constexpr double kMostTurn = 6;                // turn rates
 constexpr double kFacing = 0.25;               // s: time constant of the last of a turn
 
 }  // namespace
@@ -95,7 +96,7 @@ int ControlSpace::nearest(const Control& control) const {
   return index(velocity, turn - 1, jump == 1);
 }
 
-double ControlSpace::quickest_turn() const { return std::max(1.0, kQuickest / turn_rate_); }
+double ControlSpace::quickest_turn() const { return std::clamp(kQuickest / turn_rate_, 1.0, kMostTurn); }
 
 double ControlSpace::turn_towards(double off) const {
   return std::clamp(off / kFacing / turn_rate_, -quickest_turn(), quickest_turn());

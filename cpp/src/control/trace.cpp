@@ -22,6 +22,7 @@ namespace {
 
 constexpr const char* kColumns[] = {"velocity_x", "velocity_y", "turn", "jump"};
 constexpr double kFastest = 1e9;  // m/s: three times as fast as light
+constexpr double kMostTurn = 6;   // turn rates: ControlSpace::quickest_turn() is no more
 constexpr const char* kHeader = "velocity_x,velocity_y,turn,jump";
 
 [[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& cause) {
@@ -69,8 +70,11 @@ void check_control(const std::string& file, std::size_t line, const Control& con
   for (int i = 0; i < 2; ++i) {
     if (std::abs(values[i]) > kFastest) fail(file, line, std::string(kColumns[i]) + " is over 1e9 m/s");
   }
-  if (std::abs(control.turn) > 1)
-    fail(file, line, "turn is " + std::to_string(control.turn) + ", expected -1 (right) to 1 (left)");
+  if (std::abs(control.turn) > kMostTurn) {
+    fail(file, line,
+         "turn is " + std::to_string(control.turn) +
+             ", expected -1 (right) to 1 (left), or up to 6 times that to face about");
+  }
   if (control.jump < 0 || control.jump > 1)
     fail(file, line, "jump is " + std::to_string(control.jump) + ", expected 0 to 1");
 }

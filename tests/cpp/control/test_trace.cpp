@@ -106,7 +106,7 @@ TEST_F(TraceFile, RefusesMalformedFilesNamingTheLine) {
       {"infinite", kHeader + row + "0,inf,0,0\n", "walk.csv:3: ", "velocity_y"},
       {"overflow", kHeader + row + "0,1e999,0,0\n", "walk.csv:3: ", "velocity_y is '1e999'"},
       {"faster than light", kHeader + row + "0,2e9,0,0\n", "walk.csv:3: ", "velocity_y is over 1e9 m/s"},
-      {"turn too far", kHeader + row + "0,1,1.5,0\n", "walk.csv:3: ", "turn is 1.5"},
+      {"turn too far", kHeader + row + "0,1,6.5,0\n", "walk.csv:3: ", "turn is 6.5"},
       {"turn in degrees", kHeader + row + "0,1,-90,0\n", "walk.csv:3: ", "turn is -90"},
       {"negative jump", kHeader + row + "0,1,0,-1\n", "walk.csv:3: ", "jump is -1"},
       {"jump of two", kHeader + row + "0,1,0,2\n", "walk.csv:3: ", "jump is 2"},

@@ -64,7 +64,7 @@ class ControlSpace {
   double run() const { return run_; }
   double turn_rate() const { return turn_rate_; }
   double scale() const { return scale_; }
-  /// The most that a turn of a control asks for, in turn rates: 1 or, where the takes turn slowly, 170 degrees/s.
+  /// The most that a control's turn is: 1 or, where the takes turn slowly, 170 degrees/s, but no more than 6.
   double quickest_turn() const;
   /// The turn of a control for a character to face where is `off` rad to the left of where it faces, soon and softly.
   double turn_towards(double off) const;
