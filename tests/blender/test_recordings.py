@@ -96,7 +96,7 @@ def test_recordings_survive_undo_and_redo(addon: ModuleType, obj: bpy.types.Obje
 
 @pytest.mark.parametrize(
     "trace",
-    [np.zeros((0, 4)), np.zeros((5, 3)), np.zeros(4), [[0, np.nan, 0, 0]], [[0, 1, 2, 0]], [[0, 1, 0, -0.1]]],
+    [np.zeros((0, 4)), np.zeros((5, 3)), np.zeros(4), [[0, np.nan, 0, 0]], [[0, 1, 7, 0]], [[0, 1, 0, -0.1]]],
 )
 def test_what_is_no_trace_is_refused_and_changes_nothing(addon: ModuleType, obj: bpy.types.Object, trace: Any) -> None:
     with pytest.raises(addon.errors.UserError, match="A recording"):
