@@ -10,6 +10,7 @@ namespace {
 constexpr double kInstant = 1e-9;            // s: no time
 constexpr double kChange = 1;                // ControlDis between controls that is "a lot"
 constexpr double kHaste = 10 / kTunedReach;  // m a metre of reach that a second of waiting costs by default
+constexpr double kSkips = 1 / kTunedReach;   // m a metre of reach less that skipping a class must cost
 constexpr double kWorthIt = 0.05;            // s that must be left of a fragment for leaving it early
 
 }  // namespace
@@ -33,7 +34,7 @@ void Director::reset() {
   waiting_ = forced_ = -1;
   plays_forced_ = false;
   soonest_ = 0;
-  exit_ = -1;
+  exit_ = {};
   jump_latched_ = jump_pressed_ = false;
   decided_for_ = {};
 }
@@ -57,7 +58,7 @@ bool Director::has_changed(const Control& wanted) const {
 }
 
 // Whatever goes slower than a walk, and does not stand, is walked.
-int Director::look_up_class(const Control& wanted) const {
+int Director::look_up_class(int playing, const Control& wanted) const {
   const ControlSpace& space = character_->space;
   Control asked = wanted;
   const double speed = wanted.speed();
@@ -65,18 +66,25 @@ int Director::look_up_class(const Control& wanted) const {
     asked.x *= space.walk() / speed;
     asked.y *= space.walk() / speed;
   }
-  return (*policy_)(class_, space.nearest(asked));
+  return (*policy_)(playing, space.nearest(asked));
+}
+
+int Director::bridge_to(int next_class) const {
+  return character_->bridges[static_cast<std::size_t>(class_) * character_->classes.count + next_class];
+}
+
+bool Director::is_planned(const Control& wanted) const {
+  return exit_.next_class >= 0 && character_->space.distance(wanted, planned_for_) == 0;
 }
 
 int Director::next_class(const Control& control) {
-  const Character& c = *character_;
   const Control wanted = this->wanted(control);
   const int waiting = std::exchange(waiting_, -1);
   int next = waiting;
   if (waiting < 0 || has_changed(wanted)) {
     decided_for_ = wanted;
-    next = look_up_class(wanted);
-    const int bridge = c.bridges[static_cast<std::size_t>(class_) * c.classes.count + next];
+    next = is_planned(wanted) ? exit_.next_class : look_up_class(class_, wanted);
+    const int bridge = bridge_to(next);
     // The jump, too, waits for the end of the stand-in-place fragment.
     if (bridge >= 0) return waiting_ = next, bridge;
   }
@@ -93,11 +101,21 @@ bool Director::leaves_early(const Control& wanted, const Playback& playback, con
   const bool too_soon = playback.seconds() <= soonest(playback) - kInstant;
   if (too_soon || playback.left() <= kWorthIt || waiting_ >= 0 || plays_forced_) return false;
   if (playback.is_jumping() || !has_changed(wanted)) return false;
-  if (exit_ < 0 || character_->space.distance(wanted, planned_for_) > 0) {
-    exit_ = selector.best_exit(look_up_class(wanted), wanted, playback, haste_);
+  if (!is_planned(wanted)) {
+    exit_ = plan_exit(wanted, playback, selector);
     planned_for_ = wanted;
   }
-  return playback.seconds() > exit_ - kInstant;
+  return playback.seconds() > exit_.seconds - kInstant;
+}
+
+// Where what plays is left in the middle of a step, the class that the table gives may begin with the wrong foot: then
+// the one that follows it is entered.
+Exit Director::plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector) const {
+  const int next = look_up_class(class_, wanted), after = look_up_class(next, wanted);
+  const Exit exit = selector.best_exit(next, wanted, playback, haste_);
+  if (after == next || wanted.jumps() || bridge_to(next) >= 0 || bridge_to(after) >= 0) return exit;
+  const Exit skips = selector.best_exit(after, wanted, playback, haste_);
+  return skips.cost + kSkips < exit.cost ? skips : exit;
 }
 
 bool Director::is_due(const Control& control, const Playback& playback, const FragmentSelector& selector) {
@@ -109,7 +127,7 @@ int Director::decide(const Control& control, const Playback& playback) {
   if (plays_forced_) waiting_ = -1;
   const int next = plays_forced_ ? std::exchange(forced_, -1) : next_class(control);
   previous_ = std::exchange(class_, next);
-  exit_ = -1;
+  exit_ = {};
   soonest_ = kSoonest;
   return next;
 }
@@ -118,7 +136,7 @@ double Director::until_due(const Playback& playback, double most) const {
   const auto until = [&](double time) {
     return time - playback.seconds() > kInstant ? time - playback.seconds() : most;
   };
-  return std::min({most, playback.left(), until(soonest(playback)), until(exit_)});
+  return std::min({most, playback.left(), until(soonest(playback)), until(exit_.next_class < 0 ? -1 : exit_.seconds)});
 }
 
 }  // namespace fragmotion

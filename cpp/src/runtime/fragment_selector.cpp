@@ -12,6 +12,7 @@ namespace {
 constexpr double kJoinsWell = 1.3;                // times the Dis of the fragment that joins best, and
 constexpr double kJoinsNear = 0.3 / kTunedReach;  // m a metre of reach more
 constexpr double kAsWell = 0.5;                   // of the way from the least error to the representative's
+constexpr double kOutOfTurn = 2 / kTunedReach;    // m a metre of reach that a step out of turn costs
 constexpr double kLook = kEntry / 2;              // s between the moments at which a fragment may be left early
 
 }  // namespace
@@ -60,13 +61,20 @@ void FragmentSelector::find_candidates(int next_class, const Control& control) c
   }
 }
 
-// How far the beginnings of the candidates are from how what plays would go on; tells the least.
-float FragmentSelector::measure_candidates() const {
+// How far the beginnings of the candidates are from how what plays would go on, and more for feet out of turn; tells
+// the least.
+float FragmentSelector::measure_candidates(const Control& evident, const StepSequence& steps) const {
   const std::vector<float>& onward = workspace_->onward;
+  const auto goes = [&](const Control& c) { return c.speed() * character_->space.scale() > kMoving; };
+  const bool went = goes(evident);
+  const auto out_of_turn = static_cast<float>(kOutOfTurn * workspace_->tips[0].reach());
   float least = std::numeric_limits<float>::infinity();
   for (auto& [distance, fragment] : workspace_->candidates) {
     const float* entry = &character_->entry_poses[onward.size() * fragment];
     distance = tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3) / 2;
+    if (went && goes(character_->pool.fragments[fragment].evident)) {
+      distance += out_of_turn * static_cast<float>(steps_out_of_turn(steps, workspace_->entry_steps[fragment]));
+    }
     least = std::min(least, distance);
   }
   return least;
@@ -77,7 +85,7 @@ int FragmentSelector::choose(int next_class, const Control& control, const Playb
   find_candidates(next_class, control);
   pose_tips(playback, playback.seconds() - kEntry, before);
   extrapolate(pose_tips(playback, playback.seconds(), now), before, now);
-  const float least = measure_candidates();
+  const float least = measure_candidates(playback.evident(), playback.steps());
   std::vector<std::pair<float, int>>& candidates = workspace_->candidates;
   const double allowed = kJoinsWell * least + kJoinsNear * now.reach();
   const auto joins = [&](const auto& each) { return each.first <= allowed; };
@@ -92,25 +100,26 @@ int FragmentSelector::choose_any(int next_class) {
 
 // No later moment is looked at once waiting alone costs too much. What is shown kEntry before a moment is known from
 // the last but one.
-double FragmentSelector::best_exit(int next_class, const Control& control, const Playback& playback,
-                                   double haste) const {
+Exit FragmentSelector::best_exit(int next_class, const Control& control, const Playback& playback, double haste) const {
   const double seconds = playback.seconds(), rest = playback.left();
   find_candidates(next_class, control);
   auto& [long_before, before, now] = workspace_->tips;
   haste *= now.reach();
   pose_tips(playback, seconds - kEntry, long_before);
   pose_tips(playback, seconds - kLook, before);
+  StepSequence steps = playback.steps();
   double best = 0, least = std::numeric_limits<double>::infinity();
   for (double wait = 0; haste * wait < least; wait = std::min(wait + kLook, rest)) {
     if (wait == rest) pose_tips(playback, seconds + wait - kEntry, long_before);
     extrapolate(pose_tips(playback, seconds + wait, now), long_before, now);
-    const double cost = measure_candidates() + haste * wait;
+    if (wait > 0) steps.advance(playback.standing_feet(seconds + wait), kLook);
+    const double cost = measure_candidates(playback.evident(), steps) + haste * wait;
     if (cost < least) least = cost, best = wait;
     if (wait >= rest) break;
     std::swap(long_before, before);
     std::swap(before, now);
   }
-  return seconds + best;
+  return {next_class, seconds + best, least / now.reach()};
 }
 
 }  // namespace fragmotion

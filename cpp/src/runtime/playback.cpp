@@ -19,6 +19,7 @@ void Playback::reset(int fragment, const CharacterFrame& frame) {
   faded_ = 0;
   inertialization_.clear();
   now_ = place(fragment, frame);
+  steps_ = {standing_feet(0), -1, 0};
   show();
 }
 
@@ -60,6 +61,7 @@ Vector2 Playback::start(int fragment) {
   const bool inertializes = stitching_ == Stitching::inertialize;
   const Vector2 faster = inertializes && stitch_ > 0 ? begin_stitch(before_) : Vector2::Zero();
   faded_ = inertializes ? 0 : std::min(stitch_, left());
+  steps_.advance(standing_feet(0), 0);
   show();
   return faster;
 }
@@ -81,6 +83,7 @@ Vector2 Playback::begin_stitch(const Placed& old) {
 void Playback::advance(double seconds) {
   now_.seconds += seconds;
   before_.seconds += seconds;
+  steps_.advance(standing_feet(now_.seconds), seconds);
 }
 
 void Playback::move(const Vector2& velocity, double turn_rate, double seconds) {
@@ -119,11 +122,16 @@ bool Playback::is_jumping() const {
   return f.evident.jumps() && now_.seconds * character_->pool.clips[f.clip].rate < landed;
 }
 
-std::size_t Playback::frame_of_clip() const {
+std::size_t Playback::frame_of_clip(double seconds) const {
   const Fragment& f = character_->pool.fragments[now_.fragment];
   const PackedClip& clip = character_->pool.clips[f.clip];
-  const long at = std::lround(f.first_played() + now_.seconds * clip.rate);
+  const long at = std::lround(f.first_played() + seconds * clip.rate);
   return static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(clip.frames) - 1));
+}
+
+std::array<bool, 2> Playback::standing_feet(double seconds) const {
+  return fragmotion::standing_feet(character_->contacts[character_->pool.fragments[now_.fragment].clip],
+                                   frame_of_clip(seconds));
 }
 
 bool Playback::is_in_the_air() const {

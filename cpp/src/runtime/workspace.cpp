@@ -7,6 +7,7 @@ Workspace::Workspace(const Character& character)
     : kinematics(character.pool.skeleton),
       body(std::make_shared<FootLock::Body>(kinematics, character.legs)),
       members(character.classes.members()),
+      entry_steps(fragmotion::entry_steps(character)),
       tips{BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton)},
       onward(character.entry_poses.size() / character.pool.fragments.size()) {
   candidates.reserve(character.pool.fragments.size());

@@ -64,10 +64,10 @@ TEST(FragmentSelector, LeavesAFragmentWithinItsTimeAndAtOnceWhereWaitingCostsMuc
     const double end = choice.playback.seconds() + choice.playback.left();
     for (int k = 0; k < c.classes.count; k += 5) {
       const Control& control = c.pool.fragments[c.classes.representatives[k]].evident;
-      const double free = choice.selector.best_exit(k, control, choice.playback, 0);
+      const double free = choice.selector.best_exit(k, control, choice.playback, 0).seconds;
       EXPECT_GE(free, choice.playback.seconds());
       EXPECT_LE(free, end + 1e-9);
-      EXPECT_EQ(choice.selector.best_exit(k, control, choice.playback, 1e9), choice.playback.seconds());
+      EXPECT_EQ(choice.selector.best_exit(k, control, choice.playback, 1e9).seconds, choice.playback.seconds());
       moments.insert(free);
     }
   }
@@ -81,7 +81,7 @@ double exit_for(Choice& choice, int fragment, int next_class) {
   const Control& control = c.pool.fragments[c.classes.representatives[next_class]].evident;
   choice.playback.reset(fragment, {});
   choice.playback.advance(kSoon);
-  return choice.selector.best_exit(next_class, control, choice.playback, kHaste) - kSoon;
+  return choice.selector.best_exit(next_class, control, choice.playback, kHaste).seconds - kSoon;
 }
 
 // Dis itself is not quite the same of other bones, so that a few moments that are hardly better than others change.
@@ -102,6 +102,34 @@ TEST(FragmentSelector, LeavesAFragmentAtTheSameMomentWhereTheSameLimbsAreOfMoreB
   EXPECT_GT(same, 0.97 * exits);
   EXPECT_GT(waited / exits, 0.005);
   EXPECT_NEAR(waited_of_split / waited, 1, 0.2);
+}
+
+// How many feet come down out of turn in all where fragments are left for classes.
+int steps_out_of_turn(Choice& choice, bool known) {
+  int all = 0;
+  const Character& c = *choice.character;
+  if (!known) choice.workspace.entry_steps.assign(c.pool.fragments.size(), EntrySteps{});
+  const std::vector<EntrySteps> entries = entry_steps(c);
+  for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 3) {
+    if (!(c.pool.fragments[fragment].evident.speed() > kMoving)) continue;
+    for (int k = 0; k < c.classes.count; ++k) {
+      const int representative = c.classes.representatives[k];
+      const Control& control = c.pool.fragments[representative].evident;
+      if (!(control.speed() > kMoving)) continue;
+      choice.playback.reset(representative, {});
+      choice.playback.advance(choice.playback.left());
+      choice.playback.start(fragment);
+      choice.playback.advance(choice.playback.left() / 2);
+      const int chosen = choice.selector.choose(k, control, choice.playback);
+      all += fragmotion::steps_out_of_turn(choice.playback.steps(), entries[chosen]);
+    }
+  }
+  return all;
+}
+
+TEST(FragmentSelector, PrefersFeetThatComeDownInTurn) {
+  Choice knows(1), does_not(1);
+  EXPECT_LT(steps_out_of_turn(knows, true), steps_out_of_turn(does_not, false));
 }
 
 }  // namespace

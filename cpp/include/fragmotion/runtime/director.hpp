@@ -43,7 +43,10 @@ class Director {
   bool makes_way(const Playback& playback) const;
   bool leaves_early(const Control& wanted, const Playback& playback, const FragmentSelector& selector);
   bool has_changed(const Control& wanted) const;
-  int look_up_class(const Control& wanted) const;
+  int look_up_class(int playing, const Control& wanted) const;
+  int bridge_to(int next_class) const;
+  bool is_planned(const Control& wanted) const;
+  Exit plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector) const;
   int next_class(const Control& control);
 
   const Character* character_;
@@ -56,7 +59,7 @@ class Director {
   double soonest_ = 0;  // s after which what plays may be left early
   Control decided_for_;
   Control planned_for_;
-  double exit_ = -1;  // s after which what plays is left early for planned_for_; below 0: nothing is planned
+  Exit exit_;  // for planned_for_
   bool jump_pressed_ = false, jump_latched_ = false;
 };
 

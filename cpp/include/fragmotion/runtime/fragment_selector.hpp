@@ -8,6 +8,13 @@ namespace fragmotion {
 
 /// Chooses the member of a class that is played: at random (Sec. 3.1) among those that perform the control as well as
 /// the representative or better and join on well. Allocates nothing once it is made.
+/// When to leave what plays for a class.
+struct Exit {
+  int next_class = -1;  ///< -1: none is planned
+  double seconds = 0;   ///< Since the first pose of the fragment that plays.
+  double cost = 0;      ///< Of the stitch and of waiting, m a metre of tip_reach().
+};
+
 class FragmentSelector {
  public:
   /// Character and workspace must outlive it.
@@ -22,13 +29,13 @@ class FragmentSelector {
 
   /// The moment at which what plays is best left for this class, s since the fragment's first pose: every second of
   /// waiting costs as much as `haste` metres a metre of tip_reach() between the poses that are joined.
-  double best_exit(int next_class, const Control& control, const Playback& playback, double haste) const;
+  Exit best_exit(int next_class, const Control& control, const Playback& playback, double haste) const;
 
  private:
   CharacterFrame pose_tips(const Playback& playback, double seconds, BodyTips& tips) const;
   void extrapolate(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const;
   void find_candidates(int next_class, const Control& control) const;
-  float measure_candidates() const;
+  float measure_candidates(const Control& evident, const StepSequence& steps) const;
 
   const Character* character_;
   Workspace* workspace_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fragmotion/runtime/inertialization.hpp"
+#include "fragmotion/runtime/step_sequence.hpp"
 #include "fragmotion/runtime/workspace.hpp"
 
 namespace fragmotion {
@@ -40,7 +41,11 @@ class Playback {
   /// Whether it jumps and touches no ground now.
   bool is_in_the_air() const;
   /// The frame of the clip that is nearest to now.
-  std::size_t frame_of_clip() const;
+  std::size_t frame_of_clip() const { return frame_of_clip(now_.seconds); }
+  /// Which feet stand at a time since the fragment's first pose, s.
+  std::array<bool, 2> standing_feet(double seconds) const;
+  /// How the feet came down so far.
+  const StepSequence& steps() const { return steps_; }
   /// Since the first pose that is played of the fragment, s.
   double seconds() const { return now_.seconds; }
   /// Until the fragment's end, s.
@@ -65,6 +70,7 @@ class Playback {
   void sample(const Placed& placed, WorldPose& pose) const;
   void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
   Vector2 begin_stitch(const Placed& old);
+  std::size_t frame_of_clip(double seconds) const;
   void crossfade(double weight, WorldPose& pose) const;
 
   const Character* character_;
@@ -73,6 +79,7 @@ class Playback {
   double stitch_;
   Placed now_, before_;
   double faded_ = 0;
+  StepSequence steps_;
   Inertialization inertialization_;
   CharacterFrame frame_;
 };

@@ -9,6 +9,7 @@
 #include "fragmotion/character/character.hpp"
 #include "fragmotion/fragments/body_tips.hpp"
 #include "fragmotion/motion/foot_lock.hpp"
+#include "fragmotion/runtime/step_sequence.hpp"
 
 namespace fragmotion {
 
@@ -19,6 +20,7 @@ struct Workspace {
   Kinematics kinematics;
   std::shared_ptr<FootLock::Body> body;
   std::vector<std::vector<int>> members;  ///< Classes::members()
+  std::vector<EntrySteps> entry_steps;    ///< entry_steps()
 
   // Of the FragmentSelector's: rows as those of Character::entry_poses.
   std::array<BodyTips, 3> tips;

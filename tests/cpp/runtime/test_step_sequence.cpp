@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "fragmotion/runtime/step_sequence.hpp"
+#include "small_character.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr float kNever = std::numeric_limits<float>::infinity();
+
+// The right foot stands, and has for so long; the left one is in the air.
+StepSequence right_foot_stands(double since) { return {{false, true}, 1, since}; }
+
+TEST(StepSequence, RemembersTheFootThatCameDownLast) {
+  StepSequence steps{{true, true}, -1, 0};
+  steps.advance({false, true}, 0.1);
+  EXPECT_EQ(steps.last, -1);
+  steps.advance({true, true}, 0.1);
+  EXPECT_EQ(steps.last, 0);
+  EXPECT_EQ(steps.since, 0);
+  steps.advance({true, false}, 0.25);
+  EXPECT_EQ(steps.last, 0);
+  EXPECT_DOUBLE_EQ(steps.since, 0.25);
+  steps.advance({true, true}, 0.1);
+  EXPECT_EQ(steps.last, 1);
+}
+
+TEST(StepSequence, TakesFeetThatAlternateForInTurn) {
+  EXPECT_EQ(steps_out_of_turn(right_foot_stands(0.3), {{false, true}, {0.1F, 0.6F}}), 0);
+  EXPECT_EQ(steps_out_of_turn(right_foot_stands(0.3), {{true, true}, {1.0F, 0.5F}}), 0);
+  EXPECT_EQ(steps_out_of_turn(right_foot_stands(0.3), {{false, true}, {0.1F, kNever}}), 0);
+}
+
+TEST(StepSequence, CountsTheSameFootAndQuickSteps) {
+  EXPECT_EQ(steps_out_of_turn(right_foot_stands(0.3), {{false, true}, {0.6F, 0.1F}}), 1) << "the right foot again";
+  EXPECT_EQ(steps_out_of_turn(right_foot_stands(0.05), {{false, true}, {0.1F, 0.6F}}), 1) << "too soon after it";
+  EXPECT_EQ(steps_out_of_turn(right_foot_stands(0.3), {{false, true}, {0.2F, 0.1F}}), 2) << "again, and then quickly";
+}
+
+TEST(StepSequence, KnowsNothingOfABodyThatHasTakenNoStepOrHasNoFeet) {
+  EXPECT_EQ(steps_out_of_turn({}, {{true, false}, {0.1F, 0.1F}}), 0);
+  EXPECT_EQ(steps_out_of_turn(right_foot_stands(0.3), {{}, {kNever, kNever}}), 0);
+  EXPECT_EQ(standing_feet({}, 3), (std::array<bool, 2>{}));
+}
+
+// Against the contacts, frame by frame.
+TEST(StepSequence, FindsWhenFeetComeDownAfterAFragmentsBeginning) {
+  const Character& c = *gait_character();
+  const std::vector<EntrySteps> all = entry_steps(c);
+  ASSERT_EQ(all.size(), c.pool.fragments.size());
+  int comes_down = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Fragment& f = c.pool.fragments[i];
+    const double rate = c.pool.clips[f.clip].rate;
+    for (int side = 0; side < 2; ++side) {
+      const std::vector<bool>& stands = c.contacts[f.clip].feet[side];
+      EXPECT_EQ(all[i].stands[side], stands[f.first_played()]);
+      if (all[i].strikes[side] == kNever) continue;
+      ++comes_down;
+      const auto strike = static_cast<std::size_t>(f.first_played() + std::lround(all[i].strikes[side] * rate));
+      EXPECT_TRUE(stands[strike] && !stands[strike - 1]);
+    }
+  }
+  EXPECT_GT(comes_down, static_cast<int>(all.size()) / 2);
+}
+
+}  // namespace
+}  // namespace fragmotion
