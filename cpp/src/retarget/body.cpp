@@ -237,7 +237,7 @@ void measure(const PosedBones& rest, Body& body) {
 Body make_body(const Skeleton& skeleton, const RoleMap& map, const std::vector<Clip>& clips) {
   check_complete(map);
   check_legs(skeleton, map);
-  Body body{Kinematics(with_roles(skeleton, map)), on_body(skeleton, map)};
+  Body body(Kinematics(with_roles(skeleton, map)), on_body(skeleton, map));
   body.legs = {leg_of(skeleton, map, Side::kLeft), leg_of(skeleton, map, Side::kRight)};
   PosedBones posture = rest_posture(skeleton);
   measure(posture, body);

@@ -3,6 +3,7 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -53,7 +54,7 @@ Chain neck_of(const Body& body) {
   const int head = body.map.bone(Role::kHead);
   Chain chain;
   chain.bones = body.map.chain(Role::kNeck);
-  if (head < 0) return chain.bones.clear(), chain;
+  if (head < 0) return {};
   std::vector<double> lengths;
   for (std::size_t i = 0; i < chain.bones.size(); ++i) {
     lengths.push_back(apart(rest, chain.bones[i], i + 1 < chain.bones.size() ? chain.bones[i + 1] : head));
@@ -72,18 +73,32 @@ Chain finger_of(const Body& body, Side side, int finger) {
   return chain;
 }
 
+// Puts each of some bones at the place of one of more, the nearest that leaves one for each: so that there and back
+// again nothing is lost.
+void snap(const Chain& more, Chain& some) {
+  std::size_t end = more.places.size();
+  for (std::size_t i = some.places.size(); i-- > 0;) {
+    const auto off = [&](std::size_t k) { return std::abs(more.places[k] - some.places[i]); };
+    std::size_t best = --end;
+    for (std::size_t k = i; k < end; ++k) {
+      if (off(k) < off(best)) best = k;
+    }
+    some.places[i] = more.places[best];
+    end = best;
+  }
+}
+
 class Drives {
  public:
   Drives(const Body& source, const Body& target) : source_(source), target_(target) {}
 
   std::vector<Drive> all() {
     single(Role::kHips, Side::kNone);
-    single(Role::kHead, Side::kNone);
-    spread(with_start(spine_of(source_), source_.map.bone(Role::kHips)), spine_of(target_));
+    spread(spine_of(source_), source_.map.bone(Role::kHips), spine_of(target_));
     necks();
     for (const Side side : {Side::kLeft, Side::kRight}) {
-      for (const Role role : {Role::kShoulder, Role::kUpperArm, Role::kLowerArm, Role::kHand, Role::kThigh, Role::kShin,
-                              Role::kFoot}) {
+      for (const Role role :
+           {Role::kShoulder, Role::kUpperArm, Role::kLowerArm, Role::kHand, Role::kThigh, Role::kShin, Role::kFoot}) {
         single(role, side);
       }
       toes(side);
@@ -94,9 +109,7 @@ class Drives {
   }
 
  private:
-  Lead lead(int from, int bone) const {
-    return {from, source_.reference[from].conjugate() * target_.reference[bone]};
-  }
+  Lead lead(int from, int bone) const { return {from, source_.reference[from].conjugate() * target_.reference[bone]}; }
 
   void single(int from, int bone) {
     if (from >= 0 && bone >= 0) drives_.push_back({bone, lead(from, bone), {}, 0});
@@ -110,16 +123,15 @@ class Drives {
   }
 
   // The source's chain begins with a bone before it, which the target's has not.
-  void spread(const Chain& from, const Chain& to) {
-    if (from.bones.size() < 2) return;
-    const bool same_number = from.bones.size() == to.bones.size() + 1;
-    for (std::size_t i = 0; i < to.bones.size(); ++i) {
-      if (same_number) {
-        single(from.bones[i + 1], to.bones[i]);
-      } else {
-        between(from, to.bones[i], to.places[i]);
-      }
+  void spread(Chain from, int start, Chain to) {
+    if (from.bones.size() > to.bones.size()) {
+      snap(from, to);
+    } else {
+      snap(to, from);
     }
+    if (from.bones.empty()) return;
+    from = with_start(std::move(from), start);
+    for (std::size_t i = 0; i < to.bones.size(); ++i) between(from, to.bones[i], to.places[i]);
   }
 
   void between(const Chain& from, int bone, double place) {
@@ -127,19 +139,19 @@ class Drives {
     while (next + 1 < from.places.size() && from.places[next] < place) ++next;
     const double begin = from.places[next - 1], length = from.places[next] - begin,
                  weight = length > 0 ? std::clamp((place - begin) / length, 0.0, 1.0) : 1;
+    if (weight == 1) return single(from.bones[next], bone);
     drives_.push_back({bone, lead(from.bones[next - 1], bone), lead(from.bones[next], bone), weight});
   }
 
-  // From the chest to the head, which the source must have.
+  // From the chest to the head, which the source must have, beyond the neck.
   void necks() {
     const int head = source_.map.bone(Role::kHead);
     if (head < 0) return;
     const std::vector<int> spine = source_.map.chain(Role::kSpine);
-    Chain from = with_start(neck_of(source_), spine.empty() ? source_.map.bone(Role::kHips) : spine.back());
-    const Chain to = neck_of(target_);
-    if (from.bones.size() == to.bones.size() + 1) return spread(from, to);
+    Chain from = neck_of(source_), to = neck_of(target_);
     from.add(head, 1);
-    for (std::size_t i = 0; i < to.bones.size(); ++i) between(from, to.bones[i], to.places[i]);
+    to.add(target_.map.bone(Role::kHead), 1);
+    if (to.bones.back() >= 0) spread(from, spine.empty() ? source_.map.bone(Role::kHips) : spine.back(), to);
   }
 
   void toes(Side side) {
@@ -149,7 +161,7 @@ class Drives {
 
   void fingers(Side side, int finger) {
     const int hand = source_.map.bone(Role::kHand, side);
-    if (hand >= 0) spread(with_start(finger_of(source_, side, finger), hand), finger_of(target_, side, finger));
+    if (hand >= 0) spread(finger_of(source_, side, finger), hand, finger_of(target_, side, finger));
   }
 
   const Body& source_;

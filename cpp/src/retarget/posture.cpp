@@ -10,7 +10,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kUpright = 0.7;  // cosine of how far a trunk may lean from the vertical and be taken for upright
+constexpr double kUpright = 0.7;   // cosine of how far a trunk may lean from the vertical and be taken for upright
 constexpr double kStraight = 0.5;  // and a thigh or a shin for one of a standing body
 constexpr double kApart = 0.1;     // s between the poses that are looked at
 constexpr double kSlow = 0.25;     // of these: the slowest
@@ -180,7 +180,10 @@ void face_forward(const RoleMap& map, PosedBones& posture) {
   const int hips = map.bone(Role::kHips), top = top_of(map);
   Vector3 right = between(map, posture, Role::kThigh), up = Vector3::UnitZ();
   if (top != hips && !upright(posture, hips, top)) up = (posture.heads[top] - posture.heads[hips]).normalized();
-  right = (right - up.dot(right) * up).normalized();
+  const double width = right.norm();
+  right -= up.dot(right) * up;
+  if (right.norm() < kStraight * width) return;  // one hip above the other
+  right.normalize();
   Eigen::Matrix3d axes;  // the body's, in the rows
   axes << right.transpose(), up.cross(right).transpose(), up.transpose();
   const Quaternion turn(axes);

@@ -16,8 +16,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRolls = 0.14;      // rad: a foot that is tipped further stands on its ball or heel alone
-constexpr double kThere = 1e-9;      // of a leg's length: a foot that is so near to its place is there
+constexpr double kRolls = 0.14;  // rad: a foot that is tipped further stands on its ball or heel alone
+constexpr double kThere = 1e-9;  // of a leg's length: a foot that is so near to its place is there
 constexpr double kStandHeight = 0.025, kSlowest = 1e-3;  // of a 1.8 m character, m and m/s
 constexpr double kFree = std::numeric_limits<double>::infinity();
 
@@ -157,7 +157,8 @@ class Transfer {
     const Body &source = parts_.source, &target = parts_.target;
     const Leg& leg = target.legs[side];
     const FootPath& path = motion_.paths[side];
-    const Quaternion foot = from_.rotations[source.legs[side].foot] * source.reference[source.legs[side].foot].conjugate();
+    const Quaternion foot =
+        from_.rotations[source.legs[side].foot] * source.reference[source.legs[side].foot].conjugate();
     const Vector3 ahead = foot * Vector3::UnitY();
     const Quaternion yaw(Eigen::AngleAxisd(std::atan2(-ahead.x(), ahead.y()), Vector3::UnitZ()));
     const Quaternion heading(Eigen::AngleAxisd(headings_[side][f], Vector3::UnitZ()));

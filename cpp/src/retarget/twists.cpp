@@ -59,7 +59,9 @@ Twists::Twists(const Body& body) {
       const int end = end_of(body.map, limb);
       if (joint.other < 0 || end < 0) continue;
       const Quaternion to_limb = rest.rotations[limb.bone].conjugate();
-      Twist twist{bone.bone, limb.bone};
+      Twist twist;
+      twist.bone = bone.bone;
+      twist.limb = limb.bone;
       twist.above = joint.limb_is_above ? limb.bone : joint.other;
       twist.below = joint.limb_is_above ? joint.other : limb.bone;
       twist.share = joint.limb_is_above ? bone.share : bone.share - 1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "fragmotion/motion/contacts.hpp"
@@ -23,6 +24,8 @@ struct Body {
   Floors soles;                 ///< Heights of ball and heel over the ground where a foot stands flat, m.
   double leg = 0;               ///< Length of thigh and shin, mean of both legs, m.
   double hip_width = 0;         ///< Between the thighs' heads, m.
+
+  Body(Kinematics posed, RoleMap roles) : kinematics(std::move(posed)), map(std::move(roles)) {}
 
   const Skeleton& skeleton() const { return kinematics.skeleton(); }
 };
