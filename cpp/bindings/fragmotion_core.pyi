@@ -159,6 +159,53 @@ def mirrored(skeleton: Skeleton, clips: Sequence[Clip]) -> list[Clip]:
     is told by the rest pose where that is symmetric, else by the clips' mean pose. ValueError where a clip has not the
     skeleton's number of bones."""
 
+class Body:
+    """A skeleton as a body that motion goes from or onto: its roles, and the pose that bodies are compared in, which is
+    told by the rest pose, however its arms are held, or by clips."""
+
+    def __init__(self, skeleton: Skeleton, clips: Sequence[Clip] = (), roles: dict[str, str] | None = None) -> None:
+        """`clips` of the skeleton tell how it stands where its rest pose is not that of a standing body, as in many BVH
+        files, and how its feet stand flat; `roles` (as Skeleton.role_map has them, role -> bone name) take the place of
+        those that are found. ValueError names what is missing of hips, thighs, shins and feet, or hangs wrong."""
+    skeleton: Skeleton
+    roles: dict[str, str]
+    """Role -> bone name."""
+    stands: bool
+    """Whether the rest pose or the clips tell how it stands."""
+    reference: Doubles
+    """[B,4]: world rotations in the pose that bodies are compared in: a T, facing +y, feet flat."""
+
+class RetargetedClip:
+    """A clip on another body, and what came of its feet and knees."""
+
+    clip: Clip
+    foot_skate: float
+    """Mean horizontal speed of balls and heels, the more weighted the lower they are, m/s."""
+    source_foot_skate: float
+    """The same of the source, in lengths of the target."""
+    foot_skate_ratio: float
+    """The one over the other, of which each is counted 1 mm/s more."""
+    contact_error: float
+    """Greatest height of a standing foot over or under where the source has it, m."""
+    knee_beyond: float
+    """How far a knee bends less or more than it ever does in the source, rad."""
+    hips_moved: float
+    """How far at most the hips are lowered or raised for the legs to reach, m."""
+
+class Retarget:
+    """Brings clips of one body onto another, by roles: bones turn as the source's do, lengths are scaled by the legs,
+    feet stand where and as long as the source's do, knees bend in its plane and range."""
+
+    def __init__(self, source: Body, target: Body) -> None:
+        """ValueError where it is not told how a body stands, unless both are the same one but for names, scale and the
+        bones' frames."""
+    scale: float
+    """Metres of the target for a metre of the source."""
+    def apply(self, clip: Clip) -> RetargetedClip:
+        """A clip of the source's skeleton on the target's, by the same name."""
+    def apply_all(self, clips: Sequence[Clip], threads: int = 0) -> list[RetargetedClip]:
+        """apply() of each; `threads`: 0: as many as the machine has, which change no bit."""
+
 class ControlSpace:
     """The 102 controls (Sec. 4): 17 velocities x turn {-1,0,1} x jump {0,1}. Control i = 6 velocity + 2 (turn + 1) +
     jump; velocity 0 stands, 1-8 walk, 9-16 run, both counter-clockwise from forward."""

@@ -15,6 +15,7 @@ STAGES = [
     "skeleton",
     "motion",
     "io",
+    "retarget",
     "control",
     "fragments",
     "classes",

@@ -15,6 +15,7 @@ from typing import Any
 
 import fragmotion_core as core
 import numpy as np
+from bodies import humanoid
 from conftest import NAMES, OFFSETS, PARENTS, TIPS, Array, build_options, make_skeleton, walking_arrays, walking_clips
 from test_stub import arguments_told
 from test_threads import BVH, rig_of
@@ -130,6 +131,9 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
     crowd = core.Crowd(made, 3)
     walk = core.Clip(skeleton, "walk", 30.0, roots, rotations)
     turns = np.tile([1.0, 0, 0, 0], (frames, bones, 1))
+    human = humanoid("mixamo")
+    strolling = core.Clip(human, "stroll", 30.0, roots, np.tile(human.rest_rotations, (frames, 1, 1)))
+    body = core.Body(human)
     performance = core.Player(made).run(trace, 30)
     return {
         "Skeleton": {
@@ -188,6 +192,10 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Clip.world_transforms": {"self": walk, "skeleton": skeleton},
         "Clip.character_frames": {"self": walk, "skeleton": skeleton},
         "mirrored": {"skeleton": skeleton, "clips": clips[:1]},
+        "Body": {"skeleton": human, "clips": [strolling], "roles": body.roles},
+        "Retarget": {"source": body, "target": core.Body(humanoid("unreal"))},
+        "Retarget.apply": {"self": core.Retarget(body, body), "clip": strolling},
+        "Retarget.apply_all": {"self": core.Retarget(body, body), "clips": [strolling], "threads": 1},
         "ControlSpace": {"walk": 1.2, "run": 3.3, "turn_rate": 1.2, "scale": 1.0},
         "ControlSpace.nearest": {"self": made.space, "controls": trace},
         "ControlSpace.distance": {"self": made.space, "a": trace[0], "b": trace[1]},

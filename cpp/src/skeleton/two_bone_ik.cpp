@@ -100,6 +100,26 @@ class Knee {
   double length_, twice_, cosine_, sine_;
 };
 
+Knee knee_of(const Leg& leg, const PosedBones& posed) {
+  return {posed.heads[leg.knee] - posed.heads[leg.thigh], posed.heads[leg.foot] - posed.heads[leg.knee],
+          posed.rotations[leg.thigh] * leg.hinge};
+}
+
+// Turns the lower leg by `bend` and swings the leg towards `ankle`; the foot keeps its rotation.
+void bend(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle,
+          const Quaternion& bend, double* rotations) {
+  const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
+                lower = posed.heads[leg.foot] - posed.heads[leg.knee];
+  const Quaternion thigh = turn_between(upper + bend * lower, ankle - posed.heads[leg.thigh]);
+  const auto store = [&](int bone, const Quaternion& parent, const Quaternion& world) {
+    store_quaternion((parent.conjugate() * world).normalized(), rotations + std::ptrdiff_t{4} * bone);
+  };
+  const auto above = [&](int bone) { return posed.rotations[skeleton.parents[bone]]; };
+  store(leg.thigh, above(leg.thigh), thigh * posed.rotations[leg.thigh]);
+  store(leg.knee, above(leg.knee), bend * posed.rotations[leg.knee]);
+  store(leg.foot, thigh * (bend * above(leg.foot)), posed.rotations[leg.foot]);
+}
+
 // The leg from a thigh to a foot that has a knee between them; none where the thigh carries the body or both legs.
 Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe, int other_foot) {
   const int hips = skeleton.roles.hips;
@@ -152,18 +172,14 @@ double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle) {
 }
 
 void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations) {
-  const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
-                lower = posed.heads[leg.foot] - posed.heads[leg.knee], way = ankle - posed.heads[leg.thigh];
-  const Knee knee(upper, lower, posed.rotations[leg.thigh] * leg.hinge);
-  const Quaternion bend = knee.bent_by(knee.ends(way.norm()));
-  const Quaternion thigh = turn_between(upper + bend * lower, way);
-  const auto store = [&](int bone, const Quaternion& parent, const Quaternion& world) {
-    store_quaternion((parent.conjugate() * world).normalized(), rotations + std::ptrdiff_t{4} * bone);
-  };
-  const auto above = [&](int bone) { return posed.rotations[skeleton.parents[bone]]; };
-  store(leg.thigh, above(leg.thigh), thigh * posed.rotations[leg.thigh]);
-  store(leg.knee, above(leg.knee), bend * posed.rotations[leg.knee]);
-  store(leg.foot, thigh * (bend * above(leg.foot)), posed.rotations[leg.foot]);
+  const Knee knee = knee_of(leg, posed);
+  bend(skeleton, leg, posed, ankle, knee.bent_by(knee.ends((ankle - posed.heads[leg.thigh]).norm())), rotations);
+}
+
+void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, const Reach& within,
+           double* rotations) {
+  const double wanted = std::clamp((ankle - posed.heads[leg.thigh]).norm(), within.least, within.most);
+  bend(skeleton, leg, posed, ankle, knee_of(leg, posed).bent_by(wanted), rotations);
 }
 
 }  // namespace fragmotion

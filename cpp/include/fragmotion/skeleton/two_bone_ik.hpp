@@ -47,4 +47,13 @@ double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle);
 /// and foot; `posed` stays as it was before.
 void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations);
 
+/// How far the ends of a leg may be from each other, m.
+struct Reach {
+  double least = 0, most = 0;
+};
+
+/// reach() to the very place, as far as the ends of the leg may be from each other.
+void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, const Reach& within,
+           double* rotations);
+
 }  // namespace fragmotion

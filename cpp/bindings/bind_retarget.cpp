@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <map>
+
+#include "arrays.hpp"
+#include "fragmotion/retarget/retarget.hpp"
+
+namespace fragmotion::bindings {
+namespace {
+
+constexpr int kPoses = 240;  // of clips, by which nameless bones are known
+
+void check_bones(const std::vector<Clip>& clips, const Skeleton& skeleton) {
+  for (const Clip& clip : clips) {
+    if (clip.rotations.size() == std::size_t{4} * skeleton.size() * clip.frames) continue;
+    throw std::invalid_argument("clip \"" + clip.name + "\" has not the skeleton's number of bones");
+  }
+}
+
+ObservedPoses observed(const Skeleton& skeleton, const std::vector<Clip>& clips) {
+  const Kinematics kinematics(skeleton);
+  PosedBones posed(skeleton.size());
+  int frames = 0;
+  for (const Clip& clip : clips) frames += clip.frames;
+  ObservedPoses poses;
+  for (const Clip& clip : clips) {
+    for (int f = 0; f < clip.frames; f += std::max(1, frames / kPoses)) {
+      world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
+      poses.heads.insert(poses.heads.end(), posed.heads.begin(), posed.heads.end());
+      ++poses.poses;
+    }
+  }
+  return poses;
+}
+
+Body new_body(const Skeleton& skeleton, const std::vector<Clip>& clips,
+              const std::optional<std::map<std::string, std::string>>& roles) {
+  check_bones(clips, skeleton);
+  if (roles) return make_body(skeleton, role_map_of(skeleton, *roles), clips);
+  if (clips.empty()) return make_body(skeleton, find_role_map(skeleton), clips);
+  const ObservedPoses poses = observed(skeleton, clips);
+  return make_body(skeleton, find_role_map(skeleton, &poses), clips);
+}
+
+}  // namespace
+
+void bind_retarget(py::module_& m) {
+  py::class_<Body>(m, "Body", py::module_local())
+      .def(py::init([](const Skeleton& skeleton, const std::vector<Clip>& clips,
+                       const std::optional<std::map<std::string, std::string>>& roles) {
+             return without_gil([&] { return new_body(skeleton, clips, roles); });
+           }),
+           py::arg("skeleton"), py::arg("clips") = std::vector<Clip>(), py::arg("roles") = py::none())
+      .def_property_readonly("skeleton", &Body::skeleton)
+      .def_property_readonly("roles", [](const Body& body) { return named_bones(body.skeleton(), body.map); })
+      .def_readonly("stands", &Body::stands)
+      .def_property_readonly("reference", [](const Body& body) {
+        std::vector<double> rotations(4 * body.reference.size());
+        for (std::size_t b = 0; b < body.reference.size(); ++b) store_quaternion(body.reference[b], &rotations[4 * b]);
+        return to_array(std::move(rotations), {static_cast<py::ssize_t>(body.reference.size()), 4});
+      });
+  py::class_<RetargetedClip>(m, "RetargetedClip", py::module_local())
+      .def_readonly("clip", &RetargetedClip::clip)
+      .def_property_readonly("foot_skate", [](const RetargetedClip& r) { return r.report.foot_skate; })
+      .def_property_readonly("source_foot_skate", [](const RetargetedClip& r) { return r.report.source_foot_skate; })
+      .def_property_readonly("foot_skate_ratio", [](const RetargetedClip& r) { return r.report.foot_skate_ratio; })
+      .def_property_readonly("contact_error", [](const RetargetedClip& r) { return r.report.contact_error; })
+      .def_property_readonly("knee_beyond", [](const RetargetedClip& r) { return r.report.knee_beyond; })
+      .def_property_readonly("hips_moved", [](const RetargetedClip& r) { return r.report.hips_moved; });
+  py::class_<Retarget>(m, "Retarget", py::module_local())
+      .def(py::init([](const Body& source, const Body& target) {
+             return without_gil([&] { return Retarget(source, target); });
+           }),
+           py::arg("source"), py::arg("target"))
+      .def_property_readonly("scale", &Retarget::scale)
+      .def(
+          "apply", [](const Retarget& r, const Clip& clip) { return without_gil([&] { return r.apply(clip); }); },
+          py::arg("clip"))
+      .def(
+          "apply_all",
+          [](const Retarget& r, const std::vector<Clip>& clips, int threads) {
+            return without_gil([&] { return r.apply(clips, threads); });
+          },
+          py::arg("clips"), py::arg("threads") = 0);
+}
+
+}  // namespace fragmotion::bindings

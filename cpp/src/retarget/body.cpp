@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/retarget/body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "base/listed.hpp"
+#include "retarget/posture.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr Side kSides[] = {Side::kLeft, Side::kRight};
+constexpr double kShort = 1e-3;       // of a 1.8 m character: m that a bone of a leg must be longer than
+constexpr double kNoDirection = 0.3;  // of a foot's length: one that points up or down further has no direction
+constexpr double kGround = 0.08;      // m of a 1.8 m character: joints of feet are no higher over the ground
+
+std::string label_of(Role role, Side side) {
+  RoleBone bone;
+  bone.role = role;
+  bone.side = side;
+  return role_label(bone);
+}
+
+void check_complete(const RoleMap& map) {
+  std::vector<std::string> missing;
+  const auto require = [&](Role role, Side side) {
+    if (map.bone(role, side) < 0) missing.push_back(label_of(role, side));
+  };
+  require(Role::kHips, Side::kNone);
+  for (const Side side : kSides) {
+    for (const Role role : {Role::kThigh, Role::kShin, Role::kFoot}) require(role, side);
+  }
+  if (missing.empty()) return;
+  throw std::invalid_argument("no bone is known to be " + listed(missing) +
+                              ": motion is brought onto bodies with hips and two legs; say which bones they are");
+}
+
+void check_hangs(const Skeleton& skeleton, const RoleMap& map, Role role, Role above, Side side) {
+  const int bone = map.bone(role, side), on = map.bone(above, above == Role::kHips ? Side::kNone : side);
+  if (bone != on && skeleton.is_below(bone, on)) return;
+  throw std::invalid_argument(label_of(role, side) + " '" + skeleton.names[bone] + "' does not hang on " +
+                              label_of(above, above == Role::kHips ? Side::kNone : side) + " '" + skeleton.names[on] +
+                              "': choose bones of one chain from the hips to the foot");
+}
+
+void check_legs(const Skeleton& skeleton, const RoleMap& map) {
+  for (const Side side : kSides) {
+    check_hangs(skeleton, map, Role::kThigh, Role::kHips, side);
+    check_hangs(skeleton, map, Role::kShin, Role::kThigh, side);
+    check_hangs(skeleton, map, Role::kFoot, Role::kShin, side);
+  }
+}
+
+// The map without what does not hang on the hips, as controls that are far from the body do not.
+RoleMap on_body(const Skeleton& skeleton, RoleMap map) {
+  const int hips = map.bone(Role::kHips);
+  const auto apart = [&](const auto& entry) { return !skeleton.is_below(entry.bone, hips); };
+  map.bones.erase(std::remove_if(map.bones.begin(), map.bones.end(), apart), map.bones.end());
+  map.twists.erase(std::remove_if(map.twists.begin(), map.twists.end(), apart), map.twists.end());
+  return map;
+}
+
+Skeleton with_roles(Skeleton skeleton, const RoleMap& map) {
+  Roles& roles = skeleton.roles;
+  const int hips = map.bone(Role::kHips);
+  if (roles.hips != hips) {
+    throw std::invalid_argument("the hips are '" + skeleton.names[hips] + "' by the roles, but '" +
+                                skeleton.names[roles.hips] + "' carries the skeleton: make it with the same hips");
+  }
+  const auto set = [&](int& bone, Role role, Side side) {
+    if (map.bone(role, side) >= 0) bone = map.bone(role, side);
+  };
+  set(roles.head, Role::kHead, Side::kNone);
+  set(roles.left_hand, Role::kHand, Side::kLeft);
+  set(roles.right_hand, Role::kHand, Side::kRight);
+  roles.left_foot = map.bone(Role::kFoot, Side::kLeft);
+  roles.right_foot = map.bone(Role::kFoot, Side::kRight);
+  roles.left_toe = map.bone(Role::kToe, Side::kLeft);
+  roles.right_toe = map.bone(Role::kToe, Side::kRight);
+  roles.left_thigh = map.bone(Role::kThigh, Side::kLeft);
+  roles.right_thigh = map.bone(Role::kThigh, Side::kRight);
+  return skeleton;
+}
+
+Leg leg_of(const Skeleton& skeleton, const RoleMap& map, Side side) {
+  Leg leg;
+  leg.thigh = map.bone(Role::kThigh, side);
+  leg.knee = map.bone(Role::kShin, side);
+  leg.foot = map.bone(Role::kFoot, side);
+  leg.toe = map.bone(Role::kToe, side);
+  leg.above_foot = skeleton.parents[leg.foot];
+  return leg;
+}
+
+// Where a limb's bones and the fingers point at rest and are to point; none (zero) for other bones.
+class Directions {
+ public:
+  Directions(const Skeleton& skeleton, const RoleMap& map, const PosedBones& posture)
+      : skeleton_(skeleton),
+        map_(map),
+        posture_(posture),
+        from_(skeleton.size(), Vector3::Zero()),
+        to_(skeleton.size(), Vector3::Zero()) {
+    for (const Side side : kSides) {
+      limb(side, {Role::kThigh, Role::kShin, Role::kFoot}, -Vector3::UnitZ());
+      limb(side, {Role::kUpperArm, Role::kLowerArm, Role::kHand}, outward(side));
+      hand(side);
+    }
+  }
+
+  bool has(int bone) const { return from_[bone].squaredNorm() > 0; }
+  const Vector3& from(int bone) const { return from_[bone]; }
+  const Vector3& to(int bone) const { return to_[bone]; }
+
+ private:
+  static Vector3 outward(Side side) { return (side == Side::kLeft ? -1 : 1) * Vector3::UnitX(); }
+
+  void set(int bone, const Vector3& from, const Vector3& to) {
+    if (bone < 0 || from.norm() < kShort / standard_scale(skeleton_)) return;
+    from_[bone] = from.normalized();
+    to_[bone] = to;
+  }
+
+  void limb(Side side, const std::vector<Role>& roles, const Vector3& to) {
+    for (std::size_t i = 0; i + 1 < roles.size(); ++i) {
+      const int bone = map_.bone(roles[i], side), next = map_.bone(roles[i + 1], side);
+      if (bone >= 0 && next >= 0) set(bone, posture_.heads[next] - posture_.heads[bone], to);
+    }
+  }
+
+  Vector3 tip(int bone) const { return posture_.rotations[bone] * skeleton_.tips[bone]; }
+
+  // The four fingers of a hand, and the hand towards their mean, or its tip where it has none. A thumb stays.
+  void hand(Side side) {
+    const int hand = map_.bone(Role::kHand, side);
+    if (hand < 0) return;
+    Vector3 knuckles = Vector3::Zero();
+    for (int finger = 1; finger <= 4; ++finger) {
+      const std::vector<int> bones = finger_bones(side, finger);
+      if (!bones.empty()) knuckles += posture_.heads[bones[0]] - posture_.heads[hand];
+      for (std::size_t i = 0; i < bones.size(); ++i) {
+        const bool last = i + 1 == bones.size();
+        set(bones[i], last ? tip(bones[i]) : Vector3{posture_.heads[bones[i + 1]] - posture_.heads[bones[i]]},
+            outward(side));
+      }
+    }
+    set(hand, knuckles.squaredNorm() > 0 ? knuckles : tip(hand), outward(side));
+  }
+
+  std::vector<int> finger_bones(Side side, int finger) const {
+    std::vector<int> bones;
+    for (const RoleBone& bone : map_.bones) {
+      if (bone.role == Role::kFinger && bone.side == side && bone.finger == finger) bones.push_back(bone.bone);
+    }
+    return bones;
+  }
+
+  const Skeleton& skeleton_;
+  const RoleMap& map_;
+  const PosedBones& posture_;
+  std::vector<Vector3> from_, to_;
+};
+
+// Turns a foot straight ahead about the vertical; `otherwise` where it points up or down.
+Quaternion ahead(const Vector3& foot, const Quaternion& otherwise) {
+  const Vector2 way = foot.head<2>();
+  if (way.norm() < kNoDirection * foot.norm() || foot.norm() == 0) return otherwise;
+  return Quaternion{Eigen::AngleAxisd(std::atan2(way.x(), way.y()), Vector3::UnitZ())};
+}
+
+// How much each bone of a posture is turned to the pose that bodies are compared in.
+std::vector<Quaternion> turns_to_reference(const Body& body, const PosedBones& posture) {
+  const Skeleton& skeleton = body.skeleton();
+  const Directions directions(skeleton, body.map, posture);
+  std::vector<Quaternion> turns(skeleton.size(), Quaternion::Identity());
+  for (int b = 1; b < skeleton.size(); ++b) {
+    turns[b] = turns[skeleton.parents[b]];
+    if (directions.has(b)) {
+      turns[b] = Quaternion::FromTwoVectors(turns[b] * directions.from(b), directions.to(b)) * turns[b];
+    }
+    for (const Leg& leg : body.legs) {
+      if (b == leg.foot) turns[b] = ahead(ball(skeleton, leg, posture) - posture.heads[b], turns[b]);
+    }
+  }
+  return turns;
+}
+
+// Puts a flat foot in a posture.
+void put(const Skeleton& skeleton, const Leg& leg, const FlatFoot& flat, PosedBones& posture) {
+  for (int b = 0; b < skeleton.size(); ++b) {
+    if (!skeleton.is_below(b, leg.foot) || b == leg.foot) continue;
+    const Quaternion turn = flat.foot * posture.rotations[leg.foot].conjugate();
+    posture.heads[b] = posture.heads[leg.foot] + turn * (posture.heads[b] - posture.heads[leg.foot]);
+    posture.rotations[b] = turn * posture.rotations[b];
+  }
+  posture.rotations[leg.foot] = flat.foot;
+  if (leg.toe >= 0) posture.rotations[leg.toe] = flat.toe;
+}
+
+FootHeights heights_in(const Body& body, int side, const PosedBones& posture) {
+  const Leg& leg = body.legs[side];
+  return {ball(body.skeleton(), leg, posture).z(), posture.heads[leg.foot].z()};
+}
+
+// Over the ground, which is where the feet are, but z = 0 where they are right above it.
+Floors over_ground(Floors soles, double scale) {
+  const double lowest = std::min({soles[0].ball, soles[0].heel, soles[1].ball, soles[1].heel});
+  const bool on_ground = lowest * scale > -kGround / 4 && lowest * scale < kGround;
+  for (FootHeights& sole : soles) sole = {sole.ball - (on_ground ? 0 : lowest), sole.heel - (on_ground ? 0 : lowest)};
+  return soles;
+}
+
+double length_of(const Leg& leg, const PosedBones& posture) {
+  return (posture.heads[leg.knee] - posture.heads[leg.thigh]).norm() +
+         (posture.heads[leg.foot] - posture.heads[leg.knee]).norm();
+}
+
+void measure(const PosedBones& rest, Body& body) {
+  body.leg = (length_of(body.legs[0], rest) + length_of(body.legs[1], rest)) / 2;
+  body.hip_width = (rest.heads[body.legs[0].thigh] - rest.heads[body.legs[1].thigh]).norm();
+  const double scale = standard_scale(body.skeleton());
+  for (int side = 0; side < 2; ++side) {
+    const Leg& leg = body.legs[side];
+    const double thigh = (rest.heads[leg.knee] - rest.heads[leg.thigh]).norm(),
+                 shin = (rest.heads[leg.foot] - rest.heads[leg.knee]).norm();
+    if (std::min({thigh, shin, body.hip_width}) * scale > kShort) continue;
+    throw std::invalid_argument("the " + std::string(side == 0 ? "left" : "right") +
+                                " leg has bones of no length: choose thigh, shin and foot at hip, knee and ankle");
+  }
+}
+
+}  // namespace
+
+Body make_body(const Skeleton& skeleton, const RoleMap& map, const std::vector<Clip>& clips) {
+  check_complete(map);
+  check_legs(skeleton, map);
+  Body body(Kinematics(with_roles(skeleton, map)), on_body(skeleton, map));
+  body.legs = {leg_of(skeleton, map, Side::kLeft), leg_of(skeleton, map, Side::kRight)};
+  PosedBones posture = rest_posture(skeleton);
+  measure(posture, body);
+  face_forward(body.map, posture);
+  body.stands = stands(body.map, posture);
+  if (!body.stands && !clips.empty()) {
+    posture = mean_posture(body.kinematics, body.map, clips);
+    body.stands = stands(body.map, posture);
+  }
+  const std::array<FlatFoot, 2> flat = flat_feet(body.kinematics, body.legs, clips);
+  body.soles = {heights_in(body, 0, posture), heights_in(body, 1, posture)};
+  for (int side = 0; side < 2; ++side) {
+    if (!flat[0].known || !flat[1].known) continue;
+    put(skeleton, body.legs[side], flat[side], posture);
+    body.soles[side] = flat[side].heights;
+  }
+  body.soles = over_ground(body.soles, standard_scale(skeleton));
+  const std::vector<Quaternion> turns = turns_to_reference(body, posture);
+  for (int b = 0; b < skeleton.size(); ++b) body.reference.push_back(turns[b] * posture.rotations[b]);
+  for (int side = 0; side < 2; ++side) {
+    Leg& leg = body.legs[side];
+    body.feet[side] = turns[leg.foot] * (ball(skeleton, leg, posture) - posture.heads[leg.foot]);
+    leg.hinge = body.reference[leg.thigh].conjugate() * -Vector3::UnitX();
+  }
+  return body;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: MIT
+"""Clips brought onto other bodies: what must not matter does not, and feet and knees keep their manners."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import fragmotion_core as core
+import numpy as np
+import pytest
+from bodies import FAMILIES, about, angles, humanoid, inverse, map_of, posed, random_rolls, remade, times
+from conftest import BANDAI, CMU, Array, make_skeleton, walking_clips
+
+MILLIMETRE = 1e-3
+
+
+class Source(NamedTuple):
+    """A body and clips of it."""
+
+    body: core.Body
+    clips: list[core.Clip]
+
+
+def source_of(takes: list[core.Take]) -> Source:
+    skeleton = takes[0].skeleton
+    clips = [core.Clip.from_take(take, skeleton) for take in takes]
+    return Source(core.Body(skeleton, clips), clips)
+
+
+@pytest.fixture(scope="module")
+def bandai_body() -> Source:
+    """Walks, a run, a dash and a curve; at rest this skeleton's bones all lie in one line."""
+    names = ["1_walk_normal_001", "1_run_active_001", "1_dash_active_001", "1_walk-left_normal_001"]
+    files = [BANDAI / f"dataset-{name}.bvh" for name in names]
+    if not all(path.exists() for path in files):
+        pytest.skip(f"no motion capture at {BANDAI}")
+    return source_of([core.read_bvh(path) for path in files])
+
+
+@pytest.fixture(scope="module")
+def cmu_body() -> Source:
+    """Two walks, a run and a jump."""
+    files = sorted(CMU.glob("02_*.amc"))
+    if not files:
+        pytest.skip(f"no motion capture at {CMU}")
+    return source_of([core.read_asf_amc(CMU / "02.asf", path) for path in files])
+
+
+@pytest.fixture(scope="module", params=["bandai", "cmu"])
+def source(request: pytest.FixtureRequest) -> Source:
+    """Each of the two."""
+    found: Source = request.getfixturevalue(f"{request.param}_body")
+    return found
+
+
+def joint_error(source: Source, target: core.Body, scale: float = 1.0) -> float:
+    """How far joints are at most from the source's, in its metres."""
+    hips = source.body.skeleton.names.index(source.body.roles["hips"])
+    parents = source.body.skeleton.parents
+    below = [hips]
+    for bone, parent in enumerate(parents):
+        if parent in below:
+            below.append(bone)
+    error = 0.0
+    for clip, result in zip(source.clips, core.Retarget(source.body, target).apply_all(source.clips)):
+        ours, _ = clip.world_transforms(source.body.skeleton)
+        theirs, _ = result.clip.world_transforms(target.skeleton)
+        error = max(error, float(np.linalg.norm(ours - theirs / scale, axis=2)[:, below].max()))
+    return error
+
+
+def test_onto_itself_nothing_moves(source: Source) -> None:
+    assert joint_error(source, source.body) < 0.1 * MILLIMETRE
+    assert joint_error(source, core.Body(source.body.skeleton)) < 0.1 * MILLIMETRE
+
+
+def test_onto_the_same_body_in_other_bones_nothing_moves(source: Source) -> None:
+    skeleton, roles = source.body.skeleton, source.body.roles
+
+    def renamed(name: str) -> str:
+        return f"Bone.{skeleton.names.index(name):03}"
+
+    arms_down = {roles["left_upper_arm"]: about([0, 1, 0], -75), roles["right_upper_arm"]: about([0, 1, 0], 75)}
+    a_pose = {roles["left_upper_arm"]: about([0, 1, 0], -40), roles["right_upper_arm"]: about([0, 1, 0], 40)}
+    hanging = remade(skeleton, posed(skeleton, source.body.reference, arms_down), rolls=random_rolls(skeleton))
+    bodies = {
+        "rolls": core.Body(remade(skeleton, rolls=random_rolls(skeleton)), roles=roles),
+        "names": core.Body(remade(skeleton, rename=renamed), roles=map_of(source.body, renamed)),
+        "T": core.Body(remade(skeleton, source.body.reference), roles=roles),
+        "A": core.Body(remade(skeleton, posed(skeleton, source.body.reference, a_pose)), roles=roles),
+        "arms down, rolls": core.Body(hanging, roles=roles),
+    }
+    for name, body in bodies.items():
+        assert joint_error(source, body) < MILLIMETRE, name
+    assert joint_error(source, core.Body(remade(skeleton, size=100), roles=roles), 100) < MILLIMETRE
+
+
+def joints(body: core.Body, clip: core.Clip, roles: list[str]) -> Array:
+    """[F,R,4]: how the bones of roles are turned against the next ones with a role above them."""
+    skeleton = body.skeleton
+    _, world = clip.world_transforms(skeleton)
+    role_of = {skeleton.names.index(bone): role for role, bone in body.roles.items() if role != "root"}
+    found = {}
+    for bone, role in role_of.items():
+        above = skeleton.parents[bone]
+        while above >= 0 and above not in role_of:
+            above = skeleton.parents[above]
+        found[role] = world[:, bone] if above < 0 else times(inverse(world[:, above]), world[:, bone])
+    return np.stack([found[role] for role in roles], 1)
+
+
+def there_and_back(source: Source, other: core.Body) -> float:
+    """Mean angle of the joints that both bodies have, after going to the other body and back, degrees."""
+    there, back = core.Retarget(source.body, other), core.Retarget(other, source.body)
+    again = back.apply_all([result.clip for result in there.apply_all(source.clips)])
+    roles = [role for role in source.body.roles if role in other.roles and role != "root"]
+    errors = [
+        angles(joints(source.body, clip, roles), joints(source.body, result.clip, roles))
+        for clip, result in zip(source.clips, again)
+    ]
+    return float(np.concatenate(errors).mean())
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_there_and_back_again(source: Source, family: str) -> None:
+    for arms in (0.0, 45.0, 80.0):
+        assert there_and_back(source, core.Body(humanoid(family, arms=arms))) < 2, arms
+
+
+def test_there_and_back_again_between_two_actors(bandai_body: Source, cmu_body: Source) -> None:
+    assert there_and_back(bandai_body, cmu_body.body) < 2
+    assert there_and_back(cmu_body, bandai_body.body) < 2
+
+
+PROPORTIONS = [
+    {"size": 0.6},
+    {"size": 1.6},
+    {"leg": 0.75},
+    {"leg": 1.3},
+    {"thigh": 0.8},
+    {"thigh": 1.2},
+    {"wide": 1.8},
+    {"wide": 0.5},
+    {"size": 0.6, "leg": 1.2, "thigh": 1.15, "wide": 1.5},
+]
+
+
+@pytest.mark.parametrize("proportions", PROPORTIONS, ids=str)
+def test_feet_and_knees_keep_their_manners_on_other_proportions(source: Source, proportions: dict[str, float]) -> None:
+    target = core.Body(humanoid("mixamo", **proportions))
+    for result in core.Retarget(source.body, target).apply_all(source.clips):
+        assert result.foot_skate_ratio <= 1.1, result.clip.name
+        assert result.contact_error <= 0.01, result.clip.name
+        assert result.knee_beyond <= np.radians(1e-3), result.clip.name
+
+
+@pytest.mark.parametrize("arms", [0.0, 45.0, 85.0])
+def test_limbs_point_where_the_sources_do_however_arms_rest(source: Source, arms: float) -> None:
+    """Upper arms, forearms and the directions of hands, told by places alone."""
+    target = core.Body(humanoid("unreal", arms=arms))
+    for clip, result in zip(source.clips, core.Retarget(source.body, target).apply_all(source.clips)):
+        for upper, lower in (("left_upper_arm", "left_lower_arm"), ("right_lower_arm", "right_hand")):
+            directions = []
+            for body, moved in ((source.body, clip), (target, result.clip)):
+                heads, _ = moved.world_transforms(body.skeleton)
+                ends = [body.skeleton.names.index(body.roles[role]) for role in (upper, lower)]
+                along = heads[:, ends[1]] - heads[:, ends[0]]
+                directions.append(along / np.linalg.norm(along, axis=1, keepdims=True))
+            assert (directions[0] * directions[1]).sum(1).min() > np.cos(np.radians(0.1)), upper
+
+
+def test_all_takes_go_onto_another_skeleton_and_any_number_of_threads_gives_the_same(bandai_body: Source) -> None:
+    takes = [core.read_bvh(path) for path in sorted(BANDAI.glob("dataset-2*.bvh"))[:10]]
+    clips = [core.Clip.from_take(take, bandai_body.body.skeleton) for take in takes]
+    retarget = core.Retarget(bandai_body.body, core.Body(humanoid("rigify")))
+    for one, two in zip(retarget.apply_all(clips, threads=1), retarget.apply_all(clips, threads=2)):
+        assert np.array_equal(one.clip.rotations, two.clip.rotations)
+        assert np.array_equal(one.clip.root_positions, two.clip.root_positions)
+        assert one.foot_skate_ratio <= 1.1
+
+
+def test_a_character_of_two_sources_is_built(bandai_body: Source, cmu_body: Source) -> None:
+    target = core.Body(humanoid("mixamo"))
+    clips = [
+        result.clip
+        for source in (bandai_body, cmu_body)
+        for result in core.Retarget(source.body, target).apply_all(source.clips)
+    ]
+    options = core.BuildOptions()
+    options.classes, options.policies = 20, ["greedy"]
+    character = core.build(target.skeleton, clips, [core.simulate_trace("walker", 20, 1)], options)
+    assert {clip.name for clip in clips} <= set(character.clip_names)
+
+
+def test_what_is_missing_is_named() -> None:
+    skeleton = make_skeleton()
+    with pytest.raises(ValueError, match="left_shin, right_shin"):
+        core.Body(skeleton)
+    with pytest.raises(ValueError, match="hips"):
+        core.Body(humanoid("mixamo"), roles={"left_thigh": "LeftUpLeg"})
+    with pytest.raises(ValueError, match="number of bones"):
+        core.Body(humanoid("mixamo"), walking_clips(skeleton))
+
+
+def test_a_rest_pose_that_tells_nothing_wants_clips(bandai_body: Source) -> None:
+    unknown = core.Body(bandai_body.body.skeleton)
+    assert not unknown.stands
+    with pytest.raises(ValueError, match="give clips"):
+        core.Retarget(unknown, core.Body(humanoid("mixamo")))
+
+
+def test_a_body_without_arms_is_driven(source: Source) -> None:
+    skeleton = humanoid("mixamo")
+    roles = {role: bone for role, bone in core.Body(skeleton).roles.items() if "leg" in bone.lower() or role == "hips"}
+    roles |= {role: bone for role, bone in core.Body(skeleton).roles.items() if role.endswith(("foot", "toe"))}
+    target = core.Body(skeleton, roles=roles)
+    assert target.roles == roles
+    for result in core.Retarget(source.body, target).apply_all(source.clips):
+        assert result.foot_skate_ratio <= 1.1
