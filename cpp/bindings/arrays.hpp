@@ -65,6 +65,7 @@ void bind_errors(py::module_& m);
 void bind_skeleton(py::module_& m);
 void bind_motion(py::module_& m);
 void bind_io(py::module_& m);
+void bind_doctor(py::module_& m);
 void bind_control(py::module_& m);
 void bind_fragments(py::module_& m);
 void bind_classes(py::module_& m);

@@ -15,6 +15,7 @@ STAGES = [
     "skeleton",
     "motion",
     "io",
+    "doctor",
     "control",
     "fragments",
     "classes",
