@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "doctor/lengths.hpp"
 #include "fragmotion/base/parallel.hpp"
 
 namespace fragmotion {
@@ -18,6 +19,7 @@ constexpr double kSame = 0.015;     // m: root mean square of the points, of a c
 constexpr double kOfMotion = 0.15;  // of how far the points move in the take
 constexpr double kSpeeds = 0.1;     // share by which one copy may be faster
 constexpr int kSlack = 2;           // frames
+constexpr double kWhole = 0.97;     // of the shorter take: all of it
 constexpr double kOverlap = 0.6;    // of the shorter take
 
 constexpr int kNumbers = std::tuple_size<Shape>::value;
@@ -89,9 +91,10 @@ std::vector<Match> matches_of(const Outline& shorter, const Outline& longer) {
   return matches;
 }
 
-/// Whether the longer take goes through the shorter one's poses in its time, or hardly faster or slower.
-bool goes_along(const Outline& shorter, const Outline& longer, const Match& first, double speed) {
-  if (std::abs(speed - 1) > kSpeeds) return false;
+/// The share of the shorter take whose poses the longer one goes through in its time, or hardly faster or slower; 0
+/// where they are other poses, or few.
+double shared_along(const Outline& shorter, const Outline& longer, const Match& first, double speed) {
+  if (std::abs(speed - 1) > kSpeeds) return 0;
   const int frames = static_cast<int>(shorter.shapes.size()), end = static_cast<int>(longer.shapes.size());
   int shared = 0;
   double sum = 0;
@@ -104,32 +107,34 @@ bool goes_along(const Outline& shorter, const Outline& longer, const Match& firs
     sum += best;
     ++shared;
   }
-  return shared >= kOverlap * frames && sum <= shorter.near * shared;
+  const double share = static_cast<double>(shared) / frames;
+  return share >= kOverlap && sum <= shorter.near * shared ? share : 0;
 }
 
-bool is_same_motion(const Outline& shorter, const Outline& longer) {
-  if (static_cast<int>(shorter.shapes.size()) < kFewest) return false;
+double shared_motion(const Outline& shorter, const Outline& longer) {
+  if (static_cast<int>(shorter.shapes.size()) < kFewest) return 0;
   const std::vector<Match> matches = matches_of(shorter, longer);
-  if (static_cast<int>(matches.size()) < kFewestAnchors) return false;
+  if (static_cast<int>(matches.size()) < kFewestAnchors) return 0;
   const Match &first = matches.front(), &last = matches.back();
-  const double speed = static_cast<double>(last.b - first.b) / (last.a - first.a);
-  if (goes_along(shorter, longer, first, speed)) return true;
-  // Steps that are all alike: the poses of one may be found in another.
-  return std::any_of(matches.begin(), matches.end(),
-                     [&](const Match& match) { return goes_along(shorter, longer, match, 1); });
+  double share = shared_along(shorter, longer, first, static_cast<double>(last.b - first.b) / (last.a - first.a));
+  // Where steps are all alike, the poses of one may be found in another.
+  for (const Match& match : matches) share = std::max(share, shared_along(shorter, longer, match, 1));
+  return share;
 }
 
 /// Of two takes with the same motion the shorter one is a duplicate; of two that are as long, the later one.
-bool is_duplicate(const std::vector<Outline>& outlines, int take, int other) {
+double shared_with(const std::vector<Outline>& outlines, int take, int other) {
   const std::size_t a = outlines[take].shapes.size(), b = outlines[other].shapes.size();
-  if (take == other || a > b || (a == b && take < other)) return false;
-  return is_same_motion(outlines[take], outlines[other]);
+  if (take == other || a > b || (a == b && take < other)) return 0;
+  return shared_motion(outlines[take], outlines[other]);
 }
 
-Finding duplicate(const std::vector<Take>& takes, int take, int other) {
+Finding duplicate(const std::vector<Take>& takes, int take, int other, double share) {
+  const std::string part = share > kWhole ? "its motion" : short_number(100 * share) + " % of its motion";
   Finding finding = mendable(found("duplicate", Severity::kWarning, 0, takes[take].frames - 1,
-                                   "the same motion as in take '" + takes[other].name +
-                                       "': what is there twice counts twice in what is learned; leave this take out"));
+                                   part + " is in take '" + takes[other].name +
+                                       "', too: it counts twice in what is learned; leave one of them out"),
+                             false);
   finding.other = other;
   return finding;
 }
@@ -155,9 +160,10 @@ void find_duplicates(const std::vector<Take>& takes, const std::vector<Outline>&
   const int count = static_cast<int>(takes.size());
   parallel_for(count, threads, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      int other = 0;
-      while (other < count && !is_duplicate(outlines, i, other)) ++other;
-      if (other < count) told[i].findings.push_back(duplicate(takes, i, other));
+      double share = 0;
+      int other = -1;
+      while (share == 0 && ++other < count) share = shared_with(outlines, i, other);
+      if (share > 0) told[i].findings.push_back(duplicate(takes, i, other, share));
     }
   });
 }
