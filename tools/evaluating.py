@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py evaluate` and `dev.py beside`: build the core, and let tools.evaluate or tools.beside measure with it."""
+"""`dev.py evaluate`, `beside` and `doctor`: build the core, and let the package of that name in tools work with it."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from pathlib import Path
 from tools import machine, packages
 from tools.beside import inputs as beside_inputs
 from tools.compiling import installed_core
+from tools.doctor import inputs as doctor_inputs
 from tools.environments import environment_python
 from tools.evaluate import inputs
 from tools.paths import TOP
@@ -21,17 +22,27 @@ from tools.shell import say
 def run_evaluation(options: argparse.Namespace, arguments: list[str]) -> int:
     """Measure in the Python 3.11 environment; `arguments` are the words that the options were read from."""
     inputs.check(options)
-    return _run("tools.evaluate", machine.EVALUATE, options.mocap, arguments)
+    return _run("tools.evaluate", _with_blender(machine.EVALUATE, options.mocap), arguments)
 
 
 def run_comparison(options: argparse.Namespace, arguments: list[str]) -> int:
     """Measure beside motion matching, likewise."""
     beside_inputs.check(options)
-    return _run("tools.beside", machine.BESIDE, options.mocap, arguments)
+    return _run("tools.beside", _with_blender(machine.BESIDE, options.mocap), arguments)
 
 
-def _run(module: str, needs: machine.Needs, mocap: Sequence[Path], arguments: list[str]) -> int:
-    machine.set_up(needs | machine.BLENDER_45 if inputs.has_blend(mocap) else needs)
+def run_doctor(options: argparse.Namespace, arguments: list[str]) -> int:
+    """Examine files, likewise."""
+    doctor_inputs.check(options)
+    return _run("tools.doctor", machine.DOCTOR, arguments)
+
+
+def _with_blender(needs: machine.Needs, mocap: Sequence[Path]) -> machine.Needs:
+    return needs | machine.BLENDER_45 if inputs.has_blend(mocap) else needs
+
+
+def _run(module: str, needs: machine.Needs, arguments: list[str]) -> int:
+    machine.set_up(needs)
     say("build: core")
     core = installed_core("3.11", packages.wheel("3.11"))
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(core), str(TOP)))}

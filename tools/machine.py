@@ -66,6 +66,7 @@ WINDOWS = BLENDER_34 | PYTHON_TESTS | Needs(_WINDOW_PACKAGES)
 BENCH = CPP_TESTS | PYTHON_TESTS
 EVALUATE = BUILD_311 | Needs((), {"3.11": ("numpy", "matplotlib")})
 EVALUATE_BLEND = EVALUATE | BLENDER_45
+DOCTOR = BUILD_311 | Needs((), {"3.11": ("numpy",)})
 BESIDE = EVALUATE | Needs((), {"3.11": ("scipy",)})
 
 

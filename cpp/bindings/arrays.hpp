@@ -66,6 +66,7 @@ void bind_skeleton(py::module_& m);
 void bind_motion(py::module_& m);
 void bind_io(py::module_& m);
 void bind_retarget(py::module_& m);
+void bind_doctor(py::module_& m);
 void bind_control(py::module_& m);
 void bind_fragments(py::module_& m);
 void bind_classes(py::module_& m);

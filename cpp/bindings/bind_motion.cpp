@@ -71,6 +71,16 @@ Clip new_clip(const Skeleton& skeleton, const std::string& name, double rate, co
   return without_gil([&] { return make_clip(skeleton, std::move(clip)); });
 }
 
+Take new_take(const Skeleton& skeleton, const std::string& name, double rate, const Doubles& translations,
+              const Doubles& rotations, double unit) {
+  check_name(name);
+  check_shape(translations, "translations", {-1, skeleton.size(), 3});
+  check_shape(rotations, "rotations", {translations.shape(0), skeleton.size(), 4});
+  Take take{skeleton, name, rate, static_cast<int>(translations.shape(0)), to_vector(translations), {}, unit};
+  take.rotations = to_vector(rotations);
+  return make_take(std::move(take));
+}
+
 std::vector<Clip> mirrored(const Skeleton& skeleton, const std::vector<Clip>& clips) {
   for (const Clip& clip : clips) check_bones(clip, skeleton);
   if (clips.empty()) return {};
@@ -83,8 +93,11 @@ std::vector<Clip> mirrored(const Skeleton& skeleton, const std::vector<Clip>& cl
 
 void bind_take(py::module_& m) {
   py::class_<Take>(m, "Take", py::module_local())
+      .def(py::init(&new_take), py::arg("skeleton"), py::arg("name"), py::arg("rate"), py::arg("translations"),
+           py::arg("rotations"), py::arg("unit") = 1.0)
       .def_readonly("name", &Take::name)
       .def_readonly("rate", &Take::rate)
+      .def_readonly("unit", &Take::unit)
       .def_readonly("skeleton", &Take::skeleton)
       .def_property_readonly("translations",
                              [](const py::object& self) {

@@ -67,8 +67,20 @@ class Skeleton:
 class Take:
     """A motion capture file as it stands: local transforms [F,B] on its own skeleton."""
 
+    def __init__(
+        self,
+        skeleton: Skeleton,
+        name: str,
+        rate: float,
+        translations: ArrayLike,
+        rotations: ArrayLike,
+        unit: float = 1.0,
+    ) -> None:
+        """A take that no reader has made. Numbers may be missing (not finite); rotations need not be unit."""
     name: str
     rate: float
+    unit: float
+    """What was taken for one unit of the file's lengths, m."""
     skeleton: Skeleton
     translations: Doubles
     """[F,B,3] m: a bone's head in its parent's frame (replaces the skeleton's offset)."""
@@ -82,6 +94,52 @@ def read_bvh(path: str | PathLike[str], unit: float = 0.01) -> Take:
 
 def read_asf_amc(asf: str | PathLike[str], amc: str | PathLike[str], rate: float = 120.0) -> Take:
     """Read an Acclaim skeleton and a motion on it; AMC holds no frame rate: 0.1 .. 10000."""
+
+FINDING_CODES: list[str]
+"""Every code that a finding can have: missing, unit, up, mirrored, facing, flip, spike, doubled, frozen, dropped,
+calibration, jump, ground, slope, in_place, rate, size, body, short, duplicate."""
+
+class Finding:
+    """Something about a take that a person should know before anything is made of it."""
+
+    code: str
+    severity: str
+    """'info', 'warning' or 'error'."""
+    frames: tuple[int, int]
+    """The first and the last frame, from 0."""
+    text: str
+    """What is wrong, where and what to do."""
+    mendable: bool
+    """Whether mend can put it right; a duplicate is mended by leaving the take out."""
+    safe: bool
+    """Whether it may be mended unasked: what is mended is sure, and nothing is invented."""
+    other: int | None
+    """Of a duplicate: the take that has the same motion."""
+
+class Examination:
+    """What a take is, and what is wrong with it. Directions are '+X' to '-Z' in the take's own axes, or ''."""
+
+    stature: float
+    """m, in the unit that the body tells."""
+    scale: float
+    """What the take's lengths are to be multiplied by to be metres."""
+    up: str
+    """From the feet to the head as the body moves."""
+    facing: str
+    """Where the body looks at rest."""
+    rate: float
+    root_motion: bool
+    rest_pose: str
+    """'T', 'A', 'down', 'other', or '' without arms."""
+    roles: dict[str, str]
+    """Role -> bone name, as of Skeleton.role_map."""
+    findings: list[Finding]
+
+def examine(takes: list[Take], threads: int = 0) -> list[Examination]:
+    """Examine takes as they were read, each by itself and for motion that several have. 0 threads: the machine's."""
+
+def mend(take: Take, findings: list[Finding]) -> Take:
+    """The take without what these findings of its examination say, where they are mendable; others change nothing."""
 
 def euler_to_quaternion(order: str, angles: ArrayLike) -> Doubles:
     """[F,3] radians in the order X, Y, Z of the channels (whatever `order` is) to [F,4]. `order` is Blender's: in

@@ -10,6 +10,7 @@ PYBIND11_MODULE(fragmotion_core, m) {
   b::bind_motion(m);
   b::bind_io(m);
   b::bind_retarget(m);
+  b::bind_doctor(m);
   b::bind_control(m);
   b::bind_fragments(m);
   b::bind_classes(m);

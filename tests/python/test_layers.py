@@ -16,6 +16,7 @@ STAGES = [
     "motion",
     "io",
     "retarget",
+    "doctor",
     "control",
     "fragments",
     "classes",

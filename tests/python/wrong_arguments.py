@@ -110,6 +110,10 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
     take = core.read_bvh(folder / "take.bvh")
     (folder / "take.asf").write_text(ASF)
     (folder / "take.amc").write_text(":degrees\n1\nroot 0 1 0 0 0 0\nspine 5\n2\nroot 0 1 0 0 0 0\nspine 6\n")
+    moves = np.tile(np.array(OFFSETS, float), (len(roots), 1, 1))
+    moves[:, 0] = roots
+    moves[:, 0, 2] += 1  # over the ground
+    walked = core.Take(skeleton, "walk", 30.0, moves, rotations)
     core.write_trace(folder / "trace.csv", trace)
     made.save(folder / "made.policy")
     frames, bones = rotations.shape[:2]
@@ -147,7 +151,17 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Skeleton.role_map": {"self": skeleton, "heads": np.stack([skeleton.rest_heads()] * 2)},
         "Skeleton.rest_heads": {"self": skeleton},
         "Skeleton.rest_tails": {"self": skeleton},
+        "Take": {
+            "skeleton": skeleton,
+            "name": "take",
+            "rate": 30.0,
+            "translations": moves,
+            "rotations": rotations,
+            "unit": 1.0,
+        },
         "Take.world_transforms": {"self": take},
+        "examine": {"takes": [walked, take], "threads": 1},
+        "mend": {"take": walked, "findings": core.examine([walked])[0].findings},
         "read_bvh": {"path": folder / "take.bvh", "unit": 0.01},
         "read_asf_amc": {"asf": folder / "take.asf", "amc": folder / "take.amc", "rate": 120.0},
         "euler_to_quaternion": {"order": "XYZ", "angles": roots},

@@ -171,6 +171,7 @@ AsfModel read_asf_model(const std::filesystem::path& path) {
 Take parse_amc(std::string text, const std::string& file, const AsfModel& model, double rate) {
   Take take;
   take.skeleton = model.skeleton;
+  take.unit = model.unit;
   take.rate = rate;
   AmcReader(std::move(text), file, model).read_into(take);
   return take;

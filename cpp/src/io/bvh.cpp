@@ -56,6 +56,7 @@ class BvhReader {
     read_hierarchy();
     Take take;
     take.skeleton = build_skeleton();
+    take.unit = unit_;
     read_motion(take);
     return take;
   }

@@ -2,8 +2,37 @@
 #include "fragmotion/motion/take.hpp"
 
 #include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+#include "base/ranges.hpp"
 
 namespace fragmotion {
+namespace {
+
+constexpr double kLowestRate = 0.1, kHighestRate = 10000;  // frames/s, as of clips
+constexpr double kLeastUnit = 1e-6, kMostUnit = 1e3;       // m, as of files
+
+void check_sizes(const Take& take) {
+  const std::size_t poses = static_cast<std::size_t>(take.frames) * take.skeleton.names.size();
+  if (take.frames < 1) throw std::invalid_argument("take '" + take.name + "' has no frames");
+  if (take.translations.size() != 3 * poses || take.rotations.size() != 4 * poses)
+    throw std::invalid_argument("take '" + take.name + "' has not 3 and 4 numbers for each frame and bone");
+}
+
+}  // namespace
+
+Take make_take(Take take) {
+  check_sizes(take);
+  require_range("rate", take.rate, kLowestRate, kHighestRate);
+  require_range("unit", take.unit, kLeastUnit, kMostUnit);
+  for (std::size_t i = 0; i < take.rotations.size(); i += 4) {
+    Quaternion q = load_quaternion(&take.rotations[i]);
+    q.coeffs() /= q.coeffs().stableNorm();
+    store_quaternion(q, &take.rotations[i]);
+  }
+  return take;
+}
 
 void world_transforms(const Take& take, std::vector<double>& positions, std::vector<double>& rotations) {
   const Skeleton& skeleton = take.skeleton;

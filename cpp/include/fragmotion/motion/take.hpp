@@ -18,7 +18,12 @@ struct Take {
   int frames = 0;
   std::vector<double> translations;  ///< [frames, bones, 3] m
   std::vector<double> rotations;     ///< [frames, bones, 4] unit quaternions (w, x, y, z)
+  double unit = 1;                   ///< m: what was taken for one unit of the file's lengths.
 };
+
+/// Checks shapes, rate and unit of a take that no reader has made, and makes its rotations unit; numbers may be missing
+/// (not finite), and a rotation of length 0 is. Throws std::invalid_argument naming the take.
+Take make_take(Take take);
 
 /// World position [frames, bones, 3] and rotation [frames, bones, 4] of every bone's frame.
 void world_transforms(const Take& take, std::vector<double>& positions, std::vector<double>& rotations);

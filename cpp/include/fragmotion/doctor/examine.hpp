@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fragmotion/motion/take.hpp"
+
+namespace fragmotion {
+
+enum class Severity { kInfo, kWarning, kError };
+
+/// Something about a take that a person should know before anything is made of it.
+struct Finding {
+  std::string code;  ///< One of finding_codes().
+  Severity severity = Severity::kInfo;
+  int begin = 0, end = 0;  ///< The frames of the take, from 0, the last included.
+  std::string text;        ///< What is wrong, where and what to do.
+  bool mendable = false;   ///< Whether mend() can put it right; a duplicate is mended by leaving the take out.
+  bool safe = false;       ///< Whether it may be mended unasked: what is mended is sure, and nothing is invented.
+  int other = -1;          ///< Of a duplicate: the take that has the same motion.
+};
+
+/// What a take is, and what is wrong with it. Directions are "+X" to "-Z" in the take's own axes, "" where they cannot
+/// be told.
+struct Examination {
+  double stature = 0;      ///< m, in the unit that the body tells; 0 where the bones have no length.
+  double scale = 1;        ///< What the take's lengths are to be multiplied by to be metres.
+  std::string up, facing;  ///< From the feet to the head as it moves; where the body looks at rest.
+  double rate = 0;         ///< Frames a second.
+  bool root_motion = true;
+  std::string rest_pose;                     ///< "T", "A", "down", "other", or "" without arms.
+  std::map<std::string, std::string> roles;  ///< As named_bones() (role_map.hpp).
+  std::vector<Finding> findings;
+};
+
+/// Every code that a finding can have, in the order in which they are looked for and mended:
+/// missing (not a number), unit, up, mirrored, facing, flip (a bone turned over for a moment), spike (out of line for a
+/// moment), doubled (each frame stands several times), frozen, dropped (frames left out), calibration, jump (no body
+/// gets from one frame to the next), ground, slope, in_place, rate, size, body, short, duplicate.
+const std::vector<std::string>& finding_codes();
+
+/// Examines takes as they were read, each by itself and for motion that is in several of them; `threads` as
+/// thread_count(). Numbers may be missing (not finite).
+std::vector<Examination> examine(const std::vector<Take>& takes, int threads = 0);
+
+/// The take without what these findings of its examination say, as far as they are mendable; others, and those of other
+/// takes, change nothing. Examined again, nothing of a mended code is found. Lengths that change: a `calibration`, and
+/// `frozen` or `missing` frames at an end, are cut off, `doubled` frames are left out, `dropped` ones filled in.
+Take mend(const Take& take, const std::vector<Finding>& findings);
+
+}  // namespace fragmotion

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "doctor/basis.hpp"
+#include "doctor/check.hpp"
+#include "doctor/lengths.hpp"
+
+namespace fragmotion {
+namespace {
+
+const Eigen::Matrix3d kAsItIs = Eigen::Matrix3d::Identity();
+const Eigen::Matrix3d kMirror = Vector3{-1, 1, 1}.asDiagonal();
+
+constexpr double kLeastBody = 1.3, kMostBody = 2.2;            // m: what a unit must make of a grown person
+constexpr double kLeastUsual = 0.9, kMostUsual = 2.6;          // m: what is taken as it is: children, heroes
+constexpr double kInch = 0.0254, kFoot = 0.3048, kCmu = 0.45;  // m, m, file units an inch
+constexpr double kPoints = 0.5, kBends = 0.003;  // how far feet point forward (cosine), and knees (of a leg's length)
+
+struct Unit {
+  const char* name;
+  double metres;
+};
+
+constexpr std::array<Unit, 7> kUnits = {{{"metres", 1},
+                                         {"decimetres", 0.1},
+                                         {"centimetres", 0.01},
+                                         {"millimetres", 0.001},
+                                         {"inches", kInch},
+                                         {"feet", kFoot},
+                                         {"CMU's units of 1/0.45 inch", kInch / kCmu}}};
+
+/// Exactly.
+Eigen::Matrix3d quarter_turns(const Vector3& axis, int count) {
+  return Eigen::AngleAxisd(count * kPi / 2, axis).toRotationMatrix().array().round();
+}
+
+bool is_body(double stature) { return stature >= kLeastBody && stature <= kMostBody; }
+
+std::string body_text(double stature) { return "the body is " + short_number(stature) + " m tall"; }
+
+/// The unit of the file in which the body has a person's stature, told from what was taken for it.
+std::optional<Unit> told_unit(const Patient& patient) {
+  const double in_file = patient.stature() / patient.take().unit;
+  for (const Unit& unit : kUnits) {
+    if (is_body(in_file * unit.metres)) return Unit{unit.name, unit.metres / patient.take().unit};
+  }
+  for (int power = -6; power <= 6; ++power) {
+    const double scale = std::pow(10.0, power);
+    if (is_body(patient.stature() * scale)) return Unit{nullptr, scale};
+  }
+  return std::nullopt;
+}
+
+bool is_usual(double stature) { return stature >= kLeastUsual && stature <= kMostUsual; }
+
+/// How far feet and knees point to the front that the sides tell: -1 to 1, and lengths of a leg.
+struct Front {
+  double feet = 0, knees = 0;
+};
+
+void add_front(const Patient& patient, int frame, Front& front) {
+  const Vector3 right = patient.head(frame, patient.legs[1].top) - patient.head(frame, patient.legs[0].top);
+  const Vector3 ahead = Vector3::UnitZ().cross(right).normalized();
+  for (int side = 0; side < 2; ++side) {
+    const Limb3& leg = patient.legs[side];
+    Vector3 toe = patient.toe_direction(frame, side);
+    toe.z() = 0;
+    front.feet += toe.normalized().dot(ahead) / (2 * patient.frames());
+    if (leg.middle < 0) continue;
+    const Vector3 hip = patient.head(frame, leg.top), ankle = patient.head(frame, leg.end),
+                  knee = patient.head(frame, leg.middle), way = (ankle - hip).normalized();
+    const Vector3 bent = (knee - hip) - (knee - hip).dot(way) * way;
+    front.knees += bent.dot(ahead) / (2 * patient.frames() * (ankle - hip).norm());
+  }
+}
+
+Front front_of(const Patient& patient) {
+  Front front;
+  for (int f = 0; f < patient.frames(); ++f) add_front(patient, f, front);
+  return front;
+}
+
+}  // namespace
+
+Findings find_unit(const Patient& patient) {
+  if (!patient.has_legs() || patient.skull < 0 || is_usual(patient.stature())) return {};
+  const std::optional<Unit> unit = told_unit(patient);
+  if (!unit) return {};
+  const std::string told = unit->name ? std::string("its file is in ") + unit->name : "its lengths are off";
+  return {mendable(found(patient, "unit", Severity::kWarning,
+                         body_text(patient.stature()) + ": " + told + "; lengths times " + short_number(unit->metres) +
+                             " make it " + short_number(patient.stature() * unit->metres) + " m"))};
+}
+
+void change_unit(Patient& patient, const Findings&) {
+  const double scale = told_unit(patient)->metres;
+  Take take = with_basis(patient.take(), kAsItIs, scale);
+  take.unit *= scale;
+  patient.become(std::move(take));
+}
+
+Findings find_up(const Patient& patient) {
+  const Vector3 up = up_axis(patient);
+  if (up.isZero(0) || up.z() == 1) return {};
+  const bool rests_so = up_axis(Patient(resting_take(patient.take().skeleton))) == up;
+  const std::string doubt = rests_so ? "" : " (or the take is of somebody who lies; its rest pose stands otherwise)";
+  return {mendable(found(patient, "up", Severity::kWarning,
+                         "the body stands along " + axis_name(up) + " and not upright: the file's up axis is another" +
+                             doubt + "; turn it up"),
+                   rests_so)};
+}
+
+void turn_up(Patient& patient, const Findings&) {
+  const Vector3 up = up_axis(patient), z = Vector3::UnitZ();
+  const Vector3 about = up.z() == 0 ? Vector3{up.cross(z)} : Vector3::UnitX();
+  patient.become(with_basis(patient.take(), quarter_turns(about, up.z() == 0 ? 1 : 2)));
+}
+
+Findings find_mirrored(const Patient& patient) {
+  if (!patient.has_legs() || up_axis(patient).z() != 1) return {};
+  const Front front = front_of(patient);
+  if (!(front.feet < -kPoints && front.knees < kBends)) return {};
+  return {mendable(found(patient, "mirrored", Severity::kWarning,
+                         "the left leg is on the body's right: feet and knees point backward; the file is mirrored (a "
+                         "left-handed or negated axis); mirror it back"))};
+}
+
+void mirror_back(Patient& patient, const Findings&) { patient.become(with_basis(patient.take(), kMirror)); }
+
+Findings find_facing(const Patient& patient) {
+  const Patient rest(resting_take(patient.take().skeleton));
+  const Vector3 front = front_axis(rest);
+  if (up_axis(rest).z() != 1 || front.isZero(0) || front.y() == -1) return {};
+  return {mendable(found(patient, "facing", Severity::kInfo,
+                         "at rest the body faces " + axis_name(front) + " and not -Y, Blender's front; turn it"))};
+}
+
+void turn_to_front(Patient& patient, const Findings&) {
+  const Vector3 front = front_axis(Patient(resting_take(patient.take().skeleton)));
+  const int quarters = front.y() == 1 ? 2 : front.x() == 1 ? -1 : 1;
+  patient.become(with_basis(patient.take(), quarter_turns(Vector3::UnitZ(), quarters)));
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "doctor/basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kNear = 0.8;  // cosine
+constexpr int kPoses = 200;    // that are looked at, at most
+
+void change(const Eigen::Matrix3d& matrix, Vector3& v) { v = matrix * v; }
+
+// A rotation's axis turns the other way in a mirror.
+Quaternion changed(const Eigen::Matrix3d& basis, const Quaternion& q) {
+  const Vector3 axis = basis.determinant() * (basis * q.vec());
+  return {q.w(), axis.x(), axis.y(), axis.z()};
+}
+
+Vector3 middle_of_feet(const Patient& patient, int frame) {
+  return 0.5 * (patient.head(frame, patient.legs[0].end) + patient.head(frame, patient.legs[1].end));
+}
+
+Vector3 across(const Patient& patient, int frame, const Vector3& up) {
+  const Vector3 right = patient.head(frame, patient.legs[1].top) - patient.head(frame, patient.legs[0].top);
+  return right - right.dot(up) * up;
+}
+
+}  // namespace
+
+Take with_basis(Take take, const Eigen::Matrix3d& basis, double scale) {
+  const Eigen::Matrix3d matrix = scale * basis;
+  for (Vector3& offset : take.skeleton.offsets) change(matrix, offset);
+  for (Vector3& tip : take.skeleton.tips) change(matrix, tip);
+  for (Quaternion& rest : take.skeleton.rest_rotations) rest = changed(basis, rest);
+  for (std::size_t i = 0; i < take.translations.size(); i += 3)
+    store_vector(matrix * load_vector(&take.translations[i]), &take.translations[i]);
+  for (std::size_t i = 0; i < take.rotations.size(); i += 4)
+    store_quaternion(changed(basis, load_quaternion(&take.rotations[i])), &take.rotations[i]);
+  return take;
+}
+
+Vector3 nearest_axis(const Vector3& direction) {
+  int axis = 0;
+  const double most = direction.cwiseAbs().maxCoeff(&axis);
+  Vector3 result = Vector3::Zero();
+  if (most > kNear * direction.norm()) result[axis] = direction[axis] > 0 ? 1 : -1;
+  return result;
+}
+
+std::string axis_name(const Vector3& axis) {
+  for (int i = 0; i < 3; ++i) {
+    if (axis[i] != 0) return std::string(axis[i] > 0 ? "+" : "-") + "XYZ"[i];
+  }
+  return "";
+}
+
+Vector3 up_axis(const Patient& patient) {
+  if (!patient.has_legs() || patient.skull < 0) return Vector3::Zero();
+  Vector3 sum = Vector3::Zero();
+  const int apart = std::max(1, patient.frames() / kPoses);
+  int poses = 0;
+  for (int f = 0; f < patient.frames(); f += apart, ++poses) {
+    const Vector3 up = patient.head(f, patient.skull) - middle_of_feet(patient, f);
+    if (up.norm() > 0) sum += up.normalized();
+  }
+  return sum.norm() > kNear * poses ? nearest_axis(sum) : Vector3::Zero();
+}
+
+Vector3 front_axis(const Patient& resting) {
+  const Vector3 up = up_axis(resting);
+  if (up.isZero(0)) return up;
+  const Vector3 feet = resting.toe_direction(0, 0) + resting.toe_direction(0, 1), ahead = feet - feet.dot(up) * up;
+  const bool point = ahead.norm() > 0.02 * resting.stature();
+  return nearest_axis(point ? ahead : Vector3{up.cross(across(resting, 0, up))});
+}
+
+}  // namespace fragmotion

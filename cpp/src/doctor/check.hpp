@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "doctor/patient.hpp"
+
+namespace fragmotion {
+
+/// What finds one kind of fault, in the patient's own frames, and puts right those of its findings that it is given.
+struct Check {
+  Findings (*find)(const Patient&);
+  void (*mend)(Patient&, const Findings&);  ///< None where nothing is mendable.
+  bool needs_numbers = true;                ///< Whether every number must be there.
+};
+
+Findings find_missing(const Patient& patient);
+void fill_missing(Patient& patient, const Findings& findings);
+
+Findings find_unit(const Patient& patient);
+void change_unit(Patient& patient, const Findings& findings);
+
+Findings find_up(const Patient& patient);
+void turn_up(Patient& patient, const Findings& findings);
+
+Findings find_mirrored(const Patient& patient);
+void mirror_back(Patient& patient, const Findings& findings);
+
+Findings find_facing(const Patient& patient);
+void turn_to_front(Patient& patient, const Findings& findings);
+
+Findings find_spikes(const Patient& patient);
+void fill_spikes(Patient& patient, const Findings& findings);
+
+Findings find_doubled(const Patient& patient);
+void leave_out_doubled(Patient& patient, const Findings& findings);
+
+Findings find_held(const Patient& patient);
+void fill_held(Patient& patient, const Findings& findings);
+
+Findings find_dropped(const Patient& patient);
+void fill_dropped(Patient& patient, const Findings& findings);
+
+Findings find_jumps(const Patient& patient);
+Findings find_calibration(const Patient& patient);
+Findings find_frozen_ends(const Patient& patient);
+/// Cuts off frames at the ends.
+void cut_ends(Patient& patient, const Findings& findings);
+
+Findings find_ground(const Patient& patient);
+void put_on_ground(Patient& patient, const Findings& findings);
+Findings find_slope(const Patient& patient);
+Findings find_in_place(const Patient& patient);
+
+/// Rate, size, missing parts of the body, too few frames.
+Findings find_plain_facts(const Patient& patient);
+
+}  // namespace fragmotion

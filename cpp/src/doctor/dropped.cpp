@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "doctor/check.hpp"
+#include "doctor/runs.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kDropped = 1.75;      // times the steps beside: a frame has been left out
+constexpr double kUnlike = 0.4;        // of the step: how far it may be from so many steps beside
+constexpr double kAlike = 0.75;        // cosine of the steps beside
+constexpr double kLeastSpeed = 0.5;    // m/s, the bones' root mean square, of a character of 1.8 m
+constexpr double kMostSeconds = 0.25;  // that are filled in
+
+using Step = Eigen::VectorXd;
+
+Step step_to(const Patient& patient, int frame) {
+  Step step(3 * patient.bones());
+  for (int b = 0; b < patient.bones(); ++b)
+    step.segment<3>(3 * b) = patient.head(frame, b) - patient.head(frame - 1, b);
+  return step;
+}
+
+/// How many frames are missing before a frame, told from the steps beside it.
+int dropped_between(const Patient& patient, const Step& before, const Step& step, const Step& after) {
+  const Step usual = 0.5 * (before + after);
+  const double speed = usual.norm() / std::sqrt(patient.bones()) * patient.rate() * patient.scale();
+  if (!(speed > kLeastSpeed && before.dot(after) > kAlike * before.norm() * after.norm())) return 0;
+  const double times = step.dot(usual) / usual.squaredNorm();
+  if (times < kDropped || (step - times * usual).norm() > kUnlike * step.norm()) return 0;
+  const int count = static_cast<int>(std::lround(times)) - 1;
+  return count <= kMostSeconds * patient.rate() ? count : 0;
+}
+
+/// For each frame how many are missing before it.
+std::vector<int> dropped_before(const Patient& patient) {
+  std::vector<int> counts(patient.frames(), 0);
+  if (patient.frames() < 4 || patient.scale() == 0) return counts;
+  Step before = step_to(patient, 1), step = step_to(patient, 2);
+  for (int f = 2; f + 1 < patient.frames(); ++f) {
+    const Step after = step_to(patient, f + 1);
+    counts[f] = dropped_between(patient, before, step, after);
+    before = step;
+    step = after;
+  }
+  return counts;
+}
+
+}  // namespace
+
+Findings find_dropped(const Patient& patient) {
+  const std::vector<int> counts = dropped_before(patient);
+  Findings findings;
+  for (int f = 1; f < patient.frames(); ++f) {
+    if (counts[f] == 0) continue;
+    const std::string what = counts[f] == 1 ? "a frame is" : std::to_string(counts[f]) + " frames are";
+    findings.push_back(mendable(
+        found("dropped", Severity::kWarning, f - 1, f,
+              frames_text(Run{f - 1, f}) + ": " + what + " missing between them, the body goes on too far; fill in")));
+  }
+  return findings;
+}
+
+void fill_dropped(Patient& patient, const Findings& findings) {
+  const std::vector<int> counts = dropped_before(patient);
+  Take take = frames_of(patient.take(), {0});
+  std::vector<int> sources = {0};
+  for (int f = 1; f < patient.frames(); ++f) {
+    const int count = covers(findings, {f - 1, f}) ? counts[f] : 0;
+    for (int i = 1; i <= count + 1; ++i) {
+      append_between(patient.take(), f - 1, static_cast<double>(i) / (count + 1), take);
+      sources.push_back(f);
+    }
+  }
+  patient.become(std::move(take), sources);
+}
+
+}  // namespace fragmotion

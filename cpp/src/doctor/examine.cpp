@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "fragmotion/doctor/examine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "doctor/basis.hpp"
+#include "doctor/check.hpp"
+#include "doctor/duplicates.hpp"
+#include "fragmotion/base/parallel.hpp"
+
+namespace fragmotion {
+namespace {
+
+void leave(Patient&, const Findings&) {}
+
+/// In order: each check sees the take without what those before it can mend.
+const std::vector<Check>& checks() {
+  static const std::vector<Check> all = {
+      {find_missing, fill_missing, false}, {find_unit, change_unit},     {find_up, turn_up},
+      {find_mirrored, mirror_back},        {find_facing, turn_to_front}, {find_spikes, fill_spikes},
+      {find_doubled, leave_out_doubled},   {find_held, fill_held},       {find_calibration, cut_ends},
+      {find_frozen_ends, cut_ends},        {find_dropped, fill_dropped}, {find_jumps, leave},
+      {find_ground, put_on_ground},        {find_slope, leave},          {find_in_place, leave},
+      {find_plain_facts, leave},
+  };
+  return all;
+}
+
+Findings find(const Check& check, const Patient& patient) {
+  return check.needs_numbers && !patient.is_finite() ? Findings{} : check.find(patient);
+}
+
+Finding in_file(const Patient& patient, Finding finding) {
+  finding.begin = patient.source(finding.begin);
+  finding.end = patient.source(finding.end);
+  return finding;
+}
+
+template <typename Chosen>
+Findings chosen_of(const Findings& findings, const Chosen& chosen) {
+  Findings result;
+  std::copy_if(findings.begin(), findings.end(), std::back_inserter(result),
+               [&](const Finding& finding) { return finding.mendable && chosen(finding); });
+  return result;
+}
+
+void mend(const Check& check, const Findings& findings, Patient& patient) {
+  if (!findings.empty()) check.mend(patient, findings);
+}
+
+std::string rest_pose_name(const Patient& rest) {
+  if (!rest.has_arms() || up_axis(rest).isZero(0)) return "";
+  const Vector3 up = up_axis(rest);
+  double rise = 0;
+  for (const Limb3& arm : rest.arms) {
+    const Vector3 way = rest.head(0, arm.end) - rest.head(0, arm.top);
+    rise += 0.5 * std::asin(std::clamp(way.normalized().dot(up), -1.0, 1.0)) * 180 / kPi;
+  }
+  return rise > 20 ? "other" : rise > -20 ? "T" : rise > -65 ? "A" : "down";
+}
+
+Examination described(const Patient& patient) {
+  const Patient rest(resting_take(patient.take().skeleton));
+  Examination told;
+  told.up = axis_name(up_axis(patient));
+  told.facing = axis_name(front_axis(rest));
+  told.rate = patient.rate();
+  told.rest_pose = rest_pose_name(rest);
+  told.roles = named_bones(patient.take().skeleton, patient.roles());
+  return told;
+}
+
+/// Finds and tells, and mends the patient as far as it can be, so that the next check sees no fault but its own.
+void apply(const Check& check, Patient& patient, Findings& told) {
+  const Findings findings = find(check, patient);
+  for (const Finding& finding : findings) told.push_back(in_file(patient, finding));
+  mend(check, chosen_of(findings, [](const Finding&) { return true; }), patient);
+}
+
+Examination examine(Patient& patient) {
+  Findings findings;
+  apply(checks().front(), patient, findings);
+  Examination told = described(patient);
+  const double unit = patient.take().unit;
+  for (std::size_t i = 1; i < checks().size(); ++i) apply(checks()[i], patient, findings);
+  told.stature = patient.stature();
+  told.scale = patient.take().unit / unit;
+  told.root_motion =
+      std::none_of(findings.begin(), findings.end(), [](const Finding& f) { return f.code == "in_place"; });
+  told.findings = std::move(findings);
+  return told;
+}
+
+bool is_same(const Finding& a, const Finding& b) { return a.code == b.code && a.begin == b.begin && a.end == b.end; }
+
+}  // namespace
+
+const std::vector<std::string>& finding_codes() {
+  static const std::vector<std::string> codes = {
+      "missing",     "unit", "up",     "mirrored", "facing",   "flip", "spike", "doubled", "frozen", "dropped",
+      "calibration", "jump", "ground", "slope",    "in_place", "rate", "size",  "body",    "short",  "duplicate"};
+  return codes;
+}
+
+std::vector<Examination> examine(const std::vector<Take>& takes, int threads) {
+  const int count = static_cast<int>(takes.size());
+  std::vector<Examination> told(count);
+  std::vector<Outline> outlines(count);
+  parallel_for(count, thread_count(threads), [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      Patient patient(takes[i]);
+      told[i] = examine(patient);
+      outlines[i] = outline_of(patient);
+    }
+  });
+  find_duplicates(takes, outlines, thread_count(threads), told);
+  return told;
+}
+
+Take mend(const Take& take, const std::vector<Finding>& findings) {
+  Patient patient(take);
+  for (const Check& check : checks()) {
+    const Findings chosen = chosen_of(find(check, patient), [&](const Finding& finding) {
+      const Finding told = in_file(patient, finding);
+      return std::any_of(findings.begin(), findings.end(), [&](const Finding& f) { return is_same(f, told); });
+    });
+    mend(check, chosen, patient);
+  }
+  return patient.take();
+}
+
+}  // namespace fragmotion

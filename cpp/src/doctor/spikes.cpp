@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "doctor/check.hpp"
+#include "doctor/runs.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kLeastTurn = kPi / 15, kTurnRate = 600 * kPi / 180;  // rad, rad/s: at once, of a bone in its parent
+constexpr double kLeastMove = 0.05, kMoveRate = 4;                    // m, m/s: of a bone of a character of 1.8 m
+constexpr double kBack = 0.5;         // of the jump: how far a bone may come back from where it left
+constexpr double kCalm = 0.3;         // of the jump: how far it moves from frame to frame before and after
+constexpr double kLongest = 0.05;     // s, four frames at the least
+constexpr double kOver = 0.75 * kPi;  // rad: turned over
+
+/// A bone's frames out of line, and how far they are.
+struct Spike {
+  int bone = -1;
+  Run run;
+  bool flip = false;
+};
+
+/// How far a bone is between two frames, as a share of what no bone does from frame to frame.
+class Distances {
+ public:
+  explicit Distances(const Patient& patient)
+      : patient_(patient),
+        turn_(std::max(kLeastTurn, kTurnRate / patient.rate())),
+        move_(std::max(kLeastMove, kMoveRate / patient.rate()) / patient.scale()) {}
+
+  double operator()(int bone, int a, int b) const { return std::max(turned(bone, a, b) / turn_, moved(bone, a, b)); }
+
+  double turned(int bone, int a, int b) const {
+    return 2 * std::acos(std::min(1.0, std::abs(patient_.local(a, bone).dot(patient_.local(b, bone)))));
+  }
+
+ private:
+  double moved(int bone, int a, int b) const {
+    const std::vector<double>& places = patient_.take().translations;
+    return (load_vector(&places[3 * patient_.at(a, bone)]) - load_vector(&places[3 * patient_.at(b, bone)])).norm() /
+           move_;
+  }
+
+  const Patient& patient_;
+  double turn_, move_;
+};
+
+class SpikeFinder {
+ public:
+  explicit SpikeFinder(const Patient& patient)
+      : patient_(patient),
+        distance_(patient),
+        longest_(std::max(4, static_cast<int>(kLongest * patient.rate()))),
+        steps_(patient.frames() + 1) {}
+
+  std::vector<Spike> find() {
+    std::vector<Spike> spikes;
+    for (int b = 0; b < patient_.bones(); ++b) find_of(b, spikes);
+    return spikes;
+  }
+
+ private:
+  void find_of(int bone, std::vector<Spike>& spikes) {
+    for (int f = 1; f < patient_.frames(); ++f) steps_[f] = distance_(bone, f - 1, f);
+    for (int f = 1; f < patient_.frames(); ++f) {
+      const int end = steps_[f] > 1 ? back_from(bone, f) : 0;
+      if (end == 0) continue;
+      spikes.push_back({bone, {f, end - 1}, distance_.turned(bone, f - 1, f) > kOver});
+      f = end;
+    }
+  }
+
+  // The frame in which the bone is back where it was before `begin`; 0 where it is not soon.
+  int back_from(int bone, int begin) const {
+    for (int f = begin + 1; f <= begin + longest_ && f < patient_.frames(); ++f) {
+      const double jump = std::min(steps_[begin], steps_[f]);
+      if (distance_(bone, begin - 1, f) < kBack * jump)
+        return jump > 1 && is_calm(begin - 1, kCalm * jump) && is_calm(f + 1, kCalm * jump) ? f : 0;
+    }
+    return 0;
+  }
+
+  bool is_calm(int step, double most) const { return step < 1 || step >= patient_.frames() || steps_[step] < most; }
+
+  const Patient& patient_;
+  Distances distance_;
+  int longest_;
+  std::vector<double> steps_;  // to each frame from the one before
+};
+
+std::string bone_names(const Patient& patient, const std::vector<Spike>& spikes, const Run& run) {
+  std::set<int> bones;
+  for (const Spike& spike : spikes) {
+    if (spike.run.begin >= run.begin && spike.run.end <= run.end) bones.insert(spike.bone);
+  }
+  const std::string first = "bone '" + patient.take().skeleton.names[*bones.begin()] + "'";
+  return bones.size() == 1 ? first : first + " and " + std::to_string(bones.size() - 1) + " more";
+}
+
+Findings findings_of(const Patient& patient, const std::vector<Spike>& spikes, const char* code, const char* what) {
+  std::vector<char> is_out(patient.frames());
+  for (const Spike& spike : spikes) std::fill_n(&is_out[spike.run.begin], spike.run.length(), 1);
+  Findings findings;
+  for (const Run& run : runs(patient.frames(), [&](int f) { return is_out[f] != 0; })) {
+    const std::string text =
+        frames_text(run) + ": " + bone_names(patient, spikes, run) + what + "; interpolate from the frames beside";
+    findings.push_back(mendable(found(code, Severity::kWarning, run.begin, run.end, text)));
+  }
+  return findings;
+}
+
+}  // namespace
+
+Findings find_spikes(const Patient& patient) {
+  if (patient.scale() == 0) return {};
+  std::vector<Spike> spikes = SpikeFinder(patient).find();
+  const auto others = std::stable_partition(spikes.begin(), spikes.end(), [](const Spike& s) { return s.flip; });
+  const std::vector<Spike> flips(spikes.begin(), others), jumps(others, spikes.end());
+  Findings findings = findings_of(patient, flips, "flip", " is turned over and back at once");
+  for (const Finding& f : findings_of(patient, jumps, "spike", " leaves and comes back at once")) findings.push_back(f);
+  return findings;
+}
+
+void fill_spikes(Patient& patient, const Findings& findings) {
+  Take take = patient.take();
+  for (const Spike& spike : SpikeFinder(patient).find()) {
+    const bool chosen = std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
+      return (finding.code == "flip") == spike.flip && covers({finding}, spike.run);
+    });
+    if (chosen) bridge(take, spike.bone, spike.run);
+  }
+  patient.become(std::move(take));
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "doctor/basis.hpp"
+#include "fragmotion/doctor/examine.hpp"
+#include "walker.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+
+Take take_of(const Skeleton& skeleton, const Clip& clip) {
+  Take take{skeleton, clip.name, clip.rate, clip.frames, {}, clip.rotations};
+  for (int f = 0; f < clip.frames; ++f) {
+    for (int b = 0; b < skeleton.size(); ++b) {
+      const Vector3 place = b == 0 ? load_vector(&clip.root_positions[3 * f]) : skeleton.offsets[b];
+      take.translations.insert(take.translations.end(), {place.x(), place.y(), place.z()});
+    }
+  }
+  return make_take(take);
+}
+
+Take walk(const Gait& gait = {}) { return take_of(humanoid(), gait_clip(gait, "walk")); }
+
+std::vector<Finding> findings_of(const Take& take) { return examine({take}, 1)[0].findings; }
+
+std::vector<std::string> codes_of(const Take& take) {
+  std::vector<std::string> codes;
+  for (const Finding& finding : findings_of(take)) codes.push_back(finding.code);
+  return codes;
+}
+
+double* rotation(Take& take, int frame, const std::string& bone) {
+  return &take.rotations[std::size_t{4} * (frame * take.skeleton.size() + take.skeleton.find(bone))];
+}
+
+double* place(Take& take, int frame, int bone = 0) {
+  return &take.translations[std::size_t{3} * (frame * take.skeleton.size() + bone)];
+}
+
+Take picked(const Take& take, const std::vector<int>& frames) {
+  Take result = take;
+  result.frames = 0;
+  result.translations.clear();
+  result.rotations.clear();
+  const std::size_t bones = take.skeleton.names.size();
+  for (const int f : frames) {
+    ++result.frames;
+    const auto t = take.translations.begin() + static_cast<std::ptrdiff_t>(3 * bones * f);
+    const auto r = take.rotations.begin() + static_cast<std::ptrdiff_t>(4 * bones * f);
+    result.translations.insert(result.translations.end(), t, t + static_cast<std::ptrdiff_t>(3 * bones));
+    result.rotations.insert(result.rotations.end(), r, r + static_cast<std::ptrdiff_t>(4 * bones));
+  }
+  return result;
+}
+
+std::vector<int> counted(int count, int first = 0) {
+  std::vector<int> frames(count);
+  std::iota(frames.begin(), frames.end(), first);
+  return frames;
+}
+
+void expect_near(const Take& take, const Take& clean, double tolerance) {
+  ASSERT_EQ(take.frames, clean.frames);
+  std::vector<double> ours, theirs, rotations;
+  world_transforms(take, ours, rotations);
+  world_transforms(clean, theirs, rotations);
+  double farthest = 0;
+  for (std::size_t i = 0; i < ours.size(); ++i) farthest = std::max(farthest, std::abs(ours[i] - theirs[i]));
+  EXPECT_LE(farthest, tolerance);
+}
+
+/// Exactly one finding, of this code and these frames; mended it is gone, and the take is the clean one again.
+void expect_mended(const Take& damaged, const std::string& code, int begin, int end, const Take& clean,
+                   double tolerance = 1e-9) {
+  const std::vector<Finding> findings = findings_of(damaged);
+  ASSERT_EQ(codes_of(damaged), std::vector<std::string>{code});
+  EXPECT_EQ(findings[0].begin, begin);
+  EXPECT_EQ(findings[0].end, end);
+  EXPECT_FALSE(findings[0].text.empty());
+  EXPECT_TRUE(findings[0].mendable);
+  const Take mended = mend(damaged, findings);
+  EXPECT_EQ(codes_of(mended), std::vector<std::string>{});
+  expect_near(mended, clean, tolerance);
+  EXPECT_EQ(mend(mended, findings).rotations, mended.rotations);
+}
+
+TEST(Doctor, FindsNothingInCleanMotion) {
+  for (const double rate : {60.0, 120.0}) {
+    for (const double size : {0.9, 1.1}) {
+      for (const Clip& clip : gait_takes(rate, size)) {
+        const Take take = take_of(humanoid(size), clip);
+        const std::size_t still = clip.name == "stand" ? 1 : clip.name == "jump" ? 2 : 0;  // parts without motion
+        EXPECT_EQ(codes_of(take), std::vector<std::string>(still, "frozen")) << clip.name << " " << rate << " " << size;
+        if (still == 2) continue;
+        EXPECT_EQ(mend(take, findings_of(take)).rotations, take.rotations);
+        EXPECT_EQ(mend(take, findings_of(take)).translations, take.translations);
+      }
+    }
+  }
+}
+
+TEST(Doctor, TellsWhatATakeIs) {
+  const Examination told = examine({walk()}, 1)[0];
+  EXPECT_NEAR(told.stature, stature(humanoid()), 1e-12);
+  EXPECT_EQ(told.scale, 1);
+  EXPECT_EQ(told.up, "+Z");
+  EXPECT_EQ(told.facing, "-Y");
+  EXPECT_EQ(told.rate, 30);
+  EXPECT_TRUE(told.root_motion);
+  EXPECT_EQ(told.rest_pose, "down");
+  EXPECT_EQ(told.roles.at("left_foot"), "foot.L");
+}
+
+TEST(Doctor, PutsRightAnyUnit) {
+  const Take clean = walk();
+  for (const double unit : {100.0, 0.01, 1000.0, 0.1, 0.001, 1 / 0.0254, 0.45 / 0.0254}) {
+    Take damaged = with_basis(clean, Eigen::Matrix3d::Identity(), unit);
+    expect_mended(damaged, "unit", 0, clean.frames - 1, clean, 1e-9);
+    EXPECT_NEAR(examine({damaged}, 1)[0].scale, 1 / unit, 1e-9 / unit);
+  }
+}
+
+TEST(Doctor, KnowsTheUnitOfTheFile) {
+  Take inches = with_basis(walk(), Eigen::Matrix3d::Identity(), 0.01 / 0.0254);
+  inches.unit = 0.01;
+  const Finding finding = findings_of(inches).at(0);
+  EXPECT_NE(finding.text.find("inches"), std::string::npos) << finding.text;
+  EXPECT_NEAR(mend(inches, {finding}).unit, 0.0254, 1e-12);
+}
+
+TEST(Doctor, TurnsUpWhateverAxisWasTaken) {
+  const Take clean = walk();
+  for (const auto& [x, y] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {2, 0}}) {
+    const Eigen::Matrix3d turn =
+        (Eigen::AngleAxisd(x * kPi / 2, Vector3::UnitX()) * Eigen::AngleAxisd(y * kPi / 2, Vector3::UnitY()))
+            .toRotationMatrix()
+            .array()
+            .round();
+    const Take damaged = with_basis(clean, turn);
+    const std::vector<Finding> findings = findings_of(damaged);
+    ASSERT_FALSE(findings.empty());
+    EXPECT_EQ(findings[0].code, "up");
+    EXPECT_TRUE(findings[0].safe);
+    const Take mended = mend(damaged, findings);
+    EXPECT_EQ(codes_of(mended), std::vector<std::string>{});
+    expect_near(mended, clean, 1e-9);
+  }
+}
+
+TEST(Doctor, TurnsToTheFront) {
+  const Take clean = walk();
+  for (const int quarters : {1, 2, 3}) {
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(quarters * kPi / 2, Vector3::UnitZ()).toRotationMatrix().array().round();
+    expect_mended(with_basis(clean, turn), "facing", 0, clean.frames - 1, clean);
+  }
+}
+
+TEST(Doctor, MirrorsBackWhatALeftHandedFileMirrors) {
+  const Take clean = walk({0.3, 1.2, 0.5});
+  for (const Vector3& axis : {Vector3{-1, 1, 1}, Vector3{1, -1, 1}}) {
+    const Take damaged = with_basis(clean, axis.asDiagonal());
+    const std::vector<Finding> findings = findings_of(damaged);
+    ASSERT_FALSE(findings.empty());
+    EXPECT_EQ(findings[0].code, "mirrored");
+    const Take mended = mend(damaged, findings);
+    EXPECT_EQ(codes_of(mended), std::vector<std::string>{});
+    expect_near(mended, clean, 1e-9);
+  }
+}
+
+TEST(Doctor, FillsWhatIsNotANumber) {
+  const Take clean = walk();
+  Take damaged = clean;
+  rotation(damaged, 40, "forearm.L")[2] = kNotANumber;
+  place(damaged, 41)[0] = std::numeric_limits<double>::infinity();
+  expect_mended(damaged, "missing", 40, 41, clean, 0.01);
+}
+
+TEST(Doctor, CutsAnEndThatIsNotANumber) {
+  const Take clean = walk();
+  Take damaged = clean;
+  for (int f = 0; f < 5; ++f) place(damaged, f)[2] = kNotANumber;
+  expect_mended(damaged, "missing", 0, 4, picked(clean, counted(clean.frames - 5, 5)));
+}
+
+TEST(Doctor, DoesNotInventALongGapUnasked) {
+  Take damaged = walk();
+  for (int f = 30; f < 60; ++f) place(damaged, f)[2] = kNotANumber;
+  const Finding finding = findings_of(damaged).at(0);
+  EXPECT_EQ(finding.severity, Severity::kError);
+  EXPECT_FALSE(finding.safe);
+}
+
+TEST(Doctor, FindsAndFillsSpikes) {
+  for (const double rate : {30.0, 120.0}) {
+    const Take clean = walk({0, 1.2, 0, 3, rate});
+    for (const int frames : {1, 2, 3}) {
+      Take damaged = clean;
+      for (int f = 50; f < 50 + frames; ++f) {
+        double* q = rotation(damaged, f, "upper_arm.R");
+        store_quaternion(Quaternion(Eigen::AngleAxisd(0.8, Vector3::UnitY())) * load_quaternion(q), q);
+      }
+      expect_mended(damaged, "spike", 50, 49 + frames, clean, 0.02);
+      for (int f = 50; f < 50 + frames; ++f) place(damaged, f)[0] += 0.5;
+      expect_mended(damaged, "spike", 50, 49 + frames, clean, 0.02);
+    }
+  }
+}
+
+TEST(Doctor, FindsAndFillsFlips) {
+  const Take clean = walk();
+  for (const Vector3& axis : {Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}}) {
+    Take damaged = clean;
+    for (const int f : {30, 31}) {
+      double* q = rotation(damaged, f, "shin.L");
+      store_quaternion(load_quaternion(q) * Quaternion(Eigen::AngleAxisd(kPi, axis)), q);
+    }
+    expect_mended(damaged, "flip", 30, 31, clean, 0.1);
+  }
+}
+
+TEST(Doctor, AQuaternionOfTheOtherSignIsNoFlip) {
+  Take take = walk();
+  double* q = rotation(take, 30, "shin.L");
+  for (int i = 0; i < 4; ++i) q[i] *= -1;
+  EXPECT_EQ(codes_of(take), std::vector<std::string>{});
+}
+
+TEST(Doctor, LeavesOutDoubledFrames) {
+  const Take clean = walk();
+  for (const int copies : {2, 3, 4}) {
+    std::vector<int> frames;
+    for (int f = 0; f < clean.frames; ++f) frames.insert(frames.end(), copies, f);
+    Take damaged = picked(clean, frames);
+    damaged.rate *= copies;
+    expect_mended(damaged, "doubled", 0, damaged.frames - 1, clean);
+    EXPECT_EQ(mend(damaged, findings_of(damaged)).rate, clean.rate);
+  }
+}
+
+TEST(Doctor, FillsFrozenFrames) {
+  const Take clean = walk();
+  std::vector<int> frames = counted(clean.frames);
+  frames[40] = frames[41] = 39;
+  expect_mended(picked(clean, frames), "frozen", 40, 41, clean, 0.03);
+}
+
+TEST(Doctor, CutsFrozenEnds) {
+  const Take clean = walk();
+  std::vector<int> frames = counted(clean.frames);
+  frames.insert(frames.begin(), 10, 0);
+  expect_mended(picked(clean, frames), "frozen", 0, 9, clean);
+  frames = counted(clean.frames);
+  frames.insert(frames.end(), 10, clean.frames - 1);
+  expect_mended(picked(clean, frames), "frozen", clean.frames, clean.frames + 9, clean);
+}
+
+TEST(Doctor, TellsALongStandstillAndMendsNothing) {
+  const Take clean = walk();
+  std::vector<int> frames = counted(clean.frames);
+  for (int f = 41; f < 60; ++f) frames[f] = 40;
+  const Take damaged = picked(clean, frames);
+  ASSERT_EQ(codes_of(damaged), std::vector<std::string>{"frozen"});
+  EXPECT_FALSE(findings_of(damaged)[0].mendable);
+}
+
+TEST(Doctor, FillsInDroppedFrames) {
+  const Take clean = walk();
+  for (const int count : {1, 2}) {
+    std::vector<int> frames = counted(clean.frames);
+    frames.erase(frames.begin() + 40, frames.begin() + 40 + count);
+    expect_mended(picked(clean, frames), "dropped", 39, 40, clean, 0.05);
+  }
+}
+
+TEST(Doctor, CutsCalibrationPosesOff) {
+  const Take clean = walk();
+  for (const int count : {1, 2, 20}) {
+    for (const bool at_start : {true, false}) {
+      Take pose = picked(clean, std::vector<int>(count, at_start ? 0 : clean.frames - 1));
+      for (int f = 0; f < count; ++f) {
+        store_quaternion(Quaternion(Eigen::AngleAxisd(-kPi / 2, Vector3::UnitY())), rotation(pose, f, "upper_arm.L"));
+        store_quaternion(Quaternion(Eigen::AngleAxisd(kPi / 2, Vector3::UnitY())), rotation(pose, f, "upper_arm.R"));
+      }
+      Take damaged = at_start ? pose : clean;
+      const Take& rest = at_start ? clean : pose;
+      damaged.frames += rest.frames;
+      damaged.translations.insert(damaged.translations.end(), rest.translations.begin(), rest.translations.end());
+      damaged.rotations.insert(damaged.rotations.end(), rest.rotations.begin(), rest.rotations.end());
+      const int begin = at_start ? 0 : clean.frames;
+      expect_mended(damaged, "calibration", begin, begin + count - 1, clean);
+    }
+  }
+}
+
+TEST(Doctor, TellsAJumpInTheMiddle) {
+  Take take = walk();
+  for (int f = 45; f < take.frames; ++f) place(take, f)[0] += 1.5;
+  const std::vector<Finding> findings = findings_of(take);
+  ASSERT_EQ(codes_of(take), std::vector<std::string>{"jump"});
+  EXPECT_EQ(findings[0].begin, 44);
+  EXPECT_EQ(findings[0].end, 45);
+  EXPECT_FALSE(findings[0].mendable);
+}
+
+TEST(Doctor, PutsFeetOnTheGround) {
+  const Take clean = walk();
+  for (const double height : {-0.05, -0.6, 0.1, 1.0}) {
+    Take damaged = clean;
+    for (int f = 0; f < damaged.frames; ++f) place(damaged, f)[2] += height;
+    expect_mended(damaged, "ground", 0, clean.frames - 1, clean, 0.015);
+  }
+}
+
+TEST(Doctor, TellsASlope) {
+  Take take = walk();
+  for (int f = 0; f < take.frames; ++f) place(take, f)[2] += 0.1 * place(take, f)[1] - 0.18;
+  EXPECT_EQ(codes_of(take), std::vector<std::string>{"slope"});
+}
+
+TEST(Doctor, TellsMotionInPlace) {
+  Take take = walk();
+  for (int f = 0; f < take.frames; ++f) place(take, f)[0] = place(take, f)[1] = 0;
+  EXPECT_EQ(codes_of(take), std::vector<std::string>{"in_place"});
+  EXPECT_FALSE(examine({take}, 1)[0].root_motion);
+}
+
+TEST(Doctor, TellsARateThatCannotBe) {
+  Take take = walk();
+  for (const double rate : {2.0, 2000.0}) {
+    take.rate = rate;
+    const std::vector<std::string> codes = codes_of(take);
+    EXPECT_NE(std::find(codes.begin(), codes.end(), "rate"), codes.end());
+  }
+}
+
+TEST(Doctor, FindsTheSameMotionTwice) {
+  const Take one = walk({0.2, 1.2, 0.3, 4}), other = walk({-0.3, 1.0, -0.4, 4, 30, 1.1});
+  Take copy = with_basis(one, Eigen::AngleAxisd(2, Vector3::UnitZ()).toRotationMatrix());
+  for (int f = 0; f < copy.frames; ++f) place(copy, f)[0] += 3;
+  const std::vector<Take> takes = {one, other, copy, picked(one, counted(70, 30)), walk({0.2, 1.2, 0.3, 4, 60})};
+  const std::vector<Examination> told = examine(takes, 2);
+  const auto other_of = [&](int take) {
+    for (const Finding& finding : told[take].findings) {
+      if (finding.code == "duplicate") return finding.other;
+    }
+    return -1;
+  };
+  EXPECT_EQ(other_of(0), -1);
+  EXPECT_EQ(other_of(1), -1);
+  EXPECT_EQ(other_of(2), 0);
+  EXPECT_EQ(other_of(3), 0);
+  EXPECT_EQ(other_of(4), 0);
+}
+
+TEST(Doctor, SaysTheSameOnAnyNumberOfThreads) {
+  const std::vector<Take> takes = {walk(), walk({0, 3, 0, 2}), walk(), walk({0, 1, 1})};
+  const std::vector<Examination> one = examine(takes, 1), two = examine(takes, 3);
+  for (std::size_t i = 0; i < takes.size(); ++i) {
+    ASSERT_EQ(one[i].findings.size(), two[i].findings.size());
+    for (std::size_t f = 0; f < one[i].findings.size(); ++f)
+      EXPECT_EQ(one[i].findings[f].text, two[i].findings[f].text);
+  }
+}
+
+TEST(Doctor, MendsOnlyWhatItIsAskedTo) {
+  Take damaged = walk();
+  for (int f = 0; f < damaged.frames; ++f) place(damaged, f)[2] -= 0.1;
+  place(damaged, 30)[0] = kNotANumber;
+  std::vector<Finding> findings = findings_of(damaged);
+  ASSERT_EQ(findings.size(), 2);
+  EXPECT_EQ(codes_of(mend(damaged, {findings[0]})), std::vector<std::string>{"ground"});
+  EXPECT_EQ(codes_of(mend(damaged, findings)), std::vector<std::string>{});
+}
+
+TEST(Doctor, SaysPlainlyWhatIsNoBody) {
+  const auto expect_told = [](const Take& take, const std::string& code) {
+    const std::vector<std::string> codes = codes_of(take);
+    EXPECT_NE(std::find(codes.begin(), codes.end(), code), codes.end()) << code;
+    mend(take, findings_of(take));
+  };
+  expect_told(picked(walk(), {0}), "short");
+  Skeleton bone;
+  bone.names = {"bone"}, bone.parents = {-1}, bone.rest_rotations = {Quaternion::Identity()};
+  bone.offsets = {Vector3::Zero()}, bone.tips = {Vector3::UnitZ()};
+  const Take one_bone{make_skeleton(bone), "bone", 30, 2, std::vector<double>(6, 0), {1, 0, 0, 0, 1, 0, 0, 0}};
+  expect_told(one_bone, "body");
+  expect_told(with_basis(walk(), Eigen::Matrix3d::Zero(), 0), "size");
+  for (const char* limb : {"thigh", "upper_arm"}) {
+    Take renamed = walk();
+    Skeleton& skeleton = renamed.skeleton;
+    skeleton.roles = {};
+    std::vector<int> kept;
+    for (int b = 0; b < skeleton.size(); ++b) {
+      bool is_limb = false;
+      for (int a = b; a >= 0; a = skeleton.parents[a]) is_limb = is_limb || skeleton.names[a].rfind(limb, 0) == 0;
+      if (!is_limb) kept.push_back(b);
+    }
+    Take less{{}, "less", 30, 1, {}, {}};
+    for (const int b : kept) {
+      less.skeleton.names.push_back(skeleton.names[b]);
+      const auto parent = std::find(kept.begin(), kept.end(), skeleton.parents[b]);
+      less.skeleton.parents.push_back(parent == kept.end() ? -1 : static_cast<int>(parent - kept.begin()));
+      less.skeleton.rest_rotations.push_back(Quaternion::Identity());
+      less.skeleton.offsets.push_back(skeleton.offsets[b]);
+      less.skeleton.tips.push_back(skeleton.tips[b]);
+      less.translations.insert(less.translations.end(), skeleton.offsets[b].data(), skeleton.offsets[b].data() + 3);
+      less.rotations.insert(less.rotations.end(), {1, 0, 0, 0});
+    }
+    less.skeleton = make_skeleton(less.skeleton);
+    expect_told(less, "body");
+  }
+}
+
+}  // namespace
+}  // namespace fragmotion

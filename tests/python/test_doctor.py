@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: MIT
+"""The import doctor on real motion capture: silent where nothing is wrong, and sure of what was damaged on purpose."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import fragmotion_core as core
+import numpy as np
+import pytest
+from conftest import BANDAI, CMU, Array
+
+# Bandai's takes of walking turns that begin or end in each other: their rotations are the same bits.
+SHARED = {
+    "left_normal_027": "left_normal_031",
+    "left_normal_032": "left_normal_028",
+    "left_normal_033": "left_normal_029",
+    "left_normal_034": "left_normal_030",
+    "right_normal_028": "right_normal_032",
+    "right_normal_033": "right_normal_029",
+    "right_normal_034": "right_normal_030",
+    "right_normal_035": "right_normal_031",
+}
+WALK = "dataset-2_walk_normal_001"
+
+
+@pytest.fixture(scope="module")
+def takes() -> list[core.Take]:
+    files = sorted(BANDAI.glob("*.bvh"))
+    if not files:
+        pytest.skip(f"no motion capture at {BANDAI}")
+    return [core.read_bvh(path) for path in files]
+
+
+@pytest.fixture(scope="module")
+def walk(takes: list[core.Take]) -> core.Take:
+    return next(take for take in takes if take.name == WALK)
+
+
+def remade(
+    take: core.Take, translations: Array | None = None, rotations: Array | None = None, rate: float | None = None
+) -> core.Take:
+    """The take with other numbers."""
+    return core.Take(
+        take.skeleton,
+        take.name,
+        rate or take.rate,
+        take.translations if translations is None else translations,
+        take.rotations if rotations is None else rotations,
+        take.unit,
+    )
+
+
+def scaled(take: core.Take, scale: float) -> core.Take:
+    old = take.skeleton
+    skeleton = core.Skeleton(
+        old.names, old.parents, old.rest_rotations, scale * old.offsets, scale * old.tips, old.roles
+    )
+    return core.Take(skeleton, take.name, take.rate, scale * take.translations, take.rotations, scale * take.unit)
+
+
+def findings_of(take: core.Take) -> list[core.Finding]:
+    return core.examine([take])[0].findings
+
+
+def assert_mended(damaged: core.Take, code: str, frames: tuple[int, int], clean: core.Take, tolerance: float) -> None:
+    """Exactly one finding, of these frames; mended it is gone, and every joint is where it was, within m."""
+    findings = findings_of(damaged)
+    assert [(f.code, f.frames) for f in findings] == [(code, frames)]
+    mended = core.mend(damaged, findings)
+    assert findings_of(mended) == []
+    ours, theirs = mended.world_transforms()[0], clean.world_transforms()[0]
+    assert ours.shape == theirs.shape
+    assert np.abs(ours - theirs).max() < tolerance
+
+
+def test_clean_takes_stay_clean(takes: list[core.Take]) -> None:
+    told = core.examine(takes)
+    assert {(e.up, e.facing, e.rest_pose, e.root_motion, e.scale) for e in told} == {("+Z", "-Y", "T", True, 1.0)}
+    found = {take.name: [f.code for f in e.findings] for take, e in zip(takes, told) if e.findings}
+    assert found == {f"dataset-2_walk-turn-{name}": ["duplicate"] for name in SHARED}
+    for take, examination in zip(takes, told):
+        mended = core.mend(take, examination.findings)
+        np.testing.assert_array_equal(mended.translations, take.translations)
+        np.testing.assert_array_equal(mended.rotations, take.rotations)
+
+
+def test_duplicates_are_true(takes: list[core.Take]) -> None:
+    """By brute force over all lags: most of the shorter take's local rotations are the other one's."""
+    named = {take.name.removeprefix("dataset-2_walk-turn-"): take for take in takes}
+    examinations = core.examine(takes)
+    for shorter, longer in SHARED.items():
+        told = examinations[takes.index(named[shorter])].findings[0].other
+        assert told is not None and takes[told].name == named[longer].name
+        a, b = named[shorter].rotations[:, 2:], named[longer].rotations[:, 2:]
+        equal = [
+            (a[max(0, -lag) : len(b) - lag] == b[max(0, lag) : len(a) + lag]).all(axis=(1, 2)).sum()
+            for lag in range(10 - len(a), len(b) - 10)
+        ]
+        assert max(equal) >= 0.6 * len(a)
+
+
+def test_cmu_takes_tell_what_is_true_of_them() -> None:
+    if not CMU.is_dir():
+        pytest.skip(f"no motion capture at {CMU}")
+    amc = {path.stem: core.read_asf_amc(CMU / f"{path.stem[:2]}.asf", path) for path in sorted(CMU.glob("*.amc"))}
+    codes = {name: [f.code for f in findings_of(take)] for name, take in amc.items()}
+    # One bone's single frames out of line in 01_01 and 02_04; the floor of 02_02 rises by 8 cm along the walk.
+    assert codes == {"01_01": ["spike"], "02_01": [], "02_02": ["slope"], "02_03": [], "02_04": ["spike"]}
+    bvh = core.read_bvh(CMU / "01_01.bvh")
+    told = core.examine([bvh])[0]
+    assert [f.code for f in told.findings] == ["unit", "spike", "calibration"]
+    assert told.scale * bvh.unit == pytest.approx(0.0254 / 0.45)
+    assert findings_of(core.mend(bvh, told.findings)) == []
+
+
+@pytest.mark.parametrize("scale", [100, 0.01, 10, 0.001, 0.01 / 0.0254])
+def test_units_are_put_right(walk: core.Take, scale: float) -> None:
+    damaged = scaled(walk, scale)
+    if scale != 100:  # what a reader takes for the unit is known
+        damaged = core.Take(damaged.skeleton, walk.name, walk.rate, damaged.translations, damaged.rotations, 0.01)
+    assert_mended(damaged, "unit", (0, len(walk.rotations) - 1), walk, 1e-6)
+
+
+def frozen(array: Array) -> Array:
+    array[60:62] = array[59]
+    return array
+
+
+def cut(array: Array) -> Array:
+    return np.delete(array, 60, 0)
+
+
+@pytest.mark.parametrize(
+    ("damage", "code", "frames", "tolerance"), [(frozen, "frozen", (60, 61), 0.05), (cut, "dropped", (59, 60), 0.05)]
+)
+def test_time_is_put_right(
+    walk: core.Take, damage: Callable[[Array], Array], code: str, frames: tuple[int, int], tolerance: float
+) -> None:
+    damaged = remade(walk, damage(walk.translations.copy()), damage(walk.rotations.copy()))
+    assert_mended(damaged, code, frames, walk, tolerance)
+
+
+def test_doubled_frames_are_left_out(walk: core.Take) -> None:
+    twice = remade(walk, walk.translations.repeat(2, 0), walk.rotations.repeat(2, 0), 2 * walk.rate)
+    assert_mended(twice, "doubled", (0, 2 * len(walk.rotations) - 1), walk, 1e-12)
+
+
+@pytest.mark.parametrize("axis", [1, 2, 3])
+def test_flips_are_turned_back(walk: core.Take, axis: int) -> None:
+    """About an axis of the bone's own: the product of quaternions by hand."""
+    rotations = walk.rotations.copy()
+    bone = walk.skeleton.names.index("LowerLeg_L")
+    half_turn = np.eye(4)[axis]
+    w, v, u = rotations[80, bone, 0], rotations[80, bone, 1:], half_turn[1:]
+    rotations[80, bone] = np.concatenate([[-v @ u], w * u + np.cross(v, u)])
+    assert_mended(remade(walk, rotations=rotations), "flip", (80, 80), walk, 0.05)
+
+
+def test_spikes_and_missing_numbers_are_filled(walk: core.Take) -> None:
+    translations = walk.translations.copy()
+    translations[90:92, 0, 0] += 0.6
+    assert_mended(remade(walk, translations), "spike", (90, 91), walk, 0.05)
+    translations = walk.translations.copy()
+    translations[90:92, 3] = np.nan
+    assert_mended(remade(walk, translations), "missing", (90, 91), walk, 0.05)
+
+
+@pytest.mark.parametrize("height", [-0.08, 0.2])
+def test_feet_are_put_on_the_ground(walk: core.Take, height: float) -> None:
+    translations = walk.translations.copy()
+    translations[:, 0, 2] += height
+    assert_mended(remade(walk, translations), "ground", (0, len(walk.rotations) - 1), walk, 0.05)
+
+
+@pytest.mark.parametrize("count", [1, 30])
+@pytest.mark.parametrize("at_start", [True, False])
+def test_a_t_pose_is_cut_off(walk: core.Take, count: int, at_start: bool) -> None:
+    """Bandai's rest pose is a T pose: no bone is turned."""
+    pose = walk.translations[:1].copy()
+    pose[:, :2] = walk.translations[0 if at_start else -1, :2]
+    rest = np.tile([1.0, 0, 0, 0], (count, len(walk.skeleton.names), 1))
+    poses = pose.repeat(count, 0)
+    order = (lambda a, b: np.concatenate([a, b])) if at_start else (lambda a, b: np.concatenate([b, a]))
+    damaged = remade(walk, order(poses, walk.translations), order(rest, walk.rotations))
+    begin = 0 if at_start else len(walk.rotations)
+    assert_mended(damaged, "calibration", (begin, begin + count - 1), walk, 1e-12)
+
+
+@pytest.mark.parametrize("rate", [30.0, 60.0])
+def test_copies_are_found(takes: list[core.Take], walk: core.Take, rate: float) -> None:
+    """Cut, turned, moved, and resampled to another rate."""
+    frames = np.arange(20, 120, 30 / rate)
+    whole = np.minimum(frames.astype(int), 118)
+    share = (frames - whole)[:, None, None]
+    translations = walk.translations[whole] * (1 - share) + walk.translations[whole + 1] * share
+    a, b = walk.rotations[whole], walk.rotations[whole + 1]
+    b = b * np.sign((a * b).sum(-1, keepdims=True))
+    rotations = a * (1 - share) + b * share
+    translations[:, 0] += [3, -2, 0]
+    copy = core.Take(walk.skeleton, "copy", rate, translations, rotations, walk.unit)
+    others = [take for take in takes if "_walk_" in take.name]
+    told = core.examine([copy, *others])
+    assert [(f.code, others[(f.other or 0) - 1].name) for f in told[0].findings] == [("duplicate", WALK)]
+    assert not any(e.findings for e in told[1:])
+
+
+def test_any_number_of_threads_says_the_same(takes: list[core.Take]) -> None:
+    one, two = ([[f.text for f in e.findings] for e in core.examine(takes, threads)] for threads in (1, 3))
+    assert one == two
+
+
+def test_takes_need_their_shapes(walk: core.Take) -> None:
+    with pytest.raises(ValueError, match="rotations"):
+        remade(walk, walk.translations[:5])
+    with pytest.raises(ValueError, match="no frames"):
+        remade(walk, walk.translations[:0], walk.rotations[:0])
+    with pytest.raises(ValueError, match="rate"):
+        remade(walk, rate=-1)

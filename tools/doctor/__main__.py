@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""Say what is wrong with motion capture files before anything is made of them, and what importing mends of it.
+
+`python3 dev.py doctor` runs this with the built core; python -m tools.doctor --help tells what there is.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+
+from tools.doctor import inputs, report
+from tools.doctor.examining import examine, is_readable
+from tools.shell import Failure, say
+
+
+def doctor(options: argparse.Namespace) -> int:
+    """Do all that the options ask for; 1 where a file cannot be read. Failure says what was wrong with the options."""
+    inputs.check(options)
+    result = examine(inputs.find_files(options.files))
+    say("\n".join(report.lines(result)))
+    if options.json:
+        options.json.write_text(json.dumps(result, indent=1, allow_nan=False, ensure_ascii=False) + "\n")
+        say(f"findings: {options.json}")
+    return 0 if all(map(is_readable, result["files"])) else 1
+
+
+def main(arguments: list[str]) -> int:
+    """Run, and return the exit code."""
+    parser = argparse.ArgumentParser(prog="dev.py doctor", description=__doc__)
+    inputs.add_arguments(parser)
+    try:
+        return doctor(parser.parse_args(arguments))
+    except (Failure, OSError) as failure:
+        print(f"doctor: {failure}", file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
