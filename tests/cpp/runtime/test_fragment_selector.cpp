@@ -104,7 +104,7 @@ TEST(FragmentSelector, LeavesAFragmentAtTheSameMomentWhereTheSameLimbsAreOfMoreB
   EXPECT_NEAR(waited_of_split / waited, 1, 0.2);
 }
 
-// How many feet come down out of turn in all where fragments are left for classes.
+// How many feet come down out of turn in all where fragments are left early for classes.
 int steps_out_of_turn(Choice& choice, bool known) {
   int all = 0;
   const Character& c = *choice.character;
@@ -119,7 +119,9 @@ int steps_out_of_turn(Choice& choice, bool known) {
       choice.playback.reset(representative, {});
       choice.playback.advance(choice.playback.left());
       choice.playback.start(fragment);
-      choice.playback.advance(choice.playback.left() / 2);
+      choice.playback.advance(0.1);
+      const Exit exit = choice.selector.best_exit(k, control, choice.playback, 0.1);
+      choice.playback.advance(exit.seconds - choice.playback.seconds());
       const int chosen = choice.selector.choose(k, control, choice.playback);
       all += fragmotion::steps_out_of_turn(choice.playback.steps(), entries[chosen]);
     }
@@ -127,7 +129,7 @@ int steps_out_of_turn(Choice& choice, bool known) {
   return all;
 }
 
-TEST(FragmentSelector, PrefersFeetThatComeDownInTurn) {
+TEST(FragmentSelector, LeavesAFragmentWhereFeetComeDownInTurn) {
   Choice knows(1), does_not(1);
   EXPECT_LT(steps_out_of_turn(knows, true), steps_out_of_turn(does_not, false));
 }
