@@ -126,11 +126,11 @@ class Examination:
     up: str
     """From the feet to the head as the body moves."""
     facing: str
-    """Where the body looks at rest."""
+    """Where a body that stands at rest looks."""
     rate: float
     root_motion: bool
     rest_pose: str
-    """'T', 'A', 'down', 'other', or '' without arms."""
+    """'T', 'A', 'down', 'other' (or no pose of a body), or '' without arms."""
     roles: dict[str, str]
     """Role -> bone name, as of Skeleton.role_map."""
     findings: list[Finding]

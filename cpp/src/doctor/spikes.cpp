@@ -9,9 +9,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLeastTurn = kPi / 15, kTurnRate = 600 * kPi / 180;  // rad, rad/s: at once, of a bone in its parent
-constexpr double kLeastMove = 0.05, kMoveRate = 4;                    // m, m/s: of a bone of a character of 1.8 m
-constexpr double kBack = 0.5;         // of the jump: how far a bone may come back from where it left
+constexpr double kTurn = kPi / 7.2;                 // rad: at once, of a bone in its parent
+constexpr double kLeastMove = 0.05, kMoveRate = 4;  // m, m/s: of a bone of a character of 1.8 m
+constexpr double kBack = 0.5;                       // of the jump: how far a bone may come back from where it left
 constexpr double kCalm = 0.3;         // of the jump: how far it moves from frame to frame before and after
 constexpr double kLongest = 0.05;     // s, four frames at the least
 constexpr double kOver = 0.75 * kPi;  // rad: turned over
@@ -27,11 +27,9 @@ struct Spike {
 class Distances {
  public:
   explicit Distances(const Patient& patient)
-      : patient_(patient),
-        turn_(std::max(kLeastTurn, kTurnRate / patient.rate())),
-        move_(std::max(kLeastMove, kMoveRate / patient.rate()) / patient.scale()) {}
+      : patient_(patient), move_(std::max(kLeastMove, kMoveRate / patient.rate()) / patient.scale()) {}
 
-  double operator()(int bone, int a, int b) const { return std::max(turned(bone, a, b) / turn_, moved(bone, a, b)); }
+  double operator()(int bone, int a, int b) const { return std::max(turned(bone, a, b) / kTurn, moved(bone, a, b)); }
 
   double turned(int bone, int a, int b) const {
     return 2 * std::acos(std::min(1.0, std::abs(patient_.local(a, bone).dot(patient_.local(b, bone)))));
@@ -45,7 +43,7 @@ class Distances {
   }
 
   const Patient& patient_;
-  double turn_, move_;
+  double move_;
 };
 
 class SpikeFinder {
@@ -100,14 +98,24 @@ std::string bone_names(const Patient& patient, const std::vector<Spike>& spikes,
   return bones.size() == 1 ? first : first + " and " + std::to_string(bones.size() - 1) + " more";
 }
 
+/// Fingers and the like, which motions are not compared by, matter little.
+Severity severity_of(const std::vector<Spike>& spikes, const Run& run, const std::vector<int>& measured) {
+  const bool matters = std::any_of(spikes.begin(), spikes.end(), [&](const Spike& spike) {
+    return spike.run.begin >= run.begin && spike.run.end <= run.end &&
+           std::find(measured.begin(), measured.end(), spike.bone) != measured.end();
+  });
+  return matters ? Severity::kWarning : Severity::kInfo;
+}
+
 Findings findings_of(const Patient& patient, const std::vector<Spike>& spikes, const char* code, const char* what) {
+  const std::vector<int> measured = measured_bones(patient.take().skeleton);
   std::vector<char> is_out(patient.frames());
   for (const Spike& spike : spikes) std::fill_n(&is_out[spike.run.begin], spike.run.length(), 1);
   Findings findings;
   for (const Run& run : runs(patient.frames(), [&](int f) { return is_out[f] != 0; })) {
     const std::string text =
         frames_text(run) + ": " + bone_names(patient, spikes, run) + what + "; interpolate from the frames beside";
-    findings.push_back(mendable(found(code, Severity::kWarning, run.begin, run.end, text)));
+    findings.push_back(mendable(found(code, severity_of(spikes, run, measured), run.begin, run.end, text)));
   }
   return findings;
 }
