@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 
 import fragmotion_core as core
@@ -57,6 +58,20 @@ def scaled(take: core.Take, scale: float) -> core.Take:
         old.names, old.parents, old.rest_rotations, scale * old.offsets, scale * old.tips, old.roles
     )
     return core.Take(skeleton, take.name, take.rate, scale * take.translations, take.rotations, scale * take.unit)
+
+
+def with_axes(take: core.Take, axes: Array) -> core.Take:
+    """The take as a reader gives it that takes other axes: a permutation of them, with signs."""
+    sign = np.linalg.det(axes)
+
+    def turned(rotations: Array) -> Array:
+        return np.concatenate([rotations[..., :1], sign * rotations[..., 1:] @ axes.T], -1)
+
+    old = take.skeleton
+    skeleton = core.Skeleton(
+        old.names, old.parents, turned(old.rest_rotations), old.offsets @ axes.T, old.tips @ axes.T, old.roles
+    )
+    return core.Take(skeleton, take.name, take.rate, take.translations @ axes.T, turned(take.rotations), take.unit)
 
 
 def findings_of(take: core.Take) -> list[core.Finding]:
@@ -120,6 +135,46 @@ def test_units_are_put_right(walk: core.Take, scale: float) -> None:
     if scale != 100:  # what a reader takes for the unit is known
         damaged = core.Take(damaged.skeleton, walk.name, walk.rate, damaged.translations, damaged.rotations, 0.01)
     assert_mended(damaged, "unit", (0, len(walk.rotations) - 1), walk, 1e-6)
+
+
+@pytest.mark.parametrize(
+    "name", ["dataset-2_walk_normal_001", "dataset-2_run_normal_003", "dataset-1_walk-left_normal_001"]
+)
+def test_all_48_readings_of_the_axes_are_put_right(takes: list[core.Take], name: str) -> None:
+    """Any axis up, turned and mirrored: heights above the ground and distances are the clean take's again."""
+    clean = next(take for take in takes if take.name == name)
+    bones = [clean.skeleton.names.index(bone) for bone in ("Hips", "Head", "Hand_L", "Toes_R")]
+    joints = clean.world_transforms()[0][:, bones]
+    for order, signs in itertools.product(itertools.permutations(range(3)), itertools.product((1, -1), repeat=3)):
+        axes = np.eye(3)[list(order)] * signs
+        damaged = with_axes(clean, axes)
+        findings = findings_of(damaged)
+        wrong_up, mirrored = int(axes[2, 2] != 1), int(np.linalg.det(axes) < 0)
+        assert [f.code for f in findings] == ["up"] * wrong_up + ["mirrored"] * mirrored
+        mended = core.mend(damaged, [f for f in findings if f.safe])
+        assert findings_of(mended) == []
+        ours = mended.world_transforms()[0][:, bones]
+        np.testing.assert_allclose(ours[..., 2], joints[..., 2], atol=1e-9)
+        for frame in (0, len(joints) // 2):
+            np.testing.assert_allclose(volume(ours[frame]), volume(joints[frame]), atol=1e-9)
+
+
+def test_what_is_wrong_all_at_once_is_put_right(walk: core.Take) -> None:
+    translations = walk.translations.copy()
+    translations[:, 0, 2] -= 0.1
+    translations[150, 0] += 0.7
+    translations[70, 5] = np.nan
+    damaged = scaled(with_axes(remade(walk, translations), np.eye(3)[[0, 2, 1]] * [1, -1, 1]), 100)
+    findings = findings_of(damaged)
+    assert [(f.code, f.safe) for f in findings] == [(c, True) for c in ("missing", "unit", "up", "spike", "ground")]
+    mended = core.mend(damaged, findings)
+    assert findings_of(mended) == []
+    np.testing.assert_allclose(mended.world_transforms()[0], walk.world_transforms()[0], atol=0.05)
+
+
+def volume(points: Array) -> float:
+    """Of the tetrahedron, with a sign that a mirror changes."""
+    return float(np.linalg.det(points[1:] - points[0]))
 
 
 def frozen(array: Array) -> Array:

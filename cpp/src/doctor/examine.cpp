@@ -101,8 +101,8 @@ bool is_same(const Finding& a, const Finding& b) { return a.code == b.code && a.
 
 const std::vector<std::string>& finding_codes() {
   static const std::vector<std::string> codes = {
-      "missing",     "unit", "up",     "mirrored", "facing",   "flip", "spike", "doubled", "frozen", "dropped",
-      "calibration", "jump", "ground", "slope",    "in_place", "rate", "size",  "body",    "short",  "duplicate"};
+      "missing", "unit", "up",     "mirrored", "facing",   "flip", "spike", "doubled", "frozen", "calibration",
+      "dropped", "jump", "ground", "slope",    "in_place", "rate", "size",  "body",    "short",  "duplicate"};
   return codes;
 }
 

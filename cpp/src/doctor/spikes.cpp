@@ -12,8 +12,9 @@ namespace {
 constexpr double kTurn = kPi / 7.2;                 // rad: at once, of a bone in its parent
 constexpr double kLeastMove = 0.05, kMoveRate = 4;  // m, m/s: of a bone of a character of 1.8 m
 constexpr double kBack = 0.5;                       // of the jump: how far a bone may come back from where it left
-constexpr double kCalm = 0.3;         // of the jump: how far it moves from frame to frame before and after
-constexpr double kLongest = 0.05;     // s, four frames at the least
+constexpr double kCalm = 0.3;      // of the jump: how far it moves from frame to frame before and after
+constexpr double kLongest = 0.05;  // s, four frames at the least
+constexpr int kMostRounds = 8;
 constexpr double kOver = 0.75 * kPi;  // rad: turned over
 
 /// A bone's frames out of line, and how far they are.
@@ -89,6 +90,21 @@ class SpikeFinder {
   std::vector<double> steps_;  // to each frame from the one before
 };
 
+/// Also those that show only when others are filled.
+std::vector<Spike> all_spikes(const Patient& patient) {
+  std::vector<Spike> all, fresh = SpikeFinder(patient).find();
+  if (fresh.empty()) return all;
+  Patient mended = patient;
+  for (int round = 0; !fresh.empty() && round < kMostRounds; ++round) {
+    all.insert(all.end(), fresh.begin(), fresh.end());
+    Take take = mended.take();
+    for (const Spike& spike : fresh) bridge(take, spike.bone, spike.run);
+    mended.become(std::move(take));
+    fresh = SpikeFinder(mended).find();
+  }
+  return all;
+}
+
 std::string bone_names(const Patient& patient, const std::vector<Spike>& spikes, const Run& run) {
   std::set<int> bones;
   for (const Spike& spike : spikes) {
@@ -124,7 +140,7 @@ Findings findings_of(const Patient& patient, const std::vector<Spike>& spikes, c
 
 Findings find_spikes(const Patient& patient) {
   if (patient.scale() == 0) return {};
-  std::vector<Spike> spikes = SpikeFinder(patient).find();
+  std::vector<Spike> spikes = all_spikes(patient);
   const auto others = std::stable_partition(spikes.begin(), spikes.end(), [](const Spike& s) { return s.flip; });
   const std::vector<Spike> flips(spikes.begin(), others), jumps(others, spikes.end());
   Findings findings = findings_of(patient, flips, "flip", " is turned over and back at once");
@@ -134,7 +150,7 @@ Findings find_spikes(const Patient& patient) {
 
 void fill_spikes(Patient& patient, const Findings& findings) {
   Take take = patient.take();
-  for (const Spike& spike : SpikeFinder(patient).find()) {
+  for (const Spike& spike : all_spikes(patient)) {
     const bool chosen = std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
       return (finding.code == "flip") == spike.flip && covers({finding}, spike.run);
     });

@@ -38,7 +38,7 @@ struct Examination {
 
 /// Every code that a finding can have, in the order in which they are looked for and mended:
 /// missing (not a number), unit, up, mirrored, facing, flip (a bone turned over for a moment), spike (out of line for a
-/// moment), doubled (each frame stands several times), frozen, dropped (frames left out), calibration, jump (no body
+/// moment), doubled (each frame stands several times), frozen, calibration, dropped (frames left out), jump (no body
 /// gets from one frame to the next), ground, slope, in_place, rate, size, body, short, duplicate.
 const std::vector<std::string>& finding_codes();
 
