@@ -32,7 +32,7 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     inputs.add_arguments(evaluate)
     beside = commands.add_parser("beside", help="measure Fragmotion beside motion matching, on the same takes")
     beside_inputs.add_arguments(beside)
-    doctor = commands.add_parser("doctor", help="say what is wrong with motion capture files, and what is mended")
+    doctor = commands.add_parser("doctor", help="say what is wrong with motion capture files")
     doctor_inputs.add_arguments(doctor)
     commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
     return parser.parse_args(arguments)

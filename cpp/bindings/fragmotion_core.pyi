@@ -96,8 +96,8 @@ def read_asf_amc(asf: str | PathLike[str], amc: str | PathLike[str], rate: float
     """Read an Acclaim skeleton and a motion on it; AMC holds no frame rate: 0.1 .. 10000."""
 
 FINDING_CODES: list[str]
-"""Every code that a finding can have: missing, unit, up, mirrored, facing, flip, spike, doubled, frozen, dropped,
-calibration, jump, ground, slope, in_place, rate, size, body, short, duplicate."""
+"""Every code that a finding can have: missing, unit, up, mirrored, facing, flip, spike, doubled, frozen,
+calibration, dropped, jump, ground, slope, in_place, rate, size, body, short, duplicate."""
 
 class Finding:
     """Something about a take that a person should know before anything is made of it."""
@@ -126,11 +126,11 @@ class Examination:
     up: str
     """From the feet to the head as the body moves."""
     facing: str
-    """Where the body looks at rest."""
+    """Where a body that stands at rest looks."""
     rate: float
     root_motion: bool
     rest_pose: str
-    """'T', 'A', 'down', 'other', or '' without arms."""
+    """'T', 'A', 'down', 'other' (or no pose of a body), or '' without arms."""
     roles: dict[str, str]
     """Role -> bone name, as of Skeleton.role_map."""
     findings: list[Finding]

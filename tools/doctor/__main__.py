@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Say what is wrong with motion capture files before anything is made of them, and what importing mends of it.
+"""Say what is wrong with motion capture files before anything is made of them, and what of it is safe to mend.
 
 `python3 dev.py doctor` runs this with the built core; python -m tools.doctor --help tells what there is.
 """

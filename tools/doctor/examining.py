@@ -19,7 +19,7 @@ _IN_FILE = {"+X": "+X", "-X": "-X", "+Z": "+Y", "-Z": "-Y", "-Y": "+Z", "+Y": "-
 
 
 class Finding(TypedDict):
-    """`mended`: whether it is put right unasked when the file is imported."""
+    """`mended`: whether it is safe to mend, so that importing may do it unasked; the file stays as it is."""
 
     code: str
     severity: str

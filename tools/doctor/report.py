@@ -16,7 +16,7 @@ def lines(result: Result) -> Iterator[str]:
     for file in result["files"]:
         yield f"{file['path']}: {_facts(file) if is_readable(file) else 'cannot be read'}"
         for finding in file["findings"]:
-            mended = " (mended on import)" if finding["mended"] else ""
+            mended = " (safe to mend)" if finding["mended"] else ""
             yield f"  {finding['severity']}, {finding['code']}: {finding['text']}{mended}"
     yield _summary(result)
 
@@ -29,7 +29,7 @@ def _facts(file: File) -> str:
             f"{file['stature_m']:.2f} m tall",
             f"up {file['up'] or 'not told'}",
             f"facing {file['facing'] or 'not told'}",
-            f"{file['rate']:.6g} frames/s",
+            f"{file['rate']:.6g} frames/s{' (taken: AMC files hold none)' if file['format'] == 'ASF/AMC' else ''}",
             "root motion" if file["root_motion"] else "in place",
             _POSES[file["rest_pose"]],
         )

@@ -16,7 +16,9 @@ const Eigen::Matrix3d kMirror = Vector3{-1, 1, 1}.asDiagonal();
 constexpr double kLeastBody = 1.3, kMostBody = 2.2;            // m: what a unit must make of a grown person
 constexpr double kLeastUsual = 0.9, kMostUsual = 2.6;          // m: what is taken as it is: children, heroes
 constexpr double kInch = 0.0254, kFoot = 0.3048, kCmu = 0.45;  // m, m, file units an inch
-constexpr double kPoints = 0.5, kBends = 0.003;  // how far feet point forward (cosine), and knees (of a leg's length)
+constexpr double kBends = 0.03;   // of a leg's length: that a knee points to a side for certain
+constexpr double kUnsure = 0.3;   // cosine: feet that do not point to the front for certain, as a runner's
+constexpr double kPoints = -0.5;  // cosine: feet that point to the back for certain
 
 struct Unit {
   const char* name;
@@ -55,6 +57,15 @@ std::optional<Unit> told_unit(const Patient& patient) {
 
 bool is_usual(double stature) { return stature >= kLeastUsual && stature <= kMostUsual; }
 
+/// Whether the body goes its own length and more where the ground would be: who lies does not.
+bool walks_across(const Patient& patient, const Vector3& up) {
+  for (int f = 1; f < patient.frames(); ++f) {
+    const Vector3 way = patient.head(f, patient.skull) - patient.head(0, patient.skull);
+    if ((way - way.dot(up) * up).norm() > patient.stature()) return true;
+  }
+  return false;
+}
+
 /// How far feet and knees point to the front that the sides tell: -1 to 1, and lengths of a leg.
 struct Front {
   double feet = 0, knees = 0;
@@ -82,6 +93,10 @@ Front front_of(const Patient& patient) {
   return front;
 }
 
+bool points_back(const Front& front) {
+  return (front.knees < -kBends && front.feet < kUnsure) || (front.knees < kBends && front.feet < kPoints);
+}
+
 }  // namespace
 
 Findings find_unit(const Patient& patient) {
@@ -104,12 +119,13 @@ void change_unit(Patient& patient, const Findings&) {
 Findings find_up(const Patient& patient) {
   const Vector3 up = up_axis(patient);
   if (up.isZero(0) || up.z() == 1) return {};
-  const bool rests_so = up_axis(Patient(resting_take(patient.take().skeleton))) == up;
-  const std::string doubt = rests_so ? "" : " (or the take is of somebody who lies; its rest pose stands otherwise)";
+  const bool rests_so = standing_axis(Patient(resting_take(patient.take().skeleton))) == up;
+  const bool sure = rests_so || walks_across(patient, up);
+  const std::string doubt = sure ? "" : " (or the take is of somebody who lies)";
   return {mendable(found(patient, "up", Severity::kWarning,
                          "the body stands along " + axis_name(up) + " and not upright: the file's up axis is another" +
                              doubt + "; turn it up"),
-                   rests_so)};
+                   sure)};
 }
 
 void turn_up(Patient& patient, const Findings&) {
@@ -120,8 +136,7 @@ void turn_up(Patient& patient, const Findings&) {
 
 Findings find_mirrored(const Patient& patient) {
   if (!patient.has_legs() || up_axis(patient).z() != 1) return {};
-  const Front front = front_of(patient);
-  if (!(front.feet < -kPoints && front.knees < kBends)) return {};
+  if (!points_back(front_of(patient))) return {};
   return {mendable(found(patient, "mirrored", Severity::kWarning,
                          "the left leg is on the body's right: feet and knees point backward; the file is mirrored (a "
                          "left-handed or negated axis); mirror it back"))};
@@ -132,7 +147,7 @@ void mirror_back(Patient& patient, const Findings&) { patient.become(with_basis(
 Findings find_facing(const Patient& patient) {
   const Patient rest(resting_take(patient.take().skeleton));
   const Vector3 front = front_axis(rest);
-  if (up_axis(rest).z() != 1 || front.isZero(0) || front.y() == -1) return {};
+  if (standing_axis(rest).z() != 1 || front.isZero(0) || front.y() == -1) return {};
   return {mendable(found(patient, "facing", Severity::kInfo,
                          "at rest the body faces " + axis_name(front) + " and not -Y, Blender's front; turn it"))};
 }

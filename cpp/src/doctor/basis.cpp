@@ -27,6 +27,13 @@ Vector3 across(const Patient& patient, int frame, const Vector3& up) {
   return right - right.dot(up) * up;
 }
 
+/// Whether it goes along `up` from one bone to the other.
+bool points(const Patient& resting, int from, int to, const Vector3& up) {
+  if (from < 0) return false;
+  const Vector3 way = resting.head(0, to) - resting.head(0, from);
+  return way.dot(up) > kNear * way.norm();
+}
+
 }  // namespace
 
 Take with_basis(Take take, const Eigen::Matrix3d& basis, double scale) {
@@ -68,8 +75,17 @@ Vector3 up_axis(const Patient& patient) {
   return sum.norm() > kNear * poses ? nearest_axis(sum) : Vector3::Zero();
 }
 
-Vector3 front_axis(const Patient& resting) {
+Vector3 standing_axis(const Patient& resting) {
   const Vector3 up = up_axis(resting);
+  if (up.isZero(0) || !points(resting, resting.hips, resting.skull, up)) return Vector3::Zero();
+  for (const Limb3& leg : resting.legs) {
+    if (!points(resting, leg.end, leg.top, up)) return Vector3::Zero();
+  }
+  return up;
+}
+
+Vector3 front_axis(const Patient& resting) {
+  const Vector3 up = standing_axis(resting);
   if (up.isZero(0)) return up;
   const Vector3 feet = resting.toe_direction(0, 0) + resting.toe_direction(0, 1), ahead = feet - feet.dot(up) * up;
   const bool point = ahead.norm() > 0.02 * resting.stature();

@@ -52,8 +52,9 @@ void mend(const Check& check, const Findings& findings, Patient& patient) {
 }
 
 std::string rest_pose_name(const Patient& rest) {
-  if (!rest.has_arms() || up_axis(rest).isZero(0)) return "";
-  const Vector3 up = up_axis(rest);
+  if (!rest.has_arms()) return "";
+  const Vector3 up = standing_axis(rest);
+  if (up.isZero(0)) return "other";
   double rise = 0;
   for (const Limb3& arm : rest.arms) {
     const Vector3 way = rest.head(0, arm.end) - rest.head(0, arm.top);
@@ -100,8 +101,8 @@ bool is_same(const Finding& a, const Finding& b) { return a.code == b.code && a.
 
 const std::vector<std::string>& finding_codes() {
   static const std::vector<std::string> codes = {
-      "missing",     "unit", "up",     "mirrored", "facing",   "flip", "spike", "doubled", "frozen", "dropped",
-      "calibration", "jump", "ground", "slope",    "in_place", "rate", "size",  "body",    "short",  "duplicate"};
+      "missing", "unit", "up",     "mirrored", "facing",   "flip", "spike", "doubled", "frozen", "calibration",
+      "dropped", "jump", "ground", "slope",    "in_place", "rate", "size",  "body",    "short",  "duplicate"};
   return codes;
 }
 

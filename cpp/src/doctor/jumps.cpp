@@ -18,6 +18,8 @@ constexpr double kAtEnd = 3;         // s: where a calibration is looked for
 constexpr double kStill = 0.15;      // m/s: the bones' mean, of somebody who holds a pose
 constexpr int kFrameOrTwo = 2;       // of another pose at an end: no motion whatever they are
 constexpr double kArmsOut = 0.85;    // cosine
+constexpr double kStands = 0.25;     // m/s: hips of somebody who stands
+constexpr double kTogether = 0.25;   // s: jumps that are told as one
 constexpr double kHeldPose = 0.3;    // s
 
 bool is_torn(const Patient& patient, int frame) {
@@ -66,6 +68,12 @@ bool has_arms_out(const Patient& patient, int frame) {
   return true;
 }
 
+bool hips_stand(const Patient& patient, const Run& run) {
+  if (patient.hips < 0) return false;
+  const Vector3 way = patient.head(run.end, patient.hips) - patient.head(run.begin, patient.hips);
+  return way.norm() * patient.scale() < kStands * run.length() / patient.rate();
+}
+
 /// The frames at the start, or from the end on, in which the arms are held out.
 Run arms_out(const Patient& patient, bool at_start) {
   const int last = patient.frames() - 1;
@@ -92,7 +100,8 @@ void add_arms_out(const Patient& patient, Findings& findings) {
   for (const bool at_start : {true, false}) {
     const Run run = arms_out(patient, at_start);
     const bool told = covers(findings, at_start ? Run{0, 0} : Run{patient.frames() - 1, patient.frames() - 1});
-    if (!told && run.length() >= kHeldPose * patient.rate() && run.length() < patient.frames() / 2)
+    if (!told && run.length() >= kHeldPose * patient.rate() && run.length() < patient.frames() / 2 &&
+        hips_stand(patient, run))
       findings.push_back(calibration(run, "a T pose"));
   }
 }
@@ -107,13 +116,17 @@ Findings find_calibration(const Patient& patient) {
 }
 
 Findings find_jumps(const Patient& patient) {
-  Findings findings;
+  std::vector<Run> together;
   for (const int f : jumps_of(patient)) {
-    if (patient.step(f - 1 > 0 ? f - 1 : f) == 0) continue;  // after a standstill that is told
-    findings.push_back(found("jump", Severity::kWarning, f - 1, f,
-                             frames_text(Run{f - 1, f}) +
-                                 ": no body gets from one to the other; leave them out of what "
-                                 "is learned, or cut the take in two here"));
+    if (f > 1 && patient.step(f - 1) == 0) continue;  // after a standstill that is told
+    if (together.empty() || f - together.back().end > kTogether * patient.rate()) together.push_back({f - 1, f});
+    together.back().end = f;
+  }
+  Findings findings;
+  for (const Run& run : together) {
+    findings.push_back(found("jump", Severity::kWarning, run.begin, run.end,
+                             frames_text(run) + ": no body moves so from one frame to the next; leave them out of what "
+                                                "is learned, or cut the take in two here"));
   }
   return findings;
 }

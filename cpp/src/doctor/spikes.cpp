@@ -9,11 +9,12 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLeastTurn = kPi / 15, kTurnRate = 600 * kPi / 180;  // rad, rad/s: at once, of a bone in its parent
-constexpr double kLeastMove = 0.05, kMoveRate = 4;                    // m, m/s: of a bone of a character of 1.8 m
-constexpr double kBack = 0.5;         // of the jump: how far a bone may come back from where it left
-constexpr double kCalm = 0.3;         // of the jump: how far it moves from frame to frame before and after
-constexpr double kLongest = 0.05;     // s, four frames at the least
+constexpr double kTurn = kPi / 7.2;                 // rad: at once, of a bone in its parent
+constexpr double kLeastMove = 0.05, kMoveRate = 4;  // m, m/s: of a bone of a character of 1.8 m
+constexpr double kBack = 0.5;                       // of the jump: how far a bone may come back from where it left
+constexpr double kCalm = 0.3;      // of the jump: how far it moves from frame to frame before and after
+constexpr double kLongest = 0.05;  // s, four frames at the least
+constexpr int kMostRounds = 8;
 constexpr double kOver = 0.75 * kPi;  // rad: turned over
 
 /// A bone's frames out of line, and how far they are.
@@ -27,11 +28,9 @@ struct Spike {
 class Distances {
  public:
   explicit Distances(const Patient& patient)
-      : patient_(patient),
-        turn_(std::max(kLeastTurn, kTurnRate / patient.rate())),
-        move_(std::max(kLeastMove, kMoveRate / patient.rate()) / patient.scale()) {}
+      : patient_(patient), move_(std::max(kLeastMove, kMoveRate / patient.rate()) / patient.scale()) {}
 
-  double operator()(int bone, int a, int b) const { return std::max(turned(bone, a, b) / turn_, moved(bone, a, b)); }
+  double operator()(int bone, int a, int b) const { return std::max(turned(bone, a, b) / kTurn, moved(bone, a, b)); }
 
   double turned(int bone, int a, int b) const {
     return 2 * std::acos(std::min(1.0, std::abs(patient_.local(a, bone).dot(patient_.local(b, bone)))));
@@ -45,7 +44,7 @@ class Distances {
   }
 
   const Patient& patient_;
-  double turn_, move_;
+  double move_;
 };
 
 class SpikeFinder {
@@ -91,6 +90,21 @@ class SpikeFinder {
   std::vector<double> steps_;  // to each frame from the one before
 };
 
+/// Also those that show only when others are filled.
+std::vector<Spike> all_spikes(const Patient& patient) {
+  std::vector<Spike> all, fresh = SpikeFinder(patient).find();
+  if (fresh.empty()) return all;
+  Patient mended = patient;
+  for (int round = 0; !fresh.empty() && round < kMostRounds; ++round) {
+    all.insert(all.end(), fresh.begin(), fresh.end());
+    Take take = mended.take();
+    for (const Spike& spike : fresh) bridge(take, spike.bone, spike.run);
+    mended.become(std::move(take));
+    fresh = SpikeFinder(mended).find();
+  }
+  return all;
+}
+
 std::string bone_names(const Patient& patient, const std::vector<Spike>& spikes, const Run& run) {
   std::set<int> bones;
   for (const Spike& spike : spikes) {
@@ -100,14 +114,24 @@ std::string bone_names(const Patient& patient, const std::vector<Spike>& spikes,
   return bones.size() == 1 ? first : first + " and " + std::to_string(bones.size() - 1) + " more";
 }
 
+/// Fingers and the like, which motions are not compared by, matter little.
+Severity severity_of(const std::vector<Spike>& spikes, const Run& run, const std::vector<int>& measured) {
+  const bool matters = std::any_of(spikes.begin(), spikes.end(), [&](const Spike& spike) {
+    return spike.run.begin >= run.begin && spike.run.end <= run.end &&
+           std::find(measured.begin(), measured.end(), spike.bone) != measured.end();
+  });
+  return matters ? Severity::kWarning : Severity::kInfo;
+}
+
 Findings findings_of(const Patient& patient, const std::vector<Spike>& spikes, const char* code, const char* what) {
+  const std::vector<int> measured = measured_bones(patient.take().skeleton);
   std::vector<char> is_out(patient.frames());
   for (const Spike& spike : spikes) std::fill_n(&is_out[spike.run.begin], spike.run.length(), 1);
   Findings findings;
   for (const Run& run : runs(patient.frames(), [&](int f) { return is_out[f] != 0; })) {
     const std::string text =
         frames_text(run) + ": " + bone_names(patient, spikes, run) + what + "; interpolate from the frames beside";
-    findings.push_back(mendable(found(code, Severity::kWarning, run.begin, run.end, text)));
+    findings.push_back(mendable(found(code, severity_of(spikes, run, measured), run.begin, run.end, text)));
   }
   return findings;
 }
@@ -116,7 +140,7 @@ Findings findings_of(const Patient& patient, const std::vector<Spike>& spikes, c
 
 Findings find_spikes(const Patient& patient) {
   if (patient.scale() == 0) return {};
-  std::vector<Spike> spikes = SpikeFinder(patient).find();
+  std::vector<Spike> spikes = all_spikes(patient);
   const auto others = std::stable_partition(spikes.begin(), spikes.end(), [](const Spike& s) { return s.flip; });
   const std::vector<Spike> flips(spikes.begin(), others), jumps(others, spikes.end());
   Findings findings = findings_of(patient, flips, "flip", " is turned over and back at once");
@@ -126,7 +150,7 @@ Findings find_spikes(const Patient& patient) {
 
 void fill_spikes(Patient& patient, const Findings& findings) {
   Take take = patient.take();
-  for (const Spike& spike : SpikeFinder(patient).find()) {
+  for (const Spike& spike : all_spikes(patient)) {
     const bool chosen = std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
       return (finding.code == "flip") == spike.flip && covers({finding}, spike.run);
     });

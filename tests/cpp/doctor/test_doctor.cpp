@@ -228,6 +228,18 @@ TEST(Doctor, FindsAndFillsFlips) {
   }
 }
 
+TEST(Doctor, FingersMatterLittle) {
+  Take take = walk();
+  for (std::string& name : take.skeleton.names) {
+    if (name == "hand.L") name = "index_01.L";
+  }
+  take.skeleton = make_skeleton(take.skeleton);
+  double* q = rotation(take, 30, "index_01.L");
+  store_quaternion(load_quaternion(q) * Quaternion(Eigen::AngleAxisd(1, Vector3::UnitX())), q);
+  EXPECT_EQ(codes_of(take), std::vector<std::string>{"spike"});
+  EXPECT_EQ(findings_of(take)[0].severity, Severity::kInfo);
+}
+
 TEST(Doctor, AQuaternionOfTheOtherSignIsNoFlip) {
   Take take = walk();
   double* q = rotation(take, 30, "shin.L");

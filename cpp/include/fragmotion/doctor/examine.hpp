@@ -25,19 +25,20 @@ struct Finding {
 /// What a take is, and what is wrong with it. Directions are "+X" to "-Z" in the take's own axes, "" where they cannot
 /// be told.
 struct Examination {
-  double stature = 0;      ///< m, in the unit that the body tells; 0 where the bones have no length.
-  double scale = 1;        ///< What the take's lengths are to be multiplied by to be metres.
-  std::string up, facing;  ///< From the feet to the head as it moves; where the body looks at rest.
-  double rate = 0;         ///< Frames a second.
+  double stature = 0;  ///< m, in the unit that the body tells; 0 where the bones have no length.
+  double scale = 1;    ///< What the take's lengths are to be multiplied by to be metres.
+  std::string up;      ///< From the feet to the head as the body moves.
+  std::string facing;  ///< Where a body that stands at rest looks.
+  double rate = 0;     ///< Frames a second.
   bool root_motion = true;
-  std::string rest_pose;                     ///< "T", "A", "down", "other", or "" without arms.
+  std::string rest_pose;                     ///< "T", "A", "down", "other" (or no pose of a body), or "" without arms.
   std::map<std::string, std::string> roles;  ///< As named_bones() (role_map.hpp).
   std::vector<Finding> findings;
 };
 
 /// Every code that a finding can have, in the order in which they are looked for and mended:
 /// missing (not a number), unit, up, mirrored, facing, flip (a bone turned over for a moment), spike (out of line for a
-/// moment), doubled (each frame stands several times), frozen, dropped (frames left out), calibration, jump (no body
+/// moment), doubled (each frame stands several times), frozen, calibration, dropped (frames left out), jump (no body
 /// gets from one frame to the next), ground, slope, in_place, rate, size, body, short, duplicate.
 const std::vector<std::string>& finding_codes();
 
