@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Motion capture files onto one armature, an Action for each take."""
+"""Motion capture files onto an armature, an Action for each take."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ from ..errors import UserError, core_errors
 from ..files import check_regular
 from ..rig.rigs import carriers, make_rig
 from ..rig.writing import write_poses
-from .actions import RATE, SCENE_RATE
-from .sampling import scene_rate
+from .doctor import examine, keep_findings
+from .retargeting import Channels, has_names_of, key_times, make_action, retargeted_takes
 
 if TYPE_CHECKING:
-    from fragmotion_core import Doubles, Skeleton, Take
+    from fragmotion_core import Rig, Skeleton, Take
 
 METRES = {"CENTIMETRES": 0.01, "METRES": 1.0, "INCHES": 0.0254}
-"""Metres in one unit of a BVH file."""
+"""Metres in one unit of a BVH file, where the user says."""
 
-FIRST_FRAME = 1
 _SHORTEST_BONE = 0.001  # m; Blender deletes bones without length
 _STUB = 0.01  # m; length of a bone that has none
 _ROOT_LENGTH = 0.2  # of the stature, at most
 _LONGEST_NAME = 63  # bytes
 _STILL = 1e-6  # m; a location that stays below never leaves its rest
+_UNIT = 0.01  # m in one unit of a BVH file, until the body tells otherwise
 _READING = 0.5  # share of the progress that reading takes
 
 Advance = Callable[[float], None]
@@ -83,29 +83,56 @@ def read_take(file: TakeFile, unit: float) -> Take:
         return take
 
 
+class Imported(NamedTuple):
+    """What an import made, and the takes that it left out as they are there already."""
+
+    armature: bpy.types.Object
+    actions: list[bpy.types.Action]
+    left_out: list[str]
+
+
 def import_takes(
-    context: bpy.types.Context, name: str, files: Sequence[TakeFile], unit: float, advance: Advance
-) -> tuple[bpy.types.Object, list[bpy.types.Action]]:
-    """Make an armature from the first take and an Action from each. On an error nothing stays in the file."""
+    context: bpy.types.Context,
+    name: str,
+    files: Sequence[TakeFile],
+    unit: float | None,
+    advance: Advance,
+    onto: bpy.types.Object | None = None,
+    mends: bool = True,
+) -> Imported:
+    """Make an Action from each take: on an armature that is made from the first one, or on the body of an armature that
+    is there. `unit`: m in one unit of a BVH file; None: the body's size tells. On an error nothing stays in the
+    file."""
     takes = []
     for index, file in enumerate(files):
-        takes.append(read_take(file, unit))
-        _check_bones(file, takes[-1], files[0], takes[0])
+        takes.append(read_take(file, unit or _UNIT))
+        _check_names(file, takes[-1])
         advance(_READING * index / len(files))
+    examined = examine(takes, mends, keep_unit=unit is not None)
+    kept = [each for each in examined if not each.is_duplicate]
+    left_out = [each.take.name for each in examined if each.is_duplicate]
     with _undone_on_error(context):
-        obj = make_armature(context, name, takes[0].skeleton)
+        obj = onto or make_armature(context, name, kept[0].take.skeleton)
         rig = make_rig(obj)
-        channels = [rig.take_channels(take) for take in takes]
-        moving = _moving_bones(obj, channels) | set(carriers(obj, rig))
+        channels = _channels(obj, rig, [each.take for each in kept], is_new=onto is None)
+        moving = set(carriers(obj, rig)) | (set() if onto else _moving_bones(obj, channels))
         actions = []
-        for index, (take, (locations, rotations)) in enumerate(zip(takes, channels)):
-            action = _make_action(context.scene, take)
-            actions.append(action)
-            write_poses(action, obj, _key_times(action, len(rotations)), locations, rotations, moving)
-            advance(_READING + (1 - _READING) * index / len(files))
+        for index, (each, (locations, rotations)) in enumerate(zip(kept, channels)):
+            actions.append(make_action(context.scene, each.take.name, each.take.rate))
+            keep_findings(actions[-1], each.found)
+            times = key_times(actions[-1], len(rotations))
+            write_poses(actions[-1], obj, times, locations, rotations, moving)
+            advance(_READING + (1 - _READING) * index / len(kept))
     versions.assign(obj, actions[0])
     context.view_layer.update()
-    return obj, actions
+    return Imported(obj, actions, left_out)
+
+
+def _channels(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], is_new: bool) -> list[Channels]:
+    """Each take's channels: as they are on the armature that was made from them, else brought onto its body."""
+    own = [is_new and has_names_of(rig, take.skeleton) for take in takes]
+    others = iter(retargeted_takes(obj, rig, [take for take, is_own in zip(takes, own) if not is_own]))
+    return [rig.take_channels(take) if is_own else next(others) for take, is_own in zip(takes, own)]
 
 
 @contextmanager
@@ -126,14 +153,8 @@ def _undone_on_error(context: bpy.types.Context) -> Iterator[None]:
         raise
 
 
-def _check_bones(file: TakeFile, take: Take, first_file: TakeFile, first: Take) -> None:
-    """UserError where a take cannot go onto the first one's armature."""
-    missing = [name for name in take.skeleton.names if name not in first.skeleton.names]
-    if missing:
-        raise UserError(
-            f"'{file.path}': bone '{missing[0]}' is not in the armature that '{first_file.path.name}' makes; "
-            "import the takes of one skeleton at a time (select their files)"
-        )
+def _check_names(file: TakeFile, take: Take) -> None:
+    """UserError where Blender cannot have a bone's name."""
     long = [name for name in take.skeleton.names if len(name.encode()) > _LONGEST_NAME]
     if long:
         raise UserError(f"'{file.path}': bone name '{long[0]}' is longer than Blender's {_LONGEST_NAME} bytes")
@@ -174,30 +195,10 @@ def _add_bones(armature: bpy.types.Armature, skeleton: Skeleton) -> None:
         root.length = min(root.length, _ROOT_LENGTH * skeleton.stature)
 
 
-def _moving_bones(obj: bpy.types.Object, channels: Sequence[tuple[Doubles, Doubles]]) -> set[str]:
+def _moving_bones(obj: bpy.types.Object, channels: Sequence[Channels]) -> set[str]:
     """The bones that any take moves from their rest; all takes key these, so that none leaves its mark on the next."""
     furthest = np.max([np.abs(locations).max(axis=(0, 2)) for locations, _ in channels], axis=0)
     return {bone.name for bone, distance in zip(obj.data.bones, furthest) if distance > _STILL}
-
-
-def _make_action(scene: bpy.types.Scene, take: Take) -> bpy.types.Action:
-    action = bpy.data.actions.new(take.name)
-    action.use_fake_user = True
-    action[RATE], action[SCENE_RATE] = _tidy_rate(take.rate), scene_rate(scene)
-    action.fragmotion.use = True
-    return action
-
-
-def _key_times(action: bpy.types.Action, frames: int) -> Doubles:
-    """Scene frames on which the take plays in its own time at the scene's rate now."""
-    return FIRST_FRAME + float(action[SCENE_RATE]) / float(action[RATE]) * np.arange(frames, dtype=float)
-
-
-def _tidy_rate(rate: float) -> float:
-    """The usual rate that a rounded frame time such as 0.033333 s means."""
-    usual = [float(round(rate)), round(rate) / 1.001]
-    nearest = min(usual, key=lambda other: abs(other - rate))
-    return nearest if abs(nearest - rate) < 1e-4 * rate else rate
 
 
 def _remove(

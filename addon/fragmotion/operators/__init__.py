@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from . import recordings
+from . import import_mocap, recordings
 from .background import FRAGMOTION_OT_cancel
 from .bake import FRAGMOTION_OT_bake
+from .bones import FRAGMOTION_OT_find_bones, FRAGMOTION_OT_load_bones, FRAGMOTION_OT_save_bones
 from .build import FRAGMOTION_OT_build
 from .drive import (
     FRAGMOTION_OT_drive,
@@ -15,10 +16,10 @@ from .drive import (
     FRAGMOTION_OT_record,
 )
 from .force_class import FRAGMOTION_OT_force_class
-from .import_mocap import FRAGMOTION_OT_import_mocap
 from .leave_out import FRAGMOTION_OT_leave_out, FRAGMOTION_OT_take_in
 from .load_policy import FRAGMOTION_OT_load_policy
 from .populate import FRAGMOTION_OT_populate
+from .retarget_actions import FRAGMOTION_OT_retarget_actions
 from .save_policy import FRAGMOTION_OT_save_policy
 from .show_fragment import FRAGMOTION_OT_show_fragment
 from .solo_class import FRAGMOTION_OT_solo_class
@@ -26,7 +27,11 @@ from .suggest import FRAGMOTION_OT_suggest_classes
 from .tick_actions import FRAGMOTION_OT_tick_actions
 
 CLASSES = (
-    FRAGMOTION_OT_import_mocap,
+    *import_mocap.CLASSES,
+    FRAGMOTION_OT_retarget_actions,
+    FRAGMOTION_OT_find_bones,
+    FRAGMOTION_OT_load_bones,
+    FRAGMOTION_OT_save_bones,
     FRAGMOTION_OT_tick_actions,
     FRAGMOTION_OT_leave_out,
     FRAGMOTION_OT_take_in,

@@ -25,8 +25,8 @@ def poll_armature(cls: Any, context: bpy.types.Context) -> bool:
         cls.poll_message_set(f"'{session.current.armature}' is being driven: stop that first (Esc)")
     elif obj is None:
         cls.poll_message_set("No armature is active: import mocap, or click an armature or its mesh")
-    elif _is_foreign(obj) or _is_foreign(obj.data):
-        cls.poll_message_set(_advise_on_foreign(obj))
+    elif not can_change(obj):
+        cls.poll_message_set(advise_on_foreign(obj))
     elif context.mode not in {"OBJECT", "POSE"}:
         cls.poll_message_set("Leave this mode first: it works in Object Mode and Pose Mode")
     else:
@@ -34,12 +34,18 @@ def poll_armature(cls: Any, context: bpy.types.Context) -> bool:
     return False
 
 
+def can_change(obj: Any) -> bool:
+    """Whether there is an armature, and it is this file's own."""
+    return obj is not None and not _is_foreign(obj) and not _is_foreign(obj.data)
+
+
 def _is_foreign(data: bpy.types.ID) -> bool:
     """Whether another file has the last word on the data-block: what a build keeps in it would not be saved."""
     return data.library is not None or data.override_library is not None
 
 
-def _advise_on_foreign(obj: bpy.types.Object) -> str:
+def advise_on_foreign(obj: bpy.types.Object) -> str:
+    """What to do about an armature that is not this file's own."""
     state = "is a library override" if obj.override_library is not None else "is linked from another file"
     in_linked_collection = any(collection.library is not None for collection in obj.users_collection)
     choice = "All" if in_linked_collection else "Selected Objects and Data"

@@ -7,12 +7,14 @@ from pathlib import Path
 from typing import ClassVar
 
 import bpy
-from bpy.props import CollectionProperty, EnumProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, StringProperty
 
 from ..errors import UserError, reported
-from ..mocap.importing import METRES, find_takes, import_takes
+from ..mocap.importing import METRES, Imported, find_takes, import_takes
+from .context import active_armature, advise_on_foreign, can_change
 
 _UNITS = (
+    ("AUTO", "By the Body", "What makes the body as tall as people are"),
     ("CENTIMETRES", "Centimetres", "One BVH unit is 0.01 m"),
     ("METRES", "Metres", "One BVH unit is 1 m"),
     ("INCHES", "Inches", "One BVH unit is 0.0254 m"),
@@ -25,8 +27,8 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
     bl_idname = "fragmotion.import_mocap"
     bl_label = "Import Mocap"
     bl_description = (
-        "Import a folder of motion capture takes (BVH, or ASF with AMC) onto one new armature, an Action for each "
-        "take. With files selected in the folder, only these"
+        "Import a folder of motion capture takes (BVH, or ASF with AMC), of whatever skeletons, onto your character or "
+        "a new armature, an Action for each take. With files selected in the folder, only these"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
@@ -39,10 +41,29 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
         name="BVH Unit",
         description="Length of one unit in BVH files (ASF files tell theirs)",
         items=_UNITS,
-        default="CENTIMETRES",
+        default="AUTO",
+    )
+    onto: EnumProperty(  # type: ignore[valid-type]
+        name="Onto",
+        description="What the takes move",
+        items=(
+            ("NEW", "New Armature", "An armature of the takes' own bones"),
+            ("ACTIVE", "Active Armature", "The armature that is active, whatever its bones are called: they are found"),
+        ),
+        default="NEW",
+        options={"SKIP_SAVE"},
+    )
+    mend: BoolProperty(  # type: ignore[valid-type]
+        name="Mend",
+        description="Put right what is surely wrong with a take, and leave out takes that are there twice",
+        default=True,
     )
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        if not self.properties.is_property_set("onto") and can_change(active_armature(context)):
+            self.onto = "ACTIVE"
+        if self.directory:
+            return self.execute(context)
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
@@ -52,17 +73,64 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
             raise UserError("No folder is chosen")
         folder = Path(bpy.path.abspath(self.directory)).resolve()
         files = find_takes(folder, [file.name for file in self.files if file.name])
+        onto = self._target(context)
         manager = context.window_manager
         manager.progress_begin(0, 100)
         try:
-            obj, actions = import_takes(
+            done = import_takes(
                 context,
                 folder.name or "Mocap",
                 files,
-                METRES[self.unit],
+                METRES.get(self.unit),
                 lambda fraction: manager.progress_update(100 * fraction),
+                onto,
+                self.mend,
             )
         finally:
             manager.progress_end()
-        self.report({"INFO"}, f"Imported {len(actions)} takes onto armature '{obj.name}' ({len(obj.data.bones)} bones)")
+        self.report({"INFO"}, _told(done))
         return {"FINISHED"}
+
+    def _target(self, context: bpy.types.Context) -> bpy.types.Object | None:
+        if self.onto == "NEW":
+            return None
+        obj = active_armature(context)
+        if obj is None:
+            raise UserError("No armature is active that the takes could move: click your character, or import onto new")
+        if not can_change(obj):
+            raise UserError(advise_on_foreign(obj))
+        return obj
+
+
+def _told(done: Imported) -> str:
+    obj = done.armature
+    told = f"Imported {len(done.actions)} takes onto armature '{obj.name}' ({len(obj.data.bones)} bones)"
+    mended = sum(row.mended for action in done.actions for row in action.fragmotion.findings)
+    parts = [
+        f"{mended} faults mended" if mended else "",
+        f"{len(done.left_out)} left out that are there twice" if done.left_out else "",
+    ]
+    return "; ".join([told, *filter(None, parts)])
+
+
+def _drop_handlers() -> tuple[type, ...]:
+    """What imports files that are dropped into a viewport, from Blender 4.1 on."""
+    if not hasattr(bpy.types, "FileHandler"):
+        return ()
+
+    class FRAGMOTION_FH_import_mocap(bpy.types.FileHandler):  # type: ignore[misc]
+        """Motion capture that is dropped moves the active armature, or a new one."""
+
+        bl_idname = "FRAGMOTION_FH_import_mocap"
+        bl_label = "Fragmotion: Import Mocap"
+        bl_import_operator = FRAGMOTION_OT_import_mocap.bl_idname
+        bl_file_extensions = ".bvh;.amc"
+
+        @classmethod
+        def poll_drop(cls, context: bpy.types.Context) -> bool:
+            return context.area is not None and context.area.type == "VIEW_3D"
+
+    return (FRAGMOTION_FH_import_mocap,)
+
+
+CLASSES = (FRAGMOTION_OT_import_mocap, *_drop_handlers())

@@ -10,6 +10,7 @@ from ..character.coverage_picture import draw_pictures
 from ..character.staleness import is_stale
 from ..compat import versions
 from ..mocap.actions import fits_cached, fitting
+from ..mocap.doctor import worst
 from ..operators import background
 from ..operators.context import active_armature
 from ..settings.drawing import (
@@ -21,7 +22,8 @@ from ..settings.drawing import (
     draw_summary,
     draw_training,
 )
-from . import classes, drive, left_out, recordings
+from . import bones, classes, doctor, drive, left_out, recordings
+from .doctor import LIGHTS
 from .sidebar import Sidebar, SubPanel
 
 _ROWS = 5
@@ -45,12 +47,19 @@ class FRAGMOTION_UL_actions(bpy.types.UIList):
         row = layout.row(align=True)
         row.prop(item.fragmotion, "use", text="")
         row.label(text=item.name, translate=False)
+        severity = worst(item)
+        if severity in {"error", "warning"}:
+            row.label(text="", icon=LIGHTS[severity])
 
     def filter_items(self, context: bpy.types.Context, data: object, name: str) -> tuple[list[int], list[int]]:
         actions, obj = getattr(data, name), active_armature(context)
         by_name = bpy.types.UI_UL_list.filter_items_by_name(self.filter_name, self.bitflag_filter_item, actions)
         named = by_name or [self.bitflag_filter_item] * len(actions)
         return [flag if obj and fits_cached(action, obj) else 0 for flag, action in zip(named, actions)], []
+
+
+def _has_other_armatures(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
+    return any(other.type == "ARMATURE" and other != obj for other in context.view_layer.objects)
 
 
 class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
@@ -66,6 +75,10 @@ class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
         if obj is None:
             layout.label(text="No armature is active", icon="INFO")
             return
+        if obj.fragmotion.source or _has_other_armatures(context, obj):
+            row = layout.row(align=True)
+            row.prop(obj.fragmotion, "source", text="")
+            row.operator("fragmotion.retarget_actions", text="Retarget")
         if obj != context.active_object:
             layout.label(text=obj.name, icon="ARMATURE_DATA", translate=False)
         actions = fitting(obj)
@@ -191,6 +204,8 @@ CLASSES = (
     FRAGMOTION_UL_actions,
     FRAGMOTION_PT_mocap,
     *left_out.CLASSES,
+    *doctor.CLASSES,
+    *bones.CLASSES,
     FRAGMOTION_PT_build,
     *classes.BUILD_PANELS,
     FRAGMOTION_PT_training,

@@ -19,6 +19,7 @@ from ..character.classes import ClassRow
 from ..character.coverage import COLUMNS
 from ..character.suggesting import NumberTried
 from ..recordings.recordings import Recording
+from ..rig.bodies import RoleBone
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import TraceFields, factor_field, length_field, player_field, policy_field, seed_field
@@ -151,9 +152,21 @@ class BuildFigures(bpy.types.PropertyGroup):
     """[102] float32: ControlDis to the nearest fragment."""
 
 
+def _is_other_armature(settings: CharacterSettings, obj: bpy.types.Object) -> bool:
+    return bool(obj.type == "ARMATURE" and obj != settings.id_data)
+
+
 class CharacterSettings(bpy.types.PropertyGroup):
     """An armature object's `fragmotion`: settings, figures, the policy file's bytes and the recordings."""
 
+    roles: CollectionProperty(type=RoleBone)  # type: ignore[valid-type]
+    """What the bones are to the body, where the user has looked at it."""
+    source: PointerProperty(  # type: ignore[valid-type]
+        name="From",
+        description="Another armature of this file, whose Actions this one is to perform",
+        type=bpy.types.Object,
+        poll=_is_other_armature,
+    )
     build: PointerProperty(type=BuildSettings)  # type: ignore[valid-type]
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
     populate: PointerProperty(type=PopulateSettings)  # type: ignore[valid-type]

@@ -12,8 +12,10 @@ from bpy.props import BoolProperty, CollectionProperty, IntProperty, PointerProp
 from ..character.classes import ClassRow
 from ..character.inspector import InspectorSettings
 from ..character.suggesting import NumberTried
+from ..mocap.doctor import TakeFinding
 from ..mocap.left_out import FrameSpan
 from ..recordings.recordings import Recording
+from ..rig.bodies import RoleBone
 from .armature import (
     BakeSettings,
     BuildFigures,
@@ -34,6 +36,7 @@ class ActionSettings(bpy.types.PropertyGroup):
         name="Learn from it", description="Build cuts fragments from the ticked Actions", default=False
     )
     left_out: CollectionProperty(type=FrameSpan)  # type: ignore[valid-type]
+    findings: CollectionProperty(type=TakeFinding)  # type: ignore[valid-type]
 
 
 class WindowSettings(bpy.types.PropertyGroup):
@@ -49,6 +52,8 @@ CLASSES = (
     NumberTried,
     Recording,
     FrameSpan,
+    TakeFinding,
+    RoleBone,
     InspectorSettings,
     BuildSettings,
     BakeSettings,

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is wrong with takes as they were read, and its mending before anything is made of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, StringProperty
+
+from ..compat.core import core
+
+if TYPE_CHECKING:
+    from fragmotion_core import Examination, Finding, Take
+
+_UNIT = "unit"  # the code of what the user decides who chooses a unit
+
+
+class TakeFinding(bpy.types.PropertyGroup):
+    """What the doctor found in an Action's take, or mended."""
+
+    severity: EnumProperty(  # type: ignore[valid-type]
+        items=(
+            ("info", "Note", "Good to know"),
+            ("warning", "Warning", "It may show in the character"),
+            ("error", "Error", "The take cannot be used so"),
+        )
+    )
+    text: StringProperty()  # type: ignore[valid-type]
+    mended: BoolProperty()  # type: ignore[valid-type]
+
+
+class Found(NamedTuple):
+    """A finding, and whether it is put right."""
+
+    finding: Finding
+    mended: bool
+
+
+class Examined(NamedTuple):
+    """A take, mended, and what was found in it. A duplicate is to be left out."""
+
+    take: Take
+    found: list[Found]
+    is_duplicate: bool
+
+
+def examine(takes: Sequence[Take], mends: bool, keep_unit: bool) -> list[Examined]:
+    """Examine takes, and with `mends` put right what is safe to; `keep_unit`: lengths stay as they were read."""
+    return [_treat(take, seen, mends, keep_unit) for take, seen in zip(takes, core.examine(list(takes)))]
+
+
+def _treat(take: Take, seen: Examination, mends: bool, keep_unit: bool) -> Examined:
+    chosen = [f for f in seen.findings if mends and f.safe and not (keep_unit and f.code == _UNIT)]
+    codes = {f.code for f in chosen}
+    mended = core.mend(take, chosen) if chosen else take
+    return Examined(mended, [Found(f, f in chosen) for f in seen.findings], "duplicate" in codes)
+
+
+def keep_findings(action: bpy.types.Action, found: Sequence[Found]) -> None:
+    """Keep with an Action what was found in its take."""
+    for finding, mended in found:
+        row = action.fragmotion.findings.add()
+        row.severity, row.text, row.mended = finding.severity, finding.text, mended
+
+
+def worst(action: bpy.types.Action) -> str:
+    """'error', 'warning' or 'info': the worst that was found in an Action's take and not mended; '' for nothing."""
+    found = {row.severity for row in action.fragmotion.findings if not row.mended}
+    return next((severity for severity in ("error", "warning", "info") if severity in found), "")

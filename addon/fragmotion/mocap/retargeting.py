@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Motion of other bodies onto an armature, by what their bones are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ..compat.core import core
+from ..errors import core_errors
+from ..rig.bodies import make_body
+from ..rig.rigs import carriers, make_rig
+from ..rig.writing import write_poses
+from .actions import RATE, SCENE_RATE
+from .sampling import sample, scene_rate
+
+if TYPE_CHECKING:
+    from fragmotion_core import Body, Clip, Doubles, Rig, Skeleton, Take
+
+Channels = tuple["Doubles", "Doubles"]
+Advance = Callable[[float], None]
+
+FIRST_FRAME = 1
+_SAME_LENGTH = 1e-3  # of the stature
+_SAMPLING = 0.5  # share of the progress that reading Actions takes
+
+
+def has_names_of(rig: Rig, skeleton: Skeleton) -> bool:
+    """Whether the rig has all of the skeleton's bones, by name."""
+    return set(skeleton.names) <= set(rig.skeleton.names)
+
+
+def retargeted_takes(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take]) -> list[Channels]:
+    """Takes, of whatever skeletons, as channels of the armature, brought onto its body."""
+    channels: dict[int, Channels] = {}
+    for members in _by_skeleton(takes):
+        skeleton = takes[members[0]].skeleton
+        with core_errors(f"Take '{takes[members[0]].name}'"):
+            clips = [core.Clip.from_take(takes[index], skeleton) for index in members]
+            source = core.Body(skeleton, clips)
+        for index, clip in zip(members, _retargeted(source, obj, rig, clips)):
+            channels[index] = rig.channels(clip.root_positions, clip.rotations)
+    return [channels[index] for index in range(len(takes))]
+
+
+def _by_skeleton(takes: Sequence[Take]) -> list[list[int]]:
+    """Indices of the takes whose bones are the same, and of the same lengths."""
+    groups: list[list[int]] = []
+    for index, take in enumerate(takes):
+        same = (group for group in groups if _is_same(takes[group[0]].skeleton, take.skeleton))
+        group = next(same, None)
+        if group is None:
+            groups.append([index])
+        else:
+            group.append(index)
+    return groups
+
+
+def _is_same(one: Skeleton, other: Skeleton) -> bool:
+    if one.names != other.names or one.parents != other.parents:
+        return False
+    apart = np.linalg.norm(one.offsets[1:] - other.offsets[1:], axis=1)
+    return bool(apart.max(initial=0) < _SAME_LENGTH * one.stature)
+
+
+def _retargeted(source: Body, obj: bpy.types.Object, rig: Rig, clips: Sequence[Clip]) -> list[Clip]:
+    with core_errors(f"Armature '{obj.name}'"):
+        return [done.clip for done in core.Retarget(source, make_body(obj, rig)).apply_all(clips)]
+
+
+def retarget_actions(
+    context: bpy.types.Context,
+    source: bpy.types.Object,
+    obj: bpy.types.Object,
+    actions: Sequence[bpy.types.Action],
+    advance: Advance,
+) -> list[bpy.types.Action]:
+    """New Actions, ticked, in which the armature does what the source does in its Actions; on an error there are
+    none."""
+    source_rig, rig = make_rig(source), make_rig(obj)
+    moving = carriers(obj, rig)
+    clips = []
+    for index, action in enumerate(actions):
+        clips.append(sample(context, source, action, source_rig))
+        advance(_SAMPLING * index / len(actions))
+    made = []
+    for index, clip in enumerate(_retargeted(make_body(source, source_rig, clips), obj, rig, clips)):
+        channels = rig.channels(clip.root_positions, clip.rotations)
+        action = make_action(context.scene, f"{clip.name} on {obj.name}", clip.rate)
+        write_poses(action, obj, key_times(action, len(channels[1])), *channels, moving)
+        made.append(action)
+        advance(_SAMPLING + (1 - _SAMPLING) * index / len(clips))
+    return made
+
+
+def make_action(scene: bpy.types.Scene, name: str, rate: float) -> bpy.types.Action:
+    """An Action to learn from, without keys yet, of so many frames a second."""
+    action = bpy.data.actions.new(name)
+    action.use_fake_user = True
+    action[RATE], action[SCENE_RATE] = _tidy_rate(rate), scene_rate(scene)
+    action.fragmotion.use = True
+    return action
+
+
+def key_times(action: bpy.types.Action, frames: int) -> Doubles:
+    """Scene frames on which the take plays in its own time at the scene's rate now."""
+    return FIRST_FRAME + float(action[SCENE_RATE]) / float(action[RATE]) * np.arange(frames, dtype=float)
+
+
+def _tidy_rate(rate: float) -> float:
+    """The usual rate that a rounded frame time such as 0.033333 s means."""
+    usual = [float(round(rate)), round(rate) / 1.001]
+    nearest = min(usual, key=lambda other: abs(other - rate))
+    return nearest if abs(nearest - rate) < 1e-4 * rate else rate

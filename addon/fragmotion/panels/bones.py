@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel that says which bone is which part of the body."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..operators.context import active_armature
+from .sidebar import SubPanel
+
+_ICONS = {True: "CHECKMARK", False: "QUESTION"}
+
+
+class FRAGMOTION_PT_bones(SubPanel, bpy.types.Panel):
+    """Which bone is which: takes of other skeletons are brought onto the armature by it."""
+
+    bl_idname = "FRAGMOTION_PT_bones"
+    bl_label = "Bones"
+    bl_parent_id = "FRAGMOTION_PT_mocap"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, obj = self.layout, active_armature(context)
+        roles = obj.fragmotion.roles
+        row = layout.row(align=True)
+        row.operator("fragmotion.find_bones", icon="VIEWZOOM")
+        row.operator("fragmotion.load_bones", text="", icon="FILE_FOLDER")
+        row.operator("fragmotion.save_bones", text="", icon="FILE_TICK")
+        if not len(roles):
+            layout.label(text="Found by itself when takes come in", icon="INFO")
+            return
+        column = layout.column(align=True)
+        for role in roles:
+            column.prop_search(
+                role,
+                "bone",
+                obj.data,
+                "bones",
+                text=role.name.replace("_", " ").title(),
+                icon=_ICONS[role.bone in obj.data.bones],
+                translate=False,
+            )
+
+
+CLASSES = (FRAGMOTION_PT_bones,)

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sub-panel of what was wrong with the chosen take."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..mocap.actions import chosen
+from ..operators.context import active_armature
+from ..settings.drawing import draw_wrapped
+from .sidebar import SubPanel
+
+LIGHTS = {"error": "CANCEL", "warning": "ERROR", "info": "INFO"}
+
+
+class FRAGMOTION_PT_doctor(SubPanel, bpy.types.Panel):
+    """What was found in the chosen take when it was imported."""
+
+    bl_idname = "FRAGMOTION_PT_doctor"
+    bl_label = "Doctor"
+    bl_parent_id = "FRAGMOTION_PT_mocap"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        action = chosen(context, active_armature(context))
+        if action is None:
+            self.layout.label(text="No take is chosen in the list", icon="INFO")
+            return
+        findings = action.fragmotion.findings
+        if not len(findings):
+            self.layout.label(text="Nothing is wrong with this take", icon="CHECKMARK")
+        for row in findings:
+            text = f"{row.text} (mended)" if row.mended else row.text
+            draw_wrapped(self.layout, context, text, "CHECKMARK" if row.mended else LIGHTS[row.severity])
+
+
+CLASSES = (FRAGMOTION_PT_doctor,)

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the bones of an armature are to a body: found by the core, or as the user says."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bpy
+from bpy.props import StringProperty
+
+from ..compat.core import core
+from ..errors import UserError, core_errors
+from ..files import check_regular
+
+if TYPE_CHECKING:
+    from fragmotion_core import Body, Clip, Rig
+
+NEEDED = (
+    "hips",
+    "spine_1",
+    "neck_1",
+    "head",
+    *(
+        f"{side}_{part}"
+        for part in ("shoulder", "upper_arm", "lower_arm", "hand", "thigh", "shin", "foot", "toe")
+        for side in ("left", "right")
+    ),
+)
+"""The roles that are asked for even where no bone is found for them."""
+
+
+class RoleBone(bpy.types.PropertyGroup):
+    """The bone that has the role `name`; none where it is empty."""
+
+    bone: StringProperty(name="Bone", description="The bone that is this part of the body")  # type: ignore[valid-type]
+
+
+def chosen_roles(obj: bpy.types.Object) -> dict[str, str] | None:
+    """Role -> bone name as the user has them, or None where nobody has looked at them."""
+    roles = obj.fragmotion.roles
+    return {role.name: role.bone for role in roles if role.bone} if len(roles) else None
+
+
+def find_roles(rig: Rig) -> dict[str, str]:
+    """Role -> bone name as the core finds them."""
+    return {role: bone for role, (bone, _) in rig.skeleton.role_map().items()}
+
+
+def set_roles(obj: bpy.types.Object, found: Mapping[str, str]) -> None:
+    """Keep role -> bone name with the armature, the needed roles first."""
+    roles = obj.fragmotion.roles
+    roles.clear()
+    for name in (*NEEDED, *(role for role in found if role not in NEEDED)):
+        role = roles.add()
+        role.name, role.bone = name, found.get(name, "")
+
+
+def make_body(obj: bpy.types.Object, rig: Rig, clips: Sequence[Clip] = ()) -> Body:
+    """The armature as a body; UserError names what is missing of it."""
+    with core_errors(f"Armature '{obj.name}'"):
+        return core.Body(rig.skeleton, clips, chosen_roles(obj))
+
+
+def save_roles(obj: bpy.types.Object, path: Path) -> None:
+    """Write the roles as a preset."""
+    path.write_text(json.dumps(chosen_roles(obj), indent=1) + "\n", encoding="utf-8")
+
+
+def read_roles(obj: bpy.types.Object, path: Path) -> dict[str, str]:
+    """Role -> bone name of a preset that fits the armature; UserError says what does not."""
+    check_regular(path)
+    try:
+        read: Any = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise UserError(f"'{path}' is no preset of bones: {error}") from error
+    if not isinstance(read, dict) or not all(isinstance(bone, str) for bone in read.values()):
+        raise UserError(f"'{path}' is no preset of bones: it must hold names of bones by role")
+    missing = [bone for bone in read.values() if bone not in obj.data.bones]
+    if missing:
+        raise UserError(f"'{path}': armature '{obj.name}' has no bone '{missing[0]}'")
+    return dict(read)
