@@ -9,6 +9,7 @@
 
 #include "doctor/basis.hpp"
 #include "fragmotion/doctor/examine.hpp"
+#include "fragmotion/doctor/mend.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
