@@ -156,6 +156,20 @@ TEST(Doctor, TurnsUpWhateverAxisWasTaken) {
   }
 }
 
+TEST(Doctor, DoesNotRaiseUnaskedWhoMayLie) {
+  Gait gait;
+  gait.y = 0, gait.turn = 0.2;
+  Take take = walk(gait);
+  for (int f = 0; f < take.frames; ++f) {
+    double* hips = rotation(take, f, "hips");
+    store_quaternion(Quaternion(Eigen::AngleAxisd(kPi / 2, Vector3::UnitX())) * load_quaternion(hips), hips);
+  }
+  const Finding finding = findings_of(take).at(0);
+  EXPECT_EQ(finding.code, "up");
+  EXPECT_TRUE(finding.mendable);
+  EXPECT_FALSE(finding.safe);
+}
+
 TEST(Doctor, TurnsToTheFront) {
   const Take clean = walk();
   for (const int quarters : {1, 2, 3}) {
