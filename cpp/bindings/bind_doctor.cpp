@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "fragmotion/doctor/examine.hpp"
+#include "fragmotion/doctor/mend.hpp"
 
 namespace fragmotion::bindings {
 namespace {

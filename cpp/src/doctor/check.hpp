@@ -12,6 +12,18 @@ struct Check {
   bool needs_numbers = true;                ///< Whether every number must be there.
 };
 
+/// In order: each check sees the take without what those before it have mended.
+const std::vector<Check>& checks();
+
+/// What a check finds in a patient that it can look at.
+Findings find(const Check& check, const Patient& patient);
+
+/// The finding in the frames of the take as it was.
+Finding in_take(const Patient& patient, Finding finding);
+
+/// Puts right those of a check's findings that are mendable.
+void mend(const Check& check, const Findings& findings, Patient& patient);
+
 Findings find_missing(const Patient& patient);
 void fill_missing(Patient& patient, const Findings& findings);
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "doctor/basis.hpp"
@@ -13,43 +12,6 @@
 
 namespace fragmotion {
 namespace {
-
-void leave(Patient&, const Findings&) {}
-
-/// In order: each check sees the take without what those before it can mend.
-const std::vector<Check>& checks() {
-  static const std::vector<Check> all = {
-      {find_missing, fill_missing, false}, {find_unit, change_unit},     {find_up, turn_up},
-      {find_mirrored, mirror_back},        {find_facing, turn_to_front}, {find_spikes, fill_spikes},
-      {find_doubled, leave_out_doubled},   {find_held, fill_held},       {find_calibration, cut_ends},
-      {find_frozen_ends, cut_ends},        {find_dropped, fill_dropped}, {find_jumps, leave},
-      {find_ground, put_on_ground},        {find_slope, leave},          {find_in_place, leave},
-      {find_plain_facts, leave},
-  };
-  return all;
-}
-
-Findings find(const Check& check, const Patient& patient) {
-  return check.needs_numbers && !patient.is_finite() ? Findings{} : check.find(patient);
-}
-
-Finding in_file(const Patient& patient, Finding finding) {
-  finding.begin = patient.source(finding.begin);
-  finding.end = patient.source(finding.end);
-  return finding;
-}
-
-template <typename Chosen>
-Findings chosen_of(const Findings& findings, const Chosen& chosen) {
-  Findings result;
-  std::copy_if(findings.begin(), findings.end(), std::back_inserter(result),
-               [&](const Finding& finding) { return finding.mendable && chosen(finding); });
-  return result;
-}
-
-void mend(const Check& check, const Findings& findings, Patient& patient) {
-  if (!findings.empty()) check.mend(patient, findings);
-}
 
 std::string rest_pose_name(const Patient& rest) {
   if (!rest.has_arms()) return "";
@@ -77,8 +39,8 @@ Examination described(const Patient& patient) {
 /// Finds and tells, and mends the patient as far as it can be, so that the next check sees no fault but its own.
 void apply(const Check& check, Patient& patient, Findings& told) {
   const Findings findings = find(check, patient);
-  for (const Finding& finding : findings) told.push_back(in_file(patient, finding));
-  mend(check, chosen_of(findings, [](const Finding&) { return true; }), patient);
+  for (const Finding& finding : findings) told.push_back(in_take(patient, finding));
+  mend(check, findings, patient);
 }
 
 Examination examine(Patient& patient) {
@@ -94,8 +56,6 @@ Examination examine(Patient& patient) {
   told.findings = std::move(findings);
   return told;
 }
-
-bool is_same(const Finding& a, const Finding& b) { return a.code == b.code && a.begin == b.begin && a.end == b.end; }
 
 }  // namespace
 
@@ -119,18 +79,6 @@ std::vector<Examination> examine(const std::vector<Take>& takes, int threads) {
   });
   find_duplicates(takes, outlines, thread_count(threads), told);
   return told;
-}
-
-Take mend(const Take& take, const std::vector<Finding>& findings) {
-  Patient patient(take);
-  for (const Check& check : checks()) {
-    const Findings chosen = chosen_of(find(check, patient), [&](const Finding& finding) {
-      const Finding told = in_file(patient, finding);
-      return std::any_of(findings.begin(), findings.end(), [&](const Finding& f) { return is_same(f, told); });
-    });
-    mend(check, chosen, patient);
-  }
-  return patient.take();
 }
 
 }  // namespace fragmotion

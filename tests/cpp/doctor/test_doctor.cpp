@@ -9,6 +9,7 @@
 
 #include "doctor/basis.hpp"
 #include "fragmotion/doctor/examine.hpp"
+#include "fragmotion/doctor/mend.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
@@ -153,6 +154,20 @@ TEST(Doctor, TurnsUpWhateverAxisWasTaken) {
     EXPECT_EQ(codes_of(mended), std::vector<std::string>{});
     expect_near(mended, clean, 1e-9);
   }
+}
+
+TEST(Doctor, DoesNotRaiseUnaskedWhoMayLie) {
+  Gait gait;
+  gait.y = 0, gait.turn = 0.2;
+  Take take = walk(gait);
+  for (int f = 0; f < take.frames; ++f) {
+    double* hips = rotation(take, f, "hips");
+    store_quaternion(Quaternion(Eigen::AngleAxisd(kPi / 2, Vector3::UnitX())) * load_quaternion(hips), hips);
+  }
+  const Finding finding = findings_of(take).at(0);
+  EXPECT_EQ(finding.code, "up");
+  EXPECT_TRUE(finding.mendable);
+  EXPECT_FALSE(finding.safe);
 }
 
 TEST(Doctor, TurnsToTheFront) {

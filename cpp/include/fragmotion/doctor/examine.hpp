@@ -17,9 +17,10 @@ struct Finding {
   Severity severity = Severity::kInfo;
   int begin = 0, end = 0;  ///< The frames of the take, from 0, the last included.
   std::string text;        ///< What is wrong, where and what to do.
-  bool mendable = false;   ///< Whether mend() can put it right; a duplicate is mended by leaving the take out.
-  bool safe = false;       ///< Whether it may be mended unasked: what is mended is sure, and nothing is invented.
-  int other = -1;          ///< Of a duplicate: the take that has the same motion.
+  bool mendable =
+      false;          ///< Whether mend() (mend.hpp) can put it right; a duplicate is mended by leaving the take out.
+  bool safe = false;  ///< Whether it may be mended unasked: what is mended is sure, and nothing is invented.
+  int other = -1;     ///< Of a duplicate: the take that has the same motion.
 };
 
 /// What a take is, and what is wrong with it. Directions are "+X" to "-Z" in the take's own axes, "" where they cannot
@@ -45,10 +46,5 @@ const std::vector<std::string>& finding_codes();
 /// Examines takes as they were read, each by itself and for motion that is in several of them; `threads` as
 /// thread_count(). Numbers may be missing (not finite).
 std::vector<Examination> examine(const std::vector<Take>& takes, int threads = 0);
-
-/// The take without what these findings of its examination say, as far as they are mendable; others, and those of other
-/// takes, change nothing. Examined again, nothing of a mended code is found. Lengths that change: a `calibration`, and
-/// `frozen` or `missing` frames at an end, are cut off, `doubled` frames are left out, `dropped` ones filled in.
-Take mend(const Take& take, const std::vector<Finding>& findings);
 
 }  // namespace fragmotion
