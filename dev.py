@@ -11,6 +11,7 @@ from pathlib import Path
 from tools import benchmarks, demo, evaluating, fuzzing, machine, packages, testing
 from tools.beside import inputs as beside_inputs
 from tools.evaluate import inputs
+from tools.retarget import inputs as retarget_inputs
 from tools.shell import Failure, say
 
 
@@ -31,6 +32,8 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     inputs.add_arguments(evaluate)
     beside = commands.add_parser("beside", help="measure Fragmotion beside motion matching, on the same takes")
     beside_inputs.add_arguments(beside)
+    retarget = commands.add_parser("retarget", help="bring takes onto another skeleton, and build a character of them")
+    retarget_inputs.add_arguments(retarget)
     commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
     return parser.parse_args(arguments)
 
@@ -60,6 +63,8 @@ def main(arguments: list[str]) -> int:
             return evaluating.run_evaluation(options, arguments[1:])
         if options.command == "beside":
             return evaluating.run_comparison(options, arguments[1:])
+        if options.command == "retarget":
+            return evaluating.run_retargeting(options, arguments[1:])
         return package()
     except Failure as failure:
         print(f"dev.py: {failure}", file=sys.stderr)

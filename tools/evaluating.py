@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py evaluate` and `dev.py beside`: build the core, and let tools.evaluate or tools.beside measure with it."""
+"""`dev.py evaluate`, `beside` and `retarget`: build the core, and let the package of that name in tools work with it."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from tools.compiling import installed_core
 from tools.environments import environment_python
 from tools.evaluate import inputs
 from tools.paths import TOP
+from tools.retarget import inputs as retarget_inputs
 from tools.shell import say
 
 
@@ -30,8 +31,16 @@ def run_comparison(options: argparse.Namespace, arguments: list[str]) -> int:
     return _run("tools.beside", machine.BESIDE, options.mocap, arguments)
 
 
-def _run(module: str, needs: machine.Needs, mocap: Sequence[Path], arguments: list[str]) -> int:
-    machine.set_up(needs | machine.BLENDER_45 if inputs.has_blend(mocap) else needs)
+def run_retargeting(options: argparse.Namespace, arguments: list[str]) -> int:
+    """Retarget, likewise."""
+    retarget_inputs.check(options)
+    return _run("tools.retarget", machine.EVALUATE, [], arguments, retarget_inputs.needs_blender(options))
+
+
+def _run(
+    module: str, needs: machine.Needs, mocap: Sequence[Path], arguments: list[str], with_blender: bool = False
+) -> int:
+    machine.set_up(needs | machine.BLENDER_45 if with_blender or inputs.has_blend(mocap) else needs)
     say("build: core")
     core = installed_core("3.11", packages.wheel("3.11"))
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(core), str(TOP)))}

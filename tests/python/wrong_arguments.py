@@ -149,6 +149,7 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Skeleton.rest_tails": {"self": skeleton},
         "Take.world_transforms": {"self": take},
         "read_bvh": {"path": folder / "take.bvh", "unit": 0.01},
+        "read_asf": {"path": folder / "take.asf"},
         "read_asf_amc": {"asf": folder / "take.asf", "amc": folder / "take.amc", "rate": 120.0},
         "euler_to_quaternion": {"order": "XYZ", "angles": roots},
         "quaternion_to_euler": {"order": "XYZ", "rotations": rotations[0]},
