@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py evaluate`, `beside` and `retarget`: build the core, and let the package of that name in tools work with it."""
+"""`dev.py evaluate`, `beside` and `retarget`: build the core, and let tools' package of that name work with it."""
 
 from __future__ import annotations
 
