@@ -8,7 +8,7 @@ from typing import NamedTuple
 import fragmotion_core as core
 import numpy as np
 import pytest
-from bodies import FAMILIES, about, angles, humanoid, inverse, map_of, posed, random_rolls, remade, times
+from bodies import FAMILIES, about, angles, humanoid, inverse, map_of, posed, random_rolls, remade, times, turned
 from conftest import BANDAI, CMU, Array, make_skeleton, walking_clips
 
 MILLIMETRE = 1e-3
@@ -152,6 +152,18 @@ def test_feet_and_knees_keep_their_manners_on_other_proportions(source: Source, 
         assert result.foot_skate_ratio <= 1.1, result.clip.name
         assert result.contact_error <= 0.01, result.clip.name
         assert result.knee_beyond <= np.radians(1e-3), result.clip.name
+
+
+def test_toes_stay_over_the_ground(source: Source) -> None:
+    """Whatever the source's do: at rest their tips are 2 cm over it."""
+    target = core.Body(humanoid("rigify"))
+    skeleton = target.skeleton
+    for result in core.Retarget(source.body, target).apply_all(source.clips):
+        heads, rotations = result.clip.world_transforms(skeleton)
+        for role in ("left_toe", "right_toe"):
+            toe = skeleton.names.index(target.roles[role])
+            tips = heads[:, toe] + turned(rotations[:, toe], skeleton.tips[toe])
+            assert tips[:, 2].min() > 0.01, result.clip.name
 
 
 @pytest.mark.parametrize("arms", [0.0, 45.0, 85.0])

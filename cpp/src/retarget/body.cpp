@@ -218,17 +218,51 @@ double length_of(const Leg& leg, const PosedBones& posture) {
          (posture.heads[leg.foot] - posture.heads[leg.knee]).norm();
 }
 
+double shortest_of(const Leg& leg, const PosedBones& posture) {
+  return std::min((posture.heads[leg.knee] - posture.heads[leg.thigh]).norm(),
+                  (posture.heads[leg.foot] - posture.heads[leg.knee]).norm());
+}
+
 void measure(const PosedBones& rest, Body& body) {
   body.leg = (length_of(body.legs[0], rest) + length_of(body.legs[1], rest)) / 2;
   body.hip_width = (rest.heads[body.legs[0].thigh] - rest.heads[body.legs[1].thigh]).norm();
-  const double scale = standard_scale(body.skeleton());
+  const double least = kShort / standard_scale(body.skeleton());
   for (int side = 0; side < 2; ++side) {
-    const Leg& leg = body.legs[side];
-    const double thigh = (rest.heads[leg.knee] - rest.heads[leg.thigh]).norm(),
-                 shin = (rest.heads[leg.foot] - rest.heads[leg.knee]).norm();
-    if (std::min({thigh, shin, body.hip_width}) * scale > kShort) continue;
+    if (std::min(shortest_of(body.legs[side], rest), body.hip_width) > least) continue;
     throw std::invalid_argument("the " + std::string(side == 0 ? "left" : "right") +
                                 " leg has bones of no length: choose thigh, shin and foot at hip, knee and ankle");
+  }
+}
+
+// The posture that tells how a body stands: at rest, or in its clips where that is none.
+PosedBones told_posture(const std::vector<Clip>& clips, Body& body) {
+  PosedBones posture = rest_posture(body.skeleton());
+  face_forward(body.map, posture);
+  body.stands = stands(body.map, posture);
+  if (body.stands || clips.empty()) return posture;
+  posture = mean_posture(body.kinematics, body.map, clips);
+  body.stands = stands(body.map, posture);
+  return posture;
+}
+
+// How the feet stand flat: in the clips where they do, else as in the posture.
+void set_feet(const std::vector<Clip>& clips, PosedBones& posture, Body& body) {
+  const std::array<FlatFoot, 2> flat = flat_feet(body.kinematics, body.legs, clips);
+  const bool known = flat[0].known && flat[1].known;
+  for (int side = 0; side < 2; ++side) {
+    body.soles[side] = known ? flat[side].heights : heights_in(body, side, posture);
+    if (known) put(body.skeleton(), body.legs[side], flat[side], posture);
+  }
+  body.soles = over_ground(body.soles, standard_scale(body.skeleton()));
+}
+
+void set_reference(const PosedBones& posture, Body& body) {
+  const std::vector<Quaternion> turns = turns_to_reference(body, posture);
+  for (std::size_t b = 0; b < turns.size(); ++b) body.reference.push_back(turns[b] * posture.rotations[b]);
+  for (int side = 0; side < 2; ++side) {
+    Leg& leg = body.legs[side];
+    body.feet[side] = turns[leg.foot] * (ball(body.skeleton(), leg, posture) - posture.heads[leg.foot]);
+    leg.hinge = body.reference[leg.thigh].conjugate() * -Vector3::UnitX();
   }
 }
 
@@ -239,29 +273,10 @@ Body make_body(const Skeleton& skeleton, const RoleMap& map, const std::vector<C
   check_legs(skeleton, map);
   Body body(Kinematics(with_roles(skeleton, map)), on_body(skeleton, map));
   body.legs = {leg_of(skeleton, map, Side::kLeft), leg_of(skeleton, map, Side::kRight)};
-  PosedBones posture = rest_posture(skeleton);
-  measure(posture, body);
-  face_forward(body.map, posture);
-  body.stands = stands(body.map, posture);
-  if (!body.stands && !clips.empty()) {
-    posture = mean_posture(body.kinematics, body.map, clips);
-    body.stands = stands(body.map, posture);
-  }
-  const std::array<FlatFoot, 2> flat = flat_feet(body.kinematics, body.legs, clips);
-  body.soles = {heights_in(body, 0, posture), heights_in(body, 1, posture)};
-  for (int side = 0; side < 2; ++side) {
-    if (!flat[0].known || !flat[1].known) continue;
-    put(skeleton, body.legs[side], flat[side], posture);
-    body.soles[side] = flat[side].heights;
-  }
-  body.soles = over_ground(body.soles, standard_scale(skeleton));
-  const std::vector<Quaternion> turns = turns_to_reference(body, posture);
-  for (int b = 0; b < skeleton.size(); ++b) body.reference.push_back(turns[b] * posture.rotations[b]);
-  for (int side = 0; side < 2; ++side) {
-    Leg& leg = body.legs[side];
-    body.feet[side] = turns[leg.foot] * (ball(skeleton, leg, posture) - posture.heads[leg.foot]);
-    leg.hinge = body.reference[leg.thigh].conjugate() * -Vector3::UnitX();
-  }
+  measure(rest_posture(skeleton), body);
+  PosedBones posture = told_posture(clips, body);
+  set_feet(clips, posture, body);
+  set_reference(posture, body);
   return body;
 }
 

@@ -15,6 +15,7 @@ constexpr double kStraight = 0.5;  // and a thigh or a shin for one of a standin
 constexpr double kApart = 0.1;     // s between the poses that are looked at
 constexpr double kSlow = 0.25;     // of these: the slowest
 constexpr double kStill = 0.15;    // m/s of a 1.8 m character: a foot that is slower does not roll
+constexpr double kFlat = 0.02;     // m of a 1.8 m character: no point of a foot that stands flat is higher
 constexpr int kEnough = 5;         // frames that tell how a foot stands
 
 struct Moment {
@@ -82,14 +83,15 @@ void hang_up(const Skeleton& skeleton, PosedBones& posed) {
   }
 }
 
-// A foot's path and the frames in which it stands flat and still.
-std::vector<int> flat_frames(const FootPath& path, const std::vector<bool>& stands, double rate, double scale) {
-  const auto still = [&](const std::vector<Vector3>& points, int f) {
-    return (points[f + 1] - points[f - 1]).norm() * rate / 2 * scale < kStill;
+// The frames in which a foot stands flat and still: its ball and its heel do.
+std::vector<int> flat_frames(const FootPath& path, const FootHeights& floor, double rate, double scale) {
+  const auto rests = [&](const std::vector<Vector3>& points, int f, double lowest) {
+    const double speed = (points[f + 1] - points[f - 1]).norm() * rate / 2;
+    return speed * scale < kStill && (points[f].z() - lowest) * scale < kFlat;
   };
   std::vector<int> frames;
-  for (int f = 1; f + 1 < static_cast<int>(stands.size()); ++f) {
-    if (stands[f] && still(path.ball, f) && still(path.heel, f)) frames.push_back(f);
+  for (int f = 1; f + 1 < static_cast<int>(path.ball.size()); ++f) {
+    if (rests(path.ball, f, floor.ball) && rests(path.heel, f, floor.heel)) frames.push_back(f);
   }
   return frames;
 }
@@ -164,10 +166,10 @@ std::array<FlatFoot, 2> flat_feet(const Kinematics& kinematics, const Legs& legs
   std::array<FlatFrames, 2> sums{FlatFrames(legs[0]), FlatFrames(legs[1])};
   PosedBones posed(kinematics.bones());
   for (const Clip& clip : clips) {
-    const Contacts contacts = find_contacts(kinematics, clip);
     const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
     for (int side = 0; side < 2; ++side) {
-      for (const int f : flat_frames(paths[side], contacts.feet[side], clip.rate, scale)) {
+      const FootHeights floor{floor_of(paths[side].ball), floor_of(paths[side].heel)};
+      for (const int f : flat_frames(paths[side], floor, clip.rate, scale)) {
         world(kinematics, clip, f, bones, posed.heads.data(), posed.rotations.data());
         sums[side].add(frame_of(kinematics, posed).rotation().conjugate(), posed, paths[side], f);
       }
