@@ -221,6 +221,25 @@ def test_a_rest_pose_that_tells_nothing_wants_clips(bandai_body: Source) -> None
         core.Retarget(unknown, core.Body(humanoid("mixamo")))
 
 
+def test_walks_and_runs_tell_the_same_of_how_a_body_stands(bandai_body: Source) -> None:
+    """Though a runner leans, bends the elbows and stands on the balls of the feet."""
+    skeleton = bandai_body.body.skeleton
+    walker, runner, dasher = (core.Body(skeleton, bandai_body.clips[i : i + 1]) for i in range(3))
+    for other, most in ((runner, 12), (dasher, 12)):
+        for role in (
+            "hips",
+            "spine_1",
+            "head",
+            "left_upper_arm",
+            "right_thigh",
+            "left_shin",
+            "left_foot",
+            "right_foot",
+        ):
+            bone = skeleton.names.index(walker.roles[role])
+            assert angles(walker.reference[bone], other.reference[bone]) < most, role
+
+
 def test_a_body_without_arms_is_driven(source: Source) -> None:
     skeleton = humanoid("mixamo")
     roles = {role: bone for role, bone in core.Body(skeleton).roles.items() if "leg" in bone.lower() or role == "hips"}

@@ -45,7 +45,8 @@ def same(a: core.Skeleton, b: core.Skeleton) -> bool:
     """Whether two skeletons have the same bones, wherever they stand."""
     if a.names != b.names or a.parents != b.parents:
         return False
-    alike = np.allclose(a.offsets[1:], b.offsets[1:], rtol=0, atol=_SAME)
+    placed = np.array([name != a.roles["hips"] and parent >= 0 for name, parent in zip(a.names, a.parents)])
+    alike = np.allclose(a.offsets[placed], b.offsets[placed], rtol=0, atol=_SAME)
     return alike and np.allclose(a.rest_rotations, b.rest_rotations, rtol=0, atol=_SAME)
 
 
