@@ -7,7 +7,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 import sys
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import Any
 
 import fragmotion_core as core
 
+from tools.evaluate.__main__ import save
 from tools.evaluate.loading import Recordings, core_failures
 from tools.evaluate.report import Table, text
 from tools.retarget import inputs, rigs
@@ -105,12 +105,6 @@ def character_table(figures: dict[str, float]) -> Table:
     ]
     header = ["fragments", "percent of Optimal", "velocity error, m/s", "foot skate, ratio"]
     return Table("The character of them", header, [row])
-
-
-def save(result: dict[str, Any], path: Path) -> None:
-    """Write the JSON file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(result, indent=1, allow_nan=False) + "\n")
 
 
 def main(arguments: list[str]) -> int:

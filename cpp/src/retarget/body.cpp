@@ -64,25 +64,18 @@ RoleMap on_body(const Skeleton& skeleton, RoleMap map) {
   return map;
 }
 
+// Head and hands are kept that the map does not tell: a skeleton's size depends on them.
 Skeleton with_roles(Skeleton skeleton, const RoleMap& map) {
-  Roles& roles = skeleton.roles;
-  const int hips = map.bone(Role::kHips);
-  if (roles.hips != hips) {
-    throw std::invalid_argument("the hips are '" + skeleton.names[hips] + "' by the roles, but '" +
-                                skeleton.names[roles.hips] + "' carries the skeleton: make it with the same hips");
+  Roles roles = roles_of(map);
+  if (roles.hips != skeleton.roles.hips) {
+    throw std::invalid_argument("the hips are '" + skeleton.names[roles.hips] + "' by the roles, but '" +
+                                skeleton.names[skeleton.roles.hips] +
+                                "' carries the skeleton: make it with the same hips");
   }
-  const auto set = [&](int& bone, Role role, Side side) {
-    if (map.bone(role, side) >= 0) bone = map.bone(role, side);
-  };
-  set(roles.head, Role::kHead, Side::kNone);
-  set(roles.left_hand, Role::kHand, Side::kLeft);
-  set(roles.right_hand, Role::kHand, Side::kRight);
-  roles.left_foot = map.bone(Role::kFoot, Side::kLeft);
-  roles.right_foot = map.bone(Role::kFoot, Side::kRight);
-  roles.left_toe = map.bone(Role::kToe, Side::kLeft);
-  roles.right_toe = map.bone(Role::kToe, Side::kRight);
-  roles.left_thigh = map.bone(Role::kThigh, Side::kLeft);
-  roles.right_thigh = map.bone(Role::kThigh, Side::kRight);
+  for (int Roles::*kept : {&Roles::head, &Roles::left_hand, &Roles::right_hand}) {
+    if (roles.*kept < 0) roles.*kept = skeleton.roles.*kept;
+  }
+  skeleton.roles = roles;
   return skeleton;
 }
 
