@@ -16,7 +16,8 @@ constexpr Side kSides[] = {Side::kLeft, Side::kRight};
 constexpr double kShort = 1e-3;       // of a 1.8 m character: m that a bone of a leg must be longer than
 constexpr double kNoDirection = 0.3;  // of a foot's length: one that points up or down further has no direction
 constexpr double kInstep = 0.4;       // rad: how far most feet point down from the ankle to the ball
-constexpr double kGround = 0.08;      // m of a 1.8 m character: joints of feet are no higher over the ground
+constexpr double kFoot = 0.33, kLongFoot = 0.6;  // of a shin's length, from the ankle to the ball: usual, and unlikely
+constexpr double kGround = 0.08;                 // m of a 1.8 m character: joints of feet are no higher over the ground
 
 std::string label_of(Role role, Side side) {
   RoleBone bone;
@@ -76,6 +77,18 @@ Skeleton with_roles(Skeleton skeleton, const RoleMap& map) {
     if (roles.*kept < 0) roles.*kept = skeleton.roles.*kept;
   }
   skeleton.roles = roles;
+  return skeleton;
+}
+
+// Importers that know no bones' ends make feet without toes of any length.
+Skeleton with_short_feet(Skeleton skeleton, const RoleMap& map) {
+  const PosedBones rest = rest_posture(skeleton);
+  for (const Side side : kSides) {
+    const int foot = map.bone(Role::kFoot, side);
+    Vector3& tip = skeleton.tips[foot];
+    const double shin = (rest.heads[foot] - rest.heads[map.bone(Role::kShin, side)]).norm();
+    if (map.bone(Role::kToe, side) < 0 && tip.norm() > kLongFoot * shin) tip *= kFoot * shin / tip.norm();
+  }
   return skeleton;
 }
 
@@ -305,7 +318,7 @@ void set_reference(const Told& told, Body& body) {
 Body make_body(const Skeleton& skeleton, const RoleMap& map, const std::vector<Clip>& clips) {
   check_complete(map);
   check_legs(skeleton, map);
-  Body body(Kinematics(with_roles(skeleton, map)), on_body(skeleton, map));
+  Body body(Kinematics(with_short_feet(with_roles(skeleton, map), map)), on_body(skeleton, map));
   body.legs = {leg_of(skeleton, map, Side::kLeft), leg_of(skeleton, map, Side::kRight)};
   measure(rest_posture(skeleton), body);
   Told told = told_posture(clips, body);

@@ -22,11 +22,18 @@ constexpr double kStandHeight = 0.025, kSlowest = 1e-3;  // of a 1.8 m character
 constexpr double kToeDepth = 0.005;                      // m of a 1.8 m character
 constexpr double kFree = std::numeric_limits<double>::infinity();
 
-// Makes the target's compared pose the source's, of which it is the same body.
+// Makes the target's compared pose and its feet the source's, of which it is the same body.
 void adopt(const Body& source, const std::vector<Drive>& drives, double scale, Body& target) {
+  Skeleton skeleton = target.skeleton();
   for (const Drive& drive : drives) {
     target.reference[drive.bone] = source.reference[drive.first.bone] * drive.first.turn;
+    for (const Leg& leg : target.legs) {
+      const bool is_end = drive.bone == leg.toe || (drive.bone == leg.foot && leg.toe < 0);
+      if (!is_end) continue;
+      skeleton.tips[drive.bone] = scale * (drive.first.turn.conjugate() * source.skeleton().tips[drive.first.bone]);
+    }
   }
+  target.kinematics = Kinematics(skeleton);
   for (int side = 0; side < 2; ++side) {
     target.feet[side] = scale * source.feet[side];
     target.soles[side] = {scale * source.soles[side].ball, scale * source.soles[side].heel};
