@@ -12,6 +12,7 @@ from tools import benchmarks, demo, evaluating, fuzzing, machine, packages, test
 from tools.beside import inputs as beside_inputs
 from tools.doctor import inputs as doctor_inputs
 from tools.evaluate import inputs
+from tools.retarget import inputs as retarget_inputs
 from tools.shell import Failure, say
 
 
@@ -34,6 +35,8 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     beside_inputs.add_arguments(beside)
     doctor = commands.add_parser("doctor", help="say what is wrong with motion capture files")
     doctor_inputs.add_arguments(doctor)
+    retarget = commands.add_parser("retarget", help="bring takes onto another skeleton, and build a character of them")
+    retarget_inputs.add_arguments(retarget)
     commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
     return parser.parse_args(arguments)
 
@@ -59,12 +62,8 @@ def main(arguments: list[str]) -> int:
             return 1 if fuzzing.fuzz_for(options.seconds, options.names or fuzzing.names()).findings else 0
         if options.command == "bench":
             return benchmarks.run_benchmarks(options.json)
-        if options.command == "evaluate":
-            return evaluating.run_evaluation(options, arguments[1:])
-        if options.command == "beside":
-            return evaluating.run_comparison(options, arguments[1:])
-        if options.command == "doctor":
-            return evaluating.run_doctor(options, arguments[1:])
+        if options.command in evaluating.COMMANDS:
+            return evaluating.COMMANDS[options.command](options, arguments[1:])
         return package()
     except Failure as failure:
         print(f"dev.py: {failure}", file=sys.stderr)

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py evaluate`, `beside` and `doctor`: build the core, and let the package of that name in tools work with it."""
+"""`dev.py evaluate`, `beside`, `doctor` and `retarget`: build the core, and let tools' package of that
+name work with it."""
 
 from __future__ import annotations
 
 import argparse
 import os
 import subprocess
-from collections.abc import Sequence
-from pathlib import Path
 
 from tools import machine, packages
 from tools.beside import inputs as beside_inputs
@@ -16,19 +15,20 @@ from tools.doctor import inputs as doctor_inputs
 from tools.environments import environment_python
 from tools.evaluate import inputs
 from tools.paths import TOP
+from tools.retarget import inputs as retarget_inputs
 from tools.shell import say
 
 
 def run_evaluation(options: argparse.Namespace, arguments: list[str]) -> int:
     """Measure in the Python 3.11 environment; `arguments` are the words that the options were read from."""
     inputs.check(options)
-    return _run("tools.evaluate", _with_blender(machine.EVALUATE, options.mocap), arguments)
+    return _run("tools.evaluate", _with(machine.EVALUATE, inputs.has_blend(options.mocap)), arguments)
 
 
 def run_comparison(options: argparse.Namespace, arguments: list[str]) -> int:
     """Measure beside motion matching, likewise."""
     beside_inputs.check(options)
-    return _run("tools.beside", _with_blender(machine.BESIDE, options.mocap), arguments)
+    return _run("tools.beside", _with(machine.BESIDE, inputs.has_blend(options.mocap)), arguments)
 
 
 def run_doctor(options: argparse.Namespace, arguments: list[str]) -> int:
@@ -37,8 +37,14 @@ def run_doctor(options: argparse.Namespace, arguments: list[str]) -> int:
     return _run("tools.doctor", machine.DOCTOR, arguments)
 
 
-def _with_blender(needs: machine.Needs, mocap: Sequence[Path]) -> machine.Needs:
-    return needs | machine.BLENDER_45 if inputs.has_blend(mocap) else needs
+def run_retargeting(options: argparse.Namespace, arguments: list[str]) -> int:
+    """Retarget, likewise."""
+    retarget_inputs.check(options)
+    return _run("tools.retarget", _with(machine.EVALUATE, retarget_inputs.needs_blender(options)), arguments)
+
+
+def _with(needs: machine.Needs, blender: bool) -> machine.Needs:
+    return needs | machine.BLENDER_45 if blender else needs
 
 
 def _run(module: str, needs: machine.Needs, arguments: list[str]) -> int:
@@ -48,3 +54,12 @@ def _run(module: str, needs: machine.Needs, arguments: list[str]) -> int:
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(core), str(TOP)))}
     command = [str(environment_python("3.11")), "-m", module, *arguments]
     return subprocess.run(command, env=environment, check=False).returncode
+
+
+COMMANDS = {
+    "evaluate": run_evaluation,
+    "beside": run_comparison,
+    "doctor": run_doctor,
+    "retarget": run_retargeting,
+}
+"""What does each command, with its options and its arguments as they were given."""

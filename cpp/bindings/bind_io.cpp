@@ -53,6 +53,7 @@ py::tuple to_tuple(Channels channels, py::ssize_t bones) {
 
 void bind_readers(py::module_& m) {
   m.def("read_bvh", &read_bvh, py::arg("path"), py::arg("unit") = 0.01, py::call_guard<GilRelease>());
+  m.def("read_asf", &read_asf, py::arg("path"), py::call_guard<GilRelease>());
   m.def("read_asf_amc", &read_asf_amc, py::arg("asf"), py::arg("amc"), py::arg("rate") = 120.0,
         py::call_guard<GilRelease>());
 }

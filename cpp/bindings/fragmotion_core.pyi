@@ -92,6 +92,9 @@ class Take:
 def read_bvh(path: str | PathLike[str], unit: float = 0.01) -> Take:
     """Read a BVH file; `unit` is one file unit in metres, 1e-6 .. 1000. y-up becomes z-up as (x, -z, y)."""
 
+def read_asf(path: str | PathLike[str]) -> Skeleton:
+    """Read an Acclaim skeleton alone."""
+
 def read_asf_amc(asf: str | PathLike[str], amc: str | PathLike[str], rate: float = 120.0) -> Take:
     """Read an Acclaim skeleton and a motion on it; AMC holds no frame rate: 0.1 .. 10000."""
 

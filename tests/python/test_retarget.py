@@ -8,7 +8,7 @@ from typing import NamedTuple
 import fragmotion_core as core
 import numpy as np
 import pytest
-from bodies import FAMILIES, about, angles, humanoid, inverse, map_of, posed, random_rolls, remade, times
+from bodies import FAMILIES, about, angles, humanoid, inverse, map_of, posed, random_rolls, remade, times, turned
 from conftest import BANDAI, CMU, Array, make_skeleton, walking_clips
 
 MILLIMETRE = 1e-3
@@ -154,6 +154,18 @@ def test_feet_and_knees_keep_their_manners_on_other_proportions(source: Source, 
         assert result.knee_beyond <= np.radians(1e-3), result.clip.name
 
 
+def test_toes_stay_over_the_ground(source: Source) -> None:
+    """Whatever the source's do: at rest their tips are 2 cm over it."""
+    target = core.Body(humanoid("rigify"))
+    skeleton = target.skeleton
+    for result in core.Retarget(source.body, target).apply_all(source.clips):
+        heads, rotations = result.clip.world_transforms(skeleton)
+        for role in ("left_toe", "right_toe"):
+            toe = skeleton.names.index(target.roles[role])
+            tips = heads[:, toe] + turned(rotations[:, toe], skeleton.tips[toe])
+            assert tips[:, 2].min() > 0.01, result.clip.name
+
+
 @pytest.mark.parametrize("arms", [0.0, 45.0, 85.0])
 def test_limbs_point_where_the_sources_do_however_arms_rest(source: Source, arms: float) -> None:
     """Upper arms, forearms and the directions of hands, told by places alone."""
@@ -207,6 +219,25 @@ def test_a_rest_pose_that_tells_nothing_wants_clips(bandai_body: Source) -> None
     assert not unknown.stands
     with pytest.raises(ValueError, match="give clips"):
         core.Retarget(unknown, core.Body(humanoid("mixamo")))
+
+
+def test_walks_and_runs_tell_the_same_of_how_a_body_stands(bandai_body: Source) -> None:
+    """Though a runner leans, bends the elbows and stands on the balls of the feet."""
+    skeleton = bandai_body.body.skeleton
+    walker, runner, dasher = (core.Body(skeleton, bandai_body.clips[i : i + 1]) for i in range(3))
+    for other, most in ((runner, 12), (dasher, 12)):
+        for role in (
+            "hips",
+            "spine_1",
+            "head",
+            "left_upper_arm",
+            "right_thigh",
+            "left_shin",
+            "left_foot",
+            "right_foot",
+        ):
+            bone = skeleton.names.index(walker.roles[role])
+            assert angles(walker.reference[bone], other.reference[bone]) < most, role
 
 
 def test_a_body_without_arms_is_driven(source: Source) -> None:

@@ -163,6 +163,7 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "examine": {"takes": [walked, take], "threads": 1},
         "mend": {"take": walked, "findings": core.examine([walked])[0].findings},
         "read_bvh": {"path": folder / "take.bvh", "unit": 0.01},
+        "read_asf": {"path": folder / "take.asf"},
         "read_asf_amc": {"asf": folder / "take.asf", "amc": folder / "take.amc", "rate": 120.0},
         "euler_to_quaternion": {"order": "XYZ", "angles": roots},
         "quaternion_to_euler": {"order": "XYZ", "rotations": rotations[0]},

@@ -16,7 +16,7 @@ from tools.shell import Failure, say
 
 def read_actions(path: Path) -> tuple[core.Skeleton, list[core.Clip]]:
     """The skeleton of the armature that most Actions fit, and these as clips; those of a single pose are left out."""
-    bpy = _open(path)
+    bpy = open_blend(path)
     actions, rigs, sampling, errors = (
         addon(name) for name in ("mocap.actions", "rig.rigs", "mocap.sampling", "errors")
     )
@@ -40,7 +40,7 @@ def read_actions(path: Path) -> tuple[core.Skeleton, list[core.Clip]]:
     return rig.skeleton, clips
 
 
-def _open(path: Path) -> Any:
+def open_blend(path: Path) -> Any:
     """Blender's module with the file open; scripts in it do not run."""
     try:
         bpy: Any = import_module("bpy")

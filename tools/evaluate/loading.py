@@ -66,11 +66,11 @@ def read_recordings(paths: Sequence[Path], unit: float) -> Recordings:
 
 def _read_takes(files: Sequence[TakeFile], unit: float) -> Recordings:
     with core_failures():
-        first = _read_take(files[0], unit).skeleton
+        first = read_take(files[0], unit).skeleton
     clips = []
     for file in files:
         with core_failures():
-            take = _read_take(file, unit)
+            take = read_take(file, unit)
         _check_bones(file, take.skeleton, files[0], first)
         with core_failures(str(file.path)):
             clips.append(core.Clip.from_take(take, first))
@@ -86,7 +86,7 @@ def _check_bones(file: TakeFile, skeleton: core.Skeleton, first_file: TakeFile, 
         )
 
 
-def _read_take(file: TakeFile, unit: float) -> core.Take:
+def read_take(file: TakeFile, unit: float) -> core.Take:
     return core.read_asf_amc(file.asf, file.path) if file.asf else core.read_bvh(file.path, unit)
 
 

@@ -15,7 +15,9 @@ namespace {
 constexpr Side kSides[] = {Side::kLeft, Side::kRight};
 constexpr double kShort = 1e-3;       // of a 1.8 m character: m that a bone of a leg must be longer than
 constexpr double kNoDirection = 0.3;  // of a foot's length: one that points up or down further has no direction
-constexpr double kGround = 0.08;      // m of a 1.8 m character: joints of feet are no higher over the ground
+constexpr double kInstep = 0.4;       // rad: how far most feet point down from the ankle to the ball
+constexpr double kFoot = 0.33, kLongFoot = 0.6;  // of a shin's length, from the ankle to the ball: usual, and unlikely
+constexpr double kGround = 0.08;                 // m of a 1.8 m character: joints of feet are no higher over the ground
 
 std::string label_of(Role role, Side side) {
   RoleBone bone;
@@ -63,25 +65,30 @@ RoleMap on_body(const Skeleton& skeleton, RoleMap map) {
   return map;
 }
 
+// Head and hands are kept that the map does not tell: a skeleton's size depends on them.
 Skeleton with_roles(Skeleton skeleton, const RoleMap& map) {
-  Roles& roles = skeleton.roles;
-  const int hips = map.bone(Role::kHips);
-  if (roles.hips != hips) {
-    throw std::invalid_argument("the hips are '" + skeleton.names[hips] + "' by the roles, but '" +
-                                skeleton.names[roles.hips] + "' carries the skeleton: make it with the same hips");
+  Roles roles = roles_of(map);
+  if (roles.hips != skeleton.roles.hips) {
+    throw std::invalid_argument("the hips are '" + skeleton.names[roles.hips] + "' by the roles, but '" +
+                                skeleton.names[skeleton.roles.hips] +
+                                "' carries the skeleton: make it with the same hips");
   }
-  const auto set = [&](int& bone, Role role, Side side) {
-    if (map.bone(role, side) >= 0) bone = map.bone(role, side);
-  };
-  set(roles.head, Role::kHead, Side::kNone);
-  set(roles.left_hand, Role::kHand, Side::kLeft);
-  set(roles.right_hand, Role::kHand, Side::kRight);
-  roles.left_foot = map.bone(Role::kFoot, Side::kLeft);
-  roles.right_foot = map.bone(Role::kFoot, Side::kRight);
-  roles.left_toe = map.bone(Role::kToe, Side::kLeft);
-  roles.right_toe = map.bone(Role::kToe, Side::kRight);
-  roles.left_thigh = map.bone(Role::kThigh, Side::kLeft);
-  roles.right_thigh = map.bone(Role::kThigh, Side::kRight);
+  for (int Roles::*kept : {&Roles::head, &Roles::left_hand, &Roles::right_hand}) {
+    if (roles.*kept < 0) roles.*kept = skeleton.roles.*kept;
+  }
+  skeleton.roles = roles;
+  return skeleton;
+}
+
+// Importers that know no bones' ends make feet without toes of any length.
+Skeleton with_short_feet(Skeleton skeleton, const RoleMap& map) {
+  const PosedBones rest = rest_posture(skeleton);
+  for (const Side side : kSides) {
+    const int foot = map.bone(Role::kFoot, side);
+    Vector3& tip = skeleton.tips[foot];
+    const double shin = (rest.heads[foot] - rest.heads[map.bone(Role::kShin, side)]).norm();
+    if (map.bone(Role::kToe, side) < 0 && tip.norm() > kLongFoot * shin) tip *= kFoot * shin / tip.norm();
+  }
   return skeleton;
 }
 
@@ -95,15 +102,20 @@ Leg leg_of(const Skeleton& skeleton, const RoleMap& map, Side side) {
   return leg;
 }
 
-// Where a limb's bones and the fingers point at rest and are to point; none (zero) for other bones.
+// Where a limb's bones and the fingers point in a posture and are to point; none (zero) for other bones. Where joints
+// are known to bend (`hinges`, as bones see them, else empty), the trunk is to be straight, too, and elbows and knees
+// to bend forward and backward.
 class Directions {
  public:
-  Directions(const Skeleton& skeleton, const RoleMap& map, const PosedBones& posture)
+  Directions(const Skeleton& skeleton, const RoleMap& map, const PosedBones& posture,
+             const std::vector<Vector3>& hinges)
       : skeleton_(skeleton),
         map_(map),
         posture_(posture),
+        hinges_(hinges),
         from_(skeleton.size(), Vector3::Zero()),
         to_(skeleton.size(), Vector3::Zero()) {
+    if (!hinges.empty()) trunk();
     for (const Side side : kSides) {
       limb(side, {Role::kThigh, Role::kShin, Role::kFoot}, -Vector3::UnitZ());
       limb(side, {Role::kUpperArm, Role::kLowerArm, Role::kHand}, outward(side));
@@ -111,9 +123,17 @@ class Directions {
     }
   }
 
-  bool has(int bone) const { return from_[bone].squaredNorm() > 0; }
-  const Vector3& from(int bone) const { return from_[bone]; }
-  const Vector3& to(int bone) const { return to_[bone]; }
+  // What is left to turn a bone that has been turned by `turn` already.
+  Quaternion rest_of(int bone, const Quaternion& turn) const {
+    if (from_[bone].squaredNorm() == 0) return Quaternion::Identity();
+    const Quaternion there = Quaternion::FromTwoVectors(turn * from_[bone], to_[bone]);
+    if (hinges_.empty() || hinges_[bone].squaredNorm() == 0) return there;
+    const Vector3 &along = to_[bone], now = there * turn * posture_.rotations[bone] * hinges_[bone],
+                  wanted = std::abs(along.z()) > std::abs(along.x()) ? Vector3{-Vector3::UnitX()}
+                                                                     : Vector3{along.x() * Vector3::UnitZ()};
+    const double angle = std::atan2(along.dot(now.cross(wanted)), now.dot(wanted));
+    return Eigen::AngleAxisd(angle, along) * there;
+  }
 
  private:
   static Vector3 outward(Side side) { return (side == Side::kLeft ? -1 : 1) * Vector3::UnitX(); }
@@ -129,6 +149,23 @@ class Directions {
       const int bone = map_.bone(roles[i], side), next = map_.bone(roles[i + 1], side);
       if (bone >= 0 && next >= 0) set(bone, posture_.heads[next] - posture_.heads[bone], to);
     }
+  }
+
+  void trunk() {
+    std::vector<int> bones{map_.bone(Role::kHips)};
+    for (const Role role : {Role::kSpine, Role::kNeck, Role::kHead}) {
+      for (const int bone : map_.chain(role)) bones.push_back(bone);
+    }
+    for (std::size_t i = 0; i + 1 < bones.size(); ++i) {
+      set(bones[i], posture_.heads[bones[i + 1]] - posture_.heads[bones[i]], Vector3::UnitZ());
+    }
+    if (bones.size() > 1) set(bones.back(), straight_on(bones[bones.size() - 2], bones.back()), Vector3::UnitZ());
+  }
+
+  // The direction of the bone before, as if the last one were as it is at rest.
+  Vector3 straight_on(int before, int last) const {
+    const PosedBones rest = rest_posture(skeleton_);
+    return posture_.rotations[last] * (rest.rotations[last].conjugate() * (rest.heads[last] - rest.heads[before]));
   }
 
   Vector3 tip(int bone) const { return posture_.rotations[bone] * skeleton_.tips[bone]; }
@@ -161,26 +198,30 @@ class Directions {
   const Skeleton& skeleton_;
   const RoleMap& map_;
   const PosedBones& posture_;
+  const std::vector<Vector3>& hinges_;
   std::vector<Vector3> from_, to_;
 };
 
-// Turns a foot straight ahead about the vertical; `otherwise` where it points up or down.
-Quaternion ahead(const Vector3& foot, const Quaternion& otherwise) {
+// Turns a foot straight ahead about the vertical. One that points up, down or backward is `turned` already, with the
+// shin, and is put where most feet are.
+Quaternion ahead(const Vector3& foot, const Quaternion& turned) {
   const Vector2 way = foot.head<2>();
-  if (way.norm() < kNoDirection * foot.norm() || foot.norm() == 0) return otherwise;
+  if (foot.norm() == 0) return turned;
+  if (way.y() < kNoDirection * foot.norm()) {
+    return Quaternion::FromTwoVectors(turned * foot, Vector3{0, std::cos(kInstep), -std::sin(kInstep)}) * turned;
+  }
   return Quaternion{Eigen::AngleAxisd(std::atan2(way.x(), way.y()), Vector3::UnitZ())};
 }
 
 // How much each bone of a posture is turned to the pose that bodies are compared in.
-std::vector<Quaternion> turns_to_reference(const Body& body, const PosedBones& posture) {
+std::vector<Quaternion> turns_to_reference(const Body& body, const PosedBones& posture,
+                                           const std::vector<Vector3>& hinges) {
   const Skeleton& skeleton = body.skeleton();
-  const Directions directions(skeleton, body.map, posture);
+  const Directions directions(skeleton, body.map, posture, hinges);
   std::vector<Quaternion> turns(skeleton.size(), Quaternion::Identity());
-  for (int b = 1; b < skeleton.size(); ++b) {
-    turns[b] = turns[skeleton.parents[b]];
-    if (directions.has(b)) {
-      turns[b] = Quaternion::FromTwoVectors(turns[b] * directions.from(b), directions.to(b)) * turns[b];
-    }
+  for (int b = 0; b < skeleton.size(); ++b) {
+    if (b > 0) turns[b] = turns[skeleton.parents[b]];
+    turns[b] = directions.rest_of(b, turns[b]) * turns[b];
     for (const Leg& leg : body.legs) {
       if (b == leg.foot) turns[b] = ahead(ball(skeleton, leg, posture) - posture.heads[b], turns[b]);
     }
@@ -218,17 +259,57 @@ double length_of(const Leg& leg, const PosedBones& posture) {
          (posture.heads[leg.foot] - posture.heads[leg.knee]).norm();
 }
 
+double shortest_of(const Leg& leg, const PosedBones& posture) {
+  return std::min((posture.heads[leg.knee] - posture.heads[leg.thigh]).norm(),
+                  (posture.heads[leg.foot] - posture.heads[leg.knee]).norm());
+}
+
 void measure(const PosedBones& rest, Body& body) {
   body.leg = (length_of(body.legs[0], rest) + length_of(body.legs[1], rest)) / 2;
   body.hip_width = (rest.heads[body.legs[0].thigh] - rest.heads[body.legs[1].thigh]).norm();
-  const double scale = standard_scale(body.skeleton());
+  const double least = kShort / standard_scale(body.skeleton());
   for (int side = 0; side < 2; ++side) {
-    const Leg& leg = body.legs[side];
-    const double thigh = (rest.heads[leg.knee] - rest.heads[leg.thigh]).norm(),
-                 shin = (rest.heads[leg.foot] - rest.heads[leg.knee]).norm();
-    if (std::min({thigh, shin, body.hip_width}) * scale > kShort) continue;
+    if (std::min(shortest_of(body.legs[side], rest), body.hip_width) > least) continue;
     throw std::invalid_argument("the " + std::string(side == 0 ? "left" : "right") +
                                 " leg has bones of no length: choose thigh, shin and foot at hip, knee and ankle");
+  }
+}
+
+// What tells how a body stands: its rest pose, or where that does not, its clips.
+struct Told {
+  PosedBones posture;
+  std::vector<Vector3> hinges;  // of each bone; empty where it is the rest pose
+};
+
+Told told_posture(const std::vector<Clip>& clips, Body& body) {
+  Told told{rest_posture(body.skeleton()), {}};
+  face_forward(body.map, told.posture);
+  body.stands = stands(body.map, told.posture);
+  if (body.stands) return told;
+  const std::optional<PosedBones> mean = mean_posture(body.kinematics, body.map, clips);
+  body.stands = mean.has_value();
+  return mean ? Told{*mean, mean_hinges(body.kinematics, body.map, clips)} : told;
+}
+
+// How the feet stand flat: in the clips where they do, else as in the posture.
+void set_feet(const std::vector<Clip>& clips, PosedBones& posture, Body& body) {
+  const std::array<FlatFoot, 2> flat = flat_feet(body.kinematics, body.legs, clips);
+  const bool known = flat[0].known && flat[1].known;
+  for (int side = 0; side < 2; ++side) {
+    body.soles[side] = known ? flat[side].heights : heights_in(body, side, posture);
+    if (known) put(body.skeleton(), body.legs[side], flat[side], posture);
+  }
+  body.soles = over_ground(body.soles, standard_scale(body.skeleton()));
+}
+
+void set_reference(const Told& told, Body& body) {
+  const PosedBones& posture = told.posture;
+  const std::vector<Quaternion> turns = turns_to_reference(body, posture, told.hinges);
+  for (std::size_t b = 0; b < turns.size(); ++b) body.reference.push_back(turns[b] * posture.rotations[b]);
+  for (int side = 0; side < 2; ++side) {
+    Leg& leg = body.legs[side];
+    body.feet[side] = turns[leg.foot] * (ball(body.skeleton(), leg, posture) - posture.heads[leg.foot]);
+    leg.hinge = body.reference[leg.thigh].conjugate() * -Vector3::UnitX();
   }
 }
 
@@ -237,31 +318,12 @@ void measure(const PosedBones& rest, Body& body) {
 Body make_body(const Skeleton& skeleton, const RoleMap& map, const std::vector<Clip>& clips) {
   check_complete(map);
   check_legs(skeleton, map);
-  Body body(Kinematics(with_roles(skeleton, map)), on_body(skeleton, map));
+  Body body(Kinematics(with_short_feet(with_roles(skeleton, map), map)), on_body(skeleton, map));
   body.legs = {leg_of(skeleton, map, Side::kLeft), leg_of(skeleton, map, Side::kRight)};
-  PosedBones posture = rest_posture(skeleton);
-  measure(posture, body);
-  face_forward(body.map, posture);
-  body.stands = stands(body.map, posture);
-  if (!body.stands && !clips.empty()) {
-    posture = mean_posture(body.kinematics, body.map, clips);
-    body.stands = stands(body.map, posture);
-  }
-  const std::array<FlatFoot, 2> flat = flat_feet(body.kinematics, body.legs, clips);
-  body.soles = {heights_in(body, 0, posture), heights_in(body, 1, posture)};
-  for (int side = 0; side < 2; ++side) {
-    if (!flat[0].known || !flat[1].known) continue;
-    put(skeleton, body.legs[side], flat[side], posture);
-    body.soles[side] = flat[side].heights;
-  }
-  body.soles = over_ground(body.soles, standard_scale(skeleton));
-  const std::vector<Quaternion> turns = turns_to_reference(body, posture);
-  for (int b = 0; b < skeleton.size(); ++b) body.reference.push_back(turns[b] * posture.rotations[b]);
-  for (int side = 0; side < 2; ++side) {
-    Leg& leg = body.legs[side];
-    body.feet[side] = turns[leg.foot] * (ball(skeleton, leg, posture) - posture.heads[leg.foot]);
-    leg.hinge = body.reference[leg.thigh].conjugate() * -Vector3::UnitX();
-  }
+  measure(rest_posture(skeleton), body);
+  Told told = told_posture(clips, body);
+  set_feet(clips, told.posture, body);
+  set_reference(told, body);
   return body;
 }
 

@@ -14,7 +14,9 @@ constexpr double kUpright = 0.7;   // cosine of how far a trunk may lean from th
 constexpr double kStraight = 0.5;  // and a thigh or a shin for one of a standing body
 constexpr double kApart = 0.1;     // s between the poses that are looked at
 constexpr double kSlow = 0.25;     // of these: the slowest
-constexpr double kStill = 0.15;    // m/s of a 1.8 m character: a foot that is slower does not roll
+constexpr double kStill = 0.4;     // m/s of a 1.8 m character: a foot that is slower does not roll
+constexpr double kFlat = 0.02;     // m of a 1.8 m character: no point of a foot that stands flat is higher
+constexpr double kBends = 0.1;     // sine of the mean bend of a joint that tells its axis
 constexpr int kEnough = 5;         // frames that tell how a foot stands
 
 struct Moment {
@@ -39,14 +41,15 @@ CharacterFrame frame_of(const Kinematics& kinematics, const PosedBones& posed) {
   return kinematics.frame(posed.heads[hips], posed.rotations[hips]);
 }
 
+int frames_apart(const Clip& clip) { return std::max(1, static_cast<int>(std::lround(kApart * clip.rate))); }
+
 std::vector<Moment> upright_moments(const Kinematics& kinematics, const RoleMap& map, const std::vector<Clip>& clips) {
   const int hips = kinematics.skeleton().roles.hips, top = top_of(map);
   const std::vector<int> trunk = kinematics.chains({top});
   PosedBones posed(kinematics.bones());
   std::vector<Moment> moments;
   for (int c = 0; c < static_cast<int>(clips.size()); ++c) {
-    const int apart = std::max(1, static_cast<int>(std::lround(kApart * clips[c].rate)));
-    for (int f = 0; f < clips[c].frames; f += apart) {
+    for (int f = 0; f < clips[c].frames; f += frames_apart(clips[c])) {
       world(kinematics, clips[c], f, trunk, posed.heads.data(), posed.rotations.data());
       if (top == hips || upright(posed, hips, top)) moments.push_back({c, f, speed_at(clips[c], f)});
     }
@@ -57,6 +60,29 @@ std::vector<Moment> upright_moments(const Kinematics& kinematics, const RoleMap&
 void keep_slowest(std::vector<Moment>& moments) {
   std::stable_sort(moments.begin(), moments.end(), [](const Moment& a, const Moment& b) { return a.speed < b.speed; });
   moments.resize(static_cast<std::size_t>(std::ceil(kSlow * static_cast<double>(moments.size()))));
+}
+
+// An elbow or a knee.
+struct Hinge {
+  int upper = -1, lower = -1, end = -1;
+
+  // Adds what bends it, as both of its bones see it.
+  void add(const PosedBones& posed, std::vector<Vector3>& sums) const {
+    const Vector3 above = (posed.heads[lower] - posed.heads[upper]).normalized(),
+                  below = (posed.heads[end] - posed.heads[lower]).normalized(), axis = above.cross(below);
+    for (const int bone : {upper, lower}) sums[bone] += posed.rotations[bone].conjugate() * axis;
+  }
+};
+
+std::vector<Hinge> hinges_of(const RoleMap& map) {
+  std::vector<Hinge> hinges;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    hinges.push_back({map.bone(Role::kUpperArm, side), map.bone(Role::kLowerArm, side), map.bone(Role::kHand, side)});
+    hinges.push_back({map.bone(Role::kThigh, side), map.bone(Role::kShin, side), map.bone(Role::kFoot, side)});
+  }
+  const auto incomplete = [](const Hinge& hinge) { return hinge.upper < 0 || hinge.lower < 0 || hinge.end < 0; };
+  hinges.erase(std::remove_if(hinges.begin(), hinges.end(), incomplete), hinges.end());
+  return hinges;
 }
 
 // The mean of rotations that are added one after the other.
@@ -82,14 +108,15 @@ void hang_up(const Skeleton& skeleton, PosedBones& posed) {
   }
 }
 
-// A foot's path and the frames in which it stands flat and still.
-std::vector<int> flat_frames(const FootPath& path, const std::vector<bool>& stands, double rate, double scale) {
-  const auto still = [&](const std::vector<Vector3>& points, int f) {
-    return (points[f + 1] - points[f - 1]).norm() * rate / 2 * scale < kStill;
+// The frames in which a foot stands flat and still: its ball and its heel do.
+std::vector<int> flat_frames(const FootPath& path, const FootHeights& floor, double rate, double scale) {
+  const auto rests = [&](const std::vector<Vector3>& points, int f, double lowest) {
+    const double speed = (points[f + 1] - points[f - 1]).norm() * rate / 2;
+    return speed * scale < kStill && (points[f].z() - lowest) * scale < kFlat;
   };
   std::vector<int> frames;
-  for (int f = 1; f + 1 < static_cast<int>(stands.size()); ++f) {
-    if (stands[f] && still(path.ball, f) && still(path.heel, f)) frames.push_back(f);
+  for (int f = 1; f + 1 < static_cast<int>(path.ball.size()); ++f) {
+    if (rests(path.ball, f, floor.ball) && rests(path.heel, f, floor.heel)) frames.push_back(f);
   }
   return frames;
 }
@@ -142,9 +169,10 @@ PosedBones rest_posture(const Skeleton& skeleton) {
   return posture;
 }
 
-PosedBones mean_posture(const Kinematics& kinematics, const RoleMap& map, const std::vector<Clip>& clips) {
+std::optional<PosedBones> mean_posture(const Kinematics& kinematics, const RoleMap& map,
+                                       const std::vector<Clip>& clips) {
   std::vector<Moment> moments = upright_moments(kinematics, map, clips);
-  if (moments.empty()) return rest_posture(kinematics.skeleton());
+  if (moments.empty()) return {};
   keep_slowest(moments);
   PosedBones posed(kinematics.bones());
   std::vector<MeanRotation> means(kinematics.bones());
@@ -158,16 +186,31 @@ PosedBones mean_posture(const Kinematics& kinematics, const RoleMap& map, const 
   return posed;
 }
 
+std::vector<Vector3> mean_hinges(const Kinematics& kinematics, const RoleMap& map, const std::vector<Clip>& clips) {
+  std::vector<Vector3> sums(kinematics.bones(), Vector3::Zero());
+  PosedBones posed(kinematics.bones());
+  const std::vector<Hinge> hinges = hinges_of(map);
+  int poses = 0;
+  for (const Clip& clip : clips) {
+    for (int f = 0; f < clip.frames; f += frames_apart(clip), ++poses) {
+      world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
+      for (const Hinge& hinge : hinges) hinge.add(posed, sums);
+    }
+  }
+  for (Vector3& sum : sums) sum = sum.norm() > kBends * poses ? sum.normalized() : Vector3::Zero();
+  return sums;
+}
+
 std::array<FlatFoot, 2> flat_feet(const Kinematics& kinematics, const Legs& legs, const std::vector<Clip>& clips) {
   const std::vector<int> bones = kinematics.chains({legs[0].foot, legs[0].toe, legs[1].foot, legs[1].toe});
   const double scale = standard_scale(kinematics.skeleton());
   std::array<FlatFrames, 2> sums{FlatFrames(legs[0]), FlatFrames(legs[1])};
   PosedBones posed(kinematics.bones());
   for (const Clip& clip : clips) {
-    const Contacts contacts = find_contacts(kinematics, clip);
     const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
     for (int side = 0; side < 2; ++side) {
-      for (const int f : flat_frames(paths[side], contacts.feet[side], clip.rate, scale)) {
+      const FootHeights floor{floor_of(paths[side].ball), floor_of(paths[side].heel)};
+      for (const int f : flat_frames(paths[side], floor, clip.rate, scale)) {
         world(kinematics, clip, f, bones, posed.heads.data(), posed.rotations.data());
         sums[side].add(frame_of(kinematics, posed).rotation().conjugate(), posed, paths[side], f);
       }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "fragmotion/motion/contacts.hpp"
@@ -14,8 +15,13 @@ namespace fragmotion {
 PosedBones rest_posture(const Skeleton& skeleton);
 
 /// How a body holds itself on average while it is upright and slow in clips of it, facing +y, the hips' head at the
-/// origin. At rest where it never is.
-PosedBones mean_posture(const Kinematics& kinematics, const RoleMap& map, const std::vector<Clip>& clips);
+/// origin. None where it never is.
+std::optional<PosedBones> mean_posture(const Kinematics& kinematics, const RoleMap& map,
+                                       const std::vector<Clip>& clips);
+
+/// Of each bone of arms and legs the axis, as it sees it, that elbow or knee bends about in clips; zero of other bones
+/// and where they hardly bend.
+std::vector<Vector3> mean_hinges(const Kinematics& kinematics, const RoleMap& map, const std::vector<Clip>& clips);
 
 /// A foot that stands flat, as clips have it.
 struct FlatFoot {

@@ -19,13 +19,21 @@ namespace {
 constexpr double kRolls = 0.14;  // rad: a foot that is tipped further stands on its ball or heel alone
 constexpr double kThere = 1e-9;  // of a leg's length: a foot that is so near to its place is there
 constexpr double kStandHeight = 0.025, kSlowest = 1e-3;  // of a 1.8 m character, m and m/s
+constexpr double kToeDepth = 0.005;                      // m of a 1.8 m character
 constexpr double kFree = std::numeric_limits<double>::infinity();
 
-// Makes the target's compared pose the source's, of which it is the same body.
+// Makes the target's compared pose and its feet the source's, of which it is the same body.
 void adopt(const Body& source, const std::vector<Drive>& drives, double scale, Body& target) {
+  Skeleton skeleton = target.skeleton();
   for (const Drive& drive : drives) {
     target.reference[drive.bone] = source.reference[drive.first.bone] * drive.first.turn;
+    for (const Leg& leg : target.legs) {
+      const bool is_end = drive.bone == leg.toe || (drive.bone == leg.foot && leg.toe < 0);
+      if (!is_end) continue;
+      skeleton.tips[drive.bone] = scale * (drive.first.turn.conjugate() * source.skeleton().tips[drive.first.bone]);
+    }
   }
+  target.kinematics = Kinematics(skeleton);
   for (int side = 0; side < 2; ++side) {
     target.feet[side] = scale * source.feet[side];
     target.soles[side] = {scale * source.soles[side].ball, scale * source.soles[side].heel};
@@ -64,17 +72,24 @@ struct Retarget::Parts {
   Body source, target;
   std::vector<Drive> drives;
   double scale;
+  double toe_depth;  // m that the tip of a toe may be lower than that of a flat foot
   Twists twists;
   std::vector<int> leading, following;
+  std::vector<bool> rests;  // which bones of the target rest on their parents
 
   Parts(const Body& from, Body to, std::vector<Drive> driven)
       : source(from),
         target(std::move(to)),
         drives(std::move(driven)),
         scale(target.leg / source.leg),
+        toe_depth(same_body(source, target) ? kFree : kToeDepth * scale / standard_scale(source.skeleton())),
         twists(target),
         leading(leading_bones(source, drives)),
-        following(below_hips(target.skeleton())) {}
+        following(below_hips(target.skeleton())),
+        rests(target.skeleton().size(), true) {
+    for (const Drive& drive : drives) rests[drive.bone] = false;
+    for (const int bone : twists.bones()) rests[bone] = false;
+  }
 
   double sole_rise(int side, double FootHeights::*point) const {
     return target.soles[side].*point - scale * source.soles[side].*point;
@@ -88,6 +103,8 @@ using Points = std::array<Vector3, 2>;
 Vector3 hips_middle(const Legs& legs, const PosedBones& posed) {
   return (posed.heads[legs[0].thigh] + posed.heads[legs[1].thigh]) / 2;
 }
+
+Quaternion about_z(double angle) { return Quaternion(Eigen::AngleAxisd(angle, Vector3::UnitZ())); }
 
 // From a foot that stands on its heel (0) to one on its ball (1), by where it points: a flat one is on both.
 double on_ball(const Vector3& ahead) {
@@ -126,20 +143,12 @@ class Transfer {
   // The target as the source is in a frame, its hips over the ground by the source's, its feet wherever they get.
   void pose(int f) {
     world(parts_.source.kinematics, clip_, f, parts_.leading, from_.heads.data(), from_.rotations.data());
-    std::vector<bool>& driven = driven_;
-    driven.assign(skeleton().size(), false);
-    for (const Drive& drive : parts_.drives) {
-      const Quaternion first = from_.rotations[drive.first.bone] * drive.first.turn;
-      to_.rotations[drive.bone] =
-          drive.weight > 0 ? first.slerp(drive.weight, from_.rotations[drive.second.bone] * drive.second.turn) : first;
-      driven[drive.bone] = true;
-    }
+    for (const Drive& drive : parts_.drives) to_.rotations[drive.bone] = followed(drive);
     parts_.twists.apply(to_.rotations);
-    for (const TwistBone& twist : parts_.target.map.twists) driven[twist.bone] = true;
     to_.heads[hips()].setZero();
     for (const int b : parts_.following) {
       const int parent = skeleton().parents[b];
-      if (!driven[b]) to_.rotations[b] = (to_.rotations[parent] * skeleton().rest_rotations[b]).normalized();
+      if (parts_.rests[b]) to_.rotations[b] = (to_.rotations[parent] * skeleton().rest_rotations[b]).normalized();
       to_.heads[b] = to_.heads[parent] + to_.rotations[parent] * skeleton().offsets[b];
     }
     const double rise = (parts_.sole_rise(0, &FootHeights::heel) + parts_.sole_rise(1, &FootHeights::heel)) / 2;
@@ -147,47 +156,58 @@ class Transfer {
          hips_middle(parts_.target.legs, to_));
   }
 
+  Quaternion followed(const Drive& drive) const {
+    const Quaternion first = from_.rotations[drive.first.bone] * drive.first.turn;
+    if (drive.weight == 0) return first;
+    return first.slerp(drive.weight, from_.rotations[drive.second.bone] * drive.second.turn);
+  }
+
   void move(const Vector3& by) {
     to_.heads[hips()] += by;
     for (const int b : parts_.following) to_.heads[b] += by;
   }
 
-  // Where the ankle of a posed target belongs.
+  // Where the ankle of a posed target belongs: its feet are further apart as its hips are wider, and stand on heel or
+  // ball where the source's do.
   Vector3 ankle(int side, int f) const {
     const Body &source = parts_.source, &target = parts_.target;
-    const Leg& leg = target.legs[side];
+    const int foot = source.legs[side].foot;
     const FootPath& path = motion_.paths[side];
-    const Quaternion foot =
-        from_.rotations[source.legs[side].foot] * source.reference[source.legs[side].foot].conjugate();
-    const Vector3 ahead = foot * Vector3::UnitY();
-    const Quaternion yaw(Eigen::AngleAxisd(std::atan2(-ahead.x(), ahead.y()), Vector3::UnitZ()));
-    const Quaternion heading(Eigen::AngleAxisd(headings_[side][f], Vector3::UnitZ()));
-    const double wider = (target.hip_width - parts_.scale * source.hip_width) / 2;
-    const Vector3 beside = heading * Vector3((side == 0 ? -1 : 1) * wider, 0, 0);
-    Vector3 longer = yaw * (parts_.scale * source.feet[side] - target.feet[side]);
+    const Vector3 ahead = from_.rotations[foot] * (source.reference[foot].conjugate() * Vector3::UnitY());
+    Vector3 longer =
+        about_z(std::atan2(-ahead.x(), ahead.y())) * (parts_.scale * source.feet[side] - target.feet[side]);
     longer.z() = parts_.sole_rise(side, &FootHeights::heel);
     const Vector3 by_heel = parts_.scale * path.heel[f] + longer;
     const Vector3 by_ball = parts_.scale * path.ball[f] + Vector3(0, 0, parts_.sole_rise(side, &FootHeights::ball)) -
-                            (ball(skeleton(), leg, to_) - to_.heads[leg.foot]);
-    const double weight = on_ball(ahead);
+                            (ball(skeleton(), target.legs[side], to_) - to_.heads[target.legs[side].foot]);
+    const double wider = (target.hip_width - parts_.scale * source.hip_width) / 2, weight = on_ball(ahead);
+    const Vector3 beside = about_z(headings_[side][f]) * Vector3((side == 0 ? -1 : 1) * wider, 0, 0);
     return beside + (1 - weight) * by_heel + weight * by_ball;
   }
 
-  // How far the hips must rise or sink for a leg to reach its place.
+  // How far the hips must rise or sink for the legs of standing feet to reach their places.
   void find_moves() {
     std::vector<double> least(clip_.frames, -kFree), most(clip_.frames, kFree);
     for (int f = 0; f < clip_.frames; ++f) {
       pose(f);
       for (int side = 0; side < 2; ++side) {
         if (!contacts_.feet[side][f]) continue;
-        const Vector3 way = to_.heads[parts_.target.legs[side].thigh] - ankle(side, f);
-        const Reach reach = reach_of(parts_.target.legs[side], to_, motion_.knees[side]);
-        const double beside = way.head<2>().squaredNorm();
-        most[f] = std::min(most[f], std::sqrt(std::max(0.0, reach.most * reach.most - beside)) - way.z());
-        least[f] = std::max(least[f], std::sqrt(std::max(0.0, reach.least * reach.least - beside)) - way.z());
+        const Reach rise = bearable_rise(side, ankle(side, f));
+        least[f] = std::max(least[f], rise.least);
+        most[f] = std::min(most[f], rise.most);
       }
     }
     moves_ = smooth_moves(least, most, clip_.rate);
+  }
+
+  Reach bearable_rise(int side, const Vector3& ankle) const {
+    const Leg& leg = parts_.target.legs[side];
+    const Vector3 way = to_.heads[leg.thigh] - ankle;
+    const Reach reach = reach_of(leg, to_, motion_.knees[side]);
+    const auto height = [&](double length) {
+      return std::sqrt(std::max(0.0, length * length - way.head<2>().squaredNorm()));
+    };
+    return {height(reach.least) - way.z(), height(reach.most) - way.z()};
   }
 
   void store(int f, Clip& result) {
@@ -201,7 +221,10 @@ class Transfer {
       const Quaternion local = to_.rotations[skeleton().parents[b]].conjugate() * to_.rotations[b];
       store_quaternion(local.normalized(), rotations + std::ptrdiff_t{4} * b);
     }
-    for (int side = 0; side < 2; ++side) put_foot(side, ankles[side], rotations);
+    for (int side = 0; side < 2; ++side) {
+      put_foot(side, ankles[side], rotations);
+      lift_toe(side, ankles[side], rotations);
+    }
   }
 
   void put_foot(int side, const Vector3& ankle, double* rotations) {
@@ -211,6 +234,34 @@ class Transfer {
     const bool there = (ankle - to_.heads[leg.foot]).norm() < tolerance && apart < reach.most + tolerance &&
                        apart > reach.least - tolerance;
     if (!there) fragmotion::reach(skeleton(), leg, to_, ankle, reach, rotations);
+  }
+
+  static double ball_of(const Body& body, int side, const PosedBones& posed) {
+    return ball(body.skeleton(), body.legs[side], posed).z();
+  }
+
+  // How far the tip of a toe is lower than where it is when the foot stands flat, m; `ball`: of the foot, its place.
+  static double toe_depth(const Body& body, int side, double ball, const PosedBones& posed) {
+    const int toe = body.legs[side].toe;
+    if (toe < 0) return 0;
+    const Vector3& tip = body.skeleton().tips[toe];
+    return body.soles[side].ball + (body.reference[toe] * tip).z() - ball - (posed.rotations[toe] * tip).z();
+  }
+
+  // Bends a toe that would be deeper in the ground than the source's, which may be shorter or stiff, or than any may.
+  void lift_toe(int side, const Vector3& ankle, double* rotations) {
+    const Leg& leg = parts_.target.legs[side];
+    if (leg.toe < 0) return;
+    const double ball = ankle.z() + to_.heads[leg.toe].z() - to_.heads[leg.foot].z(),
+                 depth = parts_.scale * toe_depth(parts_.source, side, ball_of(parts_.source, side, from_), from_),
+                 deeper = toe_depth(parts_.target, side, ball, to_) - std::clamp(depth, 0.0, parts_.toe_depth);
+    const Vector3 tip = to_.rotations[leg.toe] * skeleton().tips[leg.toe], axis = tip.cross(Vector3::UnitZ());
+    const double length = tip.norm();
+    if (deeper < kThere * parts_.target.leg || axis.norm() < kThere * length) return;
+    const double rise = std::asin(std::min(1.0, (tip.z() + deeper) / length)) - std::asin(tip.z() / length);
+    const Quaternion bent = Eigen::AngleAxisd(rise, axis.normalized()) * to_.rotations[leg.toe];
+    const Quaternion local = to_.rotations[skeleton().parents[leg.toe]].conjugate() * bent;
+    store_quaternion(local.normalized(), rotations + std::ptrdiff_t{4} * leg.toe);
   }
 
   RetargetReport judge(const Clip& result) const {
@@ -275,7 +326,6 @@ class Transfer {
   std::array<std::vector<double>, 2> headings_;
   std::vector<double> moves_;  // of the hips, up
   PosedBones from_, to_;
-  std::vector<bool> driven_;
 };
 
 Retarget::Retarget(const Body& source, const Body& target) {

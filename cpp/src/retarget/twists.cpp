@@ -51,26 +51,35 @@ double angle_about(const Quaternion& rotation, const Vector3& axis) {
 }  // namespace
 
 Twists::Twists(const Body& body) {
-  const PosedBones rest = rest_posture(body.skeleton());
   for (const TwistBone& bone : body.map.twists) {
     for (const RoleBone& limb : body.map.bones) {
-      if (limb.bone != bone.limb) continue;
-      const Joint joint = joint_of(body.map, limb);
-      const int end = end_of(body.map, limb);
-      if (joint.other < 0 || end < 0) continue;
-      const Quaternion to_limb = rest.rotations[limb.bone].conjugate();
-      Twist twist;
-      twist.bone = bone.bone;
-      twist.limb = limb.bone;
-      twist.above = joint.limb_is_above ? limb.bone : joint.other;
-      twist.below = joint.limb_is_above ? joint.other : limb.bone;
-      twist.share = joint.limb_is_above ? bone.share : bone.share - 1;
-      twist.axis = (to_limb * (rest.heads[end] - rest.heads[limb.bone])).normalized();
-      twist.rest = to_limb * rest.rotations[bone.bone];
-      twist.joint = body.reference[twist.above].conjugate() * body.reference[twist.below];
-      twists_.push_back(twist);
+      if (limb.bone == bone.limb) add(body, bone, limb);
     }
   }
+}
+
+void Twists::add(const Body& body, const TwistBone& bone, const RoleBone& limb) {
+  const Joint joint = joint_of(body.map, limb);
+  const int end = end_of(body.map, limb);
+  if (joint.other < 0 || end < 0) return;
+  const PosedBones rest = rest_posture(body.skeleton());
+  const Quaternion to_limb = rest.rotations[limb.bone].conjugate();
+  Twist twist;
+  twist.bone = bone.bone;
+  twist.limb = limb.bone;
+  twist.above = joint.limb_is_above ? limb.bone : joint.other;
+  twist.below = joint.limb_is_above ? joint.other : limb.bone;
+  twist.share = joint.limb_is_above ? bone.share : bone.share - 1;
+  twist.axis = (to_limb * (rest.heads[end] - rest.heads[limb.bone])).normalized();
+  twist.rest = to_limb * rest.rotations[bone.bone];
+  twist.joint = body.reference[twist.above].conjugate() * body.reference[twist.below];
+  twists_.push_back(twist);
+}
+
+std::vector<int> Twists::bones() const {
+  std::vector<int> bones;
+  for (const Twist& twist : twists_) bones.push_back(twist.bone);
+  return bones;
 }
 
 void Twists::apply(std::vector<Quaternion>& rotations) const {

@@ -16,6 +16,9 @@ class Twists {
   /// Sets the world rotations of the twist bones by those of the bones that have roles.
   void apply(std::vector<Quaternion>& rotations) const;
 
+  /// The twist bones that have a share.
+  std::vector<int> bones() const;
+
  private:
   struct Twist {
     int bone = -1, limb = -1;
@@ -25,6 +28,8 @@ class Twists {
     Quaternion rest;             // of the bone in the limb
     Quaternion joint;            // of `below` in `above`, in the pose that bodies are compared in
   };
+
+  void add(const Body& body, const TwistBone& bone, const RoleBone& limb);
 
   std::vector<Twist> twists_;
 };

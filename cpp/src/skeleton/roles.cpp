@@ -19,11 +19,9 @@ int first_branching(const Skeleton& skeleton) {
 
 }  // namespace
 
-Roles find_roles(const Skeleton& skeleton) {
-  const RoleMap map = find_role_map(skeleton);
+Roles roles_of(const RoleMap& map) {
   Roles roles;
   roles.hips = map.bone(Role::kHips);
-  if (roles.hips < 0) roles.hips = first_branching(skeleton);
   roles.head = map.bone(Role::kHead);
   roles.left_hand = map.bone(Role::kHand, Side::kLeft);
   roles.right_hand = map.bone(Role::kHand, Side::kRight);
@@ -33,6 +31,12 @@ Roles find_roles(const Skeleton& skeleton) {
   roles.right_toe = map.bone(Role::kToe, Side::kRight);
   roles.left_thigh = map.bone(Role::kThigh, Side::kLeft);
   roles.right_thigh = map.bone(Role::kThigh, Side::kRight);
+  return roles;
+}
+
+Roles find_roles(const Skeleton& skeleton) {
+  Roles roles = roles_of(find_role_map(skeleton));
+  if (roles.hips < 0) roles.hips = first_branching(skeleton);
   return roles;
 }
 

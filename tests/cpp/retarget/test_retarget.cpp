@@ -149,6 +149,16 @@ TEST(Retarget, FeetAndKneesKeepTheirMannersOnOtherProportions) {
   }
 }
 
+TEST(Retarget, FeetOfNoKnownLengthAreTakenForUsualOnes) {
+  Skeleton target = humanoid();
+  for (const char* foot : {"foot.L", "foot.R"}) target.tips[target.find(foot)] *= 4;
+  const Retarget retarget(body_of(humanoid()), body_of(target));
+  for (const Clip& clip : takes()) {
+    EXPECT_LT(retarget.apply(clip).report.hips_moved, 0.01) << clip.name;
+    EXPECT_LT(retarget.apply(clip).report.contact_error, 0.01) << clip.name;
+  }
+}
+
 TEST(Retarget, ThereAndBackAgainIsTheSame) {
   const Skeleton source = humanoid(), other = rolled(proportioned(1.2, 1.15, 0.8, 1));
   const Retarget there(body_of(source), body_of(other)), back(body_of(other), body_of(source));

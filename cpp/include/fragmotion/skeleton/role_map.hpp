@@ -70,6 +70,9 @@ struct ObservedPoses {
 /// that contradict the hierarchy tell nothing.
 RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion = nullptr);
 
+/// The bones of a map that the method needs; -1 where it has none.
+Roles roles_of(const RoleMap& map);
+
 /// A role's name for the user: "hips", "spine_2", "left_upper_arm", "right_index_1" ...; single roles and the first
 /// toe have no number.
 std::string role_label(const RoleBone& bone);
