@@ -14,7 +14,7 @@ from ..compat.core import core
 if TYPE_CHECKING:
     from fragmotion_core import Examination, Finding, Take
 
-_UNIT = "unit"  # the code of what the user decides who chooses a unit
+_UNIT, _DUPLICATE = "unit", "duplicate"  # codes of findings
 
 
 class TakeFinding(bpy.types.PropertyGroup):
@@ -39,7 +39,7 @@ class Found(NamedTuple):
 
 
 class Examined(NamedTuple):
-    """A take, mended, and what was found in it. A duplicate is to be left out."""
+    """A take, mended, and what was found in it. What is in another take, too, weighs twice where it is learned from."""
 
     take: Take
     found: list[Found]
@@ -53,9 +53,9 @@ def examine(takes: Sequence[Take], mends: bool, keep_unit: bool) -> list[Examine
 
 def _treat(take: Take, seen: Examination, mends: bool, keep_unit: bool) -> Examined:
     chosen = [f for f in seen.findings if mends and f.safe and not (keep_unit and f.code == _UNIT)]
-    codes = {f.code for f in chosen}
     mended = core.mend(take, chosen) if chosen else take
-    return Examined(mended, [Found(f, f in chosen) for f in seen.findings], "duplicate" in codes)
+    is_duplicate = any(f.code == _DUPLICATE for f in seen.findings)
+    return Examined(mended, [Found(f, f in chosen) for f in seen.findings], is_duplicate)
 
 
 def keep_findings(action: bpy.types.Action, found: Sequence[Found]) -> None:

@@ -83,14 +83,6 @@ def read_take(file: TakeFile, unit: float) -> Take:
         return take
 
 
-class Imported(NamedTuple):
-    """What an import made, and the takes that it left out as they are there already."""
-
-    armature: bpy.types.Object
-    actions: list[bpy.types.Action]
-    left_out: list[str]
-
-
 def import_takes(
     context: bpy.types.Context,
     name: str,
@@ -99,33 +91,33 @@ def import_takes(
     advance: Advance,
     onto: bpy.types.Object | None = None,
     mends: bool = True,
-) -> Imported:
-    """Make an Action from each take: on an armature that is made from the first one, or on the body of an armature that
-    is there. `unit`: m in one unit of a BVH file; None: the body's size tells. On an error nothing stays in the
-    file."""
+) -> tuple[bpy.types.Object, list[bpy.types.Action]]:
+    """Make an Action from each take, ticked but for those that are there twice: on an armature that is made from the
+    first one, or on the body of an armature that is there. `unit`: m in one unit of a BVH file; None: the body's size
+    tells. On an error nothing stays in the file."""
     takes = []
     for index, file in enumerate(files):
         takes.append(read_take(file, unit or _UNIT))
         _check_names(file, takes[-1])
         advance(_READING * index / len(files))
     examined = examine(takes, mends, keep_unit=unit is not None)
-    kept = [each for each in examined if not each.is_duplicate]
-    left_out = [each.take.name for each in examined if each.is_duplicate]
+    takes = [each.take for each in examined]
     with _undone_on_error(context):
-        obj = onto or make_armature(context, name, kept[0].take.skeleton)
+        obj = onto or make_armature(context, name, takes[0].skeleton)
         rig = make_rig(obj)
-        channels = _channels(obj, rig, [each.take for each in kept], is_new=onto is None)
+        channels = _channels(obj, rig, takes, is_new=onto is None)
         moving = set(carriers(obj, rig)) | (set() if onto else _moving_bones(obj, channels))
         actions = []
-        for index, (each, (locations, rotations)) in enumerate(zip(kept, channels)):
+        for index, (each, (locations, rotations)) in enumerate(zip(examined, channels)):
             actions.append(make_action(context.scene, each.take.name, each.take.rate))
             keep_findings(actions[-1], each.found)
+            actions[-1].fragmotion.use = not each.is_duplicate
             times = key_times(actions[-1], len(rotations))
             write_poses(actions[-1], obj, times, locations, rotations, moving)
-            advance(_READING + (1 - _READING) * index / len(kept))
+            advance(_READING + (1 - _READING) * index / len(examined))
     versions.assign(obj, actions[0])
     context.view_layer.update()
-    return Imported(obj, actions, left_out)
+    return obj, actions
 
 
 def _channels(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], is_new: bool) -> list[Channels]:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import ClassVar
 
@@ -10,7 +11,7 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, StringProperty
 
 from ..errors import UserError, reported
-from ..mocap.importing import METRES, Imported, find_takes, import_takes
+from ..mocap.importing import METRES, find_takes, import_takes
 from .context import active_armature, advise_on_foreign, can_change
 
 _UNITS = (
@@ -55,7 +56,7 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
     )
     mend: BoolProperty(  # type: ignore[valid-type]
         name="Mend",
-        description="Put right what is surely wrong with a take, and leave out takes that are there twice",
+        description="Put right what is surely wrong with a take: its unit, which way is up, spikes, frozen frames",
         default=True,
     )
 
@@ -77,7 +78,7 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
         manager = context.window_manager
         manager.progress_begin(0, 100)
         try:
-            done = import_takes(
+            obj, actions = import_takes(
                 context,
                 folder.name or "Mocap",
                 files,
@@ -88,7 +89,7 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
             )
         finally:
             manager.progress_end()
-        self.report({"INFO"}, _told(done))
+        self.report({"INFO"}, _told(obj, actions))
         return {"FINISHED"}
 
     def _target(self, context: bpy.types.Context) -> bpy.types.Object | None:
@@ -102,13 +103,13 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
         return obj
 
 
-def _told(done: Imported) -> str:
-    obj = done.armature
-    told = f"Imported {len(done.actions)} takes onto armature '{obj.name}' ({len(obj.data.bones)} bones)"
-    mended = sum(row.mended for action in done.actions for row in action.fragmotion.findings)
+def _told(obj: bpy.types.Object, actions: Sequence[bpy.types.Action]) -> str:
+    told = f"Imported {len(actions)} takes onto armature '{obj.name}' ({len(obj.data.bones)} bones)"
+    mended = sum(row.mended for action in actions for row in action.fragmotion.findings)
+    twice = sum(not action.fragmotion.use for action in actions)
     parts = [
-        f"{mended} faults mended" if mended else "",
-        f"{len(done.left_out)} left out that are there twice" if done.left_out else "",
+        f"{mended} faults mended (see Doctor)" if mended else "",
+        f"{twice} not ticked, as their motion is there twice" if twice else "",
     ]
     return "; ".join([told, *filter(None, parts)])
 
@@ -118,7 +119,7 @@ def _drop_handlers() -> tuple[type, ...]:
     if not hasattr(bpy.types, "FileHandler"):
         return ()
 
-    class FRAGMOTION_FH_import_mocap(bpy.types.FileHandler):  # type: ignore[misc]
+    class FRAGMOTION_FH_import_mocap(bpy.types.FileHandler):
         """Motion capture that is dropped moves the active armature, or a new one."""
 
         bl_idname = "FRAGMOTION_FH_import_mocap"

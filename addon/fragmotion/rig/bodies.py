@@ -61,7 +61,8 @@ def set_roles(obj: bpy.types.Object, found: Mapping[str, str]) -> None:
 def make_body(obj: bpy.types.Object, rig: Rig, clips: Sequence[Clip] = ()) -> Body:
     """The armature as a body; UserError names what is missing of it."""
     with core_errors(f"Armature '{obj.name}'"):
-        return core.Body(rig.skeleton, clips, chosen_roles(obj))
+        body: Body = core.Body(rig.skeleton, clips, chosen_roles(obj))
+        return body
 
 
 def save_roles(obj: bpy.types.Object, path: Path) -> None:

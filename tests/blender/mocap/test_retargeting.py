@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: MIT
+"""Takes and Actions of another skeleton move the user's own character; which bone is which can be said and kept."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from types import ModuleType
+
+import bpy
+import making
+import numpy as np
+import pytest
+
+WALK = making.MOCAP / "bandai-namco" / "dataset-1_walk_normal_001.bvh"
+ODD_UNIT = making.MOCAP / "cmu" / "01_01.bvh"
+PARTS = (("thigh.L", "shin.L"), ("shin.R", "foot.R"), ("upper_arm.R", "hand.R"))  # bones, and what they point to
+
+
+def add_character() -> bpy.types.Object:
+    """A body of other proportions and names than the sample's, active."""
+    longer = [
+        (name, parent, tuple(1.2 * np.array(head)), tuple(1.2 * np.array(tail))) for name, parent, head, tail in BODY
+    ]
+    return making.add_armature(longer, name="Hero")
+
+
+def directions(obj: bpy.types.Object, action: bpy.types.Action, parts: object, times: np.ndarray) -> np.ndarray:
+    """[F,P,3]: where parts point as Blender shows them, parts as pairs of bones."""
+    names = [name for pair in parts for name in pair]
+    heads = making.blender_poses(obj, action, times, names)[..., :3, 3]
+    ways = heads[:, 1::2] - heads[:, ::2]
+    return ways / np.linalg.norm(ways, axis=-1, keepdims=True)
+
+
+def angles(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    return np.degrees(np.arccos(np.clip((one * other).sum(-1), -1, 1)))
+
+
+def role_pairs(obj: bpy.types.Object) -> list[tuple[str, str]]:
+    """The sample's bones that PARTS are."""
+    bones = {role.name: role.bone for role in obj.fragmotion.roles}
+    roles = (("left_thigh", "left_shin"), ("right_shin", "right_foot"), ("right_upper_arm", "right_lower_arm"))
+    return [(bones[a], bones[b]) for a, b in roles]
+
+
+def test_actions_of_another_armature_move_this_one_likewise() -> None:
+    source = making.open_sample()
+    assert bpy.ops.fragmotion.tick_actions(use=False) == {"FINISHED"}
+    ticked = [action for action in bpy.data.actions if "walk" in action.name.lower()][:2]
+    for action in ticked:
+        action.fragmotion.use = True
+    assert bpy.ops.fragmotion.find_bones() == {"FINISHED"}
+    obj = add_character()
+    obj.fragmotion.source = source
+    assert bpy.ops.fragmotion.retarget_actions() == {"FINISHED"}
+    for action in ticked:
+        made = bpy.data.actions[f"{action.name} on Hero"]
+        assert made.fragmotion.use and made.use_fake_user
+        times = np.arange(2, 30, 5)
+        apart = angles(directions(source, action, role_pairs(source), times), directions(obj, made, PARTS, times))
+        assert apart.max() < 20 and apart.mean() < 8
+
+
+@pytest.mark.skipif(not WALK.exists(), reason="no motion capture here")
+def test_takes_of_another_skeleton_move_the_active_character_and_are_learned(tmp_path: Path) -> None:
+    for path in WALK.parent.glob("dataset-1_walk_normal_00[12].bvh"):
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    obj = add_character()
+    assert bpy.ops.fragmotion.import_mocap(directory=str(tmp_path), onto="ACTIVE") == {"FINISHED"}
+    assert [o.name for o in bpy.data.objects] == ["Hero"]
+    action = obj.animation_data.action
+    heads = making.blender_poses(obj, action, np.arange(2, 100, 3), ["foot.L", "foot.R", "hips"])[..., :3, 3]
+    assert 1 < heads[:, 2, 2].mean() < 1.25 and heads[:, :2, 2].min() > 0.05
+    assert np.linalg.norm(heads[-1, 2, :2] - heads[0, 2, :2]) > 0.5, "it goes nowhere"
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    assert bpy.ops.fragmotion.bake("EXEC_DEFAULT") == {"FINISHED"}
+
+
+def test_what_cannot_be_retargeted_changes_nothing(tmp_path: Path) -> None:
+    making.write_bvh(tmp_path / "stiff.bvh")
+    obj = add_character()
+    before = making.contents()
+    with pytest.raises(RuntimeError, match="Take 'stiff'"):
+        bpy.ops.fragmotion.import_mocap(directory=str(tmp_path), onto="ACTIVE")
+    assert making.contents() == before
+    obj.fragmotion.source = making.add_armature(name="Idle")
+    making.activate(obj)
+    with pytest.raises(RuntimeError, match="No Action of armature 'Idle' is ticked"):
+        bpy.ops.fragmotion.retarget_actions()
+
+
+def test_bones_are_found_changed_and_kept_as_a_preset(addon: ModuleType, tmp_path: Path) -> None:
+    obj = add_character()
+    assert bpy.ops.fragmotion.find_bones() == {"FINISHED"}
+    roles = obj.fragmotion.roles
+    assert roles["hips"].bone == "hips" and roles["left_thigh"].bone == "thigh.L" and not roles["neck_1"].bone
+    roles["head"].bone = ""
+    path = tmp_path / "hero.json"
+    assert bpy.ops.fragmotion.save_bones(filepath=str(path)) == {"FINISHED"}
+    kept = json.loads(path.read_text())
+    assert kept["right_shin"] == "shin.R" and "head" not in kept
+    roles.clear()
+    assert bpy.ops.fragmotion.load_bones(filepath=str(path)) == {"FINISHED"}
+    assert addon.rig.bodies.chosen_roles(obj) == kept
+
+
+@pytest.mark.parametrize(
+    ("text", "message"), [("[", "no preset"), ("[1]", "no preset"), ('{"hips": "Tail"}', "'Tail'")]
+)
+def test_a_preset_that_does_not_fit_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    obj = add_character()
+    path = tmp_path / "other.json"
+    path.write_text(text)
+    with pytest.raises(RuntimeError, match=message):
+        bpy.ops.fragmotion.load_bones(filepath=str(path))
+    assert not len(obj.fragmotion.roles)
+
+
+def test_a_take_that_is_there_twice_is_imported_and_not_ticked(tmp_path: Path) -> None:
+    if not WALK.exists():
+        pytest.skip("no motion capture here")
+    for name in ("a", "b"):
+        (tmp_path / f"{name}.bvh").write_bytes(WALK.read_bytes())
+    assert bpy.ops.fragmotion.import_mocap(directory=str(tmp_path)) == {"FINISHED"}
+    ticked = [action.name for action in bpy.data.actions if action.fragmotion.use]
+    assert len(bpy.data.actions) == 2 and len(ticked) == 1
+    other = next(action for action in bpy.data.actions if action.name not in ticked)
+    assert any("twice" in row.text or "same" in row.text for row in other.fragmotion.findings)
+
+
+@pytest.mark.skipif(not ODD_UNIT.exists(), reason="no motion capture here")
+def test_a_unit_is_told_by_the_body_and_said(addon: ModuleType, tmp_path: Path) -> None:
+    (tmp_path / "odd.bvh").write_bytes(ODD_UNIT.read_bytes())
+    assert bpy.ops.fragmotion.import_mocap(directory=str(tmp_path), unit="CENTIMETRES") == {"FINISHED"}
+    assert bpy.ops.fragmotion.import_mocap(directory=str(tmp_path)) == {"FINISHED"}
+    first, second = bpy.data.objects
+    assert addon.rig.rigs.make_rig(first).skeleton.stature < 1
+    assert 1.5 < addon.rig.rigs.make_rig(second).skeleton.stature < 2
+    assert any(row.mended for row in second.animation_data.action.fragmotion.findings)
