@@ -20,7 +20,8 @@ PARTS = (("thigh.L", "shin.L"), ("shin.R", "foot.R"), ("upper_arm.R", "hand.R"))
 def add_character() -> bpy.types.Object:
     """A body of other proportions and names than the sample's, active."""
     longer = [
-        (name, parent, tuple(1.2 * np.array(head)), tuple(1.2 * np.array(tail))) for name, parent, head, tail in BODY
+        (name, parent, tuple(1.2 * np.array(head)), tuple(1.2 * np.array(tail)))
+        for name, parent, head, tail in making.BODY
     ]
     return making.add_armature(longer, name="Hero")
 
