@@ -13,7 +13,13 @@ from .operators import background, solo_class
 from .panels import menus, panel
 from .settings import keymaps, mending, preferences, properties
 
-_CLASSES = (preferences.FragmotionPreferences, *properties.CLASSES, *operators.CLASSES, *panel.CLASSES)
+_CLASSES = (
+    preferences.FragmotionPreferences,
+    *properties.CLASSES,
+    *operators.CLASSES,
+    *operators.DROP_HANDLERS,
+    *panel.CLASSES,
+)
 
 
 def register() -> None:

@@ -68,7 +68,7 @@ def test_unregister_stops_a_build_with_its_thread_and_timer(addon: ModuleType, m
 def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleType) -> None:
     own = [cls.bl_idname.partition(".")[2] for cls in addon.operators.CLASSES]
     assert {"import_mocap", "build", "suggest_classes", "force_class", "leave_out", "bake"} <= set(own)
-    unchanging = {"save_policy", "cancel", "export_recording", "solo_class", "force_class"}
+    unchanging = {"save_policy", "save_bones", "cancel", "export_recording", "solo_class", "force_class"}
     unchanging |= {"drive", "listen", "record", "play_trace", "find_pads"}
     for name in own:
         operator = getattr(bpy.ops.fragmotion, name).get_rna_type()
@@ -82,7 +82,7 @@ def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleTy
 def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) -> None:
     panels = [cls for cls in addon.panels.panel.CLASSES if issubclass(cls, bpy.types.Panel)]
     assert [panel.bl_label for panel in panels] == [
-        *("Mocap", "Left Out"),
+        *("Mocap", "Left Out", "Doctor", "Bones"),
         *("Build", "Numbers Tried", "Training", "Figures", "Classes", "Inspector", "Coverage", "Policy File"),
         *("Drive", "Feel", "Gamepads", "Overlays", "Trace"),
         *("Recordings", "Bake", "Loop, Keys and Markers", "Populate"),

@@ -14,7 +14,7 @@ from ..compat.core import core
 if TYPE_CHECKING:
     from fragmotion_core import Examination, Finding, Take
 
-_UNIT, _DUPLICATE = "unit", "duplicate"  # codes of findings
+_UNIT = "unit"  # a finding's code
 
 
 class TakeFinding(bpy.types.PropertyGroup):
@@ -39,11 +39,10 @@ class Found(NamedTuple):
 
 
 class Examined(NamedTuple):
-    """A take, mended, and what was found in it. What is in another take, too, weighs twice where it is learned from."""
+    """A take, mended, and what was found in it."""
 
     take: Take
     found: list[Found]
-    is_duplicate: bool
 
 
 def examine(takes: Sequence[Take], mends: bool, keep_unit: bool) -> list[Examined]:
@@ -54,8 +53,7 @@ def examine(takes: Sequence[Take], mends: bool, keep_unit: bool) -> list[Examine
 def _treat(take: Take, seen: Examination, mends: bool, keep_unit: bool) -> Examined:
     chosen = [f for f in seen.findings if mends and f.safe and not (keep_unit and f.code == _UNIT)]
     mended = core.mend(take, chosen) if chosen else take
-    is_duplicate = any(f.code == _DUPLICATE for f in seen.findings)
-    return Examined(mended, [Found(f, f in chosen) for f in seen.findings], is_duplicate)
+    return Examined(mended, [Found(f, f in chosen) for f in seen.findings])
 
 
 def keep_findings(action: bpy.types.Action, found: Sequence[Found]) -> None:

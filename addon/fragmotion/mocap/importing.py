@@ -92,9 +92,9 @@ def import_takes(
     onto: bpy.types.Object | None = None,
     mends: bool = True,
 ) -> tuple[bpy.types.Object, list[bpy.types.Action]]:
-    """Make an Action from each take, ticked but for those that are there twice: on an armature that is made from the
-    first one, or on the body of an armature that is there. `unit`: m in one unit of a BVH file; None: the body's size
-    tells. On an error nothing stays in the file."""
+    """Make an Action from each take: on an armature that is made from the first one, or on the body of an armature that
+    is there. `unit`: m in one unit of a BVH file; None: the body's size tells. On an error nothing stays in the
+    file."""
     takes = []
     for index, file in enumerate(files):
         takes.append(read_take(file, unit or _UNIT))
@@ -111,7 +111,6 @@ def import_takes(
         for index, (each, (locations, rotations)) in enumerate(zip(examined, channels)):
             actions.append(make_action(context.scene, each.take.name, each.take.rate))
             keep_findings(actions[-1], each.found)
-            actions[-1].fragmotion.use = not each.is_duplicate
             times = key_times(actions[-1], len(rotations))
             write_poses(actions[-1], obj, times, locations, rotations, moving)
             advance(_READING + (1 - _READING) * index / len(examined))

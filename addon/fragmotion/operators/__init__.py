@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from . import import_mocap, recordings
+from . import recordings
 from .background import FRAGMOTION_OT_cancel
 from .bake import FRAGMOTION_OT_bake
 from .bones import FRAGMOTION_OT_find_bones, FRAGMOTION_OT_load_bones, FRAGMOTION_OT_save_bones
@@ -16,6 +16,7 @@ from .drive import (
     FRAGMOTION_OT_record,
 )
 from .force_class import FRAGMOTION_OT_force_class
+from .import_mocap import DROP_HANDLERS, FRAGMOTION_OT_import_mocap
 from .leave_out import FRAGMOTION_OT_leave_out, FRAGMOTION_OT_take_in
 from .load_policy import FRAGMOTION_OT_load_policy
 from .populate import FRAGMOTION_OT_populate
@@ -26,8 +27,10 @@ from .solo_class import FRAGMOTION_OT_solo_class
 from .suggest import FRAGMOTION_OT_suggest_classes
 from .tick_actions import FRAGMOTION_OT_tick_actions
 
+__all__ = ["CLASSES", "DROP_HANDLERS"]
+
 CLASSES = (
-    *import_mocap.CLASSES,
+    FRAGMOTION_OT_import_mocap,
     FRAGMOTION_OT_retarget_actions,
     FRAGMOTION_OT_find_bones,
     FRAGMOTION_OT_load_bones,

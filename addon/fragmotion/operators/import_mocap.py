@@ -11,6 +11,7 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, StringProperty
 
 from ..errors import UserError, reported
+from ..mocap.doctor import worst
 from ..mocap.importing import METRES, find_takes, import_takes
 from .context import active_armature, advise_on_foreign, can_change
 
@@ -106,11 +107,8 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
 def _told(obj: bpy.types.Object, actions: Sequence[bpy.types.Action]) -> str:
     told = f"Imported {len(actions)} takes onto armature '{obj.name}' ({len(obj.data.bones)} bones)"
     mended = sum(row.mended for action in actions for row in action.fragmotion.findings)
-    twice = sum(not action.fragmotion.use for action in actions)
-    parts = [
-        f"{mended} faults mended (see Doctor)" if mended else "",
-        f"{twice} not ticked, as their motion is there twice" if twice else "",
-    ]
+    left = sum(worst(action) in {"warning", "error"} for action in actions)
+    parts = [f"{mended} faults mended" if mended else "", f"{left} takes to look at in Doctor" if left else ""]
     return "; ".join([told, *filter(None, parts)])
 
 
@@ -134,4 +132,4 @@ def _drop_handlers() -> tuple[type, ...]:
     return (FRAGMOTION_FH_import_mocap,)
 
 
-CLASSES = (FRAGMOTION_OT_import_mocap, *_drop_handlers())
+DROP_HANDLERS = _drop_handlers()

@@ -21,7 +21,8 @@ def mend(group: Any) -> int:
     count = 0
     for prop in group.bl_rna.properties[1:]:  # the first is the type
         if prop.type == "POINTER":
-            count += mend(getattr(group, prop.identifier))
+            value = getattr(group, prop.identifier)
+            count += mend(value) if isinstance(value, bpy.types.PropertyGroup) else 0
         elif prop.type == "COLLECTION":
             count += sum(mend(each) for each in getattr(group, prop.identifier))
         elif not prop.is_readonly and not _is_sound(group, prop):

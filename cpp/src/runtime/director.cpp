@@ -8,6 +8,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kInstant = 1e-9;            // s: no time
+constexpr double kSame = 1e-6;               // ControlDis between controls that differ by rounding alone
 constexpr double kChange = 1;                // ControlDis between controls that is "a lot"
 constexpr double kHaste = 10 / kTunedReach;  // m a metre of reach that a second of waiting costs by default
 constexpr double kSkips = 1 / kTunedReach;   // m a metre of reach less that skipping a class must cost
@@ -74,7 +75,7 @@ int Director::bridge_to(int next_class) const {
 }
 
 bool Director::is_planned(const Control& wanted) const {
-  return exit_.next_class >= 0 && character_->space.distance(wanted, planned_for_) == 0;
+  return exit_.next_class >= 0 && character_->space.distance(wanted, planned_for_) < kSame;
 }
 
 int Director::next_class(const Control& control) {

@@ -147,7 +147,9 @@ def test_a_baked_action_poses_the_armature_as_the_player_does(
     core = addon.compat.core.core
     character = addon.character.building.load(obj)
     player = core.Player(character, 3)
-    player.reset(2, -1, 0.7 + np.pi)
+    start = addon.bake.performing.origin_frame(obj)  # to Blender's single precision
+    np.testing.assert_allclose(start, (2, -1, 0.7 + np.pi), atol=1e-6)
+    player.reset(*start)
     trace = core.simulate_trace("explorer", 10, 3, character.space)
     played = player.run(trace, fps / scene.render.fps_base)
     clip = core.Clip(character.skeleton, "played", played.rate, played.root_positions, played.rotations)
