@@ -71,6 +71,18 @@ def imported(folder: Path) -> Iterator[None]:
     yield from panels("mocap", "Mocap")
 
 
+def brought_over(folder: Path) -> Iterator[None]:
+    """The same takes on a character with other bones: the rig that Rigify starts from."""
+    bpy.ops.preferences.addon_enable(module="rigify")
+    bpy.ops.wm.read_homefile(use_factory_startup=True, load_ui=False)
+    yield from window.open_tab()
+    window.press(bpy.ops.object.armature_human_metarig_add)
+    window.press(bpy.ops.fragmotion.import_mocap, "EXEC_DEFAULT", True, directory=str(folder), onto="ACTIVE")
+    window.press(bpy.ops.fragmotion.find_bones)
+    yield from panels("bones", "Mocap", "Bones")
+    bpy.ops.preferences.addon_disable(module="rigify")
+
+
 def open_character() -> Iterator[None]:
     """The sample character, built, in a view that shows it."""
     bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE), load_ui=False)
@@ -153,6 +165,7 @@ def steps() -> Iterator[None]:
     Path(window.FOLDER).mkdir(exist_ok=True)
     takes = Path(bpy.app.tempdir) / "mocap"
     yield from imported(takes)
+    yield from brought_over(takes)
     yield from open_character()
     yield from pictures_of_building()
     yield from pictures_of_driving()

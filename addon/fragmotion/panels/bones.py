@@ -9,6 +9,7 @@ from ..operators.context import active_armature
 from .sidebar import SubPanel
 
 _ICONS = {True: "CHECKMARK", False: "QUESTION"}
+_LABELS = 0.45  # of the width
 
 
 class FRAGMOTION_PT_bones(SubPanel, bpy.types.Panel):
@@ -30,15 +31,16 @@ class FRAGMOTION_PT_bones(SubPanel, bpy.types.Panel):
             return
         column = layout.column(align=True)
         for role in roles:
-            column.prop_search(
-                role,
-                "bone",
-                obj.data,
-                "bones",
-                text=role.name.replace("_", " ").title(),
-                icon=_ICONS[role.bone in obj.data.bones],
-                translate=False,
-            )
+            row = column.split(factor=_LABELS, align=True)
+            row.label(text=_label(role.name))
+            row.prop_search(role, "bone", obj.data, "bones", text="", icon=_ICONS[role.bone in obj.data.bones])
+
+
+def _label(role: str) -> str:
+    """As short as a sidebar needs: "left_upper_arm" is "L Upper Arm"."""
+    side, _, part = role.partition("_")
+    name = f"{side[0]} {part}" if side in {"left", "right"} else role
+    return name.replace("_", " ").title()
 
 
 CLASSES = (FRAGMOTION_PT_bones,)
