@@ -51,9 +51,10 @@ def examine(takes: Sequence[Take], mends: bool, keep_unit: bool) -> list[Examine
 
 
 def _treat(take: Take, seen: Examination, mends: bool, keep_unit: bool) -> Examined:
-    chosen = [f for f in seen.findings if mends and f.safe and not (keep_unit and f.code == _UNIT)]
+    findings = seen.findings
+    chosen = [f for f in findings if mends and f.safe and not (keep_unit and f.code == _UNIT)]
     mended = core.mend(take, chosen) if chosen else take
-    return Examined(mended, [Found(f, f in chosen) for f in seen.findings])
+    return Examined(mended, [Found(f, f in chosen) for f in findings])
 
 
 def keep_findings(action: bpy.types.Action, found: Sequence[Found]) -> None:

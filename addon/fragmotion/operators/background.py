@@ -10,7 +10,7 @@ import bpy
 from ..compat.core import core
 from ..errors import UserError, core_errors, reported
 from ..jobs import Job
-from .context import active_armature, adopt_settings
+from .context import active_armature, adopt_settings, progress_shown
 
 _TICK = 0.1  # s between looks at the job
 current: Job | None = None
@@ -68,14 +68,12 @@ class Background:
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        manager = context.window_manager
         job = self._make_job(context)
         _set_current(job)
-        manager.progress_begin(0, 100)
         try:
-            job.run(lambda fraction: manager.progress_update(100 * fraction))
+            with progress_shown(context) as advance:
+                job.run(advance)
         finally:
-            manager.progress_end()
             _set_current(None)
         return self._finish(context, job)
 

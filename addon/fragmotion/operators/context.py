@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import bpy
@@ -53,6 +55,17 @@ def advise_on_foreign(obj: bpy.types.Object) -> str:
         f"Armature '{obj.name}' {state}, where no character can be kept: select it and choose, in Object Mode, "
         f"Object > Relations > Make Local > {choice}"
     )
+
+
+@contextmanager
+def progress_shown(context: bpy.types.Context) -> Iterator[Callable[[float], None]]:
+    """Shows beside the mouse what share is done, as what this gives is told."""
+    manager = context.window_manager
+    manager.progress_begin(0, 100)
+    try:
+        yield lambda fraction: manager.progress_update(100 * fraction)
+    finally:
+        manager.progress_end()
 
 
 def adopt_settings(operator: Any, settings: Any) -> None:

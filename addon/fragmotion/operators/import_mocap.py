@@ -13,7 +13,7 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, StringProp
 from ..errors import UserError, reported
 from ..mocap.doctor import worst
 from ..mocap.importing import METRES, find_takes, import_takes
-from .context import active_armature, advise_on_foreign, can_change
+from .context import active_armature, advise_on_foreign, can_change, progress_shown
 
 _UNITS = (
     ("AUTO", "By the Body", "What makes the body as tall as people are"),
@@ -76,20 +76,10 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
         folder = Path(bpy.path.abspath(self.directory)).resolve()
         files = find_takes(folder, [file.name for file in self.files if file.name])
         onto = self._target(context)
-        manager = context.window_manager
-        manager.progress_begin(0, 100)
-        try:
+        with progress_shown(context) as advance:
             obj, actions = import_takes(
-                context,
-                folder.name or "Mocap",
-                files,
-                METRES.get(self.unit),
-                lambda fraction: manager.progress_update(100 * fraction),
-                onto,
-                self.mend,
+                context, folder.name or "Mocap", files, METRES.get(self.unit), advance, onto, self.mend
             )
-        finally:
-            manager.progress_end()
         self.report({"INFO"}, _told(obj, actions))
         return {"FINISHED"}
 

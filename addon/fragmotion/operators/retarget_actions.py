@@ -10,7 +10,7 @@ import bpy
 from ..errors import UserError, reported
 from ..mocap.actions import ticked
 from ..mocap.retargeting import retarget_actions
-from .context import active_armature, poll_armature
+from .context import active_armature, poll_armature, progress_shown
 
 
 class FRAGMOTION_OT_retarget_actions(bpy.types.Operator):
@@ -36,13 +36,7 @@ class FRAGMOTION_OT_retarget_actions(bpy.types.Operator):
         actions = ticked(source)
         if not actions:
             raise UserError(f"No Action of armature '{source.name}' is ticked: click it, and tick them")
-        manager = context.window_manager
-        manager.progress_begin(0, 100)
-        try:
-            made = retarget_actions(
-                context, source, obj, actions, lambda fraction: manager.progress_update(100 * fraction)
-            )
-        finally:
-            manager.progress_end()
+        with progress_shown(context) as advance:
+            made = retarget_actions(context, source, obj, actions, advance)
         self.report({"INFO"}, f"Armature '{obj.name}' has {len(made)} Actions of '{source.name}'")
         return {"FINISHED"}
