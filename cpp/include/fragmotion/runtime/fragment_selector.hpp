@@ -6,8 +6,6 @@
 
 namespace fragmotion {
 
-/// Chooses the member of a class that is played: at random (Sec. 3.1) among those that perform the control as well as
-/// the representative or better and join on well. Allocates nothing once it is made.
 /// When to leave what plays for a class.
 struct Exit {
   int next_class = -1;  ///< -1: none is planned
@@ -15,6 +13,8 @@ struct Exit {
   double cost = 0;      ///< Of the stitch and of waiting, m a metre of tip_reach().
 };
 
+/// Chooses the member of a class that is played: at random (Sec. 3.1) among those that perform the control as well as
+/// the representative or better and join on well. Allocates nothing once it is made.
 class FragmentSelector {
  public:
   /// Character and workspace must outlive it.
