@@ -12,7 +12,7 @@ from tools import machine, packages
 from tools.beside import inputs as beside_inputs
 from tools.compiling import installed_core
 from tools.doctor import inputs as doctor_inputs
-from tools.environments import environment_python
+from tools.environments import BPY_PYTHON, HOST, environment_python
 from tools.evaluate import inputs
 from tools.paths import TOP
 from tools.retarget import inputs as retarget_inputs
@@ -20,39 +20,37 @@ from tools.shell import say
 
 
 def run_evaluation(options: argparse.Namespace, arguments: list[str]) -> int:
-    """Measure in the Python 3.11 environment; `arguments` are the words that the options were read from."""
+    """Measure; `arguments` are the words that the options were read from."""
     inputs.check(options)
-    return _run("tools.evaluate", _with(machine.EVALUATE, inputs.has_blend(options.mocap)), arguments)
+    return _run("tools.evaluate", inputs.has_blend(options.mocap), arguments)
 
 
 def run_comparison(options: argparse.Namespace, arguments: list[str]) -> int:
     """Measure beside motion matching, likewise."""
     beside_inputs.check(options)
-    return _run("tools.beside", _with(machine.BESIDE, inputs.has_blend(options.mocap)), arguments)
+    return _run("tools.beside", inputs.has_blend(options.mocap), arguments)
 
 
 def run_doctor(options: argparse.Namespace, arguments: list[str]) -> int:
     """Examine files, likewise."""
     doctor_inputs.check(options)
-    return _run("tools.doctor", machine.DOCTOR, arguments)
+    return _run("tools.doctor", False, arguments)
 
 
 def run_retargeting(options: argparse.Namespace, arguments: list[str]) -> int:
     """Retarget, likewise."""
     retarget_inputs.check(options)
-    return _run("tools.retarget", _with(machine.EVALUATE, retarget_inputs.needs_blender(options)), arguments)
+    return _run("tools.retarget", retarget_inputs.needs_blender(options), arguments)
 
 
-def _with(needs: machine.Needs, blender: bool) -> machine.Needs:
-    return needs | machine.BLENDER_45 if blender else needs
-
-
-def _run(module: str, needs: machine.Needs, arguments: list[str]) -> int:
-    machine.set_up(needs)
+def _run(module: str, blender: bool, arguments: list[str]) -> int:
+    """Run a module of tools in the Python that runs this, or with `blender` in that of Blender 4.5's module."""
+    python = BPY_PYTHON if blender else HOST
+    machine.set_up(machine.measuring_needs(python) | (machine.BLENDER_45 if blender else machine.Needs()))
     say("build: core")
-    core = installed_core("3.11", packages.wheel("3.11"))
+    core = installed_core(python, packages.wheel(python))
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(core), str(TOP)))}
-    command = [str(environment_python("3.11")), "-m", module, *arguments]
+    command = [str(environment_python(python)), "-m", module, *arguments]
     return subprocess.run(command, env=environment, check=False).returncode
 
 

@@ -51,8 +51,10 @@ py::tuple to_tuple(Channels channels, py::ssize_t bones) {
                         to_array(std::move(channels.rotations), {channels.frames, bones, 4}));
 }
 
-void bind_readers(py::module_& m) {
+void bind_files(py::module_& m) {
   m.def("read_bvh", &read_bvh, py::arg("path"), py::arg("unit") = 0.01, py::call_guard<GilRelease>());
+  m.def("write_bvh", &write_bvh, py::arg("take"), py::arg("path"), py::arg("unit") = 0.01,
+        py::call_guard<GilRelease>());
   m.def("read_asf", &read_asf, py::arg("path"), py::call_guard<GilRelease>());
   m.def("read_asf_amc", &read_asf_amc, py::arg("asf"), py::arg("amc"), py::arg("rate") = 120.0,
         py::call_guard<GilRelease>());
@@ -146,7 +148,7 @@ void bind_rig(py::module_& m) {
 }  // namespace
 
 void bind_io(py::module_& m) {
-  bind_readers(m);
+  bind_files(m);
   bind_rotations(m);
   bind_rig(m);
 }

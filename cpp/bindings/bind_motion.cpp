@@ -109,6 +109,13 @@ void bind_take(py::module_& m) {
                                const auto& take = self.cast<const Take&>();
                                return view(take.rotations, {take.frames, take.skeleton.size(), 4}, self);
                              })
+      .def_static(
+          "from_clip",
+          [](const Clip& clip, const Skeleton& skeleton) {
+            check_bones(clip, skeleton);
+            return without_gil([&] { return take_from_clip(skeleton, clip); });
+          },
+          py::arg("clip"), py::arg("skeleton"))
       .def("world_transforms", [](const Take& take) {
         return to_tuple(without_gil([&] { return take_transforms(take); }), take.frames, take.skeleton.size());
       });

@@ -6,6 +6,7 @@
 #include "arrays.hpp"
 #include "fragmotion/skeleton/role_map.hpp"
 #include "fragmotion/skeleton/role_names.hpp"
+#include "fragmotion/skeleton/same_skeleton.hpp"
 #include "fragmotion/skeleton/skeleton.hpp"
 
 namespace fragmotion::bindings {
@@ -87,6 +88,7 @@ void bind_skeleton(py::module_& m) {
       .def_property_readonly("stature", &stature)
       .def("rest_heads", [](const Skeleton& s) { return rest_points(s, false); })
       .def("rest_tails", [](const Skeleton& s) { return rest_points(s, true); });
+  m.def("group_skeletons", &group_skeletons, py::arg("skeletons"), py::call_guard<GilRelease>());
 }
 
 }  // namespace fragmotion::bindings

@@ -64,6 +64,11 @@ class Skeleton:
     def rest_tails(self) -> Doubles:
         """World position [B,3] of each bone's tail at rest, m."""
 
+def group_skeletons(skeletons: Sequence[Skeleton]) -> list[list[int]]:
+    """Indices of the skeletons that are the same, in their order: motion of one is motion of the others as it stands.
+    They have the same bones and parents, and below the hips the same rest rotations (1e-6 rad) and lengths (1/1000 of
+    the stature)."""
+
 class Take:
     """A motion capture file as it stands: local transforms [F,B] on its own skeleton."""
 
@@ -86,11 +91,18 @@ class Take:
     """[F,B,3] m: a bone's head in its parent's frame (replaces the skeleton's offset)."""
     rotations: Doubles
     """[F,B,4]: a bone's rotation relative to its parent."""
+    @staticmethod
+    def from_clip(clip: Clip, skeleton: Skeleton) -> Take:
+        """A clip's motion on its skeleton; bones above the hips rest. The inverse of Clip.from_take."""
     def world_transforms(self) -> tuple[Doubles, Doubles]:
         """World positions [F,B,3] m and rotations [F,B,4] of every bone's frame."""
 
 def read_bvh(path: str | PathLike[str], unit: float = 0.01) -> Take:
     """Read a BVH file; `unit` is one file unit in metres, 1e-6 .. 1000. y-up becomes z-up as (x, -z, y)."""
+
+def write_bvh(take: Take, path: str | PathLike[str], unit: float = 0.01) -> None:
+    """Write a take as a BVH file, y up, `unit` metres being one file unit; whole or not at all. ValueError on a bone's
+    name that is empty or holds a blank or a brace, and on numbers that are missing."""
 
 def read_asf(path: str | PathLike[str]) -> Skeleton:
     """Read an Acclaim skeleton alone."""

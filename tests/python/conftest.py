@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,6 +13,22 @@ import pytest
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
+
+pytest.register_assert_rewrite("evaluated")
+
+if sys.platform != "linux":
+    # The commands of dev.py, which run on Debian.
+    collect_ignore = [
+        "test_beside.py",
+        "test_doctor_command.py",
+        "test_evaluate.py",
+        "test_evaluate_inputs.py",
+        "test_evaluate_run_time.py",
+        "test_motion_matching.py",
+        "test_motion_pictures.py",
+        "test_packages.py",
+        "test_retarget_command.py",
+    ]
 
 MOCAP = Path(__file__).resolve().parents[3] / "shared" / "mocap"
 BANDAI = MOCAP / "bandai-namco"

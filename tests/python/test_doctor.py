@@ -221,6 +221,20 @@ def test_spikes_and_missing_numbers_are_filled(walk: core.Take) -> None:
     assert_mended(remade(walk, translations), "missing", (90, 91), walk, 0.05)
 
 
+def test_feet_stand_on_toes_that_no_name_tells(walk: core.Take) -> None:
+    """As in files whose toes are called thumbs, and whose feet end anywhere."""
+    old = walk.skeleton
+    toes = {bone: f"thumb {side}" for side in ("left", "right") for bone in [old.role_map()[f"{side}_toe"][0]]}
+    tips = np.array(old.tips)
+    for side in ("left", "right"):
+        tips[old.names.index(old.roles[f"{side}_foot"])] = [0, 0.01, 0]
+    names = [toes.get(name, name) for name in old.names]
+    skeleton = core.Skeleton(names, old.parents, old.rest_rotations, old.offsets, tips)
+    take = core.Take(skeleton, walk.name, walk.rate, walk.translations, walk.rotations)
+    assert "left_toe" not in skeleton.role_map()
+    assert [f.text for f in core.examine([take])[0].findings if f.code == "ground"] == []
+
+
 @pytest.mark.parametrize("height", [-0.08, 0.2])
 def test_feet_are_put_on_the_ground(walk: core.Take, height: float) -> None:
     translations = walk.translations.copy()

@@ -29,7 +29,9 @@ STAGES = [
 ROOTS = [TOP / "cpp" / "include" / "fragmotion", TOP / "cpp" / "src"]
 
 
-RUNTIME_PARTS = re.search(r"set\(fragmotion_runtime_parts\s+([^)]+)\)", (TOP / "CMakeLists.txt").read_text())
+RUNTIME_PARTS = re.search(
+    r"set\(fragmotion_runtime_parts\s+([^)]+)\)", (TOP / "CMakeLists.txt").read_text(encoding="utf-8")
+)
 
 
 def sources(stage: str) -> list[Path]:
@@ -39,7 +41,9 @@ def sources(stage: str) -> list[Path]:
 
 def stages_needed_by(path: Path) -> set[str]:
     """The stages whose headers a file includes."""
-    return set(re.findall(r'^#include "(?:fragmotion/)?(\w+)/\w+\.hpp"', path.read_text(), re.MULTILINE))
+    return set(
+        re.findall(r'^#include "(?:fragmotion/)?(\w+)/\w+\.hpp"', path.read_text(encoding="utf-8"), re.MULTILINE)
+    )
 
 
 @pytest.mark.parametrize("root", ROOTS, ids=["include", "src"])
@@ -61,7 +65,7 @@ def of_runtime(path: Path) -> bool:
 
 def headers_needed_by(path: Path) -> set[Path]:
     """The project's headers that a file includes."""
-    names = re.findall(r'^#include "([\w/]+\.hpp)"', path.read_text(), re.MULTILINE)
+    names = re.findall(r'^#include "([\w/]+\.hpp)"', path.read_text(encoding="utf-8"), re.MULTILINE)
     return {
         root / name
         for name in names
@@ -77,6 +81,8 @@ def test_the_runtime_library_needs_no_header_of_another_and_no_thread() -> None:
     while left:
         path = left.pop()
         assert of_runtime(path), path.relative_to(TOP)
-        assert not re.search(r"^#include <(thread|future|mutex|svm\.h)>", path.read_text(), re.MULTILINE), path
+        assert not re.search(
+            r"^#include <(thread|future|mutex|svm\.h)>", path.read_text(encoding="utf-8"), re.MULTILINE
+        ), path
         seen.add(path)
         left += headers_needed_by(path) - seen

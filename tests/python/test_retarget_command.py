@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from conftest import BANDAI, CMU, NAMES, walking_arrays
-from test_evaluate import write_bvh
+from evaluated import write_bvh
 
 from tools.retarget.__main__ import main
 

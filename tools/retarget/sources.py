@@ -8,13 +8,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 import fragmotion_core as core
-import numpy as np
 
 from tools.evaluate.inputs import find_takes
 from tools.evaluate.loading import core_failures, read_take
 from tools.retarget.rigs import OpenRig
-
-_SAME = 1e-3  # m by which the bones of one skeleton may differ from file to file
 
 
 class Source(NamedTuple):
@@ -27,27 +24,20 @@ class Source(NamedTuple):
 
 def read_sources(paths: Sequence[Path], unit: float) -> list[Source]:
     """All takes, those of one skeleton together."""
-    sources: list[Source] = []
-    for file in find_takes(paths):
-        with core_failures():
-            take = read_take(file, unit)
-        source = next((each for each in sources if same(each.skeleton, take.skeleton)), None)
-        if source is None:
-            source = Source(take.skeleton, [], [])
-            sources.append(source)
-        with core_failures(str(file.path)):
-            source.clips.append(core.Clip.from_take(take, source.skeleton))
-        source.paths.append(file.path)
-    return sources
+    files = find_takes(paths)
+    with core_failures():
+        takes = [read_take(file, unit) for file in files]
+    groups = core.group_skeletons([take.skeleton for take in takes])
+    return [_source([takes[index] for index in group], [files[index].path for index in group]) for group in groups]
 
 
-def same(a: core.Skeleton, b: core.Skeleton) -> bool:
-    """Whether two skeletons have the same bones, wherever they stand."""
-    if a.names != b.names or a.parents != b.parents:
-        return False
-    placed = np.array([name != a.roles["hips"] and parent >= 0 for name, parent in zip(a.names, a.parents)])
-    alike = np.allclose(a.offsets[placed], b.offsets[placed], rtol=0, atol=_SAME)
-    return alike and np.allclose(a.rest_rotations, b.rest_rotations, rtol=0, atol=_SAME)
+def _source(takes: Sequence[core.Take], paths: list[Path]) -> Source:
+    skeleton = takes[0].skeleton
+    clips = []
+    for take, path in zip(takes, paths):
+        with core_failures(str(path)):
+            clips.append(core.Clip.from_take(take, skeleton))
+    return Source(skeleton, clips, paths)
 
 
 def body_of(rig: OpenRig) -> core.Body:

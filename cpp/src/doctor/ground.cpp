@@ -22,14 +22,16 @@ constexpr double kLow = 0.045;                  // m over its lowest: a foot tha
 constexpr double kAnyHeight = 1e9;              // m
 constexpr double kSlides = 0.5, kStays = 0.4;   // m/s; m: feet that slide under hips that stay
 
-/// The lowest joint or end of a foot, and where.
+/// The lowest joint of a foot, or its end, and where. Ends of what is below the toes' are nobody's: files invent them.
 Vector3 sole(const Patient& patient, int frame, int side) {
-  const int foot = patient.legs[side].end, toe = patient.toes[side];
-  std::array<Vector3, 4> points = {patient.head(frame, foot), patient.tip(frame, foot), patient.head(frame, foot),
-                                   patient.tip(frame, foot)};
-  if (toe >= 0) points[2] = patient.head(frame, toe), points[3] = patient.tip(frame, toe);
-  return *std::min_element(points.begin(), points.end(),
-                           [](const Vector3& a, const Vector3& b) { return a.z() < b.z(); });
+  const int end = patient.toes[side] >= 0 ? patient.toes[side] : patient.legs[side].end;
+  Vector3 lowest = patient.tip(frame, end);
+  const auto look_at = [&](const Vector3& point) {
+    if (point.z() < lowest.z()) lowest = point;
+  };
+  look_at(patient.tip(frame, patient.legs[side].end));
+  for (const int joint : patient.feet[side]) look_at(patient.head(frame, joint));
+  return lowest;
 }
 
 /// Where and when the lower of the feet that stand does: place and frame.

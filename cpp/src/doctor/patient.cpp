@@ -34,6 +34,9 @@ void Patient::find_parts() {
     legs[side] = {bone(Role::kThigh), bone(Role::kShin), bone(Role::kFoot)};
     arms[side] = {bone(Role::kUpperArm), bone(Role::kLowerArm), bone(Role::kHand)};
     toes[side] = bone(Role::kToe);
+    for (int joint = 0; joint < bones(); ++joint) {
+      if (take_.skeleton.is_below(joint, legs[side].end)) feet[side].push_back(joint);
+    }
   }
   hips = roles_.bone(Role::kHips);
   skull = roles_.bone(Role::kHead);

@@ -48,6 +48,7 @@ class Patient {
   std::array<Limb3, 2> legs, arms;
   int hips = -1, skull = -1;
   std::array<int, 2> toes = {-1, -1};
+  std::array<std::vector<int>, 2> feet;  ///< Each leg's foot and all joints below, toes that no role tells among them.
 
   bool has_legs() const { return legs[0].whole() && legs[1].whole(); }
   bool has_arms() const { return arms[0].whole() && arms[1].whole(); }

@@ -13,15 +13,15 @@
 #include "base/read_file.hpp"
 #include "base/text_reader.hpp"
 #include "fragmotion/base/utf8.hpp"
+#include "io/file_unit.hpp"
 #include "io/parse_text.hpp"
 #include "io/y_up.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kEndSiteShare = 0.3;  // Of a bone's own offset: the length of a bone whose End Site has none.
-constexpr double kLeastUnit = 1e-6, kMostUnit = 1e3;  // m: Nobody tells bones in less, or in more than kilometres.
-constexpr double kRateTolerance = 0.001;              // Files round the frame time: 0.0333333 is 30 frames a second.
+constexpr double kEndSiteShare = 0.3;     // Of a bone's own offset: the length of a bone whose End Site has none.
+constexpr double kRateTolerance = 0.001;  // Files round the frame time: 0.0333333 is 30 frames a second.
 
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
@@ -282,8 +282,7 @@ Take parse_bvh(std::string text, const std::string& file, double unit) {
 }
 
 Take read_bvh(const std::filesystem::path& path, double unit) {
-  if (!(unit >= kLeastUnit && unit <= kMostUnit))
-    throw std::invalid_argument("unit: a length from 1e-6 to 1000 metres expected");
+  check_unit(unit);
   Take take = parse_bvh(read_file(path), path.filename().u8string(), unit);
   take.name = as_utf8(path.stem().u8string());
   return take;

@@ -8,12 +8,11 @@
 
 #include "base/ranges.hpp"
 #include "fragmotion/motion/facing.hpp"
+#include "fragmotion/skeleton/same_skeleton.hpp"
 
 namespace fragmotion {
 
 namespace {
-
-constexpr double kSameRest = 1e-6;  // rad: rest frames that differ by less are the same
 
 [[noreturn]] void fail(const std::string& clip, const std::string& cause) {
   throw std::invalid_argument("clip '" + clip + "': " + cause);
@@ -141,6 +140,27 @@ Clip clip_from_take(const Skeleton& skeleton, const Take& take) {
     }
   }
   return make_clip(skeleton, std::move(clip));
+}
+
+Take take_from_clip(const Skeleton& skeleton, const Clip& clip) {
+  check_shape(clip, skeleton.size());
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> rests;
+  rest_pose(skeleton, heads, rests);
+  const int hips = skeleton.roles.hips, above = skeleton.parents[hips];
+  const Vector3 origin = above < 0 ? Vector3::Zero() : heads[above];
+  const Quaternion back = above < 0 ? Quaternion::Identity() : rests[above].conjugate();
+  Take take{skeleton, clip.name, clip.rate, clip.frames, {}, clip.rotations};
+  for (int f = 0; f < clip.frames; ++f) {
+    const std::size_t first = static_cast<std::size_t>(f) * skeleton.size();
+    for (const Vector3& offset : skeleton.offsets)
+      take.translations.insert(take.translations.end(), offset.begin(), offset.end());
+    const Vector3 root = load_vector(&clip.root_positions[3 * static_cast<std::size_t>(f)]);
+    store_vector(back * (root - origin), &take.translations[3 * (first + hips)]);
+    const Quaternion turned = back * load_quaternion(&clip.rotations[4 * (first + hips)]);
+    store_quaternion(turned, &take.rotations[4 * (first + hips)]);
+  }
+  return make_take(std::move(take));
 }
 
 Clip part(const Clip& clip, int begin, int end) {

@@ -179,6 +179,7 @@ std::array<double, kRoles> says(const BoneName& name) {
   bool something = true;
   if (name.side != Side::kNone) {
     something = is_finger(name) || score_terms(name, kLimbs, scores);
+    if (is_finger(name) && extra_words(name, "foot") >= 0) scores[static_cast<int>(Role::kToe)] = 1;  // "FootThumb1"
     if (!something) {
       std::array<double, kRoles> trunk{};
       something = score_terms(name, kTrunk, trunk);
@@ -214,13 +215,13 @@ int finger_of(const BoneName& name, int first) {
 }
 
 bool says_helper(const BoneName& name) {
-  return has_any_word(name,
-                      {"end",        "nub",      "top",   "tip",       "site",   "ik",         "pole",   "target",
-                       "ctrl",       "control",  "mch",   "helper",    "share",  "corrective", "sec",    "adj",
-                       "dummy",      "prop",     "props", "weapon",    "tweak",  "vis",        "socket", "attach",
-                       "heel",       "hair",     "skirt", "cloth",     "eye",    "jaw",        "tongue", "ear",
-                       "breast",     "pectoral", "tail",  "footsteps", "marker", "widget",     "wgt",    "parent",
-                       "metacarpal", "ｉｋ",     "pivot", "spin",      "rock",   "bck",        "fwd",    "inn"}) ||
+  return has_any_word(
+             name, {"end",       "nub",     "top",    "tip",    "site",   "leaf",       "ik",     "pole",     "target",
+                    "ctrl",      "control", "mch",    "helper", "share",  "corrective", "sec",    "adj",      "dummy",
+                    "prop",      "props",   "weapon", "tweak",  "vis",    "socket",     "attach", "heel",     "hair",
+                    "skirt",     "cloth",   "eye",    "jaw",    "tongue", "ear",        "breast", "pectoral", "tail",
+                    "footsteps", "marker",  "widget", "wgt",    "parent", "metacarpal", "ｉｋ",   "pivot",    "spin",
+                    "rock",      "bck",     "fwd",    "inn"}) ||
          std::any_of(name.words.begin(), name.words.end(), [](const std::string& word) {
            return ends_with(word, "ｉｋ") || ends_with(word, "ＩＫ") || ends_with(word, "親") ||
                   ends_with(word, "キャンセル");

@@ -90,7 +90,7 @@ class LimbFinder {
       const int lower = bones[i];
       const double upper_alone = fits(lower, roles_.upper);
       const double cost = skipped(lower, end);
-      if (upper_alone >= 0) {
+      if (upper_alone >= 0 && cost <= kSkipped) {
         take(end_score + cost_of_silence(upper_alone) - kMissing - cost, {-1, lower, -1, end, -1},
              {0, upper_alone, 0, end_score, 0});
       }
@@ -131,12 +131,13 @@ class LimbFinder {
   /// The bone between the trunk and the arm, if its name does not say that it is something else.
   void find_first() {
     if (roles_.first == roles_.upper || best_.bones[Limb::kUpper] < 0) return;
+    double most = -1;
     for (const int b : above(best_.bones[Limb::kUpper])) {
       const double score = fits(b, roles_.first);
-      if (score < 0 || (score == 0 && best_.bones[Limb::kFirst] >= 0)) continue;
+      if (score <= most) continue;
+      most = score;
       best_.bones[Limb::kFirst] = b;
       best_.confidence[Limb::kFirst] = confidence_of(score);
-      if (score > 0) return;
     }
   }
 

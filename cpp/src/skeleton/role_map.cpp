@@ -14,8 +14,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kTold = 0.5;   // the least confidence of a role
-constexpr int kMostJoints = 4;  // of a finger
+constexpr double kTold = 0.5;                           // the least confidence of a role
+constexpr int kMostJoints = 4;                          // of a finger
+constexpr double kJointApart = 0.15, kJointBent = 0.4;  // of the bones' lengths; sine
 constexpr double kNamed = 0.95, kBetween = 0.75;
 
 constexpr std::array<Role, 5> kArmRoles = {Role::kShoulder, Role::kUpperArm, Role::kLowerArm, Role::kHand,
@@ -45,6 +46,26 @@ void merge_bone(int shaped, double shaped_confidence, int& bone, double& confide
     confidence = agreed(confidence);
 }
 
+/// What the shape tells of a limb and names do not contradict: nothing where they say the other side.
+Limb uncontradicted(const BodyTree& tree, Limb limb, const std::array<Role, 5>& roles, Side side) {
+  for (std::size_t i = 0; i < limb.bones.size(); ++i) {
+    int& bone = limb.bones[i];
+    if (bone < 0) continue;
+    const Side said = tree.names[bone].side;
+    if (said != Side::kNone && said != side) return {};
+    if (tree.says(bone, roles[i]) < 0) bone = -1;
+  }
+  return limb;
+}
+
+Body uncontradicted(const BodyTree& tree, Body shaped) {
+  for (int side = 0; side < 2; ++side) {
+    shaped.arms[side] = uncontradicted(tree, shaped.arms[side], kArmRoles, kSides[side]);
+    shaped.legs[side] = uncontradicted(tree, shaped.legs[side], kLegRoles, kSides[side]);
+  }
+  return shaped;
+}
+
 Body merged(const Body& named, const Body& shaped) {
   Body body = named;
   merge_bone(shaped.hips, shaped.hips_confidence, body.hips, body.hips_confidence);
@@ -55,6 +76,27 @@ Body merged(const Body& named, const Body& shaped) {
     body.legs[side] = merged(named.legs[side], shaped.legs[side], shaped.legs[1 - side]);
   }
   return body;
+}
+
+/// Whether a bone that is skipped between two of a limb bends away from their line at rest.
+bool has_joint_between(const std::vector<Vector3>& heads, const BodyTree& tree, int lower, int end) {
+  for (int b = tree.parents[end]; b != lower && b >= 0; b = tree.parents[b]) {
+    const Vector3 before = heads[b] - heads[lower], after = heads[end] - heads[b];
+    const bool is_long = std::min(before.norm(), after.norm()) > kJointApart * (heads[end] - heads[lower]).norm();
+    if (is_long && before.cross(after).norm() > kJointBent * before.norm() * after.norm()) return true;
+  }
+  return false;
+}
+
+/// Birds and cats have a joint more than men: what is their shin is not told.
+void forget_shins_of_beasts(const Skeleton& skeleton, const BodyTree& tree, Body& body) {
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> rotations;
+  rest_pose(skeleton, heads, rotations);
+  for (Limb& leg : body.legs) {
+    int& shin = leg.bones[Limb::kLower];
+    if (shin >= 0 && has_joint_between(heads, tree, shin, leg.bones[Limb::kEnd])) shin = -1;
+  }
 }
 
 /// Writes the roles of a body into a map.
@@ -268,7 +310,8 @@ RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion) {
   BodyTree tree(skeleton);
   const std::optional<Body> named = named_body(tree);
   if (!named) tree.forget_names();
-  const Body body = merged(named.value_or(Body{}), shaped_body(skeleton, tree, motion));
+  Body body = merged(named.value_or(Body{}), uncontradicted(tree, shaped_body(skeleton, tree, motion)));
+  forget_shins_of_beasts(skeleton, tree, body);
   RoleMap map = MapMaker(tree, body).make();
   find_twists(skeleton, tree, map);
   return map;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "skeleton/body_sides.hpp"
 #include "skeleton/body_tree.hpp"
 
 namespace fragmotion {
@@ -12,7 +13,9 @@ namespace {
 // Lengths are shares of the longest way from a leaf to another one.
 constexpr double kLimb = 0.2;       // a limb at least
 constexpr double kAlike = 0.05;     // of a limb's length: bones of a pair differ by less
-constexpr double kHead = 0.04;      // neck and head at least
+constexpr double kHand = 0.3;       // of a limb's length that hands and feet reach at most
+constexpr double kBroad = 0.25;     // of the trunk's length that shoulders are apart at least
+constexpr double kHead = 0.03;      // neck and head at least
 constexpr double kStub = 1e-3;      // a bone that ends where it begins: a marker
 constexpr double kPelvis = 0.02;    // between the hips and a pelvis at most
 constexpr double kSame = 1.05;      // times as long: no longer
@@ -21,13 +24,17 @@ constexpr double kDoubtful = 0.15;  // of the head's length, that a bone beyond 
 constexpr double kStiff = 0.05;     // rad that a joint bends by at least in a motion, if it is one
 constexpr double kSplit = 0.8;      // a third bone of a limb that is as long as that of the shorter two: no telling
 constexpr double kUpright = 0.5;    // of a leg's length that feet are under the hips
-constexpr double kSure = 1.5;       // votes more for one way to take the pairs than for the other
-constexpr double kSided = 0.5;      // mean cosine to the left
-constexpr double kForward = 0.3;    // of a foot's length that it points level
-constexpr double kTelling = 0.05;   // of the poses that tell the sides at least
+constexpr double kPart = 0.75;      // times as long at least a bone becomes by a part
+constexpr double kHeadAbove = 0.16, kHeadUnder = 0.5;  // of the trunk's length that a head begins above the shoulders
+constexpr double kCopied = 1e-3;                       // of a bone's length that a copy of it differs by
+constexpr double kSure = 1.5;                          // votes more for one way to take the pairs than for the other
 constexpr int kMostPoses = 200;
+constexpr int kFingers = 3;  // at least on a hand
+
+constexpr double kTiny = 1e-12;
 
 using Chain = std::vector<int>;
+using Joints = std::array<int, 3>;  // of a limb's chain: where its upper and lower bone and its end begin
 
 /// Two limbs that are alike, and the bone that they hang on.
 struct Pair {
@@ -55,9 +62,10 @@ class ShapeFinder {
     result.hips = carrier(legs.node, arms.node);
     result.hips_confidence = sure_;
     result.chest = arms.node;
+    result.legs = limbs(legs, false);
+    result.arms = limbs(arms, true);
+    if (!result.legs[0].whole()) return {};
     find_head(legs, arms, result);
-    result.legs = limbs(legs, 0);
-    result.arms = limbs(arms, 1);
     if (!tell_sides(result)) result.legs = result.arms = {};
     return result;
   }
@@ -120,10 +128,14 @@ class ShapeFinder {
     return chain;
   }
 
+  // As far as the hands: which finger reaches farthest may differ.
   bool alike(const Chain& a, const Chain& b, double limb) const {
-    if (a.size() != b.size()) return false;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      if (std::abs(length(a[i]) - length(b[i])) > kAlike * limb) return false;
+    const auto is_hand = [&](const Chain& chain, std::size_t i) {
+      return i > 0 && reach_[chain[i - 1]] < kHand * limb;
+    };
+    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
+      if (is_hand(a, i) && is_hand(b, i)) return true;
+      if (i >= a.size() || i >= b.size() || std::abs(length(a[i]) - length(b[i])) > kAlike * limb) return false;
     }
     return true;
   }
@@ -248,7 +260,45 @@ class ShapeFinder {
     return head;
   }
 
+  Vector3 between(const std::array<Limb, 2>& limbs, const Vector3* heads) const {
+    return (heads[limbs[0].bones[Limb::kUpper]] + heads[limbs[1].bones[Limb::kUpper]]) / 2;
+  }
+
+  // How far a bone begins above the shoulders, in lengths of the trunk: the mean over all poses but those that are none
+  // of a body, as rest poses of files may be; 0 where there is no other.
+  double above_shoulders(const Body& body, int bone) const {
+    double above = 0;
+    int told = 0;
+    for (const Vector3* heads : poses_) {
+      const Vector3 shoulders = between(body.arms, heads), trunk = shoulders - between(body.legs, heads);
+      if (across(body.arms, heads).norm() < kBroad * trunk.norm()) continue;
+      above += (heads[bone] - shoulders).dot(trunk) / std::max(trunk.squaredNorm(), kTiny);
+      ++told;
+    }
+    return above / std::max(told, 1);
+  }
+
+  // An importer makes a last bone as long as the one before: it may be the head or mark the head's end.
+  bool may_be_mark(const Chain& chain, std::size_t i) const {
+    const double length = skeleton_.tips[chain[i]].norm(), before = i > 0 ? skeleton_.tips[chain[i - 1]].norm() : 0;
+    return i > 1 && i + 1 == chain.size() && std::abs(length - before) < kCopied * length;
+  }
+
+  // The bones of a neck and beyond that begin where a head does.
+  Chain possible_heads(const Body& body, const Chain& chain) const {
+    Chain possible;
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      const double above = above_shoulders(body, chain[i]);
+      if (above < kHeadAbove || above > kHeadUnder) continue;
+      if (possible.empty() && may_be_mark(chain, i)) possible.push_back(chain[i - 1]);
+      possible.push_back(chain[i]);
+    }
+    return possible;
+  }
+
   void find_head(const Pair& legs, const Pair& arms, Body& body) const {
+    const auto whole = [](const std::array<Limb, 2>& limbs) { return limbs[0].whole() && limbs[1].whole(); };
+    if (!whole(body.arms) || !whole(body.legs)) return;
     Chain chain = middle(arms, legs.node);
     for (std::size_t i = 1; i < chain.size(); ++i) {
       if (length(chain[i]) < kStub * size_) chain.resize(i);  // a face, in the head's place
@@ -256,10 +306,11 @@ class ShapeFinder {
     for (std::size_t i = 0; i < chain.size(); ++i) {
       if (children_[chain[i]].size() > 1) chain.resize(i + 1);  // what carries a face
     }
-    const int head = chain.empty() ? -1 : longest_of(chain);
+    const Chain possible = possible_heads(body, chain);
+    const int head = possible.empty() ? -1 : longest_of(possible);
     if (head < 0) return;
-    body.head = chain[head];
-    body.head_confidence = head > 0 ? sure_ - 0.1 : 0.5;
+    body.head = possible[head];
+    body.head_confidence = body.head != chain[0] ? sure_ - 0.1 : 0.5;
   }
 
   // How much a joint of a chain bends in the motion, rad.
@@ -274,98 +325,103 @@ class ShapeFinder {
     return most - least;
   }
 
-  // Without the bones that are only parts of the one before.
-  Chain joints(const Chain& chain) const {
-    if (!moves_ || chain.size() < 4) return chain;
-    Chain joints{chain[0]};
-    for (std::size_t i = 1; i < chain.size(); ++i) {
-      if (i + 1 == chain.size() || bends(chain, i) > kStiff) joints.push_back(chain[i]);
+  // Which bones of limbs may be only parts of those before: in the motion they hardly bend against them.
+  std::vector<bool> parts(const Pair& pair) const {
+    const auto& [left, right] = pair.chains;
+    std::vector<bool> parts(std::min(left.size(), right.size()), false);
+    for (std::size_t i = 1; moves_ && i + 1 < parts.size(); ++i) {
+      parts[i] = bends(left, i) < kStiff && bends(right, i) < kStiff;
     }
-    return joints;
+    return parts;
   }
 
   std::array<Limb, 2> limbs(const Pair& pair, bool arm) const {
-    return {limb(joints(pair.chains[0]), arm), limb(joints(pair.chains[1]), arm)};
+    const Joints found = joints(pair.chains[0], parts(pair));
+    return {limb(pair.chains[0], found, arm), limb(pair.chains[1], found, arm)};
   }
 
-  // The two longest bones that follow each other are the upper and the lower one.
-  Limb limb(const Chain& chain, bool arm) const {
-    const int bones = static_cast<int>(chain.size());
-    const auto bone = [&](int i) {
-      return i + 1 < bones && i >= 0 ? (rest_[chain[i + 1]] - rest_[chain[i]]).norm() : 0;
-    };
-    int upper = -1;
+  double way(const Chain& chain, int from, int to) const { return (rest_[chain[to]] - rest_[chain[from]]).norm(); }
+
+  // Whether a bone carries fingers or toes.
+  bool branches(int bone) const {
+    const auto far = [&](int child) { return length(child) + reach_[child]; };
+    const std::vector<int>& next = children_[bone];
+    return std::count_if(next.begin(), next.end(), [&](int child) { return far(child) > reach_[bone] / 2; }) >=
+           kFingers;
+  }
+
+  // Where the two longest bones that follow each other begin and end. Such a bone may have parts; but a wrist that is
+  // held still is no part of a lower arm, and adds less to its length than a part does.
+  Joints joints(const Chain& chain, const std::vector<bool>& part) const {
+    const int bones = static_cast<int>(part.size());
+    Joints best{-1, -1, -1};
     double most = 0;
-    for (int i = 0; i + 2 < bones; ++i) {
-      const double shorter = std::min(bone(i), bone(i + 1));
-      if (shorter > most) most = shorter, upper = i;
+    for (int upper = 0; upper + 2 < bones; ++upper) {
+      for (int lower = upper + 1; lower + 1 < bones && !part[upper]; ++lower) {
+        if (branches(chain[lower])) break;
+        for (int end = lower + 1; end < bones && !part[lower]; ++end) {
+          const int skipped = end - upper - 2;
+          const double shorter = std::min(way(chain, upper, lower), way(chain, lower, end)) * std::pow(kPart, skipped);
+          if (shorter > most) most = shorter, best = {upper, lower, end};
+          if (!part[end] || branches(chain[end])) break;
+        }
+        if (!part[lower]) break;
+      }
     }
-    if (upper < 0 || bone(upper - 1) > kSplit * most || bone(upper + 2) > kSplit * most) return {};
+    return best;
+  }
+
+  Limb limb(const Chain& chain, const Joints& joints, bool arm) const {
+    const auto [upper, lower, end] = joints;
+    if (upper < 0) return {};
+    if (arm && upper == 0 && lower > 1) return {};  // a shoulder against which the arm is held still looks like a part
+    const int bones = static_cast<int>(chain.size());
+    const double most = kSplit * std::min(way(chain, upper, lower), way(chain, lower, end));
+    const bool hand = branches(chain[end]);  // whose lower arm and elbow are told, so what is before is a shoulder
+    if (upper > 0 && way(chain, upper - 1, upper) > most && !(hand && moves_)) return {};
+    if (end + 1 < bones && way(chain, end, end + 1) > most && !hand) return {};
     Limb limb;
     const auto set = [&](int part, int i, double confidence) {
       limb.bones[part] = chain[i];
       limb.confidence[part] = confidence;
     };
-    if (arm && upper > 0) set(Limb::kFirst, upper - 1, sure_ - 0.1);
+    if (arm && upper > 0) set(Limb::kFirst, 0, sure_ - 0.1);
     set(Limb::kUpper, upper, sure_);
-    set(Limb::kLower, upper + 1, sure_);
-    set(Limb::kEnd, upper + 2, sure_);
-    const bool toe =
-        !arm && upper + 3 < bones && (upper + 4 < bones || skeleton_.tips[chain[upper + 3]].norm() > kStub * size_);
-    if (toe) set(Limb::kTip, upper + 3, sure_ - 0.15);
+    set(Limb::kLower, lower, sure_);
+    set(Limb::kEnd, end, sure_);
+    if (!arm && has_toe(chain, end)) set(Limb::kTip, end + 1, sure_ - 0.15);
     return limb;
   }
 
-  // Where a foot's end is: the next bone's head, at rest also its tip.
-  std::optional<Vector3> pointing(const Limb& leg, const Vector3* heads) const {
+  // Of several toes none is told.
+  bool has_toe(const Chain& chain, int foot) const {
+    const int bones = static_cast<int>(chain.size());
+    if (foot + 1 >= bones) return false;
+    const int toe = chain[foot + 1];
+    const auto is_as_long = [&](int other) {
+      return other != toe && length(other) + reach_[other] > kSplit * (length(toe) + reach_[toe]);
+    };
+    const std::vector<int>& beside = children_[chain[foot]];
+    if (std::any_of(beside.begin(), beside.end(), is_as_long)) return false;
+    return foot + 2 < bones || skeleton_.tips[toe].norm() > kStub * size_;
+  }
+
+  // Where a foot's end is: the next bone's head, at rest also its tip; zero where neither is known.
+  Vector3 pointing(const Limb& leg, const Vector3* heads) const {
     const int foot = leg.bones[Limb::kEnd];
     int next = leg.bones[Limb::kTip];
-    if (next < 0 && !children_[foot].empty()) next = children_[foot][0];
+    if (next < 0 && !children_[foot].empty()) next = chain_from(foot)[1];
     if (next >= 0) return heads[next] - heads[foot];
-    if (heads != rest_.data()) return std::nullopt;
-    return rotations_[foot] * skeleton_.tips[foot];
-  }
-
-  // To the body's left in a pose, by where the feet point; zero where they do not or the body does not stand.
-  Vector3 left_in(const Body& body, const Vector3* heads) const {
-    Vector3 forward = Vector3::Zero();
-    double length = 0;
-    for (const Limb& leg : body.legs) {
-      const Vector3 down = heads[leg.bones[Limb::kUpper]] - heads[leg.bones[Limb::kEnd]];
-      const std::optional<Vector3> foot = pointing(leg, heads);
-      if (!foot || down.z() < kUpright * down.norm()) return Vector3::Zero();
-      forward += *foot;
-      length += foot->norm();
-    }
-    forward.z() = 0;
-    if (forward.norm() < kForward * length || length < kStub * size_) return Vector3::Zero();
-    return Vector3::UnitZ().cross(forward).normalized();
-  }
-
-  static Vector3 across(const std::array<Limb, 2>& limbs, const Vector3* heads) {
-    return heads[limbs[0].bones[Limb::kUpper]] - heads[limbs[1].bones[Limb::kUpper]];
+    return heads == rest_.data() ? Vector3{rotations_[foot] * skeleton_.tips[foot]} : Vector3::Zero();
   }
 
   bool tell_sides(Body& body) const {
     if (!body.legs[0].whole() || !body.legs[1].whole()) return false;
-    double legs = 0, arms = 0;
-    int telling = 0;  // poses; a runner's feet hardly point forward in most
-    const bool has_arms = body.arms[0].whole() && body.arms[1].whole();
+    std::vector<PosedFeet> poses;
     for (const Vector3* heads : poses_) {
-      const Vector3 left = left_in(body, heads);
-      if (left.isZero()) continue;
-      ++telling;
-      legs += across(body.legs, heads).normalized().dot(left);
-      if (has_arms) arms += across(body.arms, heads).normalized().dot(left);
+      poses.push_back({heads, {pointing(body.legs[0], heads), pointing(body.legs[1], heads)}});
     }
-    if (telling < kTelling * static_cast<double>(poses_.size())) return false;
-    legs /= telling;
-    arms /= telling;
-    if (std::abs(legs) < kSided) return false;
-    if (legs < 0) std::swap(body.legs[0], body.legs[1]);
-    if (arms < 0) std::swap(body.arms[0], body.arms[1]);
-    if (std::abs(arms) < kSided) body.arms = {};
-    return true;
+    return put_left_first(poses, body);
   }
 
   const Skeleton& skeleton_;

@@ -35,6 +35,10 @@ Clip make_clip(const Skeleton& skeleton, Clip clip);
 /// and rest rotations as in the take. Throws std::invalid_argument naming the bone that is missing or differs.
 Clip clip_from_take(const Skeleton& skeleton, const Take& take);
 
+/// The clip's motion as a take: the inverse of clip_from_take on its own skeleton. Bones above the hips rest. Throws
+/// std::invalid_argument unless the clip has the skeleton's bones.
+Take take_from_clip(const Skeleton& skeleton, const Clip& clip);
+
 /// Kinematics::world of frame `frame` of a clip, of all bones or those of `bones`.
 inline void world(const Kinematics& kinematics, const Clip& clip, int frame, Vector3* heads, Quaternion* orientations) {
   kinematics.world(load_vector(&clip.root_positions[std::size_t{3} * frame]),

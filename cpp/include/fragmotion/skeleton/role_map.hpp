@@ -66,8 +66,8 @@ struct ObservedPoses {
 };
 
 /// The roles that names tell, and where they say nothing the shape: pairs of limbs that are alike, the lengths of their
-/// bones, what is lowest, where the feet point; by `motion` too, where given: which joints bend, which way is up. Names
-/// that contradict the hierarchy tell nothing.
+/// bones, what is lowest, where the feet point; by `motion` too, where given: which joints bend, to where knees do,
+/// which way is up. Names that contradict the hierarchy tell nothing, nor does the shape what names contradict.
 RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion = nullptr);
 
 /// The bones of a map that the method needs; -1 where it has none.

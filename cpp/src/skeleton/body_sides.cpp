@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "skeleton/body_sides.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kTiny = 1e-12;
+constexpr double kUpright = 0.5;   // of a leg's length that feet are under the hips
+constexpr double kLifted = 2e-3;   // of a leg's length that a foot is above the other
+constexpr double kBent = 0.05;     // of a leg's length that a knee is off the line from hip to foot
+constexpr double kForward = 0.3;   // of a foot's length that it points level
+constexpr double kSided = 0.5;     // mean cosine to the left
+constexpr double kTelling = 0.05;  // of the poses that tell the sides at least
+
+Vector3 level(Vector3 v) {
+  v.z() = 0;
+  return v;
+}
+
+Vector3 down(const Limb& leg, const Vector3* heads) {
+  return heads[leg.bones[Limb::kEnd]] - heads[leg.bones[Limb::kUpper]];
+}
+
+bool stands(const Body& body, const Vector3* heads) {
+  return std::all_of(body.legs.begin(), body.legs.end(), [&](const Limb& leg) {
+    const Vector3 way = down(leg, heads);
+    return -way.z() >= kUpright * way.norm();
+  });
+}
+
+/// Where the lower foot points, level; zero where it does not.
+Vector3 feet_forward(const Body& body, const PosedFeet& pose) {
+  const auto height = [&](int side) { return pose.heads[body.legs[side].bones[Limb::kEnd]].z(); };
+  Vector3 forward = Vector3::Zero();
+  double length = 0;
+  for (int side = 0; side < 2; ++side) {
+    if (height(side) - height(1 - side) > kLifted * down(body.legs[side], pose.heads).norm()) continue;
+    forward += pose.feet[side];
+    length += pose.feet[side].norm();
+  }
+  forward = level(forward);
+  return forward.norm() < kForward * length ? Vector3::Zero() : forward;
+}
+
+/// To where the knees are bent, level; zero where they are straight.
+Vector3 knees_forward(const Body& body, const PosedFeet& pose) {
+  Vector3 forward = Vector3::Zero();
+  for (const Limb& leg : body.legs) {
+    const Vector3 knee = pose.heads[leg.bones[Limb::kLower]] - pose.heads[leg.bones[Limb::kUpper]];
+    const Vector3 leg_way = down(leg, pose.heads);
+    const Vector3 bent = knee - leg_way * (knee.dot(leg_way) / std::max(leg_way.squaredNorm(), kTiny));
+    if (bent.norm() > kBent * leg_way.norm()) forward += bent;
+  }
+  return level(forward);
+}
+
+/// How far limbs lie to the left as one sign tells it: mean cosines.
+struct Sided {
+  double legs = 0, arms = 0;
+};
+
+template <typename Forward>
+Sided sided(const std::vector<PosedFeet>& poses, const Body& body, Forward&& forward) {
+  Sided sided;
+  int telling = 0;  // poses; a runner's feet hardly point forward in most
+  const bool has_arms = body.arms[0].whole() && body.arms[1].whole();
+  for (const PosedFeet& pose : poses) {
+    const Vector3 left = stands(body, pose.heads) ? Vector3::UnitZ().cross(forward(body, pose)) : Vector3::Zero();
+    if (left.isZero()) continue;
+    ++telling;
+    sided.legs += across(body.legs, pose.heads).normalized().dot(left.normalized());
+    if (has_arms) sided.arms += across(body.arms, pose.heads).normalized().dot(left.normalized());
+  }
+  if (telling == 0 || telling < kTelling * static_cast<double>(poses.size())) return {};
+  return {sided.legs / telling, sided.arms / telling};
+}
+
+}  // namespace
+
+Vector3 across(const std::array<Limb, 2>& limbs, const Vector3* heads) {
+  return heads[limbs[0].bones[Limb::kUpper]] - heads[limbs[1].bones[Limb::kUpper]];
+}
+
+bool put_left_first(const std::vector<PosedFeet>& poses, Body& body) {
+  const Sided feet = sided(poses, body, feet_forward), knees = sided(poses, body, knees_forward);
+  if (feet.legs * knees.legs < 0) return false;
+  const Sided& told = std::abs(feet.legs) > std::abs(knees.legs) ? feet : knees;
+  if (std::abs(told.legs) < kSided) return false;
+  if (told.legs < 0) std::swap(body.legs[0], body.legs[1]);
+  if (told.arms < 0) std::swap(body.arms[0], body.arms[1]);
+  if (std::abs(told.arms) < kSided) body.arms = {};
+  return true;
+}
+
+}  // namespace fragmotion
