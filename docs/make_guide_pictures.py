@@ -80,7 +80,21 @@ def brought_over(folder: Path) -> Iterator[None]:
     window.press(bpy.ops.fragmotion.import_mocap, "EXEC_DEFAULT", True, directory=str(folder), onto="ACTIVE")
     window.press(bpy.ops.fragmotion.find_bones)
     yield from panels("bones", "Mocap", "Bones")
+    yield from bound(folder)
     bpy.ops.preferences.addon_disable(module="rigify")
+
+
+def bound(folder: Path) -> Iterator[None]:
+    """The control rig that Rigify generates, while it follows a motion skeleton."""
+    bpy.data.objects.remove(bpy.context.view_layer.objects.active)  # Rigify heeds how a meta-rig is posed
+    window.press(bpy.ops.object.armature_human_metarig_add)
+    metarig = bpy.context.view_layer.objects.active
+    window.press(bpy.ops.pose.rigify_generate, "EXEC_DEFAULT", True)
+    making.activate(next(obj for obj in bpy.data.objects if obj.type == "ARMATURE" and obj != metarig))
+    bpy.data.objects.remove(metarig)
+    window.press(bpy.ops.fragmotion.bind_rig, "EXEC_DEFAULT", True)
+    window.press(bpy.ops.fragmotion.import_mocap, "EXEC_DEFAULT", True, directory=str(folder), onto="ACTIVE")
+    yield from panels("control-rig", "Control Rig", "Mocap")
 
 
 def open_character() -> Iterator[None]:

@@ -20,7 +20,7 @@ sys.path.insert(0, str(DOCS.parent))
 
 from tools import machine, packages  # noqa: E402
 from tools.compiling import installed_core  # noqa: E402
-from tools.environments import environment_python  # noqa: E402
+from tools.environments import HOST, environment_python  # noqa: E402
 from tools.paths import BUILD, TOP  # noqa: E402
 from tools.shell import Failure  # noqa: E402
 
@@ -35,12 +35,12 @@ def main(arguments: list[str]) -> int:
     takes, folder = (options.takes.resolve(), BUILD / "motion") if options.takes else (SAMPLE, DOCS / "motion")
     try:
         machine.set_up(machine.EVALUATE_BLEND)
-        core = installed_core("3.11", packages.wheel("3.11"))
+        core = installed_core(HOST, packages.wheel(HOST))
     except Failure as failure:
         print(failure, file=sys.stderr)
         return 1
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(core), str(TOP)))}
-    command = [str(environment_python("3.11")), "-m", "tools.motion_pictures", str(takes), str(folder)]
+    command = [str(environment_python(HOST)), "-m", "tools.motion_pictures", str(takes), str(folder)]
     return subprocess.run(command, env=environment, cwd=TOP, check=False).returncode
 
 

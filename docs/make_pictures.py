@@ -33,4 +33,5 @@ def main() -> None:
     print(f"{target}: {target.stat().st_size / 1e6:.2f} MB")
 
 
-main()
+if __name__ == "__main__":
+    main()

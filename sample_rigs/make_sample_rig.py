@@ -29,6 +29,9 @@ def write_action(armature: bpy.types.Object, motion: gait.Motion) -> bpy.types.A
     """One Action with a quaternion key for every bone and frame, and locations for root and hips."""
     action = bpy.data.actions.new(motion.take.name)
     action.use_fake_user = True
+    for key in ("fragmotion_rate", "fragmotion_scene_rate"):  # as of an imported take: in any scene it plays as fast
+        action[key] = float(FPS)
+    action["fragmotion"] = {"use": True}  # ticked, where the add-on is
     for bone in armature.data.bones:
         rest = np.array(bone.matrix_local.to_3x3())
         quaternion = rot.to_quaternions(rest.T @ motion.local(bone.name) @ rest)

@@ -145,7 +145,7 @@ def _checker() -> bpy.types.Material:
 
 
 def frame_viewports() -> None:
-    """Let every 3D view of the saved file show the character from the front, three-quarter."""
+    """Let every 3D view of the saved file show the character from the front, three-quarter, with the sidebar open."""
     view = looking_at(Vector((1.6, -4.0, 1.9)), Vector((0, 0, 0.9))).to_quaternion()
     for screen in bpy.data.screens:
         for area in screen.areas:
@@ -156,3 +156,5 @@ def frame_viewports() -> None:
                     space.region_3d.view_rotation = view
                     space.region_3d.view_perspective = "PERSP"
                     space.shading.color_type = "MATERIAL"
+                    space.overlay.show_extras = False  # camera and sun
+                    space.show_region_ui = True

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One long computation in a thread of its own, so that Blender stays usable."""
+"""One long computation, in a thread of its own so that Blender stays usable, or step by step."""
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Generator
 from typing import Any
 
 from .compat.core import core
@@ -65,6 +66,50 @@ class Job:
             self._result = self._task(self._report)
         except BaseException as error:
             self._error = error
+
+
+class SteppedJob(Job):
+    """One that needs Blender's own thread: a generator, which tells what share is done and returns the result, is gone
+    through bit by bit."""
+
+    def __init__(self, label: str, stage: str, steps: Generator[float, None, Any]) -> None:
+        super().__init__(label, lambda _report: None)
+        self.stage, self._steps, self._running = stage, steps, True
+
+    def start(self) -> None:
+        """Nothing is done but in `wait` and `run`."""
+
+    def run(self, observe: Callable[[float], None]) -> None:
+        """Go through all of it; `observe` hears the fraction done."""
+        while self._running:
+            self.wait(0)
+            observe(self.fraction)
+
+    def cancel(self) -> None:
+        """Leave it, as its generator does when it is closed."""
+        super().cancel()
+        self._running = False
+        self._steps.close()
+
+    def wait(self, seconds: float | None = None) -> None:
+        """Go on for so many seconds, a step at least, or to the end."""
+        begin = time.perf_counter()
+        while self._running:
+            self._step()
+            if seconds is not None and time.perf_counter() - begin >= seconds:
+                break
+
+    @property
+    def running(self) -> bool:
+        return self._running
+
+    def _step(self) -> None:
+        try:
+            self.fraction = next(self._steps)
+        except StopIteration as end:
+            self._result, self._running = end.value, False
+        except BaseException as error:
+            self._error, self._running = error, False
 
 
 def _ignore(_fraction: float) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import bpy
 
-from . import operators
+from . import command_line, operators
 from .character import building, coverage_picture, inspector, staleness, storing
 from .drive import handlers, session
 from .mocap import actions
@@ -27,7 +27,7 @@ def register() -> None:
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
     properties.register()
-    for part in (mending, staleness, storing, keymaps, menus, handlers):
+    for part in (mending, staleness, storing, keymaps, menus, handlers, command_line):
         part.register()
 
 
@@ -36,7 +36,7 @@ def unregister() -> None:
     background.stop()
     solo_class.stop()
     session.unregister()
-    for part in (handlers, menus, keymaps, storing, staleness, mending):
+    for part in (command_line, handlers, menus, keymaps, storing, staleness, mending):
         part.unregister()
     properties.unregister()
     for cls in reversed(_CLASSES):

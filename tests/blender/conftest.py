@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Fixtures of the tests inside Blender; `dev.py test blender-4.5` (or -5.2, -3.4) gives the environment."""
+"""Fixtures of the tests inside Blender; `dev.py test blender-4.5` (or -5.2, -debian) gives the environment."""
 
 from __future__ import annotations
 

@@ -155,7 +155,7 @@ def _walk(forward: float, left: float, turn: float, frames: int = 91) -> np.ndar
     two steps a second."""
     time = np.arange(frames) / 30
     heading, stride = turn * time, 2 * np.pi * time
-    velocity = (left + 1j * forward) * np.exp(-1j * heading)  # x + iz
+    velocity = (left + 1j * forward) * (np.cos(heading) - 1j * np.sin(heading))  # x + iz
     moving = min(1.0, math.hypot(forward, left) / WALK)
     rows = np.zeros((frames, BVH_CHANNELS))
     path = 100 * np.cumsum(velocity) / 30

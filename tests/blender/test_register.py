@@ -9,38 +9,19 @@ from types import ModuleType, SimpleNamespace
 
 import bpy
 import pytest
-
-
-def _registered() -> set[str]:
-    classes = {name for name in dir(bpy.types) if "fragmotion" in name.lower()}
-    operators = {name for name in dir(bpy.ops.fragmotion)}
-    owners = (bpy.types.Object, bpy.types.Action, bpy.types.WindowManager, bpy.types.Scene)
-    handlers = {
-        f"{name}: {handler.__module__}"
-        for name in dir(bpy.app.handlers)
-        if isinstance(listeners := getattr(bpy.app.handlers, name), list)
-        for handler in listeners
-        if "fragmotion" in handler.__module__
-    }
-    menus = {
-        f"{name}: {draw.__module__}"
-        for name in ("VIEW3D_MT_object_animation", "VIEW3D_MT_pose")
-        for draw in getattr(bpy.types, name)._dyn_ui_initialize()
-        if "fragmotion" in draw.__module__
-    }
-    return classes | operators | handlers | menus | {o.__name__ for o in owners if hasattr(o, "fragmotion")}
+from registered import registered
 
 
 def test_unregister_leaves_nothing_and_register_brings_it_back(addon: ModuleType) -> None:
-    before = _registered()
+    before = registered()
     assert {"FRAGMOTION_PT_build", "FRAGMOTION_OT_bake", "import_mocap", "Object", "Action"} <= before
     assert any(name.startswith("undo_pre: ") for name in before) and any("VIEW3D_MT_pose" in name for name in before)
     addon.unregister()
     try:
-        assert _registered() == set()
+        assert registered() == set()
     finally:
         addon.register()
-    assert _registered() == before
+    assert registered() == before
 
 
 def test_unregister_stops_a_build_with_its_thread_and_timer(addon: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -82,7 +63,7 @@ def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleTy
 def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) -> None:
     panels = [cls for cls in addon.panels.panel.CLASSES if issubclass(cls, bpy.types.Panel)]
     assert [panel.bl_label for panel in panels] == [
-        *("Mocap", "Left Out", "Doctor", "Bones"),
+        *("Control Rig", "Mocap", "Left Out", "Doctor", "Bones"),
         *("Build", "Numbers Tried", "Training", "Figures", "Classes", "Inspector", "Coverage", "Policy File"),
         *("Drive", "Feel", "Gamepads", "Overlays", "Trace"),
         *("Recordings", "Bake", "Loop, Keys and Markers", "Populate"),

@@ -23,6 +23,7 @@ PICTURES = {
         *("1 before", "2 walking", "3 running", "4 recording", "5 stick", "6 panels", "7 baked", "8 replay"),
         "9 sliding",
     ),
+    "import": ("1 imported", "2 mended"),
     "windows": (),
 }
 

@@ -16,6 +16,7 @@ FOLDERS = [
     "",  # what all others use: errors, files and jobs
     "rig",
     "mocap",
+    "control_rig",
     "recordings",
     "character",
     "drive/input",
@@ -28,7 +29,7 @@ FOLDERS = [
     "operators",
     "panels",
 ]
-ENTRIES = [ADDON / "__init__.py", ADDON / "registering.py"]  # which register everything
+ENTRIES = [ADDON / name for name in ("__init__.py", "registering.py", "command_line.py")]  # where all of it begins
 
 
 def modules(folder: str) -> list[Path]:

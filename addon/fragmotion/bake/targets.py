@@ -15,7 +15,7 @@ from ..errors import UserError
 from ..mocap.actions import BAKED, RATE
 from ..rig.keys import Track
 from ..rig.posing import CHANNELS, pose_of, reset_pose, set_pose
-from ..rig.writing import write_tracks
+from ..rig.writing import keep_former, write_tracks
 
 if TYPE_CHECKING:
     from fragmotion_core import Ints
@@ -91,13 +91,6 @@ def _check_writable(action: bpy.types.Action) -> None:
         raise UserError(f"Action '{action.name}' is linked from '{action.library.filepath}': choose another name")
     if RATE in action or action.fragmotion.use:
         raise UserError(f"Action '{action.name}' is a take that Build learns from: choose another name, or untick it")
-
-
-def keep_former(obj: bpy.types.Object, action: bpy.types.Action) -> None:
-    """Save the Action that the armature played so far from being lost when nothing else uses it."""
-    former, _ = versions.assignment(obj)
-    if former not in (None, action) and former.users == 1 and former.library is None:
-        former.use_fake_user = True
 
 
 def places_object(obj: bpy.types.Object) -> bool:

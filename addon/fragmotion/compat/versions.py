@@ -8,10 +8,12 @@ plays one slot.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import blf
 import bpy
+import numpy as np
 
 SLOTTED = bpy.app.version >= (4, 4, 0)
 
@@ -22,6 +24,11 @@ def curves_of(action: bpy.types.Action, obj: bpy.types.Object) -> list[bpy.types
         return list(action.fcurves)
     slot = _slot_for(action, obj)
     return [curve for bag in _bags(action) if slot and bag.slot_handle == slot.handle for curve in bag.fcurves]
+
+
+def has_slot_of(action: bpy.types.Action, obj: bpy.types.Object) -> bool:
+    """Whether the Action has a slot that is named after the object."""
+    return SLOTTED and any(slot.name_display == obj.name for slot in action.slots)
 
 
 def all_curves(action: bpy.types.Action) -> list[bpy.types.FCurve]:
@@ -123,6 +130,19 @@ def set_bone_selection(obj: bpy.types.Object, selection: dict[str, tuple[bool, b
         bones[name].select = select
         if bpy.app.version < (5, 0, 0):
             bones[name].select_head, bones[name].select_tail = head, tail
+
+
+@contextmanager
+def old_numpy() -> Iterator[None]:
+    """Inside, NumPy has the alias that 3.4's importer of glTF uses for meshes, and that NumPy dropped in 1.24."""
+    if bpy.app.version >= (4, 0, 0) or "bool" in vars(np):
+        yield
+        return
+    vars(np)["bool"] = bool
+    try:
+        yield
+    finally:
+        del vars(np)["bool"]
 
 
 def draw_named(layout: bpy.types.UILayout, data: Any, name: str, placeholder: str) -> None:

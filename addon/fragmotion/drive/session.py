@@ -19,7 +19,7 @@ from .acting.recorder import Recorder
 from .follow import FollowCamera
 from .hud import overlays, views
 from .hud.readings import Readings
-from .hud.shown import Shown
+from .hud.shown import LONGEST_UPDATE, Shown
 from .input.inputs import Inputs
 from .input.steering import Control, Steering, view_heading
 from .state import suspended_state
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 RATE = POSE_RATE
 """Steps a second. All are equally long, so that a recorded trace shows the same motion when it is replayed."""
 
-_HICCUP = 0.1  # s; a longer pause does not make the character leap
 _STILL = 0.2  # m/s
 _SMOOTH = 0.05  # share of the newest in a running mean
 
@@ -100,7 +99,7 @@ class Session:
             suspended_state.put_aside(self.obj)
         if self.inputs.poll():
             self.toggle_recording()
-        self._elapsed += min(seconds, _HICCUP)
+        self._elapsed += min(seconds, LONGEST_UPDATE)
         due = round(self._elapsed * RATE) - self._steps
         pose = None
         for _ in range(due):

@@ -14,6 +14,9 @@ from ..compat.core import core
 if TYPE_CHECKING:
     from fragmotion_core import Examination, Finding, Take
 
+DUPLICATE = "duplicate"
+"""The code of a finding that is mended by leaving the take out."""
+
 _UNIT = "unit"  # a finding's code
 
 
@@ -27,7 +30,9 @@ class TakeFinding(bpy.types.PropertyGroup):
             ("error", "Error", "The take cannot be used so"),
         )
     )
+    code: StringProperty()  # type: ignore[valid-type]
     text: StringProperty()  # type: ignore[valid-type]
+    mendable: BoolProperty()  # type: ignore[valid-type]
     mended: BoolProperty()  # type: ignore[valid-type]
 
 
@@ -45,9 +50,10 @@ class Examined(NamedTuple):
     found: list[Found]
 
 
-def examine(takes: Sequence[Take], mends: bool, keep_unit: bool) -> list[Examined]:
-    """Examine takes, and with `mends` put right what is safe to; `keep_unit`: lengths stay as they were read."""
-    return [_treat(take, seen, mends, keep_unit) for take, seen in zip(takes, core.examine(list(takes)))]
+def examine(takes: Sequence[Take], mends: bool, keep_unit: Sequence[bool]) -> list[Examined]:
+    """Examine takes, and with `mends` put right what is safe to; `keep_unit`: whose lengths stay as they were read."""
+    seen = core.examine(list(takes))
+    return [_treat(take, each, mends, keeps) for take, each, keeps in zip(takes, seen, keep_unit)]
 
 
 def _treat(take: Take, seen: Examination, mends: bool, keep_unit: bool) -> Examined:
@@ -61,7 +67,8 @@ def keep_findings(action: bpy.types.Action, found: Sequence[Found]) -> None:
     """Keep with an Action what was found in its take."""
     for finding, mended in found:
         row = action.fragmotion.findings.add()
-        row.severity, row.text, row.mended = finding.severity, finding.text, mended
+        row.code, row.severity, row.text = finding.code, finding.severity, finding.text
+        row.mendable, row.mended = finding.mendable, mended
 
 
 def worst(action: bpy.types.Action) -> str:

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Motion capture files onto an armature, an Action for each take."""
+"""Takes of motion capture files onto an armature, an Action for each."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -16,9 +16,14 @@ from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..files import check_regular
 from ..rig.rigs import carriers, make_rig
+from ..rig.selection import select
 from ..rig.writing import write_poses
+from . import by_blender
+from .by_blender import NoTakes
 from .doctor import examine, keep_findings
 from .retargeting import Channels, has_names_of, key_times, make_action, retargeted_takes
+from .scratch import scratch_scene
+from .take_files import BY_BLENDER, TakeFile
 
 if TYPE_CHECKING:
     from fragmotion_core import Rig, Skeleton, Take
@@ -31,56 +36,19 @@ _STUB = 0.01  # m; length of a bone that has none
 _ROOT_LENGTH = 0.2  # of the stature, at most
 _LONGEST_NAME = 63  # bytes
 _STILL = 1e-6  # m; a location that stays below never leaves its rest
+_BVH = ".bvh"
 _UNIT = 0.01  # m in one unit of a BVH file, until the body tells otherwise
 _READING = 0.5  # share of the progress that reading takes
 
 Advance = Callable[[float], None]
 
 
-class TakeFile(NamedTuple):
-    """A take's file, and the Acclaim skeleton that it belongs to."""
+class Imported(NamedTuple):
+    """The armature that takes came onto, their Actions, and the files of a folder that hold none."""
 
-    path: Path
-    asf: Path | None
-
-
-def find_takes(directory: Path, names: Sequence[str] = ()) -> list[TakeFile]:
-    """The takes among the named files of a folder, or all that are not hidden. UserError says what is missing."""
-    if not directory.is_dir():
-        raise UserError(f"'{directory}' is not a folder")
-    paths = [directory / name for name in names] or _visible_files(directory)
-    takes = [_take_file(path) for path in paths if path.suffix.lower() in {".bvh", ".amc"}]
-    if not takes:
-        where = ", ".join(f"'{path}'" for path in paths) if names else f"Folder '{directory}'"
-        raise UserError(f"{where}: no takes here (.bvh, or .amc with its .asf)")
-    return takes
-
-
-def _visible_files(directory: Path) -> list[Path]:
-    """The folder's files without hidden ones, such as the "._NAME" that macOS puts beside each file."""
-    return sorted(path for path in directory.iterdir() if path.is_file() and not path.name.startswith("."))
-
-
-def _take_file(path: Path) -> TakeFile:
-    """An .amc belongs to the .asf named by what stands before its underscore, or to the folder's only one."""
-    if path.suffix.lower() == ".bvh":
-        return TakeFile(path, None)
-    skeletons = [p for p in _visible_files(path.parent) if p.suffix.lower() == ".asf"]
-    stem = path.stem.partition("_")[0].lower()
-    named = [asf for asf in skeletons if asf.stem.lower() in {stem, path.stem.lower()}]
-    if not named and len(skeletons) != 1:
-        raise UserError(f"'{path}': its skeleton '{stem}.asf' is not in the folder")
-    return TakeFile(path, (named or skeletons)[0])
-
-
-def read_take(file: TakeFile, unit: float) -> Take:
-    """Read one take; the core's message names file and line."""
-    for path in (file.asf, file.path):
-        if path is not None:
-            check_regular(path)
-    with core_errors():
-        take: Take = core.read_asf_amc(file.asf, file.path) if file.asf else core.read_bvh(file.path, unit)
-        return take
+    obj: bpy.types.Object
+    actions: list[bpy.types.Action]
+    without: list[Path]
 
 
 def import_takes(
@@ -91,16 +59,15 @@ def import_takes(
     advance: Advance,
     onto: bpy.types.Object | None = None,
     mends: bool = True,
-) -> tuple[bpy.types.Object, list[bpy.types.Action]]:
+    character: str = "",
+) -> Imported:
     """Make an Action from each take: on an armature that is made from the first one, or on the body of an armature that
-    is there. `unit`: m in one unit of a BVH file; None: the body's size tells. On an error nothing stays in the
-    file."""
-    takes = []
-    for index, file in enumerate(files):
-        takes.append(read_take(file, unit or _UNIT))
-        _check_names(file, takes[-1])
-        advance(_READING * index / len(files))
-    examined = examine(takes, mends, keep_unit=unit is not None)
+    is there. `unit`: m in one unit of a BVH file; None: the body's size tells. `character`: the armature whose takes
+    come, in files that Blender reads and that hold several; "": all. On an error nothing stays in the file."""
+    read, without = _read_all(context, files, unit, character, advance)
+    takes = [take for takes, _ in read for take in takes]
+    kept = [is_kept for takes, is_kept in read for _ in takes]
+    examined = examine(takes, mends, kept)
     takes = [each.take for each in examined]
     with _undone_on_error(context):
         obj = onto or make_armature(context, name, takes[0].skeleton)
@@ -116,7 +83,51 @@ def import_takes(
             advance(_READING + (1 - _READING) * index / len(examined))
     versions.assign(obj, actions[0])
     context.view_layer.update()
-    return obj, actions
+    return Imported(obj, actions, without)
+
+
+def _read_all(
+    context: bpy.types.Context, files: Sequence[TakeFile], unit: float | None, character: str, advance: Advance
+) -> tuple[list[tuple[list[Take], bool]], list[Path]]:
+    """Each file's takes with whether the user told their unit, and the files of a folder in which nothing moves."""
+    read, without = [], []
+    by_importers = any(file.path.suffix.lower() in BY_BLENDER for file in files)
+    with scratch_scene(context) if by_importers else nullcontext():
+        for index, file in enumerate(files):
+            advance(_READING * index / len(files))
+            takes = _read_or_none(context, file, unit or _UNIT, character, is_needed=file.named or len(files) == 1)
+            if takes is None:
+                without.append(file.path)
+            else:
+                read.append((takes, unit is not None and file.path.suffix.lower() == _BVH))
+    if not read:
+        raise UserError(f"'{without[0]}' and {len(without) - 1} more: no armature in them is animated")
+    return read, without
+
+
+def _read_or_none(
+    context: bpy.types.Context, file: TakeFile, unit: float, character: str, is_needed: bool
+) -> list[Take] | None:
+    try:
+        takes = read_takes(context, file, unit, character)
+    except NoTakes:
+        if is_needed:
+            raise
+        return None
+    _check_names(file, takes)
+    return takes
+
+
+def read_takes(context: bpy.types.Context, file: TakeFile, unit: float, character: str) -> list[Take]:
+    """Read a file's takes: one, but for files that Blender reads, into its scratch scene. The core's message names file
+    and line."""
+    if file.path.suffix.lower() in BY_BLENDER:
+        return by_blender.read_takes(context, file.path, character)
+    for path in (file.asf, file.path):
+        if path is not None:
+            check_regular(path)
+    with core_errors():
+        return [core.read_asf_amc(file.asf, file.path) if file.asf else core.read_bvh(file.path, unit)]
 
 
 def _channels(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], is_new: bool) -> list[Channels]:
@@ -138,15 +149,15 @@ def _undone_on_error(context: bpy.types.Context) -> Iterator[None]:
     except BaseException:
         _remove(context, set(bpy.data.objects) - known_objects, set(bpy.data.actions) - known_actions)
         if in_mode:
-            _select(context, in_mode, active)
+            select(context, in_mode, active)
             bpy.ops.object.mode_set(mode=mode)
-        _select(context, selected, active)
+        select(context, selected, active)
         raise
 
 
-def _check_names(file: TakeFile, take: Take) -> None:
+def _check_names(file: TakeFile, takes: Sequence[Take]) -> None:
     """UserError where Blender cannot have a bone's name."""
-    long = [name for name in take.skeleton.names if len(name.encode()) > _LONGEST_NAME]
+    long = [name for take in takes for name in take.skeleton.names if len(name.encode()) > _LONGEST_NAME]
     if long:
         raise UserError(f"'{file.path}': bone name '{long[0]}' is longer than Blender's {_LONGEST_NAME} bytes")
 
@@ -157,21 +168,13 @@ def make_armature(context: bpy.types.Context, name: str, skeleton: Skeleton) -> 
         bpy.ops.object.mode_set(mode="OBJECT")
     obj = bpy.data.objects.new(name, bpy.data.armatures.new(name))
     context.collection.objects.link(obj)
-    _select(context, [obj], obj)
+    select(context, [obj], obj)
     bpy.ops.object.mode_set(mode="EDIT")
     try:
         _add_bones(obj.data, skeleton)
     finally:
         bpy.ops.object.mode_set(mode="OBJECT")
     return obj
-
-
-def _select(context: bpy.types.Context, objects: Sequence[bpy.types.Object], active: bpy.types.Object | None) -> None:
-    for other in context.selected_objects:
-        other.select_set(False)
-    for obj in objects:
-        obj.select_set(True)
-    context.view_layer.objects.active = active
 
 
 def _add_bones(armature: bpy.types.Armature, skeleton: Skeleton) -> None:

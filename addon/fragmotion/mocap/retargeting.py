@@ -24,7 +24,6 @@ Channels = tuple["Doubles", "Doubles"]
 Advance = Callable[[float], None]
 
 FIRST_FRAME = 1
-_SAME_LENGTH = 1e-3  # of the stature
 _SAMPLING = 0.5  # share of the progress that reading Actions takes
 
 
@@ -36,7 +35,7 @@ def has_names_of(rig: Rig, skeleton: Skeleton) -> bool:
 def retargeted_takes(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take]) -> list[Channels]:
     """Takes, of whatever skeletons, as channels of the armature, brought onto its body."""
     channels: dict[int, Channels] = {}
-    for members in _by_skeleton(takes):
+    for members in core.group_skeletons([take.skeleton for take in takes]):
         skeleton = takes[members[0]].skeleton
         with core_errors(f"Take '{takes[members[0]].name}'"):
             clips = [core.Clip.from_take(takes[index], skeleton) for index in members]
@@ -44,26 +43,6 @@ def retargeted_takes(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take]) -> 
         for index, clip in zip(members, _retargeted(source, obj, rig, clips)):
             channels[index] = rig.channels(clip.root_positions, clip.rotations)
     return [channels[index] for index in range(len(takes))]
-
-
-def _by_skeleton(takes: Sequence[Take]) -> list[list[int]]:
-    """Indices of the takes whose bones are the same, and of the same lengths."""
-    groups: list[list[int]] = []
-    for index, take in enumerate(takes):
-        same = (group for group in groups if _is_same(takes[group[0]].skeleton, take.skeleton))
-        group = next(same, None)
-        if group is None:
-            groups.append([index])
-        else:
-            group.append(index)
-    return groups
-
-
-def _is_same(one: Skeleton, other: Skeleton) -> bool:
-    if one.names != other.names or one.parents != other.parents:
-        return False
-    apart = np.linalg.norm(one.offsets[1:] - other.offsets[1:], axis=1)
-    return bool(apart.max(initial=0) < _SAME_LENGTH * one.stature)
 
 
 def _retargeted(source: Body, obj: bpy.types.Object, rig: Rig, clips: Sequence[Clip]) -> list[Clip]:

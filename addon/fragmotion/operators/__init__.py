@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from . import recordings
+from . import control_rig, recordings
+from .add_sample import FRAGMOTION_OT_add_sample
 from .background import FRAGMOTION_OT_cancel
 from .bake import FRAGMOTION_OT_bake
 from .bones import FRAGMOTION_OT_find_bones, FRAGMOTION_OT_load_bones, FRAGMOTION_OT_save_bones
@@ -19,6 +20,7 @@ from .force_class import FRAGMOTION_OT_force_class
 from .import_mocap import DROP_HANDLERS, FRAGMOTION_OT_import_mocap
 from .leave_out import FRAGMOTION_OT_leave_out, FRAGMOTION_OT_take_in
 from .load_policy import FRAGMOTION_OT_load_policy
+from .mend_finding import FRAGMOTION_OT_mend_finding
 from .populate import FRAGMOTION_OT_populate
 from .retarget_actions import FRAGMOTION_OT_retarget_actions
 from .save_policy import FRAGMOTION_OT_save_policy
@@ -30,12 +32,15 @@ from .tick_actions import FRAGMOTION_OT_tick_actions
 __all__ = ["CLASSES", "DROP_HANDLERS"]
 
 CLASSES = (
+    *control_rig.CLASSES,
     FRAGMOTION_OT_import_mocap,
+    FRAGMOTION_OT_add_sample,
     FRAGMOTION_OT_retarget_actions,
     FRAGMOTION_OT_find_bones,
     FRAGMOTION_OT_load_bones,
     FRAGMOTION_OT_save_bones,
     FRAGMOTION_OT_tick_actions,
+    FRAGMOTION_OT_mend_finding,
     FRAGMOTION_OT_leave_out,
     FRAGMOTION_OT_take_in,
     FRAGMOTION_OT_suggest_classes,

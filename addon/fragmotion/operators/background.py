@@ -61,6 +61,7 @@ class Background:
             return {"RUNNING_MODAL"}
         if event.type == "TIMER":
             self._show(context)
+            self._go_on(job)
             if not job.running:
                 self._end(context)
                 return self._finish(context, job)
@@ -100,6 +101,9 @@ class Background:
             raise UserError(f"Armature '{self._armature}' was deleted or renamed meanwhile")
         self._keep(context, obj, result)
         return {"FINISHED"}
+
+    def _go_on(self, job: Job) -> None:
+        """Do what a job without a thread of its own needs."""
 
     def _show(self, context: bpy.types.Context) -> None:
         for area in context.screen.areas if context.screen else ():

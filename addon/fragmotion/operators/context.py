@@ -5,27 +5,54 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, ClassVar
 
 import bpy
 
+from ..control_rig.binding import motion_of, rig_of
+from ..control_rig.detecting import is_control_rig
 from ..drive import session
+from ..errors import UserError
+from ..mocap.actions import chosen
 
 
 def active_armature(context: bpy.types.Context) -> Any:
-    """The active object where it is an armature, else the armature that deforms or carries it, if any."""
+    """The active armature as takes and characters see it: in place of a control rig that has one, its motion skeleton.
+    None where no armature is active."""
+    rig = active_rig(context)
+    return rig and (motion_of(rig) or rig)
+
+
+def active_rig(context: bpy.types.Context) -> Any:
+    """The active object where it is an armature, else the armature that deforms or carries it, if any; the rig in place
+    of its motion skeleton."""
     obj = context.active_object
     while obj is not None and obj.type != "ARMATURE":
         obj = obj.find_armature() or obj.parent
-    return obj
+    return obj and rig_of(obj)
+
+
+def poll_idle(cls: Any) -> bool:
+    """Whether nothing is being driven; says what is."""
+    if session.current is not None:
+        cls.poll_message_set(f"'{session.current.armature}' is being driven: stop that first (Esc)")
+    return session.current is None
 
 
 def poll_armature(cls: Any, context: bpy.types.Context) -> bool:
     """Whether an armature that can be changed is active; says why not."""
-    obj = active_armature(context)
-    if session.current is not None:
-        cls.poll_message_set(f"'{session.current.armature}' is being driven: stop that first (Esc)")
-    elif obj is None:
+    return _poll(cls, context, active_armature(context))
+
+
+def poll_rig(cls: Any, context: bpy.types.Context) -> bool:
+    """The same of the rig itself, where it has a motion skeleton."""
+    return _poll(cls, context, active_rig(context))
+
+
+def _poll(cls: Any, context: bpy.types.Context, obj: Any) -> bool:
+    if not poll_idle(cls):
+        return False
+    if obj is None:
         cls.poll_message_set("No armature is active: import mocap, or click an armature or its mesh")
     elif not can_change(obj):
         cls.poll_message_set(advise_on_foreign(obj))
@@ -39,6 +66,15 @@ def poll_armature(cls: Any, context: bpy.types.Context) -> bool:
 def can_change(obj: Any) -> bool:
     """Whether there is an armature, and it is this file's own."""
     return obj is not None and not _is_foreign(obj) and not _is_foreign(obj.data)
+
+
+def check_plain(obj: bpy.types.Object) -> None:
+    """UserError where keys on the armature's bones would move nothing."""
+    if is_control_rig(obj):
+        raise UserError(
+            f"Armature '{obj.name}' is a control rig: keys on its bones move nothing, as its controls do. Press Make "
+            "Motion Skeleton first, under Control Rig"
+        )
 
 
 def _is_foreign(data: bpy.types.ID) -> bool:
@@ -74,3 +110,20 @@ def adopt_settings(operator: Any, settings: Any) -> None:
     for name in names:
         if not operator.properties.is_property_set(name):
             setattr(operator, name, getattr(settings, name))
+
+
+class OnTake:
+    """An operator on the take that is chosen in the panel's list."""
+
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls: Any, context: bpy.types.Context) -> bool:
+        if not poll_armature(cls, context):
+            return False
+        action = chosen(context, active_armature(context))
+        if action is None:
+            cls.poll_message_set("No take is chosen in the list under Mocap")
+        elif action.library is not None:
+            cls.poll_message_set(f"Action '{action.name}' is linked from another file")
+        return action is not None and action.library is None

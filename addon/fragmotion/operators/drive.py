@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
+from ..control_rig.binding import follows, rig_of
 from ..drive import session
 from ..drive.hud import views
 from ..drive.input.pads import Pads
@@ -193,6 +194,11 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
                     bpy.ops.fragmotion.listen("INVOKE_DEFAULT")
 
     def _warn(self, obj: bpy.types.Object) -> None:
+        rig = rig_of(obj)
+        if rig != obj and not follows(rig):
+            self.report(
+                {"WARNING"}, f"'{rig.name}' plays its own Action: press Follow, under Control Rig, to see it move"
+            )
         others = movers(obj)
         if others:
             self.report({"WARNING"}, f"The pose will differ from the character's because of {'; '.join(others)}")

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import ClassVar
 
@@ -11,9 +10,11 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, StringProperty
 
 from ..errors import UserError, reported
+from ..mocap import by_blender
 from ..mocap.doctor import worst
-from ..mocap.importing import METRES, find_takes, import_takes
-from .context import active_armature, advise_on_foreign, can_change, progress_shown
+from ..mocap.importing import METRES, Imported, import_takes
+from ..mocap.take_files import ENDINGS, find_takes
+from .context import active_armature, advise_on_foreign, can_change, check_plain, poll_idle, progress_shown
 
 _UNITS = (
     ("AUTO", "By the Body", "What makes the body as tall as people are"),
@@ -29,8 +30,8 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
     bl_idname = "fragmotion.import_mocap"
     bl_label = "Import Mocap"
     bl_description = (
-        "Import a folder of motion capture takes (BVH, or ASF with AMC), of whatever skeletons, onto your character or "
-        "a new armature, an Action for each take. With files selected in the folder, only these"
+        "Import a folder of motion capture takes (BVH, ASF with AMC, FBX, glTF, VRM, USD), of whatever skeletons, onto "
+        "your character or a new armature, an Action for each take. With files selected in the folder, only these"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
@@ -38,10 +39,10 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
     files: CollectionProperty(  # type: ignore[valid-type]
         type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"}
     )
-    filter_glob: StringProperty(default="*.bvh;*.asf;*.amc", options={"HIDDEN"})  # type: ignore[valid-type]
+    filter_glob: StringProperty(default=f"*{';*'.join((*ENDINGS, '.asf'))}", options={"HIDDEN"})  # type: ignore[valid-type]
     unit: EnumProperty(  # type: ignore[valid-type]
         name="BVH Unit",
-        description="Length of one unit in BVH files (ASF files tell theirs)",
+        description="Length of one unit in BVH files (all others tell theirs)",
         items=_UNITS,
         default="AUTO",
     )
@@ -60,6 +61,16 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
         description="Put right what is surely wrong with a take: its unit, which way is up, spikes, frozen frames",
         default=True,
     )
+    character: StringProperty(  # type: ignore[valid-type]
+        name="Character",
+        description="In files with several armatures, the one whose takes are wanted; empty: the takes of all",
+        search=lambda _self, _context, _text: by_blender.seen,
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        return poll_idle(cls)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         if not self.properties.is_property_set("onto") and can_change(active_armature(context)):
@@ -77,10 +88,10 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
         files = find_takes(folder, [file.name for file in self.files if file.name])
         onto = self._target(context)
         with progress_shown(context) as advance:
-            obj, actions = import_takes(
-                context, folder.name or "Mocap", files, METRES.get(self.unit), advance, onto, self.mend
+            imported = import_takes(
+                context, folder.name or "Mocap", files, METRES.get(self.unit), advance, onto, self.mend, self.character
             )
-        self.report({"INFO"}, _told(obj, actions))
+        self.report({"INFO"}, _told(imported))
         return {"FINISHED"}
 
     def _target(self, context: bpy.types.Context) -> bpy.types.Object | None:
@@ -91,14 +102,20 @@ class FRAGMOTION_OT_import_mocap(bpy.types.Operator):
             raise UserError("No armature is active that the takes could move: click your character, or import onto new")
         if not can_change(obj):
             raise UserError(advise_on_foreign(obj))
+        check_plain(obj)
         return obj
 
 
-def _told(obj: bpy.types.Object, actions: Sequence[bpy.types.Action]) -> str:
+def _told(imported: Imported) -> str:
+    obj, actions, without = imported
     told = f"Imported {len(actions)} takes onto armature '{obj.name}' ({len(obj.data.bones)} bones)"
     mended = sum(row.mended for action in actions for row in action.fragmotion.findings)
     left = sum(worst(action) in {"warning", "error"} for action in actions)
-    parts = [f"{mended} faults mended" if mended else "", f"{left} takes to look at in Doctor" if left else ""]
+    parts = (
+        f"{mended} faults mended" if mended else "",
+        f"{left} takes to look at in Doctor" if left else "",
+        f"{len(without)} files left out in which no armature is animated" if without else "",
+    )
     return "; ".join([told, *filter(None, parts)])
 
 
@@ -113,7 +130,7 @@ def _drop_handlers() -> tuple[type, ...]:
         bl_idname = "FRAGMOTION_FH_import_mocap"
         bl_label = "Fragmotion: Import Mocap"
         bl_import_operator = FRAGMOTION_OT_import_mocap.bl_idname
-        bl_file_extensions = ".bvh;.amc"
+        bl_file_extensions = ";".join(ENDINGS)
 
         @classmethod
         def poll_drop(cls, context: bpy.types.Context) -> bool:

@@ -3,34 +3,15 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
-
 import bpy
 from bpy.props import IntProperty
 
 from ..mocap.actions import chosen
 from ..mocap.left_out import choose_span
-from .context import active_armature, poll_armature
+from .context import OnTake, active_armature
 
 
-class _OnTake:
-    """An operator on the take that is chosen in the panel's list."""
-
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def poll(cls: Any, context: bpy.types.Context) -> bool:
-        if not poll_armature(cls, context):
-            return False
-        action = chosen(context, active_armature(context))
-        if action is None:
-            cls.poll_message_set("No take is chosen in the list under Mocap")
-        elif action.library is not None:
-            cls.poll_message_set(f"Action '{action.name}' is linked from another file")
-        return action is not None and action.library is None
-
-
-class FRAGMOTION_OT_leave_out(_OnTake, bpy.types.Operator):
+class FRAGMOTION_OT_leave_out(OnTake, bpy.types.Operator):
     """Leave out the preview range, else the frames of the selected keys, else the current frame"""
 
     bl_idname = "fragmotion.leave_out"
@@ -53,7 +34,7 @@ class FRAGMOTION_OT_leave_out(_OnTake, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FRAGMOTION_OT_take_in(_OnTake, bpy.types.Operator):
+class FRAGMOTION_OT_take_in(OnTake, bpy.types.Operator):
     """Let Build learn from these frames again"""
 
     bl_idname = "fragmotion.take_in"

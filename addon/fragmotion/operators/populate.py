@@ -7,10 +7,12 @@ import bpy
 
 from ..bake.baking import Baked
 from ..bake.populating import populate, prepare
+from ..control_rig.binding import rig_of
 from ..jobs import Job
 from ..settings.bake_fields import PopulateFields
 from ..settings.drawing import draw_populate
 from .bake import Baking
+from .context import active_armature
 
 
 class FRAGMOTION_OT_populate(PopulateFields, Baking, bpy.types.Operator):
@@ -24,6 +26,14 @@ class FRAGMOTION_OT_populate(PopulateFields, Baking, bpy.types.Operator):
     )
     verb = "Populate"
     settings = "populate"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        obj = active_armature(context)
+        if obj is not None and rig_of(obj) != obj:
+            cls.poll_message_set(f"'{rig_of(obj).name}' is a control rig: only plain armatures can be copied")
+            return False
+        return bool(super().poll(context))
 
     def _prepare(self, context: bpy.types.Context, obj: bpy.types.Object) -> Job:
         return Job(f"Populating with '{obj.name}'", prepare(context, obj, self))

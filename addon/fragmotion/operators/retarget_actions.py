@@ -10,7 +10,7 @@ import bpy
 from ..errors import UserError, reported
 from ..mocap.actions import ticked
 from ..mocap.retargeting import retarget_actions
-from .context import active_armature, poll_armature, progress_shown
+from .context import active_armature, check_plain, poll_armature, progress_shown
 
 
 class FRAGMOTION_OT_retarget_actions(bpy.types.Operator):
@@ -32,6 +32,7 @@ class FRAGMOTION_OT_retarget_actions(bpy.types.Operator):
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
+        check_plain(obj)
         source = obj.fragmotion.source
         actions = ticked(source)
         if not actions:

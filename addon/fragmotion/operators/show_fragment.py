@@ -8,10 +8,10 @@ from typing import ClassVar
 import bpy
 from bpy.props import FloatProperty, StringProperty
 
-from ..bake.targets import keep_former
 from ..character.inspector import show
 from ..errors import UserError, reported
 from ..rig.posing import check_free
+from ..rig.writing import keep_former
 from .context import active_armature, poll_armature
 
 

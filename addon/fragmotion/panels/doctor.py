@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..mocap.actions import chosen
+from ..mocap.doctor import DUPLICATE
 from ..operators.context import active_armature
 from ..settings.drawing import draw_wrapped
 from .sidebar import SubPanel
@@ -28,9 +29,13 @@ class FRAGMOTION_PT_doctor(SubPanel, bpy.types.Panel):
         findings = action.fragmotion.findings
         if not len(findings):
             self.layout.label(text="Nothing is wrong with this take", icon="CHECKMARK")
-        for row in findings:
+        for index, row in enumerate(findings):
             text = f"{row.text} (mended)" if row.mended else row.text
-            draw_wrapped(self.layout, context, text, "CHECKMARK" if row.mended else LIGHTS[row.severity])
+            column = self.layout.column(align=True)
+            draw_wrapped(column, context, text, "CHECKMARK" if row.mended else LIGHTS[row.severity])
+            if row.mendable and not row.mended:
+                label = "Untick" if row.code == DUPLICATE else "Mend"
+                column.operator("fragmotion.mend_finding", text=label, icon="MODIFIER").index = index
 
 
 CLASSES = (FRAGMOTION_PT_doctor,)

@@ -9,6 +9,7 @@ from ..character import building
 from ..character.coverage_picture import draw_pictures
 from ..character.staleness import is_stale
 from ..compat import versions
+from ..control_rig.binding import own_armatures
 from ..mocap.actions import fits_cached, fitting
 from ..mocap.doctor import worst
 from ..operators import background
@@ -22,7 +23,7 @@ from ..settings.drawing import (
     draw_summary,
     draw_training,
 )
-from . import bones, classes, doctor, drive, left_out, recordings
+from . import bones, classes, control_rig, doctor, drive, left_out, recordings
 from .doctor import LIGHTS
 from .sidebar import Sidebar, SubPanel
 
@@ -58,8 +59,10 @@ class FRAGMOTION_UL_actions(bpy.types.UIList):
         return [flag if obj and fits_cached(action, obj) else 0 for flag, action in zip(named, actions)], []
 
 
-def _has_other_armatures(context: bpy.types.Context, obj: bpy.types.Object) -> bool:
-    return any(other.type == "ARMATURE" and other != obj for other in context.view_layer.objects)
+def _has_other_armatures(obj: bpy.types.Object) -> bool:
+    """Whether the file has armatures beside the object's; quick enough for drawing."""
+    own = own_armatures(obj)
+    return any(armature.users and armature not in own for armature in bpy.data.armatures)
 
 
 class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
@@ -73,9 +76,10 @@ class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
         layout.operator("fragmotion.import_mocap", text="Import Mocap...", icon="IMPORT")
         obj = active_armature(context)
         if obj is None:
-            layout.label(text="No armature is active", icon="INFO")
+            layout.label(text="Click your character, or:", icon="INFO")
+            layout.operator("fragmotion.add_sample", icon="OUTLINER_OB_ARMATURE")
             return
-        if obj.fragmotion.source or _has_other_armatures(context, obj):
+        if obj.fragmotion.source or _has_other_armatures(obj):
             row = layout.row(align=True)
             row.prop(obj.fragmotion, "source", text="")
             row.operator("fragmotion.retarget_actions", text="Retarget")
@@ -201,6 +205,7 @@ class FRAGMOTION_PT_bake(Sidebar, bpy.types.Panel):
 
 
 CLASSES = (
+    *control_rig.CLASSES,
     FRAGMOTION_UL_actions,
     FRAGMOTION_PT_mocap,
     *left_out.CLASSES,

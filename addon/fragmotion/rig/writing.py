@@ -76,3 +76,10 @@ def _add_keys(curve: bpy.types.FCurve, times: Doubles, values: Doubles) -> None:
     kinds[former:] = LINEAR
     keys.foreach_set("interpolation", kinds)
     curve.update()
+
+
+def keep_former(obj: bpy.types.Object, action: bpy.types.Action) -> None:
+    """Save the Action that the armature played so far from being lost when nothing else uses it."""
+    former, _ = versions.assignment(obj)
+    if former not in (None, action) and former.users == 1 and former.library is None:
+        former.use_fake_user = True

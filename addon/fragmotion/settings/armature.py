@@ -18,6 +18,7 @@ from bpy.props import (
 from ..character.classes import ClassRow
 from ..character.coverage import COLUMNS
 from ..character.suggesting import NumberTried
+from ..control_rig.binding import ControlRigSettings, is_source
 from ..recordings.recordings import Recording
 from ..rig.bodies import RoleBone
 from .bake_fields import BakeFields, PopulateFields
@@ -153,7 +154,7 @@ class BuildFigures(bpy.types.PropertyGroup):
 
 
 def _is_other_armature(settings: CharacterSettings, obj: bpy.types.Object) -> bool:
-    return bool(obj.type == "ARMATURE" and obj != settings.id_data)
+    return is_source(obj, settings.id_data)
 
 
 class CharacterSettings(bpy.types.PropertyGroup):
@@ -167,6 +168,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
         type=bpy.types.Object,
         poll=_is_other_armature,
     )
+    control_rig: PointerProperty(type=ControlRigSettings)  # type: ignore[valid-type]
     build: PointerProperty(type=BuildSettings)  # type: ignore[valid-type]
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
     populate: PointerProperty(type=PopulateSettings)  # type: ignore[valid-type]

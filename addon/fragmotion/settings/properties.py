@@ -12,6 +12,7 @@ from bpy.props import BoolProperty, CollectionProperty, IntProperty, PointerProp
 from ..character.classes import ClassRow
 from ..character.inspector import InspectorSettings
 from ..character.suggesting import NumberTried
+from ..control_rig.binding import ControlRigSettings, FormerSwitch
 from ..mocap.doctor import TakeFinding
 from ..mocap.left_out import FrameSpan
 from ..recordings.recordings import Recording
@@ -54,6 +55,8 @@ CLASSES = (
     FrameSpan,
     TakeFinding,
     RoleBone,
+    FormerSwitch,
+    ControlRigSettings,
     InspectorSettings,
     BuildSettings,
     BakeSettings,

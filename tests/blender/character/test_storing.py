@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import os
-import resource
 import shutil
 import signal
 from collections.abc import Iterator
@@ -15,6 +14,7 @@ from types import ModuleType
 import bpy
 import making
 import numpy as np
+import odd_files
 import pytest
 
 
@@ -186,6 +186,7 @@ def policies_in(folder: Path) -> list[bytes]:
 @contextmanager
 def full_disk(room: int) -> Iterator[None]:
     """No file grows beyond so many bytes."""
+    resource = pytest.importorskip("resource", reason="Windows sets no limit to the size of files")
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (room, limits[1]))
@@ -297,7 +298,7 @@ def test_saving_the_startup_file_lets_go_of_nothing(addon: ModuleType, small: Pa
 def test_a_file_saved_over_a_link_has_its_policy_beside_it(addon: ModuleType, small: Path, tmp_path: Path) -> None:
     link = tmp_path / "links" / "small.blend"
     link.parent.mkdir()
-    link.symlink_to(small)
+    odd_files.make_link(link, small)
     expected = rebuild(open_small(addon, link), seed=2)
     bpy.ops.wm.save_mainfile()
     assert addon.character.building.load(open_small(addon, link)).to_bytes() == expected
@@ -334,7 +335,7 @@ def test_only_files_that_were_written_for_this_blend_are_let_go_of(addon: Module
     for name, content in others.items():
         (small.parent / name).write_bytes(content)
     link = small.with_name("small.Link.0123456789abcdef.policy")
-    link.symlink_to(own)
+    odd_files.make_link(link, own)
     rebuild(open_small(addon, small), seed=2)
     bpy.ops.wm.save_mainfile()
     assert not own.exists() and link.is_symlink()

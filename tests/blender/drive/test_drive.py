@@ -212,13 +212,17 @@ def test_the_figures_say_what_plays(addon: ModuleType, session: ModuleType, obj:
     judge, character = driven.readings.judge, driven.actor.character
     assert 0 < judge.mean <= 1 and 0 < judge.quality <= 1
     assert 0 <= judge.left <= character.fragment_durations[driven.player.playing[1]]
-    assert rows["Updates"].startswith("60 a second")
+    assert rows["Updates"].startswith("60 a second") and rows["Updates"].endswith("ms each")
+    for _ in range(100):
+        driven.update(0.2)
+    assert dict(figures.rows(driven.shown()))["Updates"] == "5 a second, too slow: slow motion"
 
 
 def test_while_driving_nothing_else_may_change_the_armature(session: ModuleType, obj: bpy.types.Object) -> None:
     assert bpy.ops.fragmotion.bake.poll() and not bpy.ops.fragmotion.record.poll()
     start(session, obj)
     assert not bpy.ops.fragmotion.bake.poll() and not bpy.ops.fragmotion.build.poll()
+    assert not bpy.ops.fragmotion.import_mocap.poll()
     assert bpy.ops.fragmotion.record.poll() and bpy.ops.fragmotion.drive.poll()
 
 

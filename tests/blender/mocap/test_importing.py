@@ -124,7 +124,7 @@ def test_short_bones_survive(tmp_path: Path) -> None:
 def test_an_amc_belongs_to_the_asf_of_its_subject(addon: ModuleType, tmp_path: Path) -> None:
     for name in ("01.asf", "02.asf", "01_03.amc", "02_01.AMC"):
         (tmp_path / name).write_text("")
-    find = addon.mocap.importing.find_takes
+    find = addon.mocap.take_files.find_takes
     assert [(t.path.name, t.asf.name) for t in find(tmp_path)] == [("01_03.amc", "01.asf"), ("02_01.AMC", "02.asf")]
     (tmp_path / "03_01.amc").write_text("")
     with pytest.raises(addon.errors.UserError, match=r"03_01\.amc.*03\.asf"):
@@ -137,10 +137,10 @@ def test_hidden_files_are_no_takes(addon: ModuleType, tmp_path: Path) -> None:
     for name in ("02.asf", "02_01.amc", "walk.bvh", "._walk.bvh", "._02.asf", "._02_01.amc", ".old.bvh"):
         (tmp_path / name).write_text("")
     (tmp_path / "folder.bvh").mkdir()
-    takes = addon.mocap.importing.find_takes(tmp_path)
+    takes = addon.mocap.take_files.find_takes(tmp_path)
     assert [take.path.name for take in takes] == ["02_01.amc", "walk.bvh"]
     (tmp_path / "03_01.amc").write_text("")
-    assert addon.mocap.importing.find_takes(tmp_path)[1].asf.name == "02.asf", "the folder's only skeleton"
+    assert addon.mocap.take_files.find_takes(tmp_path)[1].asf.name == "02.asf", "the folder's only skeleton"
 
 
 def test_importing_is_one_undo_step(tmp_path: Path) -> None:
@@ -219,7 +219,7 @@ def test_an_import_that_stops_in_the_middle_removes_what_it_made(addon: ModuleTy
     making.add_action(making.add_armature())
     for seed in (1, 2, 3):
         making.write_bvh(tmp_path / f"{seed}.bvh", seed=seed)
-    files = addon.mocap.importing.find_takes(tmp_path)
+    files = addon.mocap.take_files.find_takes(tmp_path)
     before = making.contents()
     made = []
 

@@ -32,7 +32,7 @@ def opened(addon: ModuleType, path: Path) -> Any:
 def files_in(folder: Path) -> dict[str, bytes]:
     """All files but the .blends."""
     paths = (path for path in folder.rglob("*") if path.is_file() and ".blend" not in path.name)
-    return {str(path.relative_to(folder)): path.read_bytes() for path in paths}
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
 
 
 def refused(operator: Callable[..., set[str]], message: str, **fields: Any) -> None:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import hashlib
-import os
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
@@ -12,6 +11,7 @@ from typing import Any
 
 import bpy
 import making
+import odd_files
 import pytest
 from forging import EVIL, files_in, forging, opened
 
@@ -88,11 +88,11 @@ def test_a_file_never_says_what_is_read(addon: ModuleType, obj: bpy.types.Object
 def as_link(path: Path, policy: bytes) -> None:
     other = path.parents[1] / "elsewhere"
     other.write_bytes(policy)
-    path.symlink_to(other)
+    odd_files.make_link(path, other)
 
 
 def as_pipe(path: Path, _policy: bytes) -> None:
-    os.mkfifo(path)
+    odd_files.make_pipe(path)
 
 
 def as_folder(path: Path, _policy: bytes) -> None:
@@ -100,7 +100,7 @@ def as_folder(path: Path, _policy: bytes) -> None:
 
 
 def as_device(path: Path, _policy: bytes) -> None:
-    path.symlink_to("/dev/zero")
+    odd_files.make_link(path, "/dev/zero")
 
 
 @pytest.mark.parametrize(
@@ -140,7 +140,7 @@ def test_what_is_in_the_way_of_a_policy_file_is_left_alone(
     for in_the_way in ("other", "link"):
         own.unlink(missing_ok=True)
         victim.write_bytes(policy)
-        own.write_bytes(b"other") if in_the_way == "other" else own.symlink_to(victim)
+        own.write_bytes(b"other") if in_the_way == "other" else odd_files.make_link(own, victim)
         obj = opened(addon, path)
         bpy.ops.wm.save_mainfile()
         assert bytes(obj.fragmotion.policy) == policy and "Rig" in addon.character.storing.troubles
@@ -150,7 +150,7 @@ def test_what_is_in_the_way_of_a_policy_file_is_left_alone(
 def test_pipes_that_are_chosen_are_refused(addon: ModuleType, obj: bpy.types.Object, tmp_path: Path) -> None:
     pipes = [tmp_path / name for name in ("x.policy", "x.csv", "x.bvh")]
     for pipe in pipes:
-        os.mkfifo(pipe)
+        odd_files.make_pipe(pipe)
     policy, trace, take = map(str, pipes)
     calls = (
         lambda: bpy.ops.fragmotion.load_policy(filepath=policy),

@@ -8,7 +8,7 @@ import blf
 from ...compat import versions
 from ..input.steering import describe
 from . import paint
-from .shown import Shown
+from .shown import LONGEST_UPDATE, Shown
 from .views import Free
 
 _FONT = 0
@@ -35,7 +35,8 @@ def rows(shown: Shown) -> list[Row]:
     answered = readings.stopwatch.seconds
     table.append(("Response", "-" if answered is None else f"{answered:.2f} s"))
     rate = 1 / shown.interval if shown.interval > 0 else 0.0
-    table.append(("Updates", f"{rate:.0f} a second, {1000 * shown.cost:.2f} ms each"))
+    pace = "too slow: slow motion" if shown.interval > LONGEST_UPDATE else f"{1000 * shown.cost:.2f} ms each"
+    table.append(("Updates", f"{rate:.0f} a second, {pace}"))
     return table
 
 

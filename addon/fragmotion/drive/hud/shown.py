@@ -9,6 +9,9 @@ from ..input.screen_stick import ScreenStick
 from ..input.steering import Intent
 from .readings import Readings
 
+LONGEST_UPDATE = 0.1
+"""Seconds that an update goes on at the most, so that a pause makes no leap; where all take longer, motion is slow."""
+
 
 class Shown(NamedTuple):
     """A drive at the moment when it is drawn."""

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Build and bake without a window: `blender -c fragmotion` (4.2 and later); before, `run` from --python-expr."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from .character.building import has_character, save_policy
+from .compat.core import core
+from .errors import UserError
+from .mocap.actions import ticked
+from .operators.context import active_armature
+
+NAME = "fragmotion"
+
+_EXAMPLES = """examples:
+  blender -c fragmotion build walks/ --blend hero.blend --policy hero.policy
+  blender -c fragmotion build takes.blend --armature Hero --blend hero.blend
+  blender -c fragmotion build walks/ --onto rig.blend --armature Hero --blend hero.blend
+  blender -c fragmotion bake hero.blend --trace path.csv --blend shot.blend
+  blender -c fragmotion bake hero.blend --recordings --blend shots.blend
+  blender -c fragmotion info hero.blend --json -
+
+Settings that no option names are those of the armature's panels. The exit code is 0 where all was done; else it is 1,
+the cause is told."""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run one command; the exit code. --help tells what there is."""
+    try:
+        options = _parser().parse_args(arguments)
+    except SystemExit as end:  # Blender would end without its own goodbye
+        return int(end.code or 0)
+    try:
+        figures = options.command(options)
+        if options.json:
+            _write_json(options.json, figures)
+    except (UserError, RuntimeError, OSError) as error:
+        print(f"{NAME}: {str(error).removeprefix('Error: ').strip()}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog=f"blender -c {NAME}", epilog=_EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    build = commands.add_parser("build", help="build a character, from a folder of takes or a .blend's ticked Actions")
+    build.add_argument("source", type=Path, metavar="TAKES", help="a folder of takes, or a .blend with Actions")
+    build.add_argument("--onto", type=Path, metavar="RIG.blend", help="the file of the character that the takes move")
+    build.add_argument("--classes", type=int, metavar="N", help="how many classes")
+    build.add_argument("--seed", type=int, metavar="N", help="draws the first centres and the simulated players")
+    build.add_argument("--policy", type=Path, metavar="FILE", help="where to write the policy file")
+    build.set_defaults(command=_build)
+    bake = commands.add_parser("bake", help="bake motion of a character to Actions")
+    bake.add_argument("source", type=Path, metavar="CHARACTER.blend")
+    driver = bake.add_mutually_exclusive_group(required=True)
+    driver.add_argument("--trace", type=Path, metavar="FILE.csv", help="what a stick did, 10 rows a second")
+    driver.add_argument("--player", choices=core.PLAYERS, help="a simulated player")
+    driver.add_argument("--recordings", action="store_true", help="every recording of the armature")
+    bake.add_argument("--seconds", type=float, metavar="S", help="how long the simulated player plays (20)")
+    bake.add_argument("--seed", type=int, metavar="N", help="draws what is left to chance")
+    bake.set_defaults(command=_bake)
+    info = commands.add_parser("info", help="tell what a character is")
+    info.add_argument("source", type=Path, metavar="CHARACTER.blend")
+    info.set_defaults(command=_info)
+    for command in (build, bake):
+        command.add_argument("--blend", type=Path, metavar="FILE", help="where to write the .blend")
+    for command in (build, bake, info):
+        command.add_argument("--armature", metavar="NAME", help="which armature, where the file has several")
+        command.add_argument("--json", metavar="FILE", help="save the figures there too; - is the terminal")
+    return parser
+
+
+def _build(options: argparse.Namespace) -> dict[str, Any]:
+    if not (options.blend or options.policy):
+        raise UserError("Nothing would be kept: say where to, by --blend or --policy")
+    if options.source.is_dir():
+        _import(options)
+    else:
+        _open(options.source, options.armature)
+    bpy.ops.fragmotion.build("EXEC_DEFAULT", **_given(options, "classes", "seed"))
+    obj = active_armature(bpy.context)
+    figures = _figures(obj)
+    if options.policy:
+        save_policy(obj, options.policy.resolve())
+    _save(options.blend)
+    return figures
+
+
+def _import(options: argparse.Namespace) -> None:
+    """The folder's takes onto the rig, or onto an armature of their own."""
+    if options.onto:
+        _open(options.onto, options.armature)
+    else:
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    bpy.ops.fragmotion.import_mocap(directory=str(options.source.resolve()), onto="ACTIVE" if options.onto else "NEW")
+
+
+def _bake(options: argparse.Namespace) -> dict[str, Any]:
+    if not options.blend:
+        raise UserError("Nothing would be kept: say where to, by --blend")
+    obj = _open(options.source, options.armature)
+    given = _given(options, "seconds", "seed")
+    sources: list[dict[str, Any]]
+    if options.trace:
+        sources = [{"trace_source": "FILE", "trace_file": str(options.trace.resolve())}]
+    elif options.player:
+        sources = [{"trace_source": "PLAYER", "player": options.player}]
+    else:
+        sources = [{"trace_source": "RECORDING", "recording": index} for index in range(len(obj.fragmotion.takes))]
+    if not sources:
+        raise UserError(f"Armature '{obj.name}' has no recordings")
+    baked = []
+    for number, source in enumerate(sources, 1):
+        before = set(bpy.data.actions)
+        bpy.ops.fragmotion.bake("EXEC_DEFAULT", target="NEW", **source, **given)
+        (action,) = set(bpy.data.actions) - before
+        action.use_fake_user = True
+        first, last = action.frame_range
+        baked.append({"action": action.name, "first": first, "last": last})
+        print(f"{number} of {len(sources)}: Action '{action.name}', frames {first:.0f} to {last:.0f}", flush=True)
+    _save(options.blend)
+    return {"baked": baked}
+
+
+def _info(options: argparse.Namespace) -> dict[str, Any]:
+    obj = _open(options.source, options.armature)
+    if not has_character(obj):
+        raise UserError(f"Armature '{obj.name}' has no character yet")
+    return _figures(obj)
+
+
+def _open(path: Path, name: str | None) -> bpy.types.Object:
+    """Open a .blend, and make the armature active: the one of that name, the active one, or the only one."""
+    bpy.ops.wm.open_mainfile(filepath=str(path.resolve()))
+    armatures = [obj for obj in bpy.context.view_layer.objects if obj.type == "ARMATURE"]
+    active = active_armature(bpy.context)
+    if name:
+        armatures = [obj for obj in armatures if obj.name == name]
+    elif active is not None:
+        armatures = [active]
+    if len(armatures) != 1:
+        wanted = f"armature '{name}'" if name else "armature" if not armatures else "active armature: use --armature"
+        raise UserError(f"'{path}' has no {wanted}")
+    bpy.context.view_layer.objects.active = armatures[0]
+    return armatures[0]
+
+
+def _given(options: argparse.Namespace, *names: str) -> dict[str, Any]:
+    return {name: value for name in names if (value := getattr(options, name)) is not None}
+
+
+def _figures(obj: bpy.types.Object) -> dict[str, Any]:
+    """What the last build found, said and returned."""
+    figures = obj.fragmotion.figures
+    found = {
+        "armature": obj.name,
+        "takes": len(ticked(obj)),
+        "fragments": figures.fragments,
+        "classes": figures.classes,
+        "percent_of_optimal": figures.quality,
+        "controls_performed": figures.performed,
+        "controls": figures.controls,
+        "recordings": len(obj.fragmotion.takes),
+    }
+    print(", ".join(f"{name.replace('_', ' ')} {_shown(value)}" for name, value in found.items()), flush=True)
+    return found
+
+
+def _shown(value: object) -> str:
+    return f"{value:.1f}" if isinstance(value, float) else str(value)
+
+
+def _save(path: Path | None) -> None:
+    if path:
+        bpy.ops.wm.save_as_mainfile(filepath=str(path.resolve()), check_existing=False)
+
+
+def _write_json(path: str, figures: dict[str, Any]) -> None:
+    text = json.dumps(figures, indent=1) + "\n"
+    if path == "-":
+        print(text, end="")
+    else:
+        Path(path).write_text(text, encoding="utf-8")
+
+
+_handle: Any = None
+
+
+def register() -> None:
+    """Add the command, where Blender has such."""
+    global _handle
+    if hasattr(bpy.utils, "register_cli_command"):
+        _handle = bpy.utils.register_cli_command(NAME, run)
+
+
+def unregister() -> None:
+    """Remove the command."""
+    global _handle
+    if _handle is not None:
+        bpy.utils.unregister_cli_command(_handle)
+        _handle = None

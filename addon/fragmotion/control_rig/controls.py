@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which control of a rig moves which part of its body."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import bpy
+
+from ..errors import UserError
+from .detecting import is_moved
+from .joints import Joint
+from .probing import Prober
+from .wiring import Switch, above, heeded_switches, read_switch, set_switch
+
+_TRUNK = re.compile(r"hips|spine_\d+")  # these may turn about another place than their joint
+_LIMBS = [
+    tuple(f"{side}_{part}" for part in parts)
+    for parts in (("upper_arm", "lower_arm", "hand"), ("thigh", "shin", "foot"))
+    for side in ("left", "right")
+]
+
+Advance = Callable[[float], None]
+
+
+ROOT = "root"
+"""The role of the motion skeleton's bone on the ground, which the rig's outermost control follows."""
+
+
+class Follower(NamedTuple):
+    """A control that is to follow a part of the body, in its turns, its place or both."""
+
+    control: str
+    role: str
+    turns: bool
+    moves: bool
+
+
+class Controls(NamedTuple):
+    """What is to follow what, the body's control the hips; the roles that do follow then; the controls that carry the
+    body and, where there is one, all; the values of switches by which this is so."""
+
+    followers: list[Follower]
+    followed: set[str]
+    body: str
+    root: str
+    switches: dict[Switch, float]
+
+
+def find_controls(
+    context: bpy.types.Context, obj: bpy.types.Object, joints: Mapping[str, Joint], advance: Advance
+) -> Controls:
+    """Try the rig's controls, which rests and plays nothing; its switches stay as they are told."""
+    return _Search(context, obj, joints, advance).run()
+
+
+class _Search:
+    def __init__(
+        self, context: bpy.types.Context, obj: bpy.types.Object, joints: Mapping[str, Joint], advance: Advance
+    ) -> None:
+        self._obj, self._joints, self._advance = obj, joints, advance
+        self._prober = Prober(context, obj, joints)
+        self._has_shapes = any(bone.custom_shape is not None for bone in obj.pose.bones)
+        self._above = {role: above(obj, joint.bone) for role, joint in joints.items()}
+        self._heeded = heeded_switches(obj)
+
+    def run(self) -> Controls:
+        switches = self._flip()
+        carriers = self._carriers()
+        if not carriers:
+            raise UserError(
+                f"Armature '{self._obj.name}': no control moves the whole body; its hips are bone "
+                f"'{self._joints['hips'].bone}'"
+            )
+        body, root = carriers[-1], carriers[0] if len(carriers) > 1 else ""
+        turning = self._assign(self._joints, set(carriers))
+        carried = [Follower(control, role, True, True) for control, role in ((root, ROOT), (body, "hips")) if control]
+        turned = [Follower(control, role, True, False) for role, control in turning.items()]
+        reaching = [limb for limb in _LIMBS if set(limb) <= set(self._joints) and not set(limb[:2]) & set(turning)]
+        reached = {follower.control: follower for limb in reaching for follower in self._reaching(limb, turning)}
+        placed = {follower.role for follower in reached.values()}
+        followers = [reached.pop(follower.control, follower) for follower in (*carried, *turned)]
+        followed = {*turning, "hips", *(role for limb in reaching if limb[2] in placed for role in limb)}
+        return Controls([*followers, *reached.values()], followed, body, root, switches)
+
+    def _flip(self) -> dict[Switch, float]:
+        """Flip the switches without which parts of limbs have no control of their own; how they stand now."""
+        limbs = [role for limb in _LIMBS for role in limb if role in self._joints]
+        found, flipped = self._assign(limbs), {}
+        for index, switch in enumerate(switches := self._switches()):
+            self._advance(index / len(switches))
+            before = read_switch(self._obj, switch)
+            if before is None or not any(self._heeds(role, switch) for role in limbs if role not in found):
+                continue
+            other = 0.0 if before > 1 / 2 else 1.0
+            self._set(switch, other)
+            now = self._assign(limbs)
+            if len(now) > len(found):
+                found, flipped[switch] = now, other
+            else:
+                self._set(switch, before)
+        return flipped
+
+    def _set(self, switch: Switch, value: float) -> None:
+        set_switch(self._obj, switch, value)
+        self._prober.forget()
+
+    def _switches(self) -> list[Switch]:
+        """Those that constraints heed, the likeliest first."""
+        switches = sorted({switch for switches in self._heeded.values() for switch in switches})
+        known = (switch for switch in switches if 0 <= (read_switch(self._obj, switch) or 0) <= 1)
+        return sorted(known, key=lambda switch: "fk" not in switch.name.lower())
+
+    def _heeds(self, role: str, switch: Switch) -> bool:
+        return any(switch in self._heeded.get(bone, ()) for bone in self._above[role])
+
+    def _carriers(self) -> list[str]:
+        """The controls with which the whole trunk goes, the outermost first."""
+        trunk = {role for role in self._joints if _TRUNK.fullmatch(role)} | ({"head"} & set(self._joints))
+        carriers = [control for control in self._candidates(["hips"]) if trunk <= self._prober.shifted(control)]
+        return sorted(carriers, key=lambda control: len(above(self._obj, control) & set(carriers)))
+
+    def _reaching(self, limb: Sequence[str], turning: Mapping[str, str]) -> Iterator[Follower]:
+        """The controls of a limb that is moved by its end: that which places the end, and that to which its middle
+        points."""
+        upper, lower, end = limb
+        if end in turning and end in self._prober.shifted(turning[end]):
+            yield Follower(turning[end], end, True, True)
+            bones = [self._obj.pose.bones[name] for name in sorted(self._above[lower])]
+            poles = {c.pole_subtarget for bone in bones for c in bone.constraints if c.type == "IK"}
+            for name in sorted(poles & set(self._candidates([lower]))):
+                yield Follower(name, upper, False, True)
+
+    def _assign(self, roles: Iterable[str], taken: Collection[str] = ()) -> dict[str, str]:
+        """Role -> the control that turns it, no control for two, none of those taken."""
+        pairs = sorted(pair for role in roles for pair in self._pairs(role) if pair[-1] not in taken)
+        found: dict[str, str] = {}
+        for *_, role, control in pairs:
+            if role not in found and control not in found.values():
+                found[role] = control
+        return found
+
+    def _pairs(self, role: str) -> Iterator[tuple[bool, int, float, str, str]]:
+        """The controls that turn a part, the best least: that which turns the most with it about its joint, or the
+        trunk's parts about another place and the least."""
+        head = self._joints[role].head
+        for control in self._candidates([role]):
+            along, in_place = self._prober.turned(control)
+            apart = (self._obj.data.bones[control].head_local - head).length
+            if role in in_place:
+                yield False, -len(along), apart, role, control
+            elif role in along and _TRUNK.fullmatch(role):
+                yield True, len(along), apart, role, control
+
+    def _candidates(self, roles: Iterable[str]) -> list[str]:
+        """What may be a control of these parts: it can be turned, and where the rig gives controls shapes has one."""
+        bones = {bone for role in roles for bone in self._above[role]}
+        return sorted(bone for bone in bones if self._is_control(self._obj.pose.bones[bone]))
+
+    def _is_control(self, bone: bpy.types.PoseBone) -> bool:
+        shaped = bone.custom_shape is not None or not self._has_shapes
+        return shaped and not is_moved(bone) and not all(bone.lock_rotation)

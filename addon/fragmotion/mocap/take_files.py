@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which files hold takes, and which of them Blender's own importers read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from ..errors import UserError
+
+BY_CORE = (".bvh", ".amc")
+"""Endings of the takes that the core reads."""
+
+BY_BLENDER = (".fbx", ".glb", ".gltf", ".vrm", ".usd", ".usda", ".usdc", ".usdz")
+"""Endings of the files that Blender reads, whatever they hold."""
+
+ENDINGS = BY_CORE + BY_BLENDER
+
+
+class TakeFile(NamedTuple):
+    """A file of takes, the Acclaim skeleton that it belongs to, and whether it was asked for by its name."""
+
+    path: Path
+    asf: Path | None = None
+    named: bool = False
+
+
+def find_takes(directory: Path, names: Sequence[str] = ()) -> list[TakeFile]:
+    """The takes among the named files of a folder, or all in it at any depth that are not hidden. UserError says what
+    is missing."""
+    if not directory.is_dir():
+        raise UserError(f"'{directory}' is not a folder")
+    paths = [directory / name for name in names] or sorted(_visible_files(directory))
+    takes = [_take_file(path, bool(names)) for path in paths if path.suffix.lower() in ENDINGS]
+    if not takes:
+        where = ", ".join(f"'{path}'" for path in paths) if names else f"Folder '{directory}'"
+        raise UserError(f"{where}: no takes here ({', '.join(ENDINGS)}; an .amc with its .asf)")
+    return takes
+
+
+def _visible_files(folder: Path) -> Iterator[Path]:
+    """The files in a folder and those below without hidden ones, such as the "._NAME" that macOS puts beside each file.
+    Folders that are links are left out: they may lead back."""
+    for path in _visible(folder):
+        if path.is_file():
+            yield path
+        elif path.is_dir() and not path.is_symlink():
+            yield from _visible_files(path)
+
+
+def _visible(folder: Path) -> list[Path]:
+    try:
+        return [path for path in folder.iterdir() if not path.name.startswith(".")]
+    except OSError as error:
+        raise UserError(f"'{folder}' cannot be read ({error.strerror})") from error
+
+
+def _take_file(path: Path, named: bool) -> TakeFile:
+    """An .amc belongs to the .asf named by what stands before its underscore, or to the folder's only one."""
+    if path.suffix.lower() != ".amc":
+        return TakeFile(path, None, named)
+    skeletons = sorted(p for p in _visible(path.parent) if p.suffix.lower() == ".asf" and p.is_file())
+    stem = path.stem.partition("_")[0].lower()
+    own = [asf for asf in skeletons if asf.stem.lower() in {stem, path.stem.lower()}]
+    if not own and len(skeletons) != 1:
+        raise UserError(f"'{path}': its skeleton '{stem}.asf' is not in the folder")
+    return TakeFile(path, (own or skeletons)[0], named)

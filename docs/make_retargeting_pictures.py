@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: MIT
+"""Make the picture of docs/retargeting.md: Rigify's human, which follows a take. In any Blender, without a screen:
+
+blender --background --factory-startup --python-exit-code 1 --python docs/make_retargeting_pictures.py \
+    -- build/packages/LEGACY.zip TAKE.bvh|TAKE.amc [FIRST LAST]
+
+The picture in docs is of CMU's take 02_01, a walk.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import bpy
+import numpy as np
+
+DOCS = Path(__file__).resolve().parent
+sys.path[:0] = [str(DOCS), str(DOCS.parent / "tests" / "blender"), str(DOCS.parent / "sample_rigs")]
+
+import making  # noqa: E402
+from filmstrip import render_filmstrip  # noqa: E402
+from make_pictures import save_jpeg  # noqa: E402
+from stage import material  # noqa: E402
+
+MOMENTS = 12
+AROUND, RINGS = 16, 9  # of a part of the body
+COLOURS = {"": (0.5, 0.5, 0.52), "left": (0.02, 0.3, 0.42), "right": (0.8, 0.2, 0.03)}
+THICK = {  # half width and half depth of a part of the body, m
+    **{"hips": (0.17, 0.11), "spine_1": (0.14, 0.1), "spine_2": (0.16, 0.11), "spine_3": (0.17, 0.11)},
+    **{"neck_1": (0.05, 0.05), "head": (0.085, 0.1), "shoulder": (0.05, 0.05), "upper_arm": (0.05, 0.05)},
+    **{"lower_arm": (0.04, 0.04), "hand": (0.045, 0.025), "thigh": (0.085, 0.085), "shin": (0.055, 0.055)},
+    **{"foot": (0.045, 0.04), "toe": (0.045, 0.03)},
+}
+OVER = 0.12  # of its length, how far a part reaches beyond its joints
+
+
+def main() -> None:
+    """Generate the rig, let it follow the take, and draw what its controls' keys show."""
+    package, take, *span = sys.argv[sys.argv.index("--") + 1 :]
+    addon = import_module(making.install(package))
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    rig = rigify_human()
+    making.activate(rig)
+    bpy.context.scene.render.fps = 30
+    add_body(rig, addon.control_rig.joints.find_joints(rig))
+    path = Path(take).resolve()
+    done = (
+        bpy.ops.fragmotion.bind_rig(),
+        bpy.ops.fragmotion.import_mocap(directory=str(path.parent), files=[{"name": path.name}], onto="ACTIVE"),
+        bpy.ops.fragmotion.bake_to_controls("EXEC_DEFAULT"),
+    )
+    assert set().union(*done) == {"FINISHED"}
+    action = rig.animation_data.action
+    frames = (float(span[0]), float(span[1])) if span else tuple(action.frame_range)
+    action.name = f"{path.stem} on Rigify's human"
+    target = DOCS / "retargeting" / "rigify.jpg"
+    target.parent.mkdir(exist_ok=True)
+    with TemporaryDirectory() as folder:
+        picture = render_filmstrip(
+            rig, action, str(Path(folder) / "strip.png"), MOMENTS, frame_range=frames, birdseye=False
+        )
+        save_jpeg(Path(picture), target)
+    print(f"{target}: {target.stat().st_size / 1000:.0f} kB")
+
+
+def rigify_human() -> bpy.types.Object:
+    """The rig that Rigify generates from its human meta-rig."""
+    bpy.ops.preferences.addon_enable(module="rigify")
+    bpy.ops.object.armature_human_metarig_add()
+    metarig = bpy.context.object
+    bpy.ops.pose.rigify_generate()
+    return next(obj for obj in bpy.data.objects if obj.type == "ARMATURE" and obj != metarig)
+
+
+def add_body(rig: bpy.types.Object, joints: Any) -> None:
+    """A mesh that the rig deforms: a rounded part for each joint's bone."""
+    for role, joint in joints.items():
+        side, _, part = role.partition("_") if role.startswith(("left_", "right_")) else ("", "", role)
+        if part not in THICK:
+            continue
+        mesh = bpy.data.meshes.new(role)
+        vertices, faces = rounded(np.array(joint.head), np.array(joint.tail), *THICK[part])
+        mesh.from_pydata(vertices.tolist(), [], faces)
+        mesh.materials.append(material(f"Body {side}", COLOURS[side]))
+        mesh.polygons.foreach_set("use_smooth", [True] * len(faces))
+        obj = bpy.data.objects.new(role, mesh)
+        bpy.context.scene.collection.objects.link(obj)
+        obj.vertex_groups.new(name=joint.bone).add(range(len(vertices)), 1.0, "REPLACE")
+        modifier: Any = obj.modifiers.new("Rig", "ARMATURE")
+        modifier.object = rig
+
+
+def rounded(head: np.ndarray, tail: np.ndarray, width: float, depth: float) -> tuple[np.ndarray, list[list[int]]]:
+    """Vertices and faces of a closed tube from head to tail with round ends."""
+    way = tail - head
+    along = way / np.linalg.norm(way)
+    aside = np.array((1.0, 0, 0) if abs(along[0]) < 0.7 else (0, 1.0, 0))
+    aside -= (aside @ along) * along
+    aside /= np.linalg.norm(aside)
+    height, turn = np.meshgrid(
+        np.linspace(0.03, np.pi - 0.03, RINGS), 2 * np.pi * np.arange(AROUND) / AROUND, indexing="ij"
+    )
+    thickness = np.sin(height) ** 0.6
+    offsets = (
+        -(0.5 + OVER) * np.cos(height)[..., None] * way
+        + (width * thickness * np.cos(turn))[..., None] * aside
+        + (depth * thickness * np.sin(turn))[..., None] * np.cross(along, aside)
+    )
+    vertices = ((head + tail) / 2 + offsets).reshape(-1, 3)
+    ring = np.arange(AROUND)
+    faces = [
+        [AROUND * k + i, AROUND * k + j, AROUND * (k + 1) + j, AROUND * (k + 1) + i]
+        for k in range(RINGS - 1)
+        for i, j in zip(ring.tolist(), np.roll(ring, -1).tolist())
+    ]
+    ends = [ring[::-1].tolist(), (AROUND * (RINGS - 1) + ring).tolist()]
+    return vertices, [*faces, *ends]
+
+
+main()

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: MIT
+"""`blender -c fragmotion`: files in, files out, a message and an exit code."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from types import ModuleType
+
+import bpy
+import making
+import pytest
+
+WALKS = sorted((making.MOCAP / "bandai-namco").glob("dataset-1_walk_normal_00[12].bvh"))
+
+
+@pytest.fixture(scope="module")
+def takes(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of takes."""
+    folder = tmp_path_factory.mktemp("takes")
+    making.write_gaits(folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def hero(addon: ModuleType, takes: Path) -> Path:
+    """A .blend with a character that the command built of them, beside its policy file and its figures."""
+    path = takes.parent / f"{takes.name} built" / "hero.blend"
+    path.parent.mkdir()
+    files = ["--blend", path, "--policy", path.with_suffix(".policy"), "--json", path.with_suffix(".json")]
+    assert run(addon, "build", takes, "--classes", 12, *files) == 0
+    return path
+
+
+def run(addon: ModuleType, *words: object) -> int:
+    code: int = addon.command_line.run([str(word) for word in words])
+    return code
+
+
+def test_a_folder_of_takes_becomes_a_character_and_a_policy_file(addon: ModuleType, takes: Path, hero: Path) -> None:
+    figures = json.loads(hero.with_suffix(".json").read_text())
+    assert figures["takes"] == len(list(takes.glob("*.bvh"))) and figures["classes"] == 12
+    assert figures["fragments"] > 12 and 0 < figures["percent_of_optimal"] <= 100
+    bpy.ops.wm.open_mainfile(filepath=str(hero))
+    obj = bpy.context.view_layer.objects[figures["armature"]]
+    assert addon.character.building.load(obj).to_bytes() == hero.with_suffix(".policy").read_bytes()
+
+
+@pytest.mark.skipif(not WALKS, reason="no motion capture here")
+def test_takes_move_the_armature_of_another_file(addon: ModuleType, tmp_path: Path) -> None:
+    (tmp_path / "walks").mkdir()
+    for path in WALKS:
+        (tmp_path / "walks" / path.name).write_bytes(path.read_bytes())
+    making.add_armature(name="Rig")
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "rig.blend"))
+    words = ("build", tmp_path / "walks", "--onto", tmp_path / "rig.blend", "--armature", "Rig", "--classes", 12)
+    assert run(addon, *words, "--blend", tmp_path / "built.blend", "--json", tmp_path / "built.json") == 0
+    figures = json.loads((tmp_path / "built.json").read_text())
+    assert figures["armature"] == "Rig" and figures["takes"] == len(WALKS)
+
+
+def test_a_bake_is_an_action_of_the_new_file(
+    addon: ModuleType, hero: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = hero.read_bytes()
+    out = tmp_path / "shot.blend"
+    assert (
+        run(addon, "bake", hero, "--player", "walker", "--seconds", 2, "--seed", 3, "--blend", out, "--json", "-") == 0
+    )
+    said = capsys.readouterr().out
+    baked = json.loads(said[said.index("{") :])["baked"]
+    assert hero.read_bytes() == before
+    bpy.ops.wm.open_mainfile(filepath=str(out))
+    (row,) = baked
+    assert tuple(bpy.data.actions[row["action"]].frame_range) == (row["first"], row["last"])
+    assert row["last"] - row["first"] == 2 * bpy.context.scene.render.fps
+
+
+def test_every_recording_is_baked(addon: ModuleType, hero: Path, tmp_path: Path) -> None:
+    bpy.ops.wm.open_mainfile(filepath=str(hero))
+    trace = tmp_path / "trace.csv"
+    trace.write_text("velocity_x,velocity_y,turn,jump\n" + "0,1.2,0,0\n" * 15)
+    for _ in range(3):
+        assert bpy.ops.fragmotion.import_recordings(filepath=str(trace)) == {"FINISHED"}
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "recorded.blend"))
+    words = ("bake", tmp_path / "recorded.blend", "--recordings", "--blend", tmp_path / "shots.blend")
+    assert run(addon, *words, "--json", tmp_path / "shots.json") == 0
+    names = [row["action"] for row in json.loads((tmp_path / "shots.json").read_text())["baked"]]
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "shots.blend"))
+    assert len(set(names)) == 3 and set(names) <= set(bpy.data.actions.keys())
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("info", "missing.blend"), "missing.blend"),
+        (("build", "missing", "--blend", "x.blend"), "missing"),
+        (("build", "missing"), "say where to"),
+        (("bake", "{hero}", "--player", "walker"), "say where to"),
+        (("bake", "{hero}", "--recordings", "--blend", "x.blend"), "has no recordings"),
+        (("bake", "{hero}", "--trace", "missing.csv", "--blend", "x.blend"), "missing.csv"),
+        (("info", "{hero}", "--armature", "Nobody"), "has no armature 'Nobody'"),
+    ],
+)
+def test_what_cannot_be_done_is_told(
+    addon: ModuleType,
+    hero: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    words: tuple[str, ...],
+    message: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run(addon, *(word.format(hero=hero) for word in words)) == 1
+    said = capsys.readouterr().err
+    assert said.startswith("fragmotion: ") and message in said
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_info_and_help_end_well_and_nonsense_does_not(
+    addon: ModuleType, hero: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(addon, "info", hero) == 0
+    assert "classes 12" in capsys.readouterr().out
+    assert run(addon, "--help") == 0 and "examples:" in capsys.readouterr().out
+    assert run(addon, "dance") == 2

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: MIT
+"""Run in a Blender with a window by test_windows.py: have a broken FBX refused, import a whole one, mend its take by
+the panel's button, and undo both.
+
+Arguments after `--`: the add-on's zip, and the folder for the pictures.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
+
+import making
+import window
+from window import FOLDER, click_button, open_tab, picture, press, send
+
+FILES = Path(FOLDER) / "files"
+FRAMES = 40
+
+
+def write_files() -> None:
+    """Motion as FBX, and half of the file."""
+    FILES.mkdir()
+    bpy.context.scene.frame_end = FRAMES
+    making.add_action(making.add_armature(name="Actor"), FRAMES)
+    with bpy.context.temp_override(**window.view()):
+        bpy.ops.export_scene.fbx(
+            filepath=str(FILES / "walk.fbx"),
+            object_types={"ARMATURE"},
+            add_leaf_bones=False,
+            bake_anim_use_nla_strips=False,
+            bake_anim_use_all_actions=False,
+        )
+    whole = (FILES / "walk.fbx").read_bytes()
+    (FILES / "half.fbx").write_bytes(whole[: len(whole) // 2])
+
+
+def seen() -> dict[str, Any]:
+    """What the window shows."""
+    shown, space = bpy.context.window_manager.windows[0], window.view()["area"].spaces[0]
+    hero = bpy.data.objects["Hero"]
+    return {
+        "scene": shown.scene.name,
+        "scenes": len(bpy.data.scenes),
+        "workspace": shown.workspace.name,
+        "view layer": shown.view_layer.name,
+        "active": shown.view_layer.objects.active.name,
+        "mode": hero.mode,
+        "view": [list(row) for row in space.region_3d.view_matrix],
+        "frames": (shown.scene.frame_current, shown.scene.frame_end, shown.scene.render.fps),
+        "pose": [[list(row) for row in bone.matrix_basis] for bone in hero.pose.bones],
+        "objects": sorted(bpy.data.objects.keys()),
+    }
+
+
+def import_file(name: str, **fields: Any) -> None:
+    """As a file that is dropped into the view."""
+    press(bpy.ops.fragmotion.import_mocap, directory=str(FILES), files=[{"name": name}], **fields)
+
+
+def steps() -> Iterator[None]:
+    """The whole session."""
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    yield from window.drawn()
+    write_files()
+    bpy.data.objects.remove(bpy.data.objects["Actor"])
+    yield from window.drawn()
+    hero = making.add_armature(name="Hero")
+    making.add_action(hero, FRAMES, seed=5, name="own")
+    yield from open_tab()
+    with bpy.context.temp_override(**window.view()):
+        bpy.ops.object.mode_set(mode="POSE")
+    hero.pose.bones["hand.L"].rotation_quaternion = (0.6, 0.8, 0, 0)  # without a key
+    bpy.ops.ed.undo_push(message="posed")
+    yield from window.drawn()
+    before = seen()
+    try:
+        import_file("half.fbx")
+    except RuntimeError as error:
+        assert "half.fbx" in str(error)
+    else:
+        raise AssertionError("half a file was read")
+    yield from window.drawn()
+    assert seen() == before, "a refused file has changed something"
+
+    import_file("walk.fbx", mend=False)
+    yield from window.drawn()
+    after = seen()
+    assert "walk" in bpy.data.actions and after.pop("pose") != before.pop("pose")
+    assert after == before, "an import has changed the scene"
+    window.show_only("Mocap", "Doctor")
+    bpy.context.window_manager.fragmotion.active_action = bpy.data.actions.find("walk")
+    yield from picture("1 imported")
+    findings = [row.code for row in bpy.data.actions["walk"].fragmotion.findings if row.mendable]
+    assert findings, "the doctor finds nothing to mend in noise"
+    yield from click_button("fragmotion.mend_finding")
+    yield from window.drawn()
+    assert next(row.mended for row in bpy.data.actions["walk"].fragmotion.findings if row.mendable)
+    yield from picture("2 mended")
+    for _ in range(2):
+        yield from send("Z", "PRESS", 300, 300, ctrl=True)
+        yield from send("Z", "RELEASE", 300, 300)
+    yield from window.drawn()
+    assert "walk" not in bpy.data.actions, "an import is more than one step"
+    assert bpy.data.objects["Hero"].mode == "POSE"
+    print("SESSION PASSED")
+
+
+window.run(steps())
