@@ -8,12 +8,13 @@ import argparse
 import sys
 from pathlib import Path
 
-from tools import benchmarks, demo, evaluating, fuzzing, machine, packages, testing
+from tools import benchmarks, demo, evaluating, fuzzing, machine, stages, testing
 from tools.beside import inputs as beside_inputs
 from tools.doctor import inputs as doctor_inputs
 from tools.evaluate import inputs
+from tools.platforms import PLATFORMS, named
 from tools.retarget import inputs as retarget_inputs
-from tools.shell import Failure, say
+from tools.shell import Failure
 
 
 def parse_arguments(arguments: list[str]) -> argparse.Namespace:
@@ -37,16 +38,21 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     doctor_inputs.add_arguments(doctor)
     retarget = commands.add_parser("retarget", help="bring takes onto another skeleton, and build a character of them")
     retarget_inputs.add_arguments(retarget)
-    commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
+    package = commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
+    package.add_argument(
+        "--platform",
+        metavar="NAME",
+        choices=[platform.name for platform in PLATFORMS],
+        help=f"only for one of {', '.join(platform.name for platform in PLATFORMS)}",
+    )
     return parser.parse_args(arguments)
 
 
-def package() -> int:
-    """Build both zips and say where they are, and which Pythons can load them."""
-    machine.set_up(machine.package_needs())
-    for path in packages.build_all():
-        say(f"{path}: for Python {', '.join(packages.pythons_inside(path))}")
-    return 0
+def package(name: str | None) -> int:
+    """Build the zips of one platform or of all, say where they are, and look into them."""
+    platforms = (named(name),) if name else PLATFORMS
+    machine.set_up(machine.package_needs(platforms))
+    return 1 if stages.packages_of(platforms).failed else 0
 
 
 def main(arguments: list[str]) -> int:
@@ -64,7 +70,7 @@ def main(arguments: list[str]) -> int:
             return benchmarks.run_benchmarks(options.json)
         if options.command in evaluating.COMMANDS:
             return evaluating.COMMANDS[options.command](options, arguments[1:])
-        return package()
+        return package(options.platform)
     except Failure as failure:
         print(f"dev.py: {failure}", file=sys.stderr)
         return 1

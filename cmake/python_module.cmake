@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# The Python module fragmotion_core: one extension module, its stub beside it.
+# The Python module fragmotion_core: one extension module, its stub and the command `fragmotion` beside it.
 file(GLOB fragmotion_bindings CONFIGURE_DEPENDS cpp/bindings/*.cpp)
 if(NOT fragmotion_bindings)
   message(STATUS "cpp/bindings holds no source yet: no Python module")
@@ -13,5 +13,5 @@ target_link_libraries(fragmotion_core PRIVATE fragmotion)
 target_compile_options(fragmotion_core PRIVATE -Wall -Wextra -Wpedantic)
 target_compile_definitions(fragmotion_core PRIVATE FRAGMOTION_VERSION="${PROJECT_VERSION}")
 install(TARGETS fragmotion_core LIBRARY DESTINATION .)
-file(GLOB fragmotion_stub cpp/bindings/*.pyi)
-install(FILES ${fragmotion_stub} DESTINATION .)
+file(GLOB fragmotion_python cpp/bindings/*.py cpp/bindings/*.pyi)
+install(FILES ${fragmotion_python} DESTINATION .)

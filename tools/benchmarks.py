@@ -7,17 +7,17 @@ from pathlib import Path
 
 from tools import machine, packages
 from tools.compiling import compile_preset, installed_core
-from tools.environments import environment_python
+from tools.environments import HOST, environment_python
 from tools.shell import run, say
 
 
 def run_benchmarks(json_file: Path | None) -> int:
-    """Measure in the Python 3.11 environment, and save the figures in `json_file` if one is given."""
+    """Measure in the Python that runs this, and save the figures in `json_file` if one is given."""
     machine.set_up(machine.BENCH)
     say("build: benchmarks and core")
     program = compile_preset("release", "fragmotion_benchmarks") / "fragmotion_benchmarks"
-    core = installed_core("3.11", packages.wheel("3.11"))
+    core = installed_core(HOST, packages.wheel(HOST))
     output = ["--json", str(json_file.resolve())] if json_file else []
-    python = environment_python("3.11")
+    python = environment_python(HOST)
     run([python, "-m", "tools.bench", program, *output], "bench", {"PYTHONPATH": str(core)}, echo=True)
     return 0

@@ -12,34 +12,35 @@ from pathlib import Path
 
 from tools.environments import environment_python, install_into
 from tools.paths import BUILD, TOP
+from tools.platforms import Platform
 from tools.shell import Failure, run
 
 # The glibc with which each libstdc++ came out, as the manylinux policies pair them.
 _GLIBC_OF_GLIBCXX = {29: 34, 30: 35, 31: 38, 32: 38, 33: 39}
 _OLDEST_GLIBC = 17
 
-# One compilation keeps all processors busy, and what the next one shares with it then comes out of the cache.
-_COMPILING = threading.Lock()
+COMPILING = threading.Lock()
+"""One compilation keeps all processors busy, and what the next one shares with it then comes out of the cache."""
 
 
 def compile_preset(preset: str, *targets: str) -> Path:
     """Configure and build a preset of CMakePresets.json (all of it, or the targets); return its folder."""
     folder = BUILD / preset
     selection = ["--target", *targets] if targets else []
-    with _COMPILING:
-        run(["cmake", "--preset", preset], f"cmake-{preset}", _compiler_environment())
-        run(["cmake", "--build", folder, *selection], f"build-{preset}", _compiler_environment())
+    with COMPILING:
+        run(["cmake", "--preset", preset], f"cmake-{preset}", compiler_environment())
+        run(["cmake", "--build", folder, *selection], f"build-{preset}", compiler_environment())
     return folder
 
 
 def build_wheel(python: str) -> Path:
-    """Build the wheel for one Python ("3.11"), tagged with the oldest glibc that it runs on."""
-    folder = BUILD / "wheels" / python
+    """Build the wheel for one Python ("3.11") of this machine, tagged with the oldest glibc that it runs on."""
+    folder = BUILD / "wheels" / f"native-{python}"
     shutil.rmtree(folder, ignore_errors=True)
     options = ("--disable-pip-version-check", "--no-deps", "--no-build-isolation", "--wheel-dir", str(folder))
     interpreter = environment_python(python)
-    with _COMPILING:
-        run([interpreter, "-m", "pip", "wheel", *options, TOP], f"wheel-{python}", _compiler_environment())
+    with COMPILING:
+        run([interpreter, "-m", "pip", "wheel", *options, TOP], f"wheel-{python}", compiler_environment())
     wheel = next(folder.glob("*.whl"))
     tag = _platform_tag(wheel)
     run([environment_python(python), "-m", "wheel", "tags", "--remove", "--platform-tag", tag, wheel], "wheel-tags")
@@ -53,7 +54,15 @@ def installed_core(python: str, wheel: Path) -> Path:
     return folder
 
 
-def _compiler_environment() -> dict[str, str]:
+def unpacked_core(wheel: Path, platform: Platform) -> Path:
+    """Unpack a platform's wheel into a folder of its own for PYTHONPATH: pip installs no other platform's."""
+    folder = BUILD / f"core-{platform.name}"
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.unpack_archive(wheel, folder, "zip")
+    return folder
+
+
+def compiler_environment() -> dict[str, str]:
     # The same sources are compiled for the tests and for the wheel of each Python: by one compiler name, ccache does it
     # once (CMake alone says c++, scikit-build-core g++).
     return {

@@ -14,7 +14,7 @@ def run_demo() -> int:
     """Show the whole chain; the pictures, the .blend and the figures are in build/demo."""
     machine.set_up(machine.DEMO)
     say("build: the core and the add-on's zip")
-    package = packages.build_legacy(packages.wheel("3.11"))
+    package = packages.build_for_debian(OUTPUT)
     OUTPUT.mkdir(parents=True, exist_ok=True)
     say("demo: in Blender")
     command = blender.background_command(TOP / "tools" / "demo_in_blender.py", OUTPUT, package)

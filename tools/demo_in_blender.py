@@ -30,10 +30,14 @@ MOMENTS = 12
 SPAN = (121, 286)  # frames of the filmstrip
 
 
-def install(package: str) -> None:
-    """Install and enable the legacy zip with Blender's own operators."""
-    bpy.ops.preferences.addon_install(filepath=package)
-    bpy.ops.preferences.addon_enable(module="fragmotion")
+def install(package: str) -> str:
+    """Install and enable the zip with Blender's own operators; the name of the add-on's module."""
+    if bpy.app.version < (4, 2, 0):
+        bpy.ops.preferences.addon_install(filepath=package)
+        bpy.ops.preferences.addon_enable(module="fragmotion")
+        return "fragmotion"
+    bpy.ops.extensions.package_install_files(filepath=package, repo="user_default", enable_on_install=True)
+    return "bl_ext.user_default.fragmotion"
 
 
 def open_sample() -> bpy.types.Object:
@@ -135,8 +139,7 @@ def main(output: str, package: str) -> None:
     """Do it all, in the order of the add-on's panels."""
     folder = Path(output).resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    install(package)
-    core = import_module("fragmotion.compat.core").core
+    core = import_module(f"{install(package)}.compat.core").core
     armature = open_sample()
     takes = len(bpy.data.actions)
     build()

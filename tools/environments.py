@@ -7,12 +7,35 @@ import shutil
 import subprocess
 import sys
 import tarfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 
+from tools import maven
 from tools.paths import BUILD, LIBSVM, SDL
-from tools.shell import Failure, run, say
+from tools.platforms import Platform
+from tools.shell import run, say
+
+
+def _version_of(python: str) -> str | None:
+    # A pyenv shim lies on the PATH for versions that are not activated, and fails: only running it tells.
+    code = "import sys; print('%d.%d' % sys.version_info[:2])"
+    try:
+        answer = subprocess.run([python, "-c", code], capture_output=True, text=True, check=False)
+    except OSError:
+        return None
+    return answer.stdout.strip() or None
+
+
+HOST = f"{sys.version_info.major}.{sys.version_info.minor}"
+"""The Python that runs this: the one for tools, and for what needs no certain Python."""
+
+SYSTEM = _version_of("/usr/bin/python3") or HOST
+"""The Python of the system, which Debian's Blender runs."""
+
+BPY_PYTHON = "3.11"
+"""The Python of Blender 4.5's module."""
 
 _LIBSVM = "libsvm-official==3.37.0"
 _SDL = ("PySDL2==0.9.17", "pysdl2-dll==2.32.0")
@@ -24,7 +47,7 @@ def find_python(version: str) -> Path | None:
     """An interpreter of this version ("3.11") that runs: this one, one on the PATH or one of pyenv's; else None."""
     candidates = [sys.executable, shutil.which(f"python{version}")]
     candidates += sorted(str(path) for path in pyenv_pythons(version))
-    return next((Path(path) for path in candidates if path and _runs_as(path, version)), None)
+    return next((Path(path) for path in candidates if path and _version_of(path) == version), None)
 
 
 def pyenv_pythons(version: str) -> list[Path]:
@@ -32,21 +55,24 @@ def pyenv_pythons(version: str) -> list[Path]:
     return list((Path.home() / ".pyenv" / "versions").glob(f"{version}.*/bin/python{version}"))
 
 
-def _runs_as(python: str, version: str) -> bool:
-    # A pyenv shim lies on the PATH for versions that are not activated, and fails: only running it tells.
-    code = "import sys; print('%d.%d' % sys.version_info[:2])"
-    answer = subprocess.run([python, "-c", code], capture_output=True, text=True, check=False)
-    return answer.stdout.strip() == version
-
-
 def environment(version: str) -> Path:
     """The folder of this version's virtual environment."""
     return BUILD / f"env-{version}"
 
 
+def site_packages(version: str) -> Path:
+    """Where this version's virtual environment keeps its packages."""
+    return environment(version) / "lib" / f"python{version}" / "site-packages"
+
+
 def environment_python(version: str) -> Path:
     """The interpreter of this version's virtual environment."""
     return environment(version) / "bin" / "python"
+
+
+def has_base(version: str) -> bool:
+    """Whether there is a virtual environment of this version, or an interpreter to make it from."""
+    return environment_python(version).exists() or find_python(version) is not None
 
 
 def ensure(version: str, requirements: Iterable[str]) -> None:
@@ -58,9 +84,7 @@ def ensure(version: str, requirements: Iterable[str]) -> None:
         return
     say(f"set-up: Python {version} environment with {' '.join(wanted)}")
     if not installed:
-        base = find_python(version)
-        if not base:
-            raise Failure(f"Python {version} is needed, and there is none on the PATH or under ~/.pyenv/versions")
+        base = find_python(version) or maven.ensure_python(version)
         run([base, "-m", "venv", "--clear", environment(version)], f"venv-{version}")
     run([environment_python(version), *_PIP, "install", *wanted], f"pip-{version}")
     stamp.write_text("".join(f"{line}\n" for line in wanted))
@@ -75,43 +99,62 @@ def install_into(folder: Path, version: str, *requirements: str | Path) -> None:
     )
 
 
+def install_for_windows(folder: Path, version: str, requirements: Iterable[str]) -> None:
+    """Install Windows' wheels for a Python into a folder."""
+    options = ("--platform", "win_amd64", "--python-version", version, "--only-binary", ":all:", "--upgrade")
+    run([environment_python(HOST), *_PIP, "install", "--target", folder, *options, *requirements], "pip-windows")
+
+
+@contextmanager
+def filled(folder: Path, requirements: Iterable[str], label: str) -> Iterator[bool]:
+    """Whether a folder is to be filled with the requirements, as its stamp does not say that it holds just these: then
+    it is empty, and stamped when all went well."""
+    stamp = folder / "requirements.txt"
+    wanted = "".join(f"{line}\n" for line in requirements)
+    if stamp.exists() and stamp.read_text() == wanted:
+        yield False
+        return
+    say(f"set-up: {label}")
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    yield True
+    stamp.write_text(wanted)
+
+
 def ensure_folder(folder: Path, version: str, requirement: str) -> None:
     """Install a package into a folder of its own, unless the folder is complete."""
-    stamp = folder / "requirements.txt"
-    if not stamp.exists():
-        say(f"set-up: {requirement} in {folder.name}")
-        install_into(folder, version, requirement)
-        stamp.write_text(f"{requirement}\n")
+    with filled(folder, [requirement], f"{requirement} in {folder.name}") as is_needed:
+        if is_needed:
+            install_into(folder, version, requirement)
 
 
 def ensure_libsvm() -> None:
     """Put svm.cpp and svm.h of PyPI's source distribution into build/libsvm, where CMake looks for them."""
-    stamp = LIBSVM / "requirements.txt"
-    if stamp.exists() and stamp.read_text().strip() == _LIBSVM:
-        return
-    say(f"set-up: sources of {_LIBSVM}")
-    shutil.rmtree(LIBSVM, ignore_errors=True)
-    LIBSVM.mkdir(parents=True)
+    with filled(LIBSVM, [_LIBSVM], f"sources of {_LIBSVM}") as is_needed:
+        if is_needed:
+            _download_libsvm()
+
+
+def _download_libsvm() -> None:
     options = ("--no-deps", "--no-binary", "libsvm-official", "--dest", str(LIBSVM))
-    run([environment_python("3.11"), *_PIP, "download", *options, _LIBSVM], "pip-libsvm")
+    run([environment_python(HOST), *_PIP, "download", *options, _LIBSVM], "pip-libsvm")
     with tarfile.open(next(LIBSVM.glob("*.tar.gz"))) as archive:
         for member in archive.getmembers():
             name = Path(member.name).name
             source = archive.extractfile(member) if name in ("svm.cpp", "svm.h", "LICENSE") else None
             if source:
                 (LIBSVM / name).write_bytes(source.read())
-    stamp.write_text(f"{_LIBSVM}\n")
 
 
-def ensure_sdl() -> None:
-    """Put the wheels of SDL for this machine, which the add-on brings along, into build/sdl."""
-    stamp = SDL / "requirements.txt"
-    wanted = "".join(f"{line}\n" for line in _SDL)
-    if stamp.exists() and stamp.read_text() == wanted:
-        return
-    say(f"set-up: {' '.join(_SDL)}")
-    shutil.rmtree(SDL, ignore_errors=True)
-    SDL.mkdir(parents=True)
-    options = ("--no-deps", "--only-binary", ":all:", "--dest", str(SDL))
-    run([environment_python("3.11"), *_PIP, "download", *options, *_SDL], "pip-sdl")
-    stamp.write_text(wanted)
+def sdl_wheels(platform: Platform) -> list[Path]:
+    """The wheels of SDL and of its Python module."""
+    return sorted((SDL / platform.name).glob("*.whl"))
+
+
+def ensure_sdl(platform: Platform) -> None:
+    """Put the wheels of SDL for a platform, which the add-on brings along, into build/sdl/PLATFORM."""
+    folder = SDL / platform.name
+    options = ("--no-deps", "--only-binary", ":all:", "--platform", platform.sdl_tag, "--dest", str(folder))
+    with filled(folder, _SDL, f"{' '.join(_SDL)} for {platform.name}") as is_needed:
+        if is_needed:
+            run([environment_python(HOST), *_PIP, "download", *options, *_SDL], f"pip-sdl-{platform.name}")

@@ -3,15 +3,16 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
-from tools import apt, environments
+from tools import apt, cross, environments, maven, windows
+from tools.environments import BPY_PYTHON, HOST, SYSTEM
 from tools.paths import BUILD
+from tools.platforms import PLATFORMS, TESTED_PLATFORMS, Platform
 
-PYTEST_FOLDER = BUILD / "pytest-3.11"
+PYTEST_FOLDER = BUILD / f"pytest-{SYSTEM}"
 
 _BUILD_PACKAGES = ("g++", "cmake", "ninja-build", "ccache", "libeigen3-dev", "python3-dev", "python3-venv")
 _CPP_TEST_PACKAGES = ("libgtest-dev", "libbenchmark-dev")
@@ -30,16 +31,19 @@ _BPY_PACKAGES = (
     "libxt6",
     "libxxf86vm1",
 )
-_BUILD_REQUIREMENTS = ("pybind11", "scikit-build-core", "wheel")
+_BUILD_REQUIREMENTS = ("pybind11==3.1.0", "scikit-build-core", "wheel")
 
 
 @dataclass(frozen=True)
 class Needs:
-    """Debian packages, Python packages by Python version, and pytest for Debian's Blender."""
+    """Debian packages, Python packages by Python version, platforms to compile for, pytest for Debian's Blender, Wine's
+    Windows."""
 
     packages: tuple[str, ...] = ()
     requirements: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    platforms: tuple[Platform, ...] = ()
     pytest_folder: bool = False
+    windows: bool = False
 
     def __or__(self, other: Needs) -> Needs:
         """Both needs together."""
@@ -47,68 +51,77 @@ class Needs:
         return Needs(
             tuple(dict.fromkeys(self.packages + other.packages)),
             {v: self.requirements.get(v, ()) + other.requirements.get(v, ()) for v in versions},
+            tuple(dict.fromkeys(self.platforms + other.platforms)),
             self.pytest_folder or other.pytest_folder,
+            self.windows or other.windows,
         )
 
 
-BUILD_311 = Needs(_BUILD_PACKAGES, {"3.11": _BUILD_REQUIREMENTS})
-BUILD_313 = Needs(_BUILD_PACKAGES, {"3.13": _BUILD_REQUIREMENTS})
-STYLE = Needs(("python3-venv",), {"3.11": ("clang-format==14.0.6", "mypy==2.4.1", "numpy", "ruff==0.17.6")})
-CPP_TESTS = BUILD_311 | Needs(_CPP_TEST_PACKAGES)
+def build_needs(python: str) -> Needs:
+    """What building the core for one Python takes."""
+    return Needs(_BUILD_PACKAGES, {python: _BUILD_REQUIREMENTS})
+
+
+def package_needs(platforms: tuple[Platform, ...] = PLATFORMS) -> Needs:
+    """What cross-compiling takes, and looking into what came out."""
+    requirements: dict[str, tuple[str, ...]] = {HOST: (*cross.REQUIREMENTS, "pytest", "packaging", "lief==1.0.0")}
+    return build_needs(HOST) | Needs(requirements=requirements, platforms=platforms)
+
+
+BUILD_HOST = build_needs(HOST)
+STYLE = Needs(("python3-venv",), {HOST: ("clang-format==14.0.6", "mypy==2.4.1", "numpy", "ruff==0.17.6")})
+CPP_TESTS = BUILD_HOST | Needs(_CPP_TEST_PACKAGES)
 SANITIZED_TESTS = CPP_TESTS | Needs(_CLANG_PACKAGES)
-FUZZ = BUILD_311 | Needs(_CLANG_PACKAGES)
-PYTHON_TESTS = BUILD_311 | Needs((), {"3.11": ("numpy", "pytest", "scikit-learn", "scipy", "matplotlib")})
-BLENDER_45 = BUILD_311 | Needs(_BPY_PACKAGES, {"3.11": ("bpy==4.5.*", "numpy", "pytest")})
-BLENDER_52 = BUILD_313 | Needs(_BPY_PACKAGES, {"3.13": ("bpy==5.2.*", "numpy", "pytest")})
-DEMO = BUILD_311 | Needs(_BLENDER_PACKAGES)
-BLENDER_34 = DEMO | Needs(pytest_folder=True)
-WINDOWS = BLENDER_34 | PYTHON_TESTS | Needs(_WINDOW_PACKAGES)
+FUZZ = BUILD_HOST | Needs(_CLANG_PACKAGES)
+PYTHON_TESTS = BUILD_HOST | Needs((), {HOST: ("numpy", "pytest", "scikit-learn", "scipy", "matplotlib")})
+PACKAGE_TESTS = package_needs(TESTED_PLATFORMS)
+BLENDER_45 = BUILD_HOST | Needs(_BPY_PACKAGES, {"3.11": ("bpy==4.5.*", "numpy", "pytest")})
+BLENDER_52 = BUILD_HOST | Needs(_BPY_PACKAGES, {"3.13": ("bpy==5.2.*", "numpy", "pytest")})
+DEMO = BUILD_HOST | build_needs(SYSTEM) | Needs(_BLENDER_PACKAGES)
+BLENDER_DEBIAN = DEMO | Needs(pytest_folder=True)
+GUI = BLENDER_DEBIAN | PYTHON_TESTS | Needs(_WINDOW_PACKAGES)
+WINDOWS = Needs(windows.PACKAGES, {BPY_PYTHON: ("numpy", "pytest")}, windows=True)
 BENCH = CPP_TESTS | PYTHON_TESTS
-EVALUATE = BUILD_311 | Needs((), {"3.11": ("numpy", "matplotlib")})
-EVALUATE_BLEND = EVALUATE | BLENDER_45
-DOCTOR = BUILD_311 | Needs((), {"3.11": ("numpy",)})
-BESIDE = EVALUATE | Needs((), {"3.11": ("scipy",)})
 
 
-def has_python_313() -> bool:
-    """Whether Blender 5.2's Python is on this machine."""
-    return environments.find_python("3.13") is not None
-
-
-def package_pythons() -> list[str]:
-    """The Pythons that the zips hold a core for: Blender's, as far as they are here."""
-    return ["3.11", "3.13"] if has_python_313() else ["3.11"]
-
-
-def package_needs() -> Needs:
-    """What building the zips takes: the wheel of each of these Pythons."""
-    return BUILD_311 | BUILD_313 if has_python_313() else BUILD_311
-
-
-def in_ci() -> bool:
-    """Whether this is a CI run, where nothing may be left out."""
-    return bool(os.environ.get("CI"))
+def measuring_needs(python: str) -> Needs:
+    """What the commands that measure takes and characters take, in this Python ("3.11")."""
+    return BUILD_HOST | build_needs(python) | Needs((), {python: ("numpy", "scipy", "matplotlib")})
 
 
 def set_up(needs: Needs) -> None:
     """Install what is missing; costs next to nothing when nothing is. Needs root or sudo for Debian packages only."""
-    apt.check_permission(needs.packages)
-    first = [package for package in needs.packages if package in _BUILD_PACKAGES]
+    packages = tuple(dict.fromkeys((*needs.packages, *(maven.PACKAGES if _downloads_pythons(needs) else ()))))
+    apt.check_permission(packages)
+    first = [package for package in packages if package in (*_BUILD_PACKAGES, *maven.PACKAGES)]
     apt.install(first, "apt-build")
     jobs: list[Callable[[], None]] = [
-        lambda: apt.install(needs.packages, "apt"),
-        lambda: _set_up_python_311(needs),
+        lambda: apt.install(packages, "apt"),
+        lambda: _set_up_host(needs),
+        *(_environment_job(needs, version) for version in needs.requirements if version != HOST),
     ]
-    if "3.13" in needs.requirements:
-        jobs.append(lambda: environments.ensure("3.13", needs.requirements["3.13"]))
     with ThreadPoolExecutor() as pool:
         for job in [pool.submit(job) for job in jobs]:
             job.result()
 
 
-def _set_up_python_311(needs: Needs) -> None:
-    environments.ensure("3.11", needs.requirements["3.11"])
+def _downloads_pythons(needs: Needs) -> bool:
+    """Whether Pythons are needed that this machine has not: to run, or the headers of other platforms'."""
+    absent = [version for version in needs.requirements if not environments.has_base(version)]
+    return bool(absent) or any(not maven.has_headers(platform) for platform in needs.platforms)
+
+
+def _environment_job(needs: Needs, version: str) -> Callable[[], None]:
+    return lambda: environments.ensure(version, needs.requirements[version])
+
+
+def _set_up_host(needs: Needs) -> None:
+    environments.ensure(HOST, needs.requirements[HOST])
     environments.ensure_libsvm()
-    environments.ensure_sdl()
+    for platform in needs.platforms:
+        maven.ensure_headers(platform)
+        environments.ensure_sdl(platform)
+    if needs.windows:
+        windows.ensure()
     if needs.pytest_folder:
-        environments.ensure_folder(PYTEST_FOLDER, "3.11", "pytest")
+        environments.ensure_folder(PYTEST_FOLDER, SYSTEM, "pytest")

@@ -13,7 +13,7 @@ ADDON = TOP / "addon" / "fragmotion"
 PACKAGES = BUILD / "packages"
 LIBSVM = BUILD / "libsvm"
 SDL = BUILD / "sdl"
-BLENDER = Path("/usr/bin/blender")  # Debian's: 3.4.1, which runs the system's Python 3.11
+BLENDER = Path("/usr/bin/blender")  # Debian's, which runs the system's Python: 3.4.1 on Debian 12, 4.3 on 13
 
 
 def version() -> str:

@@ -5,17 +5,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tools.environments import environment
+from tools.environments import HOST, environment
 from tools.paths import TOP
 from tools.shell import Failure, run, say
 
 _CPP = ("cpp", "tests")
-_TYPED = ("dev.py", "tools")
+_TYPED = ("dev.py", "tools", "cpp/bindings/fragmotion_command.py")
 
 
 def check() -> tuple[int, list[str]]:
     """Run each check; how many passed, and what those say that did not."""
-    programs = environment("3.11") / "bin"
+    programs = environment(HOST) / "bin"
     sources = sorted(str(path) for folder in _CPP for path in (TOP / folder).rglob("*.[ch]pp"))
     commands: dict[str, list[str | Path]] = {
         "ruff": [programs / "ruff", "check", "."],

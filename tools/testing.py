@@ -26,14 +26,15 @@ class Stage:
 STAGES = {
     "cpp": Stage(stages.cpp, lambda: machine.CPP_TESTS),
     "style": Stage(stages.style_checks, lambda: machine.STYLE),
-    "wheels": Stage(stages.wheels, machine.package_needs),
-    "package": Stage(stages.package, machine.package_needs, ("wheels",)),
-    "python": Stage(stages.python, lambda: machine.PYTHON_TESTS, ("wheels",)),
+    "python": Stage(stages.python, lambda: machine.PYTHON_TESTS),
+    "package": Stage(stages.package, lambda: machine.PACKAGE_TESTS),
     "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS),
     "blender-4.5": Stage(stages.blender_45, lambda: machine.BLENDER_45, ("package",)),
-    "blender-5.2": Stage(stages.blender_52, lambda: _needs_of_52(), ("package",)),
-    "blender-3.4": Stage(stages.blender_34, lambda: machine.BLENDER_34, ("package",)),
-    "gui": Stage(stages.gui, lambda: machine.WINDOWS if stages.gui_tests() else machine.Needs(), ("package",)),
+    "blender-5.2": Stage(stages.blender_52, lambda: machine.BLENDER_52, ("package",)),
+    "blender-debian": Stage(stages.blender_debian, lambda: machine.BLENDER_DEBIAN, ("package",)),
+    "windows": Stage(stages.windows_python, lambda: machine.WINDOWS, ("package",)),
+    "windows-4.5": Stage(stages.windows_blender, lambda: machine.WINDOWS, ("package",)),
+    "gui": Stage(stages.gui, lambda: machine.GUI if stages.gui_tests() else machine.Needs(), ("package",)),
     "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
     "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),
 }
@@ -63,10 +64,6 @@ def run_tests(names: list[str], expression: str | None) -> int:
     say(f"set-up: ready after {time.monotonic() - start:.0f} s")
     results = _run_side_by_side(selected, expression)
     return _summarise({name: results[name] for name in selected}, time.monotonic() - start)
-
-
-def _needs_of_52() -> machine.Needs:
-    return machine.BLENDER_52 if machine.has_python_313() else machine.Needs()
 
 
 def _with_prerequisites(names: list[str]) -> list[str]:
@@ -112,11 +109,11 @@ def _run_stage(name: str, expression: str | None, results: dict[str, Result]) ->
 
 
 def _summarise(results: dict[str, Result], seconds: float) -> int:
-    say(f"\n{'stage':<12} {'result':<8} {'passed':>6} {'failed':>6} {'skipped':>7} {'seconds':>7}")
+    say(f"\n{'stage':<14} {'result':<8} {'passed':>6} {'failed':>6} {'skipped':>7} {'seconds':>7}")
     for name, result in results.items():
         counts = result.counts
         figures = f"{counts.passed:>6} {counts.failed:>6} {counts.skipped:>7} {result.seconds:>7.0f}"
-        say(f"{name:<12} {result.state:<8} {figures}  {result.remark}".rstrip())
+        say(f"{name:<14} {result.state:<8} {figures}  {result.remark}".rstrip())
     total = Counts()
     for result in results.values():
         total = total + result.counts

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from tools import packages
+from tools import environments, machine, packages, platforms, wheels
+from tools.shell import Failure
 
 
 @pytest.mark.parametrize(
@@ -31,3 +32,38 @@ def test_a_zip_tells_which_pythons_it_is_for(tmp_path: Path, names: list[str], p
         for name in names:
             archive.writestr(name, "")
     assert packages.pythons_inside(tmp_path / "addon.zip") == pythons
+
+
+def test_the_same_files_give_the_same_zip(tmp_path: Path) -> None:
+    files = {"b/two.py": b"two" * 1000, "a.txt": b"one"}
+    for name in ("first.zip", "second.zip"):
+        wheels.write_zip(tmp_path / name, files)
+    assert (tmp_path / "first.zip").read_bytes() == (tmp_path / "second.zip").read_bytes()
+    with zipfile.ZipFile(tmp_path / "first.zip") as archive:
+        assert {name: archive.read(name) for name in archive.namelist()} == files
+        assert {entry.external_attr >> 16 for entry in archive.infolist()} == {0o100644}
+
+
+@pytest.mark.parametrize("platform", platforms.PLATFORMS, ids=lambda platform: platform.name)
+def test_a_module_is_packed_as_a_wheel_of_its_python_and_platform(tmp_path: Path, platform: platforms.Platform) -> None:
+    module = tmp_path / platform.module_name("3.11")
+    module.write_bytes(b"compiled")
+    wheel = wheels.pack(module, "3.11", platform.wheel_tag, tmp_path)
+    assert wheel.name.endswith(f"-cp311-cp311-{platform.wheel_tag}.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        assert archive.read(module.name) == b"compiled"
+        assert "fragmotion_core.pyi" in archive.namelist()
+    assert packages.pythons_inside(wheel) == ["3.11"]
+
+
+def test_an_unknown_platform_is_told_with_those_there_are() -> None:
+    with pytest.raises(Failure, match="no platform beos; the platforms are linux-x64, windows-x64, macos-arm64"):
+        platforms.named("beos")
+
+
+def test_needs_are_joined_without_repeats() -> None:
+    both = machine.BLENDER_45 | machine.package_needs() | machine.package_needs((platforms.LINUX,))
+    assert both.platforms == platforms.PLATFORMS
+    assert len(both.packages) == len(set(both.packages))
+    assert any(requirement.startswith("ziglang==") for requirement in both.requirements[environments.HOST])
+    assert "bpy==4.5.*" in both.requirements["3.11"]

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+# Toolchain of zig's clang for another platform. FRAGMOTION_ZIG_DIR holds the programs c++, cc, ar, ranlib and rc that
+# compile for it (tools/cross.py writes them), FRAGMOTION_SYSTEM and FRAGMOTION_PROCESSOR name it as CMake does.
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES FRAGMOTION_ZIG_DIR FRAGMOTION_SYSTEM FRAGMOTION_PROCESSOR)
+set(CMAKE_SYSTEM_NAME ${FRAGMOTION_SYSTEM})
+set(CMAKE_SYSTEM_PROCESSOR ${FRAGMOTION_PROCESSOR})
+foreach(tool AR RANLIB)
+  string(TOLOWER ${tool} program)
+  set(CMAKE_${tool} "${FRAGMOTION_ZIG_DIR}/${program}")
+  set(CMAKE_C_COMPILER_${tool} "${CMAKE_${tool}}")
+  set(CMAKE_CXX_COMPILER_${tool} "${CMAKE_${tool}}")
+endforeach()
+set(CMAKE_C_COMPILER "${FRAGMOTION_ZIG_DIR}/cc")
+set(CMAKE_CXX_COMPILER "${FRAGMOTION_ZIG_DIR}/c++")
+set(CMAKE_RC_COMPILER "${FRAGMOTION_ZIG_DIR}/rc")
+set(CMAKE_INSTALL_NAME_TOOL "${FRAGMOTION_ZIG_DIR}/none")
+# Linking a program compiles the C++ library first, and CMake's questions need none.
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+foreach(language C CXX)
+  set(CMAKE_${language}_COMPILER_ID_RUN TRUE)
+  set(CMAKE_${language}_COMPILER_ID Clang)
+  set(CMAKE_${language}_COMPILER_VERSION 20.1.2)
+  set(CMAKE_${language}_COMPILER_FRONTEND_VARIANT GNU)
+  set(CMAKE_${language}_STANDARD_COMPUTED_DEFAULT 17)
+  set(CMAKE_${language}_EXTENSIONS_COMPUTED_DEFAULT ON)
+endforeach()
+set(CMAKE_CXX_STANDARD_LIBRARIES_INIT "")
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: MIT
+"""The command `fragmotion` of the core's wheel: characters from files of motion capture, without Blender."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import fragmotion_core as core
+
+_EXAMPLES = """examples:
+  fragmotion build walks/ --policy hero.policy
+  fragmotion info hero.policy --json -
+  fragmotion play hero.policy --trace path.csv --bvh shot.bvh
+  fragmotion evaluate hero.policy --player runner --seconds 60
+
+Takes are BVH files, AMC files with their ASF beside them, and folders of such, all of one skeleton. A trace is a
+CSV file: velocity_x,velocity_y (m/s), turn (-1 to 1), jump (0 or 1), 10 rows a second. The exit code is 0 where all
+was done; else it is 1, and the cause is told."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command, by default that of the process; the exit code."""
+    options = _parser().parse_args(arguments)
+    try:
+        figures = options.command(options)
+        if options.json == "-":
+            print(json.dumps(figures, indent=1))
+            return 0
+        print(", ".join(f"{name.replace('_', ' ')} {_shown(value)}" for name, value in figures.items()))
+        if options.json:
+            Path(options.json).write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
+    except (ValueError, OSError) as error:
+        print(f"fragmotion: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="fragmotion", epilog=_EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    build = commands.add_parser("build", help="build a character of takes")
+    build.add_argument("takes", nargs="+", type=Path, metavar="TAKES")
+    build.add_argument("--policy", type=Path, required=True, metavar="FILE", help="where to write the policy file")
+    build.add_argument("--classes", type=int, metavar="N", help="how many classes")
+    build.add_argument("--unit", type=float, default=0.01, metavar="M", help="metres in one unit of a BVH file (0.01)")
+    build.set_defaults(command=_build)
+    info = commands.add_parser("info", help="tell what a policy file holds")
+    info.set_defaults(command=_info)
+    play = commands.add_parser("play", help="write what a character does under a trace as a BVH file")
+    play.add_argument("--bvh", type=Path, required=True, metavar="FILE", help="where to write the motion")
+    play.add_argument("--rate", type=float, default=30.0, metavar="HZ", help="frames a second (30)")
+    play.set_defaults(command=_play)
+    evaluate = commands.add_parser("evaluate", help="measure a character under a trace")
+    evaluate.set_defaults(command=_evaluate)
+    for command in (info, play, evaluate):
+        command.add_argument("character", type=Path, metavar="FILE.policy")
+    for command in (play, evaluate):
+        driver = command.add_mutually_exclusive_group(required=True)
+        driver.add_argument("--trace", type=Path, metavar="FILE.csv", help="what a stick did")
+        driver.add_argument("--player", choices=core.PLAYERS, help="a simulated player")
+        command.add_argument("--seconds", type=float, default=20.0, metavar="S", help="how long that one plays (20)")
+    for command in (build, play, evaluate):
+        command.add_argument("--seed", type=int, default=1, metavar="N", help="draws what is left to chance (1)")
+    for command in (build, info, play, evaluate):
+        command.add_argument("--json", metavar="FILE", help="save the figures there; - prints them")
+    return parser
+
+
+def _build(options: argparse.Namespace) -> dict[str, Any]:
+    takes = [core.read_bvh(path, options.unit) if _is_bvh(path) else _read_amc(path) for path in _files(options.takes)]
+    skeleton = takes[0].skeleton
+    clips = [core.Clip.from_take(take, skeleton) for take in takes]
+    settings = core.BuildOptions()
+    settings.seed = options.seed
+    if options.classes is not None:
+        settings.classes = options.classes
+    character = core.build(skeleton, clips, [core.simulate_trace("explorer", 60, options.seed)], settings)
+    character.save(options.policy)
+    return _described(character)
+
+
+def _files(given: Sequence[Path]) -> list[Path]:
+    """The files of takes, those of a folder by name; ValueError where there are none."""
+    found: list[Path] = []
+    for path in given:
+        inside = sorted(path.rglob("*")) if path.is_dir() else [path]
+        found += [each for each in inside if each.suffix.lower() in {".bvh", ".amc"} and not each.name.startswith(".")]
+    if not found:
+        raise ValueError(f"{', '.join(map(str, given))}: no takes here (.bvh, or .amc with its .asf)")
+    return found
+
+
+def _is_bvh(path: Path) -> bool:
+    return path.suffix.lower() == ".bvh"
+
+
+def _read_amc(path: Path) -> core.Take:
+    """A take with the skeleton beside it: the one it is named after, as 02_01.amc after 02.asf, or the only one."""
+    beside = [each for each in path.parent.iterdir() if each.suffix.lower() == ".asf"]
+    named = [each for each in beside if path.stem.startswith(each.stem)] or beside
+    if len(named) != 1:
+        raise ValueError(f"{path}: {len(named)} .asf files beside it may be its skeleton, and one is needed")
+    return core.read_asf_amc(named[0], path)
+
+
+def _info(options: argparse.Namespace) -> dict[str, Any]:
+    return _described(core.Character.load(options.character))
+
+
+def _described(character: core.Character) -> dict[str, Any]:
+    return {
+        "bones": len(character.skeleton.names),
+        "fragments": len(character.fragment_durations),
+        "classes": len(character.class_names),
+        "policies": character.policies,
+        "walk": character.space.walk,
+        "run": character.space.run,
+    }
+
+
+def _play(options: argparse.Namespace) -> dict[str, Any]:
+    character = core.Character.load(options.character)
+    performance = core.Player(character, options.seed).run(_trace(options, character), options.rate)
+    clip = core.Clip(
+        character.skeleton, options.bvh.stem, performance.rate, performance.root_positions, performance.rotations
+    )
+    core.write_bvh(core.Take.from_clip(clip, character.skeleton), options.bvh)
+    return {"frames": len(performance.frames), "rate": performance.rate}
+
+
+def _evaluate(options: argparse.Namespace) -> dict[str, Any]:
+    character = core.Character.load(options.character)
+    trace = _trace(options, character)
+    performance = core.Player(character, options.seed).run(trace, 60.0)
+    return {
+        "percent_of_optimal": character.percent_of_optimal(trace),
+        "quality": performance.quality,
+        "velocity_error": performance.velocity_error,
+        "turn_error": performance.turn_error,
+        "commanded_speed": performance.commanded_speed,
+    }
+
+
+def _trace(options: argparse.Namespace, character: core.Character) -> core.Doubles:
+    if options.trace:
+        return core.read_trace(options.trace)
+    return core.simulate_trace(options.player, options.seconds, options.seed, character.space)
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, list):
+        return " ".join(map(str, value))
+    return f"{value:.3g}" if isinstance(value, float) else str(value)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+"""The command `fragmotion`: files in, files out, a message and an exit code."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import fragmotion_command
+import fragmotion_core as core
+import numpy as np
+import pytest
+from sample_motions import write_sample
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the sample's takes, and hero.policy, built of them."""
+    path = tmp_path_factory.mktemp("command")
+    (path / "takes").mkdir()
+    write_sample(path / "takes")
+    assert run("build", path / "takes", "--policy", path / "hero.policy", "--classes", 20) == 0
+    return path
+
+
+def run(*words: object) -> int:
+    return fragmotion_command.main([str(word) for word in words])
+
+
+def figures_of(capsys: pytest.CaptureFixture[str], *words: object) -> dict[str, object]:
+    capsys.readouterr()
+    assert run(*words, "--json", "-") == 0
+    found: dict[str, object] = json.loads(capsys.readouterr().out)
+    return found
+
+
+def test_info_tells_what_was_built(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    character = core.Character.load(folder / "hero.policy")
+    found = figures_of(capsys, "info", folder / "hero.policy")
+    assert found["classes"] == 20 == len(character.class_names)
+    assert found["fragments"] == len(character.fragment_durations) > 100
+    assert found["walk"] == character.space.walk and found["policies"] == character.policies
+
+
+def test_what_is_played_is_read_back(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ("play", folder / "hero.policy", "--player", "walker", "--seconds", 5, "--seed", 7)
+    found = figures_of(capsys, *words, "--bvh", tmp_path / "shot.bvh")
+    character = core.Character.load(folder / "hero.policy")
+    trace = core.simulate_trace("walker", 5, 7, character.space)
+    expected = core.Player(character, 7).run(trace, 30)
+    clip = core.Clip(character.skeleton, "x", 30, expected.root_positions, expected.rotations)
+    take = core.read_bvh(tmp_path / "shot.bvh")
+    heads = take.world_transforms()[0]
+    assert found == {"frames": 151, "rate": 30.0} and len(heads) == 151
+    hips = character.skeleton.names.index(character.skeleton.roles["hips"])  # what is above rests in a BVH file
+    np.testing.assert_allclose(heads[:, hips:], clip.world_transforms(character.skeleton)[0][:, hips:], atol=1e-4)
+
+
+def test_a_trace_drives_as_its_player_does(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    character = core.Character.load(folder / "hero.policy")
+    core.write_trace(tmp_path / "trace.csv", core.simulate_trace("runner", 10, 3, character.space))
+    by_file = figures_of(capsys, "evaluate", folder / "hero.policy", "--trace", tmp_path / "trace.csv", "--seed", 3)
+    words = ("evaluate", folder / "hero.policy", "--player", "runner", "--seconds", 10, "--seed", 3)
+    by_player = figures_of(capsys, *words)
+    assert by_file.keys() == by_player.keys()
+    for name, value in by_player.items():
+        assert by_file[name] == pytest.approx(value, rel=1e-3), name
+    assert 0 < float(str(by_player["percent_of_optimal"])) <= 100
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("info", "missing.policy"), "missing.policy"),
+        (("build", ".", "--policy", "x.policy"), "no takes here"),
+        (("build", "alone.amc", "--policy", "x.policy"), "0 .asf files beside it"),
+        (("play", "{hero}", "--trace", "missing.csv", "--bvh", "x.bvh"), "missing.csv"),
+        (("play", "{hero}", "--player", "walker", "--bvh", "no/x.bvh"), "no/x.bvh"),
+        (("play", "{hero}", "--player", "walker", "--rate", "0", "--bvh", "x.bvh"), "rate"),
+    ],
+)
+def test_what_cannot_be_done_is_told(
+    folder: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    words: tuple[str, ...],
+    message: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    if "alone.amc" in words:
+        Path("alone.amc").touch()
+    before = sorted(tmp_path.iterdir())
+    assert run(*(word.format(hero=folder / "hero.policy") for word in words)) == 1
+    said = capsys.readouterr().err
+    assert said.startswith("fragmotion: ") and message in said.replace("\\", "/")
+    assert sorted(tmp_path.iterdir()) == before
