@@ -93,6 +93,15 @@ void bind_crowd(py::module_& m) {
       .def_property_readonly("playing", &playing_of);
 }
 
+py::array_t<double> standing_feet(OnePlayer& player) {
+  std::vector<double> places;
+  for (const std::optional<Vector3>& foot : OnePlayer::Call(player)->standing_feet()) {
+    if (foot) places.insert(places.end(), foot->begin(), foot->end());
+  }
+  const auto count = static_cast<py::ssize_t>(places.size()) / 3;
+  return to_array(std::move(places), {count, 3});
+}
+
 void bind_player(py::module_& m) {
   py::class_<OnePlayer> player(m, "Player", py::module_local());
   for_option_arguments([&](const auto&... options) {
@@ -123,6 +132,16 @@ void bind_player(py::module_& m) {
                                const OnePlayer::Call player(one);
                                return py::make_tuple(player->playing_class(), player->playing_fragment());
                              })
+      .def_property_readonly("entered", [](OnePlayer& player) { return OnePlayer::Call(player)->entered(); })
+      .def_property_readonly("seconds_left", [](OnePlayer& player) { return OnePlayer::Call(player)->seconds_left(); })
+      .def_property_readonly("standing_feet", &standing_feet)
+      .def(
+          "quality",
+          [](OnePlayer& one, const Doubles& control) {
+            const OnePlayer::Call player(one);
+            return player->quality(player->character().space.nearest(to_control(control)));
+          },
+          py::arg("control"))
       .def(
           "run",
           [](OnePlayer& one, const Doubles& trace, double rate, const py::object& progress) {

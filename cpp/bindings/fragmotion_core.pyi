@@ -446,6 +446,15 @@ class Player:
     """x, y, heading of the character frame now."""
     playing: tuple[int, int]
     """Class and fragment that play now."""
+    entered: int
+    """Fragments begun since it was made."""
+    seconds_left: float
+    """Until the end of the fragment that plays."""
+    standing_feet: Doubles
+    """[0 .. 2,3]: of each foot that stands where the fragment has it stand, left first, the middle of its sole as it is
+    shown, m."""
+    def quality(self, control: ArrayLike) -> float:
+        """Eq. 2, 0 .. 1, for the transition that led to what plays and the point nearest to a control [4]."""
     def run(self, trace: ArrayLike, rate: float, progress: Progress | None = None) -> Performance:
         """Reset is not called. Play a trace [T,4] (10 controls a second) from now, sampled at `rate` (any, also
         29.97, to 1000): frames 0 .. round(T/10 * rate), of which there may be 1048574. Each number of a control is
@@ -489,6 +498,30 @@ class Crowd:
     """[count,3]: x, y, heading of the character frames now."""
     playing: Ints
     """[count,2]: class and fragment that play now."""
+
+def carried_motion(
+    root_positions: ArrayLike, rotations: ArrayLike, frames: ArrayLike, hips: int, to: ArrayLike
+) -> tuple[Doubles, Doubles, Doubles]:
+    """Poses [F,3], [F,B,4] in which the character frame is `frames` [F,3] (x, y, heading), as they are seen from there,
+    with that frame at `to` [F,3]: root positions, rotations and `to`. `hips` is the bone's number."""
+
+def looped_motion(
+    root_positions: ArrayLike, rotations: ArrayLike, frames: ArrayLike, hips: int, count: int
+) -> tuple[Doubles, Doubles, Doubles]:
+    """The same, its last `count` frames eased so that it ends as it began: seen from the character frame the last pose
+    is the first one, and the one before leads up to it at the first's velocity; the path's last step is its first."""
+
+def resampled_motion(
+    times: ArrayLike, root_positions: ArrayLike, rotations: ArrayLike, frames: ArrayLike, rate: float
+) -> tuple[Doubles, Doubles, Doubles, Ints]:
+    """Poses that were shown at times [F] (s, ascending from 0) at a fixed rate (frames a second), on straight lines
+    between them; and which [G] of those shown is nearest to each."""
+
+def fit_keys(values: ArrayLike, tolerance: float) -> tuple[Ints, Doubles, Doubles]:
+    """Few keys whose cubic Hermite curve passes all values [F,N] within a distance of `tolerance`: their frames [K],
+    the first and the last among them, the slopes there [K,N] a frame, and the curve's values on all frames [F,N]. A key
+    has its frame's value (P. Schneider, "An algorithm for automatically fitting digitized curves", Graphics Gems 1990).
+    """
 
 class Performance:
     """What a player did."""

@@ -40,6 +40,42 @@ def test_player_steps_as_it_runs(character: core.Character) -> None:
     assert two.playing == (performance.classes[-1], performance.fragments[-1])
 
 
+def test_player_tells_eq_2_of_what_plays(character: core.Character) -> None:
+    player, before, playing = core.Player(character, seed=3), 0, -1
+    asked = [0.0, 1.2, 0.0, 0.0]
+    point = int(character.space.nearest([asked])[0])
+    for _ in range(240):
+        entered, left = player.entered, player.seconds_left
+        player.step(asked, 1 / 60)
+        if player.entered == entered:
+            assert left - 1 / 60 - 1e-9 <= player.seconds_left < left, "at most as fast as captured"
+        else:
+            before = player.playing[0] if playing < 0 else playing
+            wanted = character.smoothness[before, player.playing[0]] * character.match[player.playing[0], point]
+            assert player.quality(asked) == pytest.approx(wanted, rel=1e-12)
+        playing = player.playing[0]
+        assert 0 <= player.seconds_left <= character.fragment_durations[player.playing[1]]
+    assert player.entered > 4
+
+
+def test_player_tells_which_feet_stand(character: core.Character) -> None:
+    player, skeleton = core.Player(character, seed=3), character.skeleton
+    feet = [NAMES.index("foot.L"), NAMES.index("foot.R")]
+    player.step([0, 0, 0, 0], 1)
+    assert player.standing_feet.shape == (2, 3), "a body that stands, stands on both"
+    counts = set()
+    for _ in range(240):
+        root, rotations = player.step([0, 1.2, 0, 0], 1 / 60)
+        standing = player.standing_feet
+        counts.add(len(standing))
+        clip = core.Clip(skeleton, "now", 60.0, np.tile(root, (2, 1)), np.tile(rotations, (2, 1, 1)))
+        heads, _ = clip.world_transforms(skeleton)
+        for sole in standing:
+            gap = np.linalg.norm(heads[0, feet] - sole, axis=1).min()
+            assert gap < np.linalg.norm(skeleton.tips[feet[0]]), "between the heel and the tip of a foot"
+    assert {0, 1} <= counts
+
+
 def test_player_keeps_its_character_alive(skeleton: core.Skeleton, clips: list[core.Clip], traces: list[Array]) -> None:
     player = core.Player(small_build(skeleton, clips, traces, lambda *_: True))
     for _ in range(50):

@@ -139,6 +139,12 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
     strolling = core.Clip(human, "stroll", 30.0, roots, np.tile(human.rest_rotations, (frames, 1, 1)))
     body = core.Body(human)
     performance = core.Player(made).run(trace, 30)
+    motion = {
+        "root_positions": performance.root_positions,
+        "rotations": performance.rotations,
+        "frames": performance.frames,
+        "hips": 0,
+    }
     return {
         "Skeleton": {
             "names": NAMES,
@@ -235,6 +241,7 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Player.reset": {"self": core.Player(made), "x": 0.0, "y": 0.0, "heading": 0.0},
         "Player.force": {"self": core.Player(made), "next_class": 1},
         "Player.step": {"self": core.Player(made), "control": trace[0], "seconds": 0.1},
+        "Player.quality": {"self": core.Player(made), "control": trace[0]},
         "Player.run": {"self": core.Player(made), "trace": trace, "rate": 30.0, "progress": quiet},
         "Crowd": {"character": made, "count": 2, **player, "threads": 1},
         "Crowd.step_many": {
@@ -257,6 +264,14 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "about_face_times": {"character": other, **player},
         "speed_ripples": {"character": other, **player},
         "change_pushes": {"character": other, **player},
+        "carried_motion": {**motion, "to": performance.frames},
+        "looped_motion": {**motion, "count": 5},
+        "resampled_motion": {
+            **{k: motion[k] for k in list(motion)[:3]},
+            "times": np.arange(len(performance.frames)) / 30,
+            "rate": 24.0,
+        },
+        "fit_keys": {"values": performance.root_positions, "tolerance": 0.01},
         "Explainer": {"character": made, "policy": ""},
         "MotionMetrics": {"character": made},
         "MotionMetrics.of": {"self": core.MotionMetrics(other), "performance": performance},

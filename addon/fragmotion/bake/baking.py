@@ -117,10 +117,10 @@ def _compute(stage: Stage, options: Options, play: Callable[[Report], performing
     if options.bound is not None:
         every = count_keys(tracks)
         tracks, found = reduce_tracks(tracks, stage.rig, poses, stage.place, options.bound, report)
-        share = count_keys(tracks) / every
+        kept = count_keys(tracks)
         remark += (
-            f"; {100 * share:.0f} % of the keys kept, at most {1000 * found.distance:.1f} mm and "
-            f"{math.degrees(found.angle):.2f} degrees off"
+            f"; {kept} keys instead of {every} ({100 * kept / every:.0f} %), at most "
+            f"{1000 * found.distance:.1f} mm and {math.degrees(found.angle):.2f} degrees off"
         )
     return Baked(tracks, motion.classes, remark)
 

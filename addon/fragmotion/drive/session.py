@@ -117,7 +117,7 @@ class Session:
         if self.recording is not None:
             self.recording.add(pose)
         self.inputs.trace.advance()
-        self.readings.step(control, pose, self.settings.show_feet)
+        self.readings.step(control)
         self._steps += 1
         return pose
 

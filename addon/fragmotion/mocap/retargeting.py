@@ -79,7 +79,7 @@ def make_action(scene: bpy.types.Scene, name: str, rate: float) -> bpy.types.Act
     """An Action to learn from, without keys yet, of so many frames a second."""
     action = bpy.data.actions.new(name)
     action.use_fake_user = True
-    action[RATE], action[SCENE_RATE] = _tidy_rate(rate), scene_rate(scene)
+    action[RATE], action[SCENE_RATE] = rate, scene_rate(scene)
     action.fragmotion.use = True
     return action
 
@@ -87,10 +87,3 @@ def make_action(scene: bpy.types.Scene, name: str, rate: float) -> bpy.types.Act
 def key_times(action: bpy.types.Action, frames: int) -> Doubles:
     """Scene frames on which the take plays in its own time at the scene's rate now."""
     return FIRST_FRAME + float(action[SCENE_RATE]) / float(action[RATE]) * np.arange(frames, dtype=float)
-
-
-def _tidy_rate(rate: float) -> float:
-    """The usual rate that a rounded frame time such as 0.033333 s means."""
-    usual = [float(round(rate)), round(rate) / 1.001]
-    nearest = min(usual, key=lambda other: abs(other - rate))
-    return nearest if abs(nearest - rate) < 1e-4 * rate else rate

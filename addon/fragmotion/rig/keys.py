@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..compat.core import core
-from .motion import angles_between, rotation_matrices, thinned
+from .motion import angles_between, rotation_matrices
 from .rigs import bone_path, is_tied
 
 if TYPE_CHECKING:
@@ -53,7 +53,8 @@ class Place(NamedTuple):
 
 class Track(NamedTuple):
     """A keyed property: data path and group, whose it is (a bone's number or -1), the rotation mode or LOCATION, its
-    values [F,N] on all frames, and the frames [K] that have keys."""
+    values [F,N] on all frames as its keys show them, the frames [K] that have keys, and where these are not all of
+    them the curve's slopes [K,N] there, a frame."""
 
     path: str
     group: str
@@ -61,11 +62,7 @@ class Track(NamedTuple):
     mode: str
     values: Doubles
     kept: Ints
-
-    def drawn(self) -> Doubles:
-        """The values [F,N] that Blender shows, on straight lines between the keys."""
-        frames = np.arange(len(self.values))
-        return np.column_stack([np.interp(frames, self.kept, column[self.kept]) for column in self.values.T])
+    slopes: Doubles | None = None
 
 
 class Deviation(NamedTuple):
@@ -159,7 +156,8 @@ def _thin(track: Track, distance: float, angle: float) -> Track:
     """Fewer keys, so that the track alone does not move its bone by more, in the armature's units and radians."""
     # A quaternion's components change half as fast as its angle.
     turn = angle / 2 if track.mode == "QUATERNION" else angle
-    return track._replace(kept=thinned(track.values, distance if track.mode == _LOCATION else turn))
+    kept, slopes, drawn = core.fit_keys(track.values, distance if track.mode == _LOCATION else turn)
+    return track._replace(values=drawn, kept=kept, slopes=slopes)
 
 
 def _drawn_poses(tracks: Sequence[Track], poses: Poses) -> Poses:
@@ -167,7 +165,7 @@ def _drawn_poses(tracks: Sequence[Track], poses: Poses) -> Poses:
     locations, rotations = poses.locations.copy(), poses.rotations.copy()
     places, turns = poses.places, poses.turns
     for track in tracks:
-        values = track.drawn()
+        values = track.values
         if track.mode != _LOCATION:
             values = to_quaternions(track.mode, values)
         if track.owner == _OBJECT:

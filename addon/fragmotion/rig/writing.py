@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
 import numpy as np
@@ -13,10 +13,13 @@ from ..compat import versions
 from .keys import Poses, Track, make_layout, make_tracks
 
 if TYPE_CHECKING:
-    from fragmotion_core import Doubles
+    from fragmotion_core import Doubles, Ints
+    from numpy.typing import NDArray
 
-LINEAR = 1
-"""RNA's number of the interpolation 'LINEAR'."""
+LINEAR, _BEZIER = 1, 2
+"""RNA's numbers of the interpolations 'LINEAR' and 'BEZIER'."""
+
+_ALIGNED = 3  # RNA's number of that handle type
 
 _OBJECT_GROUP = "Object Transforms"  # as Blender's own keying names it
 _SAME_FRAME = 0.01  # keys closer than this to a frame are on it
@@ -52,7 +55,8 @@ def write_tracks(
             if curve is None:
                 curve = versions.new_curve(holder, track.path, index, track.group or _OBJECT_GROUP)
             _clear_span(curve, times[0], times[-1])
-            _add_keys(curve, times[track.kept], values[track.kept])
+            slopes = None if track.slopes is None else track.slopes[:, index]
+            _add_keys(curve, times[track.kept], values[track.kept], _handles(times, track.kept, slopes))
 
 
 def _clear_span(curve: bpy.types.FCurve, first: float, last: float) -> None:
@@ -62,20 +66,45 @@ def _clear_span(curve: bpy.types.FCurve, first: float, last: float) -> None:
             keys.remove(keys[index], fast=True)
 
 
-def _add_keys(curve: bpy.types.FCurve, times: Doubles, values: Doubles) -> None:
-    """Linear keys beside those that the curve has."""
+class _Handles(NamedTuple):
+    """Where handles are from their keys [K,2]: scene frames and values."""
+
+    left: Doubles
+    right: Doubles
+
+
+def _handles(times: Doubles, kept: Ints, slopes: Doubles | None) -> _Handles | None:
+    """The handles of a Bezier curve that is a cubic Hermite one: a third of the way to the keys beside."""
+    if slopes is None or len(kept) < 2:
+        return None
+    ways, frames = np.diff(times[kept]) / 3, np.diff(kept) / 3
+    before, after = np.r_[ways[0], ways], np.r_[ways, ways[-1]]
+    rise_before, rise_after = slopes * np.r_[frames[0], frames], slopes * np.r_[frames, frames[-1]]
+    return _Handles(np.column_stack((-before, -rise_before)), np.column_stack((after, rise_after)))
+
+
+def _add_keys(curve: bpy.types.FCurve, times: Doubles, values: Doubles, handles: _Handles | None) -> None:
+    """Keys beside those that the curve has: Bezier ones with handles, linear ones without."""
     keys = curve.keyframe_points
     former = len(keys)
     keys.add(len(times))
-    points = np.empty(2 * len(keys), np.float32)
-    keys.foreach_get("co", points)
-    points[2 * former :] = np.column_stack((times, values)).ravel()
-    keys.foreach_set("co", points)
-    kinds = np.empty(len(keys), np.int32)
-    keys.foreach_get("interpolation", kinds)
-    kinds[former:] = LINEAR
-    keys.foreach_set("interpolation", kinds)
+    points = np.column_stack((times, values))
+    _set_last(keys, "co", former, points.ravel(), np.float32)
+    _set_last(keys, "interpolation", former, LINEAR if handles is None else _BEZIER, np.int32)
+    if handles is not None:
+        for side, offsets in handles._asdict().items():
+            _set_last(keys, f"handle_{side}_type", former, _ALIGNED, np.int32)
+            _set_last(keys, f"handle_{side}", former, (points + offsets).ravel(), np.float32)
     curve.update()
+
+
+def _set_last(keys: Any, name: str, former: int, values: Doubles | int, kind: type) -> None:
+    """A property of the keys from the number `former` on."""
+    width = 2 if isinstance(values, np.ndarray) else 1
+    every: NDArray[Any] = np.empty(width * len(keys), kind)
+    keys.foreach_get(name, every)
+    every[width * former :] = values
+    keys.foreach_set(name, every)
 
 
 def keep_former(obj: bpy.types.Object, action: bpy.types.Action) -> None:

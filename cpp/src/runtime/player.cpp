@@ -95,6 +95,23 @@ double Player::quality(int control) const {
   return character_->quality(director_.previous_class(), director_.playing_class(), control);
 }
 
+std::array<std::optional<Vector3>, 2> Player::standing_feet() const {
+  const Kinematics& kinematics = workspace_->kinematics;
+  const Roles& roles = kinematics.skeleton().roles;
+  const std::array feet{roles.left_foot, roles.right_foot}, toes{roles.left_toe, roles.right_toe};
+  const std::array<bool, 2> stands = playback_.standing_feet(playback_.seconds());
+  PosedBones posed(kinematics.bones());
+  kinematics.world(root_, rotations().data(), posed.heads.data(), posed.rotations.data());
+  std::array<std::optional<Vector3>, 2> soles;
+  for (int side = 0; side < 2; ++side) {
+    if (!stands[side]) continue;
+    const Vector3 heel = posed.heads[feet[side]], front = ball(kinematics.skeleton(), feet[side], toes[side], posed),
+                  middle = (heel + front) / 2;
+    soles[side] = Vector3{middle.x(), middle.y(), std::min(heel.z(), front.z())};
+  }
+  return soles;
+}
+
 void Player::step(const Control& control, double seconds) {
   check_step(control, seconds);
   director_.observe(control);

@@ -36,6 +36,9 @@ class Track:
 class Slider:
     """Plays a skeleton's rest pose as core.Player plays a character."""
 
+    standing_feet = np.empty((0, 3))
+    """None stands: the body slides."""
+
     def __init__(self, skeleton: Skeleton, space: ControlSpace) -> None:
         self._space = space
         self._hips = skeleton.names.index(skeleton.roles["hips"])

@@ -72,25 +72,18 @@ class Judge:
     """Eq. 2 of what plays, now and on the whole, and how long the fragment still lasts."""
 
     def __init__(self, character: Character) -> None:
-        self._space = character.space
-        self._smoothness, self._match = np.array(character.smoothness), np.array(character.match)
-        self._durations = np.array(character.fragment_durations)
         self._evident = character.evident[character.representatives]
-        self._playing = (-1, -1)
-        self._from = -1
-        self._total = self._seconds = self._age = 0.0
+        self._total = self._seconds = 0.0
+        self.playing_class = 0
         self.quality = 0.0
         """Of the transition that led here and the control, 0 .. 1."""
+        self.left = 0.0
+        """Seconds until the fragment ends."""
 
     def step(self, player: Player, control: Control, seconds: float) -> None:
         """Some seconds have gone under a control."""
-        playing = player.playing
-        if playing != self._playing or self._age + seconds > self._durations[playing[1]]:
-            self._from = self._playing[0] if self._playing[0] >= 0 else playing[0]
-            self._playing, self._age = playing, 0.0
-        self._age += seconds
-        asked = int(self._space.nearest([control])[0])
-        self.quality = float(self._smoothness[self._from, playing[0]] * self._match[playing[0], asked])
+        self.playing_class, self.left = player.playing[0], player.seconds_left
+        self.quality = player.quality(control)
         self._total += self.quality * seconds
         self._seconds += seconds
 
@@ -100,16 +93,6 @@ class Judge:
         return self._total / self._seconds if self._seconds > 0 else 0.0
 
     @property
-    def playing_class(self) -> int:
-        """The number of the class that plays."""
-        return self._playing[0]
-
-    @property
     def evident(self) -> Control:
         """What the class visibly does (Sec. 3.2)."""
         return Control(*self._evident[self.playing_class])
-
-    @property
-    def left(self) -> float:
-        """Seconds until the fragment ends."""
-        return max(float(self._durations[self._playing[1]]) - self._age, 0.0)

@@ -62,7 +62,7 @@ def _draw_ground(look: Look) -> None:
             _draw_velocity(_lifted(x, y), readings.commanded, COMMANDED)
             _draw_velocity(_lifted(x, y, 2), readings.velocity, ACTUAL)
         if settings.show_feet:
-            for place in readings.feet.planted:
+            for place in readings.standing_feet.tolist():
                 paint.draw_fan(paint.circle(place, _FOOT)[:-1], _PLANTED)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is seen and read while driving: the ways, the velocities, the feet and the figures."""
+"""What is seen and read while driving: the ways, the velocities and the figures."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from ..acting.actor import Actor
 from ..acting.slider import Track
 from ..input.steering import Control, rotate
-from .feet import Feet
 from .gauges import Judge, Speedometer, Stopwatch
 from .trail import Trail
 
@@ -22,22 +21,19 @@ class Readings:
     def __init__(self, actor: Actor, rate: int) -> None:
         self._actor, self._seconds = actor, 1 / rate
         self._speedometer, self.stopwatch = Speedometer(rate), Stopwatch(actor.space)
-        self.feet = Feet(actor.skeleton)
         self.judge = Judge(actor.character) if actor.character is not None else None
         self.path, self.ideal_path = Trail(), Trail()
         self.ideal = Track(actor.space, actor.frame)
         self.control = Control()
 
-    def step(self, control: Control, pose: tuple[Doubles, Doubles], with_feet: bool) -> None:
-        """The actor has gone a step under a control, to a pose."""
+    def step(self, control: Control) -> None:
+        """The actor has gone a step under a control."""
         self.control = control
         frame = self._actor.frame
         self._speedometer.step(frame)
         self.stopwatch.step(control, rotate(*self.velocity, -frame[2]), self._seconds)
         if self.judge is not None:
             self.judge.step(self._actor.player, control, self._seconds)
-        if with_feet:
-            self.feet.step(*pose, self._seconds)
         self.path.step(frame[:2])
         self.ideal.step(control, self._seconds)
         self.ideal_path.step(self.ideal.frame[:2])
@@ -52,6 +48,12 @@ class Readings:
     def frame(self) -> tuple[float, float, float]:
         """Where the character is, m, and its heading, radians from +Y."""
         return self._actor.frame
+
+    @property
+    def standing_feet(self) -> Doubles:
+        """Where feet stand [0 .. 2,3], m."""
+        feet: Doubles = self._actor.player.standing_feet
+        return feet
 
     @property
     def velocity(self) -> tuple[float, float]:

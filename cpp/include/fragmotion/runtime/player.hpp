@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,6 +63,11 @@ class Player {
   int entered() const { return entered_; }
   /// Eq. 2 for the transition that led here and the control.
   double quality(int control) const;
+  /// Until the fragment's end, s.
+  double seconds_left() const { return playback_.left(); }
+  /// Of the left and the right foot where the fragment has it stand (contacts.hpp): the middle of its sole as it is
+  /// shown, m. In a crowd, of the player that stepped last.
+  std::array<std::optional<Vector3>, 2> standing_feet() const;
 
   const Character& character() const { return *character_; }
 
