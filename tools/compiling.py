@@ -28,9 +28,15 @@ def compile_preset(preset: str, *targets: str) -> Path:
     folder = BUILD / preset
     selection = ["--target", *targets] if targets else []
     with COMPILING:
-        run(["cmake", "--preset", preset], f"cmake-{preset}", compiler_environment())
+        configure_preset(preset)
         run(["cmake", "--build", folder, *selection], f"build-{preset}", compiler_environment())
     return folder
+
+
+def configure_preset(preset: str) -> Path:
+    """Configure a preset of CMakePresets.json, which also says how each file is compiled; return its folder."""
+    run(["cmake", "--preset", preset], f"cmake-{preset}", compiler_environment())
+    return BUILD / preset
 
 
 def build_wheel(python: str) -> Path:

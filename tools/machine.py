@@ -71,6 +71,7 @@ def package_needs(platforms: tuple[Platform, ...] = PLATFORMS) -> Needs:
 BUILD_HOST = build_needs(HOST)
 STYLE = Needs(("python3-venv",), {HOST: ("clang-format==14.0.6", "mypy==2.4.1", "numpy", "ruff==0.17.6")})
 CPP_TESTS = BUILD_HOST | Needs(_CPP_TEST_PACKAGES)
+TIDY = CPP_TESTS | Needs((), {HOST: ("clang-tidy==23.1.4",)})
 SANITIZED_TESTS = CPP_TESTS | Needs(_CLANG_PACKAGES)
 FUZZ = BUILD_HOST | Needs(_CLANG_PACKAGES)
 PYTHON_TESTS = BUILD_HOST | Needs((), {HOST: ("numpy", "pytest", "scikit-learn", "scipy", "matplotlib")})

@@ -60,6 +60,14 @@ def style_checks(expression: str | None) -> Counts:
     return Counts(passed, len(failures))
 
 
+def tidy(expression: str | None) -> Counts:
+    """What clang-tidy finds in the core; `expression` selects nothing."""
+    passed, failures = style.tidy()
+    for failure in failures:
+        say(failure)
+    return Counts(passed, len(failures))
+
+
 def cpp(expression: str | None) -> Counts:
     """GoogleTest through ctest; `expression` is a regular expression here."""
     folder = compile_preset("release")

@@ -36,6 +36,7 @@ STAGES = {
     "windows-4.5": Stage(stages.windows_blender, lambda: machine.WINDOWS, ("package",)),
     "gui": Stage(stages.gui, lambda: machine.GUI if stages.gui_tests() else machine.Needs(), ("package",)),
     "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
+    "tidy": Stage(stages.tidy, lambda: machine.TIDY),
     "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),
 }
 

@@ -86,7 +86,7 @@ Vector3 standing_axis(const Patient& resting) {
 
 Vector3 front_axis(const Patient& resting) {
   const Vector3 up = standing_axis(resting);
-  if (up.isZero(0)) return up;
+  if (up.isZero(0)) return Vector3::Zero();
   const Vector3 feet = resting.toe_direction(0, 0) + resting.toe_direction(0, 1), ahead = feet - feet.dot(up) * up;
   const bool point = ahead.norm() > 0.02 * resting.stature();
   return nearest_axis(point ? ahead : Vector3{up.cross(across(resting, 0, up))});

@@ -7,9 +7,9 @@ namespace fragmotion {
 
 /// What finds one kind of fault, in the patient's own frames, and puts right those of its findings that it is given.
 struct Check {
-  Findings (*find)(const Patient&);
-  void (*mend)(Patient&, const Findings&);  ///< None where nothing is mendable.
-  bool needs_numbers = true;                ///< Whether every number must be there.
+  Findings (*find)(const Patient&) = nullptr;
+  void (*mend)(Patient&, const Findings&) = nullptr;  ///< None where nothing is mendable.
+  bool needs_numbers = true;                          ///< Whether every number must be there.
 };
 
 /// In order: each check sees the take without what those before it have mended.

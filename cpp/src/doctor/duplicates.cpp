@@ -22,7 +22,7 @@ constexpr int kSlack = 2;           // frames
 constexpr double kWhole = 0.97;     // of the shorter take: all of it
 constexpr double kOverlap = 0.6;    // of the shorter take
 
-constexpr int kNumbers = std::tuple_size<Shape>::value;
+constexpr int kNumbers = std::tuple_size_v<Shape>;
 
 float distance(const Shape& a, const Shape& b, float most) {
   float sum = 0;

@@ -47,7 +47,8 @@ bool stands_so_often(const Patient& patient, const Repeats& repeats, const Copie
   for (int f = 1; f < patient.frames(); ++f) {
     if (!repeats[f] && f % copies.count != copies.first) return false;
   }
-  return repeats.moves() >= kMoving * (patient.frames() / copies.count - 1);
+  const int steps = patient.frames() / copies.count - 1;
+  return repeats.moves() >= kMoving * steps;
 }
 
 Copies copies_of(const Patient& patient) {

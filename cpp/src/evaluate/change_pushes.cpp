@@ -49,7 +49,7 @@ class CenterPath {
 
   void add(const Player& player) {
     kinematics_.world(player.root_position(), player.rotations().data(), posed_.heads.data(), posed_.rotations.data());
-    path_.push_back(scale_ * center_of_mass(kinematics_.skeleton(), masses_, posed_));
+    path_.emplace_back(scale_ * center_of_mass(kinematics_.skeleton(), masses_, posed_));
   }
   std::vector<Vector3> take() { return std::exchange(path_, {}); }
 

@@ -35,7 +35,7 @@ Joints joints_of(const Kinematics& kinematics, const Clip& clip) {
   joints.bones = static_cast<int>(measured.size());
   for (int f = 0; f < clip.frames; ++f) {
     world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
-    for (const int b : measured) joints.places.push_back(posed.heads[b] * scale);
+    for (const int b : measured) joints.places.emplace_back(posed.heads[b] * scale);
   }
   joints.judged.assign(clip.frames, true);
   return joints;

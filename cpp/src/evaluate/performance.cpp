@@ -194,7 +194,7 @@ void judge(Performance& p, const Character& character, const Trace& trace) {
     const Control able = advanced(limit, control, p.path[std::size_t{3} * f + 2], 1 / p.rate);
     p.velocity_error_limited += weight * (velocity - Vector2{able.x, able.y}).norm();
     p.turn_error += weight * std::abs(speed.z() - control.turn * character.space.turn_rate());
-    p.jump_error += jumps != (control.jumps()) ? weight : 0;
+    p.jump_error += jumps != control.jumps() ? weight : 0;
     p.commanded_speed += weight * control.speed();
   }
   const double turn_rate = character.space.turn_rate();

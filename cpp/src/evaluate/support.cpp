@@ -79,8 +79,8 @@ Places standing_points(const BodyTrack& track, int first, int last) {
     const FootHeights& floor = track.floors[side];
     for (int f = first; f <= last; ++f) {
       if (track.stands[side][f]) stand.insert(stand.end(), {foot.ball[f].head<2>(), foot.heel[f].head<2>()});
-      if (foot.ball[f].z() - floor.ball < kLow) low.push_back(foot.ball[f].head<2>());
-      if (foot.heel[f].z() - floor.heel < kLow) low.push_back(foot.heel[f].head<2>());
+      if (foot.ball[f].z() - floor.ball < kLow) low.emplace_back(foot.ball[f].head<2>());
+      if (foot.heel[f].z() - floor.heel < kLow) low.emplace_back(foot.heel[f].head<2>());
     }
   }
   return stand.empty() ? low : stand;

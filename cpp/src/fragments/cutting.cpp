@@ -18,7 +18,7 @@ constexpr double kLeastLongest = 0.1, kLongest = 10;  // s, of a fragment
 struct Cutter {
   FragmentPool& pool;
   int clip, shortest, longest;
-  std::vector<int> strikes{}, lifts{};
+  std::vector<int> strikes, lifts;
 
   // Adds those of the frames that lie between cuts more than `longer` apart and no nearer to them than `shortest`.
   void add_cuts(std::vector<int>& cuts, const std::vector<int>& frames, int longer) const {

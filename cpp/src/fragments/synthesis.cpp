@@ -149,7 +149,7 @@ class Synthesizer {
 
   // Interpolates up to `count` pairs of similar fragments that together perform the control.
   void interpolate(const Control& control, int count) {
-    const float similar = static_cast<float>(kSimilar * kPoses * trajectories_.reach);
+    const auto similar = static_cast<float>(kSimilar * kPoses * trajectories_.reach);
     const std::vector<int> near = nearest_originals(control);
     std::vector<Pair> pairs;
     for (const int a : near) {

@@ -138,7 +138,7 @@ class BitWriter {
 };
 
 inline std::uint32_t read_bits(const std::uint8_t* bytes, unsigned at, std::uint32_t mask) {
-  std::uint32_t word;
+  std::uint32_t word = 0;
   std::memcpy(&word, bytes + (at >> 3), sizeof word);
   return (word >> (at & 7)) & mask;
 }
@@ -257,6 +257,7 @@ using Lanes = float[kBoneBlock];
 struct LaneQuaternions {
   Lanes w, x, y, z;
 
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): the loop fills them
   [[gnu::always_inline]] LaneQuaternions(const std::int32_t (&numbers)[3][kBoneBlock], const float* steps) {
     for (int i = 0; i < kBoneBlock; ++i) {
       const float a = steps[i] * static_cast<float>(numbers[0][i]), b = steps[i] * static_cast<float>(numbers[1][i]),

@@ -32,7 +32,7 @@ class Expectation {
       const double* row = &model[c * kPoints];
       least_[c] = *std::min_element(row, row + kPoints);
       for (int next = 0; next < kPoints; ++next) {
-        if (row[next] > least_[c]) more_[c].push_back({next, row[next] - least_[c]});
+        if (row[next] > least_[c]) more_[c].emplace_back(next, row[next] - least_[c]);
       }
     }
   }
@@ -51,7 +51,7 @@ class Expectation {
   }
 
  private:
-  std::array<double, kPoints> least_;
+  std::array<double, kPoints> least_{};
   std::array<std::vector<std::pair<int, double>>, kPoints> more_;
 };
 

@@ -42,7 +42,7 @@ using Value = std::vector<double>::const_iterator;
 
 double mean_of(Value begin, Value end) {
   double sum = 0;
-  for (Value value = begin; value != end; ++value) sum += *value;
+  for (auto value = begin; value != end; ++value) sum += *value;
   return sum / static_cast<double>(end - begin);
 }
 

@@ -22,7 +22,7 @@ struct ClusterOptions {
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0 or less: as many as the machine has.
   /// 0 or 1 for each fragment: of two classes or more, none holds fragments of both kinds. Empty: all are of one.
-  std::vector<char> kinds{};
+  std::vector<char> kinds;
 };
 
 /// What makes one clustering better than another: the greater score. By default the smaller inertia.
