@@ -56,6 +56,7 @@ void bind_files(py::module_& m) {
   m.def("write_bvh", &write_bvh, py::arg("take"), py::arg("path"), py::arg("unit") = 0.01,
         py::call_guard<GilRelease>());
   m.def("read_asf", &read_asf, py::arg("path"), py::call_guard<GilRelease>());
+  m.def("find_asf", &find_asf, py::arg("amc"), py::call_guard<GilRelease>());
   m.def("read_asf_amc", &read_asf_amc, py::arg("asf"), py::arg("amc"), py::arg("rate") = 120.0,
         py::call_guard<GilRelease>());
 }

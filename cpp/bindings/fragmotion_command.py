@@ -102,12 +102,8 @@ def _is_bvh(path: Path) -> bool:
 
 
 def _read_amc(path: Path) -> core.Take:
-    """A take with the skeleton beside it: the one it is named after, as 02_01.amc after 02.asf, or the only one."""
-    beside = [each for each in path.parent.iterdir() if each.suffix.lower() == ".asf"]
-    named = [each for each in beside if path.stem.startswith(each.stem)] or beside
-    if len(named) != 1:
-        raise ValueError(f"{path}: {len(named)} .asf files beside it may be its skeleton, and one is needed")
-    return core.read_asf_amc(named[0], path)
+    """A take on the skeleton that lies beside it."""
+    return core.read_asf_amc(core.find_asf(path), path)
 
 
 def _info(options: argparse.Namespace) -> dict[str, Any]:

@@ -13,6 +13,7 @@ RuntimeError on a call in the middle of another, as of another thread's or from 
 
 from collections.abc import Callable, Sequence
 from os import PathLike
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -106,6 +107,10 @@ def write_bvh(take: Take, path: str | PathLike[str], unit: float = 0.01) -> None
 
 def read_asf(path: str | PathLike[str]) -> Skeleton:
     """Read an Acclaim skeleton alone."""
+
+def find_asf(amc: str | PathLike[str]) -> Path:
+    """The skeleton of an Acclaim motion: the .asf in its folder named by what stands before the motion's underscore
+    (02.asf of 02_01.amc) or by the whole of it, else the folder's only one. ValueError where there is none."""
 
 def read_asf_amc(asf: str | PathLike[str], amc: str | PathLike[str], rate: float = 120.0) -> Take:
     """Read an Acclaim skeleton and a motion on it; AMC holds no frame rate: 0.1 .. 10000."""

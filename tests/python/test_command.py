@@ -73,7 +73,7 @@ def test_a_trace_drives_as_its_player_does(folder: Path, tmp_path: Path, capsys:
     [
         (("info", "missing.policy"), "missing.policy"),
         (("build", ".", "--policy", "x.policy"), "no takes here"),
-        (("build", "alone.amc", "--policy", "x.policy"), "0 .asf files beside it"),
+        (("build", "alone.amc", "--policy", "x.policy"), "its skeleton alone.asf is not in the folder"),
         (("play", "{hero}", "--trace", "missing.csv", "--bvh", "x.bvh"), "missing.csv"),
         (("play", "{hero}", "--player", "walker", "--bvh", "no/x.bvh"), "no/x.bvh"),
         (("play", "{hero}", "--player", "walker", "--rate", "0", "--bvh", "x.bvh"), "rate"),

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import fragmotion_core as core
 import numpy as np
 import pytest
@@ -162,3 +164,16 @@ def test_a_steady_stick_makes_both_feet_step(bandai: Bandai) -> None:
         if lifts.max() < 0.05 or lifts.min() < 0.6 * lifts.max():
             limps.append(point)
     assert len(limps) <= 2, limps
+
+
+def test_a_motion_finds_its_skeleton(tmp_path: Path) -> None:
+    for name in ("01.asf", "02.ASF", "._03.asf", "notes.txt"):
+        (tmp_path / name).write_text("")
+    found = {name: core.find_asf(tmp_path / name).name for name in ("01_03.amc", "02_01.AMC", "02.amc")}
+    assert found == {"01_03.amc": "01.asf", "02_01.AMC": "02.ASF", "02.amc": "02.ASF"}
+    with pytest.raises(ValueError, match=r"03_01\.amc: its skeleton 03\.asf is not in the folder"):
+        core.find_asf(tmp_path / "03_01.amc")
+    (tmp_path / "01.asf").unlink()
+    assert core.find_asf(tmp_path / "03_01.amc").name == "02.ASF", "the folder's only one"
+    with pytest.raises(ValueError, match="not in the folder"):
+        core.find_asf(tmp_path / "no" / "03_01.amc")

@@ -173,6 +173,7 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "read_bvh": {"path": folder / "take.bvh", "unit": 0.01},
         "write_bvh": {"take": take, "path": folder / "written.bvh", "unit": 0.01},
         "read_asf": {"path": folder / "take.asf"},
+        "find_asf": {"amc": folder / "take.amc"},
         "read_asf_amc": {"asf": folder / "take.asf", "amc": folder / "take.amc", "rate": 120.0},
         "euler_to_quaternion": {"order": "XYZ", "angles": roots},
         "quaternion_to_euler": {"order": "XYZ", "rotations": rotations[0]},

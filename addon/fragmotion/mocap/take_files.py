@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from ..errors import UserError
+from ..compat.core import core
+from ..errors import UserError, core_errors
 
 BY_CORE = (".bvh", ".amc")
 """Endings of the takes that the core reads."""
@@ -57,12 +58,7 @@ def _visible(folder: Path) -> list[Path]:
 
 
 def _take_file(path: Path, named: bool) -> TakeFile:
-    """An .amc belongs to the .asf named by what stands before its underscore, or to the folder's only one."""
     if path.suffix.lower() != ".amc":
         return TakeFile(path, None, named)
-    skeletons = sorted(p for p in _visible(path.parent) if p.suffix.lower() == ".asf" and p.is_file())
-    stem = path.stem.partition("_")[0].lower()
-    own = [asf for asf in skeletons if asf.stem.lower() in {stem, path.stem.lower()}]
-    if not own and len(skeletons) != 1:
-        raise UserError(f"'{path}': its skeleton '{stem}.asf' is not in the folder")
-    return TakeFile(path, (own or skeletons)[0], named)
+    with core_errors():
+        return TakeFile(path, core.find_asf(path), named)

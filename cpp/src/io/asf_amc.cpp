@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/io/asf_amc.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <unordered_map>
 
 #include "base/read_file.hpp"
@@ -166,7 +168,38 @@ AsfModel read_asf_model(const std::filesystem::path& path) {
   return parse_asf(read_file(path), path.filename().u8string());
 }
 
+std::string lower(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
+std::string lower_stem(const std::filesystem::path& path) { return lower(path.stem().u8string()); }
+
+std::vector<std::filesystem::path> skeletons_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> found;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::filesystem::path& path = entry.path();
+    const bool hidden = path.filename().u8string().rfind('.', 0) == 0;
+    if (!hidden && lower(path.extension().u8string()) == ".asf" && entry.is_regular_file(error)) found.push_back(path);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 }  // namespace
+
+std::filesystem::path find_asf(const std::filesystem::path& amc) {
+  const std::vector<std::filesystem::path> skeletons = skeletons_in(amc.has_parent_path() ? amc.parent_path() : ".");
+  const std::string whole = lower_stem(amc), subject = whole.substr(0, whole.find('_'));
+  for (const std::filesystem::path& path : skeletons) {
+    const std::string stem = lower_stem(path);
+    if (stem == subject || stem == whole) return path;
+  }
+  if (skeletons.size() == 1) return skeletons.front();
+  throw std::invalid_argument(as_utf8(amc.filename().u8string()) + ": its skeleton " + as_utf8(subject) +
+                              ".asf is not in the folder");
+}
 
 Take parse_amc(std::string text, const std::string& file, const AsfModel& model, double rate) {
   Take take;
