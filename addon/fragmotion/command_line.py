@@ -1,24 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Build and bake without a window: `blender -c fragmotion` (4.2 and later); before, `run` from --python-expr."""
+"""Build, bake and measure without a window: `blender -c fragmotion` (4.2 and later); before, `run` from
+--python-expr."""
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
+import subprocess
 import sys
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from .character.building import has_character, save_policy
+from .character.building import has_character, load, make_player, save_policy
 from .compat.core import core
-from .errors import UserError
+from .errors import UserError, core_errors
 from .mocap.actions import ticked
 from .operators.context import active_armature
+from .recordings.recordings import trace_of
+
+if TYPE_CHECKING:
+    from fragmotion_core import Character, Doubles
 
 NAME = "fragmotion"
+
+_EVALUATED_RATE = 60.0  # frames a second
 
 _EXAMPLES = """examples:
   blender -c fragmotion build walks/ --blend hero.blend --policy hero.policy
@@ -26,6 +37,8 @@ _EXAMPLES = """examples:
   blender -c fragmotion build walks/ --onto rig.blend --armature Hero --blend hero.blend
   blender -c fragmotion bake hero.blend --trace path.csv --blend shot.blend
   blender -c fragmotion bake hero.blend --recordings --blend shots.blend
+  blender -c fragmotion bake scenes/*.blend --recordings --into shots/
+  blender -c fragmotion evaluate hero.blend --player runner --json -
   blender -c fragmotion info hero.blend --json -
 
 Settings that no option names are those of the armature's panels. The exit code is 0 where all was done; else it is 1,
@@ -60,21 +73,26 @@ def _parser() -> argparse.ArgumentParser:
     build.add_argument("--seed", type=int, metavar="N", help="draws the first centres and the simulated players")
     build.add_argument("--policy", type=Path, metavar="FILE", help="where to write the policy file")
     build.set_defaults(command=_build)
-    bake = commands.add_parser("bake", help="bake motion of a character to Actions")
-    bake.add_argument("source", type=Path, metavar="CHARACTER.blend")
-    driver = bake.add_mutually_exclusive_group(required=True)
-    driver.add_argument("--trace", type=Path, metavar="FILE.csv", help="what a stick did, 10 rows a second")
-    driver.add_argument("--player", choices=core.PLAYERS, help="a simulated player")
-    driver.add_argument("--recordings", action="store_true", help="every recording of the armature")
-    bake.add_argument("--seconds", type=float, metavar="S", help="how long the simulated player plays (20)")
-    bake.add_argument("--seed", type=int, metavar="N", help="draws what is left to chance")
+    bake = commands.add_parser("bake", help="bake motion of characters to Actions, several files over all processors")
+    bake.add_argument("sources", type=Path, nargs="+", metavar="CHARACTER.blend")
+    bake.add_argument("--into", type=Path, metavar="FOLDER", help="where to write the .blends, by their names")
     bake.set_defaults(command=_bake)
+    evaluate = commands.add_parser("evaluate", help="measure how well a character follows traces")
+    evaluate.add_argument("source", type=Path, metavar="CHARACTER.blend")
+    evaluate.set_defaults(command=_evaluate)
+    for command in (bake, evaluate):
+        driver = command.add_mutually_exclusive_group(required=True)
+        driver.add_argument("--trace", type=Path, metavar="FILE.csv", help="what a stick did, 10 rows a second")
+        driver.add_argument("--player", choices=core.PLAYERS, help="a simulated player")
+        driver.add_argument("--recordings", action="store_true", help="every recording of the armature")
+        command.add_argument("--seconds", type=float, metavar="S", help="how long the simulated player plays (20)")
+        command.add_argument("--seed", type=int, metavar="N", help="draws what is left to chance")
     info = commands.add_parser("info", help="tell what a character is")
     info.add_argument("source", type=Path, metavar="CHARACTER.blend")
     info.set_defaults(command=_info)
     for command in (build, bake):
         command.add_argument("--blend", type=Path, metavar="FILE", help="where to write the .blend")
-    for command in (build, bake, info):
+    for command in (build, bake, evaluate, info):
         command.add_argument("--armature", metavar="NAME", help="which armature, where the file has several")
         command.add_argument("--json", metavar="FILE", help="save the figures there too; - is the terminal")
     return parser
@@ -106,9 +124,63 @@ def _import(options: argparse.Namespace) -> None:
 
 
 def _bake(options: argparse.Namespace) -> dict[str, Any]:
-    if not options.blend:
-        raise UserError("Nothing would be kept: say where to, by --blend")
-    obj = _open(options.source, options.armature)
+    if bool(options.blend) == bool(options.into) or (options.blend and len(options.sources) > 1):
+        raise UserError("Nothing would be kept: say where to, by --blend for one file or by --into for several")
+    if options.blend:
+        return {"baked": _bake_one(options, options.sources[0], options.blend)}
+    _check_names(options)
+    options.into.mkdir(parents=True, exist_ok=True)
+    return {"baked": _bake_each(options) if bpy.app.binary_path else _bake_in_turn(options)}
+
+
+def _check_names(options: argparse.Namespace) -> None:
+    names = [source.name for source in options.sources]
+    for source in options.sources:
+        if names.count(source.name) > 1:
+            raise UserError(f"Several files are called '{source.name}', and one would replace the other")
+        if (options.into / source.name).resolve() == source.resolve():
+            raise UserError(f"'{source}' would be written over: choose another folder")
+
+
+def _bake_in_turn(options: argparse.Namespace) -> list[dict[str, Any]]:
+    rows = [_bake_one(options, source, options.into / source.name) for source in options.sources]
+    return [row for each in rows for row in each]
+
+
+def _bake_each(options: argparse.Namespace) -> list[dict[str, Any]]:
+    """A Blender for each file, as many at a time as there are processors. UserError names the files that failed."""
+    rows: list[dict[str, Any]] = []
+    failures: list[str] = []
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        ends = pool.map(lambda source: _bake_apart(options, source), options.sources)
+        for number, (source, (baked, message)) in enumerate(zip(options.sources, ends), 1):
+            print(f"{number} of {len(options.sources)} files: {source.name}", flush=True)
+            rows += baked
+            failures += [f"{source.name}: {message}"] * bool(message)
+    if failures:
+        raise UserError("; ".join(failures))
+    return rows
+
+
+def _bake_apart(options: argparse.Namespace, source: Path) -> tuple[list[dict[str, Any]], str]:
+    """Bake in a Blender of its own: the rows, or what it says went wrong."""
+    with TemporaryDirectory() as folder:
+        figures = Path(folder) / "figures.json"
+        words = ["bake", str(source.resolve()), "--blend", str((options.into / source.name).resolve())]
+        words += [f"--{name}={value}" for name, value in _given(options, "seconds", "seed", "armature").items()]
+        driver = _given(options, "player") | ({"trace": options.trace.resolve()} if options.trace else {})
+        words += [f"--{name}={value}" for name, value in driver.items()] or ["--recordings"]
+        code = f"import sys, {__name__} as c; sys.exit(c.run({[*words, '--json', str(figures)]!r}))"
+        command = [bpy.app.binary_path, "--background", "--addons", __package__, "--python-expr", code]
+        ended = subprocess.run(command, capture_output=True, text=True, check=False)
+        if figures.exists():
+            baked: list[dict[str, Any]] = json.loads(figures.read_text(encoding="utf-8"))["baked"]
+            return baked, ""
+        return [], (ended.stderr.strip().splitlines() or ["Blender ended without a word"])[-1]
+
+
+def _bake_one(options: argparse.Namespace, path: Path, target: Path) -> list[dict[str, Any]]:
+    obj = _open(path, options.armature)
     given = _given(options, "seconds", "seed")
     sources: list[dict[str, Any]]
     if options.trace:
@@ -126,10 +198,42 @@ def _bake(options: argparse.Namespace) -> dict[str, Any]:
         (action,) = set(bpy.data.actions) - before
         action.use_fake_user = True
         first, last = action.frame_range
-        baked.append({"action": action.name, "first": first, "last": last})
+        baked.append({"blend": str(target), "action": action.name, "first": first, "last": last})
         print(f"{number} of {len(sources)}: Action '{action.name}', frames {first:.0f} to {last:.0f}", flush=True)
-    _save(options.blend)
-    return {"baked": baked}
+    _save(target)
+    return baked
+
+
+def _evaluate(options: argparse.Namespace) -> dict[str, Any]:
+    obj = _open(options.source, options.armature)
+    if not has_character(obj):
+        raise UserError(f"Armature '{obj.name}' has no character yet")
+    character, rows = load(obj), []
+    for name, trace in _traces(options, obj, character).items():
+        performance = make_player(obj, character, options.seed or 1, "").run(trace, _EVALUATED_RATE)
+        row = {
+            "percent_of_optimal": character.percent_of_optimal(trace),
+            "quality": performance.quality,
+            "velocity_error": performance.velocity_error,
+            "commanded_speed": performance.commanded_speed,
+            "turn_error": performance.turn_error,
+        }
+        print(f"{name}: {', '.join(f'{key} {value:.3g}' for key, value in row.items())}", flush=True)
+        rows.append({"trace": name, **row})
+    return {"traces": rows}
+
+
+def _traces(options: argparse.Namespace, obj: bpy.types.Object, character: Character) -> dict[str, Doubles]:
+    """The traces that are asked for, by what they are called."""
+    with core_errors():
+        if options.trace:
+            return {options.trace.stem: core.read_trace(options.trace)}
+        if options.player:
+            seconds = 20.0 if options.seconds is None else options.seconds
+            return {options.player: core.simulate_trace(options.player, seconds, options.seed or 1, character.space)}
+    if not obj.fragmotion.takes:
+        raise UserError(f"Armature '{obj.name}' has no recordings")
+    return {recording.name: trace_of(recording) for recording in obj.fragmotion.takes}
 
 
 def _info(options: argparse.Namespace) -> dict[str, Any]:

@@ -90,9 +90,47 @@ def test_every_recording_is_baked(addon: ModuleType, hero: Path, tmp_path: Path)
     assert len(set(names)) == 3 and set(names) <= set(bpy.data.actions.keys())
 
 
+def test_several_files_are_baked_into_a_folder(addon: ModuleType, hero: Path, tmp_path: Path) -> None:
+    """In Blenders of their own, where this is no module of Python's."""
+    copies = [tmp_path / f"{name}.blend" for name in ("first", "second")]
+    for copy in copies:
+        copy.write_bytes(hero.read_bytes())
+    words = ("bake", *copies, "--player", "walker", "--seconds", 2, "--into", tmp_path / "shots")
+    assert run(addon, *words, "--json", tmp_path / "shots.json") == 0
+    rows = json.loads((tmp_path / "shots.json").read_text())["baked"]
+    assert [Path(row["blend"]) for row in rows] == [tmp_path / "shots" / copy.name for copy in copies]
+    for row in rows:
+        bpy.ops.wm.open_mainfile(filepath=row["blend"])
+        assert tuple(bpy.data.actions[row["action"]].frame_range) == (row["first"], row["last"])
+
+
+def test_the_file_that_cannot_be_baked_is_named(
+    addon: ModuleType, hero: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "good.blend").write_bytes(hero.read_bytes())
+    words = ("bake", tmp_path / "good.blend", tmp_path / "missing.blend", "--player", "walker", "--seconds", 1)
+    assert run(addon, *words, "--into", tmp_path / "shots") == 1
+    assert "missing.blend" in capsys.readouterr().err
+    assert run(addon, *words, "--into", tmp_path) == 1
+    assert "would be written over" in capsys.readouterr().err
+
+
+def test_a_character_is_measured(addon: ModuleType, hero: Path, tmp_path: Path) -> None:
+    figures = []
+    for player in ("walker", "runner"):
+        words = ("evaluate", hero, "--player", player, "--seconds", 5, "--json", tmp_path / "figures.json")
+        assert run(addon, *words) == 0
+        figures += json.loads((tmp_path / "figures.json").read_text())["traces"]
+    assert [row["trace"] for row in figures] == ["walker", "runner"]
+    for row in figures:
+        assert 0 < row["percent_of_optimal"] <= 100 and 0 < row["quality"] <= 1 and row["velocity_error"] >= 0
+    assert figures[0]["commanded_speed"] < figures[1]["commanded_speed"]
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
+        (("evaluate", "{hero}", "--recordings"), "has no recordings"),
         (("info", "missing.blend"), "missing.blend"),
         (("build", "missing", "--blend", "x.blend"), "missing"),
         (("build", "missing"), "say where to"),
