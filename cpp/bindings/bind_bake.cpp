@@ -63,8 +63,8 @@ py::tuple bound_fit_keys(const Doubles& values, double tolerance) {
   const auto width = static_cast<int>(values.shape(1));
   const std::vector<double> given = to_vector(values);
   FittedKeys keys = without_gil([&] { return fit_keys(given, width, tolerance); });
-  const auto count = static_cast<py::ssize_t>(keys.frames.size());
-  return py::make_tuple(to_array(std::move(keys.frames), {count}), to_array(std::move(keys.slopes), {count, width}),
+  const auto count = static_cast<py::ssize_t>(keys.key_frames.size());
+  return py::make_tuple(to_array(std::move(keys.key_frames), {count}), to_array(std::move(keys.slopes), {count, width}),
                         to_array(std::move(keys.drawn), {values.shape(0), width}));
 }
 

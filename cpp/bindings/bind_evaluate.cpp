@@ -99,15 +99,10 @@ void bind_measures(py::module_& m) {
 using Trials = std::vector<double> (*)(const std::shared_ptr<const Character>&, const PlayerOptions&);
 
 void define_trials(py::module_& m, const char* name, Trials trials) {
-  for_option_arguments([&](const auto&... options) {
-    m.def(name,
-          with_options(Types<SharedCharacter>{}, Types<>{},
-                       [trials](const SharedCharacter& character, const PlayerOptions& given) {
-                         std::vector<double> times = without_gil([&] { return trials(character, given); });
-                         const auto count = static_cast<py::ssize_t>(times.size());
-                         return to_array(std::move(times), {count});
-                       }),
-          py::arg("character").none(false), options...);
+  define_with_options(m, name, [trials](const SharedCharacter& character, const PlayerOptions& options) {
+    std::vector<double> times = without_gil([&] { return trials(character, options); });
+    const auto count = static_cast<py::ssize_t>(times.size());
+    return to_array(std::move(times), {count});
   });
 }
 
@@ -137,23 +132,14 @@ void bind_speeds(py::module_& m) {
       .def_readonly("ripple", &SpeedRipple::ripple)
       .def_readonly("takes_speed", &SpeedRipple::takes_speed)
       .def_readonly("takes_ripple", &SpeedRipple::takes_ripple);
-  for_option_arguments([&](const auto&... options) {
-    m.def("speed_ripples",
-          with_options(Types<SharedCharacter>{}, Types<>{},
-                       [](const SharedCharacter& character, const PlayerOptions& given) {
-                         return without_gil([&] { return speed_ripples(character, given); });
-                       }),
-          py::arg("character").none(false), options...);
-    m.def("change_pushes",
-          with_options(Types<SharedCharacter>{}, Types<>{},
-                       [](const SharedCharacter& character, const PlayerOptions& given) {
-                         const auto found = without_gil([&] { return change_pushes(character, given); });
-                         py::dict by_kind;
-                         for (std::size_t kind = 0; kind < found.size(); ++kind)
-                           by_kind[kChangeNames[kind]] = found[kind];
-                         return by_kind;
-                       }),
-          py::arg("character").none(false), options...);
+  define_with_options(m, "speed_ripples", [](const SharedCharacter& character, const PlayerOptions& options) {
+    return without_gil([&] { return speed_ripples(character, options); });
+  });
+  define_with_options(m, "change_pushes", [](const SharedCharacter& character, const PlayerOptions& options) {
+    const auto found = without_gil([&] { return change_pushes(character, options); });
+    py::dict by_kind;
+    for (std::size_t kind = 0; kind < found.size(); ++kind) by_kind[kChangeNames[kind]] = found[kind];
+    return by_kind;
   });
 }
 

@@ -68,12 +68,13 @@ py::array_t<int> playing_of(OneCrowd& one) {
 
 void bind_crowd(py::module_& m) {
   py::class_<OneCrowd> crowd(m, "Crowd", py::module_local());
+  const auto make = [](SharedCharacter character, int count, const PlayerOptions& options, int threads) {
+    return std::make_unique<OneCrowd>("Crowd", std::move(character), count, options, thread_count(threads));
+  };
+  crowd.def(py::init(make), py::arg("character").none(false), py::arg("count"), py::arg("options"),
+            py::arg("threads") = 0);
   for_option_arguments([&](const auto&... options) {
-    crowd.def(py::init(with_options(Types<SharedCharacter, int>{}, Types<int>{},
-                                    [](SharedCharacter character, int count, const PlayerOptions& given, int threads) {
-                                      return std::make_unique<OneCrowd>("Crowd", std::move(character), count, given,
-                                                                        thread_count(threads));
-                                    })),
+    crowd.def(py::init(with_options(Types<SharedCharacter, int>{}, Types<int>{}, make)),
               py::arg("character").none(false), py::arg("count"), options..., py::arg("threads") = 0);
   });
   crowd.def("__len__", [](OneCrowd& crowd) { return OneCrowd::Call(crowd)->size(); })
@@ -104,12 +105,13 @@ py::array_t<double> standing_feet(OnePlayer& player) {
 
 void bind_player(py::module_& m) {
   py::class_<OnePlayer> player(m, "Player", py::module_local());
+  const auto make = [](SharedCharacter character, const PlayerOptions& options) {
+    return std::make_unique<OnePlayer>("Player", std::move(character), options);
+  };
+  player.def(py::init(make), py::arg("character").none(false), py::arg("options"));
   for_option_arguments([&](const auto&... options) {
-    player.def(py::init(with_options(Types<SharedCharacter>{}, Types<>{},
-                                     [](SharedCharacter character, const PlayerOptions& given) {
-                                       return std::make_unique<OnePlayer>("Player", std::move(character), given);
-                                     })),
-               py::arg("character").none(false), options...);
+    player.def(py::init(with_options(Types<SharedCharacter>{}, Types<>{}, make)), py::arg("character").none(false),
+               options...);
   });
   player
       .def(
@@ -153,6 +155,24 @@ void bind_player(py::module_& m) {
 }
 
 }  // namespace
+
+void bind_player_options(py::module_& m) {
+  py::class_<PlayerOptions> bound(m, "PlayerOptions", py::module_local());
+  for_option_arguments([&](const auto&... arguments) {
+    bound.def(py::init(with_options(Types<>{}, Types<>{}, [](const PlayerOptions& given) { return given; })),
+              arguments...);
+  });
+  bound.def_readwrite("seed", &PlayerOptions::seed)
+      .def_readwrite("stitch", &PlayerOptions::stitch)
+      .def_readwrite("policy", &PlayerOptions::policy)
+      .def_property(
+          "stitching",
+          [](const PlayerOptions& o) { return o.stitching == Stitching::crossfade ? "crossfade" : "inertialize"; },
+          [](PlayerOptions& o, const std::string& name) { o.stitching = to_stitching(name); })
+      .def_readwrite("lock_feet", &PlayerOptions::lock_feet)
+      .def_readwrite("root_adjustment", &PlayerOptions::root_adjustment)
+      .def_readwrite("responsiveness", &PlayerOptions::responsiveness);
+}
 
 Stitching to_stitching(const std::string& name) {
   if (name != "inertialize" && name != "crossfade") {

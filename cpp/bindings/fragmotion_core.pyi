@@ -14,6 +14,7 @@ RuntimeError on a call in the middle of another, as of another thread's or from 
 from collections.abc import Callable, Sequence
 from os import PathLike
 from pathlib import Path
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -420,9 +421,40 @@ def build(
 ) -> Character:
     """Clips to a character: fragments, synthesis, classes, quality, policy. Traces [T,4] teach the policy."""
 
+class PlayerOptions:
+    """All that a Player can be told. What takes these takes them one by one, too."""
+
+    def __init__(
+        self,
+        seed: int = 1,
+        stitch: float = 0.2,
+        policy: str = "",
+        stitching: str = "inertialize",
+        lock_feet: bool = True,
+        root_adjustment: float = 1.0,
+        responsiveness: float = 0.5,
+    ) -> None: ...
+    seed: int
+    """Draws which fragment of a class plays."""
+    stitch: float
+    """Seconds that a stitch takes, 0 .. 1."""
+    policy: str
+    """One of the character's; empty: the one that drives."""
+    stitching: str
+    """"inertialize" or the paper's "crossfade"."""
+    lock_feet: bool
+    """Planted feet stay where they are."""
+    root_adjustment: float
+    """How much the root does of the command beyond its fragments, 0 .. 1."""
+    responsiveness: float
+    """How soon a change of the control is followed, 0 .. 1: at 1 at once, at the default as a body does."""
+
 class Player:
     """The run-time (Sec. 3.3, Fig. 3): policy, fragments and stitching to poses."""
 
+    @overload
+    def __init__(self, character: Character, options: PlayerOptions) -> None: ...
+    @overload
     def __init__(
         self,
         character: Character,
@@ -433,11 +465,7 @@ class Player:
         lock_feet: bool = True,
         root_adjustment: float = 1.0,
         responsiveness: float = 0.5,
-    ) -> None:
-        """`stitch`: seconds that a stitch takes, 0 .. 1; `policy`: one of the character's (default: the one that
-        drives); `stitching`: "inertialize" or the paper's "crossfade"; `lock_feet`: planted feet stay where they are;
-        `root_adjustment`: how much the root does of the command beyond its fragments, 0 .. 1; `responsiveness`: how
-        soon a fragment is left when the control changes a lot, 0 (where the next one joins best) .. 1 (at once)."""
+    ) -> None: ...
     def reset(self, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
         """Stand at a place, facing `heading` (radians, counter-clockwise from +y), and draw again from the seed: after
         a reset the same steps show the same poses."""
@@ -469,6 +497,11 @@ class Crowd:
     """Many players of one character that step together. Player i shows, to the bit, what a Player of the seed `seed` +
     i shows that is stepped alone."""
 
+    @overload
+    def __init__(self, character: Character, count: int, options: PlayerOptions, threads: int = 0) -> None:
+        """`count`: 0 .. 100000; `threads`: of a step (0: as many as the machine has), which change no bit of what is
+        shown."""
+    @overload
     def __init__(
         self,
         character: Character,
@@ -481,9 +514,7 @@ class Crowd:
         root_adjustment: float = 1.0,
         responsiveness: float = 0.5,
         threads: int = 0,
-    ) -> None:
-        """As Player; `count`: 0 .. 100000; `threads`: of a step (0: as many as the machine has), which change no bit of
-        what is shown."""
+    ) -> None: ...
     def __len__(self) -> int: ...
     def step_many(
         self,
@@ -577,6 +608,12 @@ def optimal_performance(character: Character, trace: ArrayLike, rate: float, sho
     """The greatest `Performance.quality` that a player could reach who knew the whole trace: it may play a class for
     any time from `shortest` seconds (0 .. 3600) to the longest of its fragments."""
 
+@overload
+def response_times(character: Character, options: PlayerOptions) -> Doubles:
+    """[272] seconds from each step of the command between two of the 17 velocities until the velocity over the last
+    0.1 s has made 90 % of the way; 3 where it takes longer."""
+
+@overload
 def response_times(
     character: Character,
     seed: int = 1,
@@ -586,10 +623,14 @@ def response_times(
     lock_feet: bool = True,
     root_adjustment: float = 1.0,
     responsiveness: float = 0.5,
-) -> Doubles:
-    """[272] seconds from each step of the command between two of the 17 velocities until the velocity over the last
-    0.1 s has made 90 % of the way; 3 where it takes longer."""
+) -> Doubles: ...
+@overload
+def about_face_times(character: Character, options: PlayerOptions) -> Doubles:
+    """[16] seconds from the command to turn, left and right in turn, given to a player that walks forward, until it has
+    turned by 180 degrees and walks straight back at nine tenths of the walk; 10 where it takes longer. The whole turn
+    rate is held until it has turned so far."""
 
+@overload
 def about_face_times(
     character: Character,
     seed: int = 1,
@@ -599,10 +640,7 @@ def about_face_times(
     lock_feet: bool = True,
     root_adjustment: float = 1.0,
     responsiveness: float = 0.5,
-) -> Doubles:
-    """[16] seconds from the command to turn, left and right in turn, given to a player that walks forward, until it has
-    turned by 180 degrees and walks straight back at nine tenths of the walk; 10 where it takes longer. The whole turn
-    rate is held until it has turned so far."""
+) -> Doubles: ...
 
 class SpeedRipple:
     """How evenly a character goes at a commanded speed, m/s of a 1.8 m character; NaN where the takes do not go
@@ -618,6 +656,12 @@ class SpeedRipple:
     takes_ripple: float
     """Of the takes' steady seconds within 0.1 m/s of that."""
 
+@overload
+def speed_ripples(character: Character, options: PlayerOptions) -> list[SpeedRipple]:
+    """For forward commands of 0.5, 1, 1.5 ... 3 m/s of a 1.8 m character, each held for 11 s, of which the first three
+    do not count."""
+
+@overload
 def speed_ripples(
     character: Character,
     seed: int = 1,
@@ -627,10 +671,14 @@ def speed_ripples(
     lock_feet: bool = True,
     root_adjustment: float = 1.0,
     responsiveness: float = 0.5,
-) -> list[SpeedRipple]:
-    """For forward commands of 0.5, 1, 1.5 ... 3 m/s of a 1.8 m character, each held for 11 s, of which the first three
-    do not count."""
+) -> list[SpeedRipple]: ...
+@overload
+def change_pushes(character: Character, options: PlayerOptions) -> dict[str, Pushes]:
+    """How hard the centre of mass is pushed in the 1.5 s after a change of the command, by its kind: start, stop,
+    reverse (by more than 100 degrees), turn (to another direction, or the turn rate) and gait (another speed). Of every
+    change between two of the 17 velocities, and of walking and running forward between no turn and either turn."""
 
+@overload
 def change_pushes(
     character: Character,
     seed: int = 1,
@@ -640,10 +688,7 @@ def change_pushes(
     lock_feet: bool = True,
     root_adjustment: float = 1.0,
     responsiveness: float = 0.5,
-) -> dict[str, Pushes]:
-    """How hard the centre of mass is pushed in the 1.5 s after a change of the command, by its kind: start, stop,
-    reverse (by more than 100 degrees), turn (to another direction, or the turn rate) and gait (another speed). Of every
-    change between two of the 17 velocities, and of walking and running forward between no turn and either turn."""
+) -> dict[str, Pushes]: ...
 
 class ClassesTried:
     """What a number of classes is good for: means over a minute of each simulated player."""

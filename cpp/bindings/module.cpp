@@ -17,6 +17,7 @@ PYBIND11_MODULE(fragmotion_core, m) {
   b::bind_policy(m);
   b::bind_character(m);
   b::bind_build(m);
+  b::bind_player_options(m);
   b::bind_evaluate(m);
   b::bind_bake(m);
   b::bind_runtime(m);  // whose Player.run returns what evaluate binds

@@ -44,4 +44,14 @@ void for_option_arguments(const Define& define) {
          py::arg("root_adjustment") = defaults.root_adjustment, py::arg("responsiveness") = defaults.responsiveness);
 }
 
+/// Defines a function of a character and a player's options, given as PlayerOptions or one by one.
+template <typename Function>
+void define_with_options(py::module_& m, const char* name, const Function& function) {
+  m.def(name, function, py::arg("character").none(false), py::arg("options"));
+  for_option_arguments([&](const auto&... options) {
+    m.def(name, with_options(Types<SharedCharacter>{}, Types<>{}, function), py::arg("character").none(false),
+          options...);
+  });
+}
+
 }  // namespace fragmotion::bindings

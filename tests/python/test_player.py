@@ -40,6 +40,29 @@ def test_player_steps_as_it_runs(character: core.Character) -> None:
     assert two.playing == (performance.classes[-1], performance.fragments[-1])
 
 
+def test_options_are_given_together_or_one_by_one(character: core.Character) -> None:
+    plain = core.PlayerOptions()
+    assert (plain.seed, plain.stitch, plain.policy, plain.stitching) == (1, 0.2, "", "inertialize")
+    assert (plain.lock_feet, plain.root_adjustment, plain.responsiveness) == (True, 1.0, 0.5)
+    options = core.PlayerOptions(seed=5, stitching="crossfade")
+    options.responsiveness = 0.8
+    trace = core.simulate_trace("explorer", 4, 1)
+    together = core.Player(character, options).run(trace, 30)
+    apart = core.Player(character, seed=5, stitching="crossfade", responsiveness=0.8).run(trace, 30)
+    assert together.rotations.tobytes() == apart.rotations.tobytes()
+    assert together.rotations.tobytes() != core.Player(character).run(trace, 30).rotations.tobytes()
+    np.testing.assert_array_equal(
+        core.response_times(character, options),
+        core.response_times(character, seed=5, stitching="crossfade", responsiveness=0.8),
+    )
+    assert len(core.Crowd(character, 2, options, threads=1)) == 2
+    with pytest.raises(ValueError, match="there is no stitching"):
+        options.stitching = "none"
+    options.stitch = 2
+    with pytest.raises(ValueError, match="stitching time"):
+        core.Player(character, options)
+
+
 def test_player_tells_eq_2_of_what_plays(character: core.Character) -> None:
     player, before, playing = core.Player(character, seed=3), 0, -1
     asked = [0.0, 1.2, 0.0, 0.0]

@@ -32,8 +32,9 @@ def arguments_of(node: ast.FunctionDef) -> list[str]:
 
 
 def arguments_told(function: object) -> list[str]:
-    """The names of the parameters as pybind11's docstring tells them."""
-    signature = (inspect.getdoc(function) or "").splitlines()[0]
+    """The names of the parameters as pybind11's docstring tells them, of overloads those of the last."""
+    lines = (inspect.getdoc(function) or "").splitlines()
+    signature = [lines[0], *(line for line in lines if line[:1].isdigit())][-1]
     inner = signature[signature.index("(") + 1 : signature.rindex(") ->")]
     parsed = ast.parse(f"def f({inner_names(inner)}): ...").body[0]
     assert isinstance(parsed, ast.FunctionDef)

@@ -238,6 +238,7 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Character.without": {"self": made, "excluded": [1, 2]},
         "build": building,
         "suggest_classes": {**building, "clips": clips[:1], "options": build_options(synthesize=False)},
+        "PlayerOptions": {**player},
         "Player": {"character": made, **player},
         "Player.reset": {"self": core.Player(made), "x": 0.0, "y": 0.0, "heading": 0.0},
         "Player.force": {"self": core.Player(made), "next_class": 1},

@@ -25,7 +25,7 @@ class Fit {
  public:
   Fit(const std::vector<double>& values, int width)
       : values_(values), width_(width), frames_(static_cast<int>(values.size()) / width) {
-    keys_.frames = frames_ > 1 ? std::vector<int>{0, frames_ - 1} : std::vector<int>{0};
+    keys_.key_frames = frames_ > 1 ? std::vector<int>{0, frames_ - 1} : std::vector<int>{0};
   }
 
   FittedKeys within(double tolerance) {
@@ -38,7 +38,7 @@ class Fit {
 
  private:
   double value(int frame, int k) const { return values_[static_cast<std::size_t>(frame) * width_ + k]; }
-  int count() const { return static_cast<int>(keys_.frames.size()); }
+  int count() const { return static_cast<int>(keys_.key_frames.size()); }
 
   double own_slope(int frame, int k) const {
     const int before = std::max(frame - 1, 0), after = std::min(frame + 1, frames_ - 1);
@@ -50,14 +50,14 @@ class Fit {
     std::vector<double> diagonal(count(), kPrior), beside(count(), 0);
     keys_.slopes.resize(static_cast<std::size_t>(count()) * width_);
     for (int i = 0; i < count(); ++i) {
-      for (int k = 0; k < width_; ++k) slope(i, k) = kPrior * own_slope(keys_.frames[i], k);
+      for (int k = 0; k < width_; ++k) slope(i, k) = kPrior * own_slope(keys_.key_frames[i], k);
     }
     for (int i = 0; i + 1 < count(); ++i) add_segment(i, diagonal, beside);
     eliminate(diagonal, beside);
   }
 
   void add_segment(int i, std::vector<double>& diagonal, std::vector<double>& beside) {
-    const int first = keys_.frames[i], last = keys_.frames[i + 1];
+    const int first = keys_.key_frames[i], last = keys_.key_frames[i + 1];
     for (int f = first + 1; f < last; ++f) {
       const Hermite h = basis(f, first, last);
       diagonal[i] += h.from_slope * h.from_slope;
@@ -88,7 +88,7 @@ class Fit {
   void draw() {
     keys_.drawn = values_;
     for (int i = 0; i + 1 < count(); ++i) {
-      const int first = keys_.frames[i], last = keys_.frames[i + 1];
+      const int first = keys_.key_frames[i], last = keys_.key_frames[i + 1];
       for (int f = first + 1; f < last; ++f) {
         const Hermite h = basis(f, first, last);
         for (int k = 0; k < width_; ++k) {
@@ -102,11 +102,11 @@ class Fit {
 
   // Puts a key where each segment is furthest off, if that is too far; whether it did.
   bool add_keys(double tolerance) {
-    std::vector<int> more = keys_.frames;
+    std::vector<int> more = keys_.key_frames;
     for (int i = 0; i + 1 < count(); ++i) {
       int furthest = -1;
       double most = tolerance * tolerance;
-      for (int f = keys_.frames[i] + 1; f < keys_.frames[i + 1]; ++f) {
+      for (int f = keys_.key_frames[i] + 1; f < keys_.key_frames[i + 1]; ++f) {
         const double off = squared_error(f);
         if (off <= most) continue;
         most = off;
@@ -116,7 +116,7 @@ class Fit {
     }
     const bool added = static_cast<int>(more.size()) > count();
     std::sort(more.begin(), more.end());
-    keys_.frames = std::move(more);
+    keys_.key_frames = std::move(more);
     return added;
   }
 

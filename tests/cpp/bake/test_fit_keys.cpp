@@ -35,11 +35,11 @@ TEST(FitKeys, StaysWithinItsTolerance) {
   for (const double tolerance : {1e-4, 1e-3, 1e-2, 1e-1}) {
     const FittedKeys keys = fit_keys(values, 3, tolerance);
     EXPECT_LE(farthest(keys.drawn, values, 3), tolerance);
-    EXPECT_LT(keys.frames.size(), before) << "a wider tolerance needs fewer keys";
-    before = keys.frames.size();
-    EXPECT_EQ(keys.frames.front(), 0);
-    EXPECT_EQ(keys.frames.back(), 399);
-    for (const int frame : keys.frames) {
+    EXPECT_LT(keys.key_frames.size(), before) << "a wider tolerance needs fewer keys";
+    before = keys.key_frames.size();
+    EXPECT_EQ(keys.key_frames.front(), 0);
+    EXPECT_EQ(keys.key_frames.back(), 399);
+    for (const int frame : keys.key_frames) {
       for (int k = 0; k < 3; ++k) EXPECT_EQ(keys.drawn[3 * frame + k], values[3 * frame + k]);
     }
   }
@@ -49,7 +49,7 @@ TEST(FitKeys, NeedsTwoKeysForACubic) {
   std::vector<double> values;
   for (int f = 0; f < 50; ++f) values.push_back(1 + 0.3 * f - 0.02 * f * f + 3e-4 * f * f * f);
   const FittedKeys keys = fit_keys(values, 1, 0.01);
-  EXPECT_EQ(keys.frames, (std::vector<int>{0, 49}));
+  EXPECT_EQ(keys.key_frames, (std::vector<int>{0, 49}));
   EXPECT_NEAR(keys.slopes[0], 0.3, 1e-3);
 }
 
@@ -61,8 +61,8 @@ TEST(FitKeys, KeepsAJumpOfOneFrame) {
 }
 
 TEST(FitKeys, TakesASingleFrameAndTwo) {
-  EXPECT_EQ(fit_keys({1, 2}, 2, 0.1).frames, std::vector<int>{0});
-  EXPECT_EQ(fit_keys({1, 2}, 1, 0.1).frames, (std::vector<int>{0, 1}));
+  EXPECT_EQ(fit_keys({1, 2}, 2, 0.1).key_frames, std::vector<int>{0});
+  EXPECT_EQ(fit_keys({1, 2}, 1, 0.1).key_frames, (std::vector<int>{0, 1}));
 }
 
 TEST(FitKeys, RefusesWhatItCannotFit) {

@@ -8,9 +8,9 @@ namespace fragmotion {
 /// Keys of a curve of `width` components and its values on every frame between them: cubic Hermite segments that share
 /// their slope at a key, so that it is smooth.
 struct FittedKeys {
-  std::vector<int> frames;     ///< [keys], ascending; the first and the last frame are keys.
-  std::vector<double> slopes;  ///< [keys, width], a frame.
-  std::vector<double> drawn;   ///< [frames, width]
+  std::vector<int> key_frames;  ///< [keys], ascending; the first and the last frame are keys.
+  std::vector<double> slopes;   ///< [keys, width], a frame.
+  std::vector<double> drawn;    ///< [frames, width]
 };
 
 /// Few keys whose curve passes all of `values` [frames, width] within a distance of `tolerance`: keys are put where the
