@@ -100,6 +100,23 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
     seconds: length_field(20.0)  # type: ignore[valid-type]
 
 
+class EditSettings(bpy.types.PropertyGroup):
+    """The panel's settings of what changes recordings."""
+
+    pin_at: PointerProperty(  # type: ignore[valid-type]
+        name="Pin At",
+        description="Where Pin Here wants the character, facing the object's -Y; empty: at the 3D cursor",
+        type=bpy.types.Object,
+    )
+    stretch: FloatProperty(  # type: ignore[valid-type]
+        name="Change",
+        description="How long before the pin the controls may change, in seconds",
+        default=4.0,
+        min=0.2,
+        unit="TIME_ABSOLUTE",
+    )
+
+
 class FeelSettings(bpy.types.PropertyGroup):
     """How the character moves when it is driven and baked, whatever its policy."""
 
@@ -173,6 +190,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
     populate: PointerProperty(type=PopulateSettings)  # type: ignore[valid-type]
     drive: PointerProperty(type=DriveSettings)  # type: ignore[valid-type]
+    edit: PointerProperty(type=EditSettings)  # type: ignore[valid-type]
     feel: PointerProperty(type=FeelSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]
