@@ -45,7 +45,8 @@ void bind_motions(py::module_& m) {
         const auto& motion = self.cast<const ShownMotion&>();
         return view(motion.path, {motion.frames, 3}, self);
       });
-  m.def("join", &join, py::arg("skeleton"), py::arg("first"), py::arg("second"), py::call_guard<GilRelease>());
+  m.def("join", &join, py::arg("skeleton"), py::arg("first"), py::arg("end"), py::arg("second"), py::arg("beginning"),
+        py::call_guard<GilRelease>());
   m.def(
       "find_seam",
       [](const Skeleton& skeleton, const ShownMotion& first, const std::vector<int>& ends, const ShownMotion& second,
@@ -68,7 +69,8 @@ void bind_pin(py::module_& m) {
       .def_property_readonly("trace",
                              [](const Pin& pin) {
                                std::vector<double> values;
-                               for (const Control& c : pin.trace) values.insert(values.end(), {c.x, c.y, c.turn, c.jump});
+                               for (const Control& c : pin.trace)
+                                 values.insert(values.end(), {c.x, c.y, c.turn, c.jump});
                                return to_array(std::move(values), {static_cast<py::ssize_t>(pin.trace.size()), 4});
                              })
       .def_readonly("seed", &Pin::seed)

@@ -618,10 +618,11 @@ class ShownMotion:
     rotations: Doubles
     frames: Doubles
 
-def join(skeleton: Skeleton, first: ShownMotion, second: ShownMotion) -> ShownMotion:
-    """The first motion to the bit, then the second's frames after its first one, which is taken for the moment of the
-    first's last: carried to where the character is and faces then, and stitched. From 0.8 s later on it shows, seen
-    from the character frame, what the second showed. ValueError unless both have the skeleton's bones and one rate."""
+def join(skeleton: Skeleton, first: ShownMotion, end: int, second: ShownMotion, beginning: int) -> ShownMotion:
+    """The first motion's frames 0 .. `end` to the bit, then the second's after frame `beginning`, which is taken for the
+    moment of `end`: carried to where the character is and faces then, and stitched. From 0.8 s later on it shows, seen
+    from the character frame, what the second showed. ValueError unless both have the skeleton's bones and one rate, and
+    on frames that do not exist."""
 
 def find_seam(
     skeleton: Skeleton, first: ShownMotion, ends: Sequence[int], second: ShownMotion, beginnings: Sequence[int]

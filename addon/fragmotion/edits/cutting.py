@@ -14,7 +14,7 @@ from ..errors import UserError, core_errors
 from ..recordings.curves import renew_curves
 from ..recordings.recordings import TRACE_RATE, Recording, trace_of
 from ..rig.motion import Motion
-from .replaying import STEPS, as_shown, joined, keep, part, shown_poses
+from .replaying import STEPS, as_shown, joined, keep, shown_poses
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
@@ -73,8 +73,7 @@ def _glue(
         seam, both = Seam(*asked, None), None
     else:
         seam = _find_seam(obj, shown, shown_next, seams)
-        before, after = part(shown, 0, seam.end * STEPS + 1), part(shown_next, seam.beginning * STEPS)
-        both = joined(load(obj), before, after)
+        both = joined(load(obj), shown, seam.end, shown_next, seam.beginning)
     glued = np.concatenate((trace[: seam.end], following[seam.beginning :]))
     keep(obj, recording, glued, both)
     renew_curves(obj, recording)

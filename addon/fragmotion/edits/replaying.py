@@ -41,7 +41,9 @@ def shown_poses(obj: bpy.types.Object, recording: Recording) -> Motion | None:
     shown = shown_of(recording)
     if not has_character(obj):
         if shown is not None:
-            raise UserError(f"Armature '{obj.name}' has no character to play '{recording.name}' again: press Build first")
+            raise UserError(
+                f"Armature '{obj.name}' has no character to play '{recording.name}' again: press Build first"
+            )
         return None
     character = load(obj)
     if shown is None or recording.shown_bones != len(character.skeleton.names):
@@ -70,26 +72,23 @@ def keep(obj: bpy.types.Object, recording: Any, trace: Doubles, shown: Motion | 
 
 def from_then_on(character: Character, shown: Motion, again: Motion, first: int) -> Motion:
     """What was shown until control `first`, to the bit, and then another motion of the same time."""
-    return joined(character, part(shown, 0, first * STEPS + 1), part(again, first * STEPS))
+    return joined(character, shown, first, again, first)
 
 
-def part(motion: Motion, begin: int, end: int | None = None) -> Motion:
-    """Some of a motion's poses."""
-    return Motion(*(values[begin:end] for values in motion))
-
-
-def joined(character: Character, first: Motion, second: Motion) -> Motion:
-    """The first to the bit, then the second after its first pose, which is taken for the first's last."""
+def joined(character: Character, first: Motion, end: int, second: Motion, beginning: int) -> Motion:
+    """The first motion to the bit until its control `end`, and then the second from its control `beginning` on."""
+    last, begin = end * STEPS, beginning * STEPS
     with core_errors("Joining"):
-        both = core.join(character.skeleton, as_shown(first), as_shown(second))
-    return as_motion(both, np.concatenate((first.classes, second.classes[1:])))
+        both = core.join(character.skeleton, as_shown(first), last, as_shown(second), begin)
+    return as_motion(both, np.concatenate((first.classes[: last + 1], second.classes[begin + 1 :])))
 
 
 def as_shown(motion: Motion) -> ShownMotion:
     """A motion of POSE_RATE poses a second as the core takes it."""
     lengths = np.linalg.norm(motion.rotations, axis=-1, keepdims=True)
     rotations = np.where(np.abs(lengths - 1) < _UNIT, motion.rotations, motion.rotations / lengths)
-    return core.ShownMotion(POSE_RATE, motion.root_positions, rotations, motion.frames)
+    shown: ShownMotion = core.ShownMotion(POSE_RATE, motion.root_positions, rotations, motion.frames)
+    return shown
 
 
 def as_motion(shown: ShownMotion, classes: Any) -> Motion:

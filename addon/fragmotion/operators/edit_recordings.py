@@ -123,7 +123,7 @@ class FRAGMOTION_OT_glue_recording(OnRecording, bpy.types.Operator):
         if not super().poll(context):
             return False
         settings = active_armature(context).fragmotion
-        has_next = settings.active_take + 1 < len(settings.takes)
+        has_next: bool = settings.active_take + 1 < len(settings.takes)
         if not has_next:
             cls.poll_message_set("No recording comes after it in the list")
         return has_next
@@ -133,7 +133,9 @@ class FRAGMOTION_OT_glue_recording(OnRecording, bpy.types.Operator):
         obj, recording = active_armature(context), selected(context)
         other = obj.fragmotion.takes[obj.fragmotion.active_take + 1]
         seam = cutting.append(obj, recording, other)
-        self.report({"INFO"}, f"'{other.name}' follows in '{recording.name}' from {seam.end / TRACE_RATE:.1f} s on{_fit(seam)}")
+        self.report(
+            {"INFO"}, f"'{other.name}' follows in '{recording.name}' from {seam.end / TRACE_RATE:.1f} s on{_fit(seam)}"
+        )
         return {"FINISHED"}
 
 
@@ -209,7 +211,9 @@ def playhead(context: bpy.types.Context, recording: Recording) -> float:
 
 
 def _fit(seam: cutting.Seam) -> str:
-    return "" if seam.distance is None else f"; there the poses are {100 * seam.distance:.0f} cm apart, and are stitched"
+    return (
+        "" if seam.distance is None else f"; there the poses are {100 * seam.distance:.0f} cm apart, and are stitched"
+    )
 
 
 CLASSES = (

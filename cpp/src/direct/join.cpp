@@ -29,10 +29,20 @@ void check_frames(const std::vector<int>& frames, const ShownMotion& motion, con
 }
 
 void resize(ShownMotion& motion, int frames) {
-  motion.rotations.resize(motion.rotations.size() / motion.frames * frames);
+  motion.rotations.resize(motion.rotations.size() / static_cast<std::size_t>(motion.frames) * frames);
   motion.root_positions.resize(std::size_t{3} * frames);
   motion.path.resize(std::size_t{3} * frames);
   motion.frames = frames;
+}
+
+// How a pose goes on after one before it.
+WorldPose onward(const WorldPose& before, const WorldPose& now) {
+  WorldPose later{2 * now.root - before.root, 2 * now.heading - before.heading, now.rotations};
+  for (std::size_t i = 0; i < now.rotations.size(); i += 4) {
+    const Quaternion is = load_quaternion(&now.rotations[i]), was = load_quaternion(&before.rotations[i]);
+    store_quaternion(is * was.conjugate() * is, &later.rotations[i]);
+  }
+  return later;
 }
 
 // The tips of poses and of those a little later, each seen from the frame of the first, in three rows.
@@ -74,30 +84,36 @@ class SeamPoses {
 
 }  // namespace
 
-ShownMotion join(const Skeleton& skeleton, const ShownMotion& first, const ShownMotion& second) {
+ShownMotion join(const Skeleton& skeleton, const ShownMotion& first, int end, const ShownMotion& second,
+                 int beginning) {
   check_shown(skeleton, first, "the first motion");
   check_shown(skeleton, second, "the second motion");
   if (first.rate != second.rate) throw std::invalid_argument("the motions must have the same frame rate");
-  const int last = first.frames - 1;
-  const double apart = 1 / first.rate;
-  const CharacterFrame from = second.frame(0), to = first.frame(last);
+  check_frames({end}, first, "the first motion");
+  check_frames({beginning}, second, "the second motion");
+  const CharacterFrame from = second.frame(beginning), to = first.frame(end);
   const auto carried_pose = [&](int f) {
-    WorldPose pose = pose_at(second, std::min(f, second.frames - 1));
+    WorldPose pose = pose_at(second, f);
     carry(skeleton, from, to, pose);
     return pose;
   };
+  const double apart = 1 / first.rate;
   Inertialization stitch(skeleton.size());
-  const Vector2 faster = stitch.begin(pose_at(first, std::max(last - 1, 0)), pose_at(first, last), carried_pose(0),
-                                      carried_pose(1), apart, kStitched);
+  const WorldPose old = pose_at(first, end), fresh = carried_pose(beginning);
+  const Vector2 faster = end > 0 ? stitch.begin(pose_at(first, end - 1), old, fresh,
+                                                beginning > 0 ? onward(carried_pose(beginning - 1), fresh)
+                                                              : carried_pose(std::min(1, second.frames - 1)),
+                                                apart, kStitched)
+                                 : stitch.begin(old, old, fresh, fresh, apart, kStitched);
   ShownMotion joined = first;
-  resize(joined, last + second.frames);
-  for (int f = 1; f < second.frames; ++f) {
-    WorldPose pose = carried_pose(f);
+  resize(joined, end + second.frames - beginning);
+  for (int f = 1; beginning + f < second.frames; ++f) {
+    WorldPose pose = carried_pose(beginning + f);
     const Vector2 before = pose.root.head<2>();
     stitch.apply(f * apart, pose);
     pose.root.head<2>() += kCarried * (1 - std::exp(-f * apart / kCarried)) * faster;
-    const Vector2 place = carried(from, to, second.frame(f).position) + pose.root.head<2>() - before;
-    set_pose(joined, last + f, pose, place);
+    const Vector2 place = carried(from, to, second.frame(beginning + f).position) + pose.root.head<2>() - before;
+    set_pose(joined, end + f, pose, place);
   }
   return joined;
 }

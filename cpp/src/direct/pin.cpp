@@ -71,14 +71,12 @@ struct Trial {
 };
 
 // The height of a bump at a share of the way, 0 at both ends of it.
-double bump(int number, double share) {
-  return ease_in_ease_out(1 - std::abs(share * (kBumps + 1) - (number + 1)));
-}
+double bump(int number, double share) { return ease_in_ease_out(1 - std::abs(share * (kBumps + 1) - (number + 1))); }
 
 class PinSearch {
  public:
-  PinSearch(const std::shared_ptr<const Character>& character, const PlayerOptions& player,
-            const CharacterFrame& start, const Trace& trace, const PinGoal& goal, const PinOptions& options)
+  PinSearch(const std::shared_ptr<const Character>& character, const PlayerOptions& player, const CharacterFrame& start,
+            const Trace& trace, const PinGoal& goal, const PinOptions& options)
       : options_(options),
         seed_(player.seed),
         start_(start),
@@ -173,8 +171,8 @@ class PinSearch {
     }
     const double moves = std::min(1.0, std::max(control.speed() / walk_, std::abs(control.turn)));
     const Vector2 velocity = (1 + by[0]) * (Eigen::Rotation2Dd(by[1]) * Vector2{control.x, control.y});
-    const double turn = std::clamp(control.turn + moves * by[2], std::min(-kMostTurn, control.turn),
-                                   std::max(kMostTurn, control.turn));
+    const double turn =
+        std::clamp(control.turn + moves * by[2], std::min(-kMostTurn, control.turn), std::max(kMostTurn, control.turn));
     return {velocity.x(), velocity.y(), turn, control.jump};
   }
 
@@ -182,13 +180,11 @@ class PinSearch {
   double angle(const Trial& trial) const {
     return std::abs(std::remainder(trial.reached.heading - goal_.heading, 2 * kPi));
   }
-  bool fits(const Trial& trial) const {
-    return distance(trial) <= options_.distance && angle(trial) <= options_.angle;
-  }
+  bool fits(const Trial& trial) const { return distance(trial) <= options_.distance && angle(trial) <= options_.angle; }
 
   Pin result(const Trial& before, const Trial& best, int tries) const {
-    Pin pin{trace_, best.seed, best.reached, distance(before), angle(before), distance(best), angle(best), tries,
-            fits(best)};
+    Pin pin{trace_,         best.seed,   best.reached, distance(before), angle(before),
+            distance(best), angle(best), tries,        fits(best)};
     for (int i = first_; i < end_; ++i) pin.trace[i] = changed(i, best.change);
     return pin;
   }

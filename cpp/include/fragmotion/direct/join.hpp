@@ -8,10 +8,11 @@ namespace fragmotion {
 /// Seconds after which a joined motion shows, seen from the character frame, what its second part showed.
 constexpr double kJoined = 0.8;
 
-/// The first motion to the bit, and then the second's frames after its first one, which is taken for the moment of the
-/// first's last: carried to where the character is and faces then, at the velocity that it has, and stitched
-/// (inertialization.hpp). Throws std::invalid_argument as check_shown(), and unless the rates are the same.
-ShownMotion join(const Skeleton& skeleton, const ShownMotion& first, const ShownMotion& second);
+/// The first motion's frames 0 .. `end` to the bit, and then the second's after frame `beginning`, which is taken for
+/// the moment of `end`: carried to where the character is and faces then, at the velocity that it has, and stitched
+/// (inertialization.hpp). Throws std::invalid_argument as check_shown(), unless the rates are the same, and on frames
+/// that do not exist.
+ShownMotion join(const Skeleton& skeleton, const ShownMotion& first, int end, const ShownMotion& second, int beginning);
 
 /// Where two motions are best joined.
 struct Seam {

@@ -19,11 +19,11 @@ struct PinGoal {
 };
 
 struct PinOptions {
-  double begin = 0;                ///< s: controls before it stay as they are, and what follows the pin.
-  double distance = 0.02;          ///< m, 0 .. 100, and
-  double angle = 2 * kPi / 180;    ///< rad, 0 .. pi: so near is near enough.
-  int tries = 4000;                ///< At most, 1 .. 1e6; up to as many more as fill the last round.
-  int threads = 0;                 ///< 0: the machine's
+  double begin = 0;              ///< s: controls before it stay as they are, and what follows the pin.
+  double distance = 0.02;        ///< m, 0 .. 100, and
+  double angle = 2 * kPi / 180;  ///< rad, 0 .. pi: so near is near enough.
+  int tries = 4000;              ///< At most, 1 .. 1e6; up to as many more as fill the last round.
+  int threads = 0;               ///< 0: the machine's
 };
 
 /// A trace that leads a player to a pin, or as near as was found.
@@ -31,8 +31,8 @@ struct Pin {
   Trace trace;
   std::uint64_t seed = 0;
   CharacterFrame reached;
-  double asked = 0, asked_angle = 0;   ///< How far the trace was from the pin before; m, rad.
-  double distance = 0, angle = 0;      ///< How far it is now; m, rad.
+  double asked = 0, asked_angle = 0;  ///< How far the trace was from the pin before; m, rad.
+  double distance = 0, angle = 0;     ///< How far it is now; m, rad.
   int tries = 0;
   bool fits = false;  ///< Whether that is near enough.
 };
