@@ -15,6 +15,7 @@ from ..errors import UserError, reported
 from ..jobs import Job
 from ..recordings.curves import curves_of, read_curves, show_curves
 from ..recordings.recordings import TRACE_RATE, Recording, active_recording
+from ..settings.pin_fields import PinFields
 from .background import Background, poll_idle
 from .context import active_armature
 from .recordings import OnRecording, selected
@@ -26,8 +27,8 @@ class FRAGMOTION_OT_edit_curves(OnRecording, bpy.types.Operator):
     bl_idname = "fragmotion.edit_curves"
     bl_label = "Edit Curves"
     bl_description = (
-        "Show the selected recording's controls as curves in the Graph Editor and the Dope Sheet: velocity to the right "
-        "and forward, turn and jump. They are of an empty below the armature, which is selected. Play Again uses them"
+        "Show the selected recording's controls as curves in the Graph Editor and the Dope Sheet: velocity to the "
+        "right and forward, turn and jump. An empty below the armature has them, and is selected. Play Again uses them"
     )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -139,7 +140,7 @@ class FRAGMOTION_OT_glue_recording(OnRecording, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FRAGMOTION_OT_pin_recording(OnRecording, Background, bpy.types.Operator):
+class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.Operator):
     """Bend the recording before the playhead, so that the character is at a place at that frame."""
 
     bl_idname = "fragmotion.pin_recording"
@@ -150,7 +151,7 @@ class FRAGMOTION_OT_pin_recording(OnRecording, Background, bpy.types.Operator):
     )
     bl_options: ClassVar[set[str]] = {"UNDO"}
     verb = "Pin"
-    settings = "edit"
+    settings = "pin"
     patience = 0.5
 
     place: EnumProperty(  # type: ignore[valid-type]
@@ -162,13 +163,6 @@ class FRAGMOTION_OT_pin_recording(OnRecording, Background, bpy.types.Operator):
         ),
         options={"SKIP_SAVE"},
     )
-    stretch: FloatProperty(  # type: ignore[valid-type]
-        name="Change",
-        description="How long before the pin the controls may change, in seconds",
-        default=4.0,
-        min=0.2,
-        unit="TIME_ABSOLUTE",
-    )
 
     @classmethod
     def poll(cls: Any, context: bpy.types.Context) -> bool:
@@ -176,7 +170,7 @@ class FRAGMOTION_OT_pin_recording(OnRecording, Background, bpy.types.Operator):
 
     def _prepare(self, context: bpy.types.Context, obj: bpy.types.Object) -> Job:
         recording = selected(context)
-        named = obj.fragmotion.edit.pin_at if self.place == "PANEL" else None
+        named = obj.fragmotion.pin_at if self.place == "PANEL" else None
         now = playhead(context, recording)
         self._goal = pinning.Goal(now, now - self.stretch, pinning.frame_of(named or context.scene.cursor))
         self._recording, self._controls = recording.name, recording.controls
@@ -190,9 +184,9 @@ class FRAGMOTION_OT_pin_recording(OnRecording, Background, bpy.types.Operator):
         pin = pinned.pin
         self.report(
             {"INFO"},
-            f"'{recording.name}' is at the pin: it was {pin.asked:.2f} m and {math.degrees(pin.asked_angle):.0f} degrees "
-            f"away, {pin.tries} tries left {100 * pin.distance:.1f} cm and {math.degrees(pin.angle):.1f} degrees, which "
-            "are spread",
+            f"'{recording.name}' is at the pin: it was {pin.asked:.2f} m and {math.degrees(pin.asked_angle):.0f} "
+            f"degrees away, {pin.tries} tries left {100 * pin.distance:.1f} cm and {math.degrees(pin.angle):.1f} "
+            "degrees, which are spread",
         )
 
 

@@ -70,7 +70,7 @@ class FRAGMOTION_PT_change(SubPanel, bpy.types.Panel):
     bl_parent_id = "FRAGMOTION_PT_recordings"
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout, settings = self.layout, active_armature(context).fragmotion.edit
+        layout, settings = self.layout, active_armature(context).fragmotion
         row = layout.row(align=True)
         row.operator("fragmotion.edit_curves", icon="GRAPH")
         row.operator("fragmotion.play_again", icon="FILE_REFRESH")
@@ -79,8 +79,8 @@ class FRAGMOTION_PT_change(SubPanel, bpy.types.Panel):
         row.operator("fragmotion.glue_recording", icon="LINKED")
         column = aligned(layout)
         column.prop(settings, "pin_at", text="At")
-        column.prop(settings, "stretch")
-        layout.operator("fragmotion.pin_recording", icon="PINNED").stretch = settings.stretch
+        column.prop(settings.pin, "stretch")
+        layout.operator("fragmotion.pin_recording", icon="PINNED")
 
 
 class FRAGMOTION_PT_bake_options(SubPanel, bpy.types.Panel):

@@ -26,7 +26,7 @@ def pin(frame: np.ndarray) -> None:
     bpy.context.scene.collection.objects.link(empty)
     empty.location, empty.rotation_euler.z = (frame[0], frame[1], 0), frame[2] - math.pi
     bpy.context.view_layer.update()
-    bpy.context.view_layer.objects.active.fragmotion.edit.pin_at = empty
+    bpy.context.view_layer.objects.active.fragmotion.pin_at = empty
 
 
 def playhead(seconds: float) -> int:
