@@ -619,10 +619,10 @@ class ShownMotion:
     frames: Doubles
 
 def join(skeleton: Skeleton, first: ShownMotion, end: int, second: ShownMotion, beginning: int) -> ShownMotion:
-    """The first motion's frames 0 .. `end` to the bit, then the second's after frame `beginning`, which is taken for the
-    moment of `end`: carried to where the character is and faces then, and stitched. From 0.8 s later on it shows, seen
-    from the character frame, what the second showed. ValueError unless both have the skeleton's bones and one rate, and
-    on frames that do not exist."""
+    """The first motion's frames 0 .. `end` to the bit, then the second's after frame `beginning`, which is taken for
+    the moment of `end`: carried to where the character is and faces then, and stitched. From 0.8 s later on it shows,
+    seen from the character frame, what the second showed. ValueError unless both have the skeleton's bones and one
+    rate, and on frames that do not exist."""
 
 def find_seam(
     skeleton: Skeleton, first: ShownMotion, ends: Sequence[int], second: ShownMotion, beginnings: Sequence[int]
@@ -677,12 +677,12 @@ def find_pin(
     threads: int = 0,
     progress: Progress | None = None,
 ) -> Pin:
-    """Small changes of the trace's [T,4] controls between `begin` (s) and `seconds`, by which a Player of these options,
-    reset to `start` [3] and run at 60 frames a second, is then at `target` [3] (x, y in m, heading in rad) within
-    `distance` (m) and `angle` (rad, default 2 degrees): searched at random, up to `tries` tries, 1 .. 1e6. Speeds change
-    by two fifths at most, directions by 20 degrees, turns by 0.6; who stands goes on standing. The seed changes, too,
-    where it begins at 0. The same whatever the thread count (0: the machine's). Where it is not reached, the nearest
-    that was found. ValueError unless 0 <= begin < seconds <= T/10, 0.1 s apart at least."""
+    """Small changes of the trace's [T,4] controls between `begin` (s) and `seconds`, by which a Player of these
+    options, reset to `start` [3] and run at 60 frames a second, is then at `target` [3] (x, y in m, heading in rad)
+    within `distance` (m) and `angle` (rad, default 2 degrees): searched at random, up to `tries` tries, 1 .. 1e6.
+    Speeds change by two fifths at most, directions by 20 degrees, turns by 0.6; who stands goes on standing. The seed
+    changes, too, where it begins at 0. The same whatever the thread count (0: the machine's). Where it is not reached,
+    the nearest that was found. ValueError unless 0 <= begin < seconds <= T/10, 0.1 s apart at least."""
 
 class ClassesTried:
     """What a number of classes is good for: means over a minute of each simulated player."""

@@ -14,10 +14,10 @@ from ..edits.replaying import play_again
 from ..errors import UserError, reported
 from ..jobs import Job
 from ..recordings.curves import curves_of, read_curves, show_curves
-from ..recordings.recordings import TRACE_RATE, Recording, active_recording
+from ..recordings.recordings import TRACE_RATE, active_recording
 from ..settings.pin_fields import PinFields
 from .background import Background, poll_idle
-from .context import active_armature
+from .context import active_armature, first_frame, playhead
 from .recordings import OnRecording, selected
 
 
@@ -188,20 +188,6 @@ class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.
             f"degrees away, {pin.tries} tries left {100 * pin.distance:.1f} cm and {math.degrees(pin.angle):.1f} "
             "degrees, which are spread",
         )
-
-
-def first_frame(obj: bpy.types.Object, recording: Recording) -> float:
-    """The scene frame at which a recording begins: as its curves show it, or where Bake puts it."""
-    if curves_of(obj, recording) is not None:
-        return float(recording.curves_first)
-    return float(obj.fragmotion.bake.frame_start)
-
-
-def playhead(context: bpy.types.Context, recording: Recording) -> float:
-    """Where the playhead is in the recording, in seconds from its beginning."""
-    obj, render = active_armature(context), context.scene.render
-    rate = recording.curves_rate if curves_of(obj, recording) is not None else render.fps / render.fps_base
-    return float((context.scene.frame_current_final - first_frame(obj, recording)) / rate)
 
 
 def _fit(seam: cutting.Seam) -> str:

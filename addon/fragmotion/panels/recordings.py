@@ -69,6 +69,11 @@ class FRAGMOTION_PT_change(SubPanel, bpy.types.Panel):
     bl_label = "Change"
     bl_parent_id = "FRAGMOTION_PT_recordings"
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        obj = active_armature(context)
+        return obj is not None and active_recording(obj) is not None
+
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, active_armature(context).fragmotion
         row = layout.row(align=True)
@@ -77,6 +82,10 @@ class FRAGMOTION_PT_change(SubPanel, bpy.types.Panel):
         row = layout.row(align=True)
         row.operator("fragmotion.cut_recording", icon="UNLINKED")
         row.operator("fragmotion.glue_recording", icon="LINKED")
+        row = layout.row(align=True)
+        over = row.operator("fragmotion.drive", text="Record Over", icon="REC")
+        over.source, over.recording = "OVER", settings.active_take
+        row.prop(settings.drive, "over_seconds", text="")
         column = aligned(layout)
         column.prop(settings, "pin_at", text="At")
         column.prop(settings.pin, "stretch")

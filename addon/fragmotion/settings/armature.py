@@ -99,6 +99,7 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
     )
     player: player_field("Whose habits the trace has", "walker")  # type: ignore[valid-type]
     seconds: length_field(20.0)  # type: ignore[valid-type]
+    over_seconds: length_field(2.0, 0.1, "Record Over lets you drive, from the playhead on")  # type: ignore[valid-type]
 
 
 class PinSettings(PinFields, bpy.types.PropertyGroup):
