@@ -19,7 +19,8 @@ constexpr int kBumps = 3;
 constexpr int kParts = 3;  // of a change: speed, direction, turn
 constexpr std::array<double, kParts> kMost = {0.4, 20 * kPi / 180, 0.6};
 constexpr int kRound = 64, kBest = 8;  // tries of a round, and those of them that the next is drawn about
-constexpr double kWide = 0.4;          // of kMost: the spread of a first round
+constexpr double kWide = 0.4;          // of kMost: the spread of a first round,
+constexpr double kNear = 0.12;         // and of one about the best so far
 constexpr double kSettled = 0.01;      // of kMost: the spread at which a search has settled
 constexpr int kLongest = 24;           // rounds until it begins anew
 constexpr double kMostTurn = 6;        // of a recording's controls
@@ -32,8 +33,8 @@ using Change = std::array<double, kBumps * kParts>;
 struct Cloud {
   Change middle{}, spread{};
 
-  Cloud() {
-    for (std::size_t i = 0; i < spread.size(); ++i) spread[i] = kWide * kMost[i % kParts];
+  Cloud(const Change& about, double wide) : middle(about) {
+    for (std::size_t i = 0; i < spread.size(); ++i) spread[i] = wide * kMost[i % kParts];
   }
 
   bool settled() const {
@@ -101,17 +102,22 @@ class PinSearch {
     Trial best = trials[0];
     const Trial before = best;
     int tries = 1;
-    Cloud cloud;
+    Cloud cloud({}, kWide);
+    std::uint64_t seed = seed_;
     for (int round = 0, turn = 0; tries < options_.tries && !fits(best); ++round) {
       report(progress, static_cast<double>(tries) / options_.tries, "Looking for a way to the pin");
-      trials = draw(cloud, round, seed_ + (first_ == 0 ? static_cast<std::uint64_t>(turn) : 0));
+      trials = draw(cloud, round, seed);
       make(trials);
       tries += kRound;
       const auto cheaper = [](const Trial& a, const Trial& b) { return a.cost < b.cost; };
       std::stable_sort(trials.begin(), trials.end(), cheaper);
       if (trials[0].cost < best.cost) best = trials[0];
       narrow(cloud, trials);
-      if (cloud.settled() || (round + 1) % kLongest == 0) cloud = Cloud(), ++turn;
+      if (!cloud.settled() && (round + 1) % kLongest != 0) continue;
+      // In turn about the best so far and, with another seed where that may change, anywhere.
+      const bool about_best = ++turn % 2 == 1;
+      cloud = about_best ? Cloud(best.change, kNear) : Cloud({}, kWide);
+      seed = about_best ? best.seed : seed_ + (first_ == 0 ? static_cast<std::uint64_t>(turn) : 0);
     }
     return result(before, best, tries);
   }
