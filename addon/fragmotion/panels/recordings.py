@@ -82,10 +82,10 @@ class FRAGMOTION_PT_change(SubPanel, bpy.types.Panel):
         row = layout.row(align=True)
         row.operator("fragmotion.cut_recording", icon="UNLINKED")
         row.operator("fragmotion.glue_recording", icon="LINKED")
-        row = layout.row(align=True)
-        over = row.operator("fragmotion.drive", text="Record Over", icon="REC")
+        column = aligned(layout)
+        column.prop(settings.drive, "over_seconds", text="For")
+        over = layout.operator("fragmotion.drive", text="Record Over", icon="REC")
         over.source, over.recording = "OVER", settings.active_take
-        row.prop(settings.drive, "over_seconds", text="")
         column = aligned(layout)
         column.prop(settings, "pin_at", text="At")
         column.prop(settings.pin, "stretch")

@@ -169,6 +169,7 @@ def _write(action: bpy.types.Action, empty: bpy.types.Object, trace: Doubles, ti
         most = _MOST[channel]
         empty.id_properties_ui(name).update(description=_DESCRIPTIONS[channel], min=-most, max=most)
         curve = versions.new_curve(holder, _path(name), 0, _GROUP)
+        curve.group.show_expanded = curve.group.show_expanded_graph = True
         kept = _ends_of_runs(trace[:, channel])
         keys = curve.keyframe_points
         keys.add(len(kept))
