@@ -690,6 +690,83 @@ def change_pushes(
     responsiveness: float = 0.5,
 ) -> dict[str, Pushes]: ...
 
+class ShownMotion:
+    """What was shown at a fixed rate: as Performance's arrays of these names."""
+
+    def __init__(self, rate: float, root_positions: ArrayLike, rotations: ArrayLike, frames: ArrayLike) -> None:
+        """`rate`: frames a second; `root_positions` [F,3] m, `rotations` [F,B,4] as in Clip, `frames` [F,3]: character
+        frame x, y (m) and heading (rad), unwrapped. What they hold is checked where it is used."""
+    rate: float
+    root_positions: Doubles
+    rotations: Doubles
+    frames: Doubles
+
+def join(skeleton: Skeleton, first: ShownMotion, end: int, second: ShownMotion, beginning: int) -> ShownMotion:
+    """The first motion's frames 0 .. `end` to the bit, then the second's after frame `beginning`, which is taken for
+    the moment of `end`: carried to where the character is and faces then, and stitched. From 0.8 s later on it shows,
+    seen from the character frame, what the second showed. ValueError unless both have the skeleton's bones and one
+    rate, and on frames that do not exist."""
+
+def find_seam(
+    skeleton: Skeleton, first: ShownMotion, ends: Sequence[int], second: ShownMotion, beginnings: Sequence[int]
+) -> tuple[int, int, float]:
+    """Of all pairs of a frame of the first and one of the second those whose poses, and poses a thirtieth of a second
+    later, are nearest; and the mean distance of the bones' tips there, seen from the character frame, in m of a 1.8 m
+    character. ValueError on frames that do not exist."""
+
+def spread(skeleton: Skeleton, motion: ShownMotion, begin: int, end: int, target: ArrayLike) -> ShownMotion:
+    """The motion with its character frame at frame `end` moved to `target` [3]: x, y (m), heading (rad). Frames 0 ..
+    `begin` are to the bit as they were, those after `end` are moved as a whole, and in between it goes there smoothly.
+    ValueError unless 0 <= begin < end < F."""
+
+class Pin:
+    """What find_pin found."""
+
+    trace: Doubles
+    """[T,4]"""
+    seed: int
+    """The player's."""
+    reached: Doubles
+    """[3]: x, y (m) and heading (rad) of the character frame at the pin's time."""
+    asked: float
+    """How far, in m, the trace was from the pin before;"""
+    asked_angle: float
+    """and in rad."""
+    distance: float
+    """How far it is now, m;"""
+    angle: float
+    """and rad."""
+    tries: int
+    fits: bool
+    """Whether that is as near as was asked for."""
+
+def find_pin(
+    character: Character,
+    start: ArrayLike,
+    trace: ArrayLike,
+    seconds: float,
+    target: ArrayLike,
+    seed: int = 1,
+    stitch: float = 0.2,
+    policy: str = "",
+    stitching: str = "inertialize",
+    lock_feet: bool = True,
+    root_adjustment: float = 1.0,
+    responsiveness: float = 0.5,
+    begin: float = 0.0,
+    distance: float = 0.02,
+    angle: float = ...,
+    tries: int = 4000,
+    threads: int = 0,
+    progress: Progress | None = None,
+) -> Pin:
+    """Small changes of the trace's [T,4] controls between `begin` (s) and `seconds`, by which a Player of these
+    options, reset to `start` [3] and run at 60 frames a second, is then at `target` [3] (x, y in m, heading in rad)
+    within `distance` (m) and `angle` (rad, default 2 degrees): searched at random, up to `tries` tries, 1 .. 1e6.
+    Speeds change by two fifths at most, directions by 20 degrees, turns by 0.6; who stands goes on standing. The seed
+    changes, too, where it begins at 0. The same whatever the thread count (0: the machine's). Where it is not reached,
+    the nearest that was found. ValueError unless 0 <= begin < seconds <= T/10, 0.1 s apart at least."""
+
 class ClassesTried:
     """What a number of classes is good for: means over a minute of each simulated player."""
 

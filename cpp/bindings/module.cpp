@@ -21,4 +21,5 @@ PYBIND11_MODULE(fragmotion_core, m) {
   b::bind_evaluate(m);
   b::bind_bake(m);
   b::bind_runtime(m);  // whose Player.run returns what evaluate binds
+  b::bind_pins(m);
 }

@@ -22,6 +22,7 @@ FOLDERS = [
     "drive/input",
     "settings",
     "bake",
+    "edits",
     "drive/state",
     "drive/acting",
     "drive/hud",

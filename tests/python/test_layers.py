@@ -24,6 +24,7 @@ STAGES = [
     "character",
     "runtime",
     "bake",
+    "direct",
     "build",
     "evaluate",
 ]

@@ -145,6 +145,7 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "frames": performance.frames,
         "hips": 0,
     }
+    shown = core.ShownMotion(30.0, performance.root_positions, performance.rotations, performance.frames)
     return {
         "Skeleton": {
             "names": NAMES,
@@ -255,6 +256,29 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         },
         "Crowd.reset": {"self": core.Crowd(made, 3), "player": 1, "x": 0.0, "y": 0.0, "heading": 0.0},
         "Crowd.force": {"self": core.Crowd(made, 3), "player": 1, "next_class": 1},
+        "ShownMotion": {
+            "rate": 30.0,
+            "root_positions": performance.root_positions,
+            "rotations": performance.rotations,
+            "frames": performance.frames,
+        },
+        "join": {"skeleton": skeleton, "first": shown, "end": 4, "second": shown, "beginning": 5},
+        "find_seam": {"skeleton": skeleton, "first": shown, "ends": [3, 4], "second": shown, "beginnings": [0, 5]},
+        "spread": {"skeleton": skeleton, "motion": shown, "begin": 2, "end": 9, "target": np.zeros(3)},
+        "find_pin": {
+            "character": made,
+            "start": np.zeros(3),
+            "trace": trace,
+            "seconds": 2.0,
+            "target": np.array([0.0, 1.0, 0.0]),
+            **player,
+            "begin": 0.5,
+            "distance": 0.02,
+            "angle": 0.1,
+            "tries": 10,
+            "threads": 1,
+            "progress": quiet,
+        },
         "optimal_performance": {"character": made, "trace": trace, "rate": 30.0, "shortest": 0.1},
         "judge_clip": {
             "character": made,

@@ -216,17 +216,15 @@ def check_skeleton(obj: bpy.types.Object, character: Character, rig: Rig) -> Non
         raise UserError(f"Armature '{obj.name}' has changed since Build: {changed}. Undo that, or press Build again")
 
 
+def player_options(obj: bpy.types.Object) -> dict[str, Any]:
+    """What a player is told of how the armature is set to move."""
+    feel = obj.fragmotion.feel
+    return {"responsiveness": feel.promptness, "root_adjustment": feel.pull, "lock_feet": feel.lock_feet}
+
+
 def make_player(obj: bpy.types.Object, character: Character, seed: int, policy: str = "") -> Player:
     """What plays the character, with the armature's settings of how it moves."""
-    feel = obj.fragmotion.feel
-    player: Player = core.Player(
-        character,
-        seed,
-        policy=policy,
-        responsiveness=feel.promptness,
-        root_adjustment=feel.pull,
-        lock_feet=feel.lock_feet,
-    )
+    player: Player = core.Player(character, seed, policy=policy, **player_options(obj))
     return player
 
 

@@ -12,9 +12,13 @@ import bpy
 from ..character import classes
 from ..character.building import has_character, load
 from ..compat.data_blocks import is_alive
-from ..recordings.recordings import POSE_RATE, Recording, add_recording, trace_of
+from ..edits.replaying import play_again
+from ..errors import UserError
+from ..recordings.curves import renew_curves
+from ..recordings.recordings import POSE_RATE, TRACE_RATE, Recording, add_recording, trace_of
 from ..settings import preferences
 from .acting.actor import Actor
+from .acting.punch import Punch
 from .acting.recorder import Recorder
 from .follow import FollowCamera
 from .hud import overlays, views
@@ -32,6 +36,7 @@ RATE = POSE_RATE
 """Steps a second. All are equally long, so that a recorded trace shows the same motion when it is replayed."""
 
 _STILL = 0.2  # m/s
+_LEAD = 2  # s that a recording plays before the stick takes over
 _SMOOTH = 0.05  # share of the newest in a running mean
 
 current: Session | None = None
@@ -55,6 +60,7 @@ class Session:
         self._steering = Steering(space, self.actor.turns_well(space.walk), self.actor.turns_well(space.run))
         self.readings = Readings(self.actor, RATE)
         self.recording: Recorder | None = None
+        self.punch: Punch | None = None
         self._elapsed, self._steps = 0.0, 0
         self.cost = self.interval = 0.0
         """Our own time for an update and the time between updates, s; running means."""
@@ -119,12 +125,16 @@ class Session:
         self.inputs.trace.advance()
         self.readings.step(control)
         self._steps += 1
+        if self.punch is not None and self.punch.over and self._keep_punch():
+            bpy.ops.ed.undo_push(message="Record Over")
         return pose
 
     def _control(self) -> Control:
         by_view = self.settings.relative == "VIEW"
         view = view_heading(self.views.rotation()) if by_view else None
         control = self._steering.control(self.inputs.intent(), self.actor.frame[2], view)
+        if self.punch is not None:
+            control = self.punch.hold(control)
         return control if self.recording is None else self.recording.hold(control)
 
     def _follow_actor(self, seconds: float) -> None:
@@ -138,6 +148,31 @@ class Session:
             self.actor.player.reset(*start)
             self.readings = Readings(self.actor, RATE)
         self.inputs.play(trace)
+
+    def play_over(self, punch: Punch, start: tuple[float, float, float]) -> None:
+        """Let a recording drive from the character frame in which it begins, from shortly before the stretch on which
+        the stick takes over."""
+        self.actor.player.reset(*start)
+        for _ in range(max(punch.first * RATE // TRACE_RATE - _LEAD * RATE, 0)):
+            self.actor.step(punch.hold(Control()), 1 / RATE)
+        self.readings, self.punch = Readings(self.actor, RATE), punch
+
+    def _keep_punch(self) -> bool:
+        """Give the recording what was recorded over it, once; whether there was anything. It goes on playing where it
+        was recorded as it is."""
+        punch, self.punch = self.punch, None
+        recording = self.obj.fragmotion.takes.get(punch.name) if punch is not None else None
+        if punch is None or recording is None or not punch.begun:
+            return False
+        try:
+            play_again(self.obj, recording, punch.trace, punch.first)
+        except UserError as error:
+            self.inputs.messages.append(str(error))
+            return False
+        renew_curves(self.obj, recording)
+        self.inputs.play(punch.rest)
+        self.inputs.messages.append(f"Recorded over '{recording.name}' from {punch.first / TRACE_RATE:.1f} s on")
+        return True
 
     def toggle_recording(self) -> None:
         """Begin a recording; or end it and keep it with the armature, an undo step.
@@ -219,7 +254,8 @@ class Session:
         self.inputs.close()
         self._follow.release(views.all_views())
         try:
-            return is_alive(self.obj) and self._keep_recording()
+            kept = is_alive(self.obj) and self._keep_recording()
+            return (is_alive(self.obj) and self._keep_punch()) or kept
         finally:
             try:
                 self._state.restore()  # first the frame: Blender poses the armature anew where it changes
@@ -257,6 +293,24 @@ def replay(
     except BaseException:
         stop(push=False)
         raise
+    return driven
+
+
+def record_over(
+    context: bpy.types.Context, obj: bpy.types.Object, recording: Recording, begin: float, end: float
+) -> Session:
+    """Begin a drive by a recording, over which the stick is recorded from `begin` to `end` (s); what follows is played
+    again. UserError where that is no stretch of it, or it is damaged."""
+    trace, start_frame = trace_of(recording), tuple(recording.start)
+    first, last = round(begin * TRACE_RATE), min(round(end * TRACE_RATE), len(trace))
+    if not 0 <= first < last:
+        raise UserError(
+            f"Recording '{recording.name}' lasts {recording.seconds:.1f} s: there is nothing of it to record over from "
+            f"{begin:.1f} s to {end:.1f} s. Move the playhead onto it"
+        )
+    known = load(obj).policies if has_character(obj) else []
+    driven = start(context, obj, recording.seed, recording.policy if recording.policy in known else "")
+    driven.play_over(Punch(recording.name, trace, first, last, RATE), start_frame)
     return driven
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from . import control_rig, recordings
+from . import control_rig, edit_recordings, recordings
 from .add_sample import FRAGMOTION_OT_add_sample
 from .background import FRAGMOTION_OT_cancel
 from .bake import FRAGMOTION_OT_bake
@@ -49,6 +49,7 @@ CLASSES = (
     FRAGMOTION_OT_save_policy,
     FRAGMOTION_OT_load_policy,
     *recordings.CLASSES,
+    *edit_recordings.CLASSES,
     FRAGMOTION_OT_solo_class,
     FRAGMOTION_OT_force_class,
     FRAGMOTION_OT_show_fragment,

@@ -14,6 +14,8 @@ from ..control_rig.detecting import is_control_rig
 from ..drive import session
 from ..errors import UserError
 from ..mocap.actions import chosen
+from ..recordings.curves import curves_of
+from ..recordings.recordings import Recording
 
 
 def active_armature(context: bpy.types.Context) -> Any:
@@ -110,6 +112,20 @@ def adopt_settings(operator: Any, settings: Any) -> None:
     for name in names:
         if not operator.properties.is_property_set(name):
             setattr(operator, name, getattr(settings, name))
+
+
+def first_frame(obj: bpy.types.Object, recording: Recording) -> float:
+    """The scene frame at which a recording begins: as its curves show it, or where Bake puts it."""
+    if curves_of(obj, recording) is not None:
+        return float(recording.curves_first)
+    return float(obj.fragmotion.bake.frame_start)
+
+
+def playhead(context: bpy.types.Context, recording: Recording) -> float:
+    """Where the playhead is in the recording, in seconds from its beginning."""
+    obj, render = active_armature(context), context.scene.render
+    rate = recording.curves_rate if curves_of(obj, recording) is not None else render.fps / render.fps_base
+    return float((context.scene.frame_current_final - first_frame(obj, recording)) / rate)
 
 
 class OnTake:

@@ -20,7 +20,7 @@ from ..recordings.traces import make_trace
 from ..rig.external_motion import movers
 from ..settings import preferences
 from .background import poll_idle
-from .context import active_armature, poll_armature
+from .context import active_armature, playhead, poll_armature
 
 _PANEL_INTERVAL = 0.2  # s between drawings of the sidebar, which holds the pads, and looks at the other windows
 _UNDO = {"ed.undo", "ed.redo"}
@@ -105,6 +105,7 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
         items=(
             ("INPUTS", "Inputs", "The input that is touched last"),
             ("RECORDING", "Recording", "A recording, from where it began"),
+            ("OVER", "Over", "A recording, over which the stick is recorded from the playhead on"),
         ),
         default="INPUTS",
         options={"SKIP_SAVE"},
@@ -155,6 +156,10 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
         recordings = obj.fragmotion.takes
         if self.recording >= len(recordings):
             raise UserError(f"Armature '{obj.name}' has no such recording: record or import one")
+        if self.source == "OVER":
+            begin = playhead(context, recordings[self.recording])
+            end = begin + obj.fragmotion.drive.over_seconds
+            return session.record_over(context, obj, recordings[self.recording], begin, end)
         return session.replay(context, obj, recordings[self.recording], self.seed, self.policy)
 
     def cancel(self, context: bpy.types.Context) -> None:

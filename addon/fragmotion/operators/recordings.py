@@ -14,6 +14,7 @@ from ..bake.performing import measure_quality, origin_frame
 from ..compat.core import core
 from ..errors import UserError, core_errors, reported
 from ..files import check_regular
+from ..recordings.curves import remove_curves, renew_curves
 from ..recordings.recordings import (
     TRACE_RATE,
     active_recording,
@@ -30,7 +31,7 @@ EXTENSION = ".csv"
 _FEWEST_ROWS = 2  # of a trace file
 
 
-class _OnRecording:
+class OnRecording:
     """An operator on the recording that is selected in the list."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
@@ -45,7 +46,7 @@ class _OnRecording:
         return active_recording(obj) is not None
 
 
-class FRAGMOTION_OT_delete_recording(_OnRecording, bpy.types.Operator):
+class FRAGMOTION_OT_delete_recording(OnRecording, bpy.types.Operator):
     """Delete the selected recording"""
 
     bl_idname = "fragmotion.delete_recording"
@@ -53,13 +54,14 @@ class FRAGMOTION_OT_delete_recording(_OnRecording, bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
-        name = _selected(context).name
+        name = selected(context).name
+        remove_curves(selected(context))
         remove_recording(obj, obj.fragmotion.active_take)
         self.report({"INFO"}, f"Deleted recording '{name}'")
         return {"FINISHED"}
 
 
-class FRAGMOTION_OT_duplicate_recording(_OnRecording, bpy.types.Operator):
+class FRAGMOTION_OT_duplicate_recording(OnRecording, bpy.types.Operator):
     """Copy the selected recording, to trim the copy or train on it"""
 
     bl_idname = "fragmotion.duplicate_recording"
@@ -84,7 +86,7 @@ def _cut(name: str, dropped: str, default: float, least: float) -> Any:
     )
 
 
-class FRAGMOTION_OT_trim_recording(_OnRecording, bpy.types.Operator):
+class FRAGMOTION_OT_trim_recording(OnRecording, bpy.types.Operator):
     """Keep only a part of the selected recording. What the character did in that part is kept, too"""
 
     bl_idname = "fragmotion.trim_recording"
@@ -94,20 +96,21 @@ class FRAGMOTION_OT_trim_recording(_OnRecording, bpy.types.Operator):
     end: _cut("End", "after", 60.0, 0.1)  # type: ignore[valid-type]
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        self.start, self.end = 0.0, _selected(context).seconds
+        self.start, self.end = 0.0, selected(context).seconds
         result: set[str] = context.window_manager.invoke_props_dialog(self)
         return result
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
-        obj, recording = active_armature(context), _selected(context)
+        obj, recording = active_armature(context), selected(context)
         trim_recording(recording, self.start, self.end)
         recording.quality = measure_quality(obj, recording)
+        renew_curves(obj, recording)
         self.report({"INFO"}, f"Recording '{recording.name}' lasts {recording.seconds:.1f} s now")
         return {"FINISHED"}
 
 
-class FRAGMOTION_OT_export_recording(_OnRecording, Saving, bpy.types.Operator):
+class FRAGMOTION_OT_export_recording(OnRecording, Saving, bpy.types.Operator):
     """Write the selected recording's controls to a CSV file: velocity_x,velocity_y (m/s),turn,jump; 10 rows a second"""
 
     bl_idname = "fragmotion.export_recording"
@@ -118,12 +121,12 @@ class FRAGMOTION_OT_export_recording(_OnRecording, Saving, bpy.types.Operator):
     filter_glob: StringProperty(default=f"*{EXTENSION}", options={"HIDDEN"})  # type: ignore[valid-type]
 
     def _suggestion(self, context: bpy.types.Context) -> str:
-        return str(_selected(context).name)
+        return str(selected(context).name)
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         path = self._path()
-        recording = _selected(context)
+        recording = selected(context)
         trace = trace_of(recording)
         if len(trace) < _FEWEST_ROWS:
             raise UserError(f"Recording '{recording.name}' holds a single control: record a longer one to export")
@@ -181,8 +184,8 @@ class FRAGMOTION_OT_import_recordings(ImportHelper, bpy.types.Operator):
         return paths
 
 
-def _selected(context: bpy.types.Context) -> Any:
-    """The recording that `_OnRecording.poll` found."""
+def selected(context: bpy.types.Context) -> Any:
+    """The recording that `OnRecording.poll` found."""
     return active_recording(active_armature(context))
 
 

@@ -62,6 +62,36 @@ class FRAGMOTION_PT_recordings(Sidebar, bpy.types.Panel):
         _draw_uses(layout, settings)
 
 
+class FRAGMOTION_PT_change(SubPanel, bpy.types.Panel):
+    """What changes the selected recording."""
+
+    bl_idname = "FRAGMOTION_PT_change"
+    bl_label = "Change"
+    bl_parent_id = "FRAGMOTION_PT_recordings"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        obj = active_armature(context)
+        return obj is not None and active_recording(obj) is not None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, settings = self.layout, active_armature(context).fragmotion
+        row = layout.row(align=True)
+        row.operator("fragmotion.edit_curves", icon="GRAPH")
+        row.operator("fragmotion.play_again", icon="FILE_REFRESH")
+        row = layout.row(align=True)
+        row.operator("fragmotion.cut_recording", icon="UNLINKED")
+        row.operator("fragmotion.glue_recording", icon="LINKED")
+        column = aligned(layout)
+        column.prop(settings.drive, "over_seconds", text="For")
+        over = layout.operator("fragmotion.drive", text="Record Over", icon="REC")
+        over.source, over.recording = "OVER", settings.active_take
+        column = aligned(layout)
+        column.prop(settings, "pin_at", text="At")
+        column.prop(settings.pin, "stretch")
+        layout.operator("fragmotion.pin_recording", icon="PINNED")
+
+
 class FRAGMOTION_PT_bake_options(SubPanel, bpy.types.Panel):
     """The fields of a bake that are changed less."""
 
@@ -123,5 +153,5 @@ def _draw_uses(layout: bpy.types.UILayout, settings: Any) -> None:
     bake.trace_source, bake.recording = "RECORDING", index
 
 
-CLASSES = (FRAGMOTION_UL_recordings, FRAGMOTION_PT_recordings)
+CLASSES = (FRAGMOTION_UL_recordings, FRAGMOTION_PT_recordings, FRAGMOTION_PT_change)
 BAKE_CLASSES = (FRAGMOTION_PT_bake_options, FRAGMOTION_PT_populate)

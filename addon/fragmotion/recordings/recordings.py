@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty, StringProperty
 
 from ..errors import UserError
 from ..rig.motion import Motion
@@ -76,6 +76,13 @@ class Recording(bpy.types.PropertyGroup):
         description="Build learns from the ticked recordings where its trace is Recordings",
         default=False,
     )
+    curves: PointerProperty(  # type: ignore[valid-type]
+        name="Curves", description="The empty whose curves show the recording", type=bpy.types.Object
+    )
+    curves_first: FloatProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    """The scene frame at which its first control is shown."""
+    curves_rate: FloatProperty(options={"HIDDEN"}, min=0)  # type: ignore[valid-type]
+    """Scene frames a second of the curves."""
     controls: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     shown: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     shown_bones: IntProperty(min=0, options={"HIDDEN"})  # type: ignore[valid-type]

@@ -24,6 +24,7 @@ from ..rig.bodies import RoleBone
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import TraceFields, factor_field, length_field, player_field, policy_field, seed_field
+from .pin_fields import PinFields
 
 _RELATIVE = (
     (
@@ -98,6 +99,11 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
     )
     player: player_field("Whose habits the trace has", "walker")  # type: ignore[valid-type]
     seconds: length_field(20.0)  # type: ignore[valid-type]
+    over_seconds: length_field(2.0, 0.1, "Record Over lets you drive, from the playhead on")  # type: ignore[valid-type]
+
+
+class PinSettings(PinFields, bpy.types.PropertyGroup):
+    """The panel's settings of Pin Here."""
 
 
 class FeelSettings(bpy.types.PropertyGroup):
@@ -173,6 +179,12 @@ class CharacterSettings(bpy.types.PropertyGroup):
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
     populate: PointerProperty(type=PopulateSettings)  # type: ignore[valid-type]
     drive: PointerProperty(type=DriveSettings)  # type: ignore[valid-type]
+    pin: PointerProperty(type=PinSettings)  # type: ignore[valid-type]
+    pin_at: PointerProperty(  # type: ignore[valid-type]
+        name="Pin At",
+        description="Where Pin Here wants the character, facing the object's -Y; empty: at the 3D cursor",
+        type=bpy.types.Object,
+    )
     feel: PointerProperty(type=FeelSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]

@@ -25,6 +25,7 @@ from .armature import (
     CoverageFigure,
     DriveSettings,
     FeelSettings,
+    PinSettings,
     PolicyFigure,
     PopulateSettings,
 )
@@ -63,6 +64,7 @@ CLASSES = (
     PopulateSettings,
     DriveSettings,
     FeelSettings,
+    PinSettings,
     PolicyFigure,
     CoverageFigure,
     BuildFigures,

@@ -22,6 +22,8 @@ class FragmentSelector {
 
   /// Draws from the seed again.
   void reset() { random_ = Random(seed_); }
+  /// Draws from another seed, from the next reset on.
+  void reseed(std::uint64_t seed) { seed_ = seed; }
   /// The member to play after what plays now.
   int choose(int next_class, const Control& control, const Playback& playback);
   /// Any member.

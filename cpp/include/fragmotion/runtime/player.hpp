@@ -38,12 +38,18 @@ class Player {
  public:
   /// Throws std::invalid_argument on an option that is out of its range.
   explicit Player(std::shared_ptr<const Character> character, const PlayerOptions& options = {});
-  Player(const Player&) = delete;
   Player(Player&&) = default;
+
+  /// A player that goes on as this one would. They share a workspace, as a crowd's do: step them in turn, and what
+  /// rotations() tells is the pose of the one that stepped last.
+  Player branch() const { return *this; }
 
   /// Stands at `frame`, in the class that best performs standing still, and draws again from the seed: after a reset
   /// the same steps show the same poses. Throws std::invalid_argument unless `frame` is within 1e9 m and 1e9 rad.
   void reset(const CharacterFrame& frame = {});
+
+  /// Draws from another seed, from the next reset on.
+  void reseed(std::uint64_t seed) { selector_.reseed(seed); }
 
   /// Plays on for `seconds` under a control, which need not be one of the 102 points. Allocates nothing. Throws
   /// std::invalid_argument unless the control is finite and `seconds` is 0 .. 3600.
@@ -74,6 +80,7 @@ class Player {
  private:
   friend class Crowd;
 
+  Player(const Player&) = default;
   Player(std::shared_ptr<const Character> character, const PlayerOptions& options,
          std::shared_ptr<Workspace> workspace);
 

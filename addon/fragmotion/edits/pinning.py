@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A recording bent so that its character is at a place, facing some way, at a moment."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import bpy
+import numpy as np
+
+from ..bake.performing import origin_frame
+from ..character.building import load, player_options
+from ..compat.core import core
+from ..errors import UserError
+from ..jobs import Report
+from ..recordings.curves import renew_curves
+from ..recordings.recordings import POSE_RATE, TRACE_RATE, Recording, trace_of
+from .replaying import STEPS, as_motion, as_shown, from_then_on, keep, replay, shown_poses
+
+if TYPE_CHECKING:
+    from fragmotion_core import Doubles, Pin
+
+    from ..rig.motion import Motion
+
+
+class Goal(NamedTuple):
+    """The character frame to be in, `seconds` after the recording's beginning; controls before `begin` (s) stay."""
+
+    seconds: float
+    begin: float
+    frame: tuple[float, float, float]
+
+
+class Pinned(NamedTuple):
+    """What was found, and where controls change."""
+
+    pin: Pin
+    first: int
+
+
+def frame_of(place: bpy.types.Object | bpy.types.View3DCursor) -> tuple[float, float, float]:
+    """Where a character stands that is at an object or the 3D cursor: x, y and heading, which is its -Y."""
+    if isinstance(place, bpy.types.Object):
+        return origin_frame(place)
+    return place.location.x, place.location.y, place.matrix.to_euler().z + math.pi
+
+
+def prepare(obj: bpy.types.Object, recording: Recording, goal: Goal) -> Callable[[Report], Pinned]:
+    """Read what the search needs; the task that it returns calls nothing of Blender. UserError where there is nothing
+    to search."""
+    shown = shown_poses(obj, recording)
+    if shown is None:
+        raise UserError(f"Armature '{obj.name}' has no character yet: press Build first")
+    trace, last = trace_of(recording), (len(shown.classes) - 1) / POSE_RATE
+    if not 1 / TRACE_RATE < goal.seconds <= last:
+        raise UserError(
+            f"The playhead is {goal.seconds:.1f} s after the beginning of recording '{recording.name}', which lasts "
+            f"{last:.1f} s: move it onto the recording"
+        )
+    character = load(obj)
+    first = min(max(math.ceil(goal.begin * TRACE_RATE - 1e-6), 0), math.ceil(goal.seconds * TRACE_RATE) - 1)
+    played = replay(obj, character, recording, trace, recording.seed)
+    target = _seen_by_player(shown, played, first * STEPS, goal.frame)
+    policy = recording.policy if recording.policy in character.policies else ""
+    options = {**player_options(obj), "seed": recording.seed, "policy": policy}
+    start = np.array(recording.start)
+
+    def search(report: Report) -> Pinned:
+        pin = core.find_pin(
+            character, start, trace, goal.seconds, target, begin=first / TRACE_RATE, progress=report, **options
+        )
+        return Pinned(pin, first)
+
+    return search
+
+
+def keep_pin(obj: bpy.types.Object, recording: Any, goal: Goal, pinned: Pinned) -> None:
+    """Give the recording what was found, what is left spread over the stretch; UserError where it is not reached."""
+    pin, first = pinned
+    if not pin.fits:
+        raise UserError(
+            f"The pin is {pin.asked:.2f} m and {math.degrees(pin.asked_angle):.0f} degrees from where recording "
+            f"'{recording.name}' leads; the nearest that {pin.tries} tries found is {pin.distance:.2f} m and "
+            f"{math.degrees(pin.angle):.0f} degrees from it. Move it nearer, or let the change begin earlier"
+        )
+    character = load(obj)
+    shown = shown_poses(obj, recording)
+    assert shown is not None
+    again = replay(obj, character, recording, pin.trace, pin.seed)
+    shown = from_then_on(character, shown, again, first)
+    end = round(goal.seconds * POSE_RATE)
+    there = core.spread(character.skeleton, as_shown(shown), first * STEPS, end, np.array(goal.frame))
+    recording.seed = pin.seed
+    keep(obj, recording, pin.trace, as_motion(there, shown.classes))
+    renew_curves(obj, recording)
+
+
+def _seen_by_player(shown: Motion, played: Motion, frame: int, goal: tuple[float, float, float]) -> Doubles:
+    """The goal as the player sees it, whom a recording that was cut or glued shows elsewhere."""
+    (x, y, heading), (at_x, at_y, facing) = shown.frames[frame], played.frames[frame]
+    turn = facing - heading
+    cos, sin = math.cos(turn), math.sin(turn)
+    across, along = goal[0] - x, goal[1] - y
+    return np.array((at_x + cos * across - sin * along, at_y + sin * across + cos * along, goal[2] + turn))

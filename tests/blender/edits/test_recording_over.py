@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+"""The stick takes over for a stretch of a recording; before it nothing changes, after it the recording goes on."""
+
+from __future__ import annotations
+
+from types import ModuleType
+from typing import Any
+
+import bpy
+import numpy as np
+import pytest
+from driving import go_on
+
+
+def start(session: ModuleType, obj: bpy.types.Object, begin: float, end: float) -> Any:
+    obj.fragmotion.drive.relative = "CHARACTER"
+    return session.record_over(bpy.context, obj, obj.fragmotion.takes[0], begin, end)
+
+
+def test_the_stick_is_recorded_over_a_stretch_and_the_rest_follows(
+    addon: ModuleType, session: ModuleType, obj: bpy.types.Object, recording: Any, trace: np.ndarray
+) -> None:
+    before = addon.recordings.recordings.shown_of(recording)[1]
+    driven = start(session, obj, 5.0, 7.0)
+    np.testing.assert_allclose(driven.actor.frame, before.frames[180], atol=1e-5)
+    driven.inputs.keyboard.press("Q")
+    go_on(driven, 2)
+    np.testing.assert_allclose(driven.actor.frame, before.frames[300], atol=1e-5)
+    go_on(driven, 2.5)
+    frame = driven.actor.frame
+    over = addon.recordings.recordings.trace_of(obj.fragmotion.takes[0])
+    session.stop()
+    np.testing.assert_array_equal(over[:50], trace[:50])
+    np.testing.assert_array_equal(over[50:70], np.tile([0, 0, 1, 0], (20, 1)))
+    np.testing.assert_array_equal(over[70:], trace[70:])
+    after = addon.recordings.recordings.shown_of(obj.fragmotion.takes[0])[1]
+    np.testing.assert_array_equal(after.rotations[:301], before.rotations[:301])
+    np.testing.assert_array_equal(after.frames[:301], before.frames[:301])
+    np.testing.assert_allclose(after.frames[450], frame, atol=1e-3)
+    assert len(obj.fragmotion.takes) == 1 and len(after.frames) == len(before.frames)
+
+
+def test_what_was_taken_until_the_drive_ends_is_kept(
+    addon: ModuleType, session: ModuleType, obj: bpy.types.Object, recording: Any, trace: np.ndarray
+) -> None:
+    driven = start(session, obj, 1.0, 11.0)
+    driven.inputs.keyboard.press("W")
+    go_on(driven, 1.5)
+    session.stop()
+    over = addon.recordings.recordings.trace_of(obj.fragmotion.takes[0])
+    assert (over[10:15] != trace[10:15]).any()
+    np.testing.assert_array_equal(over[15:], trace[15:])
+    np.testing.assert_array_equal(over[:10], trace[:10])
+
+
+def test_a_drive_that_ends_before_the_stretch_changes_nothing(
+    session: ModuleType, obj: bpy.types.Object, recording: Any
+) -> None:
+    controls, shown = recording.controls, recording.shown
+    go_on(start(session, obj, 5.0, 7.0), 1)
+    session.stop()
+    assert (obj.fragmotion.takes[0].controls, obj.fragmotion.takes[0].shown) == (controls, shown)
+
+
+@pytest.mark.parametrize(("begin", "end"), [(-3.0, 2.0), (12.5, 14.0)])
+def test_only_a_stretch_of_the_recording_is_recorded_over(
+    addon: ModuleType, session: ModuleType, obj: bpy.types.Object, recording: Any, begin: float, end: float
+) -> None:
+    with pytest.raises(addon.errors.UserError, match=r"lasts 12\.0 s: there is nothing of it to record over"):
+        start(session, obj, begin, end)
+    assert session.current is None
