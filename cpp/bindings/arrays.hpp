@@ -73,6 +73,7 @@ void bind_classes(py::module_& m);
 void bind_policy(py::module_& m);
 void bind_character(py::module_& m);
 void bind_runtime(py::module_& m);
+void bind_direct(py::module_& m);
 void bind_build(py::module_& m);
 void bind_evaluate(py::module_& m);
 

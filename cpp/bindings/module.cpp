@@ -19,4 +19,5 @@ PYBIND11_MODULE(fragmotion_core, m) {
   b::bind_build(m);
   b::bind_evaluate(m);
   b::bind_runtime(m);  // whose Player.run returns what evaluate binds
+  b::bind_direct(m);
 }

@@ -23,6 +23,7 @@ STAGES = [
     "policy",
     "character",
     "runtime",
+    "direct",
     "build",
     "evaluate",
 ]
