@@ -24,6 +24,7 @@ from ..rig.bodies import RoleBone
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import TraceFields, factor_field, length_field, player_field, policy_field, seed_field
+from .path_fields import PathSettings
 
 _RELATIVE = (
     (
@@ -173,6 +174,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
     populate: PointerProperty(type=PopulateSettings)  # type: ignore[valid-type]
     drive: PointerProperty(type=DriveSettings)  # type: ignore[valid-type]
+    path: PointerProperty(type=PathSettings)  # type: ignore[valid-type]
     feel: PointerProperty(type=FeelSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]

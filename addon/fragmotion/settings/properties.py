@@ -28,6 +28,7 @@ from .armature import (
     PolicyFigure,
     PopulateSettings,
 )
+from .path_fields import PathSettings
 
 
 class ActionSettings(bpy.types.PropertyGroup):
@@ -62,6 +63,7 @@ CLASSES = (
     BakeSettings,
     PopulateSettings,
     DriveSettings,
+    PathSettings,
     FeelSettings,
     PolicyFigure,
     CoverageFigure,
