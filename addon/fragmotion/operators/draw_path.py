@@ -15,6 +15,7 @@ from ..paths.drawing import add_curve
 from .context import active_armature, poll_armature
 
 _APART = 8  # pixels between the points that are kept
+_ABOVE = Vector((0, 0, 0.01))  # the ground, m, so that the curve is seen
 _HINT = "Draw the path on the ground with the left mouse button; Esc or the right button: none"
 
 
@@ -64,7 +65,7 @@ class FRAGMOTION_OT_draw_path(bpy.types.Operator):
         eye, along = region_2d_to_origin_3d(region, view, mouse), region_2d_to_vector_3d(region, view, mouse)
         place = intersect_line_plane(eye, eye + along, Vector(), Vector((0, 0, 1)))
         if place is not None and (place - eye).dot(along) > 0:
-            self._points.append(place)
+            self._points.append(place + _ABOVE)
 
     def _keep(self, context: bpy.types.Context) -> set[str]:
         if len(self._points) < 2:

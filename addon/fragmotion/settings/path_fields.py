@@ -67,7 +67,7 @@ class PathSettings(bpy.types.PropertyGroup):
     speed: FloatProperty(  # type: ignore[valid-type]
         name="Speed",
         description="How fast to go; 0: as fast as the character walks. It goes no faster than it runs",
-        default=0.0,
+        default=1.2,
         min=0.0,
         soft_max=5.0,
         max=1000.0,
