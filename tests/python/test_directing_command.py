@@ -75,7 +75,8 @@ def test_the_command_prints_a_table_and_saves_the_figures(
 ) -> None:
     monkeypatch.setattr("tools.directing.__main__.courses", lambda _seed: courses(1)[:2])
     target = tmp_path / "figures.json"
-    assert main([str(folder), "--json", str(target)]) == 0
+    assert main([str(folder), "--json", str(target), "--figures", str(tmp_path / "drawn")]) == 0
+    assert (tmp_path / "drawn" / "paths.png").stat().st_size > 10000
     rows = json.loads(target.read_text())["paths"]
     assert [row["name"] for row in rows][:2] == ["straight line, walk", "straight line, jog"]
     printed = capsys.readouterr().out

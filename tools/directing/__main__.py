@@ -15,6 +15,7 @@ import fragmotion_core as core
 
 from tools.directing import inputs
 from tools.directing.courses import courses
+from tools.directing.figures import draw_paths
 from tools.directing.paths import follow_all
 from tools.directing.table import paths_table
 from tools.evaluate import curves
@@ -46,6 +47,8 @@ def direct(options: argparse.Namespace) -> None:
     say("directing it")
     result = measure(character, options.seed)
     say(f"\n{text(paths_table(result))}")
+    if options.figures:
+        say(f"\npicture: {draw_paths(character, courses(options.seed), options.figures)}")
     if options.json:
         options.json.write_text(json.dumps(result, indent=1, allow_nan=False) + "\n")
         say(f"\nfigures: {options.json}")

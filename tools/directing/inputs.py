@@ -26,6 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--unit", type=float, default=0.01, metavar="M", help="metres in one unit of a BVH file (default 0.01)"
     )
+    parser.add_argument("--figures", type=Path, metavar="DIR", help="draw the paths and the ways over them there")
     parser.add_argument("--json", type=Path, metavar="FILE", help="save all figures there")
 
 
