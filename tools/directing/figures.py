@@ -33,8 +33,8 @@ def walked(character: core.Character, course: Course, gait: str) -> Array:
 def draw_paths(character: core.Character, courses: list[Course], folder: Path) -> Path:
     """Write the picture into the folder, which is made where it is missing."""
     shown = [course for course in courses if course.name in _SHOWN]
-    figure, axes = plt.subplots(1, len(shown), figsize=(13, 4.2), constrained_layout=True)
-    for axis, course in zip(axes, shown):
+    figure, axes = plt.subplots(1, len(shown), figsize=(13, 4.2), squeeze=False, constrained_layout=True)
+    for axis, course in zip(axes[0], shown):
         path = core.Path(course.points, course.closed)
         line = path.places([path.length * step / 2000 for step in range(2001)])
         axis.plot(*line.T, color="0.82", linewidth=9, solid_capstyle="round", label="the path")
@@ -44,7 +44,7 @@ def draw_paths(character: core.Character, courses: list[Course], folder: Path) -
         axis.set_aspect("equal", adjustable="datalim")
         axis.tick_params(labelsize=8)
         axis.set_xlabel("m", fontsize=9)
-    axes[0].legend(fontsize=9, loc="center")
+    axes[0, 0].legend(fontsize=9, loc="center")
     folder.mkdir(parents=True, exist_ok=True)
     figure.savefig(folder / NAME, dpi=110)
     plt.close(figure)

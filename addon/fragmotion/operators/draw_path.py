@@ -6,12 +6,10 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 import bpy
-from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
 from mathutils import Vector
-from mathutils.geometry import intersect_line_plane
 
 from ..errors import UserError, reported
-from ..paths.drawing import add_curve
+from ..paths.drawing import add_curve, ground_under
 from .context import active_armature, poll_armature
 
 _APART = 8  # pixels between the points that are kept
@@ -61,10 +59,8 @@ class FRAGMOTION_OT_draw_path(bpy.types.Operator):
         if self._last is not None and (mouse - self._last).length < _APART:
             return
         self._last = mouse
-        view = self._area.spaces.active.region_3d
-        eye, along = region_2d_to_origin_3d(region, view, mouse), region_2d_to_vector_3d(region, view, mouse)
-        place = intersect_line_plane(eye, eye + along, Vector(), Vector((0, 0, 1)))
-        if place is not None and (place - eye).dot(along) > 0:
+        place = ground_under(self._area, mouse.x, mouse.y)
+        if place is not None:
             self._points.append(place + _ABOVE)
 
     def _keep(self, context: bpy.types.Context) -> set[str]:

@@ -71,6 +71,11 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
     follow: BoolProperty(  # type: ignore[valid-type]
         name="Follow", description="Move the view with the character; it goes back when the drive ends", default=True
     )
+    click_to_walk: BoolProperty(  # type: ignore[valid-type]
+        name="Click to Walk",
+        description="A click on the ground sends the character there; with Shift it runs. Any other input takes over",
+        default=True,
+    )
     show_velocity: BoolProperty(  # type: ignore[valid-type]
         name="Velocity",
         description="Arrows on the ground, half a second long: the velocity asked for (blue), the character's (orange)",
