@@ -522,7 +522,8 @@ class PathFollower:
         end: str = "stand",
     ) -> None:
         """`speed`: m/s to 1000, 0: as fast as the character walks; the path's own speeds count before it. `arrive`: s,
-        to a day, after the beginning at which it is to be at the path's end, whatever the speed; 0: any time; a
+        to a day, after the beginning at which it is to be at the path's end, whatever the speed, or the time of a
+        round where it loops; 0: any time; a
         character that would be there too soon sets off later. `facing`: "along" the path, to a "heading" (radians), or
         towards a "place" [2] m. `end`: it is to "stand" there (of a closed path after one round), "loop" (round and
         round; an open path is closed by a straight line) or "go_on" straight ahead. In bends it goes as slowly as a

@@ -21,6 +21,7 @@ import making
 import window
 
 VIEW = Euler((math.radians(55), 0, math.radians(20)))
+CLICKED = (500, 480)  # pixels
 STROKE = [(250 + 12 * step, 380 + round(110 * math.sin(step / 8))) for step in range(50)]  # pixels
 
 
@@ -39,6 +40,25 @@ def draw() -> Iterator[None]:
         yield from window.send("MOUSEMOVE", "NOTHING", *place)
     yield from window.send("LEFTMOUSE", "RELEASE", *STROKE[-1])
     yield from window.drawn()
+
+
+def walk_to_a_click() -> Iterator[None]:
+    """Drive, and click on the ground: the character goes there, and the drive ends as any."""
+    session, ground = window.module("drive.session"), window.module("paths.drawing").ground_under
+    window.press(bpy.ops.fragmotion.drive)
+    yield from window.seconds(0.5)
+    driven, (x, y) = session.current, CLICKED
+    driven.settings.follow = False
+    area = window.view()["area"]
+    region = window.view()["region"]
+    place = ground(area, x - region.x, y - region.y)
+    yield from window.click(x, y)
+    yield from window.until(lambda: driven.inputs.label == "Click on the ground", "the click", 50)
+    yield from window.until(lambda: driven.inputs.target.intent().control is None, "the arrival", 400)
+    yield from window.seconds(1)
+    assert math.dist(driven.actor.frame[:2], place[:2]) < 0.3
+    yield from window.send("ESC", "PRESS", x, y)
+    yield from window.until(lambda: session.current is None, "the end of the drive", 50)
 
 
 def session_of_tests() -> Iterator[None]:
@@ -71,6 +91,7 @@ def session_of_tests() -> Iterator[None]:
     window.press(bpy.ops.fragmotion.bake, "EXEC_DEFAULT", trace_source="RECORDING", recording=0)
     bpy.context.scene.frame_set(70)
     yield from window.picture("2 followed")
+    yield from walk_to_a_click()
     window.show_all()
     print("SESSION PASSED")
 

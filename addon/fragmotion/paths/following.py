@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
 import numpy as np
@@ -17,9 +17,10 @@ from ..rig.rigs import make_rig
 from .lines import Line, line_of, through
 
 if TYPE_CHECKING:
-    from fragmotion_core import ControlSpace, Path, PathWalk
+    from fragmotion_core import ControlSpace, Doubles, Path, PathWalk, Player
 
 _LONGEST = 3600.0  # s that a path which ends is followed at most
+_STEP, _FEWEST = 0.05, 3  # m between the points of a part of a path, and how many it has
 _LATE = 0.25  # s that an arrival may differ from what was asked
 
 
@@ -85,6 +86,53 @@ def follow(
         _tell(walk, path, settings),
         [*line.remarks, *_limits(walk, options.get("arrive"), character.space)],
     )
+
+
+class Walk(NamedTuple):
+    """A path for one character, and what core.follow_path is told of it."""
+
+    path: Path
+    options: dict[str, Any]
+
+    def trace(self, player: Player, rate: float) -> Doubles:
+        """What a player does along it [T,4]; then the player stands at the beginning again, to be run at this rate."""
+        with core_errors("Follow Path"):
+            walk = core.follow_path(player, self.path, rate=rate, **self.options)
+            player.reset(*self.path.start)
+        trace: Doubles = walk.trace
+        return trace
+
+
+def shared(
+    context: bpy.types.Context, obj: bpy.types.Object, settings: Any, space: ControlSpace, count: int, spacing: float
+) -> list[Walk]:
+    """The path of PathSettings for characters that go along it one behind the other, so far apart: parts of the same
+    length, which all take the same time. UserError where it is too short for so many."""
+    if settings.speed_by == "RADIUS":
+        raise UserError("Several characters on one path go at one pace: choose another than Radius under Path")
+    line = find_line(context, settings)
+    with core_errors(line.name):
+        path = core.Path(line.points, line.closed or settings.end == "LOOP")
+    left = path.length - spacing * (count if path.is_closed else count - 1)
+    if left < (0 if path.is_closed else spacing):
+        raise UserError(
+            f"{line.name} is {path.length:.1f} m long, too short for {count} copies {spacing:g} m apart: let there be "
+            "fewer, or nearer"
+        )
+    options = _options(context, obj, settings)
+    parts = [_part(path, number * spacing, path.length if path.is_closed else left) for number in range(count)]
+    if not options.get("arrive"):
+        steering = {name: value for name, value in options.items() if name != "seconds"}
+        with core_errors("Follow Path"):
+            options["arrive"] = max(core.PathFollower(space, part, **steering).seconds_left for part in parts)
+    return [Walk(part, options) for part in parts]
+
+
+def _part(path: Path, begin: float, length: float) -> Path:
+    """A path from so many metres on: of a closed one all, of an open one so much."""
+    ways = np.linspace(begin, begin + length, max(int(length / _STEP), _FEWEST), endpoint=not path.is_closed)
+    part: Path = core.Path(path.places(ways), path.is_closed)
+    return part
 
 
 def _options(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> dict[str, Any]:

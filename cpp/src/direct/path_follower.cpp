@@ -116,13 +116,15 @@ void PathFollower::follow_way(const CharacterFrame& frame, double seconds) {
   way_ = path_.nearest(frame.position, way_, stops(options_) ? std::min(ahead, path_.length()) : ahead);
 }
 
-// To arrive in time; after the end it goes on as it was going.
+// To arrive in time, round after round; after an end it goes on as it was going.
 void PathFollower::set_speed() {
+  const double rounds = options_.end == PathEnd::loop ? std::floor(way_ / path_.length()) : 0,
+               way = way_ - rounds * path_.length();
   if (options_.arrive == 0) {
     speed_ = std::min(asked_speed(), space_.run());
-  } else if (way_ < path_.length()) {
-    speed_ = pace_.speed_to_arrive(way_, velocity_.norm(), options_.arrive - seconds_, kLeastPace * space_.walk(),
-                                   kMostPace * space_.run());
+  } else if (way < path_.length()) {
+    speed_ = pace_.speed_to_arrive(way, velocity_.norm(), (rounds + 1) * options_.arrive - seconds_,
+                                   kLeastPace * space_.walk(), kMostPace * space_.run());
   }
   set_off_ = set_off_ || (!approaches_ && !waits());
 }

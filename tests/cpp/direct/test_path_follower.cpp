@@ -113,6 +113,17 @@ TEST(PathFollower, ArrivesAtTheTimeThatIsAsked) {
   }
 }
 
+TEST(PathFollower, KeepsTheTimeOfARound) {
+  const ControlSpace space;
+  const Path path(circle(2), true);
+  FollowOptions options;
+  options.end = PathEnd::loop;
+  options.arrive = 9;
+  PathFollower follower(space, path, options);
+  follow(follower, space, start_of(path), 10 * options.arrive);
+  EXPECT_NEAR(follower.way(), 10 * path.length(), 0.4);
+}
+
 TEST(PathFollower, FacesWhereItIsToldTo) {
   const ControlSpace space;
   const Path path(circle(2), true);

@@ -21,8 +21,10 @@ enum class PathEnd {
 };
 
 struct FollowOptions {
-  double speed = 0;   ///< m/s; 0: as fast as the character walks. The path's own speeds count before it.
-  double arrive = 0;  ///< s after the beginning at which it is to be at the path's end, whatever the speed; 0: any time
+  double speed = 0;  ///< m/s; 0: as fast as the character walks. The path's own speeds count before it.
+  /// s after the beginning at which it is to be at the path's end, whatever the speed, or the time of a round of one
+  /// that loops; 0: any time
+  double arrive = 0;
   PathFacing facing = PathFacing::along;
   double heading = 0;               ///< rad
   Vector2 place = Vector2::Zero();  ///< m
