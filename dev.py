@@ -10,6 +10,7 @@ from pathlib import Path
 
 from tools import benchmarks, demo, evaluating, fuzzing, machine, stages, testing
 from tools.beside import inputs as beside_inputs
+from tools.directing import inputs as directing_inputs
 from tools.doctor import inputs as doctor_inputs
 from tools.evaluate import inputs
 from tools.platforms import PLATFORMS, named
@@ -34,6 +35,8 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     inputs.add_arguments(evaluate)
     beside = commands.add_parser("beside", help="measure Fragmotion beside motion matching, on the same takes")
     beside_inputs.add_arguments(beside)
+    directing = commands.add_parser("directing", help="measure how a character follows paths, and comes to pins")
+    directing_inputs.add_arguments(directing)
     doctor = commands.add_parser("doctor", help="say what is wrong with motion capture files")
     doctor_inputs.add_arguments(doctor)
     retarget = commands.add_parser("retarget", help="bring takes onto another skeleton, and build a character of them")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py evaluate`, `beside`, `doctor` and `retarget`: build the core, and let tools' package of that
+"""`dev.py evaluate`, `beside`, `directing`, `doctor` and `retarget`: build the core, and let tools' package of that
 name work with it."""
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import subprocess
 from tools import machine, packages
 from tools.beside import inputs as beside_inputs
 from tools.compiling import installed_core
+from tools.directing import inputs as directing_inputs
 from tools.doctor import inputs as doctor_inputs
 from tools.environments import BPY_PYTHON, HOST, environment_python
 from tools.evaluate import inputs
@@ -29,6 +30,12 @@ def run_comparison(options: argparse.Namespace, arguments: list[str]) -> int:
     """Measure beside motion matching, likewise."""
     beside_inputs.check(options)
     return _run("tools.beside", inputs.has_blend(options.mocap), arguments)
+
+
+def run_directing(options: argparse.Namespace, arguments: list[str]) -> int:
+    """Direct a character, likewise."""
+    directing_inputs.check(options)
+    return _run("tools.directing", directing_inputs.needs_blender(options), arguments)
 
 
 def run_doctor(options: argparse.Namespace, arguments: list[str]) -> int:
@@ -57,6 +64,7 @@ def _run(module: str, blender: bool, arguments: list[str]) -> int:
 COMMANDS = {
     "evaluate": run_evaluation,
     "beside": run_comparison,
+    "directing": run_directing,
     "doctor": run_doctor,
     "retarget": run_retargeting,
 }

@@ -75,6 +75,7 @@ void bind_character(py::module_& m);
 void bind_runtime(py::module_& m);
 void bind_bake(py::module_& m);
 void bind_pins(py::module_& m);
+void bind_direct(py::module_& m);
 void bind_build(py::module_& m);
 void bind_player_options(py::module_& m);
 void bind_evaluate(py::module_& m);

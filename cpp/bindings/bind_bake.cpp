@@ -8,7 +8,7 @@
 namespace fragmotion::bindings {
 namespace {
 
-constexpr double kFarthest = 1e9, kLongest = 1e6, kFastest = 1000;  // m and rad, s, frames a second
+constexpr double kMostPlace = 1e9, kMostTime = 1e6, kMostRate = 1000;  // m and rad, s, frames a second
 
 Motion to_motion(const Doubles& root_positions, const Doubles& rotations, const Doubles& frames) {
   check_shape(frames, "frames", {-1, 3});
@@ -16,8 +16,8 @@ Motion to_motion(const Doubles& root_positions, const Doubles& rotations, const 
   check_shape(rotations, "rotations", {frames.shape(0), -1, 4});
   if (frames.shape(0) < 1 || rotations.shape(1) < 1)
     throw std::invalid_argument("a motion has a frame and a bone at least");
-  return {to_vector(root_positions, "root_positions", -kFarthest, kFarthest), to_vector(rotations, "rotations", -2, 2),
-          to_vector(frames, "frames", -kFarthest, kFarthest)};
+  return {to_vector(root_positions, "root_positions", -kMostPlace, kMostPlace),
+          to_vector(rotations, "rotations", -2, 2), to_vector(frames, "frames", -kMostPlace, kMostPlace)};
 }
 
 py::tuple to_tuple(Motion motion) {
@@ -37,7 +37,7 @@ py::tuple bound_carried(const Doubles& root_positions, const Doubles& rotations,
   const Motion motion = to_motion(root_positions, rotations, frames);
   checked_bone(motion, hips);
   check_shape(to, "to", {motion.frames(), 3});
-  return to_tuple(carried(motion, hips, to_vector(to, "to", -kFarthest, kFarthest)));
+  return to_tuple(carried(motion, hips, to_vector(to, "to", -kMostPlace, kMostPlace)));
 }
 
 py::tuple bound_looped(const Doubles& root_positions, const Doubles& rotations, const Doubles& frames, int hips,
@@ -50,9 +50,9 @@ py::tuple bound_resampled(const Doubles& times, const Doubles& root_positions, c
                           const Doubles& frames, double rate) {
   const Motion motion = to_motion(root_positions, rotations, frames);
   check_shape(times, "times", {motion.frames()});
-  const std::vector<double> shown = to_vector(times, "times", 0, kLongest);
+  const std::vector<double> shown = to_vector(times, "times", 0, kMostTime);
   if (!std::is_sorted(shown.begin(), shown.end())) throw std::invalid_argument("times do not ascend");
-  if (!(rate > 0 && rate <= kFastest)) throw std::invalid_argument("rate: 0 to 1000 frames a second expected");
+  if (!(rate > 0 && rate <= kMostRate)) throw std::invalid_argument("rate: 0 to 1000 frames a second expected");
   Resampled result = resampled(shown, motion, rate);
   const auto count = static_cast<py::ssize_t>(result.nearest.size());
   return to_tuple(std::move(result.motion)) + py::make_tuple(to_array(std::move(result.nearest), {count}));

@@ -11,9 +11,9 @@ threads. Several threads may use one object at a time, except that a Player or C
 RuntimeError on a call in the middle of another, as of another thread's or from a progress callback.
 """
 
+import pathlib
 from collections.abc import Callable, Sequence
 from os import PathLike
-from pathlib import Path
 from typing import overload
 
 import numpy as np
@@ -109,7 +109,7 @@ def write_bvh(take: Take, path: str | PathLike[str], unit: float = 0.01) -> None
 def read_asf(path: str | PathLike[str]) -> Skeleton:
     """Read an Acclaim skeleton alone."""
 
-def find_asf(amc: str | PathLike[str]) -> Path:
+def find_asf(amc: str | PathLike[str]) -> pathlib.Path:
     """The skeleton of an Acclaim motion: the .asf in its folder named by what stands before the motion's underscore
     (02.asf of 02_01.amc) or by the whole of it, else the folder's only one. ValueError where there is none."""
 
@@ -558,6 +558,96 @@ def fit_keys(values: ArrayLike, tolerance: float) -> tuple[Ints, Doubles, Double
     the first and the last among them, the slopes there [K,N] a frame, and the curve's values on all frames [F,N]. A key
     has its frame's value (P. Schneider, "An algorithm for automatically fitting digitized curves", Graphics Gems 1990).
     """
+
+class Path:
+    """A way over the ground: straight lines from point to point. Places on it are told by the way from its beginning in
+    metres: round a closed path this goes on lap after lap, and beyond the ends of an open one it leads straight on."""
+
+    def __init__(self, points: ArrayLike, closed: bool = False, speeds: ArrayLike | None = None) -> None:
+        """`points` [N,2] or [N,3] m, of which z does not count, within 1e6; `closed`: the last leads back to the first;
+        `speeds` [N] m/s, over 0 to 1000: how fast to go at each. ValueError on fewer than two points, and where they
+        have no length on the ground (a millimetre)."""
+    length: float
+    """m, of a closed path once round."""
+    is_closed: bool
+    start: tuple[float, float, float]
+    """x, y and heading of a character that stands at its beginning, facing along it."""
+    def places(self, ways: ArrayLike) -> Doubles:
+        """Where the path is [K,2], m, after so many metres [K], within 1e6."""
+
+class PathFollower:
+    """Steers a character along a path in closed loop: from where it is, the control to give now. A character that
+    begins away from the path goes to its beginning first. Takes one call after the other, as a Player does."""
+
+    def __init__(
+        self,
+        space: ControlSpace,
+        path: Path,
+        speed: float = 0.0,
+        arrive: float = 0.0,
+        facing: str = "along",
+        heading: float = 0.0,
+        place: ArrayLike = (0.0, 0.0),
+        end: str = "stand",
+    ) -> None:
+        """`speed`: m/s to 1000, 0: as fast as the character walks; the path's own speeds count before it. `arrive`: s,
+        to a day, after the beginning at which it is to be at the path's end, whatever the speed, or the time of a
+        round where it loops; 0: any time; a
+        character that would be there too soon sets off later. `facing`: "along" the path, to a "heading" (radians), or
+        towards a "place" [2] m. `end`: it is to "stand" there (of a closed path after one round), "loop" (round and
+        round; an open path is closed by a straight line) or "go_on" straight ahead. In bends it goes as slowly as a
+        body must, and never much faster than the character runs."""
+    def reset(self) -> None:
+        """Begin again."""
+    def steer(self, frame: tuple[float, float, float], seconds: float) -> Doubles:
+        """The control [4] for a character at `frame` (as Player.frame), 0 to 3600 s after the last call: one for each
+        frame of a game, or one each 1/10 s. ValueError on what is not finite."""
+    way: float
+    """How far it has come along the path, m."""
+    stands: bool
+    """Whether it has been told to stand at the end."""
+    seconds_left: float
+    """Until it is at the path's end, s, of a character on the path."""
+
+class PathWalk:
+    """What a player did along a path."""
+
+    trace: Doubles
+    """[T,4]: as from a stick. Played from the same start and seed at the same rate, it shows the same motion."""
+    mean_distance: float
+    """Of the character frame from the path, m, while it was on it and had not arrived."""
+    greatest_distance: float
+    """m, likewise."""
+    arrival_distance: float
+    """m from the path's end: where it stands at last; where it does not stop there, when it arrived or at last."""
+    arrived: bool
+    """It came to the path's end; where it is to stand, to less than 0.2 m of a character of 1.8 m, and slowly."""
+    seconds: float
+    """When it arrived; where it did not, how long the trace is."""
+    planned_seconds: float
+    """When it was to: at the time that was asked for, or as soon as a body can."""
+    asked_speed: float
+    """m/s: the greatest speed that was asked for, or the mean where a time was. A character that does not run so fast
+    goes as fast as it runs."""
+
+def follow_path(
+    player: Player,
+    path: Path,
+    start: tuple[float, float, float] | None = None,
+    speed: float = 0.0,
+    arrive: float = 0.0,
+    facing: str = "along",
+    heading: float = 0.0,
+    place: ArrayLike = (0.0, 0.0),
+    end: str = "stand",
+    rate: float = 60.0,
+    seconds: float = 600.0,
+    progress: Progress | None = None,
+) -> PathWalk:
+    """Let a player follow a path from `start` (as Player.frame; default: the path's start), where it is reset to; other
+    arguments as PathFollower's. It is stepped at `rate`, over 0 to 1000, as Player.run does, and lasts a second longer
+    than until it stands at the end, and `seconds`, 0.1 to 3600, at most. Where it does not stand or arrive just so, it
+    is tried again a few times, and the best is taken."""
 
 class Performance:
     """What a player did."""

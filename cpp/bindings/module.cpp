@@ -22,4 +22,5 @@ PYBIND11_MODULE(fragmotion_core, m) {
   b::bind_bake(m);
   b::bind_runtime(m);  // whose Player.run returns what evaluate binds
   b::bind_pins(m);
+  b::bind_direct(m);
 }

@@ -66,7 +66,7 @@ def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) ->
         *("Control Rig", "Mocap", "Left Out", "Doctor", "Bones"),
         *("Build", "Numbers Tried", "Training", "Figures", "Classes", "Inspector", "Coverage", "Policy File"),
         *("Drive", "Feel", "Gamepads", "Overlays", "Trace"),
-        *("Recordings", "Change", "Bake", "Loop, Keys and Markers", "Populate"),
+        *("Path", "Recordings", "Change", "Bake", "Loop, Keys and Markers", "Populate"),
     ]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}
     assert {(panel.bl_space_type, panel.bl_region_type) for panel in panels} == {("VIEW_3D", "UI")}

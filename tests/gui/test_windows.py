@@ -24,6 +24,7 @@ PICTURES = {
         "9 sliding",
     ),
     "import": ("1 imported", "2 mended"),
+    "path": ("1 drawn", "2 followed"),
     "windows": (),
 }
 

@@ -20,6 +20,8 @@ if sys.platform != "linux":
     # The commands of dev.py, which run on Debian.
     collect_ignore = [
         "test_beside.py",
+        "test_directing.py",
+        "test_directing_command.py",
         "test_doctor_command.py",
         "test_evaluate.py",
         "test_evaluate_inputs.py",

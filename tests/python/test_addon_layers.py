@@ -19,6 +19,7 @@ FOLDERS = [
     "control_rig",
     "recordings",
     "character",
+    "paths",
     "drive/input",
     "settings",
     "bake",

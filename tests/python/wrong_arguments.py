@@ -130,6 +130,15 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "root_adjustment": 1.0,
         "responsiveness": 0.5,
     }
+    path = core.Path([[0, 0], [0, 1.0]])
+    following = {
+        "speed": 1.0,
+        "arrive": 0.0,
+        "facing": "along",
+        "heading": 0.0,
+        "place": np.zeros(2),
+        "end": "stand",
+    }
     quiet: core.Progress = lambda *_: None  # noqa: E731
     building = {"skeleton": skeleton, "clips": clips, "traces": [trace], "options": options, "progress": quiet}
     crowd = core.Crowd(made, 3)
@@ -277,6 +286,24 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "angle": 0.1,
             "tries": 10,
             "threads": 1,
+            "progress": quiet,
+        },
+        "Path": {"points": np.array([[0, 0], [0, 1], [1, 1.0]]), "closed": False, "speeds": np.ones(3)},
+        "Path.places": {"self": path, "ways": np.zeros(3)},
+        "PathFollower": {"space": made.space, "path": path, **following},
+        "PathFollower.reset": {"self": core.PathFollower(made.space, path)},
+        "PathFollower.steer": {
+            "self": core.PathFollower(made.space, path),
+            "frame": (0.0, 0.0, 0.0),
+            "seconds": 0.1,
+        },
+        "follow_path": {
+            "player": core.Player(made),
+            "path": path,
+            "start": (0.0, 0.0, 0.0),
+            **following,
+            "rate": 30.0,
+            "seconds": 4.0,
             "progress": quiet,
         },
         "optimal_performance": {"character": made, "trace": trace, "rate": 30.0, "shortest": 0.1},

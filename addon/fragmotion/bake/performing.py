@@ -20,7 +20,7 @@ from ..rig.motion import Motion, resampled
 from ..settings.bake_fields import DRIVING
 
 if TYPE_CHECKING:
-    from fragmotion_core import Character, Performance, Rig
+    from fragmotion_core import Character, Doubles, Performance, Player, Rig
 
 _JUDGING_RATE = 30.0  # frames a second at which a recording's quality is measured
 _CLIP_FRAMES = 2  # a clip has at least so many
@@ -49,23 +49,29 @@ def chosen_recording(obj: bpy.types.Object, settings: Any) -> Recording | None:
 def prepare(
     context: bpy.types.Context, obj: bpy.types.Object, character: Character, rig: Rig, settings: Any
 ) -> Callable[[Report], Played]:
-    """Read what a performance needs; the task that it returns plays it and calls nothing of Blender."""
+    """Read what a performance needs, as BakeFields say or along the paths.following.Walk of settings that have one; the
+    task that it returns plays it and calls nothing of Blender."""
     recording, rate = chosen_recording(obj, settings), scene_rate(context.scene)
     recorded = recording if settings.as_recorded else None
     if recorded is not None:
         shown = shown_of(recorded)
         if shown is not None and recorded.shown_bones == len(character.skeleton.names):
             return lambda _report: Played(resampled(*shown, rate), "as it was recorded")
-    trace = make_trace(settings, character.space) if recording is None else trace_of(recording)
     player = _player_for(obj, character, recorded, settings)
+    walk = getattr(settings, "walk", None)
+    if walk is not None:
+        return lambda report: _played(player, walk.trace(player, rate), rate, report)
+    trace = make_trace(settings, character.space) if recording is None else trace_of(recording)
     player.reset(*(_place(context, obj, rig, settings) if recorded is None else recorded.start))
 
-    def play(report: Report) -> Played:
-        performance = player.run(trace, rate, report)
-        motion = Motion(performance.root_positions, performance.rotations, performance.frames, performance.classes)
-        return Played(motion, _judge(performance))
+    return lambda report: _played(player, trace, rate, report)
 
-    return play
+
+def _played(player: Player, trace: Doubles, rate: float, report: Report) -> Played:
+    """What a player does from where it stands."""
+    performance = player.run(trace, rate, report)
+    motion = Motion(performance.root_positions, performance.rotations, performance.frames, performance.classes)
+    return Played(motion, _judge(performance))
 
 
 def measure_quality(obj: bpy.types.Object, recording: Recording) -> float:

@@ -13,9 +13,11 @@ from typing import Any
 import bpy
 from mathutils import Matrix
 
+from ..character.building import load
 from ..compat.core import core
 from ..errors import UserError
 from ..jobs import Report
+from ..paths.following import shared
 from ..settings.bake_fields import MIXED, BakeFields
 from . import baking
 from .targets import Target, write
@@ -28,7 +30,10 @@ _FIXED = {"target": "NEW", "action": "", "root": "BONE", "place": "ORIGIN", "as_
 
 def spots(count: int, layout: str, spacing: float) -> list[Spot]:
     """Places around the original: SQUARE fills a grid from the middle, RING is a circle that faces outwards. No two,
-    and none and the original, are nearer than the spacing."""
+    and none and the original, are nearer than the spacing. PATH leaves them
+    where the original is, as they go elsewhere."""
+    if layout == "PATH":
+        return [(0.0, 0.0, 0.0)] * count
     if layout == "RING":
         radius = spacing / min(2 * math.sin(math.pi / count), 1) if count > 1 else spacing
         angles = [2 * math.pi * index / count for index in range(count)]
@@ -44,7 +49,12 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
 
     A copy plays at its place just what the original would at its own, so that all are computed there.
     """
-    tasks = [baking.prepare(context, obj, each).task for each in _bakes(obj, settings)]
+    bakes = list(_bakes(obj, settings))
+    if settings.layout == "PATH":
+        path, space = obj.fragmotion.path, load(obj).space
+        for each, walk in zip(bakes, shared(context, obj, path, space, settings.count, settings.spacing)):
+            each.walk = walk
+    tasks = [baking.prepare(context, obj, each).task for each in bakes]
 
     def task(report: Report) -> list[baking.Baked]:
         return [each(_share(report, index, len(tasks))) for index, each in enumerate(tasks)]
@@ -70,7 +80,7 @@ def populate(
 def _bakes(obj: bpy.types.Object, settings: Any) -> Iterator[SimpleNamespace]:
     """What each copy bakes: Bake's own settings, with a trace and a seed of its own."""
     ticked = []
-    if settings.traces == "RECORDINGS":
+    if settings.traces == "RECORDINGS" and settings.layout != "PATH":
         ticked = [index for index, recording in enumerate(obj.fragmotion.takes) if recording.train]
         if not ticked:
             raise UserError(

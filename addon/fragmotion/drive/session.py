@@ -130,6 +130,7 @@ class Session:
         return pose
 
     def _control(self) -> Control:
+        self.inputs.target.steer(self.actor.frame, 1 / RATE)
         by_view = self.settings.relative == "VIEW"
         view = view_heading(self.views.rotation()) if by_view else None
         control = self._steering.control(self.inputs.intent(), self.actor.frame[2], view)
@@ -173,6 +174,11 @@ class Session:
         self.inputs.play(punch.rest)
         self.inputs.messages.append(f"Recorded over '{recording.name}' from {punch.first / TRACE_RATE:.1f} s on")
         return True
+
+    def walk_to(self, place: tuple[float, float], runs: bool = False) -> None:
+        """Let the character go to a place on the ground, until it is there or another input is touched."""
+        space = self.actor.space
+        self.inputs.walk(space, self.actor.frame, place, space.run if runs else space.walk)
 
     def toggle_recording(self) -> None:
         """Begin a recording; or end it and keep it with the armature, an undo step.

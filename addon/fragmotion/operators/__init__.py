@@ -9,6 +9,7 @@ from .background import FRAGMOTION_OT_cancel
 from .bake import FRAGMOTION_OT_bake
 from .bones import FRAGMOTION_OT_find_bones, FRAGMOTION_OT_load_bones, FRAGMOTION_OT_save_bones
 from .build import FRAGMOTION_OT_build
+from .draw_path import FRAGMOTION_OT_draw_path
 from .drive import (
     FRAGMOTION_OT_drive,
     FRAGMOTION_OT_find_pads,
@@ -16,6 +17,7 @@ from .drive import (
     FRAGMOTION_OT_play_trace,
     FRAGMOTION_OT_record,
 )
+from .follow_path import FRAGMOTION_OT_follow_path
 from .force_class import FRAGMOTION_OT_force_class
 from .import_mocap import DROP_HANDLERS, FRAGMOTION_OT_import_mocap
 from .leave_out import FRAGMOTION_OT_leave_out, FRAGMOTION_OT_take_in
@@ -50,6 +52,8 @@ CLASSES = (
     FRAGMOTION_OT_load_policy,
     *recordings.CLASSES,
     *edit_recordings.CLASSES,
+    FRAGMOTION_OT_follow_path,
+    FRAGMOTION_OT_draw_path,
     FRAGMOTION_OT_solo_class,
     FRAGMOTION_OT_force_class,
     FRAGMOTION_OT_show_fragment,

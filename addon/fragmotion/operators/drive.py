@@ -16,6 +16,7 @@ from ..drive.hud import views
 from ..drive.input.pads import Pads
 from ..drive.input.sdl import SdlMissing
 from ..errors import UserError, core_errors, reported
+from ..paths.drawing import ground_under
 from ..recordings.traces import make_trace
 from ..rig.external_motion import movers
 from ..settings import preferences
@@ -23,6 +24,7 @@ from .background import poll_idle
 from .context import active_armature, playhead, poll_armature
 
 _PANEL_INTERVAL = 0.2  # s between drawings of the sidebar, which holds the pads, and looks at the other windows
+_GIZMOS = 100, 330  # pixels from a view's upper right corner, at a UI scale of 1, where clicks turn the view
 _UNDO = {"ed.undo", "ed.redo"}
 seen_pads: list[str] = []
 """The gamepads that the last Find Gamepads found."""
@@ -284,14 +286,17 @@ def _is_inside(part: Any, event: bpy.types.Event) -> bool:
 
 
 def _hear_mouse(driven: session.Session, context: bpy.types.Context, event: bpy.types.Event) -> bool:
-    """Drag the on-screen stick, where it is in the window; whether the mouse has hold of it."""
+    """Drag the on-screen stick, or send the character to where the ground is clicked; whether the drive uses the mouse.
+    The main view's mouse counts, where it is in the window."""
     stick, area = driven.inputs.stick, driven.views.main()
-    if area is None or area not in list(views.areas_of(context.window)) or not driven.settings.show_stick:
+    if area is None or area not in list(views.areas_of(context.window)):
         return False
     region = views.window_region(area)
     x, y = event.mouse_x - region.x, event.mouse_y - region.y
     if event.type == "LEFTMOUSE" and event.value == "PRESS":
-        return _is_inside(area, event) and stick.press(x, y)
+        if not _is_inside(area, event):
+            return False
+        return (driven.settings.show_stick and stick.press(x, y)) or _send_there(driven, area, event, (x, y))
     if not stick.held:
         return False
     if event.type == "MOUSEMOVE":
@@ -299,6 +304,22 @@ def _hear_mouse(driven: session.Session, context: bpy.types.Context, event: bpy.
     else:
         stick.release()
     return True
+
+
+def _send_there(
+    driven: session.Session, area: bpy.types.Area, event: bpy.types.Event, pixel: tuple[float, float]
+) -> bool:
+    """Send the character to the ground at a pixel; whether there is any that no panel or gizmo covers."""
+    if not driven.settings.click_to_walk or event.ctrl or event.alt or event.oskey:
+        return False
+    free, scale, (x, y) = views.free_part(area), bpy.context.preferences.system.ui_scale, pixel
+    gizmo = x > free.right - _GIZMOS[0] * scale and y > free.top - _GIZMOS[1] * scale
+    if gizmo or not (free.left <= x < free.right and free.bottom <= y < free.top):
+        return False
+    place = ground_under(area, x, y)
+    if place is not None:
+        driven.walk_to((place.x, place.y), event.shift)
+    return place is not None
 
 
 class _WhileDriving:

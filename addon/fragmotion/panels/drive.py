@@ -53,7 +53,9 @@ class FRAGMOTION_PT_drive(Sidebar, bpy.types.Panel):
             layout.label(text=f"Input: {driven.inputs.label or 'none touched yet'}")
         if obj is not None:
             layout.row().prop(obj.fragmotion.drive, "relative", expand=True)
-            layout.prop(obj.fragmotion.drive, "follow")
+            row = layout.row()
+            row.prop(obj.fragmotion.drive, "follow")
+            row.prop(obj.fragmotion.drive, "click_to_walk")
 
 
 class FRAGMOTION_PT_drive_pads(_DriveSubPanel, bpy.types.Panel):

@@ -24,6 +24,7 @@ from ..rig.bodies import RoleBone
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import TraceFields, factor_field, length_field, player_field, policy_field, seed_field
+from .path_fields import PathSettings
 from .pin_fields import PinFields
 
 _RELATIVE = (
@@ -70,6 +71,11 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
     )
     follow: BoolProperty(  # type: ignore[valid-type]
         name="Follow", description="Move the view with the character; it goes back when the drive ends", default=True
+    )
+    click_to_walk: BoolProperty(  # type: ignore[valid-type]
+        name="Click to Walk",
+        description="A click on the ground sends the character there; with Shift it runs. Any other input takes over",
+        default=True,
     )
     show_velocity: BoolProperty(  # type: ignore[valid-type]
         name="Velocity",
@@ -185,6 +191,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
         description="Where Pin Here wants the character, facing the object's -Y; empty: at the 3D cursor",
         type=bpy.types.Object,
     )
+    path: PointerProperty(type=PathSettings)  # type: ignore[valid-type]
     feel: PointerProperty(type=FeelSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]

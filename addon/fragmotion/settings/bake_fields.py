@@ -49,6 +49,7 @@ _MARKERS = (
 _LAYOUTS = (
     ("SQUARE", "Square", "A grid around the armature; all face as it does"),
     ("RING", "Ring", "A circle around the armature that faces outwards"),
+    ("PATH", "Along the Path", "One behind the other along the path that is set under Path; no trace drives them"),
 )
 
 _CROWD_TRACES = (

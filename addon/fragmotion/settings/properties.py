@@ -29,6 +29,7 @@ from .armature import (
     PolicyFigure,
     PopulateSettings,
 )
+from .path_fields import PathSettings
 
 
 class ActionSettings(bpy.types.PropertyGroup):
@@ -63,6 +64,7 @@ CLASSES = (
     BakeSettings,
     PopulateSettings,
     DriveSettings,
+    PathSettings,
     FeelSettings,
     PinSettings,
     PolicyFigure,

@@ -143,3 +143,47 @@ def test_esc_stops_a_crowd_and_changes_nothing(
     before = digest()
     assert bpy.ops.fragmotion.populate(count=3, seconds=SECONDS) == {"CANCELLED"}
     assert len(heard) == 2 and digest() == before
+
+
+def add_path(points: list[tuple[float, float]], closed: bool) -> bpy.types.Object:
+    """A curve object through points on the ground."""
+    data: Any = bpy.data.curves.new("Way", "CURVE")
+    data.dimensions = "3D"
+    spline = data.splines.new("POLY")
+    spline.points.add(len(points) - 1)
+    for point, place in zip(spline.points, points):
+        point.co = (*place, 0.0, 1.0)
+    spline.use_cyclic_u = closed
+    way = bpy.data.objects.new("Way", data)
+    bpy.context.scene.collection.objects.link(way)
+    bpy.context.view_layer.update()
+    return way
+
+
+def hips_of(copy: bpy.types.Object) -> np.ndarray:
+    posed = copy.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return np.array(posed.matrix_world @ posed.pose.bones["hips"].head)[:2]
+
+
+@pytest.mark.parametrize("end", ["STAND", "LOOP"])
+def test_copies_on_one_path_keep_apart(obj: bpy.types.Object, end: str) -> None:
+    around = [(4 * math.cos(angle), 4 * math.sin(angle)) for angle in np.linspace(0, 2 * math.pi, 60, endpoint=False)]
+    settings = obj.fragmotion.path
+    settings.curve, settings.end, settings.seconds = add_path(around, end == "LOOP"), end, 30.0
+    copies = populate(count=4, layout="PATH", spacing=2.0)
+    assert len(copies) == 4
+    nearest = []
+    for frame in range(1, 300, 15):
+        bpy.context.scene.frame_set(frame)
+        places = [hips_of(copy) for copy in copies]
+        nearest.append(min(math.dist(a, b) for a, b in itertools.combinations(places, 2)))
+        assert all(abs(float(np.linalg.norm(place)) - 4) < 0.4 for place in places), frame
+    assert min(nearest) > 1.5
+
+
+def test_a_path_too_short_for_so_many_is_refused(obj: bpy.types.Object) -> None:
+    obj.fragmotion.path.curve = add_path([(0, 0), (0, 5)], closed=False)
+    former = digest()
+    with pytest.raises(RuntimeError, match=r"Way is 5\.0 m long, too short for 8 copies 2 m apart"):
+        populate(count=8, layout="PATH", spacing=2.0)
+    assert digest() == former

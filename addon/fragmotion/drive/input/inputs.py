@@ -12,14 +12,16 @@ from .screen_stick import ScreenStick
 from .sdl import SdlMissing
 from .steering import REST, Intent
 from .tracing import TraceInput
+from .walk_target import WalkTarget
 
 
 class Inputs:
-    """Keyboard, on-screen stick, trace and the pads that are connected. Open until `close`."""
+    """Keyboard, on-screen stick, trace, clicks and the pads that are connected. Open until `close`."""
 
     def __init__(self, preferences: Any, rate: int) -> None:
         self.keyboard, self.stick, self.trace = Keyboard(preferences.keys()), ScreenStick(), TraceInput(rate)
-        self._arbiter = Arbiter((self.keyboard, self.stick, self.trace))
+        self.target = WalkTarget()
+        self._arbiter = Arbiter((self.keyboard, self.stick, self.trace, self.target))
         self._pads: Pads | None = None
         self._record_pressed = False
         self.shown = REST
@@ -55,6 +57,11 @@ class Inputs:
         """Let a trace [T,4] drive, until it ends or another input is touched."""
         self.trace.play(trace)
         self._arbiter.take(self.trace)
+
+    def walk(self, space: Any, frame: tuple[float, float, float], place: tuple[float, float], pace: float) -> None:
+        """Let the character go to a place, until it is there or another input is touched."""
+        if self.target.go(space, frame, place, pace):
+            self._arbiter.take(self.target)
 
     @property
     def label(self) -> str:

@@ -5,6 +5,7 @@
 
 #include "fragmotion/base/progress.hpp"
 #include "fragmotion/control/trace.hpp"
+#include "fragmotion/control/trace_frames.hpp"
 #include "fragmotion/runtime/player.hpp"
 
 namespace fragmotion {
@@ -37,16 +38,6 @@ struct Performance {
 
 /// By how much a body of 1.8 m changes its velocity, m/s^2.
 constexpr double kBodyAcceleration = 5;
-
-/// The most frames that a performance may have: Blender has no more, and they are five hours at 60 a second.
-constexpr int kMostFrames = 1048574;
-
-/// The frames of a performance of so many controls: 0 .. round(duration * rate). Throws std::invalid_argument on a rate
-/// that is not over 0 and at most 1000, and on more than kMostFrames.
-int frame_count(std::size_t controls, double rate);
-
-/// The index of the control that leads to frame `frame` of a performance of a trace of so many controls.
-std::size_t control_at(int frame, double rate, std::size_t controls);
 
 /// Steps a player through a trace from now: frames 0 .. round(duration * rate), each control for 1/kTraceRate s. Throws
 /// std::invalid_argument on an empty trace and a rate that is not over 0 and at most 1000.

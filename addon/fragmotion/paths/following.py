@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An armature's character along a path: a recording like one from a stick."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import bpy
+import numpy as np
+
+from ..character.building import check_skeleton, load, make_player
+from ..compat.core import core
+from ..errors import UserError, core_errors
+from ..recordings.recordings import POSE_RATE, Recording, add_recording
+from ..rig.motion import Motion
+from ..rig.rigs import make_rig
+from .lines import Line, line_of, through
+
+if TYPE_CHECKING:
+    from fragmotion_core import ControlSpace, Doubles, Path, PathWalk, Player
+
+_LONGEST = 3600.0  # s that a path which ends is followed at most
+_STEP, _FEWEST = 0.05, 3  # m between the points of a part of a path, and how many it has
+_LATE = 0.25  # s that an arrival may differ from what was asked
+
+
+def find_line(context: bpy.types.Context, settings: Any) -> Line:
+    """The line that PathSettings ask for; UserError where there is none."""
+    if settings.source == "SELECTED":
+        chosen = [obj for obj in context.selected_objects if obj.type == "EMPTY"]
+        return through(context, "The selected empties", chosen)
+    if settings.source == "COLLECTION":
+        if settings.collection is None:
+            raise UserError("No collection is chosen: choose one that holds the way points")
+        return through(context, f"Collection '{settings.collection.name}'", list(settings.collection.objects))
+    if settings.curve is None:
+        raise UserError("No path is chosen: choose a curve or Grease Pencil object, or press Draw Path")
+    return line_of(context, settings.curve)
+
+
+def make_path(line: Line, settings: Any, space: ControlSpace) -> Path:
+    """The core's path, with speeds where the line's widths give them."""
+    speeds = None
+    if settings.speed_by == "RADIUS":
+        speeds = (settings.speed or space.walk) * line.widths
+        if not (speeds > 0).all():
+            raise UserError(f"{line.name}: its radius is 0 somewhere, where the character would stand still")
+    with core_errors(line.name):
+        path: Path = core.Path(line.points, line.closed, speeds)
+        return path
+
+
+def follow(
+    context: bpy.types.Context,
+    obj: bpy.types.Object,
+    settings: Any,
+    standing: tuple[float, float, float],
+) -> tuple[Recording, str, list[str]]:
+    """Let the character follow the path of PathSettings, from the path's beginning or from where it is `standing`, and
+    keep that as a recording. Returns it, how it went, and what the user should be warned of; on a UserError nothing has
+    changed."""
+    character = load(obj)
+    check_skeleton(obj, character, make_rig(obj))
+    line = find_line(context, settings)
+    path = make_path(line, settings, character.space)
+    start = path.start if settings.start == "PATH" else standing
+    options = _options(context, obj, settings)
+    with core_errors("Follow Path"):
+        player = make_player(obj, character, settings.seed)
+        walk = core.follow_path(player, path, start, rate=POSE_RATE, **options)
+        player.reset(*start)
+        performance = player.run(walk.trace, POSE_RATE)
+    motion = Motion(performance.root_positions, performance.rotations, performance.frames, performance.classes)
+    recording = add_recording(
+        obj,
+        walk.trace,
+        name=f"Along {line.name}"[:60],
+        seed=settings.seed,
+        policy=character.policy,
+        start=start,
+        quality=performance.quality,
+        shown=(np.arange(len(motion.frames)) / POSE_RATE, motion),
+    )
+    return (
+        recording,
+        _tell(walk, path, settings),
+        [*line.remarks, *_limits(walk, options.get("arrive"), character.space)],
+    )
+
+
+class Walk(NamedTuple):
+    """A path for one character, and what core.follow_path is told of it."""
+
+    path: Path
+    options: dict[str, Any]
+
+    def trace(self, player: Player, rate: float) -> Doubles:
+        """What a player does along it [T,4]; then the player stands at the beginning again, to be run at this rate."""
+        with core_errors("Follow Path"):
+            walk = core.follow_path(player, self.path, rate=rate, **self.options)
+            player.reset(*self.path.start)
+        trace: Doubles = walk.trace
+        return trace
+
+
+def shared(
+    context: bpy.types.Context, obj: bpy.types.Object, settings: Any, space: ControlSpace, count: int, spacing: float
+) -> list[Walk]:
+    """The path of PathSettings for characters that go along it one behind the other, so far apart: parts of the same
+    length, which all take the same time. UserError where it is too short for so many."""
+    if settings.speed_by == "RADIUS":
+        raise UserError("Several characters on one path go at one pace: choose another than Radius under Path")
+    line = find_line(context, settings)
+    with core_errors(line.name):
+        path = core.Path(line.points, line.closed or settings.end == "LOOP")
+    left = path.length - spacing * (count if path.is_closed else count - 1)
+    if left < (0 if path.is_closed else spacing):
+        raise UserError(
+            f"{line.name} is {path.length:.1f} m long, too short for {count} copies {spacing:g} m apart: let there be "
+            "fewer, or nearer"
+        )
+    options = _options(context, obj, settings)
+    parts = [_part(path, number * spacing, path.length if path.is_closed else left) for number in range(count)]
+    if not options.get("arrive"):
+        steering = {name: value for name, value in options.items() if name != "seconds"}
+        with core_errors("Follow Path"):
+            options["arrive"] = max(core.PathFollower(space, part, **steering).seconds_left for part in parts)
+    return [Walk(part, options) for part in parts]
+
+
+def _part(path: Path, begin: float, length: float) -> Path:
+    """A path from so many metres on: of a closed one all, of an open one so much."""
+    ways = np.linspace(begin, begin + length, max(int(length / _STEP), _FEWEST), endpoint=not path.is_closed)
+    part: Path = core.Path(path.places(ways), path.is_closed)
+    return part
+
+
+def _options(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> dict[str, Any]:
+    """What settings ask of core.follow_path."""
+    options: dict[str, Any] = {"end": settings.end.lower(), "seconds": _LONGEST}
+    if settings.end != "STAND":
+        options["seconds"] = settings.seconds
+    if settings.speed_by == "ARRIVE":
+        options["arrive"] = _arrival(context, obj, settings)
+    elif settings.speed_by == "SPEED":
+        options["speed"] = settings.speed
+    if settings.facing == "FIXED":
+        options.update(facing="heading", heading=settings.heading)
+    elif settings.facing == "OBJECT":
+        if settings.look_at is None:
+            raise UserError("No object to face is chosen: choose one, or let the character face along the path")
+        shown = settings.look_at.evaluated_get(context.evaluated_depsgraph_get())
+        options.update(facing="place", place=shown.matrix_world.translation[:2])
+    return options
+
+
+def _arrival(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> float:
+    """Seconds from the frame at which a bake begins to that of the arrival."""
+    render, first = context.scene.render, obj.fragmotion.bake.frame_start
+    seconds = (settings.arrive_frame - first) * render.fps_base / render.fps
+    if seconds <= 0:
+        raise UserError(
+            f"The character is to arrive at frame {settings.arrive_frame}, and sets off at frame {first}, where Bake "
+            "begins: choose a later frame to arrive"
+        )
+    return float(seconds)
+
+
+def _tell(walk: PathWalk, path: Path, settings: Any) -> str:
+    off = f"{walk.mean_distance:.2f} m from the path in the mean, {walk.greatest_distance:.2f} m at most"
+    told = f"{path.length:.1f} m; {off}"
+    if walk.arrived and settings.end == "STAND":
+        return f"{told}; stands {walk.arrival_distance:.2f} m from its end after {walk.seconds:.1f} s"
+    return f"{told}; past its end after {walk.seconds:.1f} s" if walk.arrived else told
+
+
+def _limits(walk: PathWalk, asked: float | None, space: ControlSpace) -> list[str]:
+    """What was asked and could not be done; `asked` is the time of arrival, s, if any."""
+    warnings = []
+    if walk.asked_speed > space.run:
+        warnings.append(
+            f"The path asks for {walk.asked_speed:.1f} m/s, and the character runs at {space.run:.1f} m/s: it went as "
+            "fast as it can"
+        )
+    if not walk.arrived:
+        warnings.append(f"The character has not come to the path's end within {walk.seconds:.0f} s")
+    elif asked is not None and abs(walk.seconds - asked) > _LATE:
+        warnings.append(f"The character arrived after {walk.seconds:.1f} s, and was to after {asked:.1f} s")
+    return warnings

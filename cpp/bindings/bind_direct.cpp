@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "fragmotion/direct/follow_path.hpp"
+#include "player_options.hpp"
+
+namespace fragmotion::bindings {
+namespace {
+
+using OnePlayer = OneCallAtATime<Player>;
+using OneFollower = OneCallAtATime<PathFollower>;
+
+// x, y and heading, as Player.frame.
+using Frame = std::tuple<double, double, double>;
+
+constexpr double kFarthest = 1e6;  // m
+
+CharacterFrame to_frame(const Frame& frame) {
+  const auto& [x, y, heading] = frame;
+  return {Vector2{x, y}, heading};
+}
+
+// The ground under points [N,2] or [N,3].
+std::vector<Vector2> to_ground(const Doubles& points) {
+  if (points.ndim() != 2 || (points.shape(1) != 2 && points.shape(1) != 3)) {
+    throw std::invalid_argument("the points of a path must be [N,2] or [N,3]");
+  }
+  const std::vector<double> values = to_vector(points, "the points of a path", -kFarthest, kFarthest);
+  const std::size_t width = static_cast<std::size_t>(points.shape(1));
+  std::vector<Vector2> ground;
+  for (std::size_t i = 0; i + width <= values.size(); i += width) ground.emplace_back(values[i], values[i + 1]);
+  return ground;
+}
+
+Path make_path(const Doubles& points, bool closed, const std::optional<Doubles>& speeds) {
+  const std::vector<Vector2> ground = to_ground(points);
+  if (speeds) check_shape(*speeds, "speeds", {static_cast<py::ssize_t>(ground.size())});
+  return Path(ground, closed, speeds ? to_vector(*speeds) : std::vector<double>());
+}
+
+py::array_t<double> places(const Path& path, const Doubles& ways) {
+  check_shape(ways, "ways", {-1});
+  std::vector<double> rows;
+  for (const double way : to_vector(ways, "ways", -kFarthest, kFarthest)) {
+    const Vector2 place = path.place(way);
+    rows.insert(rows.end(), {place.x(), place.y()});
+  }
+  return to_array(std::move(rows), {ways.shape(0), 2});
+}
+
+// One of an enumeration's values by its name.
+template <typename Value>
+Value named(const std::string& what, const std::string& name,
+            const std::vector<std::pair<std::string, Value>>& values) {
+  std::string known;
+  for (const auto& [each, value] : values) {
+    if (each == name) return value;
+    known += (known.empty() ? "" : ", ") + each;
+  }
+  throw std::invalid_argument("there is no " + what + " \"" + name + "\"; there are " + known);
+}
+
+FollowOptions to_options(double speed, double arrive, const std::string& facing, double heading, const Doubles& place,
+                         const std::string& end) {
+  check_shape(place, "place", {2});
+  const std::vector<double> towards = to_vector(place);
+  FollowOptions options;
+  options.speed = speed;
+  options.arrive = arrive;
+  options.facing = named<PathFacing>(
+      "facing", facing, {{"along", PathFacing::along}, {"heading", PathFacing::heading}, {"place", PathFacing::place}});
+  options.heading = heading;
+  options.place = {towards[0], towards[1]};
+  options.end =
+      named<PathEnd>("end", end, {{"stand", PathEnd::stand}, {"loop", PathEnd::loop}, {"go_on", PathEnd::go_on}});
+  return options;
+}
+
+// Calls `define` with what a function's arguments speed ... end are called and are unless given.
+template <typename Define>
+void for_follow_arguments(const Define& define) {
+  const FollowOptions unless;
+  define(py::arg("speed") = unless.speed, py::arg("arrive") = unless.arrive, py::arg("facing") = "along",
+         py::arg("heading") = unless.heading, py::arg("place") = py::make_tuple(0.0, 0.0), py::arg("end") = "stand");
+}
+
+py::array_t<double> row_of(const Control& c) { return to_array(std::vector<double>{c.x, c.y, c.turn, c.jump}, {4}); }
+
+py::array_t<double> trace_of(const PathWalk& walk) {
+  std::vector<double> rows;
+  for (const Control& c : walk.trace) rows.insert(rows.end(), {c.x, c.y, c.turn, c.jump});
+  return to_array(std::move(rows), {static_cast<py::ssize_t>(walk.trace.size()), 4});
+}
+
+void bind_path(py::module_& m) {
+  py::class_<Path>(m, "Path", py::module_local())
+      .def(py::init(&make_path), py::arg("points"), py::arg("closed") = false, py::arg("speeds") = py::none())
+      .def_property_readonly("length", &Path::length)
+      .def_property_readonly("is_closed", &Path::is_closed)
+      .def("places", &places, py::arg("ways"))
+      .def_property_readonly("start", [](const Path& path) {
+        const CharacterFrame start = start_of(path);
+        return py::make_tuple(start.position.x(), start.position.y(), start.heading);
+      });
+}
+
+void bind_follower(py::module_& m) {
+  py::class_<OneFollower> follower(m, "PathFollower", py::module_local());
+  for_follow_arguments([&](const auto&... options) {
+    follower.def(py::init([](const ControlSpace& space, const Path& path, double speed, double arrive,
+                             const std::string& facing, double heading, const Doubles& place, const std::string& end) {
+                   return std::make_unique<OneFollower>("PathFollower", space, path,
+                                                        to_options(speed, arrive, facing, heading, place, end));
+                 }),
+                 py::arg("space"), py::arg("path"), options...);
+  });
+  follower.def("reset", [](OneFollower& follower) { OneFollower::Call(follower)->reset(); })
+      .def(
+          "steer",
+          [](OneFollower& follower, const Frame& frame, double seconds) {
+            return row_of(OneFollower::Call(follower)->steer(to_frame(frame), seconds));
+          },
+          py::arg("frame"), py::arg("seconds"))
+      .def_property_readonly("way", [](OneFollower& follower) { return OneFollower::Call(follower)->way(); })
+      .def_property_readonly("stands", [](OneFollower& follower) { return OneFollower::Call(follower)->stands(); })
+      .def_property_readonly("seconds_left",
+                             [](OneFollower& follower) { return OneFollower::Call(follower)->seconds_left(); });
+}
+
+void bind_walk(py::module_& m) {
+  py::class_<PathWalk>(m, "PathWalk", py::module_local())
+      .def_property_readonly("trace", &trace_of)
+      .def_readonly("mean_distance", &PathWalk::mean_distance)
+      .def_readonly("greatest_distance", &PathWalk::greatest_distance)
+      .def_readonly("arrival_distance", &PathWalk::arrival_distance)
+      .def_readonly("arrived", &PathWalk::arrived)
+      .def_readonly("seconds", &PathWalk::seconds)
+      .def_readonly("planned_seconds", &PathWalk::planned_seconds)
+      .def_readonly("asked_speed", &PathWalk::asked_speed);
+  for_follow_arguments([&](const auto&... options) {
+    m.def(
+        "follow_path",
+        [](OnePlayer& one, const Path& path, const std::optional<Frame>& start, double speed, double arrive,
+           const std::string& facing, double heading, const Doubles& place, const std::string& end, double rate,
+           double seconds, const py::object& progress) {
+          const CharacterFrame from = start ? to_frame(*start) : start_of(path);
+          const FollowOptions wanted = to_options(speed, arrive, facing, heading, place, end);
+          const OnePlayer::Call player(one);
+          return without_gil(progress, [&](const Progress& told) {
+            return follow_path(*player, from, path, wanted, rate, seconds, told);
+          });
+        },
+        py::arg("player"), py::arg("path"), py::arg("start") = py::none(), options..., py::arg("rate") = 60.0,
+        py::arg("seconds") = 600.0, py::arg("progress") = py::none());
+  });
+}
+
+}  // namespace
+
+void bind_direct(py::module_& m) {
+  bind_path(m);
+  bind_follower(m);
+  bind_walk(m);
+}
+
+}  // namespace fragmotion::bindings

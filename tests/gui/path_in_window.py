@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: MIT
+"""Run in a Blender with a window by test_windows.py: draw a path on the ground by mouse, and follow it.
+
+Arguments after `--`: the add-on's zip, the folder for pictures.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import bpy
+from mathutils import Euler
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
+
+import making
+import window
+
+VIEW = Euler((math.radians(55), 0, math.radians(20)))
+CLICKED = (500, 480)  # pixels
+STROKE = [(250 + 12 * step, 380 + round(110 * math.sin(step / 8))) for step in range(50)]  # pixels
+
+
+def look() -> None:
+    """From above, at a slant."""
+    space = window.view()["area"].spaces.active.region_3d
+    space.view_perspective, space.view_distance = "PERSP", 14.0
+    space.view_rotation, space.view_location = VIEW.to_quaternion(), (0.0, 0.0, 0.0)
+
+
+def draw() -> Iterator[None]:
+    """Hold the left mouse button and move along the stroke."""
+    yield from window.send("MOUSEMOVE", "NOTHING", *STROKE[0])
+    yield from window.send("LEFTMOUSE", "PRESS", *STROKE[0])
+    for place in STROKE[1:]:
+        yield from window.send("MOUSEMOVE", "NOTHING", *place)
+    yield from window.send("LEFTMOUSE", "RELEASE", *STROKE[-1])
+    yield from window.drawn()
+
+
+def walk_to_a_click() -> Iterator[None]:
+    """Drive, and click on the ground: the character goes there, and the drive ends as any."""
+    session, ground = window.module("drive.session"), window.module("paths.drawing").ground_under
+    window.press(bpy.ops.fragmotion.drive)
+    yield from window.seconds(0.5)
+    driven, (x, y) = session.current, CLICKED
+    driven.settings.follow = False
+    area = window.view()["area"]
+    region = window.view()["region"]
+    place = ground(area, x - region.x, y - region.y)
+    yield from window.click(x, y)
+    yield from window.until(lambda: driven.inputs.label == "Click on the ground", "the click", 50)
+    yield from window.until(lambda: driven.inputs.target.intent().control is None, "the arrival", 400)
+    yield from window.seconds(1)
+    assert math.dist(driven.actor.frame[:2], place[:2]) < 0.3
+    yield from window.send("ESC", "PRESS", x, y)
+    yield from window.until(lambda: session.current is None, "the end of the drive", 50)
+
+
+def session_of_tests() -> Iterator[None]:
+    """The whole of it."""
+    obj = making.open_sample()
+    yield from window.open_tab()
+    window.press(bpy.ops.fragmotion.tick_actions, use=True)
+    window.press(bpy.ops.fragmotion.build, "EXEC_DEFAULT")
+    yield
+    look()
+    yield from window.drawn()
+    curves = len(bpy.data.curves)
+    window.press(bpy.ops.fragmotion.draw_path)
+    yield from window.send("ESC", "PRESS", *STROKE[0])
+    yield from window.drawn()
+    assert len(bpy.data.curves) == curves, "Esc draws nothing"
+    window.press(bpy.ops.fragmotion.draw_path)
+    yield from draw()
+    obj = bpy.context.view_layer.objects.active
+    curve = obj.fragmotion.path.curve
+    assert curve is not None and curve.type == "CURVE", "no curve was drawn"
+    points = curve.data.splines[0].points
+    assert len(points) > 20 and all(0 < point.co.z < 0.02 for point in points)
+    window.show_only("Path", "Recordings")
+    yield from window.picture("1 drawn")
+    yield from window.click_button("fragmotion.follow_path")
+    yield from window.until(lambda: len(obj.fragmotion.takes) == 1, "the recording", 100)
+    places = window.module("recordings.recordings").shown_of(obj.fragmotion.takes[0])[1].frames
+    assert math.dist(places[-1][:2], points[-1].co[:2]) < 0.2
+    window.press(bpy.ops.fragmotion.bake, "EXEC_DEFAULT", trace_source="RECORDING", recording=0)
+    bpy.context.scene.frame_set(70)
+    yield from window.picture("2 followed")
+    yield from walk_to_a_click()
+    window.show_all()
+    print("SESSION PASSED")
+
+
+window.run(session_of_tests())

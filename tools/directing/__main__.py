@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+"""Build a character, direct it, and print how well it did what it was asked.
+
+`python3 dev.py directing` runs this with the built core; python -m tools.directing --help tells what there is.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from typing import Any
+
+import fragmotion_core as core
+
+from tools.directing import inputs
+from tools.directing.courses import courses
+from tools.directing.figures import draw_paths
+from tools.directing.paths import follow_all
+from tools.directing.pins import pins
+from tools.directing.table import tables
+from tools.evaluate import curves
+from tools.evaluate.controllers import DEFAULT
+from tools.evaluate.loading import SECONDS, TEACHER, Recordings, make_session, read_recordings
+from tools.evaluate.report import text
+from tools.shell import Failure, say
+
+CLASSES = 97
+
+
+def make_character(recordings: Recordings, seed: int) -> core.Character:
+    """A character as the add-on builds it by default."""
+    teacher = make_session(TEACHER, core.simulate_trace(TEACHER, SECONDS, seed), core.ControlSpace())
+    return curves.build(recordings, teacher, CLASSES, seed, [DEFAULT])
+
+
+def measure(character: core.Character, seed: int) -> dict[str, Any]:
+    """All figures, as the JSON file holds them."""
+    return {"paths": follow_all(character, courses(seed)), "pins": pins(character)}
+
+
+def direct(options: argparse.Namespace) -> None:
+    """Do all that the options ask for; Failure says what was wrong with them."""
+    inputs.check(options)
+    recordings = read_recordings(inputs.mocap_of(options), options.unit)
+    say(f"building a character from {len(recordings.clips)} takes")
+    character = make_character(recordings, options.seed)
+    say("directing it")
+    result = measure(character, options.seed)
+    for table in tables(result).values():
+        say(f"\n{text(table)}")
+    if options.figures:
+        say(f"\npicture: {draw_paths(character, courses(options.seed), options.figures)}")
+    if options.json:
+        options.json.write_text(json.dumps(result, indent=1, allow_nan=False) + "\n")
+        say(f"\nfigures: {options.json}")
+
+
+def main(arguments: list[str]) -> int:
+    """Run, and return the exit code."""
+    parser = argparse.ArgumentParser(prog="dev.py directing", description=__doc__)
+    inputs.add_arguments(parser)
+    try:
+        direct(parser.parse_args(arguments))
+    except (Failure, OSError) as failure:
+        print(f"directing: {failure}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
