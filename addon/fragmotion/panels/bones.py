@@ -18,6 +18,7 @@ class FRAGMOTION_PT_bones(SubPanel, bpy.types.Panel):
     bl_idname = "FRAGMOTION_PT_bones"
     bl_label = "Bones"
     bl_parent_id = "FRAGMOTION_PT_mocap"
+    folds = "mocap"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, obj = self.layout, active_armature(context)

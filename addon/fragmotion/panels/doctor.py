@@ -20,6 +20,7 @@ class FRAGMOTION_PT_doctor(SubPanel, bpy.types.Panel):
     bl_idname = "FRAGMOTION_PT_doctor"
     bl_label = "Doctor"
     bl_parent_id = "FRAGMOTION_PT_mocap"
+    folds = "mocap"
 
     def draw(self, context: bpy.types.Context) -> None:
         action = chosen(context, active_armature(context))

@@ -50,13 +50,29 @@ class FRAGMOTION_PT_drive(Sidebar, bpy.types.Panel):
                 icon="REC" if driven.recording is None else "CHECKMARK",
                 depress=driven.recording is not None,
             )
-            layout.label(text=f"Input: {driven.inputs.label or 'none touched yet'}")
+            _draw_input(layout, driven)
         if obj is not None:
             layout.row().prop(obj.fragmotion.drive, "relative", expand=True)
-            layout.prop(obj.fragmotion.drive, "follow")
 
 
-class FRAGMOTION_PT_drive_pads(_DriveSubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_drive_options(_DriveSubPanel, bpy.types.Panel):
+    """What is set once for all drives."""
+
+    bl_idname = "FRAGMOTION_PT_drive_options"
+    bl_label = "Drive Options"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = _armature(context).fragmotion.drive
+        column = aligned(self.layout)
+        column.prop(settings, "start")
+        column.prop(settings, "follow")
+
+
+class _OptionsPanel(_DriveSubPanel):
+    bl_parent_id = "FRAGMOTION_PT_drive_options"
+
+
+class FRAGMOTION_PT_drive_pads(_OptionsPanel, bpy.types.Panel):
     """The gamepads that are connected, and how their sticks stand."""
 
     bl_idname = "FRAGMOTION_PT_drive_pads"
@@ -77,7 +93,7 @@ class FRAGMOTION_PT_drive_pads(_DriveSubPanel, bpy.types.Panel):
             layout.label(text="None connected", icon="INFO")
 
 
-class FRAGMOTION_PT_drive_overlays(_DriveSubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_drive_overlays(_OptionsPanel, bpy.types.Panel):
     """What is drawn over the view."""
 
     bl_idname = "FRAGMOTION_PT_drive_overlays"
@@ -90,7 +106,7 @@ class FRAGMOTION_PT_drive_overlays(_DriveSubPanel, bpy.types.Panel):
             grid.prop(settings, name)
 
 
-class FRAGMOTION_PT_drive_trace(_DriveSubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_drive_trace(_OptionsPanel, bpy.types.Panel):
     """A trace as an input."""
 
     bl_idname = "FRAGMOTION_PT_drive_trace"
@@ -104,7 +120,7 @@ class FRAGMOTION_PT_drive_trace(_DriveSubPanel, bpy.types.Panel):
         self.layout.operator("fragmotion.play_trace", icon="PLAY")
 
 
-class FRAGMOTION_PT_drive_feel(_DriveSubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_drive_feel(_OptionsPanel, bpy.types.Panel):
     """How the character moves; Bake and Populate go by it, too."""
 
     bl_idname = "FRAGMOTION_PT_drive_feel"
@@ -112,10 +128,19 @@ class FRAGMOTION_PT_drive_feel(_DriveSubPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = _armature(context).fragmotion.feel
-        column = aligned(self.layout)
+        column = self.layout.column()
         column.active = session.current is None
         for name in ("promptness", "pull", "lock_feet"):
             column.prop(settings, name)
+
+
+def _draw_input(layout: bpy.types.UILayout, driven: session.Session) -> None:
+    """What drives, and how far it is where it has an end."""
+    trace = driven.inputs.trace
+    if trace.playing:
+        versions.draw_progress(layout, trace.elapsed / trace.seconds, driven.playing, percentage=False)
+    else:
+        layout.label(text=f"Input: {driven.inputs.label or 'none yet'}")
 
 
 def _draw_pad(layout: bpy.types.UILayout, label: str, state: PadState) -> None:
@@ -134,6 +159,7 @@ def _draw_pad(layout: bpy.types.UILayout, label: str, state: PadState) -> None:
 
 CLASSES = (
     FRAGMOTION_PT_drive,
+    FRAGMOTION_PT_drive_options,
     FRAGMOTION_PT_drive_feel,
     FRAGMOTION_PT_drive_pads,
     FRAGMOTION_PT_drive_overlays,
