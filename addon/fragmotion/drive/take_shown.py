@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..compat.data_blocks import is_alive
+from ..errors import core_errors
 from ..mocap.sampling import sample
 from ..rig.posing import check_free
 from ..rig.rigs import carriers, make_rig
@@ -35,7 +36,11 @@ class TakeShown:
         self.elapsed = 0.0
         """Seconds from the take's beginning to what is shown."""
         suspended_state.put_aside(obj)
-        self.step(0.0)
+        try:
+            self.step(0.0)
+        except BaseException:
+            self.end()
+            raise
 
     @property
     def seconds(self) -> float:
@@ -46,7 +51,8 @@ class TakeShown:
         """Play on, from the end to the beginning again, and pose the armature."""
         self.elapsed = (self.elapsed + seconds) % self.seconds
         frame = min(int(self.elapsed * self._rate), len(self._roots) - 1)
-        locations, turns = self._rig.channels(self._roots[frame][None], self._rotations[frame][None])
+        with core_errors(f"Take '{self.name}'"):
+            locations, turns = self._rig.channels(self._roots[frame][None], self._rotations[frame][None])
         bones = self._obj.pose.bones
         bones.foreach_set("location", locations[0, self._order].astype(np.float32).ravel())
         bones.foreach_set("rotation_quaternion", turns[0, self._order].astype(np.float32).ravel())
