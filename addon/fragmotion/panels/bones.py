@@ -28,7 +28,7 @@ class FRAGMOTION_PT_bones(SubPanel, bpy.types.Panel):
         row.operator("fragmotion.load_bones", text="", icon="FILE_FOLDER")
         row.operator("fragmotion.save_bones", text="", icon="FILE_TICK")
         if not len(roles):
-            layout.label(text="Found by itself when takes come in", icon="INFO")
+            layout.label(text="Found at the import", icon="INFO")
             return
         column = layout.column(align=True)
         for role in roles:

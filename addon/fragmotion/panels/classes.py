@@ -116,7 +116,7 @@ class FRAGMOTION_PT_inspector(_ClassPanel, bpy.types.Panel):
             playing, control, live = inspector.decision(obj, manager.inspector, manager.active_class)
             lines = inspector.explain(obj, playing, control)
         except UserError as error:
-            layout.label(text=str(error), icon="ERROR")
+            draw_wrapped(layout.column(align=True), context, str(error), "ERROR")
             return
         if classes.driven(obj) is not None:
             layout.prop(manager.inspector, "follow")

@@ -12,7 +12,7 @@ from ..drive import session
 from ..drive.input.pads import PadState
 from ..operators import drive as drive_operator
 from ..operators.context import active_armature
-from ..settings.drawing import aligned, draw_trace
+from ..settings.drawing import aligned, draw_trace, draw_wrapped
 from .sidebar import Sidebar, SubPanel
 
 
@@ -50,7 +50,7 @@ class FRAGMOTION_PT_drive(Sidebar, bpy.types.Panel):
                 icon="REC" if driven.recording is None else "CHECKMARK",
                 depress=driven.recording is not None,
             )
-            _draw_input(layout, driven)
+            _draw_input(layout, context, driven)
         if obj is not None:
             layout.row().prop(obj.fragmotion.drive, "relative", expand=True)
 
@@ -134,13 +134,13 @@ class FRAGMOTION_PT_drive_feel(_OptionsPanel, bpy.types.Panel):
             column.prop(settings, name)
 
 
-def _draw_input(layout: bpy.types.UILayout, driven: session.Session) -> None:
+def _draw_input(layout: bpy.types.UILayout, context: bpy.types.Context, driven: session.Session) -> None:
     """What drives, and how far it is where it has an end."""
     trace = driven.inputs.trace
     if trace.playing:
         versions.draw_progress(layout, trace.elapsed / trace.seconds, driven.playing, percentage=False)
     else:
-        layout.label(text=f"Input: {driven.inputs.label or 'none yet'}")
+        draw_wrapped(layout.column(align=True), context, f"Input: {driven.inputs.label or 'none yet'}")
 
 
 def _draw_pad(layout: bpy.types.UILayout, label: str, state: PadState) -> None:
@@ -152,7 +152,7 @@ def _draw_pad(layout: bpy.types.UILayout, label: str, state: PadState) -> None:
         values = row.row(align=True)
         versions.draw_deflection(values, x)
         versions.draw_deflection(values, y)
-    turn = {1: "turn left", -1: "turn right"}.get(state.shoulders, "")
+    turn = {1: "left", -1: "right"}.get(state.shoulders, "")
     pressed = [word for word in (turn, "jump" if state.jump else "", "record" if state.record else "") if word]
     layout.label(text=f"Buttons: {', '.join(pressed) or 'none'}")
 

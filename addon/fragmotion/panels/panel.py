@@ -25,6 +25,7 @@ from ..settings.drawing import (
     draw_keeping,
     draw_summary,
     draw_training,
+    draw_wrapped,
 )
 from . import bones, classes, control_rig, doctor, drive, left_out, recordings
 from .doctor import LIGHTS
@@ -120,7 +121,7 @@ class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
         if obj != context.active_object:
             layout.label(text=obj.name, icon="ARMATURE_DATA", translate=False)
         if not actions:
-            layout.label(text=f"No Actions for '{obj.name}'", icon="INFO")
+            draw_wrapped(layout.column(align=True), context, f"No Actions for '{obj.name}'", "INFO")
             return
         _draw_takes(layout, context, len(actions))
 
@@ -154,7 +155,7 @@ class FRAGMOTION_PT_build(Sidebar, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout, obj, job = self.layout, active_armature(context), background.current
         if job is not None:
-            layout.label(text=job.label)
+            draw_wrapped(layout.column(align=True), context, job.label)
             versions.draw_progress(layout, job.fraction, job.stage)
             layout.operator("fragmotion.cancel", text="Cancel", icon="CANCEL")
             return

@@ -37,7 +37,7 @@ _RELATIVE = (
 )
 
 _STARTS = (
-    ("CHARACTER", "Where It Stands", "Where the character stands at the playhead, facing as it does"),
+    ("CHARACTER", "As It Stands", "Where the character stands at the playhead, facing as it does"),
     ("ORIGIN", "Origin", "Under the armature's origin, facing its -Y (towards the front view)"),
 )
 

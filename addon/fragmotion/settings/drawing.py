@@ -130,7 +130,7 @@ def draw_keeping(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     column = aligned(layout)
     column.prop(settings, "keep_policy", text="Keep")
     if obj.name in troubles:
-        column.label(text="Not moved: see the console", icon="ERROR")
+        column.label(text="See the console", icon="ERROR")
     elif settings.keep_policy == BESIDE and settings.policy:
         column.label(text="Written when you save", icon="INFO")
     elif settings.policy_digest and not settings.policy:
@@ -146,7 +146,7 @@ def draw_coverage(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
         counts = zip(row.performed, row.total)
         _draw_cells(column, row.name, [(f"{performed}/{total}", performed == total) for performed, total in counts])
     if figures.makes_jumps:
-        column.label(text="Jumps are made, not captured", icon="INFO")
+        column.label(text="Jumps are synthesized", icon="INFO")
 
 
 def _draw_cells(layout: bpy.types.UILayout, label: str, cells: list[tuple[str, bool]]) -> None:
