@@ -124,7 +124,8 @@ def pictures_of_building() -> Iterator[None]:
     manager.active_class = next(number for number, row in enumerate(rows) if row.suggested.startswith("run"))
     yield from panels("classes", "Classes")
     yield from panels("inspector", "Inspector")
-    window.show_only("Mocap", "Build", "Drive", "Recordings")
+    window.show_only("Mocap", "Build", "Drive", "Recordings", "Bake")
+    manager.show_mocap = manager.show_build = False
     yield from crop("panel", window.sidebar()["area"], target=DOCS / "panel.png")
     Path(f"{window.FOLDER}/panel.png").unlink()
 
@@ -140,7 +141,7 @@ def hold(key: str, seconds: float, **modifiers: bool) -> Iterator[None]:
 
 def pictures_of_driving() -> Iterator[None]:
     """A drive with a recording, and the recording that it leaves."""
-    window.show_only("Drive", "Gamepads", "Overlays")
+    window.show_only("Drive", "Drive Options", "Gamepads", "Overlays")
     window.press(bpy.ops.fragmotion.drive)
     yield from window.send("R", "PRESS", *MIDDLE)
     yield from window.send("R", "RELEASE", *MIDDLE)
@@ -159,8 +160,8 @@ def pictures_of_driving() -> Iterator[None]:
 def pictures_of_baking() -> Iterator[None]:
     """Bake, of that recording."""
     bake = character().fragmotion.bake
-    bake.trace_source, bake.loop, bake.reduce = "RECORDING", True, True
-    yield from panels("bake", "Bake", "Loop, Keys and Markers")
+    bake.loop, bake.reduce = True, True
+    yield from panels("bake", "Bake", "Bake Options")
 
 
 def pictures_of_a_crowd() -> Iterator[None]:

@@ -9,7 +9,7 @@ from . import command_line, operators
 from .character import building, coverage_picture, inspector, staleness, storing
 from .drive import handlers, session
 from .mocap import actions
-from .operators import background, solo_class
+from .operators import background, play_take, solo_class
 from .panels import menus, panel
 from .settings import keymaps, mending, preferences, properties
 
@@ -35,6 +35,7 @@ def unregister() -> None:
     """Remove all that `register` added; a build or a drive that runs is stopped."""
     background.stop()
     solo_class.stop()
+    play_take.stop()
     session.unregister()
     for part in (command_line, handlers, menus, keymaps, storing, staleness, mending):
         part.unregister()

@@ -50,6 +50,7 @@ def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleTy
     own = [cls.bl_idname.partition(".")[2] for cls in addon.operators.CLASSES]
     assert {"import_mocap", "build", "suggest_classes", "force_class", "leave_out", "bake"} <= set(own)
     unchanging = {"save_policy", "save_bones", "cancel", "export_recording", "solo_class", "force_class"}
+    unchanging |= {"play_take"}
     unchanging |= {"drive", "listen", "record", "play_trace", "find_pads"}
     for name in own:
         operator = getattr(bpy.ops.fragmotion, name).get_rna_type()
@@ -65,8 +66,8 @@ def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) ->
     assert [panel.bl_label for panel in panels] == [
         *("Control Rig", "Mocap", "Left Out", "Doctor", "Bones"),
         *("Build", "Numbers Tried", "Training", "Figures", "Classes", "Inspector", "Coverage", "Policy File"),
-        *("Drive", "Feel", "Gamepads", "Overlays", "Trace"),
-        *("Path", "Recordings", "Change", "Bake", "Loop, Keys and Markers", "Populate"),
+        *("Drive", "Drive Options", "Feel", "Gamepads", "Overlays", "Trace"),
+        *("Path", "Recordings", "Change", "Bake", "Bake Options", "Populate"),
     ]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}
     assert {(panel.bl_space_type, panel.bl_region_type) for panel in panels} == {("VIEW_3D", "UI")}

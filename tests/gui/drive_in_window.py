@@ -276,7 +276,7 @@ def drag_stick(driven: Any) -> Iterator[None]:
 def use_the_panel(driven: Any) -> Iterator[None]:
     """While one drives, the sidebar can be used."""
     yield from measure_panels("while driving")
-    window.show_only("Drive", "Gamepads", "Overlays", "Trace", "Recordings")
+    window.show_only("Drive", "Drive Options", "Gamepads", "Overlays", "Trace", "Recordings")
     yield from window.picture("6 panels")
     yield from window.click_button("follow")
     assert not driven.settings.follow, "the panel does not answer"
@@ -285,10 +285,10 @@ def use_the_panel(driven: Any) -> Iterator[None]:
 
 
 def bake_and_undo(obj: bpy.types.Object, before: dict[str, Any]) -> Generator[None, None, bpy.types.Object]:
-    """The take's button bakes what was seen, and one undo takes it back."""
+    """Bake's button bakes what was seen of the recording that is selected, and one undo takes it back."""
     (recording,) = obj.fragmotion.takes
     _, motion = recordings.shown_of(recording)
-    window.show_only("Recordings")
+    window.show_only("Bake")
     yield from window.click_button("fragmotion.bake")
     yield from window.until(lambda: obj.animation_data.action.name == recording.name, "the bake of the recording")
     scene = bpy.context.scene

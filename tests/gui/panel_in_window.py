@@ -56,6 +56,25 @@ def disable_while_building(build: Any) -> Iterator[None]:
     assert TEST_OT_count_timers.count == 0, "the build's timer goes on"
 
 
+def play_takes(obj: bpy.types.Object) -> Iterator[None]:
+    """Play shows the chosen take, and what is chosen and ticked meanwhile; Esc gives everything back."""
+    shown, manager = window.module("drive.take_shown"), bpy.context.window_manager.fragmotion
+    before, hips = making.contents(), obj.pose.bones["Hips"]
+    manager.active_action = bpy.data.actions.find("take 1")
+    yield from window.click_button("fragmotion.play_take")
+    pose = hips.matrix_basis.copy()
+    yield from until(lambda: hips.matrix_basis != pose, "a take that plays")
+    yield from picture("2 playing")
+    manager.active_action = bpy.data.actions.find("take 2")
+    yield from until(lambda: shown.current.name == "take 2", "the take that is chosen meanwhile")
+    yield from window.click_button("use")
+    yield from send("SPACE", "PRESS", 300, 300)
+    assert shown.current is not None and not bpy.context.screen.is_animation_playing, "a key got through"
+    yield from send("ESC", "PRESS", 300, 300)
+    assert shown.current is None and making.contents() == before
+    yield from window.click_button("use")
+
+
 def steps() -> Iterator[None]:
     """The whole session."""
     build = window.module("operators.background")
@@ -72,6 +91,7 @@ def steps() -> Iterator[None]:
     yield from picture("2 imported")
     obj = bpy.context.view_layer.objects.active
 
+    yield from play_takes(obj)
     press(bpy.ops.fragmotion.build, **FIELDS)
     assert build.current is not None, "the build does not run in the background"
     yield from send("ESC", "PRESS", 300, 300)

@@ -15,7 +15,7 @@ FIGURE = "FIGURE "  # as window.tell marks what is to be read
 PATIENCE = 500  # s
 WINDOW = ("--factory-startup", "--enable-event-simulate", "--window-geometry", "0", "0", "1600", "900")
 PICTURES = {
-    "panel": ("1 empty", "2 imported", "3 building", "4 built", "5 baked"),
+    "panel": ("1 empty", "2 imported", "2 playing", "3 building", "4 built", "5 baked"),
     "classes": (
         *("0 trying", "1 suggested", "2 coverage", "3 classes", "4 inspector", "5 left out", "6 preview", "7 driving"),
     ),

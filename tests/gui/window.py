@@ -128,7 +128,10 @@ def panels() -> list[Any]:
 
 
 def show_only(*labels: str) -> None:
-    """Leave the panels with these labels in the tab, open, below their parents where these are shown too."""
+    """Leave the panels with these labels in the tab, open, below their parents where these are shown too; what Build
+    folds away is shown."""
+    settings = bpy.context.window_manager.fragmotion
+    settings.show_mocap = settings.show_build = True
     for panel in panels():
         if "bl_rna" in panel.__dict__:
             bpy.utils.unregister_class(panel)

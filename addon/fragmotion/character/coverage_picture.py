@@ -30,7 +30,7 @@ _GROUND = (0.34, 0.34, 0.34, 1)  # opaque: Blenders differ in what they make of 
 _LINE = (0.5, 0.5, 0.5, 1)
 _CROSS = (0.05, 0.05, 0.05, 1)
 _COLOURS = ((0.20, 0.62, 0.95), (0.98, 0.80, 0.25), (0.88, 0.28, 0.22))  # well, in between, not at all
-_SWATCHES = {"well": 0.0, "nearly": (WELL + _POOR) / 2, "not": np.inf}  # the legend's distances
+_SWATCHES = {"well": 0.0, "nearly": _POOR, "not": np.inf}  # the legend's distances
 
 _SMALLEST = 2.0  # widgets' heights
 _UNIT, _MARGIN = 20, 60  # pixels of a widget's height, and of what the sidebar needs besides
@@ -42,9 +42,8 @@ _drawn: dict[str, bytes] = {}  # what each preview shows
 
 
 def colour_of(distance: float) -> NDArray[np.float64]:
-    """The colour [3] of a control that is so far (ControlDis) from the nearest fragment."""
-    place = np.interp(distance, (WELL, (WELL + _POOR) / 2, _POOR), (0, 1, 2))
-    return np.array([np.interp(place, (0, 1, 2), channel) for channel in zip(*_COLOURS)])
+    """The colour [3] of a control that is so far (ControlDis) from the nearest fragment: one of the legend's."""
+    return np.array(_COLOURS[int(np.searchsorted((WELL, _POOR), distance))])
 
 
 def places() -> NDArray[np.float64]:

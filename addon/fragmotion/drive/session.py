@@ -52,7 +52,7 @@ class Session:
         context.view_layer.update()
         self.obj, self._name = obj, str(obj.name)
         self.seed = self.settings.seed if seed < 0 else seed
-        self.actor = Actor(obj, self.seed, policy)
+        self.actor = Actor(context, obj, self.seed, policy)
         self._data, self._bones = obj.data, len(obj.pose.bones)
         self.views, self._follow = views.Views(context.area), FollowCamera()
         self._state = SceneState(context, obj)
@@ -62,6 +62,7 @@ class Session:
         self.recording: Recorder | None = None
         self.punch: Punch | None = None
         self._elapsed, self._steps = 0.0, 0
+        self._replays = False
         self.cost = self.interval = 0.0
         """Our own time for an update and the time between updates, s; running means."""
         self.farewell = ""
@@ -145,6 +146,7 @@ class Session:
 
     def play(self, trace: Doubles, start: tuple[float, float, float] | None = None) -> None:
         """Let a trace [T,4] drive until it ends or another input is touched, from a character frame if one is given."""
+        self._replays = start is not None
         if start is not None:
             self.actor.player.reset(*start)
             self.readings = Readings(self.actor, RATE)
@@ -179,6 +181,13 @@ class Session:
         """Let the character go to a place on the ground, until it is there or another input is touched."""
         space = self.actor.space
         self.inputs.walk(space, self.actor.frame, place, space.run if runs else space.walk)
+
+    @property
+    def playing(self) -> str:
+        """How far the trace is that plays, in words; empty while none does."""
+        trace = self.inputs.trace
+        verb = "Replaying" if self._replays else "Playing"
+        return f"{verb} {trace.elapsed:.1f} of {trace.seconds:.1f} s" if trace.playing else ""
 
     def toggle_recording(self) -> None:
         """Begin a recording; or end it and keep it with the armature, an undo step.
@@ -235,6 +244,8 @@ class Session:
             return None
         recording, inputs = self.recording, self.inputs
         title = f"Recording {recording.seconds:.1f} s" if recording else f"Driving {self.armature}: Esc ends"
+        if inputs.trace.playing and not recording:
+            title = f"{self.playing}: Esc ends"
         return Shown(
             title,
             recording is not None,

@@ -66,6 +66,17 @@ def fitting(obj: bpy.types.Object) -> list[bpy.types.Action]:
     return [action for action in bpy.data.actions if fits_cached(action, obj)]
 
 
+def is_found(action: bpy.types.Action, search: str) -> bool:
+    """Whether the Action's name has the text in it, whatever the case."""
+    return search.lower() in action.name.lower()
+
+
+def seconds_of(action: bpy.types.Action, scene: bpy.types.Scene) -> float:
+    """How long the Action is: an imported take in its own time, any other as the scene plays it."""
+    first, last = action.frame_range
+    return float(last - first) / rate_of(action, SCENE_RATE, scene.render.fps / scene.render.fps_base)
+
+
 def chosen(context: bpy.types.Context, obj: bpy.types.Object) -> bpy.types.Action | None:
     """The Action that is chosen in the panel's list, or None where it does not fit the armature."""
     index = context.window_manager.fragmotion.active_action

@@ -11,6 +11,7 @@ from ..bake.baking import Baked, hindrances, prepare
 from ..bake.targets import find_target, write
 from ..character.building import has_character
 from ..jobs import Job
+from ..recordings.recordings import baked_source
 from ..settings.bake_fields import BakeFields
 from ..settings.drawing import draw_bake, draw_bake_options
 from .background import Background, poll_idle
@@ -39,11 +40,17 @@ class FRAGMOTION_OT_bake(BakeFields, Baking, bpy.types.Operator):
     bl_idname = "fragmotion.bake"
     bl_label = "Bake"
     bl_description = (
-        "Play a trace with the armature's character and write it to an Action at the scene's frame rate. It starts at "
-        "the armature's origin, facing its -Y (towards the front view)"
+        "Write the recording that is selected, or what else is chosen as the source, played by the armature's "
+        "character, to an Action at the scene's frame rate"
     )
     verb = "Bake"
     settings = "bake"
+
+    def _make_job(self, context: bpy.types.Context) -> Job:
+        if not self.properties.is_property_set("trace_source"):
+            obj = active_armature(context)
+            self.trace_source = baked_source(obj, obj.fragmotion.bake)
+        return super()._make_job(context)
 
     def _prepare(self, context: bpy.types.Context, obj: bpy.types.Object) -> Job:
         prepared = prepare(context, obj, self)
@@ -63,6 +70,6 @@ class FRAGMOTION_OT_bake(BakeFields, Baking, bpy.types.Operator):
         if others:
             self.report({"WARNING"}, f"The pose will differ from the bake because of {'; '.join(others)}")
 
-    def draw(self, _context: bpy.types.Context) -> None:
-        draw_bake(self.layout, self)
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_bake(self.layout, self, active_armature(context))
         draw_bake_options(self.layout, self)

@@ -51,13 +51,15 @@ class FRAGMOTION_OT_build(BuildFields, Building, bpy.types.Operator):
         task, self._warnings = building.prepare(context, obj, self)
         return Job(f"Building '{obj.name}'", task)
 
-    def _keep(self, _context: bpy.types.Context, obj: bpy.types.Object, built: building.Built) -> None:
+    def _keep(self, context: bpy.types.Context, obj: bpy.types.Object, built: building.Built) -> None:
         building.keep(obj, built)
-        figures = obj.fragmotion.figures
+        figures, panels = obj.fragmotion.figures, context.window_manager.fragmotion
+        panels.show_mocap = panels.show_build = False
         self.report(
             {"INFO"},
             f"{figures.fragments} fragments in {figures.classes} classes, built in {figures.seconds:.1f} s; "
-            f"quality {figures.quality:.0f} % of Optimal",
+            f"quality {figures.quality:.0f} % of Optimal; "
+            f"{figures.performed} of {figures.controls} controls performed well",
         )
         for warning in self._warnings:
             self.report({"WARNING"}, warning)

@@ -11,7 +11,7 @@ import bpy
 
 from ..control_rig.binding import motion_of, rig_of
 from ..control_rig.detecting import is_control_rig
-from ..drive import session
+from ..drive import session, take_shown
 from ..errors import UserError
 from ..mocap.actions import chosen
 from ..recordings.curves import curves_of
@@ -35,10 +35,12 @@ def active_rig(context: bpy.types.Context) -> Any:
 
 
 def poll_idle(cls: Any) -> bool:
-    """Whether nothing is being driven; says what is."""
+    """Whether nothing is being driven, and no take is shown; says what is."""
     if session.current is not None:
         cls.poll_message_set(f"'{session.current.armature}' is being driven: stop that first (Esc)")
-    return session.current is None
+    elif take_shown.current is not None:
+        cls.poll_message_set(f"Take '{take_shown.current.name}' is being played: stop that first (Esc)")
+    return session.current is None and take_shown.current is None
 
 
 def poll_armature(cls: Any, context: bpy.types.Context) -> bool:

@@ -10,6 +10,7 @@ import bpy
 
 from ..character import classes
 from ..character.solo import Solo
+from ..drive import take_shown
 from ..drive.hud import views
 from ..errors import UserError, reported
 from . import background
@@ -40,7 +41,7 @@ class FRAGMOTION_OT_solo_class(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         if not poll_class(cls, context):
             return False
-        running = background.current is not None or classes.session is not None
+        running = background.current is not None or classes.session is not None or take_shown.current is not None
         if bpy.app.background:
             cls.poll_message_set("There is no window to play in")
         elif running:

@@ -6,20 +6,26 @@ from __future__ import annotations
 from typing import ClassVar
 
 import bpy
-from bpy.props import BoolProperty
+from bpy.props import BoolProperty, StringProperty
 
-from ..mocap.actions import fitting
+from ..mocap.actions import fitting, is_found
 from .context import active_armature, poll_armature
 
 
 class FRAGMOTION_OT_tick_actions(bpy.types.Operator):
-    """Tick or untick all Actions that fit the active armature"""
+    """Tick or untick all Actions that fit the active armature, or those of them that the list shows"""
 
     bl_idname = "fragmotion.tick_actions"
     bl_label = "Tick Actions"
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
     use: BoolProperty(name="Tick", description="Tick rather than untick", default=True)  # type: ignore[valid-type]
+
+    search: StringProperty(  # type: ignore[valid-type]
+        name="Search",
+        description="Only those with this in their name, whatever the case; empty for all",
+        options={"SKIP_SAVE"},
+    )
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -28,10 +34,11 @@ class FRAGMOTION_OT_tick_actions(bpy.types.Operator):
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         verb = "Tick" if properties.use else "Untick"
-        return f"{verb} all Actions that fit the active armature"
+        those = f" and have '{properties.search}' in their name" if properties.search else ""
+        return f"{verb} all Actions that fit the active armature{those}"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         for action in fitting(active_armature(context)):
-            if action.library is None:
+            if action.library is None and is_found(action, self.search):
                 action.fragmotion.use = self.use
         return {"FINISHED"}

@@ -18,6 +18,7 @@ class FRAGMOTION_PT_bones(SubPanel, bpy.types.Panel):
     bl_idname = "FRAGMOTION_PT_bones"
     bl_label = "Bones"
     bl_parent_id = "FRAGMOTION_PT_mocap"
+    folds = "mocap"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, obj = self.layout, active_armature(context)
@@ -27,7 +28,7 @@ class FRAGMOTION_PT_bones(SubPanel, bpy.types.Panel):
         row.operator("fragmotion.load_bones", text="", icon="FILE_FOLDER")
         row.operator("fragmotion.save_bones", text="", icon="FILE_TICK")
         if not len(roles):
-            layout.label(text="Found by itself when takes come in", icon="INFO")
+            layout.label(text="Found at the import", icon="INFO")
             return
         column = layout.column(align=True)
         for role in roles:

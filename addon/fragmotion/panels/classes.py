@@ -20,11 +20,17 @@ _WIDE = 260  # pixels of a sidebar that has room for more than a name beside it
 
 class _SubPanel(SubPanel):
     bl_parent_id = "FRAGMOTION_PT_build"
+    folds = "build"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and background.current is None
 
 
-def _has_classes(context: bpy.types.Context) -> bool:
-    obj = active_armature(context)
-    return obj is not None and len(obj.fragmotion.classes) > 0 and background.current is None
+class _ClassPanel(_SubPanel):
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and len(active_armature(context).fragmotion.classes) > 0
 
 
 def _is_wide(context: bpy.types.Context) -> bool:
@@ -63,15 +69,11 @@ def _draw_beside(layout: bpy.types.UILayout, item: Any) -> None:
     count.label(text=str(item.fragments))
 
 
-class FRAGMOTION_PT_classes(_SubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_classes(_ClassPanel, bpy.types.Panel):
     """What the character can do, class by class."""
 
     bl_idname = "FRAGMOTION_PT_classes"
     bl_label = "Classes"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return _has_classes(context)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, obj = self.layout, active_armature(context)
@@ -86,7 +88,7 @@ class FRAGMOTION_PT_classes(_SubPanel, bpy.types.Panel):
             _draw_class(layout, context, settings.active_class, rows[settings.active_class])
         row = layout.row(align=True)
         if solo_class.current is not None:
-            row.label(text="Previewing: Esc or a click stops", icon="PLAY")
+            row.label(text="Esc stops", icon="PLAY")
         else:
             row.operator("fragmotion.solo_class", text="Preview", icon="PLAY")
         row.operator("fragmotion.force_class", icon="FORWARD").number = -1
@@ -101,15 +103,11 @@ def _draw_class(layout: bpy.types.UILayout, context: bpy.types.Context, number: 
         column.label(text=part, icon="BLANK1")
 
 
-class FRAGMOTION_PT_inspector(_SubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_inspector(_ClassPanel, bpy.types.Panel):
     """Why the policy plays what it plays."""
 
     bl_idname = "FRAGMOTION_PT_inspector"
     bl_label = "Inspector"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return _has_classes(context)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, obj = self.layout, active_armature(context)
@@ -118,7 +116,7 @@ class FRAGMOTION_PT_inspector(_SubPanel, bpy.types.Panel):
             playing, control, live = inspector.decision(obj, manager.inspector, manager.active_class)
             lines = inspector.explain(obj, playing, control)
         except UserError as error:
-            layout.label(text=str(error), icon="ERROR")
+            draw_wrapped(layout.column(align=True), context, str(error), "ERROR")
             return
         if classes.driven(obj) is not None:
             layout.prop(manager.inspector, "follow")
@@ -184,8 +182,7 @@ class FRAGMOTION_PT_tried(_SubPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        obj = active_armature(context)
-        return obj is not None and len(obj.fragmotion.tried) > 0 and background.current is None
+        return super().poll(context) and len(active_armature(context).fragmotion.tried) > 0
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = active_armature(context).fragmotion

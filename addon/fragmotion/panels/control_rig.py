@@ -27,7 +27,7 @@ class FRAGMOTION_PT_control_rig(Sidebar, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout, rig, job = self.layout, active_rig(context), background.current
         if not binding.is_bound(rig):
-            layout.label(text="Its bones are moved by controls", icon="INFO")
+            layout.label(text="Moved by controls", icon="INFO")
             layout.operator("fragmotion.bind_rig", icon="ARMATURE_DATA")
             return
         if job is not None:

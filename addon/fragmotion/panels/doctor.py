@@ -20,15 +20,16 @@ class FRAGMOTION_PT_doctor(SubPanel, bpy.types.Panel):
     bl_idname = "FRAGMOTION_PT_doctor"
     bl_label = "Doctor"
     bl_parent_id = "FRAGMOTION_PT_mocap"
+    folds = "mocap"
 
     def draw(self, context: bpy.types.Context) -> None:
         action = chosen(context, active_armature(context))
         if action is None:
-            self.layout.label(text="No take is chosen in the list", icon="INFO")
+            self.layout.label(text="No take is chosen", icon="INFO")
             return
         findings = action.fragmotion.findings
         if not len(findings):
-            self.layout.label(text="Nothing is wrong with this take", icon="CHECKMARK")
+            self.layout.label(text="Nothing is wrong", icon="CHECKMARK")
         for index, row in enumerate(findings):
             text = f"{row.text} (mended)" if row.mended else row.text
             column = self.layout.column(align=True)

@@ -12,7 +12,7 @@ from ..drive import session
 from ..drive.input.pads import PadState
 from ..operators import drive as drive_operator
 from ..operators.context import active_armature
-from ..settings.drawing import aligned, draw_trace
+from ..settings.drawing import aligned, draw_trace, draw_wrapped
 from .sidebar import Sidebar, SubPanel
 
 
@@ -50,15 +50,30 @@ class FRAGMOTION_PT_drive(Sidebar, bpy.types.Panel):
                 icon="REC" if driven.recording is None else "CHECKMARK",
                 depress=driven.recording is not None,
             )
-            layout.label(text=f"Input: {driven.inputs.label or 'none touched yet'}")
+            _draw_input(layout, context, driven)
         if obj is not None:
             layout.row().prop(obj.fragmotion.drive, "relative", expand=True)
-            row = layout.row()
-            row.prop(obj.fragmotion.drive, "follow")
-            row.prop(obj.fragmotion.drive, "click_to_walk")
 
 
-class FRAGMOTION_PT_drive_pads(_DriveSubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_drive_options(_DriveSubPanel, bpy.types.Panel):
+    """What is set once for all drives."""
+
+    bl_idname = "FRAGMOTION_PT_drive_options"
+    bl_label = "Drive Options"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = _armature(context).fragmotion.drive
+        column = aligned(self.layout)
+        column.prop(settings, "start")
+        column.prop(settings, "follow")
+        column.prop(settings, "click_to_walk")
+
+
+class _OptionsPanel(_DriveSubPanel):
+    bl_parent_id = "FRAGMOTION_PT_drive_options"
+
+
+class FRAGMOTION_PT_drive_pads(_OptionsPanel, bpy.types.Panel):
     """The gamepads that are connected, and how their sticks stand."""
 
     bl_idname = "FRAGMOTION_PT_drive_pads"
@@ -79,7 +94,7 @@ class FRAGMOTION_PT_drive_pads(_DriveSubPanel, bpy.types.Panel):
             layout.label(text="None connected", icon="INFO")
 
 
-class FRAGMOTION_PT_drive_overlays(_DriveSubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_drive_overlays(_OptionsPanel, bpy.types.Panel):
     """What is drawn over the view."""
 
     bl_idname = "FRAGMOTION_PT_drive_overlays"
@@ -92,7 +107,7 @@ class FRAGMOTION_PT_drive_overlays(_DriveSubPanel, bpy.types.Panel):
             grid.prop(settings, name)
 
 
-class FRAGMOTION_PT_drive_trace(_DriveSubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_drive_trace(_OptionsPanel, bpy.types.Panel):
     """A trace as an input."""
 
     bl_idname = "FRAGMOTION_PT_drive_trace"
@@ -106,7 +121,7 @@ class FRAGMOTION_PT_drive_trace(_DriveSubPanel, bpy.types.Panel):
         self.layout.operator("fragmotion.play_trace", icon="PLAY")
 
 
-class FRAGMOTION_PT_drive_feel(_DriveSubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_drive_feel(_OptionsPanel, bpy.types.Panel):
     """How the character moves; Bake and Populate go by it, too."""
 
     bl_idname = "FRAGMOTION_PT_drive_feel"
@@ -114,10 +129,19 @@ class FRAGMOTION_PT_drive_feel(_DriveSubPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = _armature(context).fragmotion.feel
-        column = aligned(self.layout)
+        column = self.layout.column()
         column.active = session.current is None
         for name in ("promptness", "pull", "lock_feet"):
             column.prop(settings, name)
+
+
+def _draw_input(layout: bpy.types.UILayout, context: bpy.types.Context, driven: session.Session) -> None:
+    """What drives, and how far it is where it has an end."""
+    trace = driven.inputs.trace
+    if trace.playing:
+        versions.draw_progress(layout, trace.elapsed / trace.seconds, driven.playing, percentage=False)
+    else:
+        draw_wrapped(layout.column(align=True), context, f"Input: {driven.inputs.label or 'none yet'}")
 
 
 def _draw_pad(layout: bpy.types.UILayout, label: str, state: PadState) -> None:
@@ -129,13 +153,14 @@ def _draw_pad(layout: bpy.types.UILayout, label: str, state: PadState) -> None:
         values = row.row(align=True)
         versions.draw_deflection(values, x)
         versions.draw_deflection(values, y)
-    turn = {1: "turn left", -1: "turn right"}.get(state.shoulders, "")
+    turn = {1: "left", -1: "right"}.get(state.shoulders, "")
     pressed = [word for word in (turn, "jump" if state.jump else "", "record" if state.record else "") if word]
     layout.label(text=f"Buttons: {', '.join(pressed) or 'none'}")
 
 
 CLASSES = (
     FRAGMOTION_PT_drive,
+    FRAGMOTION_PT_drive_options,
     FRAGMOTION_PT_drive_feel,
     FRAGMOTION_PT_drive_pads,
     FRAGMOTION_PT_drive_overlays,

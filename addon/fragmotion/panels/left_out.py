@@ -16,6 +16,7 @@ class FRAGMOTION_PT_left_out(SubPanel, bpy.types.Panel):
     bl_idname = "FRAGMOTION_PT_left_out"
     bl_label = "Left Out"
     bl_parent_id = "FRAGMOTION_PT_mocap"
+    folds = "mocap"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

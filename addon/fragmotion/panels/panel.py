@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import bpy
 
 from ..character import building
@@ -10,7 +12,8 @@ from ..character.coverage_picture import draw_pictures
 from ..character.staleness import is_stale
 from ..compat import versions
 from ..control_rig.binding import own_armatures
-from ..mocap.actions import fits_cached, fitting
+from ..drive import take_shown
+from ..mocap.actions import fits_cached, fitting, is_found, seconds_of
 from ..mocap.doctor import worst
 from ..operators import background
 from ..operators.context import active_armature
@@ -22,22 +25,26 @@ from ..settings.drawing import (
     draw_keeping,
     draw_summary,
     draw_training,
+    draw_wrapped,
 )
 from . import bones, classes, control_rig, doctor, drive, left_out, path, recordings
 from .doctor import LIGHTS
-from .sidebar import Sidebar, SubPanel
+from .sidebar import Sidebar, SubPanel, draw_fold, is_folded
 
-_ROWS = 5
+_FEWEST_ROWS, _MOST_ROWS = 5, 12  # of the list, unless the user draws it larger
+_NAME = 0.76  # of a row's width
+_LONG = 10.0  # s of a take whose tenths do not matter
+_FEW = 5  # takes among which there is nothing to be searched
 
 
 class FRAGMOTION_UL_actions(bpy.types.UIList):
-    """The file's Actions that fit the active armature, each with a tick."""
+    """The file's Actions that fit the active armature, each with a tick and its length."""
 
     bl_idname = "FRAGMOTION_UL_actions"
 
     def draw_item(
         self,
-        _context: bpy.types.Context,
+        context: bpy.types.Context,
         layout: bpy.types.UILayout,
         _data: object,
         item: bpy.types.Action,
@@ -47,16 +54,39 @@ class FRAGMOTION_UL_actions(bpy.types.UIList):
     ) -> None:
         row = layout.row(align=True)
         row.prop(item.fragmotion, "use", text="")
-        row.label(text=item.name, translate=False)
+        split = row.split(factor=_NAME)
+        split.label(text=item.name, translate=False)
+        length = split.row()
+        length.alignment = "RIGHT"
+        length.label(text=_length(seconds_of(item, context.scene)), translate=False)
         severity = worst(item)
         if severity in {"error", "warning"}:
             row.label(text="", icon=LIGHTS[severity])
 
     def filter_items(self, context: bpy.types.Context, data: object, name: str) -> tuple[list[int], list[int]]:
         actions, obj = getattr(data, name), active_armature(context)
+        settings = context.window_manager.fragmotion
         by_name = bpy.types.UI_UL_list.filter_items_by_name(self.filter_name, self.bitflag_filter_item, actions)
         named = by_name or [self.bitflag_filter_item] * len(actions)
-        return [flag if obj and fits_cached(action, obj) else 0 for flag, action in zip(named, actions)], []
+        found = [obj and fits_cached(action, obj) and is_found(action, settings.take_search) for action in actions]
+        order = _order(actions, context.scene, settings.take_order)
+        return [flag if fits else 0 for flag, fits in zip(named, found)], order
+
+
+def _length(seconds: float) -> str:
+    return f"{seconds:.1f} s" if seconds < _LONG else f"{seconds:.0f} s"
+
+
+def _order(actions: Sequence[bpy.types.Action], scene: bpy.types.Scene, order: str) -> list[int]:
+    """The place in the list of each of the Actions; none where they stay as they are, by name."""
+    if order == "NAME":
+        return []
+    sign = -1 if order == "LONGEST" else 1
+    lengths = [(sign * seconds_of(action, scene), index) for index, action in enumerate(actions)]
+    places = [0] * len(lengths)
+    for place, (_, index) in enumerate(sorted(lengths)):
+        places[index] = place
+    return places
 
 
 def _has_other_armatures(obj: bpy.types.Object) -> bool:
@@ -72,9 +102,14 @@ class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
     bl_label = "Mocap"
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout = self.layout
+        layout, obj = self.layout, active_armature(context)
+        actions = fitting(obj) if obj is not None else []
+        ticked = sum(action.fragmotion.use for action in actions)
+        if obj is not None and building.has_character(obj):
+            draw_fold(layout, context, "mocap", f"{ticked} of {len(actions)} takes")
+        if is_folded(context, "mocap"):
+            return
         layout.operator("fragmotion.import_mocap", text="Import Mocap...", icon="IMPORT")
-        obj = active_armature(context)
         if obj is None:
             layout.label(text="Click your character, or:", icon="INFO")
             layout.operator("fragmotion.add_sample", icon="OUTLINER_OB_ARMATURE")
@@ -85,23 +120,30 @@ class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
             row.operator("fragmotion.retarget_actions", text="Retarget")
         if obj != context.active_object:
             layout.label(text=obj.name, icon="ARMATURE_DATA", translate=False)
-        actions = fitting(obj)
         if not actions:
-            layout.label(text=f"No Actions for '{obj.name}'", icon="INFO")
+            draw_wrapped(layout.column(align=True), context, f"No Actions for '{obj.name}'", "INFO")
             return
-        layout.template_list(
-            "FRAGMOTION_UL_actions",
-            "",
-            bpy.data,
-            "actions",
-            context.window_manager.fragmotion,
-            "active_action",
-            rows=_ROWS,
-        )
+        _draw_takes(layout, context, len(actions))
+
+
+def _draw_takes(layout: bpy.types.UILayout, context: bpy.types.Context, count: int) -> None:
+    """The list of takes, with what finds, plays and ticks them."""
+    settings = context.window_manager.fragmotion
+    if count > _FEW:
         row = layout.row(align=True)
-        row.label(text=f"{sum(action.fragmotion.use for action in actions)} of {len(actions)}")
-        row.operator("fragmotion.tick_actions", text="All").use = True
-        row.operator("fragmotion.tick_actions", text="None").use = False
+        row.prop(settings, "take_search", text="", icon="VIEWZOOM")
+        row.prop(settings, "take_order", text="", icon_only=True)
+    rows = min(max(count, _FEWEST_ROWS), _MOST_ROWS)
+    layout.template_list(
+        "FRAGMOTION_UL_actions", "", bpy.data, "actions", settings, "active_action", rows=rows, maxrows=rows
+    )
+    row = layout.row(align=True)
+    playing = take_shown.current is not None
+    text, icon = ("Stop", "SNAP_FACE") if playing else ("Play", "PLAY")
+    row.operator("fragmotion.play_take", text=text, icon=icon, depress=playing)
+    for text, use in (("All", True), ("None", False)):
+        tick = row.operator("fragmotion.tick_actions", text=text)
+        tick.use, tick.search = use, settings.take_search
 
 
 class FRAGMOTION_PT_build(Sidebar, bpy.types.Panel):
@@ -113,22 +155,26 @@ class FRAGMOTION_PT_build(Sidebar, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout, obj, job = self.layout, active_armature(context), background.current
         if job is not None:
-            layout.label(text=job.label)
+            draw_wrapped(layout.column(align=True), context, job.label)
             versions.draw_progress(layout, job.fraction, job.stage)
             layout.operator("fragmotion.cancel", text="Cancel", icon="CANCEL")
+            return
+        if obj is not None and building.has_character(obj):
+            column = layout.column(align=True)
+            draw_fold(column, context, "build", f"{obj.fragmotion.figures.classes} classes")
+            draw_summary(column, obj.fragmotion.figures)
+            if is_stale(obj):
+                layout.label(text="Stale: Actions changed", icon="ERROR")
+        if is_folded(context, "build"):
             return
         if obj is not None:
             draw_build(layout, obj.fragmotion.build)
         layout.operator("fragmotion.build", icon="SHADERFX")
-        if obj is None or not building.has_character(obj):
-            return
-        if is_stale(obj):
-            layout.label(text="Stale: Actions changed", icon="ERROR")
-        draw_summary(layout, obj.fragmotion.figures)
 
 
 class _BuildSubPanel(SubPanel):
     bl_parent_id = "FRAGMOTION_PT_build"
+    folds = "build"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -200,7 +246,7 @@ class FRAGMOTION_PT_bake(Sidebar, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         obj = active_armature(context)
         if obj is not None:
-            draw_bake(self.layout, obj.fragmotion.bake)
+            draw_bake(self.layout, obj.fragmotion.bake, obj)
         self.layout.operator("fragmotion.bake", icon="ACTION_TWEAK")
 
 

@@ -36,11 +36,11 @@ class FRAGMOTION_UL_recordings(bpy.types.UIList):
         split.prop(item, "name", text="", emboss=False)
         length = split.row()
         length.alignment = "RIGHT"
-        length.label(text=f"{item.seconds:.0f} s")
+        length.label(text=f"{item.seconds:.1f} s")
 
 
 class FRAGMOTION_PT_recordings(Sidebar, bpy.types.Panel):
-    """What was recorded or imported, to be replayed, baked or learned from."""
+    """What was recorded or imported, to be replayed, baked (what is selected is what Bake bakes) or learned from."""
 
     bl_idname = "FRAGMOTION_PT_recordings"
     bl_label = "Recordings"
@@ -96,7 +96,7 @@ class FRAGMOTION_PT_bake_options(SubPanel, bpy.types.Panel):
     """The fields of a bake that are changed less."""
 
     bl_idname = "FRAGMOTION_PT_bake_options"
-    bl_label = "Loop, Keys and Markers"
+    bl_label = "Bake Options"
     bl_parent_id = "FRAGMOTION_PT_bake"
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -130,7 +130,6 @@ def _draw_figures(layout: bpy.types.UILayout, recording: Any) -> None:
     column = layout.column(align=True)
     for label, value in (
         ("Recorded", recording.date),
-        ("Length", f"{recording.seconds:.1f} s"),
         ("Quality", f"{recording.quality:.2f} of 1" if recording.quality > 0 else "not measured"),
     ):
         row = column.split(factor=0.36)
@@ -144,13 +143,10 @@ def _draw_uses(layout: bpy.types.UILayout, settings: Any) -> None:
     column.prop(drive, "replay", text="Replay")
     if drive.replay != "RECORDED":
         column.prop(drive, "seed")
-    row = layout.row(align=True)
-    replay = row.operator("fragmotion.drive", text="Replay", icon="PLAY")
+    replay = layout.operator("fragmotion.drive", text="Replay", icon="PLAY")
     replay.source, replay.recording = "RECORDING", index
     if drive.replay != "RECORDED":
         replay.policy, replay.seed = drive.replay, drive.seed
-    bake = row.operator("fragmotion.bake", text="Bake", icon="ACTION_TWEAK")
-    bake.trace_source, bake.recording = "RECORDING", index
 
 
 CLASSES = (FRAGMOTION_UL_recordings, FRAGMOTION_PT_recordings, FRAGMOTION_PT_change)

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import bpy
 
+from ..character.building import has_character
 from ..operators.context import active_armature
 
 
@@ -18,11 +19,31 @@ class Sidebar:
     bl_category = "Fragmotion"
 
 
+def is_folded(context: bpy.types.Context, name: str) -> bool:
+    """Whether what leads to a character, "mocap" or "build", is folded away: once there is one, until it is asked for.
+
+    Blender has no way to close a panel.
+    """
+    obj = active_armature(context)
+    shown: bool = getattr(context.window_manager.fragmotion, f"show_{name}")
+    return obj is not None and has_character(obj) and not shown
+
+
+def draw_fold(layout: bpy.types.UILayout, context: bpy.types.Context, name: str, text: str) -> None:
+    """The line that folds that away and shows it again."""
+    icon = "DISCLOSURE_TRI_RIGHT" if is_folded(context, name) else "DISCLOSURE_TRI_DOWN"
+    row = layout.row()
+    row.alignment = "LEFT"
+    row.prop(context.window_manager.fragmotion, f"show_{name}", text=text, icon=icon, emboss=False)
+
+
 class SubPanel(Sidebar):
     """A panel below another, closed at first, for an armature."""
 
     bl_options: ClassVar[set[str]] = {"DEFAULT_CLOSED"}
+    folds: ClassVar[str] = ""
+    """With what it is folded away, "mocap" or "build"; empty where it never is."""
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        return active_armature(context) is not None
+        return active_armature(context) is not None and not (cls.folds and is_folded(context, cls.folds))

@@ -209,6 +209,12 @@ def active_recording(obj: bpy.types.Object) -> Recording | None:
     return recordings[index] if 0 <= index < len(recordings) else None
 
 
+def baked_source(obj: bpy.types.Object, settings: Any) -> str:
+    """What Bake's panel bakes by BakeSettings: while no recording is there to be selected, a simulated player."""
+    source: str = settings.trace_source
+    return "PLAYER" if source == "RECORDING" and active_recording(obj) is None else source
+
+
 def unique_name(name: str, others: Iterable[str]) -> str:
     """The name, with the first free number as Blender counts (".001") where another has it."""
     taken, number, unique = set(others), 0, name

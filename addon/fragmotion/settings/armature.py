@@ -38,6 +38,11 @@ _RELATIVE = (
     ("CHARACTER", "By Character", "Up on the stick is where the character faces. It turns only as you turn it"),
 )
 
+_STARTS = (
+    ("CHARACTER", "As It Stands", "Where the character stands at the playhead, facing as it does"),
+    ("ORIGIN", "Origin", "Under the armature's origin, facing its -Y (towards the front view)"),
+)
+
 _KEEPING = (
     ("PACKED", "In the .blend", "Inside the .blend file"),
     ("BESIDE", "Beside It", "In a policy file beside the .blend, written when that is saved"),
@@ -61,6 +66,9 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
 
     relative: EnumProperty(  # type: ignore[valid-type]
         name="Stick", description="What the direction of the stick is relative to", items=_RELATIVE, default="VIEW"
+    )
+    start: EnumProperty(  # type: ignore[valid-type]
+        name="Start", description="Where a drive begins; a replay begins where its recording did", items=_STARTS
     )
     seed: seed_field("Draws which fragment of a class plays: the same controls and the same seed, the same motion")  # type: ignore[valid-type]
     replay: policy_field(  # type: ignore[valid-type]
@@ -165,6 +173,12 @@ class BuildFigures(bpy.types.PropertyGroup):
     """[102] float32: ControlDis to the nearest fragment."""
 
 
+def _bake_selected(settings: CharacterSettings, _context: bpy.types.Context) -> None:
+    """What was selected last is what is baked."""
+    if settings.takes:
+        settings.bake.trace_source = "RECORDING"
+
+
 def _is_other_armature(settings: CharacterSettings, obj: bpy.types.Object) -> bool:
     return is_source(obj, settings.id_data)
 
@@ -206,6 +220,8 @@ class CharacterSettings(bpy.types.PropertyGroup):
     policy_digest: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
     # The recordings, under the names that saved files have.
     takes: CollectionProperty(type=Recording)  # type: ignore[valid-type]
-    active_take: IntProperty(name="Recording", description="The recording that is selected in the list")  # type: ignore[valid-type]
+    active_take: IntProperty(  # type: ignore[valid-type]
+        name="Recording", description="The recording that is selected in the list", update=_bake_selected
+    )
     digest: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
     """Of the policy's bytes, by which panels know it without reading it."""

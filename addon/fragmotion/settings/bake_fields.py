@@ -16,7 +16,11 @@ DRIVING = "DRIVING"
 MIXED = "MIXED"
 """The choice of all simulated players in turn."""
 
-_RECORDING = ("RECORDING", "Recording", "The recording that is selected in the Recordings panel")
+_RECORDING = (
+    "RECORDING",
+    "Recording",
+    "The recording that is selected in the Recordings panel; while there is none, the panel bakes a simulated player",
+)
 
 _TARGETS = (
     ("NEW", "New Action", "A new Action, named after the recording"),
@@ -71,7 +75,7 @@ def _suggest_actions(_settings: object, _context: bpy.types.Context, text: str) 
 class BakeFields(TraceFields):
     """What a bake can be told."""
 
-    trace_source: source_field(_RECORDING)  # type: ignore[valid-type]
+    trace_source: source_field(_RECORDING, default="RECORDING")  # type: ignore[valid-type]
     recording: IntProperty(  # type: ignore[valid-type]
         name="Recording Number",
         description="Which recording of the Recordings panel is baked, from 0; -1 is the one that is selected there",

@@ -60,12 +60,12 @@ def policy_field(description: str, default: str, *others: tuple[str, str, str], 
     return EnumProperty(name=name, description=description, items=(*others, *_POLICIES), default=default)
 
 
-def source_field(*others: tuple[str, str, str]) -> Any:
+def source_field(*others: tuple[str, str, str], default: str = "PLAYER") -> Any:
     return EnumProperty(
         name="Trace",
         description="Where the joystick session comes from",
         items=(*_SOURCES, *others),
-        default="PLAYER",
+        default=default,
     )
 
 

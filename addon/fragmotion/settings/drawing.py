@@ -10,6 +10,7 @@ import bpy
 from ..character.coverage import COLUMNS
 from ..character.storing import BESIDE, troubles
 from ..compat import versions
+from ..recordings.recordings import active_recording, baked_source
 from .armature import BuildFigures, DriveSettings
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
@@ -40,29 +41,43 @@ def draw_training(layout: bpy.types.UILayout, settings: BuildFields) -> None:
     layout.prop(settings, "seed")
 
 
-def draw_bake(layout: bpy.types.UILayout, settings: BakeFields) -> None:
+def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.Object) -> None:
     """The fields of a bake that are changed most."""
     layout = aligned(layout)
-    draw_trace(layout, settings, "Trace")
-    recorded = settings.trace_source == "RECORDING" and settings.as_recorded
-    if settings.trace_source == "RECORDING":
+    source = baked_source(obj, settings)
+    if source == settings.trace_source:
+        draw_trace(layout, settings, "Source")
+    else:
+        layout.prop(settings, "trace_source", text="Source")
+        layout.label(text="None yet: simulated", icon="INFO")
+        _draw_player(layout, settings)
+    if source == "RECORDING":
+        _draw_recording(layout, obj, settings)
         layout.prop(settings, "as_recorded")
-    if not recorded:
+    if source != "RECORDING" or not settings.as_recorded:
         layout.prop(settings, "policy")
         layout.prop(settings, "seed")
         layout.prop(settings, "place")
-    layout.separator()
     layout.prop(settings, "target")
-    if settings.target != "CURRENT":
-        versions.draw_named(layout, settings, "action", "New Action")
-        layout.prop(settings, "frame_start")
-    layout.prop(settings, "fit_end")
-    layout.prop(settings, "root")
+
+
+def _draw_recording(layout: bpy.types.UILayout, obj: bpy.types.Object, settings: BakeFields) -> None:
+    """The name of the recording that is baked."""
+    recordings, index = obj.fragmotion.takes, settings.recording
+    recording = active_recording(obj) if index < 0 else recordings[index] if index < len(recordings) else None
+    if recording is not None:
+        layout.label(text=recording.name, icon="REC", translate=False)
 
 
 def draw_bake_options(layout: bpy.types.UILayout, settings: BakeFields) -> None:
     """The other fields of a bake."""
     layout = aligned(layout)
+    if settings.target != "CURRENT":
+        versions.draw_named(layout, settings, "action", "New Action")
+        layout.prop(settings, "frame_start")
+    layout.prop(settings, "fit_end")
+    layout.prop(settings, "root", text="Root")
+    layout.separator()
     layout.prop(settings, "loop")
     if settings.loop:
         layout.prop(settings, "loop_seconds")
@@ -85,8 +100,11 @@ def draw_populate(layout: bpy.types.UILayout, settings: PopulateFields) -> None:
 
 
 def draw_summary(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
-    """The last build in a line: the classes, and the quality of Optimal's."""
-    layout.label(text=f"{figures.classes} classes, {figures.quality:.0f} %", icon="CHECKMARK")
+    """How good the last build is: the quality of Optimal's, and how many of the controls it performs well."""
+    layout.label(text=f"{figures.quality:.0f} % of Optimal", icon="CHECKMARK")
+    if figures.coverage:
+        icon = "CHECKMARK" if figures.performed == figures.controls else "ERROR"
+        layout.label(text=f"{figures.performed} of {figures.controls} controls", icon=icon)
 
 
 def draw_figures(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
@@ -112,7 +130,7 @@ def draw_keeping(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     column = aligned(layout)
     column.prop(settings, "keep_policy", text="Keep")
     if obj.name in troubles:
-        column.label(text="Not moved: see the console", icon="ERROR")
+        column.label(text="See the console", icon="ERROR")
     elif settings.keep_policy == BESIDE and settings.policy:
         column.label(text="Written when you save", icon="INFO")
     elif settings.policy_digest and not settings.policy:
@@ -128,7 +146,7 @@ def draw_coverage(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
         counts = zip(row.performed, row.total)
         _draw_cells(column, row.name, [(f"{performed}/{total}", performed == total) for performed, total in counts])
     if figures.makes_jumps:
-        column.label(text="Jumps are made, not captured", icon="INFO")
+        column.label(text="Jumps are synthesized", icon="INFO")
 
 
 def _draw_cells(layout: bpy.types.UILayout, label: str, cells: list[tuple[str, bool]]) -> None:
@@ -154,8 +172,12 @@ def draw_trace(layout: bpy.types.UILayout, settings: BuildFields | BakeFields | 
     if settings.trace_source == "FILE":
         layout.prop(settings, "trace_file", text="File")
     elif settings.trace_source == "PLAYER":
-        layout.prop(settings, "player")
-        layout.prop(settings, "seconds")
+        _draw_player(layout, settings)
+
+
+def _draw_player(layout: bpy.types.UILayout, settings: BuildFields | BakeFields | DriveSettings) -> None:
+    layout.prop(settings, "player")
+    layout.prop(settings, "seconds")
 
 
 def draw_wrapped(

@@ -7,7 +7,7 @@ The fields of a stage are written down once: the panel's settings and the stage'
 from __future__ import annotations
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, IntProperty, PointerProperty
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, IntProperty, PointerProperty, StringProperty
 
 from ..character.classes import ClassRow
 from ..character.inspector import InspectorSettings
@@ -31,6 +31,12 @@ from .armature import (
 )
 from .path_fields import PathSettings
 
+_ORDERS = (
+    ("NAME", "Name", "By name", "SORTALPHA", 0),
+    ("LONGEST", "Longest First", "By how long they are, the longest first", "SORT_DESC", 1),
+    ("SHORTEST", "Shortest First", "By how long they are, the shortest first", "SORT_ASC", 2),
+)
+
 
 class ActionSettings(bpy.types.PropertyGroup):
     """An Action's `fragmotion`."""
@@ -46,6 +52,16 @@ class WindowSettings(bpy.types.PropertyGroup):
     """The window manager's `fragmotion`: what no file need remember."""
 
     active_action: IntProperty()  # type: ignore[valid-type]
+    take_search: StringProperty(  # type: ignore[valid-type]
+        name="Search", description="List only the takes with this in their name", options={"TEXTEDIT_UPDATE"}
+    )
+    take_order: EnumProperty(name="Order", description="How the takes are listed", items=_ORDERS)  # type: ignore[valid-type]
+    show_mocap: BoolProperty(  # type: ignore[valid-type]
+        name="Takes", description="Show the takes again, and what belongs to them; Build folds them away"
+    )
+    show_build: BoolProperty(  # type: ignore[valid-type]
+        name="Build", description="Show how to build again, and what the build found; Build folds it away"
+    )
     active_class: IntProperty(min=0)  # type: ignore[valid-type]
     inspector: PointerProperty(type=InspectorSettings)  # type: ignore[valid-type]
 

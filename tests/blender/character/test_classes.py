@@ -346,6 +346,16 @@ def test_the_picture_shows_each_velocity_where_the_stick_would_be(addon: ModuleT
         np.testing.assert_allclose(np.array(others)[:, :3], np.tile(drawing.colour_of(0), (16, 1)), atol=0.05)
 
 
+def test_every_dot_has_one_of_the_legends_colours(addon: ModuleType) -> None:
+    drawing = addon.character.coverage_picture
+    legend = {name: tuple(drawing.colour_of(distance)) for name, distance in drawing._SWATCHES.items()}
+    assert len(set(legend.values())) == 3
+    well, poor = addon.character.coverage.WELL, drawing._POOR
+    for distance in (0, well, well + 1e-3, 0.5, 0.9, poor, poor + 1e-3, 9, np.inf):
+        kind = "well" if distance <= well else "nearly" if distance <= poor else "not"
+        assert tuple(drawing.colour_of(distance)) == legend[kind], distance
+
+
 def test_a_control_is_marked_as_a_hole_where_none_performs_it_well(addon: ModuleType) -> None:
     drawing, well = addon.character.coverage_picture, addon.character.coverage.WELL
     centre = np.zeros(2)

@@ -103,6 +103,27 @@ def test_the_motion_does_not_depend_on_how_often_the_screen_is_drawn(
     assert places[0] == places[1] == places[3]
 
 
+def test_a_drive_begins_where_the_character_stands_or_at_the_origin(
+    addon: ModuleType, session: ModuleType, obj: bpy.types.Object
+) -> None:
+    take = next(action for action in bpy.data.actions if action.name.startswith("gait 5"))
+    making.play(obj, take, 60)
+    obj.location, obj.rotation_euler.z = (2, -1, 0), 0.7
+    bpy.context.view_layer.update()
+    stands = hips(obj)
+    driven = start(session, obj)
+    assert math.dist(stands[:2], (2, -1)) > 1, "the take has gone away from the origin"
+    np.testing.assert_allclose(driven.actor.frame[:2], stands[:2], atol=0.15)
+    forward = making.play(obj, take, 62) and hips(obj) - stands
+    assert math.remainder(driven.actor.frame[2] - math.atan2(-forward[0], forward[1]), 2 * math.pi) == (
+        pytest.approx(0, abs=0.2)
+    )
+    session.stop()
+    obj.fragmotion.drive.start = "ORIGIN"
+    driven = start(session, obj)
+    np.testing.assert_allclose(driven.actor.frame, addon.bake.performing.origin_frame(obj), atol=1e-6)
+
+
 def test_a_long_pause_does_not_make_the_character_leap(session: ModuleType) -> None:
     driven = start(session, making.add_armature())
     driven.inputs.keyboard.press("W")
@@ -157,6 +178,18 @@ def test_a_recording_is_replayed_live(session: ModuleType, obj: bpy.types.Object
     assert driven.control == (0, 0, 0, 0) and not driven.inputs.trace.playing
     other = session.replay(bpy.context, obj, recording, seed=7, policy="greedy")
     assert (other.seed, other.actor.policy) == (7, "greedy")
+
+
+def test_a_replay_says_how_far_it_is(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:
+    recording = addon.recordings.recordings.add_recording(obj, np.tile([0, 1.2, 0, 0], (40, 1)).astype(float))
+    driven = session.replay(bpy.context, obj, recording)
+    go_on(driven, 1.5)
+    assert driven.playing == "Replaying 1.5 of 4.0 s" and driven.shown().title == "Replaying 1.5 of 4.0 s: Esc ends"
+    go_on(driven, 3)
+    assert driven.playing == "" and driven.shown().title == f"Driving {obj.name}: Esc ends"
+    driven.play(np.tile([0, 1.2, 0, 0], (20, 1)).astype(float))
+    go_on(driven, 0.5)
+    assert driven.playing == "Playing 0.5 of 2.0 s"
 
 
 def test_a_recording_that_begins_in_motion_keeps_what_was_seen(

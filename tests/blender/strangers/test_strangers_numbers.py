@@ -191,7 +191,7 @@ def forge_group(kind: Any, high: bool) -> dict[str, Any]:
     """All of a property group, and of the groups in it, as no add-on would write it."""
     forged: dict[str, Any] = {}
     for prop in kind.bl_rna.properties[1:]:
-        if prop.type == "POINTER" and issubclass(getattr(bpy.types, prop.fixed_type.identifier), bpy.types.ID):
+        if prop.type == "POINTER" and issubclass(getattr(bpy.types, prop.fixed_type.identifier, object), bpy.types.ID):
             continue  # Blender itself reads pointers to data-blocks
         if prop.type == "POINTER":
             forged[prop.identifier] = forge_group(prop.fixed_type, high)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 import numpy as np
 
-from ...bake.performing import origin_frame
+from ...bake.performing import character_frame, origin_frame
 from ...character.building import check_skeleton, has_character, load, make_player
 from ...compat.core import core
 from ...errors import core_errors
@@ -26,9 +26,12 @@ _STEP = 1 / 60  # s
 
 
 class Actor:
-    """Poses an armature by its character, or lets it slide where it has none. UserError where it cannot be driven."""
+    """Poses an armature by its character, or lets it slide where it has none. UserError where it cannot be driven.
 
-    def __init__(self, obj: bpy.types.Object, seed: int, policy: str = "") -> None:
+    It begins where its DriveSettings.start says.
+    """
+
+    def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, seed: int, policy: str = "") -> None:
         check_free(obj)
         self._obj, self._rig = obj, make_rig(obj)
         self.skeleton = self._rig.skeleton
@@ -44,7 +47,8 @@ class Actor:
             with core_errors("Drive"):
                 self.player = make_player(obj, self.character, seed, policy)
         self._order = [obj.data.bones.find(bone.name) for bone in obj.pose.bones]
-        self.player.reset(*origin_frame(obj))
+        stands = obj.fragmotion.drive.start == "CHARACTER"
+        self.player.reset(*(character_frame(context, obj, self._rig) if stands else origin_frame(obj)))
 
     def step(self, control: Control, seconds: float) -> tuple[Doubles, Doubles]:
         """Play on, and return the pose: root position [3] and rotations [B,4]."""

@@ -42,3 +42,13 @@ class TraceInput:
     @property
     def playing(self) -> bool:
         return bool(self._trace)
+
+    @property
+    def elapsed(self) -> float:
+        """Seconds of the trace that have been played."""
+        return self._steps / self._rate
+
+    @property
+    def seconds(self) -> float:
+        """How long the trace is that plays; 0 while none does."""
+        return len(self._trace) / TRACE_RATE

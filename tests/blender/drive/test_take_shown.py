@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: MIT
+"""A take is played on its armature before it is ticked, and everything is as it was afterwards."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import bpy
+import making
+import numpy as np
+import pytest
+from driving import everything, hips
+
+STEP = 1 / 4  # s
+
+
+@pytest.fixture
+def shown(addon: ModuleType) -> Iterator[ModuleType]:
+    """The add-on's module of takes that are shown; none is afterwards."""
+    module = import_module(f"{addon.__name__}.drive.take_shown")
+    yield module
+    module.stop()
+
+
+@pytest.fixture
+def sample(addon: ModuleType) -> bpy.types.Object:
+    """The sample's armature between two frames, its pose changed by hand; the scene plays at the takes' rate."""
+    obj = making.open_sample()
+    bpy.context.scene.frame_set(17, subframe=0.5)
+    obj.pose.bones["hips"].location.x += 0.3
+    obj.pose.bones["hips"].rotation_mode = "XYZ"
+    return obj
+
+
+def another_take(obj: bpy.types.Object) -> bpy.types.Action:
+    """One that the armature does not play."""
+    return next(action for action in bpy.data.actions if action != obj.animation_data.action and "run" in action.name)
+
+
+def told(obj: bpy.types.Object) -> str:
+    """Everything in words, to be compared across an undo or a load."""
+    return repr(everything(obj))
+
+
+def test_a_take_is_shown_as_blender_plays_it_on_loop_and_leaves_nothing(shown: ModuleType, sample: Any) -> None:
+    before, action = everything(sample), another_take(sample)
+    shown.show(bpy.context, sample, action)
+    length, seen = shown.current.seconds, [hips(sample)]
+    rate = bpy.context.scene.render.fps / bpy.context.scene.render.fps_base
+    for _ in range(round(length / STEP) + 4):
+        shown.current.step(STEP)
+        bpy.context.view_layer.update()
+        seen.append(hips(sample))
+    times = (STEP * np.arange(len(seen))) % length
+    assert bpy.context.scene.frame_current_final == 17.5, "the playhead is the user's"
+    shown.stop()
+    assert everything(sample) == before
+    frames = action.frame_range[0] + np.floor(times * rate + 1e-6)
+    poses = making.blender_poses(sample, action, frames, ["hips"])[:, 0, :3, 3]
+    np.testing.assert_allclose(seen, poses, atol=2e-3)
+    assert np.ptp(np.array(seen), axis=0).max() > 1, "it runs"
+
+
+def test_another_take_takes_its_place(shown: ModuleType, sample: Any) -> None:
+    before = everything(sample)
+    for action in (another_take(sample), bpy.data.actions["jump up"]):
+        shown.show(bpy.context, sample, action)
+        assert shown.current.name == action.name and shown.current.trouble() == ""
+    shown.stop()
+    assert shown.current is None and everything(sample) == before
+
+
+def test_a_take_that_cannot_be_shown_is_refused_and_nothing_changes(
+    addon: ModuleType, shown: ModuleType, sample: Any
+) -> None:
+    before, stranger = everything(sample), bpy.data.actions.new("of nobody")
+    with pytest.raises(addon.errors.UserError, match="'of nobody' animates no bone"):
+        shown.show(bpy.context, sample, stranger)
+    bpy.data.actions.remove(stranger)
+    assert shown.current is None and everything(sample) == before
+
+
+def test_what_is_taken_away_ends_it(shown: ModuleType, sample: Any) -> None:
+    name = sample.name
+    shown.show(bpy.context, sample, another_take(sample))
+    bpy.data.objects.remove(sample)
+    assert shown.current.trouble() == f"Armature '{name}' was deleted"
+    shown.stop()
+
+
+def test_an_undo_step_from_its_middle_is_healed(shown: ModuleType, sample: Any) -> None:
+    for action in bpy.data.actions:
+        action.fragmotion.use = False
+    name, before = sample.name, told(sample)
+    bpy.ops.ed.undo_push(message="before")
+    shown.show(bpy.context, sample, another_take(sample))
+    for take in ("jump up", "run back"):  # each tick is a step of the user's
+        bpy.data.actions[take].fragmotion.use = True
+        bpy.ops.ed.undo_push(message="tick")
+    shown.stop()
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects[name]
+    assert bpy.data.actions["jump up"].fragmotion.use and not bpy.data.actions["run back"].fragmotion.use
+    assert told(obj) == before
+
+
+def test_nothing_else_may_change_the_armature_meanwhile(shown: ModuleType, obj: bpy.types.Object) -> None:
+    others = (bpy.ops.fragmotion.build, bpy.ops.fragmotion.bake, bpy.ops.fragmotion.tick_actions)
+    assert all(operator.poll() for operator in others)
+    shown.show(bpy.context, obj, another_take(obj))
+    assert not any(operator.poll() for operator in others) and bpy.ops.fragmotion.play_take.poll()
+
+
+def test_a_file_that_is_saved_meanwhile_has_the_armature_as_it_was(
+    addon: ModuleType, shown: ModuleType, tmp_path: Path
+) -> None:
+    obj = making.open_sample()
+    button = import_module(f"{addon.__name__}.operators.play_take")
+    before = told(obj)
+    shown.show(bpy.context, obj, another_take(obj))
+    button._listen()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    assert shown.current is None and told(obj) == before
+    assert all(button._stop not in handlers for handlers in button._handlers())
+    assert told(making.open_armature(tmp_path / "saved.blend")) == before
