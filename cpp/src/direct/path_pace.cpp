@@ -57,8 +57,9 @@ double PathPace::corner(const Path& path, double way, double run) const {
 
 void PathPace::brake() {
   const double stop = length_ - stopping_distance(walk_), slower = 2 * kBraking / scale_ * step_;
-  for (std::size_t i = limits_.size(); stands_ && i-- > 0 && static_cast<double>(i) * step_ >= stop;)
-    limits_[i] = std::min(limits_[i], walk_);
+  for (std::size_t i = 0; stands_ && i < limits_.size(); ++i) {
+    if (static_cast<double>(i) * step_ >= stop) limits_[i] = std::min(limits_[i], walk_);
+  }
   const bool loops = closed_ && !stands_;
   for (int lap = 0; lap < (loops ? 2 : 1); ++lap) {
     if (loops) limits_.back() = std::min(limits_.back(), limits_.front());
