@@ -19,9 +19,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
 
 import making
 import window
-from window import FOLDER, TEST_OT_count_timers, count_timers, open_tab, picture, press, run, send, until
+from window import FOLDER, TEST_OT_count_timers, count_timers, open_tab, picture, press, run, seconds, send, until
 
 FIELDS = {"classes": 12, "seconds": 20.0}
+SECOND_TAKE, NAME, TICK_BOX = 97, 80, 21  # pixels from the sidebar's top, and from its left side
 
 
 def hold_builds(core: Any) -> threading.Event:
@@ -65,14 +66,19 @@ def play_takes(obj: bpy.types.Object) -> Iterator[None]:
     pose = hips.matrix_basis.copy()
     yield from until(lambda: hips.matrix_basis != pose, "a take that plays")
     yield from picture("2 playing")
-    manager.active_action = bpy.data.actions.find("take 2")
-    yield from until(lambda: shown.current.name == "take 2", "the take that is chosen meanwhile")
-    yield from window.click_button("use")
+    region, take = window.sidebar()["region"], bpy.data.actions["take 2"]
+    y = region.y + region.height - SECOND_TAKE
+    yield from window.click(region.x + NAME, y)
+    yield from until(lambda: shown.current.name == take.name, "the take that is clicked meanwhile")
+    for use in (False, True):
+        yield from window.click(region.x + TICK_BOX, y)
+        yield from until(lambda use=use: take.fragmotion.use is use, "a tick while the take plays", 40)
+        assert shown.current is not None, "a tick ends the take"
+        yield from seconds(1)
     yield from send("SPACE", "PRESS", 300, 300)
     assert shown.current is not None and not bpy.context.screen.is_animation_playing, "a key got through"
     yield from send("ESC", "PRESS", 300, 300)
     assert shown.current is None and making.contents() == before
-    yield from window.click_button("use")
 
 
 def steps() -> Iterator[None]:
