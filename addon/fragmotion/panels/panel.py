@@ -23,7 +23,7 @@ from ..settings.drawing import (
     draw_summary,
     draw_training,
 )
-from . import bones, classes, control_rig, doctor, drive, left_out, recordings
+from . import bones, classes, control_rig, doctor, drive, left_out, moves, recordings
 from .doctor import LIGHTS
 from .sidebar import Sidebar, SubPanel
 
@@ -219,6 +219,7 @@ CLASSES = (
     FRAGMOTION_PT_coverage,
     FRAGMOTION_PT_policy,
     *drive.CLASSES,
+    *moves.CLASSES,
     *recordings.CLASSES,
     FRAGMOTION_PT_bake,
     *recordings.BAKE_CLASSES,
