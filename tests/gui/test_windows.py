@@ -24,6 +24,7 @@ PICTURES = {
         "9 sliding",
     ),
     "import": ("1 imported", "2 mended"),
+    "moves": ("1 moves", "2 jumping"),
     "windows": (),
 }
 

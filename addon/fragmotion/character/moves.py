@@ -56,7 +56,7 @@ class MoveRow(bpy.types.PropertyGroup):
     first: IntProperty(name="First", description="First scene frame of the move", default=1)  # type: ignore[valid-type]
     last: IntProperty(name="Last", description="Last scene frame of the move", default=1)  # type: ignore[valid-type]
     upper_body: BoolProperty(  # type: ignore[valid-type]
-        name="Upper Body Only",
+        name="Upper Body",
         description="Only what is above the legs moves, while the legs go on walking",
         default=False,
     )
@@ -69,7 +69,7 @@ class MoveRow(bpy.types.PropertyGroup):
         unit="TIME_ABSOLUTE",
     )
     loop: BoolProperty(  # type: ignore[valid-type]
-        name="Loop While Held", description="Play some frames again and again while the key is held", default=False
+        name="Loop", description="Play some frames again and again while the key is held", default=False
     )
     loop_first: IntProperty(name="Loop First", description="First scene frame of the loop", default=1)  # type: ignore[valid-type]
     loop_last: IntProperty(name="Loop Last", description="Last scene frame of the loop", default=1)  # type: ignore[valid-type]

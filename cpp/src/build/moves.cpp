@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "build/stages.hpp"
 #include "fragmotion/motion/trunk.hpp"
@@ -73,7 +74,7 @@ Character with_moves(const Character& character, const std::vector<MoveClip>& mo
     result.contacts.push_back(find_contacts(kinematics, clip, &floors));
     result.pool.clips.push_back(pack(skeleton, grid, clip));
   }
-  result.moves = added;
+  result.moves = std::move(added);
   result.move_parts = move_parts(result.pool, result.moves);
   return result;
 }

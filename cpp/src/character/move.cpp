@@ -19,7 +19,8 @@ template <typename... Text>
 void require(bool holds, const std::string& name, const Text&... text) {
   if (holds) return;
   std::ostringstream message;
-  (message << "the move \"" << name << '"' << ... << text);
+  message << "the move \"" << name << '"';
+  (message << ... << text);
   throw std::invalid_argument(message.str());
 }
 

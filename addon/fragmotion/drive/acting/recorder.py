@@ -35,7 +35,7 @@ class Recorder:
         self._names = names_of(actor.character)
         self._started: list[StartedMove] = []
         self._held: dict[int, int] = {}  # the moves that are held, and which of those started each is
-        self._pressed: set[int] = set()
+        self._tapped: set[int] = set()
         self._poses: list[tuple[Doubles, Doubles]] = []
         self._frames: list[tuple[float, float, float]] = []
         self._classes: list[int] = []
@@ -52,13 +52,14 @@ class Recorder:
 
     def hold_moves(self, held: set[int]) -> set[int]:
         """The moves that are held in the next step, whose control `hold` has told: they change with the controls."""
-        self._pressed |= held
+        self._tapped |= held - self._held.keys()
         if self._begins:
-            self._let_go(self._held.keys() - self._pressed)
-            for move in sorted(self._pressed - self._held.keys()):
+            now = held | self._tapped
+            self._let_go(self._held.keys() - now)
+            for move in sorted(now - self._held.keys()):
                 self._held[move] = len(self._started)
                 self._started.append(StartedMove(len(self._controls) - 1, self._names[move], 0))
-            self._pressed = set()
+            self._tapped = set()
         return set(self._held)
 
     def _let_go(self, moves: Iterable[int]) -> None:
