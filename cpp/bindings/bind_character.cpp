@@ -4,6 +4,7 @@
 
 #include "arrays.hpp"
 #include "fragmotion/build/exclude_classes.hpp"
+#include "fragmotion/build/moves.hpp"
 #include "fragmotion/character/naming.hpp"
 #include "fragmotion/character/policy_file.hpp"
 #include "fragmotion/control/trace.hpp"
@@ -42,7 +43,7 @@ void bind_pool(py::class_<Character, Holder>& character) {
       .def_property_readonly("clip_names",
                              [](const Character& c) {
                                std::vector<std::string> names;
-                               for (const PackedClip& clip : c.pool.clips) names.push_back(clip.name);
+                               for (int i = 0; i < c.takes(); ++i) names.push_back(c.pool.clips[i].name);
                                return names;
                              })
       .def_property_readonly("fragment_clips",
@@ -98,6 +99,41 @@ void bind_tables(py::class_<Character, Holder>& character) {
       });
 }
 
+MoveClip new_move(const std::string& name, const Clip& clip, bool upper_body, double wait,
+                  const std::array<double, 2>& loop) {
+  check_name(name);
+  check_move_times(name, (clip.frames - 1) / clip.rate, wait, loop);
+  return {name, clip, upper_body, wait, loop};
+}
+
+void bind_move(py::module_& m) {
+  py::class_<MoveClip>(m, "Move", py::module_local())
+      .def(py::init(&new_move), py::arg("name"), py::arg("clip"), py::arg("upper_body") = false, py::arg("wait") = 0.5,
+           py::arg("loop") = std::array<double, 2>{})
+      .def_readonly("name", &MoveClip::name)
+      .def_readonly("clip", &MoveClip::clip)
+      .def_readonly("upper_body", &MoveClip::upper_body)
+      .def_readonly("wait", &MoveClip::wait)
+      .def_property_readonly("loop", [](const MoveClip& move) { return py::make_tuple(move.loop[0], move.loop[1]); });
+}
+
+std::vector<std::string> move_names(const Character& c) {
+  std::vector<std::string> names;
+  for (const Move& move : c.moves) names.push_back(move.name);
+  return names;
+}
+
+void bind_moves(py::class_<Character, Holder>& character) {
+  character.def_property_readonly("move_names", &move_names)
+      .def_property_readonly("moves", &moves_of)
+      .def(
+          "with_moves",
+          [](const Character& c, const std::vector<MoveClip>& moves) {
+            return std::make_shared<Character>(with_moves(c, moves));
+          },
+          py::arg("moves"), py::call_guard<GilRelease>());
+}
+
 double percent(const Character& c, const Doubles& trace, const std::string& policy) {
   const Trace controls = to_trace(trace);
   return without_gil([&] { return percent_of_optimal(c.quality, c.policy(policy), snap(c.space, controls)); });
@@ -146,6 +182,7 @@ void bind_use(py::class_<Character, Holder>& character) {
 }  // namespace
 
 void bind_character(py::module_& m) {
+  bind_move(m);
   py::class_<Character, Holder> character(m, "Character", py::module_local());
   character.def_property_readonly("skeleton", [](const Character& c) { return c.pool.skeleton; })
       .def_property_readonly("space", [](const Character& c) { return c.space; })
@@ -155,6 +192,7 @@ void bind_character(py::module_& m) {
   bind_pool(character);
   bind_tables(character);
   bind_use(character);
+  bind_moves(character);
 }
 
 }  // namespace fragmotion::bindings

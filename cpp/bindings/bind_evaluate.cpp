@@ -39,6 +39,7 @@ void bind_performance(py::module_& m) {
       .def_property_readonly("frames", viewed(&Performance::path, {3}))
       .def_property_readonly("classes", viewed(&Performance::classes, {}))
       .def_property_readonly("fragments", viewed(&Performance::fragments, {}))
+      .def_property_readonly("moves", viewed(&Performance::moves, {2}))
       .def_property_readonly("entered", viewed(&Performance::entered, {}))
       .def_readonly("quality", &Performance::quality)
       .def_readonly("velocity_error", &Performance::velocity_error)

@@ -12,6 +12,8 @@ namespace {
 using OnePlayer = OneCallAtATime<Player>;
 using OneCrowd = OneCallAtATime<Crowd>;
 
+constexpr double kMostNumber = 1e9;  // of a move or a control
+
 py::tuple step(OnePlayer& one, const Doubles& control, double seconds) {
   const OnePlayer::Call player(one);
   player->step(to_control(control), seconds);
@@ -66,6 +68,27 @@ py::array_t<int> playing_of(OneCrowd& one) {
   return to_array(std::move(playing), {crowd->size(), 2});
 }
 
+// Moves asked for in a trace, from [M,3].
+std::vector<MovePress> to_presses(const py::object& moves) {
+  std::vector<MovePress> presses;
+  if (moves.is_none()) return presses;
+  const auto array = moves.cast<Doubles>();
+  check_shape(array, "moves", {-1, 3});
+  const std::vector<double> values = to_vector(array, "moves", -kMostNumber, kMostNumber);
+  for (std::size_t i = 0; i < values.size(); i += 3) {
+    for (std::size_t j = i; j < i + 3; ++j) {
+      if (values[j] != std::floor(values[j])) throw std::invalid_argument("moves must be whole numbers");
+    }
+    presses.push_back({static_cast<int>(values[i]), static_cast<int>(values[i + 1]), static_cast<int>(values[i + 2])});
+  }
+  return presses;
+}
+
+template <typename T>
+py::tuple to_pair(const std::array<T, 2>& values) {
+  return py::make_tuple(values[0], values[1]);
+}
+
 void bind_crowd(py::module_& m) {
   py::class_<OneCrowd> crowd(m, "Crowd", py::module_local());
   const auto make = [](SharedCharacter character, int count, const PlayerOptions& options, int threads) {
@@ -90,6 +113,13 @@ void bind_crowd(py::module_& m) {
           "force",
           [](OneCrowd& crowd, int player, int next_class) { OneCrowd::Call(crowd)->force(player, next_class); },
           py::arg("player"), py::arg("next_class"))
+      .def(
+          "start_move", [](OneCrowd& crowd, int player, int move) { OneCrowd::Call(crowd)->start_move(player, move); },
+          py::arg("player"), py::arg("move"))
+      .def(
+          "release_move",
+          [](OneCrowd& crowd, int player, int move) { OneCrowd::Call(crowd)->release_move(player, move); },
+          py::arg("player"), py::arg("move"))
       .def_property_readonly("frames", &frames_of)
       .def_property_readonly("playing", &playing_of);
 }
@@ -123,6 +153,15 @@ void bind_player(py::module_& m) {
       .def(
           "force", [](OnePlayer& player, int next_class) { OnePlayer::Call(player)->force(next_class); },
           py::arg("next_class"))
+      .def(
+          "start_move", [](OnePlayer& player, int move) { OnePlayer::Call(player)->start_move(move); }, py::arg("move"))
+      .def(
+          "release_move", [](OnePlayer& player, int move) { OnePlayer::Call(player)->release_move(move); },
+          py::arg("move"))
+      .def_property_readonly("playing_moves",
+                             [](OnePlayer& player) { return to_pair(OnePlayer::Call(player)->playing_moves()); })
+      .def_property_readonly("waiting_moves",
+                             [](OnePlayer& player) { return to_pair(OnePlayer::Call(player)->waiting_moves()); })
       .def("step", &step, py::arg("control"), py::arg("seconds"))
       .def_property_readonly("frame",
                              [](OnePlayer& player) {
@@ -146,12 +185,14 @@ void bind_player(py::module_& m) {
           py::arg("control"))
       .def(
           "run",
-          [](OnePlayer& one, const Doubles& trace, double rate, const py::object& progress) {
+          [](OnePlayer& one, const Doubles& trace, double rate, const py::object& progress, const py::object& moves) {
             const Trace controls = to_trace(trace);
+            const std::vector<MovePress> presses = to_presses(moves);
             const OnePlayer::Call player(one);
-            return without_gil(progress, [&](const Progress& told) { return perform(*player, controls, rate, told); });
+            return without_gil(progress,
+                               [&](const Progress& told) { return perform(*player, controls, rate, told, presses); });
           },
-          py::arg("trace"), py::arg("rate"), py::arg("progress") = py::none());
+          py::arg("trace"), py::arg("rate"), py::arg("progress") = py::none(), py::arg("moves") = py::none());
 }
 
 }  // namespace

@@ -354,6 +354,21 @@ class BuildOptions:
 
 POLICIES: list[str]
 
+class Move:
+    """Anything that is not locomotion: wave, punch, sit down."""
+
+    def __init__(
+        self, name: str, clip: Clip, upper_body: bool = False, wait: float = 0.5, loop: tuple[float, float] = (0.0, 0.0)
+    ) -> None:
+        """All of a clip, of 0.1 to 60 s. `upper_body`: only what is above the legs, which go on walking; `wait`: in how
+        many seconds, 0 .. 2, it looks for the moment that joins best; `loop`: begin and end, s, of what is played again
+        while it is held, at least 0.1 s (the same: nothing). ValueError on other times."""
+    name: str
+    clip: Clip
+    upper_body: bool
+    wait: float
+    loop: tuple[float, float]
+
 class Character:
     """A skeleton, its fragments, their classes and a policy: what a policy file holds and a player plays."""
 
@@ -411,6 +426,14 @@ class Character:
         """The character that is never sent to the excluded classes: where a policy's table said one, it says the class
         of the greatest Eq. 2 and value to come of those left. ValueError where a class does not exist or none is
         left."""
+    move_names: list[str]
+    """The moves, in the order of their numbers."""
+    moves: list[Move]
+    """The moves, as with_moves() takes them: each time made anew."""
+    def with_moves(self, moves: Sequence[Move]) -> Character:
+        """The character with these moves, at most 256, in place of its own. ValueError that begins with the move's name
+        on one of another skeleton, two of one name, one without a name, and one of the upper body where the skeleton
+        has no spine that carries two hands."""
 
 def build(
     skeleton: Skeleton,
@@ -472,15 +495,26 @@ class Player:
     def force(self, next_class: int) -> None:
         """Play a member of this class, drawn at random, whatever the policy says: as soon as the stitch under way is
         done, and to its end. ValueError on a class that does not exist."""
+    def start_move(self, move: int) -> None:
+        """Play a move, held from now on: at the moment within its time to wait at which it joins best on to what would
+        be shown until then, but not within a jump. One of the whole body goes its own way on the ground, and then into
+        the class that joins best for the control; one of the upper body plays over all others. A move that waits is
+        forgotten for it, one that plays is played to its end before. ValueError on a move that does not exist."""
+    def release_move(self, move: int) -> None:
+        """The move is not held any more: its loop is not begun again. ValueError on one that does not exist."""
+    playing_moves: tuple[int, int]
+    """The move of the whole body and that of the upper body that play; -1: none."""
+    waiting_moves: tuple[int, int]
+    """Those that wait for their moment, likewise."""
     def step(self, control: ArrayLike, seconds: float) -> tuple[Doubles, Doubles]:
         """Advance by 0 to 3600 s under a control [4] and return the pose: root position [3] m and rotations [B,4] as in
         Clip. ValueError on what is not finite."""
     frame: tuple[float, float, float]
     """x, y, heading of the character frame now."""
     playing: tuple[int, int]
-    """Class and fragment that play now."""
+    """Class and fragment that play now; while a move of the whole body plays, those before it."""
     entered: int
-    """Fragments begun since it was made."""
+    """Fragments, and parts of moves of the whole body, begun since it was made."""
     seconds_left: float
     """Until the end of the fragment that plays."""
     standing_feet: Doubles
@@ -488,10 +522,13 @@ class Player:
     shown, m."""
     def quality(self, control: ArrayLike) -> float:
         """Eq. 2, 0 .. 1, for the transition that led to what plays and the point nearest to a control [4]."""
-    def run(self, trace: ArrayLike, rate: float, progress: Progress | None = None) -> Performance:
+    def run(
+        self, trace: ArrayLike, rate: float, progress: Progress | None = None, moves: ArrayLike | None = None
+    ) -> Performance:
         """Reset is not called. Play a trace [T,4] (10 controls a second) from now, sampled at `rate` (any, also
         29.97, to 1000): frames 0 .. round(T/10 * rate), of which there may be 1048574. Each number of a control is
-        within a million."""
+        within a million. `moves` [M,3]: before which control (0 .. T-1) which move is started, and after how many it is
+        released; ValueError where one does not exist, or is not of whole numbers."""
 
 class Crowd:
     """Many players of one character that step together. Player i shows, to the bit, what a Player of the seed `seed` +
@@ -530,6 +567,10 @@ class Crowd:
         """Player.reset of one of them."""
     def force(self, player: int, next_class: int) -> None:
         """Player.force of one of them."""
+    def start_move(self, player: int, move: int) -> None:
+        """Player.start_move of one of them."""
+    def release_move(self, player: int, move: int) -> None:
+        """Player.release_move of one of them."""
     frames: Doubles
     """[count,3]: x, y, heading of the character frames now."""
     playing: Ints
@@ -663,6 +704,8 @@ class Performance:
     """[F]"""
     fragments: Ints
     """[F]"""
+    moves: Ints
+    """[F,2]: the move of the whole body and that of the upper body that play; -1: none."""
     entered: Ints
     """[F]: fragments begun since the first frame; one may follow itself."""
     quality: float

@@ -48,7 +48,7 @@ def test_unregister_stops_a_build_with_its_thread_and_timer(addon: ModuleType, m
 
 def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleType) -> None:
     own = [cls.bl_idname.partition(".")[2] for cls in addon.operators.CLASSES]
-    assert {"import_mocap", "build", "suggest_classes", "force_class", "leave_out", "bake"} <= set(own)
+    assert {"import_mocap", "build", "suggest_classes", "force_class", "leave_out", "add_move", "bake"} <= set(own)
     unchanging = {"save_policy", "save_bones", "cancel", "export_recording", "solo_class", "force_class"}
     unchanging |= {"play_take"}
     unchanging |= {"drive", "listen", "record", "play_trace", "find_pads"}
@@ -67,7 +67,7 @@ def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) ->
         *("Control Rig", "Mocap", "Left Out", "Doctor", "Bones"),
         *("Build", "Numbers Tried", "Training", "Figures", "Classes", "Inspector", "Coverage", "Policy File"),
         *("Drive", "Drive Options", "Feel", "Gamepads", "Overlays", "Trace"),
-        *("Path", "Recordings", "Change", "Bake", "Bake Options", "Populate"),
+        *("Moves", "Path", "Recordings", "Change", "Bake", "Bake Options", "Populate"),
     ]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}
     assert {(panel.bl_space_type, panel.bl_region_type) for panel in panels} == {("VIEW_3D", "UI")}

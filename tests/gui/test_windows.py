@@ -25,6 +25,7 @@ PICTURES = {
     ),
     "import": ("1 imported", "2 mended"),
     "path": ("1 drawn", "2 followed"),
+    "moves": ("1 moves", "2 jumping"),
     "windows": (),
 }
 

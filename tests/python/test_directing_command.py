@@ -65,7 +65,7 @@ def test_goals_are_met_on_curves_and_corners(made: core.Character) -> None:
 def test_figures_have_the_fields_that_were_agreed(made: core.Character, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tools.directing.__main__.courses", lambda _seed: courses(1)[:1])
     result = measure(made, 1)
-    assert set(result) == {"paths", "pins"}
+    assert set(result) == {"paths", "pins", "moves"}
     assert {"name", "speed", "mean_m", "max_m", "arrival_m", "arrival_s"} <= set(result["paths"][0])
     assert all(math.isfinite(row["mean_m"]) for row in result["paths"])
 

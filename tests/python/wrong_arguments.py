@@ -102,7 +102,8 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
     clips = walking_clips(skeleton)[:3]
     trace = core.simulate_trace("explorer", 8, 1)
     options = build_options(classes=4, restarts=1, synthesize=False)
-    made = core.build(skeleton, clips, [trace], options)
+    built = core.build(skeleton, clips, [trace], options)
+    made = built.with_moves([core.Move("stroll", clips[0]), core.Move("nod", clips[1], upper_body=True)])
     other = core.build(bone := make_other(), other_clips(bone), [trace], options)
     roots, rotations = walking_arrays(seconds=0.5)
     rig, upright = rig_of(skeleton), np.tile(np.eye(4), (len(NAMES), 1, 1))
@@ -246,15 +247,25 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Character.optimal": {"self": made, "trace": trace},
         "Character.percent_of_optimal": {"self": made, "trace": trace, "policy": ""},
         "Character.without": {"self": made, "excluded": [1, 2]},
+        "Character.with_moves": {"self": made, "moves": made.moves},
+        "Move": {"name": "wave", "clip": clips[0], "upper_body": False, "wait": 0.5, "loop": (0.5, 1.0)},
         "build": building,
         "suggest_classes": {**building, "clips": clips[:1], "options": build_options(synthesize=False)},
         "PlayerOptions": {**player},
         "Player": {"character": made, **player},
         "Player.reset": {"self": core.Player(made), "x": 0.0, "y": 0.0, "heading": 0.0},
         "Player.force": {"self": core.Player(made), "next_class": 1},
+        "Player.start_move": {"self": core.Player(made), "move": 1},
+        "Player.release_move": {"self": core.Player(made), "move": 1},
         "Player.step": {"self": core.Player(made), "control": trace[0], "seconds": 0.1},
         "Player.quality": {"self": core.Player(made), "control": trace[0]},
-        "Player.run": {"self": core.Player(made), "trace": trace, "rate": 30.0, "progress": quiet},
+        "Player.run": {
+            "self": core.Player(made),
+            "trace": trace,
+            "rate": 30.0,
+            "progress": quiet,
+            "moves": np.array([[5, 0, 3.0]]),
+        },
         "Crowd": {"character": made, "count": 2, **player, "threads": 1},
         "Crowd.step_many": {
             "self": crowd,
@@ -306,6 +317,8 @@ def arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "seconds": 4.0,
             "progress": quiet,
         },
+        "Crowd.start_move": {"self": core.Crowd(made, 3), "player": 1, "move": 1},
+        "Crowd.release_move": {"self": core.Crowd(made, 3), "player": 1, "move": 1},
         "optimal_performance": {"character": made, "trace": trace, "rate": 30.0, "shortest": 0.1},
         "judge_clip": {
             "character": made,

@@ -16,6 +16,7 @@ import fragmotion_core as core
 from tools.directing import inputs
 from tools.directing.courses import courses
 from tools.directing.figures import draw_paths
+from tools.directing.moves import moves
 from tools.directing.paths import follow_all
 from tools.directing.pins import pins
 from tools.directing.table import tables
@@ -36,7 +37,7 @@ def make_character(recordings: Recordings, seed: int) -> core.Character:
 
 def measure(character: core.Character, seed: int) -> dict[str, Any]:
     """All figures, as the JSON file holds them."""
-    return {"paths": follow_all(character, courses(seed)), "pins": pins(character)}
+    return {"paths": follow_all(character, courses(seed)), "pins": pins(character), "moves": moves(character)}
 
 
 def direct(options: argparse.Namespace) -> None:

@@ -15,6 +15,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..character.building import check_skeleton, load
+from ..character.moves import bring_up_to_date
 from ..compat import versions
 from ..errors import UserError, core_errors
 from ..jobs import Report
@@ -78,6 +79,7 @@ class Prepared(NamedTuple):
 def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Prepared:
     """Read what a bake with BakeFields needs; UserError on what cannot be baked."""
     check_free(obj)
+    bring_up_to_date(context, obj)
     character = load(obj)
     context.view_layer.update()
     rig = make_rig(obj)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
@@ -14,7 +14,7 @@ from ..character.building import has_character, load, make_player
 from ..errors import UserError, core_errors
 from ..jobs import Report
 from ..mocap.sampling import scene_rate
-from ..recordings.recordings import Recording, active_recording, shown_of, trace_of
+from ..recordings.recordings import Recording, active_recording, moves_of, numbered_moves, shown_of, trace_of
 from ..recordings.traces import make_trace
 from ..rig.motion import Motion, resampled
 from ..settings.bake_fields import DRIVING
@@ -62,27 +62,32 @@ def prepare(
     if walk is not None:
         return lambda report: _played(player, walk.trace(player, rate), rate, report)
     trace = make_trace(settings, character.space) if recording is None else trace_of(recording)
+    moves = [] if recording is None else numbered_moves(recording, character.move_names)
     player.reset(*(_place(context, obj, rig, settings) if recorded is None else recorded.start))
 
-    return lambda report: _played(player, trace, rate, report)
+    return lambda report: _played(player, trace, rate, report, moves)
 
 
-def _played(player: Player, trace: Doubles, rate: float, report: Report) -> Played:
+def _played(player: Player, trace: Doubles, rate: float, report: Report, moves: Sequence[Sequence[int]] = ()) -> Played:
     """What a player does from where it stands."""
-    performance = player.run(trace, rate, report)
+    performance = player.run(trace, rate, report, moves or None)
     motion = Motion(performance.root_positions, performance.rotations, performance.frames, performance.classes)
     return Played(motion, _judge(performance))
 
 
 def measure_quality(obj: bpy.types.Object, recording: Recording) -> float:
-    """Eq. 2's mean over time when the armature's character replays the recording; 0 where there is no character."""
+    """Eq. 2's mean over time when the armature's character replays the recording; 0 where there is no character, or
+    none with the moves that are started."""
     if not has_character(obj):
         return 0.0
     character = load(obj)
     policy = recording.policy if recording.policy in character.policies else ""
+    if any(move.name not in character.move_names for move in moves_of(recording)):
+        return 0.0
+    moves = numbered_moves(recording, character.move_names)
     with core_errors(f"Recording '{recording.name}'"):
         player = make_player(obj, character, recording.seed, policy)
-        return float(player.run(trace_of(recording), _JUDGING_RATE).quality)
+        return float(player.run(trace_of(recording), _JUDGING_RATE, moves=moves or None).quality)
 
 
 def _player_for(obj: bpy.types.Object, character: Character, recorded: Recording | None, settings: Any) -> Any:

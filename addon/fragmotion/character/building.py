@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -141,13 +142,8 @@ def make_options(settings: Any) -> Any:
 
 def keep(obj: bpy.types.Object, built: Built) -> None:
     """Store the character and its figures with the armature."""
-    character, figures = built.character, obj.fragmotion.figures
-    with core_errors():
-        data = character.to_bytes()
-    keep_policy(obj, data)
-    obj.fragmotion.digest = key_of(obj)
-    _cache.clear()
-    _cache[obj.fragmotion.digest, ()] = character
+    character, figures = _with_listed_moves(obj, built.character), obj.fragmotion.figures
+    replace(obj, character)
     classes.keep_rows(obj.fragmotion.classes, character)
     figures.captured = sum(origin in _FROM_TAKES for origin in character.fragment_origins)
     figures.fragments = len(character.labels)
@@ -160,6 +156,30 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
         row.name, row.quality = policy, quality
     figures.examiner, figures.sources = built.examiner, built.sources
     _keep_coverage(figures, character)
+
+
+def replace(obj: bpy.types.Object, character: Character) -> None:
+    """Store a character with the same classes and figures in place of the armature's. Its moves may be others than the
+    list's."""
+    with core_errors():
+        data = character.to_bytes()
+    keep_policy(obj, data)
+    obj.fragmotion.digest, obj.fragmotion.moves_told = key_of(obj), ""
+    _cache.clear()
+    _cache[obj.fragmotion.digest, ()] = character
+
+
+def _with_listed_moves(obj: bpy.types.Object, character: Character) -> Character:
+    """The character with the moves that the armature's former one has and the list knows, where it can have them: their
+    Actions may be gone."""
+    listed = {row.kept for row in obj.fragmotion.moves}
+    if character.move_names or not listed or not has_character(obj):
+        return character
+    with suppress(UserError, ValueError):
+        kept = [move for move in load_whole(obj).moves if move.name in listed]
+        moved: Character = character.with_moves(kept)
+        return moved
+    return character
 
 
 def _keep_coverage(figures: Any, character: Character) -> None:

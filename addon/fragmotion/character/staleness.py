@@ -20,7 +20,7 @@ _digests: dict[tuple[object, ...], str] = {}
 
 def sources_of(obj: bpy.types.Object) -> str:
     """A digest of all that Build reads of the ticked Actions; their names do not count."""
-    return _joined([_digest(action) for action in ticked(obj)])
+    return _joined([digest_of(action) for action in ticked(obj)])
 
 
 def is_stale(obj: bpy.types.Object) -> bool:
@@ -34,7 +34,7 @@ def is_stale(obj: bpy.types.Object) -> bool:
     actions, until = ticked(obj), time.perf_counter() + _PATIENCE
     digests = []
     for action in actions:
-        digests.append(_digest(action))
+        digests.append(digest_of(action))
         if time.perf_counter() > until and any(_key(other) not in _digests for other in actions):
             return False
     return bool(_joined(digests) != built)
@@ -78,7 +78,8 @@ def _key(action: bpy.types.Action) -> tuple[object, ...]:
     return action.name, action.library, versions.count_curves(action), tuple(action.frame_range)
 
 
-def _digest(action: bpy.types.Action) -> str:
+def digest_of(action: bpy.types.Action) -> str:
+    """A digest of all that is read of an Action; its name does not count."""
     key = _key(action)
     if key not in _digests:
         _digests[key] = _read(action)

@@ -5,17 +5,19 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import bpy
 
 from ..character import classes
 from ..character.building import has_character, load
+from ..character.moves import bring_up_to_date, check_keys, names_of, triggers_of
 from ..compat.data_blocks import is_alive
 from ..edits.replaying import play_again
 from ..errors import UserError
 from ..recordings.curves import renew_curves
-from ..recordings.recordings import POSE_RATE, TRACE_RATE, Recording, add_recording, trace_of
+from ..recordings.recordings import POSE_RATE, TRACE_RATE, Recording, add_recording, numbered_moves, trace_of
 from ..settings import preferences
 from .acting.actor import Actor
 from .acting.punch import Punch
@@ -50,6 +52,9 @@ class Session:
 
     def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, seed: int, policy: str) -> None:
         context.view_layer.update()
+        keys = preferences.get(context)
+        check_keys(obj, {key: action for action, key in keys.keys().items()})
+        bring_up_to_date(context, obj)
         self.obj, self._name = obj, str(obj.name)
         self.seed = self.settings.seed if seed < 0 else seed
         self.actor = Actor(context, obj, self.seed, policy)
@@ -69,7 +74,8 @@ class Session:
         """What the user should be told when it has ended."""
         self.windows: set[int] = set()
         """Those whose keys it hears, by their addresses."""
-        self.inputs = Inputs(preferences.get(context), RATE)
+        self.inputs = Inputs(keys, RATE, triggers_of(obj, self.actor.character))
+        self._held: set[int] = set()
         suspended_state.put_aside(obj)
 
     @property
@@ -120,6 +126,7 @@ class Session:
 
     def _step(self) -> tuple[Doubles, Doubles]:
         control = self._control()
+        self._hold_moves()
         pose = self.actor.step(control, 1 / RATE)
         if self.recording is not None:
             self.recording.add(pose)
@@ -139,18 +146,46 @@ class Session:
             control = self.punch.hold(control)
         return control if self.recording is None else self.recording.hold(control)
 
+    def _hold_moves(self) -> None:
+        """Start the moves that are held since this step, and let go of those that are not any more."""
+        held = self.inputs.moves()
+        if self.recording is not None:
+            held = self.recording.hold_moves(held)
+        for move in self._held - held:
+            self.player.release_move(move)
+        for move in sorted(held - self._held):
+            self.player.start_move(move)
+        self._held = held
+
+    @property
+    def move(self) -> str:
+        """The moves that play, or wait for their moment, in words; empty where there are none."""
+        names = names_of(self.actor.character)
+        if not names:
+            return ""
+        playing = [names[move] for move in self.player.playing_moves if move >= 0]
+        waiting = [f"{names[move]} (waits)" for move in self.player.waiting_moves if move >= 0]
+        return ", ".join(playing + waiting)
+
     def _follow_actor(self, seconds: float) -> None:
         area = self.views.main()
         if self.settings.follow and area is not None:
             self._follow.step(area.spaces.active.region_3d, self.actor.frame[:2], seconds)
 
-    def play(self, trace: Doubles, start: tuple[float, float, float] | None = None) -> None:
-        """Let a trace [T,4] drive until it ends or another input is touched, from a character frame if one is given."""
+    def play(
+        self,
+        trace: Doubles,
+        start: tuple[float, float, float] | None = None,
+        moves: Sequence[Sequence[int]] = (),
+    ) -> None:
+        """Let a trace [T,4] drive, with moves [M,3], until it ends or another input is touched; from a character frame,
+        if one is given."""
         self._replays = start is not None
         if start is not None:
             self.actor.player.reset(*start)
+            self._held = set()
             self.readings = Readings(self.actor, RATE)
-        self.inputs.play(trace)
+        self.inputs.play(trace, moves)
 
     def play_over(self, punch: Punch, start: tuple[float, float, float]) -> None:
         """Let a recording drive from the character frame in which it begins, from shortly before the stretch on which
@@ -197,6 +232,7 @@ class Session:
         if self.recording is None:
             if math.hypot(*self.readings.velocity) < _STILL and not any(self.control):
                 self.actor.start_afresh()
+                self._held = set()
             self.recording = Recorder(self.actor, RATE)
             self.readings = Readings(self.actor, RATE)
         elif self._keep_recording():
@@ -224,6 +260,7 @@ class Session:
             "start": recording.start,
             "quality": judge.mean if judge else 0.0,
             "shown": recording.shown,
+            "moves": recording.moves,
         }
 
     def trouble(self) -> str:
@@ -256,6 +293,7 @@ class Session:
             self.settings,
             self.cost,
             self.interval,
+            self.move,
         )
 
     def give_back(self) -> None:
@@ -306,7 +344,7 @@ def replay(
     chosen = policy or (recording.policy if recording.policy in known else "")
     driven = start(context, obj, recording.seed if seed < 0 else seed, chosen)
     try:
-        driven.play(trace, begin)
+        driven.play(trace, begin, numbered_moves(recording, names_of(driven.actor.character)))
     except BaseException:
         stop(push=False)
         raise

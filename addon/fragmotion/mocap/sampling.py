@@ -61,8 +61,7 @@ def sample_parts(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.
     clip, spans = sample(context, obj, action, rig), left_out.spans_of(action)
     if not spans:
         return [clip]
-    _, times = frame_times(context.scene, action, _playing_curves(obj, action))
-    return left_out.cut(clip, rig.skeleton, times, spans)
+    return left_out.cut(clip, rig.skeleton, sample_times(context.scene, obj, action), spans)
 
 
 def scene_rate(scene: bpy.types.Scene) -> float:
@@ -90,6 +89,11 @@ def frame_times(scene: bpy.types.Scene, action: bpy.types.Action, curves: Curves
             "delete the stray key, or untick it"
         )
     return rate, first + step * np.arange(math.floor(frames + _SAME_FRAME) + 1)
+
+
+def sample_times(scene: bpy.types.Scene, obj: bpy.types.Object, action: bpy.types.Action) -> Doubles:
+    """The scene frames of the samples that `sample` makes."""
+    return frame_times(scene, action, _playing_curves(obj, action))[1]
 
 
 def _playing_curves(obj: bpy.types.Object, action: bpy.types.Action) -> Curves:

@@ -23,6 +23,7 @@ from .import_mocap import DROP_HANDLERS, FRAGMOTION_OT_import_mocap
 from .leave_out import FRAGMOTION_OT_leave_out, FRAGMOTION_OT_take_in
 from .load_policy import FRAGMOTION_OT_load_policy
 from .mend_finding import FRAGMOTION_OT_mend_finding
+from .moves import FRAGMOTION_OT_add_move, FRAGMOTION_OT_remove_move
 from .play_take import FRAGMOTION_OT_play_take
 from .populate import FRAGMOTION_OT_populate
 from .retarget_actions import FRAGMOTION_OT_retarget_actions
@@ -45,6 +46,8 @@ CLASSES = (
     FRAGMOTION_OT_play_take,
     FRAGMOTION_OT_tick_actions,
     FRAGMOTION_OT_mend_finding,
+    FRAGMOTION_OT_add_move,
+    FRAGMOTION_OT_remove_move,
     FRAGMOTION_OT_leave_out,
     FRAGMOTION_OT_take_in,
     FRAGMOTION_OT_suggest_classes,

@@ -11,7 +11,9 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..character.building import load_policy
+from ..character.moves import list_moves
 from ..errors import UserError, reported
+from ..settings import preferences
 from .background import poll_idle
 from .context import active_armature, poll_armature
 from .save_policy import EXTENSION
@@ -37,6 +39,7 @@ class FRAGMOTION_OT_load_policy(ImportHelper, bpy.types.Operator):
             raise UserError("No file is chosen")
         obj, path = active_armature(context), Path(bpy.path.abspath(self.filepath))
         load_policy(context, obj, path)
+        list_moves(obj, preferences.get(context).keys().values())
         figures = obj.fragmotion.figures
         self.report(
             {"INFO"},

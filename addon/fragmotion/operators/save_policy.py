@@ -9,6 +9,7 @@ import bpy
 from bpy.props import StringProperty
 
 from ..character.building import has_character, save_policy
+from ..character.moves import bring_up_to_date
 from ..errors import reported
 from .context import active_armature
 from .saving import Saving
@@ -41,6 +42,8 @@ class FRAGMOTION_OT_save_policy(Saving, bpy.types.Operator):
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         path = self._path()
-        save_policy(active_armature(context), path)
+        obj = active_armature(context)
+        bring_up_to_date(context, obj)
+        save_policy(obj, path)
         self.report({"INFO"}, f"Saved '{path}' ({path.stat().st_size / 1e6:.1f} MB)")
         return {"FINISHED"}

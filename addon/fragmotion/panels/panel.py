@@ -27,7 +27,7 @@ from ..settings.drawing import (
     draw_training,
     draw_wrapped,
 )
-from . import bones, classes, control_rig, doctor, drive, left_out, path, recordings
+from . import bones, classes, control_rig, doctor, drive, left_out, moves, path, recordings
 from .doctor import LIGHTS
 from .sidebar import Sidebar, SubPanel, draw_fold, is_folded
 
@@ -265,6 +265,7 @@ CLASSES = (
     FRAGMOTION_PT_coverage,
     FRAGMOTION_PT_policy,
     *drive.CLASSES,
+    *moves.CLASSES,
     *path.CLASSES,
     *recordings.CLASSES,
     FRAGMOTION_PT_bake,

@@ -7,9 +7,10 @@ hold what was shown meanwhile, which a bake then writes as it was seen.
 
 from __future__ import annotations
 
+import json
 import zlib
 from datetime import datetime
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
 import numpy as np
@@ -38,8 +39,21 @@ _MOST_BYTES = 1 << 28  # of what was shown: over an hour of POSE_RATE on 70 bone
 _MOST_CLASSES = 1 << 16
 _SAME_TIME = 1e-4  # s
 _FARTHEST = 1e9  # m, and rad: where the core's player still stands
-_FIELDS = ("name", "date", "seconds", "quality", "policy", "seed", "start", "train", "controls", "shown", "shown_bones")
+_FIELDS = (
+    *("name", "date", "seconds", "quality", "policy", "seed", "start", "train"),
+    *("controls", "moves", "shown", "shown_bones"),
+)
+_MOST_MOVES = 1 << 20  # that a recording may start
+
 _BESIDE_BONES = 1 + 3 + 3 + 1  # columns of what was shown: time, root position, character frame, class
+
+
+class StartedMove(NamedTuple):
+    """A move that was started before a control of a recording, and for how many controls it was held."""
+
+    control: int
+    name: str
+    held: int
 
 
 class Recording(bpy.types.PropertyGroup):
@@ -84,6 +98,8 @@ class Recording(bpy.types.PropertyGroup):
     curves_rate: FloatProperty(options={"HIDDEN"}, min=0)  # type: ignore[valid-type]
     """Scene frames a second of the curves."""
     controls: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
+    moves: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    """JSON of the moves that were started: [control, name, controls for which it was held] each; empty: none."""
     shown: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     shown_bones: IntProperty(min=0, options={"HIDDEN"})  # type: ignore[valid-type]
 
@@ -98,13 +114,14 @@ def add_recording(
     start: Sequence[float] = (0.0, 0.0, 0.0),
     quality: float = 0.0,
     shown: tuple[Doubles, Motion] | None = None,
+    moves: Sequence[StartedMove] = (),
 ) -> Recording:
     """Keep a trace [T,4] (10 controls a second, in the character frame) with the armature, and select it in the list.
 
     The name (default "Recording") gets a number where another one has it. `start` is the character frame, as
     Player.frame: x, y in metres and the heading in radians. `shown` are the poses that the user saw, where there
-    were any, and their times [F] in seconds from the first control on. UserError on what is no trace; the file is
-    changed only afterwards.
+    were any, and their times [F] in seconds from the first control on. `moves` are those that were started. UserError
+    on what is no trace; the file is changed only afterwards.
     """
     data = _packed(trace)
     settings = obj.fragmotion
@@ -114,6 +131,7 @@ def add_recording(
     recording.start, recording.quality = start, quality
     recording.date = datetime.now().strftime("%Y-%m-%d %H:%M")
     _store(recording, data, len(trace))
+    _set_moves(recording, moves)
     if shown is not None:
         set_shown(recording, *shown)
     settings.active_take = len(settings.takes) - 1
@@ -126,6 +144,34 @@ def trace_of(recording: Recording) -> Doubles:
     if not _is_trace(trace) or not (np.abs(recording.start) <= _FARTHEST).all():
         raise _damaged(recording)
     return trace.astype(float)
+
+
+def moves_of(recording: Recording) -> list[StartedMove]:
+    """The moves that were started, in order; UserError where the .blend is damaged."""
+    if not recording.moves:
+        return []
+    try:
+        rows = json.loads(recording.moves)
+        moves = [StartedMove(*row) for row in rows[:_MOST_MOVES]]
+    except (ValueError, TypeError, RecursionError):
+        raise _damaged(recording) from None
+    most = len(trace_of(recording))
+    if not all(_is_started(move, most) for move in moves):
+        raise _damaged(recording)
+    return moves
+
+
+def numbered_moves(recording: Recording, names: Sequence[str]) -> list[list[int]]:
+    """The moves that were started as Player.run has them [M,3], numbered as in `names`; UserError where one is not
+    there."""
+    moves = moves_of(recording)
+    missing = sorted({move.name for move in moves} - set(names))
+    if missing:
+        raise UserError(
+            f"Recording '{recording.name}' starts the move '{missing[0]}', which the character does not have: add it "
+            "under Moves, with that name"
+        )
+    return [[move.control, list(names).index(move.name), move.held] for move in moves]
 
 
 def shown_of(recording: Recording) -> tuple[Doubles, Motion] | None:
@@ -191,8 +237,11 @@ def trim_recording(recording: Recording, start: float, end: float) -> None:
             f"Recording '{recording.name}' lasts {recording.seconds:.1f} s: nothing is left between {start:.1f} s and "
             f"{end:.1f} s"
         )
-    shown = shown_of(recording)
+    shown, moves = shown_of(recording), moves_of(recording)
     _store(recording, _packed(trace[first:last]), last - first)
+    _set_moves(
+        recording, [move._replace(control=move.control - first) for move in moves if first <= move.control < last]
+    )
     recording.quality = 0
     if shown is not None:
         _trim_shown(recording, *shown, first / TRACE_RATE, last / TRACE_RATE)
@@ -234,6 +283,16 @@ def _trim_shown(recording: Recording, times: Doubles, motion: Motion, start: flo
     kept = Motion(roots[inside], rotations[inside], frames[inside], classes[inside])
     set_shown(recording, np.maximum(times[inside] - start, 0), kept)
     recording.start = motion.frames[inside][0]
+
+
+def _set_moves(recording: Any, moves: Sequence[StartedMove]) -> None:
+    recording.moves = json.dumps(moves) if moves else ""
+
+
+def _is_started(move: StartedMove, controls: int) -> bool:
+    """Whether what a .blend says can be a move that was started in so many controls."""
+    numbers = all(type(number) is int for number in (move.control, move.held))
+    return numbers and isinstance(move.name, str) and 0 <= move.control < controls and 0 <= move.held <= _LONGEST
 
 
 def _store(recording: Any, data: bytes, length: int) -> None:

@@ -17,6 +17,7 @@ from bpy.props import (
 
 from ..character.classes import ClassRow
 from ..character.coverage import COLUMNS
+from ..character.moves import MoveRow
 from ..character.suggesting import NumberTried
 from ..control_rig.binding import ControlRigSettings, is_source
 from ..recordings.recordings import Recording
@@ -223,5 +224,9 @@ class CharacterSettings(bpy.types.PropertyGroup):
     active_take: IntProperty(  # type: ignore[valid-type]
         name="Recording", description="The recording that is selected in the list", update=_bake_selected
     )
+    moves: CollectionProperty(type=MoveRow)  # type: ignore[valid-type]
+    active_move: IntProperty(name="Move", description="The move that is selected in the list")  # type: ignore[valid-type]
+    moves_told: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    """What the list said of the moves when the character was given them."""
     digest: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
     """Of the policy's bytes, by which panels know it without reading it."""

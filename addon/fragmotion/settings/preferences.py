@@ -9,14 +9,10 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty
 
 from ..compat.core import ADDON
+from ..compat.event_keys import KEYS
 from ..drive.input.keyboard import DEFAULT_KEYS
 from . import keymaps
 
-_KEYS = tuple(
-    (item.identifier, item.name, "", item.value)
-    for item in bpy.types.Event.bl_rna.properties["type"].enum_items
-    if item.identifier
-)
 _LABELS = {name: name.replace("_", " ").title() for name in DEFAULT_KEYS}
 _TIPS = {
     "forward": "Away from you, or forward",
@@ -32,7 +28,7 @@ _TIPS = {
 
 
 def _key(name: str) -> Any:
-    return EnumProperty(name=_LABELS[name], description=_TIPS[name], items=_KEYS, default=DEFAULT_KEYS[name])
+    return EnumProperty(name=_LABELS[name], description=_TIPS[name], items=KEYS, default=DEFAULT_KEYS[name])
 
 
 class FragmotionPreferences(bpy.types.AddonPreferences):

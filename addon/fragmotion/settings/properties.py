@@ -11,6 +11,7 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, IntPropert
 
 from ..character.classes import ClassRow
 from ..character.inspector import InspectorSettings
+from ..character.moves import MoveRow
 from ..character.suggesting import NumberTried
 from ..control_rig.binding import ControlRigSettings, FormerSwitch
 from ..mocap.doctor import TakeFinding
@@ -70,6 +71,7 @@ CLASSES = (
     ClassRow,
     NumberTried,
     Recording,
+    MoveRow,
     FrameSpan,
     TakeFinding,
     RoleBone,

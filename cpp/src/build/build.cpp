@@ -145,23 +145,6 @@ void round_to_single(std::vector<Clip>& clips) {
   }
 }
 
-// The median floor of the captured clips.
-Floors usual_floors(const std::vector<Contacts>& contacts, const std::vector<bool>& captured) {
-  const auto median = [&](int side, double FootHeights::*part) {
-    std::vector<double> heights;
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      if (captured[c]) heights.push_back(contacts[c].floors[side].*part);
-    }
-    if (heights.empty()) return 0.0;
-    std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
-    return heights[heights.size() / 2];
-  };
-  Floors floors;
-  for (int side = 0; side < 2; ++side)
-    floors[side] = {median(side, &FootHeights::ball), median(side, &FootHeights::heel)};
-  return floors;
-}
-
 // What many fragments perform must not take all classes from what few do. Hops that turn may be in a class with those
 // that do not, where the player draws them; those that are pressed for most, on the spot and ahead, should not be in
 // one with those to the side.
@@ -237,6 +220,22 @@ void check(const std::vector<Clip>& clips, const std::vector<Trace>& traces, con
 }
 
 }  // namespace
+
+Floors usual_floors(const std::vector<Contacts>& contacts, const std::vector<bool>& captured) {
+  const auto median = [&](int side, double FootHeights::*part) {
+    std::vector<double> heights;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      if (captured[c]) heights.push_back(contacts[c].floors[side].*part);
+    }
+    if (heights.empty()) return 0.0;
+    std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
+    return heights[heights.size() / 2];
+  };
+  Floors floors;
+  for (int side = 0; side < 2; ++side)
+    floors[side] = {median(side, &FootHeights::ball), median(side, &FootHeights::heel)};
+  return floors;
+}
 
 const std::vector<std::string>& policy_names() {
   static const std::vector<std::string> names{"anticipate", "iterate", "svm", "greedy"};

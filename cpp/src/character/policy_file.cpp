@@ -16,6 +16,7 @@
 #include "fragmotion/fragments/body_tips.hpp"
 #include "fragmotion/fragments/entry_poses.hpp"
 #include "fragmotion/fragments/whole_jumps.hpp"
+#include "fragmotion/motion/trunk.hpp"
 #include "fragmotion/skeleton/role_names.hpp"
 #include "fragmotion/skeleton/two_bone_ik.hpp"
 
@@ -65,6 +66,11 @@ class Writer {
     number<std::uint32_t>(value.size());
     raw(value.data(), value.size());
   }
+  // Whether a section follows that only some files have; it begins with its name.
+  bool section(const std::string& name, bool wanted) {
+    if (wanted) raw(name.data(), name.size());
+    return wanted;
+  }
   template <typename T, typename Each>
   void list(std::vector<T>& values, std::size_t /*least*/, const Each& each) {
     number<std::uint64_t>(values.size());
@@ -98,6 +104,11 @@ class Reader {
   void list(std::vector<T>& values, std::size_t least, const Each& each) {
     values.resize(count(least));
     for (T& value : values) each(value);
+  }
+  bool section(const std::string& name, bool /*wanted*/) {
+    const bool follows = left_ >= name.size() && std::memcmp(data_, name.data(), name.size()) == 0;
+    if (follows) take(name.size());
+    return follows;
   }
   bool done() const { return left_ == 0; }
 
@@ -207,6 +218,18 @@ void exchange_space(Archive& a, ControlSpace& space) {
 }
 
 template <typename Archive>
+void exchange_moves(Archive& a, std::vector<Move>& moves) {
+  a.list(moves, 25, [&](auto& move) {
+    a.text(move.name);
+    a.template number<std::int32_t>(move.clip);
+    a.template number<std::uint8_t>(move.upper_body);
+    a.template number<double>(move.wait);
+    a.template number<std::int32_t>(move.loop_begin);
+    a.template number<std::int32_t>(move.loop_end);
+  });
+}
+
+template <typename Archive>
 void exchange(Archive& a, Character& c) {
   exchange_pool(a, c.pool);
   exchange_space(a, c.space);
@@ -226,6 +249,7 @@ void exchange(Archive& a, Character& c) {
   a.template numbers<double>(c.control_model);
   a.list(c.contacts, 40, [&](auto& contacts) { exchange_contacts(a, contacts); });
   for (Leg& leg : c.legs) exchange_vector(a, leg.hinge);  // the bones are found anew by their roles
+  if (a.section("moves", !c.moves.empty())) exchange_moves(a, c.moves);
 }
 
 void require(bool holds, const char* what) {
@@ -303,9 +327,25 @@ void check_contacts(const Character& c) {
   }
 }
 
+// Moves' clips are the last ones, in the order of the moves, and no fragment's.
+void check_moves(const Character& c) {
+  require(c.moves.size() <= kMostMoves && c.moves.size() <= c.pool.clips.size(), "moves");
+  for (const Fragment& f : c.pool.fragments) require(f.clip < c.takes(), "moves");
+  for (std::size_t m = 0; m < c.moves.size(); ++m) {
+    const Move& move = c.moves[m];
+    require(move.clip == c.takes() + static_cast<int>(m), "moves");
+    const PackedClip& clip = c.pool.clips[move.clip];
+    require(all_within({move.loop_begin, move.loop_end}, 0, clip.frames), "moves");
+    check_move_times(move.name, (clip.frames - 1) / clip.rate, move.wait,
+                     {move.loop_begin / clip.rate, move.loop_end / clip.rate});
+    require(!move.upper_body || Trunk(c.pool.skeleton).base >= 0, "moves");
+  }
+}
+
 // That the entry poses of a file of `size` bytes are in proportion.
 void check_memory(const Character& c, std::size_t size) {
-  const std::size_t fragments = c.pool.fragments.size(), tips = measured_bones(c.pool.skeleton).size(),
+  const std::size_t fragments = c.pool.fragments.size() + kMoveParts * c.moves.size(),
+                    tips = measured_bones(c.pool.skeleton).size(),
                     bytes = fragments * 3 * padded(2 * static_cast<int>(tips)) * sizeof(float);
   if (bytes <= kRoom + kTimes * size) return;
   throw std::invalid_argument(std::to_string(fragments) + " fragments of " + std::to_string(tips) +
@@ -338,6 +378,7 @@ void check(const Character& c) {
   require(c.bridges.size() == n * n && all_within(c.bridges, -1, c.classes.count), "stand-in-place classes");
   check_model(c.control_model);
   check_contacts(c);
+  check_moves(c);
   for (const Leg& leg : c.legs) require(std::abs(leg.hinge.norm() - 1) < 1e-6, "legs");
 }
 
@@ -398,6 +439,7 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     character.coverage = coverage(character.pool.fragments, character.space);
     find_whole_jumps(character.pool);
     character.entry_poses = entry_poses(character.pool);
+    character.move_parts = move_parts(character.pool, character.moves);
     return character;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(name + " is refused: " + error.what());

@@ -122,6 +122,50 @@ class Hindsight {
   std::vector<double> value_;            // [frames + 1, classes] of what follows a class that ends at a frame
 };
 
+// Starts and releases moves as a trace is played.
+class Pressing {
+ public:
+  Pressing(const Player& player, const std::vector<MovePress>& presses, std::size_t controls) {
+    for (const MovePress& press : presses) {
+      check(press, player.character().moves.size(), controls);
+      events_.push_back({press.control, press.move, true});
+      events_.push_back({static_cast<long long>(press.control) + press.held, press.move, false});
+    }
+    const auto earlier = [](const Event& a, const Event& b) { return a.control < b.control; };
+    std::stable_sort(events_.begin(), events_.end(), earlier);
+  }
+
+  // All that happens up to this control.
+  void until(std::size_t control, Player& player) {
+    for (; next_ < events_.size() && events_[next_].control <= static_cast<long long>(control); ++next_) {
+      const auto& [at, move, starts] = events_[next_];
+      starts ? player.start_move(move) : player.release_move(move);
+    }
+  }
+
+ private:
+  struct Event {
+    long long control;
+    int move;
+    bool starts;
+  };
+
+  static void check(const MovePress& press, std::size_t moves, std::size_t controls) {
+    if (press.move < 0 || press.move >= static_cast<long long>(moves)) {
+      throw std::invalid_argument("move " + std::to_string(press.move) + " does not exist; the character has " +
+                                  std::to_string(moves));
+    }
+    if (press.control < 0 || press.control >= static_cast<long long>(controls) || press.held < 0) {
+      throw std::invalid_argument("a move is asked for before control " + std::to_string(press.control) +
+                                  " of a trace of " + std::to_string(controls) + ", for " + std::to_string(press.held) +
+                                  " controls");
+    }
+  }
+
+  std::vector<Event> events_;
+  std::size_t next_ = 0;
+};
+
 void check_shown(const Character& character, const Trace& trace, const Clip& clip, std::size_t entered) {
   const int bones = character.pool.skeleton.size(), frames = frame_count(trace.size(), clip.rate);
   if (clip.rotations.size() != std::size_t{4} * bones * clip.frames) {
@@ -136,17 +180,23 @@ void check_shown(const Character& character, const Trace& trace, const Clip& cli
 
 }  // namespace
 
-Performance perform(Player& player, const Trace& trace, double rate, const Progress& progress) {
+Performance perform(Player& player, const Trace& trace, double rate, const Progress& progress,
+                    const std::vector<MovePress>& moves) {
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
   const Character& character = player.character();
+  Pressing pressing(player, moves, trace.size());
   const int entered = player.entered();
   Performance p;
   p.rate = rate;
   p.frames = frame_count(trace.size(), rate);
   for (int f = 0; f < p.frames; ++f) {
     if (f % 256 == 0) report(progress, static_cast<double>(f) / p.frames, "Playing");
-    const Control& control = trace[control_at(f, rate, trace.size())];
-    if (f > 0) player.step(control, 1 / rate);
+    const std::size_t at = control_at(f, rate, trace.size());
+    const Control& control = trace[at];
+    if (f > 0) {
+      pressing.until(at, player);
+      player.step(control, 1 / rate);
+    }
     const CharacterFrame now = player.frame();
     const Vector3& root = player.root_position();
     p.root_positions.insert(p.root_positions.end(), root.data(), root.data() + 3);
@@ -154,6 +204,8 @@ Performance perform(Player& player, const Trace& trace, double rate, const Progr
     p.path.insert(p.path.end(), {now.position.x(), now.position.y(), now.heading});
     p.classes.push_back(player.playing_class());
     p.fragments.push_back(player.playing_fragment());
+    const auto [whole_body, upper_body] = player.playing_moves();
+    p.moves.insert(p.moves.end(), {whole_body, upper_body});
     p.entered.push_back(player.entered() - entered);
     if (f > 0) p.quality += player.quality(character.space.nearest(control)) / (p.frames - 1);
   }

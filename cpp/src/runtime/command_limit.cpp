@@ -3,8 +3,8 @@
 
 namespace fragmotion {
 
-void CommandLimit::reset(double heading) {
-  velocity_ = Vector2::Zero();
+void CommandLimit::reset(double heading, const Vector2& velocity) {
+  velocity_ = velocity;
   heading_ = heading;
 }
 

@@ -30,6 +30,7 @@ Crowd::Crowd(std::shared_ptr<const Character> character, int count, const Player
       PlayerOptions own = options;
       own.seed += players_.size();
       players_.push_back(Player(character, own, workspace));
+      players_.back().make_moves(own);
     }
   }
 }
@@ -42,6 +43,10 @@ Player& Crowd::existing(int player) {
 void Crowd::reset(int player, const CharacterFrame& frame) { existing(player).reset(frame); }
 
 void Crowd::force(int player, int next_class) { existing(player).force(next_class); }
+
+void Crowd::start_move(int player, int move) { existing(player).start_move(move); }
+
+void Crowd::release_move(int player, int move) { existing(player).release_move(move); }
 
 void Crowd::check_step(const Control* controls, double seconds) const {
   for (int i = 0; i < size(); ++i) Player::check_step(controls[i], seconds);

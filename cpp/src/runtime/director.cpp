@@ -133,6 +133,16 @@ int Director::decide(const Control& control, const Playback& playback) {
   return next;
 }
 
+void Director::resume(int next_class, const Control& control) {
+  previous_ = std::exchange(class_, next_class);
+  decided_for_ = wanted(control);
+  decided_for_.jump = control.jump;
+  waiting_ = -1;
+  plays_forced_ = jump_latched_ = false;
+  exit_ = {};
+  soonest_ = kSoonest;
+}
+
 double Director::until_due(const Playback& playback, double most) const {
   const auto until = [&](double time) {
     return time - playback.seconds() > kInstant ? time - playback.seconds() : most;

@@ -40,6 +40,13 @@ void FragmentSelector::extrapolate(const CharacterFrame& frame, const BodyTips& 
   }
 }
 
+// The same, of what is shown now.
+void FragmentSelector::extrapolate(const Playback& playback) const {
+  auto& [before, now, unused] = workspace_->tips;
+  pose_tips(playback, playback.seconds() - kEntry, before);
+  extrapolate(pose_tips(playback, playback.seconds(), now), before, now);
+}
+
 // Finds the members that perform the control nearly as well as any of them does. Where the representative jumps, or
 // does not, as is wanted, they do so too.
 void FragmentSelector::find_candidates(int next_class, const Control& control) const {
@@ -81,13 +88,11 @@ float FragmentSelector::measure_candidates(const Control& evident, const StepSeq
 }
 
 int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback) {
-  auto& [before, now, unused] = workspace_->tips;
   find_candidates(next_class, control);
-  pose_tips(playback, playback.seconds() - kEntry, before);
-  extrapolate(pose_tips(playback, playback.seconds(), now), before, now);
+  extrapolate(playback);
   const float least = measure_candidates(playback.evident(), playback.steps());
   std::vector<std::pair<float, int>>& candidates = workspace_->candidates;
-  const double allowed = kJoinsWell * least + kJoinsNear * now.reach();
+  const double allowed = kJoinsWell * least + kJoinsNear * workspace_->tips[0].reach();
   const auto joins = [&](const auto& each) { return each.first <= allowed; };
   const auto end = std::partition(candidates.begin(), candidates.end(), joins);
   return candidates[random_.below(static_cast<int>(end - candidates.begin()))].second;
@@ -96,6 +101,29 @@ int FragmentSelector::choose(int next_class, const Control& control, const Playb
 int FragmentSelector::choose_any(int next_class) {
   const std::vector<int>& members = workspace_->members[next_class];
   return members[random_.below(static_cast<int>(members.size()))];
+}
+
+int FragmentSelector::best_class(const Control& control, const Playback& playback) const {
+  extrapolate(playback);
+  const std::vector<float>& onward = workspace_->onward;
+  const int point = character_->space.nearest(control);
+  int best = 0;
+  double most = -1;
+  for (int k = 0; k < character_->classes.count; ++k) {
+    const float* entry = &character_->entry_poses[onward.size() * character_->classes.representatives[k]];
+    const double distance = tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3) / 2,
+                 match = character_->quality.match[static_cast<std::size_t>(k) * ControlSpace::kPoints + point],
+                 quality = match / (1 + distance);
+    if (quality > most) most = quality, best = k;
+  }
+  return best;
+}
+
+double FragmentSelector::distance_to(int move, const Playback& playback) const {
+  extrapolate(playback);
+  const std::vector<float>& onward = workspace_->onward;
+  const float* entry = &workspace_->move_entries[onward.size() * kMoveParts * move];
+  return tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3) / 2 / workspace_->tips[0].reach();
 }
 
 // No later moment is looked at once waiting alone costs too much. What is shown kEntry before a moment is known from

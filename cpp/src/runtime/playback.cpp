@@ -7,6 +7,11 @@
 #include "fragmotion/motion/pose.hpp"
 
 namespace fragmotion {
+namespace {
+
+constexpr double kApart = 1.0 / 60;  // s over which speeds are measured, within a fragment
+
+}  // namespace
 
 Playback::Playback(const Character& character, Workspace& workspace, Stitching stitching, double stitch)
     : character_(&character),
@@ -24,7 +29,7 @@ void Playback::reset(int fragment, const CharacterFrame& frame) {
 }
 
 Playback::Placed Playback::place(int fragment, const CharacterFrame& frame) const {
-  const Fragment& f = character_->pool.fragments[fragment];
+  const Fragment& f = character_->played(fragment);
   const CharacterFrame first = frame_at(character_->pool.clips[f.clip], f.first_played());
   Placed placed;
   placed.fragment = fragment;
@@ -34,7 +39,7 @@ Playback::Placed Playback::place(int fragment, const CharacterFrame& frame) cons
 }
 
 void Playback::sample(const Placed& placed, WorldPose& pose) const {
-  const Fragment& f = character_->pool.fragments[placed.fragment];
+  const Fragment& f = character_->played(placed.fragment);
   const PackedClip& clip = character_->pool.clips[f.clip];
   const double at = f.first_played() + placed.seconds * clip.rate;
   const Vector3 root = sample_pose(clip, at, pose.rotations.data());
@@ -68,7 +73,6 @@ Vector2 Playback::start(int fragment) {
 
 // Begins a stitch from the old fragment, as it is shown, to the one that plays now; returns what start() does.
 Vector2 Playback::begin_stitch(const Placed& old) {
-  constexpr double kApart = 1.0 / 60;  // s over which speeds are measured, within both fragments
   auto& [old_before, old_now, fresh, fresh_later] = workspace_->poses;
   sample_stitched(old, old.seconds, old_now);
   sample_stitched(old, old.seconds - kApart, old_before);
@@ -117,33 +121,40 @@ void Playback::crossfade(double weight, WorldPose& pose) const {
 }
 
 bool Playback::is_jumping() const {
-  const Fragment& f = character_->pool.fragments[now_.fragment];
+  const Fragment& f = character_->played(now_.fragment);
   const double landed = f.end + f.lead_out / 2.0 - f.first_played();
   return f.evident.jumps() && now_.seconds * character_->pool.clips[f.clip].rate < landed;
 }
 
 std::size_t Playback::frame_of_clip(double seconds) const {
-  const Fragment& f = character_->pool.fragments[now_.fragment];
+  const Fragment& f = character_->played(now_.fragment);
   const PackedClip& clip = character_->pool.clips[f.clip];
   const long at = std::lround(f.first_played() + seconds * clip.rate);
   return static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(clip.frames) - 1));
 }
 
 std::array<bool, 2> Playback::standing_feet(double seconds) const {
-  return fragmotion::standing_feet(character_->contacts[character_->pool.fragments[now_.fragment].clip],
+  return fragmotion::standing_feet(character_->contacts[character_->played(now_.fragment).clip],
                                    frame_of_clip(seconds));
 }
 
 bool Playback::is_in_the_air() const {
   if (!evident().jumps()) return false;
-  const auto& [left, right] = character_->contacts[character_->pool.fragments[now_.fragment].clip].feet;
+  const auto& [left, right] = character_->contacts[character_->played(now_.fragment).clip].feet;
   const std::size_t frame = frame_of_clip();
   return !left.empty() && !left[frame] && !right[frame];
 }
 
 double Playback::left() const {
-  const Fragment& f = character_->pool.fragments[now_.fragment];
+  const Fragment& f = character_->played(now_.fragment);
   return (f.last_played() - f.first_played()) / character_->pool.clips[f.clip].rate - now_.seconds;
+}
+
+Vector2 Playback::velocity() const {
+  auto& [before, now, unused, unused_too] = workspace_->poses;
+  sample(now_.seconds - kApart, before);
+  sample(now_.seconds, now);
+  return Eigen::Rotation2Dd(-frame_.heading) * (now.root - before.root).head<2>() / kApart;
 }
 
 }  // namespace fragmotion

@@ -12,10 +12,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLongest = 3600;     // s that a step may last
-constexpr double kFarthest = 1e9;     // m, and rad: where steps are still told apart
-constexpr double kLaziest = 2.5;      // m/s^2 of a 1.8 m character, at a responsiveness of 0
-constexpr double kFinest = 1 / 60.0;  // s for which a command is the same at most
+constexpr double kLongest = 3600;  // s that a step may last
+constexpr double kFarthest = 1e9;  // m, and rad: where steps are still told apart
+constexpr double kLaziest = 2.5;   // m/s^2 of a 1.8 m character, at a responsiveness of 0
 
 double within_one(double value, const char* name) {
   if (value >= 0 && value <= 1) return value;
@@ -29,7 +28,9 @@ double acceleration_of(double responsiveness, const ControlSpace& space) {
 }  // namespace
 
 Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options)
-    : Player(character, options, std::make_shared<Workspace>(*character)) {}
+    : Player(character, options, std::make_shared<Workspace>(*character)) {
+  make_moves(options);
+}
 
 Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options,
                std::shared_ptr<Workspace> workspace)
@@ -63,9 +64,14 @@ void Player::reset(const CharacterFrame& frame) {
   limit_.reset(frame.heading);
   director_.reset();
   selector_.reset();
+  if (moves_ != nullptr) {
+    moves_->whole_body.reset();
+    moves_->upper_body.reset();
+  }
   correction_.reset(frame.heading);
   acceleration_ = Vector2::Zero();
-  playback_.reset(character_->classes.representatives[director_.playing_class()], frame);
+  fragment_ = character_->classes.representatives[director_.playing_class()];
+  playback_.reset(fragment_, frame);
   correct(0);
 }
 
@@ -80,8 +86,11 @@ void Player::force(int next_class) {
 void Player::go_on(const Control& control) {
   const Control wanted = director_.wanted(control);
   const int next = director_.decide(control, playback_);
-  const int fragment =
-      director_.plays_forced() ? selector_.choose_any(next) : selector_.choose(next, wanted, playback_);
+  fragment_ = director_.plays_forced() ? selector_.choose_any(next) : selector_.choose(next, wanted, playback_);
+  play(fragment_);
+}
+
+void Player::play(int fragment) {
   correction_.keep_velocity(correction_.tempo() * playback_.start(fragment));
   ++entered_;
 }
@@ -116,19 +125,33 @@ void Player::step(const Control& control, double seconds) {
   check_step(control, seconds);
   director_.observe(control);
   if (seconds == 0) playback_.show();
-  for (double rest = seconds; rest > 0;) {
-    const double heading = frame().heading, next = std::min(rest, kFinest);
-    const Control asked = limit_.after(control, heading, next);
-    if (director_.is_due(asked, playback_, selector_)) go_on(asked);
-    const double tempo = correction_.tempo(), played = director_.until_due(playback_, next * tempo),
-                 part = played / tempo;
-    acceleration_ = playback_.is_in_the_air() ? Vector2::Zero() : limit_.advance(control, heading, part);
-    playback_.advance(played);
-    correction_.adjust_root(asked, part, playback_);
-    rest -= part;
-    playback_.show();
-  }
+  for (double rest = seconds; rest > 0;) rest -= advance(control, std::min(rest, kFinest));
+  if (moves_ != nullptr) moves_->upper_body.lay(workspace_->shown);
   correct(seconds);
+}
+
+// Plays on for a while, which it returns, and shows it.
+double Player::advance(const Control& control, double most) {
+  if (moves_ != nullptr) most = begin_moves(control, most);
+  const double part = continue_move(control) ? advance_by_move(most) : advance_by_policy(control, most);
+  if (moves_ != nullptr) {
+    for (MoveTrack* track : {&moves_->whole_body, &moves_->upper_body.track}) track->wait(part);
+    moves_->upper_body.advance(part);
+  }
+  playback_.show();
+  return part;
+}
+
+double Player::advance_by_policy(const Control& control, double most) {
+  const double heading = frame().heading;
+  const Control asked = limit_.after(control, heading, most);
+  if (director_.is_due(asked, playback_, selector_)) go_on(asked);
+  const double tempo = correction_.tempo(), played = director_.until_due(playback_, most * tempo),
+               part = played / tempo;
+  acceleration_ = playback_.is_in_the_air() ? Vector2::Zero() : limit_.advance(control, heading, part);
+  playback_.advance(played);
+  correction_.adjust_root(asked, part, playback_);
+  return part;
 }
 
 }  // namespace fragmotion

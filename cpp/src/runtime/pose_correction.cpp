@@ -78,9 +78,18 @@ void PoseCorrection::adjust_root(const Control& control, double seconds, Playbac
   playback.move(velocity_, turn_rate_, seconds);
 }
 
+void PoseCorrection::leave_root(double seconds, Playback& playback) {
+  const auto part = [&](double time) { return 1 - std::exp(-seconds / time); };
+  tempo_ += part(kPacing) * (1 - tempo_);
+  velocity_ -= clamp_length(part(kAdjusting) * velocity_, acceleration_ * seconds);
+  turn_rate_ -= part(kTurning) * turn_rate_;
+  playback.move(velocity_, turn_rate_, seconds);
+  led_ = playback.frame().heading;
+}
+
 void PoseCorrection::correct(const Playback& playback, const Vector2& acceleration, double seconds) {
   const Skeleton& skeleton = workspace_->kinematics.skeleton();
-  breathing_.apply(skeleton, workspace_->shown, stands(playback.evident()), seconds);
+  breathing_.apply(skeleton, workspace_->shown, !playback.plays_move() && stands(playback.evident()), seconds);
   lean_.apply(skeleton, workspace_->shown, acceleration, seconds);
   edit_steps(playback.evident(), seconds);
   if (lock_feet_) lock_feet(playback, seconds);
@@ -104,7 +113,7 @@ bool PoseCorrection::stands(const Control& evident) const {
 }
 
 void PoseCorrection::lock_feet(const Playback& playback, double seconds) {
-  const Contacts& contacts = character_->contacts[character_->pool.fragments[playback.fragment()].clip];
+  const Contacts& contacts = character_->contacts[character_->played(playback.fragment()).clip];
   if (contacts.feet[0].empty()) return;
   foot_lock_.apply(workspace_->shown, contacts, playback.frame_of_clip(), seconds, steps_);
 }

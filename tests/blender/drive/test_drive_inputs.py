@@ -303,6 +303,37 @@ def test_pads_come_and_go(addon: ModuleType) -> None:
         inputs.close()
 
 
+def test_moves_are_held_by_their_keys_and_buttons(addon: ModuleType) -> None:
+    preferences = SimpleNamespace(**vars(PREFERENCES), keys=lambda: {"forward": "W"})
+    inputs = part(addon, "input.inputs").Inputs(preferences, 60, [("F", "NONE"), ("NONE", "X"), ("G", "DPAD_UP")])
+    virtual = VirtualPads(part(addon, "input.sdl").load())
+    try:
+        pad = virtual.attach()
+        virtual.set(pad, {}, (2, 11))
+        inputs.poll()
+        assert inputs.moves() == {1, 2}
+        virtual.set(pad, {})
+        inputs.poll()
+        inputs.keyboard.press("F")
+        inputs.keyboard.press("W")
+        assert inputs.moves() == inputs.moves() == {0}
+        inputs.keyboard.let_go("F")
+        assert inputs.moves() == set()
+        inputs.keyboard.press("G")
+        inputs.keyboard.let_go("G")
+        assert inputs.moves() == {2}, "a tap between two looks"
+        assert inputs.moves() == set()
+        inputs.play(np.zeros((30, 4)), [[1, 1, 2]])
+        held = []
+        for _ in range(30):
+            held.append(inputs.moves())
+            inputs.trace.advance()
+        assert held == [set()] * 6 + [{1}] * 12 + [set()] * 12
+        virtual.detach(pad)
+    finally:
+        inputs.close()
+
+
 def test_closed_pads_leave_nothing_with_sdl(addon: ModuleType) -> None:
     def threads() -> int:
         return len(os.listdir("/proc/self/task"))

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...recordings.recordings import TRACE_RATE
+from ...character.moves import names_of
+from ...recordings.recordings import TRACE_RATE, StartedMove
 from ...rig.motion import Motion
 from ..input.steering import Control
 from .actor import Actor
@@ -29,6 +31,11 @@ class Recorder:
         self._actor, self._rate = actor, rate
         self._controls: list[Control] = []
         self._jumped = False
+        self._begins = False  # whether this step is the first of its control
+        self._names = names_of(actor.character)
+        self._started: list[StartedMove] = []
+        self._held: dict[int, int] = {}  # the moves that are held, and which of those started each is
+        self._tapped: set[int] = set()
         self._poses: list[tuple[Doubles, Doubles]] = []
         self._frames: list[tuple[float, float, float]] = []
         self._classes: list[int] = []
@@ -37,10 +44,29 @@ class Recorder:
     def hold(self, control: Control) -> Control:
         """The control for the next step."""
         self._jumped = self._jumped or control.jump > 0
-        if (len(self._poses) - 1) * TRACE_RATE >= len(self._controls) * self._rate:
+        self._begins = (len(self._poses) - 1) * TRACE_RATE >= len(self._controls) * self._rate
+        if self._begins:
             self._controls.append(control._replace(jump=float(self._jumped)))
             self._jumped = False
         return self._controls[-1]
+
+    def hold_moves(self, held: set[int]) -> set[int]:
+        """The moves that are held in the next step, whose control `hold` has told: they change with the controls."""
+        self._tapped |= held - self._held.keys()
+        if self._begins:
+            now = held | self._tapped
+            self._let_go(self._held.keys() - now)
+            for move in sorted(now - self._held.keys()):
+                self._held[move] = len(self._started)
+                self._started.append(StartedMove(len(self._controls) - 1, self._names[move], 0))
+            self._tapped = set()
+        return set(self._held)
+
+    def _let_go(self, moves: Iterable[int]) -> None:
+        now = len(self._controls) - 1
+        for move in list(moves):
+            index = self._held.pop(move)
+            self._started[index] = self._started[index]._replace(held=now - self._started[index].control)
 
     def add(self, pose: tuple[Doubles, Doubles]) -> None:
         """The step has led to this pose."""
@@ -52,6 +78,15 @@ class Recorder:
     @property
     def seconds(self) -> float:
         return len(self._controls) / TRACE_RATE
+
+    @property
+    def moves(self) -> list[StartedMove]:
+        """Those that were started; what is held still is held to the end."""
+        controls, held = len(self._controls), set(self._held.values())
+        return [
+            move._replace(held=controls - move.control) if index in held else move
+            for index, move in enumerate(self._started)
+        ]
 
     @property
     def trace(self) -> Doubles:

@@ -32,6 +32,8 @@ def rows(shown: Shown) -> list[Row]:
         table.append(("Quality", f"{judge.quality:.2f} now, {judge.mean:.2f} on the whole"))
     else:
         table.append(("Class", "none before Build: the body slides"))
+    if shown.move:
+        table.append(("Move", shown.move))
     answered = readings.stopwatch.seconds
     table.append(("Response", "-" if answered is None else f"{answered:.2f} s"))
     rate = 1 / shown.interval if shown.interval > 0 else 0.0

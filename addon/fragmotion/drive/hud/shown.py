@@ -28,3 +28,5 @@ class Shown(NamedTuple):
     cost: float
     interval: float
     """Our own time for an update and the time between updates, s."""
+    move: str = ""
+    """The moves that play or wait, in words."""

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from .arbiter import Arbiter
@@ -18,9 +19,11 @@ from .walk_target import WalkTarget
 class Inputs:
     """Keyboard, on-screen stick, trace, clicks and the pads that are connected. Open until `close`."""
 
-    def __init__(self, preferences: Any, rate: int) -> None:
-        self.keyboard, self.stick, self.trace = Keyboard(preferences.keys()), ScreenStick(), TraceInput(rate)
-        self.target = WalkTarget()
+    def __init__(self, preferences: Any, rate: int, moves: Sequence[tuple[str, str]] = ()) -> None:
+        """`moves`: the key and the button of each."""
+        self.keyboard = Keyboard(preferences.keys(), [key for key, _ in moves])
+        self.stick, self.trace, self.target = ScreenStick(), TraceInput(rate), WalkTarget()
+        self._move_of = {button: move for move, (_, button) in enumerate(moves)}
         self._arbiter = Arbiter((self.keyboard, self.stick, self.trace, self.target))
         self._pads: Pads | None = None
         self._record_pressed = False
@@ -53,9 +56,16 @@ class Inputs:
         self.shown = self._arbiter.intent()
         return self.shown
 
-    def play(self, trace: Any) -> None:
-        """Let a trace [T,4] drive, until it ends or another input is touched."""
-        self.trace.play(trace)
+    def moves(self) -> set[int]:
+        """The moves that any input holds now."""
+        pressed = {button for pad in self.pads for button in pad.state.buttons}
+        by_pads = {self._move_of[button] for button in pressed if button in self._move_of}
+        return self.keyboard.moves() | by_pads | self.trace.moves()
+
+    def play(self, trace: Any, moves: Any = ()) -> None:
+        """Let a trace [T,4] drive with the moves [M,3] that were started in it, until it ends or another input is
+        touched."""
+        self.trace.play(trace, moves)
         self._arbiter.take(self.trace)
 
     def walk(self, space: Any, frame: tuple[float, float, float], place: tuple[float, float], pace: float) -> None:

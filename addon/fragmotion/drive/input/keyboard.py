@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from .steering import HALF, REST, Intent
 
@@ -21,6 +21,8 @@ DEFAULT_KEYS = {
 }
 """What a key does, and the key that does it unless the user chose another."""
 
+NO_KEY = "NONE"
+
 SPARE_KEYS = {
     "UP_ARROW": "forward",
     "DOWN_ARROW": "back",
@@ -36,9 +38,13 @@ class Keyboard:
 
     label = "Keyboard"
 
-    def __init__(self, keys: Mapping[str, str]) -> None:
-        self._action_of = {**SPARE_KEYS, **{key: action for action, key in keys.items()}}
+    def __init__(self, keys: Mapping[str, str], moves: Sequence[str] = ()) -> None:
+        """`keys`: what a key does, and the key; `moves`: the key of each move."""
+        self._move_of = {key: move for move, key in enumerate(moves) if key != NO_KEY}
+        starts = {key: f"move {move}" for key, move in self._move_of.items()}
+        self._action_of = {**SPARE_KEYS, **starts, **{key: action for action, key in keys.items()}}
         self._held: set[str] = set()
+        self._tapped: set[int] = set()
 
     def action_of(self, key: str) -> str | None:
         """What a key does, if anything."""
@@ -47,6 +53,8 @@ class Keyboard:
     def press(self, key: str) -> None:
         """A key that does something goes down."""
         self._held.add(key)
+        if key in self._move_of:
+            self._tapped.add(self._move_of[key])
 
     def let_go(self, key: str) -> None:
         """Any key comes up."""
@@ -55,6 +63,11 @@ class Keyboard:
     def release(self) -> None:
         """All keys come up."""
         self._held.clear()
+
+    def moves(self) -> set[int]:
+        """The moves whose keys are held, or were pressed since this was last asked."""
+        tapped, self._tapped = self._tapped, set()
+        return tapped | {self._move_of[key] for key in self._held if key in self._move_of}
 
     def intent(self) -> Intent:
         held = {self._action_of[key] for key in self._held}

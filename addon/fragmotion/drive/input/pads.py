@@ -15,6 +15,13 @@ _HINTS = {
 }
 
 
+MOVE_BUTTONS = (
+    *("B", "X", "Y", "BACK", "LEFTSTICK", "RIGHTSTICK"),
+    *("DPAD_UP", "DPAD_DOWN", "DPAD_LEFT", "DPAD_RIGHT"),
+)
+"""Buttons that may start a move, by SDL's names."""
+
+
 class PadState(NamedTuple):
     """Sticks from -1 to 1, right and up; a turn from -1 to 1 (left) by the shoulder buttons."""
 
@@ -23,6 +30,8 @@ class PadState(NamedTuple):
     shoulders: int = 0
     jump: bool = False
     record: bool = False
+    buttons: frozenset[str] = frozenset()
+    """Those that are pressed of MOVE_BUTTONS."""
 
 
 class Pad:
@@ -116,4 +125,5 @@ class Pads:
             button("LEFTSHOULDER") - button("RIGHTSHOULDER"),
             button("A"),
             button("START"),
+            frozenset(name for name in MOVE_BUTTONS if button(name)),
         )

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ...recordings.recordings import TRACE_RATE
@@ -21,10 +22,12 @@ class TraceInput:
         self._rate = rate  # steps a second
         self._steps = 0
         self._trace: list[Control] = []
+        self._moves: list[Sequence[int]] = []
 
-    def play(self, trace: Doubles) -> None:
-        """Begin with the trace [T,4]."""
+    def play(self, trace: Doubles, moves: Sequence[Sequence[int]] = ()) -> None:
+        """Begin with the trace [T,4], in which moves [M,3] were started as Player.run has them."""
         self._steps, self._trace = 0, [Control(*row) for row in trace.tolist()]
+        self._moves = list(moves)
 
     def advance(self) -> None:
         """A step has been made."""
@@ -34,7 +37,12 @@ class TraceInput:
 
     def release(self) -> None:
         """Stop the trace."""
-        self._trace = []
+        self._trace, self._moves = [], []
+
+    def moves(self) -> set[int]:
+        """Those that are held now."""
+        now = self._steps * TRACE_RATE // self._rate
+        return {move for control, move, held in self._moves if control <= now < control + held}
 
     def intent(self) -> Intent:
         return Intent(control=self._trace[self._steps * TRACE_RATE // self._rate]) if self._trace else REST

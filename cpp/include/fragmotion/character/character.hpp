@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fragmotion/character/move.hpp"
 #include "fragmotion/classes/classes.hpp"
 #include "fragmotion/control/control.hpp"
 #include "fragmotion/fragments/coverage.hpp"
@@ -29,12 +30,26 @@ struct Character {
   Coverage coverage;
   std::vector<Contacts> contacts;        ///< Of each clip of the pool.
   Legs legs;                             ///< As they bend in the clips.
+  std::vector<Move> moves;               ///< Their clips are the pool's last ones.
   std::vector<float> entry_poses;        ///< entry_poses() of the fragments. Not saved.
+  std::vector<Fragment> move_parts;      ///< move_parts() of the moves. Not saved.
   std::map<std::string, double> report;  ///< Figures of the build: counts, and seconds of each stage. Not saved.
 
   /// The policy of that name, or the one that drives where the name is empty. Throws std::invalid_argument listing
   /// those that there are.
   const Policy& policy(const std::string& name = {}) const;
+
+  /// What is played by a number: a fragment, or after the last of them a part of a move.
+  const Fragment& played(int number) const {
+    const int part = number - static_cast<int>(pool.fragments.size());
+    return part < 0 ? pool.fragments[number] : move_parts[part];
+  }
+  /// The number of a move's part.
+  int number_of(int move, MovePart part) const {
+    return static_cast<int>(pool.fragments.size()) + kMoveParts * move + static_cast<int>(part);
+  }
+  /// The clips that are not of moves.
+  int takes() const { return static_cast<int>(pool.clips.size() - moves.size()); }
 };
 
 /// repair_policy() of all its policies.

@@ -20,6 +20,7 @@ struct Performance {
   std::vector<double> path;            ///< [frames, 3]: character frame x, y in m and heading in rad, unwrapped
   std::vector<int> classes;            ///< [frames]
   std::vector<int> fragments;          ///< [frames]
+  std::vector<int> moves;              ///< [frames, 2]: Player::playing_moves()
   std::vector<int> entered;            ///< [frames]: fragments begun since the first frame; one may follow itself
   double quality = 0;                  ///< Eq. 2 for what plays and the control then, 0..1.
   double velocity_error = 0;           ///< |velocity - commanded|, seen from the character frame, m/s.
@@ -40,10 +41,13 @@ struct Performance {
 constexpr double kBodyAcceleration = 5;
 
 /// Steps a player through a trace from now: frames 0 .. round(duration * rate), each control for 1/kTraceRate s. Throws
-/// std::invalid_argument on an empty trace and a rate that is not over 0 and at most 1000.
-Performance perform(Player& player, const Trace& trace, double rate, const Progress& progress = {});
-inline Performance perform(Player&& player, const Trace& trace, double rate, const Progress& progress = {}) {
-  return perform(player, trace, rate, progress);
+/// std::invalid_argument on an empty trace and a rate that is not over 0 and at most 1000, and on a move that does not
+/// exist, is asked for after the trace or held for less than no time.
+Performance perform(Player& player, const Trace& trace, double rate, const Progress& progress = {},
+                    const std::vector<MovePress>& moves = {});
+inline Performance perform(Player&& player, const Trace& trace, double rate, const Progress& progress = {},
+                           const std::vector<MovePress>& moves = {}) {
+  return perform(player, trace, rate, progress, moves);
 }
 
 /// Fills the errors, the commanded speed and the drift of a performance of a trace.

@@ -14,5 +14,7 @@ constexpr double kEntry = 0.1;
 /// padded(2 * tips)], as Dis sees them. The distance between two says how alike places and speeds are. Takes some
 /// microseconds a fragment, so that a policy file need not hold them.
 std::vector<float> entry_poses(const PackedPool& pool);
+/// The same of other fragments of its clips.
+std::vector<float> entry_poses(const PackedPool& pool, const std::vector<Fragment>& fragments);
 
 }  // namespace fragmotion

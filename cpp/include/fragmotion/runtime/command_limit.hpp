@@ -12,8 +12,8 @@ class CommandLimit {
   /// `acceleration`: m/s^2 at most; infinity: none.
   explicit CommandLimit(double acceleration) : acceleration_(acceleration) {}
 
-  /// Stands, facing `heading`.
-  void reset(double heading);
+  /// Goes at `velocity`, m/s in the character frame, facing `heading`.
+  void reset(double heading, const Vector2& velocity = Vector2::Zero());
   /// What the control becomes `seconds` from the last advance(), of a body that faces `heading` then.
   Control after(const Control& control, double heading, double seconds) const;
   /// Goes so far. Returns the acceleration of the command, m/s^2 in the character frame.

@@ -32,6 +32,10 @@ class Crowd {
   /// Player::force of one; throws std::invalid_argument on a player or a class that does not exist.
   void force(int player, int next_class);
 
+  /// Player::start_move and release_move of one; they throw likewise.
+  void start_move(int player, int move);
+  void release_move(int player, int move);
+
   /// Steps each player under its control, [size()], as Player::step; throws before any has moved. What is shown then is
   /// written to `roots` [size(), 3], m, and `rotations` [size(), bones(), 4] as in Clip, unless they are null.
   /// Allocates nothing.

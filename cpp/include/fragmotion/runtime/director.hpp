@@ -27,6 +27,8 @@ class Director {
   bool is_due(const Control& control, const Playback& playback, const FragmentSelector& selector);
   /// Decides on the class that plays from now on, which it returns.
   int decide(const Control& control, const Playback& playback);
+  /// Plays this class from now on, after what was no fragment: no decision was due.
+  void resume(int next_class, const Control& control);
   /// Seconds until the next moment at which a decision may be due, at most `most`.
   double until_due(const Playback& playback, double most) const;
 

@@ -29,6 +29,11 @@ class FragmentSelector {
   /// Any member.
   int choose_any(int next_class);
 
+  /// The class to enter, in the shown pose, after what was no fragment: of the greatest Eq. 2 for the control.
+  int best_class(const Control& control, const Playback& playback) const;
+  /// How badly a move joins on to what is shown, m a metre of tip_reach(), of places and speeds.
+  double distance_to(int move, const Playback& playback) const;
+
   /// The moment at which what plays is best left for this class, s since the fragment's first pose: every second of
   /// waiting costs as much as `haste` metres a metre of tip_reach() between the poses that are joined.
   Exit best_exit(int next_class, const Control& control, const Playback& playback, double haste) const;
@@ -36,6 +41,7 @@ class FragmentSelector {
  private:
   CharacterFrame pose_tips(const Playback& playback, double seconds, BodyTips& tips) const;
   void extrapolate(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const;
+  void extrapolate(const Playback& playback) const;
   void find_candidates(int next_class, const Control& control) const;
   float measure_candidates(const Control& evident, const StepSequence& steps) const;
 

@@ -34,8 +34,10 @@ class Playback {
   /// As it is shown at a time since the fragment's first pose, without a crossfade's old fragment.
   void sample(double seconds, WorldPose& pose) const;
 
+  /// What plays, as Character::played() numbers it.
   int fragment() const { return now_.fragment; }
-  const Control& evident() const { return character_->pool.fragments[now_.fragment].evident; }
+  const Control& evident() const { return character_->played(now_.fragment).evident; }
+  bool plays_move() const { return now_.fragment >= static_cast<int>(character_->pool.fragments.size()); }
   /// Whether it is in a jump that cannot be left: until it has landed and is half up again.
   bool is_jumping() const;
   /// Whether it jumps and touches no ground now.
@@ -50,6 +52,8 @@ class Playback {
   double seconds() const { return now_.seconds; }
   /// Until the fragment's end, s.
   double left() const;
+  /// At which the character goes as it is shown, m/s in its own frame.
+  Vector2 velocity() const;
   /// After which the old fragment of a crossfade is not seen any more, s since the first pose of what plays.
   double faded() const { return faded_; }
   /// Where the character stands, as it was last shown.

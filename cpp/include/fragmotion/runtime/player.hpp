@@ -10,6 +10,7 @@
 #include "fragmotion/runtime/command_limit.hpp"
 #include "fragmotion/runtime/director.hpp"
 #include "fragmotion/runtime/pose_correction.hpp"
+#include "fragmotion/runtime/upper_body.hpp"
 
 namespace fragmotion {
 
@@ -33,7 +34,7 @@ struct PlayerOptions {
 
 /// The run time (Sec. 3.3, Fig. 3): a CommandLimit asks of the body what it can do, a Director decides which class
 /// comes next and when, a FragmentSelector chooses one of its fragments, Playback stitches that on to what is shown,
-/// and PoseCorrection lets the pose do better what is asked.
+/// and PoseCorrection lets the pose do better what is asked. Moves play in between (MoveTrack) or over it (UpperBody).
 class Player {
  public:
   /// Throws std::invalid_argument on an option that is out of its range.
@@ -59,13 +60,28 @@ class Player {
   /// and to its end, from where the policy goes on. Throws std::invalid_argument on a class that does not exist.
   void force(int next_class);
 
+  /// Plays a move, held from now on: at the moment within its time to wait at which it joins best on to what would be
+  /// shown under the control until then, but not within a jump. One of the whole body goes its own way on the ground,
+  /// and into the class that joins best for the control at its end; one of the upper body plays over all others. A move
+  /// that waits already is forgotten, one that plays is played to its end before. Throws std::invalid_argument on a
+  /// move that does not exist.
+  void start_move(int move);
+  /// The move is not held any more: its loop is not begun again. Throws std::invalid_argument on one that does not
+  /// exist.
+  void release_move(int move);
+  /// What plays, or -1: a move of the whole body, and one of the upper body.
+  std::array<int, 2> playing_moves() const;
+  /// What waits for its moment, or -1, likewise.
+  std::array<int, 2> waiting_moves() const;
+
   const Vector3& root_position() const { return root_; }
   /// [bones, 4] as in Clip; of a crowd's player see Crowd::step.
   const std::vector<double>& rotations() const { return workspace_->shown.rotations; }
   CharacterFrame frame() const { return playback_.frame(); }
   int playing_class() const { return director_.playing_class(); }
-  int playing_fragment() const { return playback_.fragment(); }
-  /// Fragments begun since it was made.
+  /// While a move of the whole body plays, that before it, as playing_class().
+  int playing_fragment() const { return fragment_; }
+  /// Fragments, and parts of whole-body moves, begun since it was made.
   int entered() const { return entered_; }
   /// Eq. 2 for the transition that led here and the control.
   double quality(int control) const;
@@ -84,9 +100,33 @@ class Player {
   Player(std::shared_ptr<const Character> character, const PlayerOptions& options,
          std::shared_ptr<Workspace> workspace);
 
+  // What a player has whose character has moves.
+  struct Moves {
+    MoveTrack whole_body;
+    UpperBody upper_body;
+    std::unique_ptr<Player> rehearsal;  // plays ahead what would be shown
+  };
+
+  static constexpr double kFinest = 1 / 60.0;  // s for which a command is the same at most
+
+  void make_moves(const PlayerOptions& options);
+  MoveTrack& track_of(int move);
   void prefetch() const;
   static void check_step(const Control& control, double seconds);
   void go_on(const Control& control);
+  void play(int fragment);
+  double advance(const Control& control, double most);
+  double advance_by_policy(const Control& control, double most);
+  double advance_by_move(double most);
+  double begin_moves(const Control& control, double most);
+  template <typename Cost>
+  void plan(MoveTrack& track, const Control& control, const Cost& cost);
+  template <typename Cost>
+  bool is_due(MoveTrack& track, const Control& control, const Cost& cost);
+  void imitate(const Player& other);
+  bool can_begin_move() const;
+  bool continue_move(const Control& control);
+  void resume(const Control& control);
   void correct(double seconds);
 
   std::shared_ptr<const Character> character_;
@@ -96,7 +136,9 @@ class Player {
   FragmentSelector selector_;
   Playback playback_;
   PoseCorrection correction_;
+  std::unique_ptr<Moves> moves_;  // null without moves, and in a rehearsal
   int entered_ = 0;
+  int fragment_ = 0;
   Vector3 root_ = Vector3::Zero();          // as it is shown
   Vector2 acceleration_ = Vector2::Zero();  // of the command, m/s^2 in the character frame
 };

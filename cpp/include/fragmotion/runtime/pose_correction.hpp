@@ -26,6 +26,8 @@ class PoseCorrection {
   double tempo() const { return tempo_; }
   /// Moves and turns what plays over `seconds`, so that it does more of what the control says.
   void adjust_root(const Control& control, double seconds, Playback& playback);
+  /// Lets what plays go its own way over `seconds`: the velocity that was kept and the adjustment's fade.
+  void leave_root(double seconds, Playback& playback);
   /// Corrects Workspace::shown, `seconds` after the pose that was shown last, of a body that is accelerated by so many
   /// m/s^2 in the character frame.
   void correct(const Playback& playback, const Vector2& acceleration, double seconds);

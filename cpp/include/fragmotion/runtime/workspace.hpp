@@ -21,6 +21,7 @@ struct Workspace {
   std::shared_ptr<FootLock::Body> body;
   std::vector<std::vector<int>> members;  ///< Classes::members()
   std::vector<EntrySteps> entry_steps;    ///< entry_steps()
+  std::vector<float> move_entries;        ///< entry_poses() of the moves' parts
 
   // Of the FragmentSelector's: rows as those of Character::entry_poses.
   std::array<BodyTips, 3> tips;
