@@ -6,7 +6,7 @@ from __future__ import annotations
 import fragmotion_core as core
 import numpy as np
 import pytest
-from conftest import NAMES, Array, walking_arrays
+from conftest import CMU, NAMES, Array, build_options, walking_arrays
 
 from tools.directing.moves import moves as measured_moves
 
@@ -144,3 +144,19 @@ def test_the_measure_tells_waits_and_steps(moving: core.Character) -> None:
     for row, wait in zip(rows, (0.5, 0.3)):
         assert 0 < row["wait_s"] <= wait + 2 / 60
         assert 0 < row["joint_step_ratio"] < 3
+
+
+@pytest.mark.skipif(not CMU.is_dir(), reason="the motion capture beside the project is missing")
+def test_a_captured_jump_joins_a_captured_walk_as_well_as_fragments_join() -> None:
+    takes = [core.read_asf_amc(CMU / "02.asf", CMU / f"02_0{number}.amc") for number in range(1, 5)]
+    skeleton = takes[0].skeleton
+    *walks, jump = [core.Clip.from_take(take, skeleton) for take in takes]
+    options = build_options(classes=30, policies=["anticipate"])
+    plain = core.build(skeleton, walks, [core.simulate_trace("explorer", 60, 1)], options)
+    moving = plain.with_moves([core.Move("jump", jump), core.Move("arms", jump, True)])
+    metrics = core.MotionMetrics(plain)
+    shown = core.Player(plain).run(core.simulate_trace("explorer", 30, 7, plain.space), 60)
+    usual = metrics.of(shown).positions.worst / metrics.takes.positions.p999
+    for row in measured_moves(moving):
+        assert row["wait_s"] <= 0.5 + 2 / 60
+        assert row["joint_step_ratio"] < 1.1 * usual, row
