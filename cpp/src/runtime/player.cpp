@@ -45,6 +45,12 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
   reset();
 }
 
+Player Player::branch() const {
+  Player player(*this);
+  if (moves_ != nullptr) player.moves_ = std::make_shared<Moves>(*moves_);
+  return player;
+}
+
 // A crowd's memory is more than the processor's caches hold.
 void Player::prefetch() const {
   fragmotion::prefetch(this, 1);

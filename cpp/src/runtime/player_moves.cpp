@@ -18,9 +18,9 @@ constexpr double kAhead = 0.25;                  // s by which the command at a 
 
 void Player::make_moves(const PlayerOptions& options) {
   if (character_->moves.empty()) return;
-  moves_ = std::make_unique<Moves>(Moves{MoveTrack(*character_),
+  moves_ = std::make_shared<Moves>(Moves{MoveTrack(*character_),
                                          UpperBody(*character_, *workspace_, options.stitching, options.stitch),
-                                         std::unique_ptr<Player>(new Player(character_, options, workspace_))});
+                                         std::shared_ptr<Player>(new Player(character_, options, workspace_))});
 }
 
 MoveTrack& Player::track_of(int move) {

@@ -43,7 +43,7 @@ class Player {
 
   /// A player that goes on as this one would. They share a workspace, as a crowd's do: step them in turn, and what
   /// rotations() tells is the pose of the one that stepped last.
-  Player branch() const { return *this; }
+  Player branch() const;
 
   /// Stands at `frame`, in the class that best performs standing still, and draws again from the seed: after a reset
   /// the same steps show the same poses. Throws std::invalid_argument unless `frame` is within 1e9 m and 1e9 rad.
@@ -104,7 +104,7 @@ class Player {
   struct Moves {
     MoveTrack whole_body;
     UpperBody upper_body;
-    std::unique_ptr<Player> rehearsal;  // plays ahead what would be shown
+    std::shared_ptr<Player> rehearsal;  // plays ahead what would be shown; takes its state anew each time
   };
 
   static constexpr double kFinest = 1 / 60.0;  // s for which a command is the same at most
@@ -136,7 +136,7 @@ class Player {
   FragmentSelector selector_;
   Playback playback_;
   PoseCorrection correction_;
-  std::unique_ptr<Moves> moves_;  // null without moves, and in a rehearsal
+  std::shared_ptr<Moves> moves_;  // its own; null without moves, and in a rehearsal
   int entered_ = 0;
   int fragment_ = 0;
   Vector3 root_ = Vector3::Zero();          // as it is shown
