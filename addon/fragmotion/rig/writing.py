@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 LINEAR, _BEZIER = 1, 2
 """RNA's numbers of the interpolations 'LINEAR' and 'BEZIER'."""
 
-_ALIGNED = 3  # RNA's number of that handle type
-
 _OBJECT_GROUP = "Object Transforms"  # as Blender's own keying names it
 _SAME_FRAME = 0.01  # keys closer than this to a frame are on it
 
@@ -92,8 +90,9 @@ def _add_keys(curve: bpy.types.FCurve, times: Doubles, values: Doubles, handles:
     _set_last(keys, "co", former, points.ravel(), np.float32)
     _set_last(keys, "interpolation", former, LINEAR if handles is None else _BEZIER, np.int32)
     if handles is not None:
+        for key in keys[former:]:  # Blender 3.4 sets no handle types all at once
+            key.handle_left_type = key.handle_right_type = "ALIGNED"
         for side, offsets in handles._asdict().items():
-            _set_last(keys, f"handle_{side}_type", former, _ALIGNED, np.int32)
             _set_last(keys, f"handle_{side}", former, (points + offsets).ravel(), np.float32)
     curve.update()
 
