@@ -87,7 +87,8 @@ bool Player::is_due(MoveTrack& track, const Control& control, const Cost& cost) 
 
 // Begins what is due. Returns until when no other moment comes, at most `most` s.
 double Player::begin_moves(const Control& control, double most) {
-  auto& [whole, upper, ahead] = *moves_;
+  MoveTrack& whole = moves_->whole_body;
+  UpperBody& upper = moves_->upper_body;
   if (is_due(whole, control, [&](const Player& p) { return p.selector_.distance_to(whole.waiting(), p.playback_); })) {
     play(whole.begin());
   }
