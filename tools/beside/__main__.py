@@ -15,10 +15,11 @@ from tools.beside.comparing import compare
 from tools.beside.setting import make_setting
 from tools.beside.table import beside_table
 from tools.beside.tuning import tune
+from tools.command import run_command
 from tools.evaluate.loading import read_recordings
 from tools.evaluate.report import text
 from tools.motion_matching.constants import TUNED, load
-from tools.shell import Failure, say
+from tools.shell import say
 
 
 def beside(options: argparse.Namespace) -> None:
@@ -41,14 +42,7 @@ def beside(options: argparse.Namespace) -> None:
 
 def main(arguments: list[str]) -> int:
     """Run, and return the exit code."""
-    parser = argparse.ArgumentParser(prog="dev.py beside", description=__doc__)
-    inputs.add_arguments(parser)
-    try:
-        beside(parser.parse_args(arguments))
-    except (Failure, OSError) as failure:
-        print(f"beside: {failure}", file=sys.stderr)
-        return 1
-    return 0
+    return run_command("beside", __doc__, inputs.add_arguments, beside, arguments)
 
 
 if __name__ == "__main__":

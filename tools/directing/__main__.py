@@ -13,6 +13,7 @@ from typing import Any
 
 import fragmotion_core as core
 
+from tools.command import run_command
 from tools.directing import inputs
 from tools.directing.courses import courses
 from tools.directing.figures import draw_paths
@@ -24,7 +25,7 @@ from tools.evaluate import curves
 from tools.evaluate.controllers import DEFAULT
 from tools.evaluate.loading import SECONDS, TEACHER, Recordings, make_session, read_recordings
 from tools.evaluate.report import text
-from tools.shell import Failure, say
+from tools.shell import say
 
 CLASSES = 97
 
@@ -59,14 +60,7 @@ def direct(options: argparse.Namespace) -> None:
 
 def main(arguments: list[str]) -> int:
     """Run, and return the exit code."""
-    parser = argparse.ArgumentParser(prog="dev.py directing", description=__doc__)
-    inputs.add_arguments(parser)
-    try:
-        direct(parser.parse_args(arguments))
-    except (Failure, OSError) as failure:
-        print(f"directing: {failure}", file=sys.stderr)
-        return 1
-    return 0
+    return run_command("directing", __doc__, inputs.add_arguments, direct, arguments)
 
 
 if __name__ == "__main__":

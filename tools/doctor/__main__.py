@@ -10,9 +10,10 @@ import argparse
 import json
 import sys
 
+from tools.command import run_command
 from tools.doctor import inputs, report
 from tools.doctor.examining import examine, is_readable
-from tools.shell import Failure, say
+from tools.shell import say
 
 
 def doctor(options: argparse.Namespace) -> int:
@@ -28,13 +29,7 @@ def doctor(options: argparse.Namespace) -> int:
 
 def main(arguments: list[str]) -> int:
     """Run, and return the exit code."""
-    parser = argparse.ArgumentParser(prog="dev.py doctor", description=__doc__)
-    inputs.add_arguments(parser)
-    try:
-        return doctor(parser.parse_args(arguments))
-    except (Failure, OSError) as failure:
-        print(f"doctor: {failure}", file=sys.stderr)
-        return 1
+    return run_command("doctor", __doc__, inputs.add_arguments, doctor, arguments)
 
 
 if __name__ == "__main__":

@@ -11,10 +11,11 @@ import json
 import sys
 from pathlib import Path
 
+from tools.command import run_command
 from tools.evaluate import figures, inputs, report
 from tools.evaluate.loading import make_sessions, read_recordings, save_sessions
 from tools.evaluate.measuring import Result, measure, measure_quickly
-from tools.shell import Failure, say
+from tools.shell import say
 
 
 def evaluate(options: argparse.Namespace) -> None:
@@ -44,14 +45,7 @@ def save(result: Result, path: Path) -> None:
 
 def main(arguments: list[str]) -> int:
     """Run, and return the exit code."""
-    parser = argparse.ArgumentParser(prog="dev.py evaluate", description=__doc__)
-    inputs.add_arguments(parser)
-    try:
-        evaluate(parser.parse_args(arguments))
-    except (Failure, OSError) as failure:
-        print(f"evaluate: {failure}", file=sys.stderr)
-        return 1
-    return 0
+    return run_command("evaluate", __doc__, inputs.add_arguments, evaluate, arguments)
 
 
 if __name__ == "__main__":

@@ -14,13 +14,14 @@ from typing import Any
 
 import fragmotion_core as core
 
+from tools.command import run_command
 from tools.evaluate.__main__ import save
 from tools.evaluate.loading import Recordings, core_failures
 from tools.evaluate.report import Table, text
 from tools.retarget import inputs, rigs
 from tools.retarget.character import make_character
 from tools.retarget.sources import Source, body_of, read_body, read_sources
-from tools.shell import Failure, say
+from tools.shell import say
 
 _SKATE, _CONTACT = 1.1, 0.01  # ratio, and m of a 1.8 m character: beyond these a take is remarked on
 _HIPS = 0.05  # m of a 1.8 m character that hips are moved without a remark
@@ -109,14 +110,7 @@ def character_table(figures: dict[str, float]) -> Table:
 
 def main(arguments: list[str]) -> int:
     """Run, and return the exit code."""
-    parser = argparse.ArgumentParser(prog="dev.py retarget", description=__doc__)
-    inputs.add_arguments(parser)
-    try:
-        retarget(parser.parse_args(arguments))
-    except (Failure, OSError) as failure:
-        print(f"retarget: {failure}", file=sys.stderr)
-        return 1
-    return 0
+    return run_command("retarget", __doc__, inputs.add_arguments, retarget, arguments)
 
 
 if __name__ == "__main__":
