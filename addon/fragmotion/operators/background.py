@@ -7,10 +7,11 @@ from typing import Any, ClassVar
 
 import bpy
 
+from ..character.building import has_character
 from ..compat.core import core
 from ..errors import UserError, core_errors, reported
 from ..jobs import Job
-from .context import active_armature, adopt_settings, progress_shown
+from .context import active_armature, adopt_settings, poll_armature, progress_shown
 
 _TICK = 0.1  # s between looks at the job
 current: Job | None = None
@@ -140,6 +141,16 @@ def poll_idle(cls: Any) -> bool:
     if current is not None:
         cls.poll_message_set(f"{current.label} is under way: wait, or cancel it (Esc)")
     return current is None
+
+
+def poll_character(cls: Any, context: bpy.types.Context) -> bool:
+    """Whether the active armature has a character that can be used now; says why not."""
+    if not poll_armature(cls, context) or not poll_idle(cls):
+        return False
+    obj = active_armature(context)
+    if not has_character(obj):
+        cls.poll_message_set(f"Armature '{obj.name}' has no character yet: press Build first")
+    return has_character(obj)
 
 
 def stop() -> None:

@@ -9,13 +9,12 @@ import bpy
 
 from ..bake.baking import Baked, hindrances, prepare
 from ..bake.targets import find_target, write
-from ..character.building import has_character
 from ..jobs import Job
 from ..recordings.recordings import baked_source
 from ..settings.bake_fields import BakeFields
 from ..settings.drawing import draw_bake, draw_bake_options
-from .background import Background, poll_idle
-from .context import active_armature, poll_armature
+from .background import Background, poll_character
+from .context import active_armature
 
 
 class Baking(Background):
@@ -26,12 +25,7 @@ class Baking(Background):
 
     @classmethod
     def poll(cls: Any, context: bpy.types.Context) -> bool:
-        if not poll_armature(cls, context) or not poll_idle(cls):
-            return False
-        obj = active_armature(context)
-        if not has_character(obj):
-            cls.poll_message_set(f"Armature '{obj.name}' has no character yet: press Build first")
-        return has_character(obj)
+        return poll_character(cls, context)
 
 
 class FRAGMOTION_OT_bake(BakeFields, Baking, bpy.types.Operator):

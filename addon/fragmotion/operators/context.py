@@ -97,6 +97,15 @@ def advise_on_foreign(obj: bpy.types.Object) -> str:
     )
 
 
+def end_modal(timer: bpy.types.Timer | None) -> None:
+    """Remove what a modal operator is woken by, if it is, and what it says in the status bar."""
+    if timer is None:
+        return
+    bpy.context.window_manager.event_timer_remove(timer)
+    if bpy.context.workspace is not None:  # there is none where no window is the context's
+        bpy.context.workspace.status_text_set(None)
+
+
 @contextmanager
 def progress_shown(context: bpy.types.Context) -> Iterator[Callable[[float], None]]:
     """Shows beside the mouse what share is done, as what this gives is told."""

@@ -276,13 +276,7 @@ def _is_for_view(context: bpy.types.Context, event: bpy.types.Event) -> bool:
     """Whether a key is pressed over a 3D view of the window, and is no shortcut."""
     if event.ctrl or event.alt or event.oskey:
         return False
-    return any(_is_inside(area, event) for area in views.areas_of(context.window))
-
-
-def _is_inside(part: Any, event: bpy.types.Event) -> bool:
-    """Whether the mouse is over an area or a region."""
-    across, up = event.mouse_x - part.x, event.mouse_y - part.y
-    return bool(0 <= across < part.width and 0 <= up < part.height)
+    return any(views.is_inside(area, event) for area in views.areas_of(context.window))
 
 
 def _hear_mouse(driven: session.Session, context: bpy.types.Context, event: bpy.types.Event) -> bool:
@@ -294,7 +288,7 @@ def _hear_mouse(driven: session.Session, context: bpy.types.Context, event: bpy.
     region = views.window_region(area)
     x, y = event.mouse_x - region.x, event.mouse_y - region.y
     if event.type == "LEFTMOUSE" and event.value == "PRESS":
-        if not _is_inside(area, event):
+        if not views.is_inside(area, event):
             return False
         return (driven.settings.show_stick and stick.press(x, y)) or _send_there(driven, area, event, (x, y))
     if not stick.held:

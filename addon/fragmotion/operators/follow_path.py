@@ -8,12 +8,11 @@ from typing import Any, ClassVar
 import bpy
 
 from ..bake.performing import character_frame
-from ..character.building import has_character
 from ..errors import reported
 from ..paths.following import follow
 from ..rig.rigs import make_rig
-from .background import poll_idle
-from .context import active_armature, poll_armature
+from .background import poll_character
+from .context import active_armature
 
 
 class FRAGMOTION_OT_follow_path(bpy.types.Operator):
@@ -29,12 +28,7 @@ class FRAGMOTION_OT_follow_path(bpy.types.Operator):
 
     @classmethod
     def poll(cls: Any, context: bpy.types.Context) -> bool:
-        if not poll_armature(cls, context) or not poll_idle(cls):
-            return False
-        obj = active_armature(context)
-        if not has_character(obj):
-            cls.poll_message_set(f"Armature '{obj.name}' has no character yet: press Build first")
-        return has_character(obj)
+        return poll_character(cls, context)
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:

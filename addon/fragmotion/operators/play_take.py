@@ -15,7 +15,7 @@ from ..drive.hud import views
 from ..errors import UserError, reported
 from ..mocap.actions import chosen
 from . import background, solo_class
-from .context import active_armature, poll_armature
+from .context import active_armature, end_modal, poll_armature
 
 _RATE = 60  # steps a second
 _LONGEST = 0.25  # s that a step makes up for
@@ -114,10 +114,7 @@ class FRAGMOTION_OT_play_take(bpy.types.Operator):
 def stop() -> None:
     """Show no take any more, and let nothing of it stay with Blender."""
     global _timer
-    if _timer is not None:
-        bpy.context.window_manager.event_timer_remove(_timer)
-        if bpy.context.workspace is not None:  # there is none where no window is the context's
-            bpy.context.workspace.status_text_set(None)
+    end_modal(_timer)
     _timer = None
     _listen_no_more()
     take_shown.stop()
@@ -149,9 +146,5 @@ def _listen_no_more() -> None:
 
 def _is_over_sidebar(context: bpy.types.Context, event: bpy.types.Event) -> bool:
     """Whether the mouse is over a 3D view's sidebar, where the list is."""
-    for area in views.areas_of(context.window):
-        for region in area.regions:
-            across, up = event.mouse_x - region.x, event.mouse_y - region.y
-            if region.type == "UI" and 0 <= across < region.width and 0 <= up < region.height:
-                return True
-    return False
+    regions = (region for area in views.areas_of(context.window) for region in area.regions)
+    return any(region.type == "UI" and views.is_inside(region, event) for region in regions)

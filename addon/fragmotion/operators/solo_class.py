@@ -14,7 +14,7 @@ from ..drive import take_shown
 from ..drive.hud import views
 from ..errors import UserError, reported
 from . import background
-from .context import active_armature
+from .context import active_armature, end_modal
 from .force_class import poll_class
 
 _RATE = 60  # steps a second
@@ -98,10 +98,7 @@ class FRAGMOTION_OT_solo_class(bpy.types.Operator):
 def stop() -> None:
     """End the preview that is running, and let nothing of it stay."""
     global current, _timer
-    if _timer is not None:
-        bpy.context.window_manager.event_timer_remove(_timer)
-        if bpy.context.workspace is not None:  # there is none where no window is the context's
-            bpy.context.workspace.status_text_set(None)
+    end_modal(_timer)
     solo, current, _timer = current, None, None
     if solo is not None:
         solo.end()

@@ -88,3 +88,9 @@ def free_part(area: bpy.types.Area) -> Free:
         elif region.type in _TOPS:
             top = min(top, region.y - main.y) if region.y > main.y + main.height / 2 else top
     return Free(left, 0, right, top)
+
+
+def is_inside(part: Any, event: bpy.types.Event) -> bool:
+    """Whether the mouse is over an area or a region."""
+    across, up = event.mouse_x - part.x, event.mouse_y - part.y
+    return bool(0 <= across < part.width and 0 <= up < part.height)
