@@ -35,7 +35,9 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     inputs.add_arguments(evaluate)
     beside = commands.add_parser("beside", help="measure Fragmotion beside motion matching, on the same takes")
     beside_inputs.add_arguments(beside)
-    directing = commands.add_parser("directing", help="measure how a character follows paths, and comes to pins")
+    directing = commands.add_parser(
+        "directing", help="measure how a character follows paths and pins, and stands on ground"
+    )
     directing_inputs.add_arguments(directing)
     doctor = commands.add_parser("doctor", help="say what is wrong with motion capture files")
     doctor_inputs.add_arguments(doctor)

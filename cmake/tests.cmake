@@ -12,8 +12,9 @@ include(GoogleTest)
 add_executable(fragmotion_tests ${fragmotion_test_sources})
 target_include_directories(fragmotion_tests PRIVATE cpp/src tests/cpp)
 target_link_libraries(fragmotion_tests PRIVATE fragmotion GTest::gtest_main)
-# What is debugged and sanitized is the core; its tests are compiled in half the time without optimisation.
-target_compile_options(fragmotion_tests PRIVATE -Wall -Wextra -Wpedantic $<$<CONFIG:Debug>:-O0>)
+# What is optimised, debugged and sanitized is the core; its tests are compiled in half the time without optimisation.
+compile_by_stage(fragmotion_tests)
+target_compile_options(fragmotion_tests PRIVATE -Wall -Wextra -Wpedantic -O0)
 gtest_discover_tests(fragmotion_tests WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 60)
 
 # What a game does, with fragmotion_runtime and its public headers alone.

@@ -70,7 +70,6 @@ def recorded() -> Iterator[None]:
     bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE), load_ui=False)
     yield
     making.activate(character())
-    window.press(bpy.ops.fragmotion.tick_actions, "EXEC_DEFAULT", True, use=True)
     window.press(bpy.ops.fragmotion.build, "EXEC_DEFAULT", True)
     scene, settings = bpy.context.scene, character().fragmotion
     scene.render.fps, scene.render.fps_base, settings.bake.frame_start = FPS, 1.0, FIRST

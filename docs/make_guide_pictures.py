@@ -102,7 +102,6 @@ def open_character() -> Iterator[None]:
     bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE), load_ui=False)
     yield
     making.activate(bpy.data.objects[making.ARMATURE])
-    window.press(bpy.ops.fragmotion.tick_actions, "EXEC_DEFAULT", True, use=True)
     space = window.view()["area"].spaces[0]
     space.shading.type, space.overlay.show_extras, space.overlay.show_cursor = "SOLID", False, False
     space.region_3d.view_perspective, space.region_3d.view_rotation = "PERSP", VIEW.to_quaternion()

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import body
 import numpy as np
 import rotations as rot
+from manners import MANNERS
 from takes import FLIGHT_FRAMES, FPS, GRAVITY, Take
 
 Array = np.ndarray
@@ -62,11 +63,16 @@ class Timeline:
 
     def style(self, name: str) -> Array:
         """The gait parameter at every frame."""
-        return np.interp(self.speed, SPEEDS, STYLE[name])
+        return self._styled(name, self.speed)
 
     def style_at(self, name: str, second: float) -> float:
         """The gait parameter at a moment (clamped to the simulated span)."""
-        return float(np.interp(np.interp(second, self.time, self.speed), SPEEDS, STYLE[name]))
+        return float(self._styled(name, np.interp(second, self.time, self.speed)))
+
+    def _styled(self, name: str, speed: Array) -> Array:
+        manner = MANNERS[self.take.manner]
+        factor, more = manner.changed(name)
+        return factor * np.interp(speed / manner.pace, SPEEDS, STYLE[name]) + more
 
     def flight_height(self) -> Array:
         """Height of the ballistic arc of the jump, metres; 0 outside the flight."""

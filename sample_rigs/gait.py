@@ -14,6 +14,8 @@ import footsteps as steps
 import numpy as np
 import rotations as rot
 from footsteps import FootMotion, Timeline, hermite, smoothstep
+from gestures import GESTURES, Gesture
+from manners import MANNERS
 from takes import FPS, GRAVITY, Take
 
 Array = np.ndarray
@@ -40,13 +42,16 @@ def synthesize(take: Take) -> Motion:
     """Make the motion of a take, frame 0 to its last frame."""
     line = steps.make_timeline(take)
     feet = {".L": steps.foot_motion(line, 1.0), ".R": steps.foot_motion(line, -1.0)}
+    gesture = GESTURES.get(take.gesture, Gesture({}))
+    for side, foot in feet.items():
+        _move_foot(line, gesture, side, foot)
     jump = _jump_height(line)
     world = {"root": rot.about_z(line.heading)}
-    _add_torso(line, jump, world)
-    hips = _hips_position(line, jump, world["hips"], feet)
+    _add_torso(line, jump, gesture, world)
+    hips = _hips_position(line, jump, gesture, world["hips"], feet)
     for side, foot in feet.items():
         _add_leg(line, side, foot, hips, world)
-        _add_arm(line, side, world)
+        _add_arm(line, side, gesture, world)
     count = round(take.seconds * FPS) + 1
     kept = slice(steps.MARGIN, steps.MARGIN + count)
     planted = {side: foot.planted[kept] for side, foot in feet.items()}
@@ -103,24 +108,35 @@ def _airborne(line: Timeline, before: float, after: float) -> Array:
     return rising * smoothstep((line.landing + after - line.time) / after)
 
 
-def _add_torso(line: Timeline, jump: Array, world: dict[str, Array]) -> None:
+def _move_foot(line: Timeline, gesture: Gesture, side: str, foot: FootMotion) -> None:
+    """Lift a foot as the gesture does."""
+    ahead, up, pitch = (gesture.value(f"{name}{side}", line.time) for name in ("ahead", "up", "pitch"))
+    foot.ankle += rot.apply(rot.about_z(line.heading), np.stack([0 * up, -ahead, up], axis=1))
+    foot.pitch += np.radians(pitch)
+    foot.toe_pitch += np.radians(pitch)
+    foot.planted &= ~gesture.lifts(side, line.time)
+
+
+def _add_torso(line: Timeline, jump: Array, gesture: Gesture, world: dict[str, Array]) -> None:
     """Pelvis turning and tilting with the steps, the chest against it, the head steady and looking ahead."""
     calm, straight = 1 - _airborne(line, 0.4, 0.5), steps.roll_sign(line.take)
     moving = np.clip(line.speed / steps.SPEEDS[1], 0, 1)
     twist = steps.pelvis_turn(line.take) * moving
     crouch = np.maximum(-jump, 0)
     lean, side = _lean(line, crouch)
+    lean = lean + np.radians(gesture.value("lean", line.time))
     yaw = -np.radians(line.style("pelvis_yaw")) * np.cos(2 * math.pi * line.phase) * straight * calm
     roll = -np.radians(line.style("pelvis_roll")) * _wave(line, 0.04) * calm + 0.012 * _breath(line, 0.1)
     chest_yaw = np.radians(line.style("chest_yaw")) * np.cos(2 * math.pi * line.phase) * straight * calm
-    look = 0.18 * line.turn
+    look, manner = 0.18 * line.turn, MANNERS[line.take.manner]
     hips = rot.about_z(line.heading + twist + yaw) @ rot.about_x(0.5 * lean) @ rot.about_y(0.5 * side + roll)
     chest_lean = lean - np.radians(1.3) * _breath(line) + np.radians(0.8) * _wave(line, 0.1, 2) * calm * moving
     chest = rot.about_z(line.heading + 0.2 * twist + chest_yaw + 0.3 * look)
     world["hips"] = hips
-    world["chest"] = chest @ rot.about_x(chest_lean) @ rot.about_y(side - 0.35 * roll)
+    world["chest"] = chest @ rot.about_x(chest_lean + math.radians(manner.hunch)) @ rot.about_y(side - 0.35 * roll)
     world["spine"] = rot.between(hips, world["chest"], 0.5)
-    world["head"] = rot.about_z(line.heading + look + 0.05 * twist) @ rot.about_x(0.25 * lean) @ rot.about_y(0.3 * side)
+    nod = rot.about_x(0.25 * lean + math.radians(manner.nod))
+    world["head"] = rot.about_z(line.heading + look + 0.05 * twist) @ nod @ rot.about_y(0.3 * side)
     world["neck"] = rot.between(world["chest"], world["head"], 0.5)
 
 
@@ -133,7 +149,7 @@ def _lean(line: Timeline, crouch: Array) -> tuple[Array, Array]:
     return ahead + 2.0 * crouch, 0.6 * along * math.sin(angle) + steps.bank(line)
 
 
-def _hips_position(line: Timeline, jump: Array, hips: Array, feet: dict[str, FootMotion]) -> Array:
+def _hips_position(line: Timeline, jump: Array, gesture: Gesture, hips: Array, feet: dict[str, FootMotion]) -> Array:
     """Position of the hips bone's head: over the path, bobbing and swaying, no higher than the standing legs reach."""
     calm = 1 - _airborne(line, 0.4, 0.5)
     middle = line.style("duty") / 2
@@ -141,7 +157,8 @@ def _hips_position(line: Timeline, jump: Array, hips: Array, feet: dict[str, Foo
     height = height + line.style("bob") * np.cos(4 * math.pi * (line.phase - middle)) * calm
     sway = line.style("sway") * _wave(line, 0.06) * calm + 0.012 * _breath(line, 0.1)
     back = 0.25 * np.maximum(-jump, 0)
-    offset = np.stack([sway, back, height + jump], axis=1)
+    left, behind, down = (gesture.value(f"hips_{name}", line.time) for name in ("left", "back", "down"))
+    offset = np.stack([sway + left, back + behind, height + jump - down], axis=1)
     position = line.position + rot.apply(rot.about_z(line.heading), offset)
     need = np.zeros_like(line.time)
     for side, foot in feet.items():
@@ -216,13 +233,16 @@ def _rest_frame(name: str) -> Array:
     return rot.frame_of(along, np.cross(np.array([[0.0, -1.0, 0.0]]), along))[0]
 
 
-def _add_arm(line: Timeline, side: str, world: dict[str, Array]) -> None:
+def _add_arm(line: Timeline, side: str, gesture: Gesture, world: dict[str, Array]) -> None:
     """Arm swing against the legs: shoulder, upper arm hanging from the A-pose, elbow and a relaxed hand."""
     sign = 1.0 if side == ".L" else -1.0
+    more = {name: np.radians(gesture.value(f"{name}{side}", line.time)) for name in ("swing", "elbow", "out", "twist")}
     swing, elbow, out = _arm_angles(line, sign)
+    swing, elbow, out = swing + more["swing"], elbow + more["elbow"], out + more["out"]
     hang, axis = _hang(side)
     shoulder = rot.about_z(-sign * 0.10 * swing) @ rot.about_y(-sign * 0.02 * _breath(line))
     inward = -sign * (0.12 + 0.30 * np.clip(elbow / 1.5, 0, 1)) * np.clip(2.0 - np.abs(swing) / 0.6, 0, 1)
+    inward = inward + sign * more["twist"]
     upper = rot.about_x(-swing) @ rot.about_y(-sign * out) @ rot.about_z(inward) @ hang
     world["shoulder" + side] = world["chest"] @ shoulder
     world["upper_arm" + side] = world["shoulder" + side] @ upper
@@ -238,7 +258,7 @@ def _arm_angles(line: Timeline, sign: float) -> tuple[Array, Array, Array]:
     swing = line.style("arm_back") + line.style("arm_swing") * forward * straight * calm + 1.5 * _breath(line, 0.15)
     bend = line.style("elbow") + line.style("elbow_swing") * (forward + 0.3) * calm
     run = np.clip((line.speed - 1.2) / 2.1, 0, 1)
-    out = 9 + 5 * run + 26 * _airborne(line, 0.25, 0.45)
+    out = 9 + MANNERS[line.take.manner].out + 5 * run + 26 * _airborne(line, 0.25, 0.45)
     if line.take.jump == "both" and line.takeoff is not None and line.landing is not None:
         off, on = line.takeoff, line.landing
         reach = [(off - 0.8, 0, 0), (off - 0.26, -55, 0), (off + 0.1, 120, 0), (on - 0.1, 70, -150),

@@ -131,6 +131,30 @@ def make_stage() -> None:
     world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.42, 0.50, 0.60, 1)
 
 
+def make_grounds() -> bpy.types.Collection:
+    """A slope of 20 degrees and stairs of 18 cm, 8 m before the character, and the level ground."""
+    collection = bpy.data.collections.new("Sample Grounds")
+    bpy.context.scene.collection.children.link(collection)
+    collection.objects.link(bpy.data.objects["Ground"])
+    rise, tread, steps = 0.18, 0.3, 8
+    corners = [(step * tread, height * rise) for step in range(steps) for height in (step, step + 1)]
+    stairs = [*corners, (steps * tread + 3, steps * rise)]
+    slope = [(0.0, 0.0), (5.0, 5 * math.tan(math.radians(20))), (8.0, 5 * math.tan(math.radians(20)))]
+    for name, profile, aside in (("Sample Slope", slope, 3.0), ("Sample Stairs", stairs, -3.0)):
+        collection.objects.link(_extruded(name, profile, aside))
+    return collection
+
+
+def _extruded(name: str, profile: list[tuple[float, float]], aside: float) -> bpy.types.Object:
+    """A profile of way and height, m, 4 m wide, that begins 8 m before the character and so much to its left."""
+    points = [(aside + side, -8 - way, height) for way, height in profile for side in (-2.0, 2.0)]
+    faces = [(2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1) for i in range(len(profile) - 1)]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(points, [], faces)
+    mesh.materials.append(bpy.data.materials["Sample Ground"])
+    return bpy.data.objects.new(name, mesh)
+
+
 def _checker() -> bpy.types.Material:
     """Two greys in squares of half a metre, in world coordinates."""
     material = _material("Sample Ground", (0.22, 0.23, 0.24), 0.9)

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+from manners import MANNERS
 
 FPS = 30
 WALK_SPEED = 1.2  # m/s
@@ -31,7 +33,8 @@ class Take:
     """One take. knots holds (second, speed, turn rate), eased in between; direction is that of travel, left positive.
 
     stepping is the span of seconds in which the feet step, None for a take that never does. jump is None, "both" (from
-    a stand, take-off at jump_at seconds) or "one" (from one foot, in the gait cycle that is running at jump_at).
+    a stand, take-off at jump_at seconds) or "one" (from one foot, in the gait cycle that is running at jump_at). manner
+    is one of MANNERS; gesture is one of GESTURES, over standing.
     """
 
     name: str
@@ -41,6 +44,8 @@ class Take:
     stepping: tuple[float, float] | None = (-math.inf, math.inf)
     jump: str | None = None
     jump_at: float = 0.0
+    gesture: str = ""
+    manner: str = ""
 
 
 def _steady(name: str, seconds: float, speed: float, turn: float = 0.0, direction: float = 0.0) -> Take:
@@ -86,7 +91,29 @@ def _changing() -> list[Take]:
     ]
 
 
+def move_takes() -> list[Take]:
+    """What a key starts, each from a stand to a stand."""
+    seconds = {"wave": 3.0, "kick": 2.1, "sit": 3.9}
+    return [Take(name, long, ((0.0, 0.0, 0.0),), 0, None, gesture=name) for name, long in seconds.items()]
+
+
+def _styled(manner: str) -> list[Take]:
+    """A style: what its mirror image and synthesis make whole."""
+    pace = MANNERS[manner].pace
+    walk, run = pace * WALK_SPEED, pace * RUN_SPEED
+    takes = [
+        Take("stand", 2.0, ((0.0, 0.0, 0.0),), 0, None),
+        *(_steady(f"walk {name}", 2.7, walk, 0, _DIRECTIONS[name]) for name in ("forward", "left", "back")),
+        _steady("run forward", 2.7, run),
+        _steady("turn left", 2.7, 0.0, TURN_RATE),
+        Take("walk start stop", 4.4, ((0.6, 0, 0), (1.4, walk, 0), (2.8, walk, 0), (3.6, 0, 0)), 0, (0.6, 3.3)),
+        Take("jump up", 3.4, ((0.0, 0.0, 0.0),), 0, None, "both", 1.2),
+    ]
+    return [replace(take, name=f"{manner} {take.name}", manner=manner) for take in takes]
+
+
 def all_takes() -> list[Take]:
-    """Every take of the sample, the idle first."""
+    """Every take of the sample, the idle first, and then those of its styles."""
     stand = Take("stand", 4.0, ((0.0, 0.0, 0.0),), 0, None)
-    return [stand, *_travelling(), *_turning(), *_jumping(), *_changing()]
+    styled = [take for manner in MANNERS if manner for take in _styled(manner)]
+    return [stand, *_travelling(), *_turning(), *_jumping(), *_changing(), *styled]

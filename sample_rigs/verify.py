@@ -15,7 +15,7 @@ import body
 import gait
 import numpy as np
 import rotations as rot
-from takes import FPS, all_takes
+from takes import FPS, all_takes, move_takes
 
 MAX_SLIDE = 0.02  # m/s
 MAX_HEIGHT = 0.005  # m
@@ -97,7 +97,7 @@ def _leg_distance(motion: gait.Motion) -> float:
 def main() -> int:
     """Print a table and fail if a planted foot slides or leaves the ground."""
     failed = 0
-    for take in all_takes():
+    for take in [*all_takes(), *move_takes()]:
         motion = gait.synthesize(take)
         found = measure(motion)
         bad = found["slide"] > MAX_SLIDE or found["height"] > MAX_HEIGHT or found["lowest"] < -MAX_HEIGHT

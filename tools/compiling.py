@@ -70,11 +70,12 @@ def unpacked_core(wheel: Path, platform: Platform) -> Path:
 
 def compiler_environment() -> dict[str, str]:
     # The same sources are compiled for the tests and for the wheel of each Python: by one compiler name, ccache does it
-    # once (CMake alone says c++, scikit-build-core g++).
+    # once (CMake alone says c++, scikit-build-core g++); what CMake writes in their folders it tells by relative paths.
     return {
         "CXX": os.environ.get("CXX", "g++"),
         "CMAKE_CXX_COMPILER_LAUNCHER": "ccache",
         "CCACHE_DIR": str(BUILD / "ccache"),
+        "CCACHE_BASEDIR": str(BUILD),
         "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count() or 1),
     }
 

@@ -26,10 +26,28 @@ _THREADED_TESTS = "Thread|ParallelFor|Crowd"
 # Whole characters made again and again for their figures, an hour's takes: what these call, others call as well.
 _NOT_SANITIZED = (
     "Build.GivesTheSameBitsForAnyNumberOfThreads",
+    "Build.HasClassesForHopsOnTheSpotAndAhead",
+    "Build.IsCancelledAtEveryReport",
+    "Build.IsTheSameCharacterTenTimesAsLarge",
+    "Build.NamesItsPolicyAndFillsTheTableWithClasses",
+    "Bvh.BandaiNamcoStandsUprightOnTheGround",
+    "Bvh.TakesMemoryInProportionToTheFile",
     "ChangePushes.*",
+    "Doctor.FindsAndFillsSpikes",
     "Doctor.FindsNothingInCleanMotion",
+    "FragmentSelector.Leaves*",
     "OptimalPerformance.IsNeverReachedByAPlayer",
+    "OwnControls.AreSaidToBeHeldOrNot",
+    "OwnControls.AreWhatEverythingAsksFor",
+    "OwnControls.ReplayWhatWasRecordedWithOthers",
+    "PackedClip.KeepsAllTakesInLessThanAQuarterOfTheirSize",
+    "Pin.Is*",
+    "Player.NeverJumps",
+    "PolicyFile.TakesFragmentsOfTwentyMilliseconds",
+    "PolicyFile.TakesNoMemoryOutOfProportionToItsSize",
     "ResponseTimes.*",
+    "Retarget.FeetAndKneesKeepTheirMannersOnOtherProportions",
+    "Styles.AreWhatABuildMakesOfTheirTakesAlone",
     "SuggestClasses.*",
 )
 _FUZZ_RUNS = 20000  # of each fuzzer: a minute together

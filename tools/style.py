@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -13,6 +14,7 @@ from tools.paths import TOP
 from tools.shell import Failure, run, say
 
 _CPP = ("cpp", "tests")
+_STAGES = tuple((f"{target}.dir", "Unity") for target in ("fragmotion", "fragmotion_runtime"))
 _TYPED = ("dev.py", "tools", "cpp/bindings/fragmotion_command.py")
 
 
@@ -38,17 +40,20 @@ def check() -> tuple[int, list[str]]:
 
 
 def tidy() -> tuple[int, list[str]]:
-    """Run clang-tidy on each source of the core; how many it finds nothing in, and what it says of the others."""
+    """Run clang-tidy on each stage of the core, compiled as one; how many are clean, and what it says of the others."""
     with COMPILING:
         database = configure_preset("release")
     program = environment(HOST) / "bin" / "clang-tidy"
-    sources = sorted((TOP / "cpp" / "src").rglob("*.cpp"))
+    files = [Path(each["file"]) for each in json.loads((database / "compile_commands.json").read_text())]
+    sources = sorted(file for file in files if file.parts[-3:-1] in _STAGES)
+    if not sources:
+        raise Failure(f"{database} has no sources of the core")
 
     def look_into(source: Path) -> str | None:
         try:
-            run([program, "--quiet", "-p", database, source], f"tidy-{source.stem}")
+            run([program, "--quiet", "-p", database, source], f"tidy-{source.parts[-3]}-{source.stem}")
         except Failure as failure:
-            return f"{source.relative_to(TOP)}: {failure}"
+            return str(failure)
         return None
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:

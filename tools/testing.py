@@ -23,18 +23,19 @@ class Stage:
     after: tuple[str, ...] = ()
 
 
+# Those that take longest before others that need the same, so that none is left to run alone.
 STAGES = {
     "cpp": Stage(stages.cpp, lambda: machine.CPP_TESTS),
     "style": Stage(stages.style_checks, lambda: machine.STYLE),
     "python": Stage(stages.python, lambda: machine.PYTHON_TESTS),
     "package": Stage(stages.package, lambda: machine.PACKAGE_TESTS),
     "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS),
+    "gui": Stage(stages.gui, lambda: machine.GUI if stages.gui_tests() else machine.Needs(), ("package",)),
+    "windows": Stage(stages.windows_python, lambda: machine.WINDOWS, ("package",)),
+    "windows-4.5": Stage(stages.windows_blender, lambda: machine.WINDOWS, ("package",)),
     "blender-4.5": Stage(stages.blender_45, lambda: machine.BLENDER_45, ("package",)),
     "blender-5.2": Stage(stages.blender_52, lambda: machine.BLENDER_52, ("package",)),
     "blender-debian": Stage(stages.blender_debian, lambda: machine.BLENDER_DEBIAN, ("package",)),
-    "windows": Stage(stages.windows_python, lambda: machine.WINDOWS, ("package",)),
-    "windows-4.5": Stage(stages.windows_blender, lambda: machine.WINDOWS, ("package",)),
-    "gui": Stage(stages.gui, lambda: machine.GUI if stages.gui_tests() else machine.Needs(), ("package",)),
     "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
     "tidy": Stage(stages.tidy, lambda: machine.TIDY),
     "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),

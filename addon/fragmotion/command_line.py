@@ -21,7 +21,7 @@ from .character.building import has_character, load, make_player, save_policy
 from .compat.core import core
 from .errors import UserError, core_errors
 from .mocap.actions import ticked
-from .operators.context import active_armature
+from .operators.base.context import active_armature
 from .recordings.recordings import trace_of
 
 if TYPE_CHECKING:
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 NAME = "fragmotion"
 
 _EVALUATED_RATE = 60.0  # frames a second
+
+_CONTROLS = {"paper": "PAPER", "found": "FOUND", "told": "TOLD"}
 
 _EXAMPLES = """examples:
   blender -c fragmotion build walks/ --blend hero.blend --policy hero.policy
@@ -70,6 +72,15 @@ def _parser() -> argparse.ArgumentParser:
     build.add_argument("source", type=Path, metavar="TAKES", help="a folder of takes, or a .blend with Actions")
     build.add_argument("--onto", type=Path, metavar="RIG.blend", help="the file of the character that the takes move")
     build.add_argument("--classes", type=int, metavar="N", help="how many classes")
+    build.add_argument("--controls", choices=_CONTROLS, help="as in the paper, as the takes hold, or as told by:")
+    build.add_argument("--speeds", type=int, choices=(1, 2, 3, 4), help="how many it can be asked for")
+    build.add_argument("--directions", choices=("4", "8", "16"), help="how many it can be asked for")
+    build.add_argument(
+        "--no-turn", dest="turn", action="store_false", default=None, help="it can be asked for no turns"
+    )
+    build.add_argument(
+        "--no-jump", dest="jump", action="store_false", default=None, help="it can be asked for no jumps"
+    )
     build.add_argument("--seed", type=int, metavar="N", help="draws the first centres and the simulated players")
     build.add_argument("--policy", type=Path, metavar="FILE", help="where to write the policy file")
     build.set_defaults(command=_build)
@@ -105,13 +116,22 @@ def _build(options: argparse.Namespace) -> dict[str, Any]:
         _import(options)
     else:
         _open(options.source, options.armature)
-    bpy.ops.fragmotion.build("EXEC_DEFAULT", **_given(options, "classes", "seed"))
+    bpy.ops.fragmotion.build("EXEC_DEFAULT", **_given(options, "classes", "seed"), **_controls(options))
     obj = active_armature(bpy.context)
     figures = _figures(obj)
     if options.policy:
         save_policy(obj, options.policy.resolve())
     _save(options.blend)
     return figures
+
+
+def _controls(options: argparse.Namespace) -> dict[str, Any]:
+    """The fields of a build that say which controls."""
+    told = _given(options, "speeds", "directions", "turn", "jump")
+    if options.controls not in (None, "told") and told:
+        raise UserError(f"--controls {options.controls} and --{min(told)} say two different things: leave one out")
+    kind = "told" if told else options.controls
+    return {"controls": _CONTROLS[kind], **told} if kind else {}
 
 
 def _import(options: argparse.Namespace) -> None:

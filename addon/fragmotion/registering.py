@@ -9,7 +9,9 @@ from . import command_line, operators
 from .character import building, coverage_picture, inspector, staleness, storing
 from .drive import handlers, session
 from .mocap import actions
-from .operators import background, play_take, solo_class
+from .operators.base import background
+from .operators.character import solo_class
+from .operators.mocap import play_take
 from .panels import menus, panel
 from .settings import keymaps, mending, preferences, properties
 

@@ -93,9 +93,9 @@ void dump_motion(const PackedPool& pool, const Writer& write) {
 
 void dump_controls(const ControlSpace& space, const std::vector<int>& trace, const Writer& write) {
   std::vector<double> points;
-  for (int c = 0; c < ControlSpace::kPoints; ++c) append(points, space.point(c));
+  for (int c = 0; c < kPaperPoints; ++c) append(points, space.point(c));
   const ControlWeights& weights = space.weights();
-  write("points", points, {ControlSpace::kPoints, 4});
+  write("points", points, {kPaperPoints, 4});
   write("control_weights", std::vector<double>{weights.velocity * space.scale(), weights.turn, weights.jump});
   write("trace", trace);
 }
@@ -109,11 +109,11 @@ void dump_results(const Workload& w, const Writer& write) {
   write("restarts", std::vector<int>{clustering().restarts});
   write("inertia", std::vector<double>{w.classes.inertia});
   write("smoothness", w.quality.smoothness, {n, n});
-  write("match", w.quality.match, {n, ControlSpace::kPoints});
+  write("match", w.quality.match, {n, kPaperPoints});
   write("optimal", std::vector<double>{optimal_path(w.quality, w.controls).quality});
   write("features", w.features, {n, w.features.size() / n});
-  write("svm_table", svm.policy.next, {n, ControlSpace::kPoints});
-  write("iterate_table", iterate_policy(w.quality, {w.controls}).next, {n, ControlSpace::kPoints});
+  write("svm_table", svm.policy.next, {n, kPaperPoints});
+  write("iterate_table", iterate_policy(w.quality, {w.controls}).next, {n, kPaperPoints});
 }
 
 }  // namespace

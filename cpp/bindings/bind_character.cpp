@@ -5,6 +5,7 @@
 #include "arrays.hpp"
 #include "fragmotion/build/exclude_classes.hpp"
 #include "fragmotion/build/moves.hpp"
+#include "fragmotion/build/styles.hpp"
 #include "fragmotion/character/naming.hpp"
 #include "fragmotion/character/policy_file.hpp"
 #include "fragmotion/control/trace.hpp"
@@ -89,14 +90,9 @@ void bind_tables(py::class_<Character, Holder>& character) {
       .def_property_readonly("bridges", viewed<int>(bridges, 1))
       .def_property_readonly("class_names", &class_names)
       .def_property_readonly("coverage_counts",
-                             [](const Character& c) {
-                               return to_array(std::vector<int>(c.coverage.counts.begin(), c.coverage.counts.end()),
-                                               {ControlSpace::kPoints});
-                             })
-      .def_property_readonly("coverage_distances", [](const Character& c) {
-        return to_array(std::vector<double>(c.coverage.distances.begin(), c.coverage.distances.end()),
-                        {ControlSpace::kPoints});
-      });
+                             [](const Character& c) { return to_array(c.coverage.counts, {c.space.size()}); })
+      .def_property_readonly("coverage_distances",
+                             [](const Character& c) { return to_array(c.coverage.distances, {c.space.size()}); });
 }
 
 MoveClip new_move(const std::string& name, const Clip& clip, bool upper_body, double wait,
@@ -132,6 +128,41 @@ void bind_moves(py::class_<Character, Holder>& character) {
             return std::make_shared<Character>(with_moves(c, moves));
           },
           py::arg("moves"), py::call_guard<GilRelease>());
+}
+
+std::vector<std::string> style_names(const Character& c) {
+  std::vector<std::string> names;
+  for (int i = 0; i < c.style_count() && !c.style.empty(); ++i) names.push_back(c.in_style(i).style);
+  return names;
+}
+
+// The character itself in its first style.
+Holder in_style(const Holder& c, int style) {
+  if (style < 0 || style >= c->style_count()) {
+    throw std::invalid_argument("style " + std::to_string(style) + " does not exist; the character has " +
+                                std::to_string(c->style_count()));
+  }
+  return style == 0 ? c : std::const_pointer_cast<Character>(c->styles[style - 1]);
+}
+
+Character to_styled(const std::vector<std::pair<std::string, Holder>>& styles) {
+  std::vector<StyledCharacter> named;
+  for (const auto& [name, character] : styles) {
+    check_name(name);
+    if (character == nullptr) throw std::invalid_argument("style \"" + name + "\" has no character");
+    named.push_back({name, character});
+  }
+  return with_styles(named);
+}
+
+void bind_styles(py::module_& m, py::class_<Character, Holder>& character) {
+  character.def_property_readonly("style_names", &style_names).def("in_style", &in_style, py::arg("style"));
+  m.def(
+      "with_styles",
+      [](const std::vector<std::pair<std::string, Holder>>& styles) {
+        return std::make_shared<Character>(to_styled(styles));
+      },
+      py::arg("styles"), py::call_guard<GilRelease>());
 }
 
 double percent(const Character& c, const Doubles& trace, const std::string& policy) {
@@ -193,6 +224,7 @@ void bind_character(py::module_& m) {
   bind_tables(character);
   bind_use(character);
   bind_moves(character);
+  bind_styles(m, character);
 }
 
 }  // namespace fragmotion::bindings

@@ -2,11 +2,13 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "arrays.hpp"
 #include "fragmotion/character/character.hpp"
+#include "fragmotion/control/gaits.hpp"
 #include "fragmotion/control/simulated_players.hpp"
 
 namespace fragmotion::bindings {
@@ -20,21 +22,43 @@ py::array_t<double> to_rows(const Trace& trace) {
 
 py::array_t<double> points(const ControlSpace& space) {
   Trace controls;
-  for (int c = 0; c < ControlSpace::kPoints; ++c) controls.push_back(space.point(c));
+  for (int c = 0; c < space.size(); ++c) controls.push_back(space.point(c));
   return to_rows(controls);
+}
+
+ControlSpace new_space(double walk, double run, double turn_rate, double scale,
+                       const std::optional<std::vector<double>>& speeds, int directions, bool turn, bool jump) {
+  const std::vector<double> given = speeds.value_or(std::vector{walk, run});
+  const auto count = static_cast<int>(std::min<std::size_t>(given.size(), kMostSpeeds + 1));  // more are refused
+  return ControlSpace({count, directions, turn, jump}, given, turn_rate, scale);
+}
+
+py::tuple shape_of(const ControlSpace& space) {
+  const ControlLayout& layout = space.layout();
+  return py::make_tuple(layout.velocities(), layout.turns(), layout.jumps());
+}
+
+std::vector<std::string> gaits_named(const ControlSpace& space) {
+  std::vector<std::string> names;
+  for (const int gait : space.gaits()) names.emplace_back(kGaits[gait].name);
+  return names;
 }
 
 }  // namespace
 
 void bind_control(py::module_& m) {
   py::class_<ControlSpace> space(m, "ControlSpace", py::module_local());
-  space.attr("SHAPE") = py::make_tuple(ControlSpace::kVelocities, ControlSpace::kTurns, ControlSpace::kJumps);
+  const ControlLayout paper;
   space
-      .def(py::init([](double walk, double run, double turn_rate, double scale) {
-             return ControlSpace(walk, run, turn_rate, scale);
-           }),
-           py::arg("walk") = ControlSpace().walk(), py::arg("run") = ControlSpace().run(),
-           py::arg("turn_rate") = ControlSpace().turn_rate(), py::arg("scale") = 1.0)
+      .def(py::init(&new_space), py::arg("walk") = ControlSpace().walk(), py::arg("run") = ControlSpace().run(),
+           py::arg("turn_rate") = ControlSpace().turn_rate(), py::arg("scale") = 1.0, py::arg("speeds") = py::none(),
+           py::arg("directions") = paper.directions, py::arg("turn") = paper.turn, py::arg("jump") = paper.jump)
+      .def_property_readonly("shape", &shape_of)
+      .def_property_readonly("speeds", &ControlSpace::speeds)
+      .def_property_readonly("gaits", &gaits_named)
+      .def_property_readonly("directions", [](const ControlSpace& space) { return space.layout().directions; })
+      .def_property_readonly("turns", [](const ControlSpace& space) { return space.layout().turn; })
+      .def_property_readonly("jumps", [](const ControlSpace& space) { return space.layout().jump; })
       .def_property_readonly("walk", &ControlSpace::walk)
       .def_property_readonly("run", &ControlSpace::run)
       .def_property_readonly("turn_rate", &ControlSpace::turn_rate)
@@ -86,6 +110,11 @@ void bind_control(py::module_& m) {
       },
       py::arg("player"), py::arg("seconds") = 60.0, py::arg("seed") = 1, py::arg("space") = py::none());
   m.attr("PLAYERS") = simulated_players();
+  py::list gaits, directions;
+  for (const Gait& gait : kGaits) gaits.append(gait.name);
+  for (const char* name : kDirectionNames) directions.append(name);
+  m.attr("GAITS") = gaits;
+  m.attr("DIRECTIONS") = directions;
 }
 
 }  // namespace fragmotion::bindings

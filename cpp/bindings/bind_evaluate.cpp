@@ -37,6 +37,7 @@ void bind_performance(py::module_& m) {
                                return view(p.rotations, {p.frames, bones, 4}, self);
                              })
       .def_property_readonly("frames", viewed(&Performance::path, {3}))
+      .def_property_readonly("styles", viewed(&Performance::styles, {}))
       .def_property_readonly("classes", viewed(&Performance::classes, {}))
       .def_property_readonly("fragments", viewed(&Performance::fragments, {}))
       .def_property_readonly("moves", viewed(&Performance::moves, {2}))

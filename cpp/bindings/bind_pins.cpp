@@ -18,38 +18,38 @@ py::array_t<double> frame_array(const CharacterFrame& frame) {
   return to_array(std::vector<double>{frame.position.x(), frame.position.y(), frame.heading}, {3});
 }
 
-ShownMotion make_motion(double rate, const Doubles& roots, const Doubles& rotations, const Doubles& frames) {
+Motion make_motion(double rate, const Doubles& roots, const Doubles& rotations, const Doubles& frames) {
   check_shape(roots, "root_positions", {-1, 3});
   check_shape(rotations, "rotations", {roots.shape(0), -1, 4});
   check_shape(frames, "frames", {roots.shape(0), 3});
-  return {rate, static_cast<int>(roots.shape(0)), to_vector(roots), to_vector(rotations), to_vector(frames)};
+  return {rate, to_vector(roots), to_vector(rotations), to_vector(frames)};
 }
 
 py::array_t<double> rotations_of(const py::object& self) {
-  const auto& motion = self.cast<const ShownMotion&>();
-  const auto bones = static_cast<py::ssize_t>(motion.rotations.size()) / std::max(4 * motion.frames, 1);
-  return view(motion.rotations, {motion.frames, bones, 4}, self);
+  const auto& motion = self.cast<const Motion&>();
+  const auto bones = static_cast<py::ssize_t>(motion.rotations.size()) / std::max(4 * motion.frames(), 1);
+  return view(motion.rotations, {motion.frames(), bones, 4}, self);
 }
 
 void bind_motions(py::module_& m) {
-  py::class_<ShownMotion>(m, "ShownMotion", py::module_local())
+  py::class_<Motion>(m, "Motion", py::module_local())
       .def(py::init(&make_motion), py::arg("rate"), py::arg("root_positions"), py::arg("rotations"), py::arg("frames"))
-      .def_readonly("rate", &ShownMotion::rate)
+      .def_readonly("rate", &Motion::rate)
       .def_property_readonly("root_positions",
                              [](const py::object& self) {
-                               const auto& motion = self.cast<const ShownMotion&>();
-                               return view(motion.root_positions, {motion.frames, 3}, self);
+                               const auto& motion = self.cast<const Motion&>();
+                               return view(motion.root_positions, {motion.frames(), 3}, self);
                              })
       .def_property_readonly("rotations", &rotations_of)
       .def_property_readonly("frames", [](const py::object& self) {
-        const auto& motion = self.cast<const ShownMotion&>();
-        return view(motion.path, {motion.frames, 3}, self);
+        const auto& motion = self.cast<const Motion&>();
+        return view(motion.path, {motion.frames(), 3}, self);
       });
   m.def("join", &join, py::arg("skeleton"), py::arg("first"), py::arg("end"), py::arg("second"), py::arg("beginning"),
         py::call_guard<GilRelease>());
   m.def(
       "find_seam",
-      [](const Skeleton& skeleton, const ShownMotion& first, const std::vector<int>& ends, const ShownMotion& second,
+      [](const Skeleton& skeleton, const Motion& first, const std::vector<int>& ends, const Motion& second,
          const std::vector<int>& beginnings) {
         const Seam seam = without_gil([&] { return find_seam(skeleton, first, ends, second, beginnings); });
         return py::make_tuple(seam.end, seam.beginning, seam.distance);
@@ -57,7 +57,7 @@ void bind_motions(py::module_& m) {
       py::arg("skeleton"), py::arg("first"), py::arg("ends"), py::arg("second"), py::arg("beginnings"));
   m.def(
       "spread",
-      [](const Skeleton& skeleton, const ShownMotion& motion, int begin, int end, const Doubles& target) {
+      [](const Skeleton& skeleton, const Motion& motion, int begin, int end, const Doubles& target) {
         const CharacterFrame frame = to_frame(target, "target");
         return without_gil([&] { return spread(skeleton, motion, begin, end, frame); });
       },

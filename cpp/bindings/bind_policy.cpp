@@ -14,15 +14,18 @@ namespace {
 
 using Indices = Doubles;  // of any kind, so that no number is cut or wrapped before it is looked at
 
-constexpr py::ssize_t kPoints = ControlSpace::kPoints;
+constexpr int kMostControls = ControlLayout{kMostSpeeds, kMostDirections}.size();
 constexpr double kMostFeature = 1e6;  // class_features gives a few units; the SVM squares differences
 
 Quality to_quality(const Doubles& smoothness, const Doubles& match) {
   const py::ssize_t n = smoothness.ndim() > 0 ? smoothness.shape(0) : 0;
   if (n == 0) throw std::invalid_argument("smoothness must have at least one class");
   check_shape(smoothness, "smoothness", {n, n});
-  check_shape(match, "match", {n, kPoints});
-  return {static_cast<int>(n), to_vector(smoothness, "smoothness", 0, 1), to_vector(match, "match", 0, 1)};
+  check_shape(match, "match", {n, -1});
+  const py::ssize_t controls = match.shape(1);
+  if (controls == 0) throw std::invalid_argument("match must have at least one control");
+  return {static_cast<int>(n), to_vector(smoothness, "smoothness", 0, 1), to_vector(match, "match", 0, 1),
+          static_cast<int>(controls)};
 }
 
 // Whole numbers from 0 to under `count`.
@@ -35,14 +38,14 @@ std::vector<int> to_indices(const Indices& array, const std::string& name, py::s
   return indices;
 }
 
-std::vector<int> to_controls(const Indices& trace) {
+std::vector<int> to_controls(const Indices& trace, int controls) {
   check_shape(trace, "a trace of controls", {-1});
-  return to_indices(trace, "a trace of controls", kPoints);
+  return to_indices(trace, "a trace of controls", controls);
 }
 
-std::vector<std::vector<int>> to_control_traces(const std::vector<Indices>& traces) {
+std::vector<std::vector<int>> to_control_traces(const std::vector<Indices>& traces, int controls) {
   std::vector<std::vector<int>> result;
-  for (const Indices& trace : traces) result.push_back(to_controls(trace));
+  for (const Indices& trace : traces) result.push_back(to_controls(trace, controls));
   return result;
 }
 
@@ -51,11 +54,17 @@ std::vector<double> to_features(const Doubles& features, int classes) {
   return to_vector(features, "features", -kMostFeature, kMostFeature);
 }
 
-py::array_t<int> to_table(Policy policy) { return to_array(std::move(policy.next), {policy.classes, kPoints}); }
+void check_controls_of(const ControlSpace& space, const Quality& quality) {
+  if (space.size() == quality.controls) return;
+  throw std::invalid_argument("match is of " + std::to_string(quality.controls) + " controls, and space has " +
+                              std::to_string(space.size()));
+}
 
-Policy to_policy(const Indices& table, int classes) {
-  check_shape(table, "table", {classes, kPoints});
-  return {"table", classes, to_indices(table, "a table of classes", classes)};
+py::array_t<int> to_table(Policy policy) { return to_array(std::move(policy.next), {policy.classes, policy.controls}); }
+
+Policy to_policy(const Indices& table, const Quality& quality) {
+  check_shape(table, "table", {quality.classes, quality.controls});
+  return {"table", quality.classes, to_indices(table, "a table of classes", quality.classes), quality.controls};
 }
 
 void bind_paths(py::module_& m) {
@@ -63,7 +72,7 @@ void bind_paths(py::module_& m) {
       "optimal_path",
       [](const Doubles& smoothness, const Doubles& match, const Indices& trace) {
         const Quality quality = to_quality(smoothness, match);
-        const std::vector<int> controls = to_controls(trace);
+        const std::vector<int> controls = to_controls(trace, quality.controls);
         OptimalPath path = without_gil([&] { return optimal_path(quality, controls); });
         const auto count = static_cast<py::ssize_t>(path.classes.size());
         return py::make_tuple(to_array(std::move(path.classes), {count}), path.quality);
@@ -73,8 +82,8 @@ void bind_paths(py::module_& m) {
       "percent_of_optimal",
       [](const Doubles& smoothness, const Doubles& match, const Indices& table, const Indices& trace) {
         const Quality quality = to_quality(smoothness, match);
-        const Policy policy = to_policy(table, quality.classes);
-        const std::vector<int> controls = to_controls(trace);
+        const Policy policy = to_policy(table, quality);
+        const std::vector<int> controls = to_controls(trace, quality.controls);
         return without_gil([&] { return percent_of_optimal(quality, policy, controls); });
       },
       py::arg("smoothness"), py::arg("match"), py::arg("table"), py::arg("trace"));
@@ -90,15 +99,19 @@ void bind_policies(py::module_& m) {
       py::arg("smoothness"), py::arg("match"));
   m.def(
       "control_model",
-      [](const std::vector<Indices>& traces, double stays, double goes_anywhere) {
-        return to_array(control_model(to_control_traces(traces), {stays, goes_anywhere}), {kPoints, kPoints});
+      [](const std::vector<Indices>& traces, double stays, double goes_anywhere, int controls) {
+        if (controls < 1 || controls > kMostControls)
+          throw std::invalid_argument("controls must be 1 to " + std::to_string(kMostControls));
+        return to_array(control_model(to_control_traces(traces, controls), {stays, goes_anywhere}, controls),
+                        {controls, controls});
       },
-      py::arg("traces"), py::arg("stays") = kGenericPrior.stays,
-      py::arg("goes_anywhere") = kGenericPrior.goes_anywhere);
+      py::arg("traces"), py::arg("stays") = kGenericPrior.stays, py::arg("goes_anywhere") = kGenericPrior.goes_anywhere,
+      py::arg("controls") = kPaperPoints);
   m.def(
       "anticipate_table",
       [](const Doubles& smoothness, const Doubles& match, const std::vector<Indices>& traces) {
-        return to_table(anticipate_policy(to_quality(smoothness, match), to_control_traces(traces)));
+        const Quality quality = to_quality(smoothness, match);
+        return to_table(anticipate_policy(quality, to_control_traces(traces, quality.controls)));
       },
       py::arg("smoothness"), py::arg("match"), py::arg("traces"));
   m.def(
@@ -106,7 +119,7 @@ void bind_policies(py::module_& m) {
       [](const Doubles& smoothness, const Doubles& match, const std::vector<Indices>& traces, double discount,
          double tolerance) {
         const Quality quality = to_quality(smoothness, match);
-        const std::vector<std::vector<int>> controls = to_control_traces(traces);
+        const std::vector<std::vector<int>> controls = to_control_traces(traces, quality.controls);
         return to_table(without_gil([&] { return iterate_policy(quality, controls, {discount, tolerance}); }));
       },
       py::arg("smoothness"), py::arg("match"), py::arg("traces"), py::arg("discount") = IterateOptions().discount,
@@ -127,8 +140,9 @@ void bind_svm(py::module_& m) {
       [](const Doubles& smoothness, const Doubles& match, const std::vector<Indices>& traces, const Doubles& features,
          const ControlSpace& space) {
         const Quality quality = to_quality(smoothness, match);
+        check_controls_of(space, quality);
         const std::vector<double> described = to_features(features, quality.classes);
-        const std::vector<std::vector<int>> controls = to_control_traces(traces);
+        const std::vector<std::vector<int>> controls = to_control_traces(traces, quality.controls);
         SvmSamples samples = without_gil([&] { return svm_samples(quality, controls, described, space); });
         const auto count = static_cast<py::ssize_t>(samples.labels.size());
         return py::make_tuple(to_array(std::move(samples.inputs), {count, samples.width}),
@@ -140,8 +154,9 @@ void bind_svm(py::module_& m) {
       [](const Doubles& smoothness, const Doubles& match, const std::vector<Indices>& traces, const Doubles& features,
          const ControlSpace& space, double c, double gamma, int threads) {
         const Quality quality = to_quality(smoothness, match);
+        check_controls_of(space, quality);
         const std::vector<double> described = to_features(features, quality.classes);
-        const std::vector<std::vector<int>> controls = to_control_traces(traces);
+        const std::vector<std::vector<int>> controls = to_control_traces(traces, quality.controls);
         SvmOptions options;
         options.c = c;
         options.gamma = gamma;

@@ -68,20 +68,36 @@ py::array_t<int> playing_of(OneCrowd& one) {
   return to_array(std::move(playing), {crowd->size(), 2});
 }
 
+// Rows of whole numbers [N,columns]; none of None.
+template <std::size_t columns>
+std::vector<std::array<int, columns>> to_rows(const py::object& given, const std::string& name) {
+  std::vector<std::array<int, columns>> rows;
+  if (given.is_none()) return rows;
+  const auto array = given.cast<Doubles>();
+  check_shape(array, name, {-1, columns});
+  const std::vector<double> values = to_vector(array, name, -kMostNumber, kMostNumber);
+  for (std::size_t i = 0; i < values.size(); i += columns) {
+    std::array<int, columns>& row = rows.emplace_back();
+    for (std::size_t j = 0; j < columns; ++j) {
+      if (values[i + j] != std::floor(values[i + j])) throw std::invalid_argument(name + " must be whole numbers");
+      row[j] = static_cast<int>(values[i + j]);
+    }
+  }
+  return rows;
+}
+
 // Moves asked for in a trace, from [M,3].
 std::vector<MovePress> to_presses(const py::object& moves) {
   std::vector<MovePress> presses;
-  if (moves.is_none()) return presses;
-  const auto array = moves.cast<Doubles>();
-  check_shape(array, "moves", {-1, 3});
-  const std::vector<double> values = to_vector(array, "moves", -kMostNumber, kMostNumber);
-  for (std::size_t i = 0; i < values.size(); i += 3) {
-    for (std::size_t j = i; j < i + 3; ++j) {
-      if (values[j] != std::floor(values[j])) throw std::invalid_argument("moves must be whole numbers");
-    }
-    presses.push_back({static_cast<int>(values[i]), static_cast<int>(values[i + 1]), static_cast<int>(values[i + 2])});
-  }
+  for (const auto& [control, move, held] : to_rows<3>(moves, "moves")) presses.push_back({control, move, held});
   return presses;
+}
+
+// Changes of style asked for in a trace, from [S,2].
+std::vector<StyleChange> to_changes(const py::object& styles) {
+  std::vector<StyleChange> changes;
+  for (const auto& [control, style] : to_rows<2>(styles, "styles")) changes.push_back({control, style});
+  return changes;
 }
 
 template <typename T>
@@ -105,10 +121,14 @@ void bind_crowd(py::module_& m) {
            py::arg("rotations") = py::none())
       .def(
           "reset",
-          [](OneCrowd& crowd, int player, double x, double y, double heading) {
-            OneCrowd::Call(crowd)->reset(player, {Vector2{x, y}, heading});
+          [](OneCrowd& crowd, int player, double x, double y, double heading, int style) {
+            OneCrowd::Call(crowd)->reset(player, {Vector2{x, y}, heading}, style);
           },
-          py::arg("player"), py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("heading") = 0.0)
+          py::arg("player"), py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("heading") = 0.0, py::arg("style") = 0)
+      .def(
+          "change_style",
+          [](OneCrowd& crowd, int player, int style) { OneCrowd::Call(crowd)->change_style(player, style); },
+          py::arg("player"), py::arg("style"))
       .def(
           "force",
           [](OneCrowd& crowd, int player, int next_class) { OneCrowd::Call(crowd)->force(player, next_class); },
@@ -133,6 +153,24 @@ py::array_t<double> standing_feet(OnePlayer& player) {
   return to_array(std::move(places), {count, 3});
 }
 
+// What Python says of the ground, asked for from threads that may not hold the interpreter's lock.
+Ground to_ground(const py::object& asked) {
+  if (asked.is_none()) return {};
+  if (!PyCallable_Check(asked.ptr())) throw py::type_error("the ground must be a function of x, y and z, or None");
+  const auto held = std::make_shared<py::object>(asked);
+  return [held](const Vector3& from) -> std::optional<GroundPoint> {
+    const GilHold hold;
+    const py::object found = GilHold::call(*held, from.x(), from.y(), from.z());
+    if (found.is_none()) return std::nullopt;
+    try {
+      const auto values = py::cast<std::array<double, 4>>(found);
+      return GroundPoint{values[0], {values[1], values[2], values[3]}};
+    } catch (const py::cast_error&) {
+      throw py::type_error("the ground must be told as height and normal, four numbers, or as None");
+    }
+  };
+}
+
 void bind_player(py::module_& m) {
   py::class_<OnePlayer> player(m, "Player", py::module_local());
   const auto make = [](SharedCharacter character, const PlayerOptions& options) {
@@ -146,10 +184,17 @@ void bind_player(py::module_& m) {
   player
       .def(
           "reset",
-          [](OnePlayer& player, double x, double y, double heading) {
-            OnePlayer::Call(player)->reset({Vector2{x, y}, heading});
+          [](OnePlayer& player, double x, double y, double heading, int style) {
+            OnePlayer::Call(player)->reset({Vector2{x, y}, heading}, style);
           },
-          py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("heading") = 0.0)
+          py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("heading") = 0.0, py::arg("style") = 0)
+      .def(
+          "change_style", [](OnePlayer& player, int style) { OnePlayer::Call(player)->change_style(style); },
+          py::arg("style"))
+      .def_property_readonly("playing_style",
+                             [](OnePlayer& player) { return OnePlayer::Call(player)->playing_style(); })
+      .def_property_readonly("waiting_style",
+                             [](OnePlayer& player) { return OnePlayer::Call(player)->waiting_style(); })
       .def(
           "force", [](OnePlayer& player, int next_class) { OnePlayer::Call(player)->force(next_class); },
           py::arg("next_class"))
@@ -177,22 +222,33 @@ void bind_player(py::module_& m) {
       .def_property_readonly("seconds_left", [](OnePlayer& player) { return OnePlayer::Call(player)->seconds_left(); })
       .def_property_readonly("standing_feet", &standing_feet)
       .def(
+          "stand_on",
+          [](OnePlayer& player, const py::object& ground) { OnePlayer::Call(player)->stand_on(to_ground(ground)); },
+          py::arg("ground"))
+      .def_property_readonly("ground_level", [](OnePlayer& player) { return OnePlayer::Call(player)->ground_level(); })
+      .def_property_readonly("ground_missed",
+                             [](OnePlayer& player) { return OnePlayer::Call(player)->ground_missed(); })
+      .def(
           "quality",
           [](OnePlayer& one, const Doubles& control) {
             const OnePlayer::Call player(one);
-            return player->quality(player->character().space.nearest(to_control(control)));
+            return player->quality(player->styled_character().space.nearest(to_control(control)));
           },
           py::arg("control"))
       .def(
           "run",
-          [](OnePlayer& one, const Doubles& trace, double rate, const py::object& progress, const py::object& moves) {
+          [](OnePlayer& one, const Doubles& trace, double rate, const py::object& progress, const py::object& moves,
+             const py::object& styles) {
             const Trace controls = to_trace(trace);
             const std::vector<MovePress> presses = to_presses(moves);
+            const std::vector<StyleChange> changes = to_changes(styles);
             const OnePlayer::Call player(one);
-            return without_gil(progress,
-                               [&](const Progress& told) { return perform(*player, controls, rate, told, presses); });
+            return without_gil(progress, [&](const Progress& told) {
+              return perform(*player, controls, rate, told, presses, changes);
+            });
           },
-          py::arg("trace"), py::arg("rate"), py::arg("progress") = py::none(), py::arg("moves") = py::none());
+          py::arg("trace"), py::arg("rate"), py::arg("progress") = py::none(), py::arg("moves") = py::none(),
+          py::arg("styles") = py::none());
 }
 
 }  // namespace

@@ -49,6 +49,11 @@ def _parser() -> argparse.ArgumentParser:
     build.add_argument("takes", nargs="+", type=Path, metavar="TAKES")
     build.add_argument("--policy", type=Path, required=True, metavar="FILE", help="where to write the policy file")
     build.add_argument("--classes", type=int, metavar="N", help="how many classes")
+    build.add_argument("--speeds", type=int, choices=(1, 2, 3, 4), default=2, help="that it can be asked for (2)")
+    build.add_argument("--directions", type=int, choices=(4, 8, 16), default=8, help="that it can be asked for (8)")
+    build.add_argument("--no-turn", action="store_true", help="it can be asked for no turns")
+    build.add_argument("--no-jump", action="store_true", help="it can be asked for no jumps")
+    build.add_argument("--find-controls", action="store_true", help="as many of all these as the takes hold")
     build.add_argument("--unit", type=float, default=0.01, metavar="M", help="metres in one unit of a BVH file (0.01)")
     build.set_defaults(command=_build)
     info = commands.add_parser("info", help="tell what a policy file holds")
@@ -79,9 +84,13 @@ def _build(options: argparse.Namespace) -> dict[str, Any]:
     clips = [core.Clip.from_take(take, skeleton) for take in takes]
     settings = core.BuildOptions()
     settings.seed = options.seed
+    settings.find_controls = options.find_controls
+    settings.speeds, settings.directions = options.speeds, options.directions
+    settings.turn, settings.jump = not options.no_turn, not options.no_jump
     if options.classes is not None:
         settings.classes = options.classes
-    character = core.build(skeleton, clips, [core.simulate_trace("explorer", 60, options.seed)], settings)
+    teacher = core.simulate_trace("explorer", 60, options.seed, settings.usual_space)
+    character = core.build(skeleton, clips, [teacher], settings)
     character.save(options.policy)
     return _described(character)
 
@@ -116,8 +125,9 @@ def _described(character: core.Character) -> dict[str, Any]:
         "fragments": len(character.fragment_durations),
         "classes": len(character.class_names),
         "policies": character.policies,
-        "walk": character.space.walk,
-        "run": character.space.run,
+        **dict(zip(character.space.gaits, character.space.speeds)),
+        "directions": character.space.directions,
+        "controls": len(character.space.points),
     }
 
 

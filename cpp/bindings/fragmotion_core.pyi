@@ -286,30 +286,51 @@ class Retarget:
         """apply() of each; `threads`: 0: as many as the machine has, which change no bit."""
 
 class ControlSpace:
-    """The 102 controls (Sec. 4): 17 velocities x turn {-1,0,1} x jump {0,1}. Control i = 6 velocity + 2 (turn + 1) +
-    jump; velocity 0 stands, 1-8 walk, 9-16 run, both counter-clockwise from forward."""
+    """What can be asked for (Sec. 4): standing and each of the speeds in each of the directions x turn {-1,0,1} x jump
+    {0,1}; the paper's 102 by default. Velocity 0 stands, then the slowest speed's directions, counter-clockwise from
+    forward, and so on; of the default space, control i = 6 velocity + 2 (turn + 1) + jump."""
 
-    SHAPE: tuple[int, int, int]
-    """(17, 3, 2): what is told of each of the 102 controls, reshaped to it, is a table of velocity, turn (right, none,
-    left) and jump (no, yes)."""
-
-    def __init__(self, walk: float = 1.2, run: float = 3.3, turn_rate: float = ..., scale: float = 1.0) -> None:
-        """Speeds in m/s, turn rate in rad/s (default 70 degrees/s), scale: 1.8 m / stature; all over 0, to 1e9."""
+    def __init__(
+        self,
+        walk: float = 1.2,
+        run: float = 3.3,
+        turn_rate: float = ...,
+        scale: float = 1.0,
+        speeds: Sequence[float] | None = None,
+        directions: int = 8,
+        turn: bool = True,
+        jump: bool = True,
+    ) -> None:
+        """Speeds in m/s, turn rate in rad/s (default 70 degrees/s), scale: 1.8 m / stature; all over 0, to 1e9.
+        `speeds`: one to four, ascending, in place of walk and run; 4, 8 or 16 directions; whether turns and jumps can
+        be asked for."""
+    shape: tuple[int, int, int]
+    """(17, 3, 2) of the default space: what is told of each control, reshaped to it, is a table of velocity, turn
+    (right, none, left; or none alone) and jump (no, yes; or no alone)."""
+    speeds: list[float]
+    """m/s, the slowest first."""
+    gaits: list[str]
+    """What each speed is called: of two "walk" and "run"; else of stroll, walk, jog, run and sprint the nearest."""
+    directions: int
+    turns: bool
+    jumps: bool
     walk: float
+    """Of the speeds that of the walk, or of what comes nearest to one."""
     run: float
+    """The fastest speed."""
     turn_rate: float
     scale: float
     weights: tuple[float, float, float]
     """Of velocity, turn and jump in ControlDis."""
     points: Doubles
-    """[102,4]: velocity x (right), velocity y (forward) in m/s, turn (-1, 0, 1; 1 is left), jump (0, 1)."""
+    """[controls,4]: velocity x (right), velocity y (forward) in m/s, turn (-1, 0, 1; 1 is left), jump (0, 1)."""
     quickest_turn: float
     """The most that a control's turn is: 1 or, where the takes turn slowly, 170 degrees/s, but no more than 6."""
     def turn_towards(self, off: float) -> float:
         """The turn of a control for a character to face where is `off` rad to the left of where it faces, soon and
         softly. ValueError unless `off` is finite."""
     def nearest(self, controls: ArrayLike) -> Ints:
-        """Index of the nearest of the 102 points for each of [T,4] controls."""
+        """Index of the nearest point for each of [T,4] controls."""
     def distance(self, a: ArrayLike, b: ArrayLike) -> float:
         """ControlDis (Eq. 2) of two controls [4]."""
 
@@ -325,6 +346,12 @@ def simulate_trace(player: str, seconds: float = 60.0, seed: int = 1, space: Con
 
 PLAYERS: list[str]
 
+GAITS: list[str]
+"""What speeds are called, from the slowest."""
+
+DIRECTIONS: list[str]
+"""What sixteen directions are called, counter-clockwise from forward."""
+
 class BuildOptions:
     """All that a build can be told; every field has a documented default."""
 
@@ -335,6 +362,20 @@ class BuildOptions:
     """Shortest fragment, s (default 0.1)."""
     longest: float
     """Longest fragment, s (default 0.5)."""
+    find_controls: bool
+    """As many speeds and directions as the takes hold, turns and jumps where they do; the next four are not looked at
+    then (default False)."""
+    speeds: int
+    """1 to 4, as fast as the takes have them (default 2)."""
+    directions: int
+    """4, 8 or 16 (default 8)."""
+    turn: bool
+    """Whether turns can be asked for (default True)."""
+    jump: bool
+    """Whether jumps can be asked for (default True)."""
+    usual_space: ControlSpace
+    """What simulated players ask for who teach: as many speeds as are told, as fast as people go. ValueError on a
+    number of speeds or directions that there is none."""
     mirror: bool
     """Add the mirror image of every take (default True)."""
     synthesize: bool
@@ -398,15 +439,15 @@ class Character:
     smoothness: Doubles
     """[n,n]: 1/(1 + Dis(last pose of Q, first pose of Q')), the first factor of Eq. 2."""
     match: Doubles
-    """[n,102]: 1/(1 + ControlDis(Ev(Q'), c)), the second factor of Eq. 2."""
+    """[n,controls]: 1/(1 + ControlDis(Ev(Q'), c)), the second factor of Eq. 2."""
     table: Ints
-    """[n,102]: the policy that drives, class x control -> next class."""
+    """[n,controls]: the policy that drives, class x control -> next class."""
     bridges: Ints
     """[n,n]: the stand-in-place class that goes between two classes, or -1."""
     coverage_counts: Ints
-    """[102]: fragments whose evident control is nearest to this one."""
+    """[controls]: fragments whose evident control is nearest to this one."""
     coverage_distances: Doubles
-    """[102]: ControlDis to the nearest fragment's evident control."""
+    """[controls]: ControlDis to the nearest fragment's evident control."""
     report: dict[str, float]
     """Figures of the build: fragments, captured, synthesized, classes, seconds of each stage. Empty in a loaded one."""
     def save(self, path: str | PathLike[str]) -> None:
@@ -424,8 +465,8 @@ class Character:
         from Optimal's first class."""
     def without(self, excluded: Sequence[int]) -> Character:
         """The character that is never sent to the excluded classes: where a policy's table said one, it says the class
-        of the greatest Eq. 2 and value to come of those left. ValueError where a class does not exist or none is
-        left."""
+        of the greatest Eq. 2 and value to come of those left. Other styles stay as they are. ValueError where a class
+        does not exist or none is left."""
     move_names: list[str]
     """The moves, in the order of their numbers."""
     moves: list[Move]
@@ -434,6 +475,16 @@ class Character:
         """The character with these moves, at most 256, in place of its own. ValueError that begins with the move's name
         on one of another skeleton, two of one name, one without a name, and one of the upper body where the skeleton
         has no spine that carries two hands."""
+    style_names: list[str]
+    """The styles, in the order of their numbers; none in a character without."""
+    def in_style(self, style: int) -> Character:
+        """The character in one of its styles: classes, table and figures are that style's. The first one is itself.
+        ValueError on a style that does not exist."""
+
+def with_styles(styles: Sequence[tuple[str, Character]]) -> Character:
+    """One character in these styles, at most 64, each by its name: it drives in the first, and has its moves.
+    ValueError on two of one name, one without, one that has styles itself, and on one that is of another skeleton or
+    has other policies than the first."""
 
 def build(
     skeleton: Skeleton,
@@ -443,6 +494,16 @@ def build(
     progress: Progress | None = None,
 ) -> Character:
     """Clips to a character: fragments, synthesis, classes, quality, policy. Traces [T,4] teach the policy."""
+
+def build_styles(
+    skeleton: Skeleton,
+    styles: Sequence[tuple[str, Sequence[Clip]]],
+    traces: Sequence[ArrayLike],
+    options: BuildOptions | None = None,
+    progress: Progress | None = None,
+) -> Character:
+    """A character in these styles, each by its name and with its takes: as build() makes one of each, put together as
+    by with_styles(). ValueError names the style."""
 
 class PlayerOptions:
     """All that a Player can be told. What takes these takes them one by one, too."""
@@ -489,9 +550,16 @@ class Player:
         root_adjustment: float = 1.0,
         responsiveness: float = 0.5,
     ) -> None: ...
-    def reset(self, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
-        """Stand at a place, facing `heading` (radians, counter-clockwise from +y), and draw again from the seed: after
-        a reset the same steps show the same poses."""
+    def reset(self, x: float = 0.0, y: float = 0.0, heading: float = 0.0, style: int = 0) -> None:
+        """Stand at a place, facing `heading` (radians, counter-clockwise from +y), in a style, and draw again from the
+        seed: after a reset the same steps show the same poses. ValueError on a style that does not exist."""
+    def change_style(self, style: int) -> None:
+        """Go on in another style: at the moment within 0.8 s at which it joins best, but not within a jump, and after a
+        move of the whole body. One that waits is forgotten for it. ValueError on a style that does not exist."""
+    playing_style: int
+    """The style that plays: classes and fragments are its."""
+    waiting_style: int
+    """The style that waits for its moment, or -1."""
     def force(self, next_class: int) -> None:
         """Play a member of this class, drawn at random, whatever the policy says: as soon as the stitch under way is
         done, and to its end. ValueError on a class that does not exist."""
@@ -520,15 +588,32 @@ class Player:
     standing_feet: Doubles
     """[0 .. 2,3]: of each foot that stands where the fragment has it stand, left first, the middle of its sole as it is
     shown, m."""
+    def stand_on(self, ground: Callable[[float, float, float], Sequence[float] | None] | None) -> None:
+        """Stand and go from the next step or reset on on this ground: a function that is given a place x, y, z, from
+        which a ray goes straight down, and returns the height of the first ground that it meets and that ground's
+        normal x, y, z, or None; None is level ground at height 0. It is asked some twenty times a step, and must not
+        call the player. What is not finite counts as no ground. What it raises ends the step; the player must be reset
+        then. TypeError on what cannot be called or returns something else."""
+    ground_level: float
+    """The height of the ground under it, m, as its hips follow it."""
+    ground_missed: float
+    """Seconds since its last reset (or stand_on) in which there was no ground where it asked: meanwhile it went on at
+    the height that it had."""
     def quality(self, control: ArrayLike) -> float:
         """Eq. 2, 0 .. 1, for the transition that led to what plays and the point nearest to a control [4]."""
     def run(
-        self, trace: ArrayLike, rate: float, progress: Progress | None = None, moves: ArrayLike | None = None
+        self,
+        trace: ArrayLike,
+        rate: float,
+        progress: Progress | None = None,
+        moves: ArrayLike | None = None,
+        styles: ArrayLike | None = None,
     ) -> Performance:
         """Reset is not called. Play a trace [T,4] (10 controls a second) from now, sampled at `rate` (any, also
         29.97, to 1000): frames 0 .. round(T/10 * rate), of which there may be 1048574. Each number of a control is
         within a million. `moves` [M,3]: before which control (0 .. T-1) which move is started, and after how many it is
-        released; ValueError where one does not exist, or is not of whole numbers."""
+        released; `styles` [S,2]: before which control it changes to which style. ValueError where one does not exist,
+        or is not of whole numbers."""
 
 class Crowd:
     """Many players of one character that step together. Player i shows, to the bit, what a Player of the seed `seed` +
@@ -563,8 +648,10 @@ class Crowd:
         """Advance each player by 0 to 3600 s under its control [count,4] and return the poses: root positions
         [count,3] m and rotations [count,B,4]. Arrays that are given are written to and returned: float64, in C order.
         ValueError on what is not finite or of another shape, before any player has moved."""
-    def reset(self, player: int, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
+    def reset(self, player: int, x: float = 0.0, y: float = 0.0, heading: float = 0.0, style: int = 0) -> None:
         """Player.reset of one of them."""
+    def change_style(self, player: int, style: int) -> None:
+        """Player.change_style of one of them."""
     def force(self, player: int, next_class: int) -> None:
         """Player.force of one of them."""
     def start_move(self, player: int, move: int) -> None:
@@ -599,6 +686,26 @@ def fit_keys(values: ArrayLike, tolerance: float) -> tuple[Ints, Doubles, Double
     the first and the last among them, the slopes there [K,N] a frame, and the curve's values on all frames [F,N]. A key
     has its frame's value (P. Schneider, "An algorithm for automatically fitting digitized curves", Graphics Gems 1990).
     """
+
+def reduce_keys(
+    rig: Rig,
+    tracks: Sequence[tuple[int, str, ArrayLike]],
+    locations: ArrayLike,
+    rotations: ArrayLike,
+    object_locations: ArrayLike | None,
+    object_rotations: ArrayLike | None,
+    above: ArrayLike,
+    scale: ArrayLike,
+    distance: float,
+    angle: float,
+    progress: Progress | None = None,
+) -> tuple[list[tuple[Ints, Doubles | None, Doubles]], float, float]:
+    """So few keys of each track that on no frame a bone is further than `distance` (m) and `angle` (rad) from where it
+    was in the world: for each what fit_keys() tells (no slopes where all keys stay), and how far a bone is at most. A
+    track is its owner (a bone of the armature, or -1: the object), its mode (LOCATION, QUATERNION, AXIS_ANGLE, XYZ ...)
+    and values [F,N] on all frames. `locations` [F,B,3] and `rotations` [F,B,4] are the channels of all the armature's
+    bones, `object_locations` [F,3] and `object_rotations` [F,4] the object's own where it moves, `above` [4,4] what
+    stands above these, `scale` [3] the object's. ValueError on sizes, owners and modes that do not fit."""
 
 class Path:
     """A way over the ground: straight lines from point to point. Places on it are told by the way from its beginning in
@@ -700,10 +807,12 @@ class Performance:
     """[F,B,4]"""
     frames: Doubles
     """[F,3]: character frame x, y, heading (unwrapped)."""
+    styles: Ints
+    """[F]"""
     classes: Ints
-    """[F]"""
+    """[F], of the style that plays"""
     fragments: Ints
-    """[F]"""
+    """[F], likewise"""
     moves: Ints
     """[F,2]: the move of the whole body and that of the upper body that play; -1: none."""
     entered: Ints
@@ -823,7 +932,7 @@ def change_pushes(
     responsiveness: float = 0.5,
 ) -> dict[str, Pushes]: ...
 
-class ShownMotion:
+class Motion:
     """What was shown at a fixed rate: as Performance's arrays of these names."""
 
     def __init__(self, rate: float, root_positions: ArrayLike, rotations: ArrayLike, frames: ArrayLike) -> None:
@@ -834,20 +943,20 @@ class ShownMotion:
     rotations: Doubles
     frames: Doubles
 
-def join(skeleton: Skeleton, first: ShownMotion, end: int, second: ShownMotion, beginning: int) -> ShownMotion:
+def join(skeleton: Skeleton, first: Motion, end: int, second: Motion, beginning: int) -> Motion:
     """The first motion's frames 0 .. `end` to the bit, then the second's after frame `beginning`, which is taken for
     the moment of `end`: carried to where the character is and faces then, and stitched. From 0.8 s later on it shows,
     seen from the character frame, what the second showed. ValueError unless both have the skeleton's bones and one
     rate, and on frames that do not exist."""
 
 def find_seam(
-    skeleton: Skeleton, first: ShownMotion, ends: Sequence[int], second: ShownMotion, beginnings: Sequence[int]
+    skeleton: Skeleton, first: Motion, ends: Sequence[int], second: Motion, beginnings: Sequence[int]
 ) -> tuple[int, int, float]:
     """Of all pairs of a frame of the first and one of the second those whose poses, and poses a thirtieth of a second
     later, are nearest; and the mean distance of the bones' tips there, seen from the character frame, in m of a 1.8 m
     character. ValueError on frames that do not exist."""
 
-def spread(skeleton: Skeleton, motion: ShownMotion, begin: int, end: int, target: ArrayLike) -> ShownMotion:
+def spread(skeleton: Skeleton, motion: Motion, begin: int, end: int, target: ArrayLike) -> Motion:
     """The motion with its character frame at frame `end` moved to `target` [3]: x, y (m), heading (rad). Frames 0 ..
     `begin` are to the bit as they were, those after `end` are moved as a whole, and in between it goes there smoothly.
     ValueError unless 0 <= begin < end < F."""
@@ -1053,26 +1162,29 @@ def cluster(
     squares of Dis to the class's mean."""
 
 def optimal_path(smoothness: ArrayLike, match: ArrayLike, trace: ArrayLike) -> tuple[Ints, float]:
-    """The best path in hindsight (Eqs. 1, 3, 4) for the factors of Eq. 2, [n,n] and [n,102], over a trace of control
-    indices [T]: classes [T+1] and total quality. Ties go to the lower class."""
+    """The best path in hindsight (Eqs. 1, 3, 4) for the factors of Eq. 2, [n,n] and [n,controls], over a trace of
+    control indices [T]: classes [T+1] and total quality. Ties go to the lower class."""
 
 def percent_of_optimal(smoothness: ArrayLike, match: ArrayLike, table: ArrayLike, trace: ArrayLike) -> float:
-    """Quality of a policy table [n,102] over control indices [T], percent of Optimal's, both from its first class."""
+    """Quality of a policy table [n,controls] over control indices [T], percent of Optimal's, both from Optimal's first
+    class."""
 
 def greedy_table(smoothness: ArrayLike, match: ArrayLike) -> Ints:
-    """[n,102]: argmax of Eq. 2 (Sec. 4, "Greedy")."""
+    """[n,controls]: argmax of Eq. 2 (Sec. 4, "Greedy")."""
 
-def control_model(traces: Sequence[ArrayLike], stays: float = 8.5, goes_anywhere: float = 1.5) -> Doubles:
-    """[102,102]: P(next control | control): the transitions of traces of control indices, and for every control a
-    prior of `stays` counts of itself and `goes_anywhere` counts spread over all controls (0 .. 1e9); rows sum to 1."""
+def control_model(
+    traces: Sequence[ArrayLike], stays: float = 8.5, goes_anywhere: float = 1.5, controls: int = 102
+) -> Doubles:
+    """[controls,controls]: P(next control | control): the transitions of traces of control indices, and for every
+    control a prior of `stays` counts of itself and `goes_anywhere` counts spread over all (0 .. 1e9); rows sum to 1."""
 
 def anticipate_table(smoothness: ArrayLike, match: ArrayLike, traces: Sequence[ArrayLike]) -> Ints:
-    """[n,102] by value iteration with control_model(traces): the default policy."""
+    """[n,controls] by value iteration with control_model(traces): the default policy."""
 
 def iterate_table(
     smoothness: ArrayLike, match: ArrayLike, traces: Sequence[ArrayLike], discount: float = ..., tolerance: float = ...
 ) -> Ints:
-    """[n,102] by value iteration with control_model(traces, 0.5, 0) (McCann and Pollard 2007)."""
+    """[n,controls] by value iteration with control_model(traces, 0.5, 0) (McCann and Pollard 2007)."""
 
 def class_features(character: Character) -> Doubles:
     """[n, up to 8]: each class as a previous class in the SVM's inputs: principal components of its last pose."""
@@ -1092,5 +1204,5 @@ def svm_table(
     gamma: float = 0.0,
     threads: int = 0,
 ) -> tuple[Ints, float, float, float]:
-    """[n,102] by C-SVC with the RBF kernel (Eqs. 5, 6), and its C, gamma (1e-6 .. 1e6; 0: by cross-validation) and the
-    accuracy of the cross-validation (0 where both were given). Features [n, 1 or more] are within a million."""
+    """[n,controls] by C-SVC with the RBF kernel (Eqs. 5, 6), and its C, gamma (1e-6 .. 1e6; 0: by cross-validation) and
+    the accuracy of the cross-validation (0 where both were given). Features [n, 1 or more] are within a million."""

@@ -33,6 +33,14 @@ void GilRelease::take_back() {
   unless_python_ends([&] { PyEval_RestoreThread(thread_); });
 }
 
+GilHold::GilHold() : state_(unless_python_ends([] { return PyGILState_Ensure(); })) {}
+
+py::object GilHold::call(const py::object& callable, double x, double y, double z) {
+  PyObject* const answer = unless_python_ends([&] { return PyObject_CallFunction(callable.ptr(), "ddd", x, y, z); });
+  if (answer == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::object>(answer);
+}
+
 bool GilRelease::goes_on(const py::object& callback, double fraction, const std::string& stage) {
   take_back();
   struct Again {

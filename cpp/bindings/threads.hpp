@@ -32,6 +32,21 @@ class GilRelease {
   PyThreadState* thread_;
 };
 
+/// Has the GIL as long as it lives, in a thread that may have let it go; where Python ends, likewise.
+class GilHold {
+ public:
+  GilHold();
+  ~GilHold() { PyGILState_Release(state_); }
+  GilHold(const GilHold&) = delete;
+  GilHold& operator=(const GilHold&) = delete;
+
+  /// What a callable of three numbers returns; what it raises is thrown.
+  static py::object call(const py::object& callable, double x, double y, double z);
+
+ private:
+  PyGILState_STATE state_;
+};
+
 /// What `work` returns; meanwhile other Python threads run, so it must touch no Python object but the values of arrays.
 template <typename Work>
 auto without_gil(const Work& work) {

@@ -37,9 +37,8 @@ def empty_file(addon: ModuleType) -> None:
 
 @pytest.fixture(scope="session")
 def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The sample file after Build, saved."""
-    making.open_sample()
-    assert bpy.ops.fragmotion.tick_actions(use=True) == {"FINISHED"}
+    """The sample file after Build, without its moves, saved."""
+    making.open_sample().fragmotion.moves.clear()
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
     path = tmp_path_factory.mktemp("built") / "built.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path))

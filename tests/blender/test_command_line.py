@@ -163,3 +163,16 @@ def test_info_and_help_end_well_and_nonsense_does_not(
     assert "classes 12" in capsys.readouterr().out
     assert run(addon, "--help") == 0 and "examples:" in capsys.readouterr().out
     assert run(addon, "dance") == 2
+
+
+def test_controls_are_told_on_the_command_line(
+    addon: ModuleType, takes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ("build", takes, "--classes", 12, "--blend", tmp_path / "own.blend", "--json", tmp_path / "own.json")
+    assert run(addon, *words, "--speeds", 3, "--directions", 4, "--no-turn", "--no-jump") == 0
+    assert json.loads((tmp_path / "own.json").read_text())["controls"] == 13
+    assert run(addon, *words, "--controls", "found") == 0
+    assert run(addon, *words, "--controls", "found", "--speeds", 3) == 1
+    assert "--controls found and --speeds say two different things" in capsys.readouterr().err
+    assert run(addon, *words, "--controls", "paper") == 0
+    assert json.loads((tmp_path / "own.json").read_text())["controls"] == 102

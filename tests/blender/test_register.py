@@ -29,7 +29,7 @@ def test_unregister_stops_a_build_with_its_thread_and_timer(addon: ModuleType, m
     manager = SimpleNamespace(
         event_timer_add=lambda step, window: timers.append(step) or step, event_timer_remove=timers.remove
     )
-    button = addon.operators.background
+    button = addon.operators.base.background
     monkeypatch.setattr(button, "bpy", SimpleNamespace(context=SimpleNamespace(window_manager=manager)))
     started = Event()
 
@@ -51,7 +51,7 @@ def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleTy
     assert {"import_mocap", "build", "suggest_classes", "force_class", "leave_out", "add_move", "bake"} <= set(own)
     unchanging = {"save_policy", "save_bones", "cancel", "export_recording", "solo_class", "force_class"}
     unchanging |= {"play_take"}
-    unchanging |= {"drive", "listen", "record", "play_trace", "find_pads"}
+    unchanging |= {"drive", "listen", "record", "play_trace", "find_pads", "change_style"}
     for name in own:
         operator = getattr(bpy.ops.fragmotion, name).get_rna_type()
         assert len(operator.description) > 20, name
@@ -66,7 +66,7 @@ def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) ->
     assert [panel.bl_label for panel in panels] == [
         *("Control Rig", "Mocap", "Left Out", "Doctor", "Bones"),
         *("Build", "Numbers Tried", "Training", "Figures", "Classes", "Inspector", "Coverage", "Policy File"),
-        *("Drive", "Drive Options", "Feel", "Gamepads", "Overlays", "Trace"),
+        *("Drive", "Drive Options", "Feel", "Ground", "Gamepads", "Overlays", "Trace"),
         *("Moves", "Path", "Recordings", "Change", "Bake", "Bake Options", "Populate"),
     ]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}

@@ -6,6 +6,7 @@ from __future__ import annotations
 from types import ModuleType
 
 import bpy
+import pytest
 
 
 def test_it_is_added_ticked_and_builds_as_in_its_own_file(addon: ModuleType, obj: bpy.types.Object) -> None:
@@ -16,10 +17,21 @@ def test_it_is_added_ticked_and_builds_as_in_its_own_file(addon: ModuleType, obj
     added = bpy.context.active_object
     assert added.type == "ARMATURE" and bpy.context.selected_objects == [added]
     actions = addon.mocap.actions.fitting(added)
-    assert len(actions) > 30 and all(action.fragmotion.use for action in actions)
+    moves = [row.action for row in added.fragmotion.moves]
+    assert [(row.name, row.key, row.upper_body, row.loop) for row in added.fragmotion.moves] == [
+        ("wave", "F", True, False),
+        ("kick", "G", False, False),
+        ("sit", "H", False, True),
+    ]
+    idle = {action for action in actions if action.fragmotion.style} | set(moves)
+    assert len(actions) > 30 and {action for action in actions if not action.fragmotion.use} == idle
+    assert {action.fragmotion.style for action in actions} == {"", "proud", "tired"}
     assert {thing.type for thing in bpy.data.objects} == {"ARMATURE", "MESH"}
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
     assert added.fragmotion.figures.fragments == fragments > 100
+    addon.character.moves.bring_up_to_date(bpy.context, added)
+    sit = addon.character.building.load(added).moves[2]
+    assert sit.name == "sit" and sit.loop == pytest.approx((1.5, 2.3), abs=0.02)
 
 
 def test_it_can_be_added_twice(addon: ModuleType) -> None:

@@ -12,14 +12,14 @@ inline Quality random_quality(Random& random, int classes, bool coarse = false) 
   Quality quality;
   quality.classes = classes;
   for (int i = 0; i < classes * classes; ++i) quality.smoothness.push_back(value());
-  for (int i = 0; i < classes * ControlSpace::kPoints; ++i) quality.match.push_back(value());
+  for (int i = 0; i < classes * kPaperPoints; ++i) quality.match.push_back(value());
   return quality;
 }
 
 /// Random control indices; few different ones where `different` is small.
-inline std::vector<int> random_trace(Random& random, int steps, int different = ControlSpace::kPoints) {
+inline std::vector<int> random_trace(Random& random, int steps, int different = kPaperPoints) {
   std::vector<int> trace;
-  for (int i = 0; i < steps; ++i) trace.push_back(random.below(different) * ControlSpace::kPoints / different);
+  for (int i = 0; i < steps; ++i) trace.push_back(random.below(different) * kPaperPoints / different);
   return trace;
 }
 

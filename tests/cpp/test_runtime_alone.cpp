@@ -22,7 +22,7 @@ std::shared_ptr<const Character> loaded_character() {
 
 // Another control every kHeld frames, and for each player.
 Control control_at(int frame, int player = 0) {
-  return loaded_character()->space.point((7 * (frame / kHeld) + 13 * player) % ControlSpace::kPoints);
+  return loaded_character()->space.point((7 * (frame / kHeld) + 13 * player) % kPaperPoints);
 }
 
 bool all_finite(const std::vector<double>& values) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/turn_between.hpp"
 #include "fragmotion/base/random.hpp"
 #include "fragmotion/fragments/cutting.hpp"
 #include "fragmotion/fragments/evident.hpp"
@@ -87,7 +88,7 @@ inline void bend_leg(const CharacterFrame& frame, double height, double side, co
   const double hip = std::acos((a * a + length * length - b * b) / (2 * a * length));
   const double knee = kPi - std::acos((a * a + b * b - length * length) / (2 * a * b));
   const auto about_x = [](double angle) { return Quaternion(Eigen::AngleAxisd(angle, Vector3::UnitX())); };
-  const Quaternion thigh_rotation = Quaternion::FromTwoVectors(-Vector3::UnitZ(), reach) * about_x(-hip);
+  const Quaternion thigh_rotation = turn_between(-Vector3::UnitZ(), reach) * about_x(-hip);
   const Quaternion shin_rotation = about_x(knee);
   store_quaternion(thigh_rotation, thigh);
   store_quaternion(shin_rotation, thigh + 4);

@@ -15,7 +15,7 @@ namespace fragmotion {
 // Of a policy file's bytes all but a few thousand are the 102 x 102 probabilities of controls. A core is a file's
 // payload without them: small enough to keep, and every byte that is changed in it counts.
 
-constexpr std::uint64_t kProbabilities = ControlSpace::kPoints * ControlSpace::kPoints;
+constexpr std::uint64_t kProbabilities = kPaperPoints * kPaperPoints;
 constexpr std::size_t kHeaderBytes = 20, kChecksumBytes = 8;
 
 template <typename T>
@@ -36,8 +36,7 @@ inline std::string file_with_core(std::string payload) {
   const std::size_t at = payload.find(bytes_of(kProbabilities));
   if (at != std::string::npos) {
     std::string model;
-    for (std::uint64_t i = 0; i < kProbabilities; ++i)
-      model += bytes_of(i % (ControlSpace::kPoints + 1) == 0 ? 1.0 : 0.0);
+    for (std::uint64_t i = 0; i < kProbabilities; ++i) model += bytes_of(i % (kPaperPoints + 1) == 0 ? 1.0 : 0.0);
     payload.insert(at + 8, model);
   }
   std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a

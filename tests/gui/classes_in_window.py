@@ -69,15 +69,14 @@ def preview(solo: Any, obj: bpy.types.Object) -> Iterator[None]:
 def steps() -> Iterator[None]:
     """The whole session."""
     building, classes = window.module("character.building"), window.module("character.classes")
-    solo = window.module("operators.solo_class")
+    solo = window.module("operators.character.solo_class")
     bpy.context.preferences.system.viewport_aa = "OFF"  # drawn by software, it takes most of the time
     bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE), load_ui=False)
     yield
     obj = bpy.data.objects[making.ARMATURE]
     making.activate(obj)
     yield from open_tab()
-    press(bpy.ops.fragmotion.tick_actions, "EXEC_DEFAULT", True, use=True)
-    yield from stopped_trial(building.core, window.module("operators.background"), obj)
+    yield from stopped_trial(building.core, window.module("operators.base.background"), obj)
     press(bpy.ops.fragmotion.suggest_classes, "EXEC_DEFAULT", True)
     press(bpy.ops.fragmotion.build, "EXEC_DEFAULT", True, synthesize=False)  # with holes in the coverage
     obj = bpy.data.objects[making.ARMATURE]
@@ -121,7 +120,6 @@ def steps() -> Iterator[None]:
     assert solo.current is None and solo._timer is None, "a preview outlives its file"
 
     making.activate(bpy.data.objects[making.ARMATURE])
-    press(bpy.ops.fragmotion.tick_actions, "EXEC_DEFAULT", True, use=True)
     press(bpy.ops.fragmotion.build, "EXEC_DEFAULT", True, synthesize=False)
     press(bpy.ops.fragmotion.solo_class)
     bpy.data.objects.remove(bpy.data.objects[making.ARMATURE])

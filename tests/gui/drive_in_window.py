@@ -34,7 +34,7 @@ DRAWS = 10  # of the panels, of which the quickest counts
 
 session = window.module("drive.session")
 overlays = window.module("drive.hud.overlays")
-button = window.module("operators.drive")
+button = window.module("operators.directing.drive")
 recordings = window.module("recordings.recordings")
 sdl = window.module("drive.input.sdl").load()
 costs = window.watch_panels()

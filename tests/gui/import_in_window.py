@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Run in a Blender with a window by test_windows.py: have a broken FBX refused, import a whole one, mend its take by
-the panel's button, and undo both.
+"""Run in a Blender with a window by test_windows.py: have a broken FBX refused, stop an import of many files, import a
+whole one, mend its take by the panel's button, and undo both.
 
 Arguments after `--`: the add-on's zip, and the folder for the pictures.
 """
@@ -23,6 +23,7 @@ from window import FOLDER, click_button, open_tab, picture, press, send
 
 FILES = Path(FOLDER) / "files"
 FRAMES = 40
+MANY = 1500
 
 
 def write_files() -> None:
@@ -65,6 +66,41 @@ def import_file(name: str, **fields: Any) -> None:
     press(bpy.ops.fragmotion.import_mocap, directory=str(FILES), files=[{"name": name}], **fields)
 
 
+def browse(folder: Path) -> Iterator[None]:
+    """Choose a folder in Blender's file browser, and press Import Mocap in it."""
+    bpy.context.preferences.view.filebrowser_display_type = "SCREEN"
+    press(bpy.ops.fragmotion.import_mocap)
+    yield from window.seconds(0.5)
+    shown = bpy.context.window_manager.windows[0]
+    area = next(area for area in shown.screen.areas if area.type == "FILE_BROWSER")
+    area.spaces.active.params.directory = str(folder).encode()
+    yield from window.seconds(0.5)
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with bpy.context.temp_override(window=shown, area=area, region=region):
+        bpy.ops.file.execute()
+    yield
+
+
+def stopped_import(before: dict[str, Any]) -> Iterator[None]:
+    """Begin to import more files than are read in a moment, and stop it by Esc."""
+    background = window.module("operators.base.background")
+    many = FILES / "many"
+    many.mkdir()
+    for seed in range(MANY):
+        making.write_bvh(many / f"{seed}.bvh", seed=seed)
+    window.show_only("Build")
+    bpy.context.view_layer.objects.active = None  # onto a new armature
+    yield from browse(many)
+    yield from window.until(lambda: background.current.fraction > 0.5, "Actions are made")
+    yield from picture("1 importing")
+    assert len(bpy.data.actions) > 3
+    yield from send("ESC", "PRESS", 300, 300)
+    yield from window.until(lambda: background.current is None, "the import's end")
+    yield from window.drawn()
+    bpy.context.view_layer.objects.active = bpy.data.objects["Hero"]
+    assert seen() == before and len(bpy.data.actions) < 3, "an import that was stopped has changed something"
+
+
 def steps() -> Iterator[None]:
     """The whole session."""
     bpy.data.objects.remove(bpy.data.objects["Cube"])
@@ -90,20 +126,22 @@ def steps() -> Iterator[None]:
     yield from window.drawn()
     assert seen() == before, "a refused file has changed something"
 
+    yield from stopped_import(before)
     import_file("walk.fbx", mend=False)
+    yield from window.until(lambda: window.module("operators.base.background").current is None, "the import's end")
     yield from window.drawn()
     after = seen()
     assert "walk" in bpy.data.actions and after.pop("pose") != before.pop("pose")
     assert after == before, "an import has changed the scene"
     window.show_only("Mocap", "Doctor")
     bpy.context.window_manager.fragmotion.active_action = bpy.data.actions.find("walk")
-    yield from picture("1 imported")
+    yield from picture("2 imported")
     findings = [row.code for row in bpy.data.actions["walk"].fragmotion.findings if row.mendable]
     assert findings, "the doctor finds nothing to mend in noise"
     yield from click_button("fragmotion.mend_finding")
     yield from window.drawn()
     assert next(row.mended for row in bpy.data.actions["walk"].fragmotion.findings if row.mendable)
-    yield from picture("2 mended")
+    yield from picture("3 mended")
     for _ in range(2):
         yield from send("Z", "PRESS", 300, 300, ctrl=True)
         yield from send("Z", "RELEASE", 300, 300)

@@ -30,8 +30,8 @@ def choose(action: str) -> None:
 def session_of_tests() -> Iterator[None]:
     """The whole session."""
     obj = making.open_sample()
+    obj.fragmotion.moves.clear()
     yield from window.open_tab()
-    window.press(bpy.ops.fragmotion.tick_actions, use=True)
     bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=12)
     choose(MOVE)
     window.show_only("Mocap", "Moves")

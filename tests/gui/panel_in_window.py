@@ -83,7 +83,7 @@ def play_takes(obj: bpy.types.Object) -> Iterator[None]:
 
 def steps() -> Iterator[None]:
     """The whole session."""
-    build = window.module("operators.background")
+    build = window.module("operators.base.background")
     building = window.module("character.building")
     go_on = hold_builds(building.core)
     bpy.data.objects.remove(bpy.data.objects["Cube"])

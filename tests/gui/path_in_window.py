@@ -65,7 +65,6 @@ def session_of_tests() -> Iterator[None]:
     """The whole of it."""
     obj = making.open_sample()
     yield from window.open_tab()
-    window.press(bpy.ops.fragmotion.tick_actions, use=True)
     window.press(bpy.ops.fragmotion.build, "EXEC_DEFAULT")
     yield
     look()

@@ -16,10 +16,11 @@ _Y_UP = ("Zrotation Xrotation Yrotation", "Yrotation Xrotation Zrotation")
 
 
 def export_takes(folder: Path) -> None:
-    """Open the sample file, and write each of its Actions to a BVH file of that name by Blender's own exporter."""
+    """Open the sample file, and write each of its ticked Actions to a BVH file of that name by Blender's own
+    exporter."""
     folder.mkdir()
     obj = making.open_sample()
-    for action in bpy.data.actions:
+    for action in filter(lambda action: action.fragmotion.use, bpy.data.actions):
         making.play(obj, action, 1)
         path = folder / f"{action.name}.bvh"
         first, last = (round(frame) for frame in action.frame_range)

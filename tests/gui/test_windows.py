@@ -23,9 +23,11 @@ PICTURES = {
         *("1 before", "2 walking", "3 running", "4 recording", "5 stick", "6 panels", "7 baked", "8 replay"),
         "9 sliding",
     ),
-    "import": ("1 imported", "2 mended"),
+    "import": ("1 importing", "2 imported", "3 mended"),
     "path": ("1 drawn", "2 followed"),
     "moves": ("1 moves", "2 jumping"),
+    "styles": ("1 takes", "2 coverage", "3 tired", "4 neutral"),
+    "ground": ("1 chosen", "2 on the stairs"),
     "windows": (),
 }
 

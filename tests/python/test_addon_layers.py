@@ -17,6 +17,7 @@ FOLDERS = [
     "rig",
     "mocap",
     "control_rig",
+    "ground",
     "recordings",
     "character",
     "paths",
@@ -28,6 +29,10 @@ FOLDERS = [
     "drive/acting",
     "drive/hud",
     "drive",
+    "operators/base",
+    "operators/character",
+    "operators/mocap",
+    "operators/directing",
     "operators",
     "panels",
 ]

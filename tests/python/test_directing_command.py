@@ -64,10 +64,11 @@ def test_goals_are_met_on_curves_and_corners(made: core.Character) -> None:
 
 def test_figures_have_the_fields_that_were_agreed(made: core.Character, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tools.directing.__main__.courses", lambda _seed: courses(1)[:1])
-    result = measure(made, 1)
-    assert set(result) == {"paths", "pins", "moves"}
+    result = measure(made, [], 1)
+    assert set(result) == {"paths", "pins", "moves", "styles", "ground"}
     assert {"name", "speed", "mean_m", "max_m", "arrival_m", "arrival_s"} <= set(result["paths"][0])
     assert all(math.isfinite(row["mean_m"]) for row in result["paths"])
+    assert {"name", "depth_m", "skate_ratio", "hips_ratio"} <= set(result["ground"][0])
 
 
 def test_the_command_prints_a_table_and_saves_the_figures(
@@ -75,12 +76,19 @@ def test_the_command_prints_a_table_and_saves_the_figures(
 ) -> None:
     monkeypatch.setattr("tools.directing.__main__.courses", lambda _seed: courses(1)[:2])
     target = tmp_path / "figures.json"
-    assert main([str(folder), "--json", str(target), "--figures", str(tmp_path / "drawn")]) == 0
+    styles = ["--style", "slow=*walk*", "--style", "fast=*run*"]
+    assert main([str(folder), "--json", str(target), "--figures", str(tmp_path / "drawn"), *styles]) == 0
+    assert [row["name"] for row in json.loads(target.read_text())["styles"]] == ["slow", "fast"]
     assert (tmp_path / "drawn" / "paths.png").stat().st_size > 10000
-    rows = json.loads(target.read_text())["paths"]
+    saved = json.loads(target.read_text())
+    rows, spaces = saved["paths"], saved["spaces"]
     assert [row["name"] for row in rows][:2] == ["straight line, walk", "straight line, jog"]
     printed = capsys.readouterr().out
     assert "circle, 2 m, run" in printed and "from the time, s" in printed
+    assert [(row["speeds"], row["directions"]) for row in spaces] == [(1, 4), (2, 8), (3, 8), (4, 16)]
+    for row in spaces:
+        assert 50 < row["percent_of_optimal"] <= 100 and 0 < row["velocity_error"] < 2 and row["build_s"] > 0
+    assert "4 x 16" in printed
 
 
 def test_the_sample_character_is_directed_unless_told() -> None:
@@ -94,6 +102,8 @@ def test_the_sample_character_is_directed_unless_told() -> None:
         (["--unit", "0"], "--unit is 0"),
         (["none.bvh"], "no such file or folder"),
         (["--json", "/none/figures.json"], "no such folder"),
+        (["--style", "tired"], "--style tired tells no name or no pattern"),
+        (["--style", "=*tired*"], "tells no name or no pattern"),
     ],
 )
 def test_bad_input_is_refused_before_anything_is_measured(

@@ -12,14 +12,14 @@ RATE = 60
 JOINED = round(0.8 * RATE)
 
 
-def play(character: core.Character, player: str, seed: int, seconds: float = 8) -> core.ShownMotion:
+def play(character: core.Character, player: str, seed: int, seconds: float = 8) -> core.Motion:
     runner = core.Player(character, seed)
     runner.reset(5 * seed, 1, 2.0 * seed)
     performance = runner.run(core.simulate_trace(player, seconds, seed, character.space), RATE)
-    return core.ShownMotion(RATE, performance.root_positions, performance.rotations, performance.frames)
+    return core.Motion(RATE, performance.root_positions, performance.rotations, performance.frames)
 
 
-def seen(motion: core.ShownMotion) -> Array:
+def seen(motion: core.Motion) -> Array:
     """Roots [F,3] seen from the character frame, and the hips' facing [F] from it, and all other bones' rotations."""
     roots, frames = motion.root_positions.copy(), motion.frames
     cos, sin = np.cos(frames[:, 2]), np.sin(frames[:, 2])
@@ -104,11 +104,11 @@ def test_a_motion_is_spread_to_where_it_is_to_be(skeleton: core.Skeleton, charac
 def test_what_cannot_be_joined_is_refused(skeleton: core.Skeleton, character: core.Character) -> None:
     motion = play(character, "walker", 1, 2)
     arrays = (motion.root_positions, motion.rotations, motion.frames)
-    slow = core.ShownMotion(30, *arrays)
-    few = core.ShownMotion(RATE, arrays[0], arrays[1][:, 1:], arrays[2])
-    none = core.ShownMotion(RATE, *(array[:0] for array in arrays))
-    wild = core.ShownMotion(RATE, arrays[0] * np.nan, *arrays[1:])
-    long = core.ShownMotion(RATE, arrays[0], 2 * arrays[1], arrays[2])
+    slow = core.Motion(30, *arrays)
+    few = core.Motion(RATE, arrays[0], arrays[1][:, 1:], arrays[2])
+    none = core.Motion(RATE, *(array[:0] for array in arrays))
+    wild = core.Motion(RATE, arrays[0] * np.nan, *arrays[1:])
+    long = core.Motion(RATE, arrays[0], 2 * arrays[1], arrays[2])
     for other, cause in (
         (slow, "same frame rate"),
         (few, "every bone"),
@@ -130,5 +130,5 @@ def test_what_cannot_be_joined_is_refused(skeleton: core.Skeleton, character: co
     with pytest.raises(ValueError, match="to be at"):
         core.spread(skeleton, motion, 0, 5, [np.inf, 0, 0])
     with pytest.raises(ValueError, match="frames"):
-        core.ShownMotion(RATE, arrays[0], arrays[1], arrays[2][1:])
+        core.Motion(RATE, arrays[0], arrays[1], arrays[2][1:])
     assert skeleton.names == NAMES

@@ -22,6 +22,7 @@ STAGES = [
     "classes",
     "policy",
     "character",
+    "ground",
     "runtime",
     "bake",
     "direct",

@@ -32,7 +32,7 @@ class Steps(NamedTuple):
 def step_traces(space: core.ControlSpace, seed: int) -> list[Steps]:
     """One for each of the 17 velocities."""
     random = np.random.default_rng(seed)
-    velocities = space.points.reshape(*space.SHAPE, -1)[:, 1, 0, :2]
+    velocities = space.points.reshape(*space.shape, -1)[:, 0, 0, :2]
     return [_steps(velocities, i, random) for i in range(len(velocities))]
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from collections.abc import Sequence
 from typing import Any
 
 import fragmotion_core as core
@@ -17,13 +18,16 @@ from tools.command import run_command
 from tools.directing import inputs
 from tools.directing.courses import courses
 from tools.directing.figures import draw_paths
-from tools.directing.moves import moves
+from tools.directing.ground import ground
+from tools.directing.moves import listed_moves, moves
 from tools.directing.paths import follow_all
 from tools.directing.pins import pins
+from tools.directing.spaces import spaces
+from tools.directing.styles import Style, styled_takes, styles
 from tools.directing.table import tables
 from tools.evaluate import curves
 from tools.evaluate.controllers import DEFAULT
-from tools.evaluate.loading import SECONDS, TEACHER, Recordings, make_session, read_recordings
+from tools.evaluate.loading import SECONDS, TEACHER, Recordings, core_failures, make_session, read_recordings
 from tools.evaluate.report import text
 from tools.shell import say
 
@@ -36,19 +40,36 @@ def make_character(recordings: Recordings, seed: int) -> core.Character:
     return curves.build(recordings, teacher, CLASSES, seed, [DEFAULT])
 
 
-def measure(character: core.Character, seed: int) -> dict[str, Any]:
-    """All figures, as the JSON file holds them."""
-    return {"paths": follow_all(character, courses(seed)), "pins": pins(character), "moves": moves(character)}
+def make_styled(skeleton: core.Skeleton, takes: Sequence[Style], seed: int) -> core.Character:
+    """A character in these styles, as the add-on builds it by default."""
+    options = core.BuildOptions()
+    options.classes, options.seed, options.policies = CLASSES, seed, [DEFAULT]
+    with core_failures("Building"):
+        return core.build_styles(skeleton, takes, [core.simulate_trace(TEACHER, SECONDS, seed)], options)
+
+
+def measure(character: core.Character, takes: Sequence[Style], seed: int) -> dict[str, Any]:
+    """All figures of a character, and of one in the styles of these takes, as the JSON file holds them."""
+    return {
+        "paths": follow_all(character, courses(seed)),
+        "pins": pins(character),
+        "moves": moves(character),
+        "styles": styles(takes, lambda some: make_styled(character.skeleton, some, seed), seed),
+        "ground": ground(character),
+    }
 
 
 def direct(options: argparse.Namespace) -> None:
     """Do all that the options ask for; Failure says what was wrong with them."""
     inputs.check(options)
     recordings = read_recordings(inputs.mocap_of(options), options.unit)
+    takes = styled_takes(inputs.mocap_of(options), options.style, recordings)
     say(f"building a character from {len(recordings.clips)} takes")
-    character = make_character(recordings, options.seed)
+    character = make_character(recordings, options.seed).with_moves(listed_moves(inputs.mocap_of(options)))
     say("directing it")
-    result = measure(character, options.seed)
+    result = measure(character, takes, options.seed)
+    say("building characters of other controls")
+    result["spaces"] = spaces(recordings, options.seed)
     for table in tables(result).values():
         say(f"\n{text(table)}")
     if options.figures:

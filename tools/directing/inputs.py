@@ -26,6 +26,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--unit", type=float, default=0.01, metavar="M", help="metres in one unit of a BVH file (default 0.01)"
     )
+    parser.add_argument(
+        "--style",
+        action="append",
+        default=[],
+        metavar="NAME=PATTERN",
+        help="the takes of a style, by their names, such as tired=*_tired_*; once for each style (default: as the "
+        ".blend has them)",
+    )
     parser.add_argument("--figures", type=Path, metavar="DIR", help="draw the paths and the ways over them there")
     parser.add_argument("--json", type=Path, metavar="FILE", help="save all figures there")
 
@@ -48,4 +56,7 @@ def check(options: argparse.Namespace) -> None:
         raise Failure(f"--unit is {options.unit:g}, and must be over 0")
     if options.json and not options.json.absolute().parent.is_dir():
         raise Failure(f"{options.json.parent}: there is no such folder")
+    for text in options.style:
+        if "=" not in text.strip("="):
+            raise Failure(f"--style {text} tells no name or no pattern, as in tired=*_tired_*")
     find_takes(mocap_of(options))

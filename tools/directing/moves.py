@@ -3,17 +3,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 import fragmotion_core as core
 import numpy as np
 
-RATE = 60.0  # frames a second
-_TRACE_RATE = 10  # controls a second
+from tools.directing.seams import RATE, TRACE_RATE, marked
+from tools.evaluate import blend
+
 _PRESSES = range(20, 40, 3)  # controls before which a move is started, so that it meets every phase of a gait
 _AFTER = 20  # controls that are played after a move's longest time
 _PEDAL = 1e-6  # m
+
+
+def listed_moves(mocap: Sequence[Path]) -> list[core.Move]:
+    """The moves that a .blend lists; none of other motion capture."""
+    return blend.read_moves(mocap[0]) if mocap[0].suffix.lower() == ".blend" else []
 
 
 def moves(character: core.Character) -> list[dict[str, Any]]:
@@ -30,7 +37,10 @@ def moves(character: core.Character) -> list[dict[str, Any]]:
             {
                 "name": move.name,
                 "wait_s": max(_waited(p, number, press) for press, p in played),
-                "joint_step_ratio": max(metrics.of(_marked(character, p)).positions.worst for _, p in played) / usual,
+                "joint_step_ratio": max(
+                    metrics.of(marked(character, p, _changes(p))).positions.worst for _, p in played
+                )
+                / usual,
             }
         )
     return rows
@@ -38,7 +48,7 @@ def moves(character: core.Character) -> list[dict[str, Any]]:
 
 def _performances(character: core.Character, number: int, move: core.Move) -> Iterator[tuple[int, core.Performance]]:
     space = character.space
-    lasts = round((len(move.clip.root_positions) / move.clip.rate + move.wait) * _TRACE_RATE) + _AFTER
+    lasts = round((len(move.clip.root_positions) / move.clip.rate + move.wait) * TRACE_RATE) + _AFTER
     for control in ((0, 0, 0, 0), (0, space.walk, 0, 0), (0, space.run, 0, 0), (0, space.walk, 1, 0)):
         for press in _PRESSES:
             trace = np.tile(np.array(control, float), (press + lasts, 1))
@@ -48,18 +58,13 @@ def _performances(character: core.Character, number: int, move: core.Move) -> It
 def _waited(performance: core.Performance, number: int, press: int) -> float:
     """Seconds from the press to the first frame that shows the move."""
     plays = np.flatnonzero((np.asarray(performance.moves) == number).any(1))
-    return float(max(plays[0] / RATE - press / _TRACE_RATE, 0.0)) if len(plays) else float("inf")
+    return float(max(plays[0] / RATE - press / TRACE_RATE, 0.0)) if len(plays) else float("inf")
 
 
-def _marked(character: core.Character, performance: core.Performance) -> core.Performance:
-    """The performance, in which moves that begin, loop and end are all that is begun."""
+def _changes(performance: core.Performance) -> Any:
+    """At which frames [F-1], from the second on, a move begins, loops or ends."""
     playing, entered = np.asarray(performance.moves), np.asarray(performance.entered)
-    changes = (np.diff(playing, axis=0) != 0).any(1)
-    loops = (np.diff(entered) != 0) & (playing[1:, 0] >= 0)
-    begun = np.concatenate(([0], np.cumsum(changes | loops)))
-    clip = core.Clip(character.skeleton, "played", RATE, performance.root_positions, np.array(performance.rotations))
-    controls = round((len(begun) - 1) / RATE * _TRACE_RATE)
-    return core.judge_clip(character, np.zeros((controls, 4)), clip, begun.tolist())
+    return (np.diff(playing, axis=0) != 0).any(1) | ((np.diff(entered) != 0) & (playing[1:, 0] >= 0))
 
 
 def _own_step(character: core.Character, move: core.Move) -> float:

@@ -29,15 +29,29 @@ class Factors(NamedTuple):
 
     def save(self, path: Path, **others: core.Ints) -> None:
         """Write them with other arrays to an .npz file."""
-        space = [getattr(self.space, name) for name in ("walk", "run", "turn_rate", "scale")]
-        factors = {"smoothness": self.smoothness, "match": self.match, "features": self.features, "space": space}
+        space = [getattr(self.space, name) for name in ("turn_rate", "scale", "directions", "turns", "jumps")]
+        factors = {
+            "smoothness": self.smoothness,
+            "match": self.match,
+            "features": self.features,
+            "speeds": self.space.speeds,
+            "space": space,
+        }
         arrays: dict[str, Any] = {**factors, **others}
         np.savez(path, **arrays)
 
     @staticmethod
     def of_arrays(arrays: Any) -> Factors:
         """From what `save` wrote."""
-        space = core.ControlSpace(*arrays["space"])
+        turn_rate, scale, directions, turns, jumps = arrays["space"]
+        space = core.ControlSpace(
+            turn_rate=turn_rate,
+            scale=scale,
+            speeds=arrays["speeds"],
+            directions=int(directions),
+            turn=bool(turns),
+            jump=bool(jumps),
+        )
         return Factors(arrays["smoothness"], arrays["match"], arrays["features"], space)
 
 

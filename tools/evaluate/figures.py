@@ -163,17 +163,20 @@ def _whiskers(axes: Axes, values: list[float]) -> None:
 
 def coverage(result: Result) -> Figure:
     """Fig. 4 for every turn and jump: how near the nearest fragment is to each control, and how many there are."""
-    figure, grid = pyplot.subplots(2, 3, figsize=(9.6, 6.9), layout="constrained")
+    points = result["control_space"]["points"]
+    turns, jumps = sorted({point[2] for point in points}, reverse=True), sorted({point[3] for point in points})
+    size, count = (3.2 * len(turns), 3.45 * len(jumps)), len(points)
+    figure, grid = pyplot.subplots(len(jumps), len(turns), figsize=size, layout="constrained", squeeze=False)
     limit = 2 * HOLE
-    for jump in (0, 1):
-        for column, turn in enumerate((1, 0, -1)):
-            points = _coverage_panel(grid[jump][column], result, turn, jump, limit)
-    label = "ControlDis from the control to the nearest fragment"
-    figure.colorbar(points, ax=grid, label=label, extend="max", aspect=40, pad=0.02)
+    for row, jump in enumerate(jumps):
+        for column, turn in enumerate(turns):
+            drawn = _coverage_panel(grid[row][column], result, int(turn), int(jump), limit)
+    label = "ControlDis to the nearest fragment"
+    figure.colorbar(drawn, ax=grid, label=label, extend="max", aspect=40, pad=0.02)
     holes = sum(distance > HOLE for distance in result["coverage"])
     figure.suptitle(
-        "The 102 controls (m/s; forward is up) and how many fragments are nearest to each.\n"
-        f"Ringed: a hole, no fragment within {HOLE:g} ({holes} of 102)",
+        f"The {count} controls (m/s; forward is up) and how many fragments are nearest to each.\n"
+        f"Ringed: a hole, no fragment within {HOLE:g} ({holes} of {count})",
         fontsize=11,
     )
     return figure
@@ -184,7 +187,7 @@ def _coverage_panel(axes: Axes, result: Result, turn: int, jump: int, limit: flo
     indices = [i for i, point in enumerate(space["points"]) if tuple(point[2:]) == (turn, jump)]
     points = np.array([space["points"][i][:2] for i in indices])
     distances = np.array([result["coverage"][i] for i in indices])
-    for speed in (space["walk"], space["run"]):
+    for speed in space["speeds"]:
         axes.add_patch(Circle((0, 0), speed, fill=False, color="#CCCCCC"))
     drawn = axes.scatter(points[:, 0], points[:, 1], s=260, c=distances, cmap="viridis_r", vmin=0, vmax=limit, zorder=2)
     holes = points[distances > HOLE]

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tools.evaluate import control_options
 from tools.shell import Failure
 
 _TAKES = (".bvh", ".amc", ".blend")
@@ -34,6 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--test", nargs="+", type=Path, metavar="CSV", help="traces to test with (default: the simulated players)"
     )
     parser.add_argument("--classes", type=int, default=97, metavar="N", help="number of classes (default 97)")
+    control_options.add_arguments(parser)
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of all that is drawn at random (default 1)")
     parser.add_argument(
         "--unit", type=float, default=0.01, metavar="M", help="metres in one unit of a BVH file (default 0.01)"

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import fragmotion_core as core
 
-from tools.evaluate import blend
+from tools.evaluate import blend, control_options
 from tools.evaluate.inputs import TakeFile, find_takes
 from tools.shell import Failure
 
@@ -92,16 +92,17 @@ def read_take(file: TakeFile, unit: float) -> core.Take:
 
 def make_sessions(options: argparse.Namespace, recordings: Recordings) -> Sessions:
     """The traces that the options name, or else the simulated players' with this character's speeds."""
-    space = measure_space(recordings)
+    space = measure_space(recordings, options)
     train = _read_traces(options.train, space) or simulate_players(options.seed, space)
     test = _read_traces(options.test, space) or simulate_players(options.seed + _TEST_SEEDS, space)
     return Sessions(train, test)
 
 
-def measure_space(recordings: Recordings) -> core.ControlSpace:
+def measure_space(recordings: Recordings, told: argparse.Namespace) -> core.ControlSpace:
     """The controls with the takes' own speeds, by the smallest build there is."""
     options = core.BuildOptions()
     options.classes, options.restarts, options.policies = 1, 1, ["greedy"]
+    control_options.tell(options, told)
     with core_failures("The takes"):
         return core.build(*recordings, [core.simulate_trace(TEACHER, 1)], options).space
 

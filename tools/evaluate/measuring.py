@@ -24,7 +24,7 @@ def measure(recordings: Recordings, sessions: Sessions, options: argparse.Namesp
     """Build a character that learned from the teacher's session, and measure it; says what it is doing."""
     teacher = sessions.train[0]
     say(f"building a character from {len(recordings.clips)} takes, taught by {teacher.name}")
-    character = build(recordings, teacher, options.classes, options.seed, [DEFAULT, *TABLES[:-1]])
+    character = build(recordings, teacher, options.classes, options.seed, [DEFAULT, *TABLES[:-1]], options)
     result = _describe(character, recordings, sessions, options)
     result.update(_measure_controllers(character, sessions, options))
     if not options.no_curves:
@@ -34,7 +34,7 @@ def measure(recordings: Recordings, sessions: Sessions, options: argparse.Namesp
 
 def measure_quickly(recordings: Recordings, sessions: Sessions, options: argparse.Namespace) -> Result:
     """The default policy's run time and the takes' figures alone, where `measure` has them."""
-    character = build(recordings, sessions.train[0], options.classes, options.seed, [DEFAULT])
+    character = build(recordings, sessions.train[0], options.classes, options.seed, [DEFAULT], options)
     played = run_time.measure_run_time(
         character, [DEFAULT], sessions.test, options.seed, responsiveness=options.responsiveness
     )
@@ -72,7 +72,7 @@ def _describe(
 
 
 def _describe_session(session: Session) -> Result:
-    """Controls given, changes of the control a second, and how many of the 102 were visited."""
+    """Controls given, changes of the control a second, and how many different ones were given."""
     changes = np.count_nonzero(np.diff(session.indices))
     return {
         "steps": len(session.indices),
@@ -82,10 +82,12 @@ def _describe_session(session: Session) -> Result:
 
 
 def _describe_space(space: core.ControlSpace) -> Result:
-    """Speeds in m/s, turn rate in degrees/s, and the 102 points."""
+    """Speeds in m/s, turn rate in degrees/s, and the points."""
     return {
         "walk": space.walk,
         "run": space.run,
+        "speeds": space.speeds,
+        "gaits": space.gaits,
         "turn_rate": math.degrees(space.turn_rate),
         "scale": space.scale,
         "weights": list(space.weights),
@@ -132,7 +134,7 @@ def _measure_curves(
     teacher = sessions.train[0]
     tests: list[Session] = [test for test in sessions.test if test.name != teacher.name] or sessions.test
     say("curves: against classes")
-    classes = classes_curve(recordings, teacher, tests, options.seed, len(character.labels))
+    classes = classes_curve(recordings, teacher, tests, len(character.labels), options)
     say("curves: against minutes of training")
-    minutes = minutes_curve(recordings, sessions.test, options.seed, options.classes, character.space)
+    minutes = minutes_curve(recordings, sessions.test, character.space, options)
     return {"classes_curve": classes, "minutes_curve": minutes}

@@ -250,23 +250,25 @@ def stitchings_table(result: Result) -> Table:
 
 def coverage_table(result: Result) -> Table:
     """How many of the controls of each kind have a fragment near."""
-    kinds = [_kind_of(point, result["control_space"]) for point in result["control_space"]["points"]]
+    space = result["control_space"]
+    kinds = [_kind_of(point, space["speeds"]) for point in space["points"]]
     performed = [distance <= HOLE for distance in result["coverage"]]
     rows = []
-    for jump, turn in ((False, False), (False, True), (True, False), (True, True)):
+    for jump, turn in sorted({kind[:2] for kind in kinds}):
         cells = []
-        for gait in range(3):
+        for gait in range(1 + len(space["speeds"])):
             good = [well for kind, well in zip(kinds, performed) if kind == (jump, turn, gait)]
             cells.append(f"{sum(good)} of {len(good)}")
         rows.append([f"{'jump' if jump else 'no jump'}, {'turning' if turn else 'no turn'}", *cells])
-    return Table(f"Controls with a fragment within ControlDis {HOLE}", ["", "stand", "walk", "run"], rows)
+    return Table(f"Controls with a fragment within ControlDis {HOLE}", ["", "stand", *space["gaits"]], rows)
 
 
-def _kind_of(point: list[float], space: Result) -> tuple[bool, bool, int]:
-    """Whether a control jumps, whether it turns, and whether it stands (0), walks (1) or runs (2)."""
+def _kind_of(point: list[float], speeds: list[float]) -> tuple[bool, bool, int]:
+    """Whether a control jumps, whether it turns, and whether it stands (0) or at which speed it goes (from 1)."""
     x, y, turn, jump = point
     speed = math.hypot(x, y)
-    return jump > 0, turn != 0, (speed > 0) + (speed > (space["walk"] + space["run"]) / 2)
+    gait = min(range(len(speeds)), key=lambda i: abs(speed - speeds[i]))
+    return jump > 0, turn != 0, 1 + gait if speed > 0 else 0
 
 
 _CURVE = ("of Optimal, %", "quality a step", "velocity error, m/s", "build, s")
@@ -342,8 +344,9 @@ def text(table: Table) -> str:
 def summary(result: Result) -> str:
     """What was built."""
     space = result["control_space"]
+    speeds = ", ".join(f"{gait} {speed:.2f} m/s" for gait, speed in zip(space["gaits"], space["speeds"]))
     return (
         f"{result['takes']['count']} takes, {result['fragments']} fragments ({result['captured']} not synthesized), "
         f"{result['classes']} classes, built in {result['build_seconds']:.1f} s; "
-        f"walk {space['walk']:.2f} m/s, run {space['run']:.2f} m/s, turn {space['turn_rate']:.0f} degrees/s"
+        f"{speeds}, turn {space['turn_rate']:.0f} degrees/s"
     )

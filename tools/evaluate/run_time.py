@@ -160,7 +160,7 @@ def responses(character: core.Character, seeds: Iterable[int], **options: Any) -
 
 def _changes(space: core.ControlSpace) -> core.Doubles:
     """How much the velocity changes, m/s, in each of the core's response times: from each velocity to every other."""
-    velocities = space.points.reshape(*space.SHAPE, -1)[:, 0, 0, :2]
+    velocities = space.points.reshape(*space.shape, -1)[:, 0, 0, :2]
     changes: core.Doubles = np.linalg.norm(velocities[:, None] - velocities[None], axis=2)
     different: core.Doubles = changes[~np.eye(len(changes), dtype=bool)]
     return different

@@ -12,17 +12,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
 import numpy as np
-from mathutils import Matrix
+from mathutils import Matrix, Quaternion
 
 from ..character.building import check_skeleton, load
 from ..character.moves import bring_up_to_date
 from ..compat import versions
 from ..errors import UserError, core_errors
+from ..ground.meshes import Ground, find_ground
 from ..jobs import Report
 from ..mocap.sampling import scene_rate
 from ..rig.external_motion import movers
 from ..rig.keys import Bone, Deviation, Place, Poses, Track, count_keys, make_layout, make_tracks, reduce_tracks
-from ..rig.motion import Motion, about_z, carried, looped, multiply
+from ..rig.motion import Motion, carried, looped
 from ..rig.posing import check_free
 from ..rig.rigs import carriers, make_rig
 from . import performing
@@ -48,7 +49,7 @@ class Stage(NamedTuple):
     layout: list[Bone]
     place: Place
     world: Doubles
-    turn: Doubles
+    turn: Quaternion
     origin: Doubles
 
     @property
@@ -76,8 +77,9 @@ class Prepared(NamedTuple):
     target: Target
 
 
-def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Prepared:
-    """Read what a bake with BakeFields needs; UserError on what cannot be baked."""
+def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any, ground: Ground | None = None) -> Prepared:
+    """Read what a bake with BakeFields needs, by default on the ground that the armature is set to; UserError on what
+    cannot be baked."""
     check_free(obj)
     bring_up_to_date(context, obj)
     character = load(obj)
@@ -93,7 +95,7 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
         _check_object(obj, "bake to a new Action")
     elif settings.target == "CURRENT":
         _check_still(obj, target.action)
-    play = performing.prepare(context, obj, character, rig, settings)
+    play = performing.prepare(context, obj, character, rig, settings, ground or find_ground(context, obj))
     stage = _make_stage(obj, rig)
     options = _make_options(context.scene, settings, holds, recorded=recording is not None and settings.as_recorded)
     return Prepared(lambda report: _compute(stage, options, play, report), target)
@@ -142,21 +144,20 @@ def _make_poses(stage: Stage, motion: Motion, options: Options) -> Poses:
 
 def _move_object(stage: Stage, frames: Doubles) -> tuple[Doubles, Doubles]:
     """The object's own locations [F,3] and rotations [F,4] that carry its origin along character frames [F,3]."""
-    turns = about_z(frames[:, 2] - stage.origin[2])
-    above = np.array(Matrix(stage.place.above.tolist()).to_quaternion())
-    own = multiply(multiply(above * (1.0, -1.0, -1.0, -1.0), multiply(turns, above)), stage.turn)
+    above = Matrix(stage.place.above.tolist()).to_quaternion()
+    below, own = above.inverted(), above @ stage.turn
+    turns = (Quaternion((0, 0, 1), heading - stage.origin[2]) for heading in frames[:, 2])
+    rotations = np.array([below @ turn @ own for turn in turns])
     heads = np.column_stack((frames[:, :2], np.full(len(frames), stage.world[2, 3]), np.ones(len(frames))))
-    return (heads @ np.linalg.inv(stage.place.above).T)[:, :3], own
+    return (heads @ np.linalg.inv(stage.place.above).T)[:, :3], rotations
 
 
 def _make_stage(obj: bpy.types.Object, rig: Rig) -> Stage:
     world, basis = obj.matrix_world, obj.matrix_basis
     place = Place(np.array(world @ basis.inverted()), np.array(basis.to_scale()))
     layout = make_layout(obj, carriers(obj, rig))
-    turn = np.array(basis.to_quaternion())
-    return Stage(
-        f"Armature '{obj.name}'", rig, layout, place, np.array(world), turn, np.array(performing.origin_frame(obj))
-    )
+    origin = np.array(performing.origin_frame(obj))
+    return Stage(f"Armature '{obj.name}'", rig, layout, place, np.array(world), basis.to_quaternion(), origin)
 
 
 def _make_options(scene: bpy.types.Scene, settings: Any, holds: bool, recorded: bool) -> Options:

@@ -12,9 +12,19 @@ import numpy as np
 
 from ..character.building import has_character, load, make_player
 from ..errors import UserError, core_errors
+from ..ground.meshes import Ground, remarks_of
 from ..jobs import Report
 from ..mocap.sampling import scene_rate
-from ..recordings.recordings import Recording, active_recording, moves_of, numbered_moves, shown_of, trace_of
+from ..recordings.recordings import (
+    Recording,
+    active_recording,
+    moves_of,
+    numbered_moves,
+    numbered_styles,
+    shown_of,
+    trace_of,
+)
+from ..recordings.styles import AS_EVER, Styled
 from ..recordings.traces import make_trace
 from ..rig.motion import Motion, resampled
 from ..settings.bake_fields import DRIVING
@@ -47,10 +57,15 @@ def chosen_recording(obj: bpy.types.Object, settings: Any) -> Recording | None:
 
 
 def prepare(
-    context: bpy.types.Context, obj: bpy.types.Object, character: Character, rig: Rig, settings: Any
+    context: bpy.types.Context,
+    obj: bpy.types.Object,
+    character: Character,
+    rig: Rig,
+    settings: Any,
+    ground: Ground | None,
 ) -> Callable[[Report], Played]:
     """Read what a performance needs, as BakeFields say or along the paths.following.Walk of settings that have one; the
-    task that it returns plays it and calls nothing of Blender."""
+    task that it returns plays it and calls nothing of Blender's data."""
     recording, rate = chosen_recording(obj, settings), scene_rate(context.scene)
     recorded = recording if settings.as_recorded else None
     if recorded is not None:
@@ -58,21 +73,48 @@ def prepare(
         if shown is not None and recorded.shown_bones == len(character.skeleton.names):
             return lambda _report: Played(resampled(*shown, rate), "as it was recorded")
     player = _player_for(obj, character, recorded, settings)
+    player.stand_on(ground)
+    styled = _styled(obj, character, recording, settings)
     walk = getattr(settings, "walk", None)
     if walk is not None:
-        return lambda report: _played(player, walk.trace(player, rate), rate, report)
-    trace = make_trace(settings, character.space) if recording is None else trace_of(recording)
+        player.reset(style=styled.begin)
+        return lambda report: _played(player, walk.trace(player, rate), rate, report, ground)
+    space = character.in_style(styled.begin).space
+    trace = make_trace(settings, space) if recording is None else trace_of(recording)
     moves = [] if recording is None else numbered_moves(recording, character.move_names)
-    player.reset(*(_place(context, obj, rig, settings) if recorded is None else recorded.start))
+    place = _place(context, obj, rig, settings) if recorded is None else recorded.start
+    player.reset(*place, style=styled.begin)
 
-    return lambda report: _played(player, trace, rate, report, moves)
+    return lambda report: _played(player, trace, rate, report, ground, moves, styled)
 
 
-def _played(player: Player, trace: Doubles, rate: float, report: Report, moves: Sequence[Sequence[int]] = ()) -> Played:
-    """What a player does from where it stands."""
-    performance = player.run(trace, rate, report, moves or None)
+def _styled(obj: bpy.types.Object, character: Character, recording: Recording | None, settings: Any) -> Styled:
+    """The styles of the recording, else the one that BakeFields ask for; UserError where that is not there."""
+    names = character.style_names
+    if recording is not None:
+        return numbered_styles(recording, names)
+    if settings.style and settings.style not in names:
+        raise UserError(
+            f"Armature '{obj.name}' has no style '{settings.style}': its styles are {', '.join(names) or 'none'}. "
+            "Choose one of them under Bake, or Build with takes of that style"
+        )
+    return Styled(names.index(settings.style) if settings.style else 0)
+
+
+def _played(
+    player: Player,
+    trace: Doubles,
+    rate: float,
+    report: Report,
+    ground: Ground | None,
+    moves: Sequence[Sequence[int]] = (),
+    styled: Styled = AS_EVER,
+) -> Played:
+    """What a player does from where it stands, on the ground that it stands on."""
+    performance = player.run(trace, rate, report, moves or None, styled.changes or None)
     motion = Motion(performance.root_positions, performance.rotations, performance.frames, performance.classes)
-    return Played(motion, _judge(performance))
+    remarks = filter(None, (styled.remark, *remarks_of(player, ground)))
+    return Played(motion, "; ".join((_judge(performance), *remarks)))
 
 
 def measure_quality(obj: bpy.types.Object, recording: Recording) -> float:
@@ -84,10 +126,26 @@ def measure_quality(obj: bpy.types.Object, recording: Recording) -> float:
     policy = recording.policy if recording.policy in character.policies else ""
     if any(move.name not in character.move_names for move in moves_of(recording)):
         return 0.0
-    moves = numbered_moves(recording, character.move_names)
     with core_errors(f"Recording '{recording.name}'"):
         player = make_player(obj, character, recording.seed, policy)
-        return float(player.run(trace_of(recording), _JUDGING_RATE, moves=moves or None).quality)
+        return float(perform(player, character, recording, trace_of(recording), _JUDGING_RATE).quality)
+
+
+def perform(
+    player: Player,
+    character: Character,
+    recording: Recording,
+    trace: Doubles,
+    rate: float,
+    start: tuple[float, float, float] = (0, 0, 0),
+) -> Performance:
+    """What the character's player shows of a trace [T,4] with the moves and styles that the recording has in that time,
+    from the character frame `start` on."""
+    styled = numbered_styles(recording, character.style_names)
+    changes = [change for change in styled.changes if change[0] < len(trace)]
+    moves = [move for move in numbered_moves(recording, character.move_names) if move[0] < len(trace)]
+    player.reset(*start, style=styled.begin)
+    return player.run(trace, rate, moves=moves or None, styles=changes or None)
 
 
 def _player_for(obj: bpy.types.Object, character: Character, recorded: Recording | None, settings: Any) -> Any:

@@ -7,6 +7,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from random import Random
 from types import SimpleNamespace
 from typing import Any
 
@@ -16,6 +17,8 @@ from mathutils import Matrix
 from ..character.building import load
 from ..compat.core import core
 from ..errors import UserError
+from ..ground.belongings import belongings
+from ..ground.meshes import find_ground
 from ..jobs import Report
 from ..paths.following import shared
 from ..settings.bake_fields import MIXED, BakeFields
@@ -47,14 +50,20 @@ def spots(count: int, layout: str, spacing: float) -> list[Spot]:
 def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Callable[[Report], list[baking.Baked]]:
     """Read what the bakes need, as settings with PopulateFields say; the task that it returns calls nothing of Blender.
 
-    A copy plays at its place just what the original would at its own, so that all are computed there.
+    A copy plays at its place just what the original would at its own, so that all are computed there, on the ground as
+    it is at the copies' places.
     """
     bakes = list(_bakes(obj, settings))
     if settings.layout == "PATH":
         path, space = obj.fragmotion.path, load(obj).space
         for each, walk in zip(bakes, shared(context, obj, path, space, settings.count, settings.spacing)):
             each.walk = walk
-    tasks = [baking.prepare(context, obj, each).task for each in bakes]
+    ground = find_ground(context, obj)
+    places = spots(settings.count, settings.layout, settings.spacing)
+    tasks = [
+        baking.prepare(context, obj, each, ground and ground.seen_from(_around(obj, spot))).task
+        for each, spot in zip(bakes, places)
+    ]
 
     def task(report: Report) -> list[baking.Baked]:
         return [each(_share(report, index, len(tasks))) for index, each in enumerate(tasks)]
@@ -86,10 +95,13 @@ def _bakes(obj: bpy.types.Object, settings: Any) -> Iterator[SimpleNamespace]:
             raise UserError(
                 f"No recording of armature '{obj.name}' is ticked: tick some under Recordings, or choose Simulated"
             )
+    styles = load(obj).style_names
     habits = core.PLAYERS if settings.player == MIXED else [settings.player]
     for index in range(settings.count):
         each = _bake_settings(obj)
         each.seed, each.seconds, each.player = settings.seed + index, settings.seconds, habits[index % len(habits)]
+        if settings.mix_styles and styles:
+            each.style = Random(each.seed).choice(styles)
         each.trace_source = "RECORDING" if ticked else "PLAYER"
         each.recording = ticked[index % len(ticked)] if ticked else -1
         yield each
@@ -117,7 +129,7 @@ def _around(obj: bpy.types.Object, spot: Spot) -> Matrix:
 
 def _copy(obj: bpy.types.Object, moved: Matrix, number: int, collection: bpy.types.Collection) -> bpy.types.Object:
     """A copy of the armature and of what it carries or deforms, moved; their data are the originals'."""
-    copies = {original: original.copy() for original in (obj, *_belongings(obj))}
+    copies = {original: original.copy() for original in (obj, *belongings(obj))}
     for original, copy in copies.items():
         copy.name = f"{original.name} {number}"
         collection.objects.link(copy)
@@ -129,17 +141,6 @@ def _copy(obj: bpy.types.Object, moved: Matrix, number: int, collection: bpy.typ
     armature.animation_data_clear()
     armature.property_unset("fragmotion")
     return armature
-
-
-def _belongings(obj: bpy.types.Object) -> list[bpy.types.Object]:
-    """What the armature carries, and what it deforms without carrying it."""
-    carried = list(obj.children_recursive)
-    deformed = [
-        other
-        for other in bpy.context.scene.objects
-        if any(modifier.type == "ARMATURE" and modifier.object == obj for modifier in other.modifiers)
-    ]
-    return list(dict.fromkeys((*carried, *deformed)))
 
 
 def _tie(copy: bpy.types.Object, copies: dict[bpy.types.Object, bpy.types.Object]) -> None:

@@ -17,12 +17,14 @@ from ..files import read_regular
 from ..jobs import Report
 from ..mocap import actions
 from ..mocap.sampling import sample_parts
+from ..mocap.styles import grouped, style_of
 from ..recordings.traces import make_traces
 from ..rig.external_motion import movers
 from ..rig.rigs import carriers, make_rig
 from ..rig.skeletons import difference
 from . import classes
-from .coverage import makes_its_jumps, measure_coverage
+from .control_layout import keep_layout, layout_of
+from .coverage import Row, makes_its_jumps, measure_coverage
 from .staleness import sources_of
 from .storing import keep_policy, key_of, read_policy
 
@@ -41,7 +43,7 @@ class Built(NamedTuple):
     """A finished build: the character and how its policies did on a player that they did not learn from."""
 
     character: Character
-    qualities: dict[str, float]  # percent of Optimal; the first is of the policy that drives
+    qualities: list[dict[str, float]]  # of each style: percent of Optimal; the first is of the policy that drives
     examiner: str
     sources: str = ""  # what it was built from, as staleness.sources_of tells it; empty where that is unknown
 
@@ -57,10 +59,24 @@ class Material(NamedTuple):
     """What a build has read of the file to learn from, and what the user should know of it."""
 
     rig: Rig
-    clips: list[Clip]
+    styles: list[tuple[str, list[Clip]]]  # as mocap.styles.grouped tells them
     traces: list[Doubles]
     options: BuildOptions
     warnings: list[str]
+
+    @property
+    def clips(self) -> list[Clip]:
+        """Those of the first style."""
+        return self.styles[0][1]
+
+    def build(self, report: Report) -> Character:
+        """The character in all styles."""
+        rest = self.traces, self.options, report
+        if not self.styles[0][0]:
+            alone: Character = core.build(self.rig.skeleton, self.clips, *rest)
+            return alone
+        styled: Character = core.build_styles(self.rig.skeleton, self.styles, *rest)
+        return styled
 
 
 def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Material:
@@ -69,42 +85,51 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
     context.view_layer.update()
     rig = make_rig(obj)
     carriers(obj, rig)
-    traces = make_traces(obj, settings)
-    clips, warnings = _sample_all(context, obj, takes, rig)
-    return Material(rig, clips, traces, make_options(settings), warnings)
+    options = make_options(settings)
+    traces = make_traces(obj, settings, options.usual_space)
+    styled, warnings = _sample_all(context, obj, takes, rig)
+    return Material(rig, grouped(styled), traces, options, warnings)
 
 
 def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Prepared:
     """Sample the ticked Actions for a build; UserError on what cannot be built from."""
-    rig, clips, traces, options, warnings = gather(context, obj, settings)
+    material = gather(context, obj, settings)
     sources = sources_of(obj)
     teacher = settings.player if settings.trace_source == "PLAYER" else ""
 
     def task(report: Report) -> Built:
-        character = core.build(
-            rig.skeleton, clips, traces, options, lambda fraction, stage: report(_BUILD_SHARE * fraction, stage)
-        )
+        character = material.build(lambda fraction, stage: report(_BUILD_SHARE * fraction, stage))
         report(_BUILD_SHARE, "Examining")
         return examine(character, teacher)._replace(sources=sources)
 
-    return Prepared(task, warnings)
+    return Prepared(task, material.warnings)
 
 
 def examine(character: Character, teacher: str) -> Built:
-    """Measure the character's policies on a simulated player who is not the teacher."""
+    """Measure the character's policies, in each of its styles, on a simulated player who is not the teacher."""
     examiner = next(name for name in _EXAMINERS if name != teacher)
-    exam = core.simulate_trace(examiner, _EXAM_SECONDS, _EXAM_SEED, character.space)
-    return Built(character, {name: character.percent_of_optimal(exam, name) for name in character.policies}, examiner)
+    qualities = []
+    for styled in in_styles(character):
+        exam = core.simulate_trace(examiner, _EXAM_SECONDS, _EXAM_SEED, styled.space)
+        qualities.append({name: styled.percent_of_optimal(exam, name) for name in styled.policies})
+    return Built(character, qualities, examiner)
+
+
+def in_styles(character: Character) -> list[Character]:
+    """The character in each of its styles."""
+    return [character.in_style(style) for style in range(max(len(character.style_names), 1))]
 
 
 def _sample_all(
     context: bpy.types.Context, obj: bpy.types.Object, takes: list[bpy.types.Action], rig: Rig
-) -> tuple[list[Clip], list[str]]:
-    """The takes as clips, and what to warn of. Takes of a single pose are left out where there are others."""
-    clips, poses, warnings = [], [], []
+) -> tuple[list[tuple[str, Clip]], list[str]]:
+    """The takes as clips with the style of each, and what to warn of. Takes of a single pose are left out where there
+    are others."""
+    clips: list[tuple[str, Clip]] = []
+    poses, warnings = [], []
     for action in takes:
         try:
-            clips.extend(sample_parts(context, obj, action, rig))
+            clips.extend((style_of(action), clip) for clip in sample_parts(context, obj, action, rig))
         except SinglePose:
             poses.append(action.name)
             if len(poses) == len(takes):
@@ -137,6 +162,10 @@ def make_options(settings: Any) -> Any:
     for name in ("longest", "cut", "classes", "seed", "mirror", "synthesize"):
         setattr(options, name, getattr(settings, name))
     options.policies = sorted(options.policies, key=lambda policy: policy != settings.policy)
+    options.find_controls = settings.controls == "FOUND"
+    if settings.controls == "TOLD":
+        options.speeds, options.directions = settings.speeds, int(settings.directions)
+        options.turn, options.jump = settings.turn, settings.jump
     return options
 
 
@@ -148,14 +177,30 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
     figures.captured = sum(origin in _FROM_TAKES for origin in character.fragment_origins)
     figures.fragments = len(character.labels)
     figures.classes, figures.controls = character.table.shape
-    figures.seconds = character.report.get("seconds", 0)
-    figures.quality = next(iter(built.qualities.values()))
+    figures.seconds = sum(styled.report.get("seconds", 0) for styled in in_styles(character))
+    figures.quality = next(iter(built.qualities[0].values()))
     figures.policies.clear()
-    for policy, quality in built.qualities.items():
+    for policy, quality in built.qualities[0].items():
         row = figures.policies.add()
         row.name, row.quality = policy, quality
+    _keep_styles(figures, built)
     figures.examiner, figures.sources = built.examiner, built.sources
     _keep_coverage(figures, character)
+
+
+def coverage_by_style(character: Character) -> dict[str, list[Row]]:
+    """How many controls are performed well in each style; empty where there are no styles."""
+    styles = zip(character.style_names, in_styles(character))
+    return {name: measure_coverage(styled.coverage_distances, layout_of(styled.space)) for name, styled in styles}
+
+
+def _keep_styles(figures: Any, built: Built) -> None:
+    figures.styles.clear()
+    for name, styled, qualities in zip(built.character.style_names, in_styles(built.character), built.qualities):
+        row = figures.styles.add()
+        row.name, row.fragments, row.classes = name, len(styled.labels), len(styled.table)
+        row.quality = next(iter(qualities.values()))
+        _keep_coverage(row, styled)
 
 
 def replace(obj: bpy.types.Object, character: Character) -> None:
@@ -186,7 +231,8 @@ def _keep_coverage(figures: Any, character: Character) -> None:
     figures.distances = np.asarray(character.coverage_distances, np.float32).tobytes()
     figures.makes_jumps = makes_its_jumps(character)
     figures.coverage.clear()
-    for name, performed, total in measure_coverage(character.coverage_distances):
+    keep_layout(figures, character.space)
+    for name, performed, total in measure_coverage(character.coverage_distances, layout_of(character.space)):
         row = figures.coverage.add()
         row.name, row.performed, row.total = name, performed, total
     figures.performed = sum(sum(row.performed) for row in figures.coverage)

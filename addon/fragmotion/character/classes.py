@@ -116,13 +116,14 @@ def sketch(control: Sequence[float], space: ControlSpace) -> str:
     x, y, turn, jump = control
     speed = math.hypot(x, y)
     arrow = _ARROWS[round(math.atan2(-x, y) / (math.pi / 4)) % 8]
-    moves = f"{arrow}{speed:.1f}" if speed > space.walk / 2 else "\u00b7"
+    moves = f"{arrow}{speed:.1f}" if speed > space.speeds[0] / 2 else "\u00b7"
     return moves + (" L" if turn > 0.5 else " R" if turn < -0.5 else "") + (" J" if jump > 0.5 else "")
 
 
 def driven(obj: bpy.types.Object) -> Session | None:
-    """The drive that moves this armature now, or None."""
-    return session if session is not None and session.armature == obj.name else None
+    """The drive that moves this armature now, in the first style, whose classes the list has; else None."""
+    drives = session is not None and session.armature == obj.name and session.player.playing_style == 0
+    return session if drives else None
 
 
 def force(obj: bpy.types.Object, number: int) -> None:

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many of the 102 controls a character performs well, by kinds that people have words for."""
+"""How many of its controls a character performs well, by kinds that people have words for."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..compat.core import core
+from .control_layout import ControlLayout
 
 if TYPE_CHECKING:
     from fragmotion_core import Character, Doubles
@@ -17,19 +18,8 @@ WELL = 0.3
 
 _JUMPS = 0.75  # evident jump of what the core calls one
 
-# Numbers of the velocities, counter-clockwise from forward.
-_ROWS = {
-    "Stand": [0],
-    "Walk ahead": [8, 1, 2],
-    "Walk aside": [3, 7],
-    "Walk back": [4, 5, 6],
-    "Run ahead": [16, 9, 10],
-    "Run aside": [11, 15],
-    "Run back": [12, 13, 14],
-}
-# Turns (right, none, left) and jumps (no, yes).
-_COLUMNS = {"Go": (slice(1, 2), 0), "Turn": (slice(0, 3, 2), 0), "Jump": (slice(0, 3), 1)}
-COLUMNS = tuple(_COLUMNS)
+_AHEAD, _BACK = 60, 120  # degrees from forward
+COLUMNS = ("Go", "Turn", "Jump")
 """The kinds in each row: without a turn or jump, turning, and jumping."""
 
 
@@ -48,11 +38,48 @@ def makes_its_jumps(character: Character) -> bool:
     return bool(jumping.any() and not (jumping & captured).any())
 
 
-def measure_coverage(distances: Doubles) -> list[Row]:
-    """A table of all controls, from each control's ControlDis [102] to the nearest fragment."""
-    well = (np.asarray(distances) <= WELL).reshape(core.ControlSpace.SHAPE)
+def measure_coverage(distances: Doubles, layout: ControlLayout) -> list[Row]:
+    """A table of all controls, from each control's ControlDis to the nearest fragment."""
+    well = (np.asarray(distances) <= WELL).reshape(layout.shape)
+    middle = layout.shape[1] // 2  # of the turns: none
     table = []
-    for name, velocities in _ROWS.items():
-        cells = [well[velocities][:, turns, jump] for turns, jump in _COLUMNS.values()]
+    for name, velocities in _rows(layout).items():
+        some = well[velocities]
+        cells = [some[:, middle, 0], np.delete(some, middle, 1)[:, :, 0], some[:, :, 1:]]
         table.append(Row(name, [int(cell.sum()) for cell in cells], [cell.size for cell in cells]))
     return table
+
+
+def _rows(layout: ControlLayout) -> dict[str, list[int]]:
+    """Numbers of velocities, by what they are called."""
+    rows: dict[str, list[int]] = {"Stand": [0]}
+    for speed, gait in enumerate(layout.gaits):
+        for kind in ("ahead", "aside", "back"):
+            rows[f"{gait.title()} {kind}"] = []
+        for direction in range(layout.directions):
+            off = 360 / layout.directions * min(direction, layout.directions - direction)
+            kind = "ahead" if off < _AHEAD else "aside" if off < _BACK else "back"
+            rows[f"{gait.title()} {kind}"].append(1 + speed * layout.directions + direction)
+    return rows
+
+
+def lacking(tables: Mapping[str, Sequence[Row]]) -> list[str]:
+    """What to warn of: what none of the controls of a kind is performed well of in a style, and some are in another;
+    from each style's table."""
+    kinds = {style: _performed(table) for style, table in tables.items()}
+    known = dict.fromkeys(kind for performed in kinds.values() for kind in performed)
+    warnings = []
+    for style, performed in kinds.items():
+        missing = [kind for kind in known if kind not in performed]
+        if missing:
+            warnings.append(
+                f"Style '{style}' has no takes to make these of, and does what comes nearest: {', '.join(missing)}"
+            )
+    return warnings
+
+
+def _performed(table: Sequence[Row]) -> list[str]:
+    """The kinds of which any control is performed well: the rows without turn and jump, and jumps at all."""
+    jump = COLUMNS.index("Jump")
+    jumps = ["Jump"] if any(row.performed[jump] for row in table) else []
+    return [row.name for row in table if row.performed[0]] + jumps

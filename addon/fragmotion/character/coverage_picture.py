@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The control coverage as pictures (Fig. 4): for each turn and jump two circles of directions, walk and run.
+"""The control coverage as pictures (Fig. 4): for each turn and jump a circle of directions for each speed.
 
 The panel shows them as icons, which every Blender draws, in a window or not.
 """
@@ -14,7 +14,7 @@ import bpy.utils.previews
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compat.core import core
+from .control_layout import ControlLayout
 from .coverage import WELL
 
 SIZE = 128
@@ -23,8 +23,8 @@ SIZE = 128
 Pixels = NDArray[np.float32]
 
 _POOR = 1.5  # ControlDis from which a control counts as not performed at all: half a walk's speed or a turn off
-_RINGS = (0.0, 0.5, 0.84)  # of the half side: standing, walk, run
-_DOT = 0.16
+_RINGS = ((0.84,), (0.5, 0.84), (0.42, 0.63, 0.84), (0.39, 0.54, 0.69, 0.84))  # of the half side, by speeds
+_DOT, _APART = 0.16, 0.47  # a dot's radius at most; that over what is between two dots
 _SMOOTH = 0.02  # over which edges fade
 _GROUND = (0.34, 0.34, 0.34, 1)  # opaque: Blenders differ in what they make of a half-transparent icon
 _LINE = (0.5, 0.5, 0.5, 1)
@@ -46,24 +46,35 @@ def colour_of(distance: float) -> NDArray[np.float64]:
     return np.array(_COLOURS[int(np.searchsorted((WELL, _POOR), distance))])
 
 
-def places() -> NDArray[np.float64]:
-    """Where the 17 velocities stand in a picture [17,2], in half sides from the middle: forward is up."""
-    angles = np.arange(8) * np.pi / 4
+def places(layout: ControlLayout) -> NDArray[np.float64]:
+    """Where the velocities stand in a picture [velocities,2], in half sides from the middle: forward is up."""
+    angles = np.arange(layout.directions) * 2 * np.pi / layout.directions
     circle = np.column_stack((-np.sin(angles), np.cos(angles)))
-    return np.concatenate(([[0, 0]], _RINGS[1] * circle, _RINGS[2] * circle))
+    return np.concatenate(([[0, 0]], *(ring * circle for ring in _rings(layout))))
 
 
-def draw_controls(distances: NDArray[Any]) -> Pixels:
-    """The picture [SIZE,SIZE,4] of 17 velocities' distances, row 0 at the bottom; a cross where none performs well."""
+def _rings(layout: ControlLayout) -> tuple[float, ...]:
+    return _RINGS[len(layout.gaits) - 1]
+
+
+def _dot(layout: ControlLayout) -> float:
+    """The radius of dots that do not touch each other."""
+    rings = _rings(layout)
+    apart = [outer - inner for inner, outer in zip(rings, rings[1:])]
+    return _APART * min(_DOT / _APART, *apart, 2 * math.pi * rings[0] / layout.directions)
+
+
+def draw_controls(distances: NDArray[Any], layout: ControlLayout) -> Pixels:
+    """The picture [SIZE,SIZE,4] of the velocities' distances, row 0 at the bottom; a cross where none performs well."""
     across = (np.arange(SIZE) + 0.5) / SIZE * 2 - 1
     x, y = np.meshgrid(across, across)
     picture: Pixels = np.zeros((SIZE, SIZE, 4), np.float32)
     radius = np.hypot(x, y)
     _blend(picture, _inside(radius, 1 - _SMOOTH), _GROUND)
-    for ring in _RINGS[1:]:
+    for ring in _rings(layout):
         _blend(picture, _inside(np.abs(radius - ring), 0.008), _LINE)
-    for (a, b), distance in zip(places(), distances):
-        _draw_dot(picture, x - a, y - b, _DOT, float(distance))
+    for (a, b), distance in zip(places(layout), distances):
+        _draw_dot(picture, x - a, y - b, _dot(layout), float(distance))
     return picture
 
 
@@ -94,26 +105,27 @@ def icon_of(name: str, pixels: Any, stamp: bytes) -> int:
     return int(_previews[name].icon_id)
 
 
-def draw_pictures(layout: bpy.types.UILayout, stored: bytes, width: float) -> None:
-    """Six pictures with their legend, from the 102 distances that Build has kept, in a region so many pixels wide; none
-    where the .blend is damaged."""
-    shape = core.ControlSpace.SHAPE
-    if len(stored) != math.prod(shape) * np.dtype(np.float32).itemsize:
+def draw_pictures(layout: bpy.types.UILayout, stored: bytes, controls: ControlLayout | None, width: float) -> None:
+    """A picture for each turn and jump with their legend, from the distances that Build has kept, in a region so many
+    pixels wide; none where the .blend is damaged."""
+    if controls is None or len(stored) != math.prod(controls.shape) * np.dtype(np.float32).itemsize:
         return
     scale = max(_SMALLEST, (width / bpy.context.preferences.system.ui_scale - _MARGIN) / 3 / _UNIT)
-    distances = np.frombuffer(stored, np.float32).reshape(shape)
+    distances = np.frombuffer(stored, np.float32).reshape(controls.shape)
     column = layout.column(align=True)
     heads = column.row(align=True)
-    for head in ("Turn left", "Straight", "Turn right"):
+    turns = {"Turn left": 2, "Straight": 1, "Turn right": 0} if controls.turn else {"Straight": 0}
+    for head in turns:
         _centred(heads, head)
-    for jump, title in enumerate(("No jump", "Jump")):
+    for jump, title in enumerate(("No jump", "Jump")[: controls.shape[2]]):
         _centred(column, title)
         row = column.row(align=True)
-        for turn in (2, 1, 0):
+        for turn in turns.values():
             cell = distances[:, turn, jump]
-            name = f"turn {turn} jump {jump}"
-            row.template_icon(icon_of(name, lambda cell=cell: draw_controls(cell), cell.tobytes()), scale=scale)
-    _draw_legend(layout)
+            stamp = repr(controls).encode() + cell.tobytes()
+            icon = icon_of(f"turn {turn} jump {jump}", lambda cell=cell: draw_controls(cell, controls), stamp)
+            row.template_icon(icon, scale=scale)
+    _draw_legend(layout, controls.gaits)
 
 
 def free() -> None:
@@ -125,12 +137,14 @@ def free() -> None:
     _drawn.clear()
 
 
-def _draw_legend(layout: bpy.types.UILayout) -> None:
+def _draw_legend(layout: bpy.types.UILayout, gaits: tuple[str, ...]) -> None:
     column = layout.column(align=True)
     for (name, distance), text in zip(_SWATCHES.items(), ("Performed well", "Not quite: a hole", "Far off: a hole")):
         icon = icon_of(name, lambda distance=distance: draw_swatch(distance), b"legend")
         column.label(text=text, icon_value=icon)
-    for line in ("Up: forward", "Middle: stand", "Inner circle: walk", "Outer circle: run"):
+    sides = ("Circle",) if len(gaits) == 1 else ("Inner circle", *[""] * (len(gaits) - 2), "Outer circle")
+    circles = [f"{side or 'Next circle'}: {gait}" for side, gait in zip(sides, gaits)]
+    for line in ("Up: forward", "Middle: stand", *circles):
         column.label(text=line, icon="BLANK1")
 
 

@@ -15,6 +15,7 @@ from ..compat.core import core
 from ..mocap.actions import SCENE_RATE, rate_of
 from ..mocap.left_out import source_of
 from . import building, classes
+from .control_layout import DIRECTIONS, GAITS, ControlLayout, layout_of
 
 if TYPE_CHECKING:
     from fragmotion_core import Alternative, Character
@@ -22,12 +23,14 @@ if TYPE_CHECKING:
 BEST = 5
 """Alternatives that are shown, and the chosen one where it is none of them."""
 
-_LEFT, _RIGHT = ("Forward Left", "Left", "Back Left"), ("Back Right", "Right", "Forward Right")
-_DIRECTIONS = ("Forward", *_LEFT, "Back", *_RIGHT)
-_VELOCITIES = (
-    ("0", "Stand", "No velocity"),
-    *((str(1 + i), f"Walk {name}", f"At a walk, {name.lower()}") for i, name in enumerate(_DIRECTIONS)),
-    *((str(9 + i), f"Run {name}", f"At a run, {name.lower()}") for i, name in enumerate(_DIRECTIONS)),
+_STAND = "stand"
+_GAITS = (
+    (_STAND, "Stand", "No velocity"),
+    *((gait, gait.title(), f"At a {gait}, or what is nearest to one of the speeds that it knows") for gait in GAITS),
+)
+_DIRECTIONS = tuple(
+    (str(i), name.title(), f"{name.capitalize()}, or where that is between two that it knows, one of them")
+    for i, name in enumerate(DIRECTIONS)
 )
 _TURNS = (
     ("2", "Left", "Turning left"),
@@ -83,8 +86,11 @@ class InspectorSettings(bpy.types.PropertyGroup):
         description="While driving, show the decision for the class that plays and the command of this moment",
         default=True,
     )
-    velocity: EnumProperty(  # type: ignore[valid-type]
-        name="Velocity", description="Velocity that is asked for", items=_VELOCITIES, default="1"
+    gait: EnumProperty(  # type: ignore[valid-type]
+        name="Gait", description="Speed that is asked for", items=_GAITS, default="walk"
+    )
+    direction: EnumProperty(  # type: ignore[valid-type]
+        name="Direction", description="Direction that is asked for", items=_DIRECTIONS, default="0"
     )
     turn: EnumProperty(name="Turn", description="Turn that is asked for", items=_TURNS, default="1")  # type: ignore[valid-type]
     jump: BoolProperty(name="Jump", description="Whether a jump is asked for", default=False)  # type: ignore[valid-type]
@@ -102,8 +108,18 @@ def decision(obj: bpy.types.Object, settings: Any, active_class: int) -> tuple[i
         space = building.load_to_draw(obj).space
         return drive.player.playing[0], int(space.nearest([list(drive.control)])[0]), True
     playing = min(active_class, len(obj.fragmotion.classes) - 1)
-    parts = (int(settings.velocity), int(settings.turn), int(settings.jump))
-    return playing, int(np.ravel_multi_index(parts, core.ControlSpace.SHAPE)), False
+    layout = layout_of(building.load_to_draw(obj).space)
+    parts = (_velocity(layout, settings), int(settings.turn), int(settings.jump))
+    return playing, int(np.ravel_multi_index(parts, layout.shape, mode="clip")), False
+
+
+def _velocity(layout: ControlLayout, settings: Any) -> int:
+    """The number of the velocity that is nearest to what the settings say."""
+    if settings.gait == _STAND:
+        return 0
+    off = [abs(GAITS.index(gait) - GAITS.index(settings.gait)) for gait in layout.gaits]
+    direction = int(settings.direction) * layout.directions // len(DIRECTIONS)
+    return 1 + off.index(min(off)) * layout.directions + direction
 
 
 def explain(obj: bpy.types.Object, playing: int, control: int) -> list[Line]:

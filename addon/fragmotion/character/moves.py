@@ -102,7 +102,7 @@ def add_move(
     row.loop_first, row.loop_last = row.first, row.last
     row.key = next((key for key in _FREE_KEYS if key not in taken), NO_KEY)
     try:
-        _make(context, obj, make_rig(obj), row)
+        make_move(context, obj, make_rig(obj), row)
         bring_up_to_date(context, obj)
     except BaseException:
         moves.remove(len(moves) - 1)
@@ -127,7 +127,7 @@ def bring_up_to_date(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     character = load_whole(obj)
     context.view_layer.update()
     rig, known = make_rig(obj), {move.name: move for move in character.moves}
-    moves = [_make(context, obj, rig, row, known) for row in obj.fragmotion.moves]
+    moves = [make_move(context, obj, rig, row, known) for row in obj.fragmotion.moves]
     with core_errors(f"Armature '{obj.name}'"):
         changed = character.with_moves(moves)
     replace(obj, changed)
@@ -199,10 +199,11 @@ def _digest(row: MoveRow) -> str:
     return digest_of(row.action) if row.action is not None else ""
 
 
-def _make(
+def make_move(
     context: bpy.types.Context, obj: bpy.types.Object, rig: Rig, row: Any, known: Mapping[str, Move] | None = None
 ) -> Move:
-    """The move that a row tells; without an Action it is that which the character has."""
+    """The move that a MoveRow tells; without an Action it is that which the character has. UserError where it cannot be
+    one."""
     if row.action is None:
         kept = (known or {}).get(row.kept)
         if kept is None:

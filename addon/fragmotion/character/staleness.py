@@ -12,6 +12,7 @@ from bpy.app.handlers import persistent
 
 from ..compat import versions
 from ..mocap.actions import RATE, SCENE_RATE, ticked
+from ..mocap.styles import style_of
 from ..rig.writing import LINEAR
 
 _PATIENCE = 0.03  # s that one look may take; what is not read by then waits for the next look
@@ -20,7 +21,7 @@ _digests: dict[tuple[object, ...], str] = {}
 
 def sources_of(obj: bpy.types.Object) -> str:
     """A digest of all that Build reads of the ticked Actions; their names do not count."""
-    return _joined([digest_of(action) for action in ticked(obj)])
+    return _joined([_told_by(action) for action in ticked(obj)])
 
 
 def is_stale(obj: bpy.types.Object) -> bool:
@@ -34,7 +35,7 @@ def is_stale(obj: bpy.types.Object) -> bool:
     actions, until = ticked(obj), time.perf_counter() + _PATIENCE
     digests = []
     for action in actions:
-        digests.append(digest_of(action))
+        digests.append(_told_by(action))
         if time.perf_counter() > until and any(_key(other) not in _digests for other in actions):
             return False
     return bool(_joined(digests) != built)
@@ -84,6 +85,11 @@ def digest_of(action: bpy.types.Action) -> str:
     if key not in _digests:
         _digests[key] = _read(action)
     return _digests[key]
+
+
+def _told_by(action: bpy.types.Action) -> str:
+    """A digest of all that Build reads of an Action."""
+    return digest_of(action) + style_of(action)
 
 
 def _read(action: bpy.types.Action) -> str:

@@ -16,12 +16,23 @@ from ..character.moves import bring_up_to_date, check_keys, names_of, triggers_o
 from ..compat.data_blocks import is_alive
 from ..edits.replaying import play_again
 from ..errors import UserError
+from ..ground.meshes import find_ground
 from ..recordings.curves import renew_curves
-from ..recordings.recordings import POSE_RATE, TRACE_RATE, Recording, add_recording, numbered_moves, trace_of
+from ..recordings.recordings import (
+    POSE_RATE,
+    TRACE_RATE,
+    Recording,
+    add_recording,
+    numbered_moves,
+    numbered_styles,
+    trace_of,
+)
+from ..recordings.styles import AS_EVER, Styled
 from ..settings import preferences
 from .acting.actor import Actor
 from .acting.punch import Punch
 from .acting.recorder import Recorder
+from .acting.styling import Styling
 from .follow import FollowCamera
 from .hud import overlays, views
 from .hud.readings import Readings
@@ -57,12 +68,14 @@ class Session:
         bring_up_to_date(context, obj)
         self.obj, self._name = obj, str(obj.name)
         self.seed = self.settings.seed if seed < 0 else seed
-        self.actor = Actor(context, obj, self.seed, policy)
+        ground = find_ground(context, obj)
+        self.actor = Actor(context, obj, self.seed, policy, ground)
         self._data, self._bones = obj.data, len(obj.pose.bones)
         self.views, self._follow = views.Views(context.area), FollowCamera()
         self._state = SceneState(context, obj)
-        space = self.actor.space
-        self._steering = Steering(space, self.actor.turns_well(space.walk), self.actor.turns_well(space.run))
+        self.styling = Styling(self.actor)
+        self._steerings: dict[int, Steering] = {}  # by style
+        self._steering()
         self.readings = Readings(self.actor, RATE)
         self.recording: Recorder | None = None
         self.punch: Punch | None = None
@@ -76,6 +89,9 @@ class Session:
         """Those whose keys it hears, by their addresses."""
         self.inputs = Inputs(keys, RATE, triggers_of(obj, self.actor.character))
         self._held: set[int] = set()
+        self._missed = False
+        if ground is not None and ground.remark:
+            self.inputs.messages.append(ground.remark)
         suspended_state.put_aside(obj)
 
     @property
@@ -112,6 +128,7 @@ class Session:
             suspended_state.put_aside(self.obj)
         if self.inputs.poll():
             self.toggle_recording()
+        self.styling.step_by(self.inputs.style_step())
         self._elapsed += min(seconds, LONGEST_UPDATE)
         due = round(self._elapsed * RATE) - self._steps
         pose = None
@@ -120,6 +137,7 @@ class Session:
         if pose is None:
             return
         self.actor.show(*pose)
+        self._tell_missed()
         self._follow_actor(due / RATE)
         self.cost = _running(self.cost, time.perf_counter() - begin)
         self.interval = _running(self.interval, seconds)
@@ -127,6 +145,7 @@ class Session:
     def _step(self) -> tuple[Doubles, Doubles]:
         control = self._control()
         self._hold_moves()
+        self.styling.tell(self.recording)
         pose = self.actor.step(control, 1 / RATE)
         if self.recording is not None:
             self.recording.add(pose)
@@ -137,14 +156,30 @@ class Session:
             bpy.ops.ed.undo_push(message="Record Over")
         return pose
 
+    def _tell_missed(self) -> None:
+        """Say once that there is no ground under the feet."""
+        if self.player.ground_missed and not self._missed:
+            self._missed = True
+            self.inputs.messages.append("There is no ground under its feet: it goes on at the height that it had")
+
     def _control(self) -> Control:
         self.inputs.target.steer(self.actor.frame, 1 / RATE)
         by_view = self.settings.relative == "VIEW"
         view = view_heading(self.views.rotation()) if by_view else None
-        control = self._steering.control(self.inputs.intent(), self.actor.frame[2], view)
+        style = self.inputs.trace.style()
+        if style is not None:
+            self.styling.want(style)
+        control = self._steering().control(self.inputs.intent(), self.actor.frame[2], view)
         if self.punch is not None:
             control = self.punch.hold(control)
         return control if self.recording is None else self.recording.hold(control)
+
+    def _steering(self) -> Steering:
+        """How the stick steers in the style that plays."""
+        actor, space = self.actor, self.actor.space
+        if actor.style not in self._steerings:
+            self._steerings[actor.style] = Steering(space, actor.turns_well(space.walk), actor.turns_well(space.run))
+        return self._steerings[actor.style]
 
     def _hold_moves(self) -> None:
         """Start the moves that are held since this step, and let go of those that are not any more."""
@@ -177,20 +212,26 @@ class Session:
         trace: Doubles,
         start: tuple[float, float, float] | None = None,
         moves: Sequence[Sequence[int]] = (),
+        styled: Styled = AS_EVER,
     ) -> None:
-        """Let a trace [T,4] drive, with moves [M,3], until it ends or another input is touched; from a character frame,
-        if one is given."""
+        """Let a trace [T,4] drive, with moves [M,3] and changes of style, until it ends or another input is touched;
+        from a character frame, in the style in which it begins, if one is given."""
         self._replays = start is not None
         if start is not None:
-            self.actor.player.reset(*start)
+            self._begin(start, styled)
             self._held = set()
             self.readings = Readings(self.actor, RATE)
-        self.inputs.play(trace, moves)
+        self.inputs.play(trace, moves, styled.changes)
 
-    def play_over(self, punch: Punch, start: tuple[float, float, float]) -> None:
-        """Let a recording drive from the character frame in which it begins, from shortly before the stretch on which
-        the stick takes over."""
-        self.actor.player.reset(*start)
+    def _begin(self, start: tuple[float, float, float], styled: Styled) -> None:
+        """Stand where a recording begins, in its style."""
+        self.actor.begin(start, styled.begin)
+        self.styling.reset(styled.begin)
+
+    def play_over(self, punch: Punch, start: tuple[float, float, float], styled: Styled) -> None:
+        """Let a recording drive from the character frame and the style in which it begins, from shortly before the
+        stretch on which the stick takes over."""
+        self._begin(start, styled)
         for _ in range(max(punch.first * RATE // TRACE_RATE - _LEAD * RATE, 0)):
             self.actor.step(punch.hold(Control()), 1 / RATE)
         self.readings, self.punch = Readings(self.actor, RATE), punch
@@ -234,6 +275,7 @@ class Session:
                 self.actor.start_afresh()
                 self._held = set()
             self.recording = Recorder(self.actor, RATE)
+            self.styling.forget_told()
             self.readings = Readings(self.actor, RATE)
         elif self._keep_recording():
             bpy.ops.ed.undo_push(message="Record")
@@ -261,6 +303,8 @@ class Session:
             "quality": judge.mean if judge else 0.0,
             "shown": recording.shown,
             "moves": recording.moves,
+            "style": recording.style,
+            "styles": recording.styles,
         }
 
     def trouble(self) -> str:
@@ -294,6 +338,7 @@ class Session:
             self.cost,
             self.interval,
             self.move,
+            self.styling.words,
         )
 
     def give_back(self) -> None:
@@ -344,7 +389,10 @@ def replay(
     chosen = policy or (recording.policy if recording.policy in known else "")
     driven = start(context, obj, recording.seed if seed < 0 else seed, chosen)
     try:
-        driven.play(trace, begin, numbered_moves(recording, names_of(driven.actor.character)))
+        styled = numbered_styles(recording, driven.styling.names)
+        driven.play(trace, begin, numbered_moves(recording, names_of(driven.actor.character)), styled)
+        if styled.remark:
+            driven.inputs.messages.append(f"Replaying '{recording.name}' {styled.remark}")
     except BaseException:
         stop(push=False)
         raise
@@ -365,7 +413,8 @@ def record_over(
         )
     known = load(obj).policies if has_character(obj) else []
     driven = start(context, obj, recording.seed, recording.policy if recording.policy in known else "")
-    driven.play_over(Punch(recording.name, trace, first, last, RATE), start_frame)
+    styled = numbered_styles(recording, driven.styling.names)
+    driven.play_over(Punch(recording.name, trace, first, last, RATE), start_frame, styled)
     return driven
 
 

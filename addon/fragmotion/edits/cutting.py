@@ -11,8 +11,9 @@ import numpy as np
 from ..character.building import load
 from ..compat.core import core
 from ..errors import UserError, core_errors
+from ..recordings.asked import joined_asked
 from ..recordings.curves import renew_curves
-from ..recordings.recordings import TRACE_RATE, Recording, trace_of
+from ..recordings.recordings import TRACE_RATE, Recording, asked_between, set_asked, trace_of
 from ..rig.motion import Motion
 from .replaying import STEPS, as_shown, joined, keep, shown_poses
 
@@ -44,7 +45,9 @@ def cut_out(obj: bpy.types.Object, recording: Recording, start: float, end: floa
     shown = shown_poses(obj, recording)
     ends = range(max(first - _SEARCH, 1), first + 1)
     beginnings = range(last, min(last + _SEARCH, len(trace) - 1) + 1)
-    return _glue(obj, recording, (trace, shown), (trace, shown), (list(ends), list(beginnings)), (first, last))
+    return _glue(
+        obj, (recording, trace, shown), (recording, trace, shown), (list(ends), list(beginnings)), (first, last)
+    )
 
 
 def append(obj: bpy.types.Object, recording: Recording, other: Recording) -> Seam:
@@ -56,25 +59,27 @@ def append(obj: bpy.types.Object, recording: Recording, other: Recording) -> Sea
     ends = range(max(length - _SEARCH, 1), length + 1)
     beginnings = range(min(_SEARCH, len(following) - 1) + 1)
     seams = (list(ends), list(beginnings))
-    return _glue(obj, recording, (trace, shown), (following, shown_next), seams, (length, 0))
+    return _glue(obj, (recording, trace, shown), (other, following, shown_next), seams, (length, 0))
 
 
 def _glue(
     obj: bpy.types.Object,
-    recording: Recording,
-    first: tuple[Doubles, Motion | None],
-    second: tuple[Doubles, Motion | None],
+    first: tuple[Recording, Doubles, Motion | None],
+    second: tuple[Recording, Doubles, Motion | None],
     seams: tuple[list[int], list[int]],
     asked: tuple[int, int],
 ) -> Seam:
-    """Keep a trace and what it showed up to a control, and then another's from a control on, as the recording."""
-    (trace, shown), (following, shown_next) = first, second
+    """Keep a recording's trace and what it asked for and showed up to a control, and then another's from a control on,
+    as the first recording."""
+    (recording, trace, shown), (other, following, shown_next) = first, second
     if shown is None or shown_next is None:
         seam, both = Seam(*asked, None), None
     else:
         seam = _find_seam(obj, shown, shown_next, seams)
         both = joined(load(obj), shown, seam.end, shown_next, seam.beginning)
     glued = np.concatenate((trace[: seam.end], following[seam.beginning :]))
+    rest = asked_between(other, seam.beginning, len(following))
+    set_asked(recording, joined_asked(asked_between(recording, 0, seam.end), seam.end, rest))
     keep(obj, recording, glued, both)
     renew_curves(obj, recording)
     return seam

@@ -16,11 +16,11 @@ from ..compat.core import core
 from ..errors import UserError
 from ..jobs import Report
 from ..recordings.curves import renew_curves
-from ..recordings.recordings import POSE_RATE, TRACE_RATE, Recording, trace_of
+from ..recordings.recordings import POSE_RATE, TRACE_RATE, Recording, asked_between, trace_of
 from .replaying import STEPS, as_motion, as_shown, from_then_on, keep, replay, shown_poses
 
 if TYPE_CHECKING:
-    from fragmotion_core import Doubles, Pin
+    from fragmotion_core import Character, Doubles, Pin
 
     from ..rig.motion import Motion
 
@@ -60,6 +60,7 @@ def prepare(obj: bpy.types.Object, recording: Recording, goal: Goal) -> Callable
             f"{last:.1f} s: move it onto the recording"
         )
     character = load(obj)
+    _check_plain(recording, character, goal)
     first = min(max(math.ceil(goal.begin * TRACE_RATE - 1e-6), 0), math.ceil(goal.seconds * TRACE_RATE) - 1)
     played = replay(obj, character, recording, trace, recording.seed)
     target = _seen_by_player(shown, played, first * STEPS, goal.frame)
@@ -95,6 +96,23 @@ def keep_pin(obj: bpy.types.Object, recording: Any, goal: Goal, pinned: Pinned) 
     recording.seed = pin.seed
     keep(obj, recording, pin.trace, as_motion(there, shown.classes))
     renew_curves(obj, recording)
+
+
+def _check_plain(recording: Recording, character: Character, goal: Goal) -> None:
+    """UserError where the recording does what the search does not play: it tries controls alone."""
+    asked = asked_between(recording, 0, math.ceil(goal.seconds * TRACE_RATE))
+    legs = {move.name for move in character.moves if not move.upper_body}
+    moves = [move for move in asked.moves if move.name in legs]
+    bars = [
+        *(f"starts the move '{move.name}' {move.control / TRACE_RATE:.1f} s" for move in moves),
+        *(f"changes to style '{change.name}' {change.control / TRACE_RATE:.1f} s" for change in asked.styles),
+        *([f"begins in style '{asked.style}' 0 s"] if asked.style not in ("", *character.style_names[:1]) else []),
+    ]
+    if bars:
+        raise UserError(
+            f"Recording '{recording.name}' {bars[0]} after its beginning, and a pin bends what comes before nothing of "
+            "that kind alone: move the playhead before it, or trim it off"
+        )
 
 
 def _seen_by_player(shown: Motion, played: Motion, frame: int, goal: tuple[float, float, float]) -> Doubles:

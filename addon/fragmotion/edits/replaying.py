@@ -8,15 +8,25 @@ from typing import TYPE_CHECKING, Any
 import bpy
 import numpy as np
 
-from ..bake.performing import measure_quality
+from ..bake.performing import measure_quality, perform
 from ..character.building import has_character, load, make_player
 from ..compat.core import core
 from ..errors import UserError, core_errors
-from ..recordings.recordings import POSE_RATE, TRACE_RATE, Recording, set_shown, set_trace, shown_of, trace_of
+from ..ground.meshes import find_ground
+from ..recordings.recordings import (
+    POSE_RATE,
+    TRACE_RATE,
+    Recording,
+    set_shown,
+    set_trace,
+    shown_of,
+    trace_of,
+)
 from ..rig.motion import Motion, resampled
 
 if TYPE_CHECKING:
-    from fragmotion_core import Character, Doubles, ShownMotion
+    from fragmotion_core import Character, Doubles
+    from fragmotion_core import Motion as CoreMotion
 
 STEPS = POSE_RATE // TRACE_RATE
 """Poses that are shown for a control."""
@@ -26,12 +36,13 @@ _UNIT = 1e-3  # by which a unit quaternion's length is off at most
 
 
 def replay(obj: bpy.types.Object, character: Character, recording: Recording, trace: Doubles, seed: int) -> Motion:
-    """What a drive by a trace [T,4] shows, from where the recording begins, with its policy: 6 T + 1 poses."""
+    """What a drive by a trace [T,4] shows, from where the recording begins, with its policy, on the ground that the
+    armature is set to: 6 T + 1 poses."""
     policy = recording.policy if recording.policy in character.policies else ""
     with core_errors(f"Recording '{recording.name}'"):
         player = make_player(obj, character, seed, policy)
-        player.reset(*recording.start)
-        played = player.run(trace, POSE_RATE)
+        player.stand_on(find_ground(bpy.context, obj))
+        played = perform(player, character, recording, trace, POSE_RATE, recording.start)
     return Motion(played.root_positions, played.rotations, played.frames, played.classes)
 
 
@@ -83,14 +94,14 @@ def joined(character: Character, first: Motion, end: int, second: Motion, beginn
     return as_motion(both, np.concatenate((first.classes[: last + 1], second.classes[begin + 1 :])))
 
 
-def as_shown(motion: Motion) -> ShownMotion:
+def as_shown(motion: Motion) -> CoreMotion:
     """A motion of POSE_RATE poses a second as the core takes it."""
     lengths = np.linalg.norm(motion.rotations, axis=-1, keepdims=True)
     rotations = np.where(np.abs(lengths - 1) < _UNIT, motion.rotations, motion.rotations / lengths)
-    shown: ShownMotion = core.ShownMotion(POSE_RATE, motion.root_positions, rotations, motion.frames)
+    shown: CoreMotion = core.Motion(POSE_RATE, motion.root_positions, rotations, motion.frames)
     return shown
 
 
-def as_motion(shown: ShownMotion, classes: Any) -> Motion:
+def as_motion(shown: CoreMotion, classes: Any) -> Motion:
     """The same as the add-on keeps it."""
     return Motion(shown.root_positions, shown.rotations, shown.frames, classes)

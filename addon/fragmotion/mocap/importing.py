@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from collections.abc import Collection, Generator, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -40,15 +40,23 @@ _BVH = ".bvh"
 _UNIT = 0.01  # m in one unit of a BVH file, until the body tells otherwise
 _READING = 0.5  # share of the progress that reading takes
 
-Advance = Callable[[float], None]
-
 
 class Imported(NamedTuple):
-    """The armature that takes came onto, their Actions, and the files of a folder that hold none."""
+    """The armature that takes came onto, their Actions with the file of each, and the files of a folder that hold
+    none."""
 
     obj: bpy.types.Object
     actions: list[bpy.types.Action]
+    files: list[Path]
     without: list[Path]
+
+
+class _ReadFile(NamedTuple):
+    """A file's takes, and whether the user told their unit."""
+
+    path: Path
+    takes: list[Take]
+    is_kept: bool
 
 
 def import_takes(
@@ -56,17 +64,18 @@ def import_takes(
     name: str,
     files: Sequence[TakeFile],
     unit: float | None,
-    advance: Advance,
     onto: bpy.types.Object | None = None,
     mends: bool = True,
     character: str = "",
-) -> Imported:
+) -> Generator[float, None, Imported]:
     """Make an Action from each take: on an armature that is made from the first one, or on the body of an armature that
     is there. `unit`: m in one unit of a BVH file; None: the body's size tells. `character`: the armature whose takes
-    come, in files that Blender reads and that hold several; "": all. On an error nothing stays in the file."""
-    read, without = _read_all(context, files, unit, character, advance)
-    takes = [take for takes, _ in read for take in takes]
-    kept = [is_kept for takes, is_kept in read for _ in takes]
+    come, in files that Blender reads and that hold several; "": all. Gives the share that is done. On an error, and
+    where it is closed before its end, nothing stays in the file."""
+    read, without = yield from _read_all(context, files, unit, character)
+    takes = [take for each in read for take in each.takes]
+    kept = [each.is_kept for each in read for _ in each.takes]
+    paths = [each.path for each in read for _ in each.takes]
     examined = examine(takes, mends, kept)
     takes = [each.take for each in examined]
     with _undone_on_error(context):
@@ -80,26 +89,24 @@ def import_takes(
             keep_findings(actions[-1], each.found)
             times = key_times(actions[-1], len(rotations))
             write_poses(actions[-1], obj, times, locations, rotations, moving)
-            advance(_READING + (1 - _READING) * index / len(examined))
-    versions.assign(obj, actions[0])
-    context.view_layer.update()
-    return Imported(obj, actions, without)
+            yield _READING + (1 - _READING) * index / len(examined)
+        versions.assign(obj, actions[0])
+        context.view_layer.update()
+    return Imported(obj, actions, paths, without)
 
 
 def _read_all(
-    context: bpy.types.Context, files: Sequence[TakeFile], unit: float | None, character: str, advance: Advance
-) -> tuple[list[tuple[list[Take], bool]], list[Path]]:
-    """Each file's takes with whether the user told their unit, and the files of a folder in which nothing moves."""
+    context: bpy.types.Context, files: Sequence[TakeFile], unit: float | None, character: str
+) -> Generator[float, None, tuple[list[_ReadFile], list[Path]]]:
+    """Each file's takes, and the files of a folder in which nothing moves."""
     read, without = [], []
-    by_importers = any(file.path.suffix.lower() in BY_BLENDER for file in files)
-    with scratch_scene(context) if by_importers else nullcontext():
-        for index, file in enumerate(files):
-            advance(_READING * index / len(files))
-            takes = _read_or_none(context, file, unit or _UNIT, character, is_needed=file.named or len(files) == 1)
-            if takes is None:
-                without.append(file.path)
-            else:
-                read.append((takes, unit is not None and file.path.suffix.lower() == _BVH))
+    for index, file in enumerate(files):
+        yield _READING * index / len(files)
+        takes = _read_or_none(context, file, unit or _UNIT, character, is_needed=file.named or len(files) == 1)
+        if takes is None:
+            without.append(file.path)
+        else:
+            read.append(_ReadFile(file.path, takes, unit is not None and file.path.suffix.lower() == _BVH))
     if not read:
         raise UserError(f"'{without[0]}' and {len(without) - 1} more: no armature in them is animated")
     return read, without
@@ -122,7 +129,8 @@ def read_takes(context: bpy.types.Context, file: TakeFile, unit: float, characte
     """Read a file's takes: one, but for files that Blender reads, into its scratch scene. The core's message names file
     and line."""
     if file.path.suffix.lower() in BY_BLENDER:
-        return by_blender.read_takes(context, file.path, character)
+        with scratch_scene(context):
+            return by_blender.read_takes(context, file.path, character)
     for path in (file.asf, file.path):
         if path is not None:
             check_regular(path)

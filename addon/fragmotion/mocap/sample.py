@@ -16,7 +16,8 @@ _NAME = "Fragmotion Sample"  # the objects of the character; the others are its 
 
 
 def add_sample(context: bpy.types.Context) -> bpy.types.Object:
-    """Append the sample's armature, mesh and Actions, which are ticked; the armature is active and alone selected."""
+    """Append the sample's armature, mesh and Actions, ticked but for those of styles and moves; the armature is active
+    and alone selected."""
     if not SAMPLE.exists():
         raise UserError(f"'{SAMPLE}' is missing: install the add-on again")
     if context.mode != "OBJECT":

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..operators.context import active_armature
+from ..operators.base.context import active_armature
 from .sidebar import SubPanel
 
 _ICONS = {True: "CHECKMARK", False: "QUESTION"}

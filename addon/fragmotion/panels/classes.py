@@ -8,9 +8,11 @@ from typing import Any, ClassVar
 import bpy
 
 from ..character import classes, inspector
+from ..character.control_layout import ControlLayout, kept_layout
 from ..errors import UserError
-from ..operators import background, solo_class
-from ..operators.context import active_armature
+from ..operators.base import background
+from ..operators.base.context import active_armature
+from ..operators.character import solo_class
 from ..settings.drawing import draw_wrapped
 from .sidebar import SubPanel
 
@@ -121,20 +123,24 @@ class FRAGMOTION_PT_inspector(_ClassPanel, bpy.types.Panel):
         if classes.driven(obj) is not None:
             layout.prop(manager.inspector, "follow")
         if not live:
-            _draw_control(layout, manager.inspector)
+            _draw_control(layout, manager.inspector, kept_layout(obj.fragmotion.figures) or ControlLayout())
         draw_wrapped(layout.column(align=True), context, f"After '{obj.fragmotion.classes[playing].name}':")
         _draw_heads(layout)
         for index, line in enumerate(lines):
             _draw_alternative(layout, context, index, line)
 
 
-def _draw_control(layout: bpy.types.UILayout, settings: Any) -> None:
+def _draw_control(layout: bpy.types.UILayout, settings: Any, controls: ControlLayout) -> None:
     column = layout.column()
     column.use_property_split = True
     column.use_property_decorate = False
-    column.prop(settings, "velocity")
-    column.row().prop(settings, "turn", expand=True)
-    column.prop(settings, "jump")
+    column.prop(settings, "gait")
+    if settings.gait != "stand":
+        column.prop(settings, "direction")
+    if controls.turn:
+        column.row().prop(settings, "turn", expand=True)
+    if controls.jump:
+        column.prop(settings, "jump")
 
 
 def _draw_heads(layout: bpy.types.UILayout) -> None:

@@ -8,8 +8,8 @@ import bpy
 from ..compat import versions
 from ..control_rig import binding
 from ..control_rig.detecting import is_control_rig
-from ..operators import background
-from ..operators.context import active_rig
+from ..operators.base import background
+from ..operators.base.context import active_rig
 from .sidebar import Sidebar
 
 

@@ -7,7 +7,7 @@ import bpy
 
 from ..mocap.actions import chosen
 from ..mocap.doctor import DUPLICATE
-from ..operators.context import active_armature
+from ..operators.base.context import active_armature
 from ..settings.drawing import draw_wrapped
 from .sidebar import SubPanel
 

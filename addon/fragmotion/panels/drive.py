@@ -10,8 +10,8 @@ import bpy
 from ..compat import versions
 from ..drive import session
 from ..drive.input.pads import PadState
-from ..operators import drive as drive_operator
-from ..operators.context import active_armature
+from ..operators.base.context import active_armature
+from ..operators.directing import drive as drive_operator
 from ..settings.drawing import aligned, draw_trace, draw_wrapped
 from .sidebar import Sidebar, SubPanel
 
@@ -51,6 +51,7 @@ class FRAGMOTION_PT_drive(Sidebar, bpy.types.Panel):
                 depress=driven.recording is not None,
             )
             _draw_input(layout, context, driven)
+            _draw_styles(layout, driven)
         if obj is not None:
             layout.row().prop(obj.fragmotion.drive, "relative", expand=True)
 
@@ -135,6 +136,23 @@ class FRAGMOTION_PT_drive_feel(_OptionsPanel, bpy.types.Panel):
             column.prop(settings, name)
 
 
+class FRAGMOTION_PT_drive_ground(_DriveSubPanel, bpy.types.Panel):
+    """What the character goes on; Bake and Populate go by it, too."""
+
+    bl_idname = "FRAGMOTION_PT_drive_ground"
+    bl_label = "Ground"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings = _armature(context).fragmotion.ground
+        column = aligned(self.layout)
+        column.active = session.current is None
+        column.prop(settings, "kind")
+        if settings.kind == "OBJECT":
+            column.prop(settings, "object")
+        elif settings.kind == "COLLECTION":
+            column.prop(settings, "collection")
+
+
 def _draw_input(layout: bpy.types.UILayout, context: bpy.types.Context, driven: session.Session) -> None:
     """What drives, and how far it is where it has an end."""
     trace = driven.inputs.trace
@@ -142,6 +160,14 @@ def _draw_input(layout: bpy.types.UILayout, context: bpy.types.Context, driven: 
         versions.draw_progress(layout, trace.elapsed / trace.seconds, driven.playing, percentage=False)
     else:
         draw_wrapped(layout.column(align=True), context, f"Input: {driven.inputs.label or 'none yet'}")
+
+
+def _draw_styles(layout: bpy.types.UILayout, driven: session.Session) -> None:
+    """A button for each style."""
+    column = layout.column(align=True)
+    for style, name in enumerate(driven.styling.names):
+        button = column.operator("fragmotion.change_style", text=name, depress=style == driven.styling.wanted)
+        button.style = style
 
 
 def _draw_pad(layout: bpy.types.UILayout, label: str, state: PadState) -> None:
@@ -162,6 +188,7 @@ CLASSES = (
     FRAGMOTION_PT_drive,
     FRAGMOTION_PT_drive_options,
     FRAGMOTION_PT_drive_feel,
+    FRAGMOTION_PT_drive_ground,
     FRAGMOTION_PT_drive_pads,
     FRAGMOTION_PT_drive_overlays,
     FRAGMOTION_PT_drive_trace,

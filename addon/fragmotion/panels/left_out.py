@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..mocap.actions import chosen
-from ..operators.context import active_armature
+from ..operators.base.context import active_armature
 from .sidebar import SubPanel
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 
 from ..character.moves import key_trouble
-from ..operators.context import active_armature
+from ..operators.base.context import active_armature
 from ..settings import preferences
 from ..settings.drawing import aligned
 from .sidebar import Sidebar

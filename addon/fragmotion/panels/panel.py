@@ -8,15 +8,17 @@ from collections.abc import Sequence
 import bpy
 
 from ..character import building
+from ..character.control_layout import kept_layout
 from ..character.coverage_picture import draw_pictures
 from ..character.staleness import is_stale
 from ..compat import versions
 from ..control_rig.binding import own_armatures
 from ..drive import take_shown
-from ..mocap.actions import fits_cached, fitting, is_found, seconds_of
+from ..jobs import SteppedJob
+from ..mocap.actions import chosen, fits_cached, fitting, is_found, seconds_of
 from ..mocap.doctor import worst
-from ..operators import background
-from ..operators.context import active_armature
+from ..operators.base import background
+from ..operators.base.context import active_armature
 from ..settings.drawing import (
     draw_bake,
     draw_build,
@@ -123,10 +125,10 @@ class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
         if not actions:
             draw_wrapped(layout.column(align=True), context, f"No Actions for '{obj.name}'", "INFO")
             return
-        _draw_takes(layout, context, len(actions))
+        _draw_takes(layout, context, obj, len(actions))
 
 
-def _draw_takes(layout: bpy.types.UILayout, context: bpy.types.Context, count: int) -> None:
+def _draw_takes(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object, count: int) -> None:
     """The list of takes, with what finds, plays and ticks them."""
     settings = context.window_manager.fragmotion
     if count > _FEW:
@@ -144,6 +146,11 @@ def _draw_takes(layout: bpy.types.UILayout, context: bpy.types.Context, count: i
     for text, use in (("All", True), ("None", False)):
         tick = row.operator("fragmotion.tick_actions", text=text)
         tick.use, tick.search = use, settings.take_search
+    action = chosen(context, obj)
+    if action is not None:
+        row = layout.row(align=True)
+        row.prop(action.fragmotion, "style")
+        row.operator("fragmotion.set_style", text="", icon="PRESET")
 
 
 class FRAGMOTION_PT_build(Sidebar, bpy.types.Panel):
@@ -157,7 +164,10 @@ class FRAGMOTION_PT_build(Sidebar, bpy.types.Panel):
         if job is not None:
             draw_wrapped(layout.column(align=True), context, job.label)
             versions.draw_progress(layout, job.fraction, job.stage)
-            layout.operator("fragmotion.cancel", text="Cancel", icon="CANCEL")
+            if isinstance(job, SteppedJob):
+                layout.label(text="Esc stops")
+            else:
+                layout.operator("fragmotion.cancel", text="Cancel", icon="CANCEL")
             return
         if obj is not None and building.has_character(obj):
             column = layout.column(align=True)
@@ -207,8 +217,11 @@ class FRAGMOTION_PT_coverage(_BuildSubPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         figures = active_armature(context).fragmotion.figures
+        if figures.styles:
+            self.layout.prop(figures, "coverage_style", text="")
+            figures = figures.styles[int(figures.coverage_style)]
         if figures.distances:
-            draw_pictures(self.layout, figures.distances, context.region.width)
+            draw_pictures(self.layout, figures.distances, kept_layout(figures), context.region.width)
         draw_coverage(self.layout, figures)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import bpy
 
-from ..operators.context import active_armature
+from ..operators.base.context import active_armature
 from ..recordings.recordings import active_recording
 from ..settings.drawing import aligned, draw_bake_options, draw_populate
 from .sidebar import Sidebar, SubPanel

@@ -8,7 +8,7 @@ from typing import ClassVar
 import bpy
 
 from ..character.building import has_character
-from ..operators.context import active_armature
+from ..operators.base.context import active_armature
 
 
 class Sidebar:

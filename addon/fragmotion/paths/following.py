@@ -11,6 +11,7 @@ import numpy as np
 from ..character.building import check_skeleton, load, make_player
 from ..compat.core import core
 from ..errors import UserError, core_errors
+from ..ground.meshes import find_ground, remarks_of
 from ..recordings.recordings import POSE_RATE, Recording, add_recording
 from ..rig.motion import Motion
 from ..rig.rigs import make_rig
@@ -64,10 +65,11 @@ def follow(
     line = find_line(context, settings)
     path = make_path(line, settings, character.space)
     start = path.start if settings.start == "PATH" else standing
-    options = _options(context, obj, settings)
+    options, ground = _options(context, obj, settings), find_ground(context, obj)
     with core_errors("Follow Path"):
         player = make_player(obj, character, settings.seed)
         walk = core.follow_path(player, path, start, rate=POSE_RATE, **options)
+        player.stand_on(ground)
         player.reset(*start)
         performance = player.run(walk.trace, POSE_RATE)
     motion = Motion(performance.root_positions, performance.rotations, performance.frames, performance.classes)
@@ -84,7 +86,7 @@ def follow(
     return (
         recording,
         _tell(walk, path, settings),
-        [*line.remarks, *_limits(walk, options.get("arrive"), character.space)],
+        [*line.remarks, *_limits(walk, options.get("arrive"), character.space), *remarks_of(player, ground)],
     )
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import zlib
 from datetime import datetime
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
@@ -18,6 +18,8 @@ from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty, IntPrope
 
 from ..errors import UserError
 from ..rig.motion import Motion
+from .asked import Asked, StartedMove
+from .styles import StyleChange, Styled, numbered, read_changes, set_styles, trimmed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -41,19 +43,11 @@ _SAME_TIME = 1e-4  # s
 _FARTHEST = 1e9  # m, and rad: where the core's player still stands
 _FIELDS = (
     *("name", "date", "seconds", "quality", "policy", "seed", "start", "train"),
-    *("controls", "moves", "shown", "shown_bones"),
+    *("controls", "moves", "style", "styles", "shown", "shown_bones"),
 )
 _MOST_MOVES = 1 << 20  # that a recording may start
 
 _BESIDE_BONES = 1 + 3 + 3 + 1  # columns of what was shown: time, root position, character frame, class
-
-
-class StartedMove(NamedTuple):
-    """A move that was started before a control of a recording, and for how many controls it was held."""
-
-    control: int
-    name: str
-    held: int
 
 
 class Recording(bpy.types.PropertyGroup):
@@ -100,6 +94,11 @@ class Recording(bpy.types.PropertyGroup):
     controls: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     moves: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
     """JSON of the moves that were started: [control, name, controls for which it was held] each; empty: none."""
+    style: StringProperty(  # type: ignore[valid-type]
+        name="Style", description="The style in which it begins; empty: the character's first"
+    )
+    styles: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    """JSON of the styles to which it changes: [control, name] each; empty: none."""
     shown: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     shown_bones: IntProperty(min=0, options={"HIDDEN"})  # type: ignore[valid-type]
 
@@ -115,13 +114,16 @@ def add_recording(
     quality: float = 0.0,
     shown: tuple[Doubles, Motion] | None = None,
     moves: Sequence[StartedMove] = (),
+    style: str = "",
+    styles: Sequence[StyleChange] = (),
 ) -> Recording:
     """Keep a trace [T,4] (10 controls a second, in the character frame) with the armature, and select it in the list.
 
     The name (default "Recording") gets a number where another one has it. `start` is the character frame, as
     Player.frame: x, y in metres and the heading in radians. `shown` are the poses that the user saw, where there
-    were any, and their times [F] in seconds from the first control on. `moves` are those that were started. UserError
-    on what is no trace; the file is changed only afterwards.
+    were any, and their times [F] in seconds from the first control on. `moves` are those that were started; `style` is
+    the one in which it begins, `styles` are those to which it changes. UserError on what is no trace; the file is
+    changed only afterwards.
     """
     data = _packed(trace)
     settings = obj.fragmotion
@@ -132,6 +134,7 @@ def add_recording(
     recording.date = datetime.now().strftime("%Y-%m-%d %H:%M")
     _store(recording, data, len(trace))
     _set_moves(recording, moves)
+    set_styles(recording, style, styles)
     if shown is not None:
         set_shown(recording, *shown)
     settings.active_take = len(settings.takes) - 1
@@ -172,6 +175,34 @@ def numbered_moves(recording: Recording, names: Sequence[str]) -> list[list[int]
             "under Moves, with that name"
         )
     return [[move.control, list(names).index(move.name), move.held] for move in moves]
+
+
+def styles_of(recording: Recording) -> list[StyleChange]:
+    """The styles to which it changes, in order; UserError where the .blend is damaged."""
+    changes = read_changes(recording.styles, len(trace_of(recording)))
+    if changes is None:
+        raise _damaged(recording)
+    return changes
+
+
+def numbered_styles(recording: Recording, names: Sequence[str]) -> Styled:
+    """The recording's styles, numbered as in `names`; UserError where the .blend is damaged."""
+    return numbered(recording.style, styles_of(recording), names)
+
+
+def asked_between(recording: Recording, first: int, last: int) -> Asked:
+    """What is asked for before its controls `first` .. `last` - 1, seen from the first of them; UserError where the
+    .blend is damaged."""
+    moves = [
+        move._replace(control=move.control - first) for move in moves_of(recording) if first <= move.control < last
+    ]
+    return Asked(moves, *trimmed(recording.style, styles_of(recording), first, last))
+
+
+def set_asked(recording: Recording, asked: Asked) -> None:
+    """Replace what the recording asks for beside its trace."""
+    _set_moves(recording, asked.moves)
+    set_styles(recording, asked.style, asked.styles)
 
 
 def shown_of(recording: Recording) -> tuple[Doubles, Motion] | None:
@@ -237,11 +268,9 @@ def trim_recording(recording: Recording, start: float, end: float) -> None:
             f"Recording '{recording.name}' lasts {recording.seconds:.1f} s: nothing is left between {start:.1f} s and "
             f"{end:.1f} s"
         )
-    shown, moves = shown_of(recording), moves_of(recording)
+    shown, asked = shown_of(recording), asked_between(recording, first, last)
     _store(recording, _packed(trace[first:last]), last - first)
-    _set_moves(
-        recording, [move._replace(control=move.control - first) for move in moves if first <= move.control < last]
-    )
+    set_asked(recording, asked)
     recording.quality = 0
     if shown is not None:
         _trim_shown(recording, *shown, first / TRACE_RATE, last / TRACE_RATE)

@@ -17,10 +17,11 @@ if TYPE_CHECKING:
     from fragmotion_core import ControlSpace, Doubles
 
 
-def make_traces(obj: bpy.types.Object, settings: Any) -> list[Doubles]:
-    """The traces [T,4] that Build learns from, as settings with BuildFields say."""
+def make_traces(obj: bpy.types.Object, settings: Any, space: ControlSpace) -> list[Doubles]:
+    """The traces [T,4] that Build learns from, as settings with BuildFields say; a simulated player asks for what the
+    space has."""
     if settings.trace_source != "RECORDINGS":
-        return [make_trace(settings)]
+        return [make_trace(settings, space)]
     ticked = trained_on(obj)
     if not ticked:
         raise UserError(

@@ -19,6 +19,12 @@ def movers(obj: bpy.types.Object) -> list[str]:
     ]
 
 
+def animated(obj: bpy.types.Object) -> bool:
+    """Whether keys, drivers, constraints or parents may move an object that is no armature, or change its shape."""
+    shapes = getattr(obj.data, "shape_keys", None)
+    return any(_moves(each) for each in (obj, *_ancestors(obj))) or bool(shapes and shapes.animation_data)
+
+
 def _first(kind: str, names: list[str]) -> list[str]:
     """The first of the names with its kind, and how many more there are; nothing where there is none."""
     names = list(dict.fromkeys(names))

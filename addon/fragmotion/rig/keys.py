@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..compat.core import core
-from .motion import angles_between, rotation_matrices
 from .rigs import bone_path, is_tied
 
 if TYPE_CHECKING:
@@ -19,9 +18,6 @@ if TYPE_CHECKING:
 
     from ..jobs import Report
 
-_ROUNDS = 8
-_AIM = 0.95  # of the bound, were deviations in proportion to a track's tolerance
-_FASTEST = 2.0  # growth of the tolerance from round to round
 _OBJECT = -1
 _LOCATION = "LOCATION"
 
@@ -94,20 +90,15 @@ def reduce_tracks(
 ) -> tuple[list[Track], Deviation]:
     """Tracks with so few keys that on no frame a bone is further than the bound from where it was, seen in the world.
 
-    Tells how far a bone is then at most. A track's own tolerance is found by trial, as its error adds to those of the
-    bones above it. core.Cancelled where `report` says so.
+    Tells how far a bone is then at most. core.Cancelled where `report` says so.
     """
-    best, reached, share = list(tracks), Deviation(0.0, 0.0), 1.0
-    for turn in range(_ROUNDS):
-        if not report(turn / _ROUNDS, "Reducing keys"):
-            raise core.Cancelled("cancelled")
-        reduced = [_thin(track, share * bound.distance / _size_of(place), share * bound.angle) for track in tracks]
-        found = _deviation(rig, poses, _drawn_poses(reduced, poses), place)
-        excess = max(found.distance / bound.distance, found.angle / bound.angle)
-        if excess <= 1 and count_keys(reduced) < count_keys(best):
-            best, reached = reduced, found
-        share *= _AIM / max(excess, _AIM / _FASTEST)
-    return best, reached
+    given = [(track.owner, track.mode, track.values) for track in tracks]
+    keys, distance, angle = core.reduce_keys(rig, given, *poses, *place, *bound, report)
+    reduced = [
+        track._replace(kept=kept, slopes=slopes, values=drawn)
+        for track, (kept, slopes, drawn) in zip(tracks, keys, strict=True)
+    ]
+    return reduced, Deviation(distance, angle)
 
 
 def count_keys(tracks: Sequence[Track]) -> int:
@@ -145,69 +136,3 @@ def _tracks_of(bone: Bone, owner: int, locations: Doubles, rotations: Doubles) -
 
 def _path(bone: Bone, channel: str) -> str:
     return bone_path(bone.name, channel) if bone.name else channel
-
-
-def _size_of(place: Place) -> float:
-    """Metres in one unit of the armature."""
-    return float(np.linalg.norm(place.above[:3, 0]) * abs(place.scale[0]))
-
-
-def _thin(track: Track, distance: float, angle: float) -> Track:
-    """Fewer keys, so that the track alone does not move its bone by more, in the armature's units and radians."""
-    # A quaternion's components change half as fast as its angle.
-    turn = angle / 2 if track.mode == "QUATERNION" else angle
-    kept, slopes, drawn = core.fit_keys(track.values, distance if track.mode == _LOCATION else turn)
-    return track._replace(values=drawn, kept=kept, slopes=slopes)
-
-
-def _drawn_poses(tracks: Sequence[Track], poses: Poses) -> Poses:
-    """The poses that the tracks' keys show."""
-    locations, rotations = poses.locations.copy(), poses.rotations.copy()
-    places, turns = poses.places, poses.turns
-    for track in tracks:
-        values = track.values
-        if track.mode != _LOCATION:
-            values = to_quaternions(track.mode, values)
-        if track.owner == _OBJECT:
-            places, turns = (values, turns) if track.mode == _LOCATION else (places, values)
-        else:
-            (locations if track.mode == _LOCATION else rotations)[:, track.owner] = values
-    return Poses(locations, rotations, places, turns)
-
-
-def _deviation(rig: Rig, before: Poses, after: Poses, place: Place) -> Deviation:
-    """Between poses of all bones in the world, and between their channels, as clips leave out those above the hips."""
-    heads, turned = _world(rig, before, place)
-    other_heads, other_turned = _world(rig, after, place)
-    shift = np.linalg.norm(before.locations - after.locations, axis=-1).max() * _size_of(place)
-    return Deviation(
-        max(float(np.linalg.norm(heads - other_heads, axis=-1).max()), float(shift)),
-        float(
-            max(
-                angles_between(turned, other_turned).max(),
-                angles_between(before.rotations, _unit(after.rotations)).max(),
-            )
-        ),
-    )
-
-
-def _world(rig: Rig, poses: Poses, place: Place) -> tuple[Doubles, Doubles]:
-    clip = rig.clip("", 1.0, poses.locations, poses.rotations, _object_matrices(poses, place))
-    transforms: tuple[Doubles, Doubles] = clip.world_transforms(rig.skeleton)
-    return transforms
-
-
-def _object_matrices(poses: Poses, place: Place) -> Doubles | None:
-    """World matrices [F,4,4] of an object that moves."""
-    if poses.places is None or poses.turns is None:
-        return None
-    matrices = np.tile(np.eye(4), (len(poses.places), 1, 1))
-    matrices[:, :3, :3] = rotation_matrices(_unit(poses.turns)) * place.scale
-    matrices[:, :3, 3] = poses.places
-    worlds: Doubles = place.above @ matrices
-    return worlds
-
-
-def _unit(rotations: Doubles) -> Doubles:
-    units: Doubles = rotations / np.linalg.norm(rotations, axis=-1, keepdims=True)
-    return units

@@ -16,10 +16,12 @@ from bpy.props import (
 )
 
 from ..character.classes import ClassRow
+from ..character.control_layout import ControlLayout
 from ..character.coverage import COLUMNS
 from ..character.moves import MoveRow
 from ..character.suggesting import NumberTried
 from ..control_rig.binding import ControlRigSettings, is_source
+from ..ground.meshes import WITH_FACES
 from ..recordings.recordings import Recording
 from ..rig.bodies import RoleBone
 from .bake_fields import BakeFields, PopulateFields
@@ -42,6 +44,12 @@ _RELATIVE = (
 _STARTS = (
     ("CHARACTER", "As It Stands", "Where the character stands at the playhead, facing as it does"),
     ("ORIGIN", "Origin", "Under the armature's origin, facing its -Y (towards the front view)"),
+)
+
+_GROUNDS = (
+    ("PLANE", "Plane", "Level ground at height 0"),
+    ("OBJECT", "Object", "The faces of an object: feet stand on it, on slopes and stairs, too"),
+    ("COLLECTION", "Collection", "The faces of all that is visible in a collection"),
 )
 
 _KEEPING = (
@@ -121,6 +129,10 @@ class PinSettings(PinFields, bpy.types.PropertyGroup):
     """The panel's settings of Pin Here."""
 
 
+def _may_be_ground(_settings: GroundSettings, obj: bpy.types.Object) -> bool:
+    return obj.type in WITH_FACES
+
+
 class FeelSettings(bpy.types.PropertyGroup):
     """How the character moves when it is driven and baked, whatever its policy."""
 
@@ -142,6 +154,23 @@ class FeelSettings(bpy.types.PropertyGroup):
     )
 
 
+class GroundSettings(bpy.types.PropertyGroup):
+    """What the character stands on when it is driven, baked and copied."""
+
+    kind: EnumProperty(name="Ground", description="What the character goes on", items=_GROUNDS, default="PLANE")  # type: ignore[valid-type]
+    object: PointerProperty(  # type: ignore[valid-type]
+        name="Object",
+        description="The object whose faces are the ground, as it stands when a drive or a bake begins",
+        type=bpy.types.Object,
+        poll=_may_be_ground,
+    )
+    collection: PointerProperty(  # type: ignore[valid-type]
+        name="Collection",
+        description="The collection whose visible objects are the ground, without what belongs to the character",
+        type=bpy.types.Collection,
+    )
+
+
 class PolicyFigure(bpy.types.PropertyGroup):
     """How one policy did, by its `name`."""
 
@@ -155,7 +184,48 @@ class CoverageFigure(bpy.types.PropertyGroup):
     total: IntVectorProperty(size=len(COLUMNS))  # type: ignore[valid-type]
 
 
-class BuildFigures(bpy.types.PropertyGroup):
+class _Coverage:
+    """Which controls there are, and how many of them are performed well."""
+
+    performed: IntProperty()  # type: ignore[valid-type]
+    makes_jumps: BoolProperty()  # type: ignore[valid-type]
+    coverage: CollectionProperty(type=CoverageFigure)  # type: ignore[valid-type]
+    distances: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
+    """[controls] float32: ControlDis to the nearest fragment."""
+    # As ControlLayout says it; what has none was built with the paper's.
+    gaits: StringProperty(default=", ".join(ControlLayout().gaits))  # type: ignore[valid-type]
+    directions: IntProperty(default=ControlLayout().directions)  # type: ignore[valid-type]
+    turn: BoolProperty(default=True)  # type: ignore[valid-type]
+    jump: BoolProperty(default=True)  # type: ignore[valid-type]
+
+
+class StyleFigure(_Coverage, bpy.types.PropertyGroup):
+    """What the last build found of one style, by its `name`."""
+
+    fragments: IntProperty()  # type: ignore[valid-type]
+    classes: IntProperty()  # type: ignore[valid-type]
+    quality: FloatProperty()  # type: ignore[valid-type]
+
+
+_listed: list[tuple[str, str, str]] = []  # Blender keeps no reference to an enumeration's texts
+
+
+def _styles(figures: BuildFigures, _context: bpy.types.Context | None) -> list[tuple[str, str, str]]:
+    """The character's styles, as EnumProperty wants them."""
+    _listed[:] = [(str(i), style.name, "Show the coverage of this style") for i, style in enumerate(figures.styles)]
+    return _listed
+
+
+def _shown_style(figures: BuildFigures) -> int:
+    chosen, last = int(figures.active_style), len(figures.styles) - 1
+    return max(0, min(chosen, last))
+
+
+def _show_style(figures: BuildFigures, number: int) -> None:
+    figures.active_style = number
+
+
+class BuildFigures(_Coverage, bpy.types.PropertyGroup):
     """What the last build found."""
 
     captured: IntProperty()  # type: ignore[valid-type]
@@ -167,11 +237,15 @@ class BuildFigures(bpy.types.PropertyGroup):
     examiner: StringProperty()  # type: ignore[valid-type]
     sources: StringProperty()  # type: ignore[valid-type]
     policies: CollectionProperty(type=PolicyFigure)  # type: ignore[valid-type]
-    performed: IntProperty()  # type: ignore[valid-type]
-    makes_jumps: BoolProperty()  # type: ignore[valid-type]
-    coverage: CollectionProperty(type=CoverageFigure)  # type: ignore[valid-type]
-    distances: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
-    """[102] float32: ControlDis to the nearest fragment."""
+    styles: CollectionProperty(type=StyleFigure)  # type: ignore[valid-type]
+    coverage_style: EnumProperty(  # type: ignore[valid-type]
+        name="Style",
+        description="The style whose controls are shown",
+        items=_styles,
+        get=_shown_style,
+        set=_show_style,
+    )
+    active_style: IntProperty(min=0)  # type: ignore[valid-type]
 
 
 def _bake_selected(settings: CharacterSettings, _context: bpy.types.Context) -> None:
@@ -208,6 +282,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
     )
     path: PointerProperty(type=PathSettings)  # type: ignore[valid-type]
     feel: PointerProperty(type=FeelSettings)  # type: ignore[valid-type]
+    ground: PointerProperty(type=GroundSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]
     tried: CollectionProperty(type=NumberTried)  # type: ignore[valid-type]

@@ -72,6 +72,11 @@ def _suggest_actions(_settings: object, _context: bpy.types.Context, text: str) 
     return [action.name for action in bpy.data.actions if text.lower() in action.name.lower()]
 
 
+def _suggest_styles(_settings: object, context: bpy.types.Context, _text: str) -> list[str]:
+    obj = context.active_object
+    return [] if obj is None else [row.name for row in obj.fragmotion.figures.styles]
+
+
 class BakeFields(TraceFields):
     """What a bake can be told."""
 
@@ -88,6 +93,11 @@ class BakeFields(TraceFields):
         default=True,
     )
     policy: policy_field(CHOOSING, DRIVING, (DRIVING, "Driving", "The policy that Build was told to drive with"))  # type: ignore[valid-type]
+    style: StringProperty(  # type: ignore[valid-type]
+        name="Style",
+        description="The style in which the character goes; empty: its first. Recordings have styles of their own",
+        search=_suggest_styles,
+    )
     place: EnumProperty(  # type: ignore[valid-type]
         name="Start", description="Where the character starts", items=_PLACES, default="ORIGIN"
     )
@@ -184,4 +194,10 @@ class PopulateFields:
     )
     player: player_field("Whose habits drive the copies", MIXED, (MIXED, "Mixed", "All the habits, in turn"))  # type: ignore[valid-type]
     seconds: length_field(20.0, who="the simulated players play")  # type: ignore[valid-type]
+    mix_styles: BoolProperty(  # type: ignore[valid-type]
+        name="Mix Styles",
+        description="Draw a style for each copy that a simulated player drives; else all have Bake's. Recordings have "
+        "styles of their own",
+        default=True,
+    )
     seed: seed_field("Of the first copy; the others count on: no two do the same")  # type: ignore[valid-type]

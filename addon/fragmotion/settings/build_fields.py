@@ -18,8 +18,46 @@ _CUTS = (
 )
 
 
+_CONTROLS = (
+    ("PAPER", "As in the Paper", "102: standing, 8 directions at a walk and at a run; turning or not; jumping or not"),
+    ("FOUND", "From the Takes", "As many speeds and directions as the takes hold, turns and jumps where they do"),
+    ("TOLD", "These", "As many speeds and directions as you say, with turns and jumps or without"),
+)
+
+_DIRECTIONS = (
+    ("4", "4", "Forward, left, back and right"),
+    ("8", "8", "Those between, too"),
+    ("16", "16", "Those between these, too"),
+)
+
+
 class BuildFields(TraceFields):
     """What a build can be told."""
+
+    controls: EnumProperty(  # type: ignore[valid-type]
+        name="Controls",
+        description="What the character can be asked for. How fast its speeds are comes from the takes",
+        items=_CONTROLS,
+    )
+    speeds: IntProperty(  # type: ignore[valid-type]
+        name="Speeds",
+        description="From the takes' slowest to their fastest; called stroll, walk, jog, run and sprint",
+        default=_DEFAULTS.speeds,
+        min=1,
+        max=4,
+    )
+    directions: EnumProperty(  # type: ignore[valid-type]
+        name="Directions",
+        description="In how many directions it can be sent",
+        items=_DIRECTIONS,
+        default=str(_DEFAULTS.directions),
+    )
+    turn: BoolProperty(  # type: ignore[valid-type]
+        name="Turn", description="Whether it can be asked to turn", default=_DEFAULTS.turn
+    )
+    jump: BoolProperty(  # type: ignore[valid-type]
+        name="Jump", description="Whether it can be asked to jump", default=_DEFAULTS.jump
+    )
 
     trace_source: source_field(_RECORDINGS)  # type: ignore[valid-type]
     longest: FloatProperty(  # type: ignore[valid-type]

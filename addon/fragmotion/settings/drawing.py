@@ -36,9 +36,22 @@ def draw_training(layout: bpy.types.UILayout, settings: BuildFields) -> None:
     """The other fields of a build."""
     layout = aligned(layout)
     layout.prop(settings, "cut")
+    _draw_controls(layout, settings)
     layout.prop(settings, "policy")
     draw_trace(layout, settings, "Learn from")
     layout.prop(settings, "seed")
+
+
+def _draw_controls(layout: bpy.types.UILayout, settings: BuildFields) -> None:
+    """Which controls the character is to have."""
+    layout.prop(settings, "controls")
+    if settings.controls != "TOLD":
+        return
+    layout.prop(settings, "speeds")
+    layout.row().prop(settings, "directions", expand=True)
+    row = layout.row(heading="With", align=True)
+    row.prop(settings, "turn", toggle=True)
+    row.prop(settings, "jump", toggle=True)
 
 
 def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.Object) -> None:
@@ -58,6 +71,8 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.O
         layout.prop(settings, "policy")
         layout.prop(settings, "seed")
         layout.prop(settings, "place")
+    if source != "RECORDING" and obj.fragmotion.figures.styles:
+        layout.prop(settings, "style")
     layout.prop(settings, "target")
 
 
@@ -96,6 +111,8 @@ def draw_populate(layout: bpy.types.UILayout, settings: PopulateFields) -> None:
     if settings.traces == "PLAYERS":
         layout.prop(settings, "player")
         layout.prop(settings, "seconds")
+    if settings.traces == "PLAYERS" or settings.layout == "PATH":
+        layout.prop(settings, "mix_styles")
     layout.prop(settings, "seed")
 
 
@@ -118,6 +135,8 @@ def draw_figures(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
     if figures.seconds > 0:
         _draw_row(box, "Built in", f"{figures.seconds:.2f} s")
     box.separator()
+    for style in figures.styles:
+        _draw_row(box, style.name, f"{style.classes} classes, {style.quality:.1f} %")
     box.label(text="Quality, of Optimal:")
     for policy in figures.policies:
         _draw_row(box, POLICY_NAMES.get(policy.name, policy.name), f"{policy.quality:.1f} %")
@@ -144,7 +163,8 @@ def draw_coverage(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
     _draw_cells(column, "", [(name, True) for name in COLUMNS])
     for row in figures.coverage:
         counts = zip(row.performed, row.total)
-        _draw_cells(column, row.name, [(f"{performed}/{total}", performed == total) for performed, total in counts])
+        cells = [(f"{performed}/{total}" if total else "-", performed == total) for performed, total in counts]
+        _draw_cells(column, row.name, cells)
     if figures.makes_jumps:
         column.label(text="Jumps are synthesized", icon="INFO")
 

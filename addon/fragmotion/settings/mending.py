@@ -25,7 +25,7 @@ def mend(group: Any) -> int:
             count += mend(value) if isinstance(value, bpy.types.PropertyGroup) else 0
         elif prop.type == "COLLECTION":
             count += sum(mend(each) for each in getattr(group, prop.identifier))
-        elif not prop.is_readonly and not _is_sound(group, prop):
+        elif not _is_computed(prop) and not _is_sound(group, prop):
             group.property_unset(prop.identifier)
             count += 1
     return count
@@ -54,6 +54,11 @@ def _mend_file(*_: object) -> None:
             count = mend(data.fragmotion) if data.library is None and data.is_property_set("fragmotion") else 0
             if count:
                 print(f"Fragmotion: {count} settings of '{data.name}' were damaged; they have their default values now")
+
+
+def _is_computed(prop: Any) -> bool:
+    """Whether nothing of a property is stored: what can't be set, or is chosen among items listed by a function."""
+    return prop.is_readonly or (prop.type == "ENUM" and not prop.enum_items)
 
 
 def _is_sound(group: Any, prop: Any) -> bool:

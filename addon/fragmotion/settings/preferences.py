@@ -24,6 +24,8 @@ _TIPS = {
     "turn_right": "Turn right while this key is held",
     "jump": "Jump",
     "record": "Start or stop recording",
+    "previous_style": "Go on in the style before",
+    "next_style": "Go on in the next style",
 }
 
 
@@ -63,6 +65,8 @@ class FragmotionPreferences(bpy.types.AddonPreferences):
     key_turn_right: _key("turn_right")  # type: ignore[valid-type]
     key_jump: _key("jump")  # type: ignore[valid-type]
     key_record: _key("record")  # type: ignore[valid-type]
+    key_previous_style: _key("previous_style")  # type: ignore[valid-type]
+    key_next_style: _key("next_style")  # type: ignore[valid-type]
 
     def keys(self) -> dict[str, str]:
         """What a key does, and the key."""

@@ -26,9 +26,11 @@ from .armature import (
     CoverageFigure,
     DriveSettings,
     FeelSettings,
+    GroundSettings,
     PinSettings,
     PolicyFigure,
     PopulateSettings,
+    StyleFigure,
 )
 from .path_fields import PathSettings
 
@@ -44,6 +46,10 @@ class ActionSettings(bpy.types.PropertyGroup):
 
     use: BoolProperty(  # type: ignore[valid-type]
         name="Learn from it", description="Build cuts fragments from the ticked Actions", default=False
+    )
+    style: StringProperty(  # type: ignore[valid-type]
+        name="Style",
+        description="What style the take is of, such as tired: a character has all styles of its takes",
     )
     left_out: CollectionProperty(type=FrameSpan)  # type: ignore[valid-type]
     findings: CollectionProperty(type=TakeFinding)  # type: ignore[valid-type]
@@ -84,9 +90,11 @@ CLASSES = (
     DriveSettings,
     PathSettings,
     FeelSettings,
+    GroundSettings,
     PinSettings,
     PolicyFigure,
     CoverageFigure,
+    StyleFigure,
     BuildFigures,
     CharacterSettings,
     ActionSettings,

@@ -3,145 +3,77 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-
-#include "fragmotion/motion/pose.hpp"
+#include <stdexcept>
+#include <string>
 
 namespace fragmotion {
 namespace {
 
-std::size_t at(int frame, int width) { return static_cast<std::size_t>(frame) * width; }
+constexpr double kFarthest = 1e9;  // m, and rad
+constexpr double kUnit = 1e-3;     // by which a unit quaternion's length is off at most
 
-Quaternion about_z(double angle) { return Quaternion(Eigen::AngleAxisd(angle, Vector3::UnitZ())); }
-
-Vector3 turned(const Vector3& place, double angle) {
-  Vector3 result = place;
-  result.head<2>() = Eigen::Rotation2Dd(angle) * Vector2{place.head<2>()};
-  return result;
-}
-
-// A rotation as axis times angle, by the shorter way.
-Vector3 to_vector(const Quaternion& q) {
-  const double sine = q.vec().norm(), side = q.w() < 0 ? -1 : 1;
-  if (sine == 0) return Vector3::Zero();
-  return side * 2 * std::atan2(sine, side * q.w()) / sine * q.vec();
-}
-
-Quaternion from_vector(const Vector3& vector) {
-  const double angle = vector.norm();
-  return angle > 0 ? Quaternion(Eigen::AngleAxisd(angle, vector / angle)) : Quaternion::Identity();
-}
-
-// An offset that leaves 0 without velocity and is as told in the last frame of `count` and in the one before.
-class Offset {
- public:
-  Offset(const Vector3& at_end, const Vector3& before_end, int count) : at_end_(at_end) {
-    const double before = 1 - 1.0 / count;
-    slope_ = (before_end - rise(before) * at_end) / swing(before);
+bool are_rotations(const std::vector<double>& rotations) {
+  for (std::size_t i = 0; i < rotations.size(); i += 4) {
+    if (!(std::abs(load_quaternion(&rotations[i]).norm() - 1) <= kUnit)) return false;
   }
-
-  Vector3 at(double share) const { return rise(share) * at_end_ + swing(share) * slope_; }
-
- private:
-  static double rise(double share) { return ease_in_ease_out(share); }
-  static double swing(double share) { return share * share * (share - 1); }
-
-  Vector3 at_end_, slope_;
-};
-
-// Poses of a character frame that rests, the last `count` steps of them eased to the first.
-void ease_poses(Motion& still, int count) {
-  const int last = still.frames() - 1, bones = still.bones();
-  const auto root = [&](int f) { return load_vector(&still.root_positions[at(f, 3)]); };
-  const auto bone = [&](int f, int b) { return &still.rotations[at(f, 4 * bones) + at(b, 4)]; };
-  const Vector3 first = root(0), before = 2 * first - root(1);
-  const Offset moves(first - root(last), before - root(last - 1), count);
-  std::vector<Offset> turns;
-  for (int b = 0; b < bones; ++b) {
-    const Quaternion begin = load_quaternion(bone(0, b)),
-                     lead_in = begin * load_quaternion(bone(1, b)).conjugate() * begin;
-    turns.emplace_back(to_vector(begin * load_quaternion(bone(last, b)).conjugate()),
-                       to_vector(lead_in * load_quaternion(bone(last - 1, b)).conjugate()), count);
-  }
-  for (int i = 0; i <= count; ++i) {
-    const int f = last - count + i;
-    const double share = static_cast<double>(i) / count;
-    store_vector(root(f) + moves.at(share), &still.root_positions[at(f, 3)]);
-    for (int b = 0; b < bones; ++b)
-      store_quaternion(from_vector(turns[b].at(share)) * load_quaternion(bone(f, b)), bone(f, b));
-  }
-}
-
-// Places whose last steps are eased to the first one, each step seen from the place where it begins.
-std::vector<double> ease_path(const std::vector<double>& places, int count) {
-  const int steps = static_cast<int>(places.size() / 3) - 1;
-  const auto place = [&](int f) { return load_vector(&places[at(f, 3)]); };
-  const auto step = [&](int f) { return turned(place(f + 1) - place(f), -place(f).z()); };
-  std::vector<double> eased = places;
-  Vector3 here = place(0);
-  for (int f = 0; f < steps; ++f) {
-    const int i = f - (steps - count) + 1;
-    const Vector3 own = step(f),
-                  going = own + ease_in_ease_out(std::max(i, 0) / static_cast<double>(count)) * (step(0) - own);
-    here += turned(going, here.z());
-    store_vector(here, &eased[at(f + 1, 3)]);
-  }
-  return eased;
+  return true;
 }
 
 }  // namespace
 
-Motion carried(const Motion& motion, int hips, const std::vector<double>& places) {
+void check_motion(const Skeleton& skeleton, const Motion& motion, const char* name) {
+  const auto fail = [&](const char* what) { throw std::invalid_argument(std::string(name) + " " + what); };
+  const auto frames = static_cast<std::size_t>(motion.frames());
+  if (frames < 1) fail("has no frame");
+  if (!(motion.rate > 0 && motion.rate <= 1000)) fail("needs a frame rate over 0 and at most 1000");
+  if (motion.root_positions.size() != 3 * frames || motion.path.size() != 3 * frames ||
+      motion.rotations.size() != 4 * frames * skeleton.size()) {
+    fail("has not a place, a character frame and a rotation of every bone for each frame");
+  }
+  const auto is_near = [](double value) { return std::abs(value) <= kFarthest; };
+  for (const auto* values : {&motion.root_positions, &motion.path, &motion.rotations}) {
+    if (!std::all_of(values->begin(), values->end(), is_near)) fail("holds what is not a number or too far away");
+  }
+  if (!are_rotations(motion.rotations)) fail("holds a quaternion that is no rotation");
+}
+
+WorldPose pose_at(const Motion& motion, int at) {
+  const std::size_t width = motion.rotations.size() / motion.frames();
+  const auto first = motion.rotations.begin() + static_cast<std::ptrdiff_t>(width * at);
+  return {load_vector(&motion.root_positions[std::size_t{3} * at]),
+          motion.path[std::size_t{3} * at + 2],
+          {first, first + static_cast<std::ptrdiff_t>(width)}};
+}
+
+void set_pose(Motion& motion, int at, const WorldPose& pose, const Vector2& place) {
+  store_vector(pose.root, &motion.root_positions[std::size_t{3} * at]);
+  std::copy(pose.rotations.begin(), pose.rotations.end(),
+            motion.rotations.begin() + static_cast<std::ptrdiff_t>(pose.rotations.size() * at));
+  store_vector({place.x(), place.y(), pose.heading}, &motion.path[std::size_t{3} * at]);
+}
+
+Vector2 carried(const CharacterFrame& from, const CharacterFrame& to, const Vector2& place) {
+  return to.position + Eigen::Rotation2Dd(to.heading - from.heading) * (place - from.position);
+}
+
+void carry(int hips, const CharacterFrame& from, const CharacterFrame& to, WorldPose& pose) {
+  const double turn = to.heading - from.heading;
+  pose.root.head<2>() = carried(from, to, pose.root.head<2>());
+  pose.heading += turn;
+  double* rotation = &pose.rotations[std::size_t{4} * hips];
+  store_quaternion(Quaternion(Eigen::AngleAxisd(turn, Vector3::UnitZ())) * load_quaternion(rotation), rotation);
+}
+
+Motion carried(const Motion& motion, int hips, const std::vector<double>& path) {
   Motion result = motion;
-  result.places = places;
   for (int f = 0; f < motion.frames(); ++f) {
-    const Vector3 from = load_vector(&motion.places[at(f, 3)]), to = load_vector(&places[at(f, 3)]);
-    const double turn = to.z() - from.z();
-    const Vector3 root = load_vector(&motion.root_positions[at(f, 3)]);
-    const Vector2 seen = root.head<2>() - from.head<2>();
-    const Vector2 moved = Vector2{to.head<2>()} + Eigen::Rotation2Dd(turn) * seen;
-    store_vector({moved.x(), moved.y(), root.z()}, &result.root_positions[at(f, 3)]);
-    double* rotation = &result.rotations[at(f, 4 * motion.bones()) + at(hips, 4)];
-    store_quaternion(about_z(turn) * load_quaternion(rotation), rotation);
+    const double* at = &path[std::size_t{3} * f];
+    const CharacterFrame to{{at[0], at[1]}, at[2]};
+    WorldPose pose = pose_at(motion, f);
+    carry(hips, motion.frame(f), to, pose);
+    set_pose(result, f, pose, to.position);
   }
-  return result;
-}
-
-Motion looped(const Motion& motion, int hips, int count) {
-  const int steps = motion.frames() - 1;
-  if (steps < 2) return motion;
-  const int eased = std::min(std::max(count, 2), steps);
-  Motion still = carried(motion, hips, std::vector<double>(motion.places.size(), 0));
-  ease_poses(still, eased);
-  return carried(still, hips, ease_path(motion.places, eased));
-}
-
-Resampled resampled(const std::vector<double>& times, const Motion& motion, double rate) {
-  const int shown = static_cast<int>(times.size()), bones = motion.bones(),
-            count = static_cast<int>(std::lround(times.back() * rate)) + 1;
-  Resampled result;
-  for (int f = 0; f < count; ++f) {
-    const double time = f / rate;
-    const auto found = std::lower_bound(times.begin(), times.end(), time) - times.begin();
-    const int after = std::clamp(static_cast<int>(found), std::min(1, shown - 1), shown - 1),
-              before = std::max(after - 1, 0);
-    const double gap = times[after] - times[before],
-                 weight = std::clamp((time - times[before]) / (gap > 0 ? gap : 1), 0.0, 1.0);
-    const auto mix = [&](const std::vector<double>& from, std::vector<double>& to) {
-      for (int i = 0; i < 3; ++i)
-        to.push_back((1 - weight) * from[at(before, 3) + i] + weight * from[at(after, 3) + i]);
-    };
-    mix(motion.root_positions, result.motion.root_positions);
-    mix(motion.places, result.motion.places);
-    result.nearest.push_back(weight < 0.5 ? before : after);
-    for (int b = 0; b < bones; ++b) {
-      const Quaternion a = load_quaternion(&motion.rotations[at(before, 4 * bones) + at(b, 4)]),
-                       c = load_quaternion(&motion.rotations[at(after, 4 * bones) + at(b, 4)]);
-      const double side = a.dot(c) < 0 ? -1 : 1;
-      const Quaternion mixed = Quaternion((1 - weight) * a.coeffs() + side * weight * c.coeffs()).normalized();
-      result.motion.rotations.insert(result.motion.rotations.end(), {mixed.w(), mixed.x(), mixed.y(), mixed.z()});
-    }
-  }
+  result.path = path;
   return result;
 }
 

@@ -7,6 +7,9 @@
 
 namespace fragmotion {
 
+/// The largest coordinate, m, and angle, rad, of a place, at which steps are still told apart.
+constexpr double kFarthestPlace = 1e9;
+
 /// A number as short as people write it.
 inline std::string text_of(double value) {
   std::ostringstream text;

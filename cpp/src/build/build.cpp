@@ -30,13 +30,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kTwoGaits = 1.6;   // a run is at least so much faster than a walk
-constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gaits
-constexpr double kRunOverWalk = 3.3 / 1.2;
 constexpr double kBalance = -0.75;    // each of k fragments that perform one control counts k^(-3/4) in clustering
 constexpr double kSideHop = 0.2;      // weight of a hop that goes to a side,
 constexpr double kTurningHop = 0.02;  // and of one that turns
-constexpr double kTurning = kPi / 6;  // rad/s
 
 class Stopwatch {
  public:
@@ -50,46 +46,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-// The two means of sorted values that split them best (the least squares of two clusters).
-std::pair<double, double> two_means(const std::vector<double>& sorted) {
-  const double total = std::accumulate(sorted.begin(), sorted.end(), 0.0);
-  double best = -1, low = 0;
-  std::pair<double, double> means{sorted.front(), sorted.back()};
-  for (std::size_t split = 1; split < sorted.size(); ++split) {
-    low += sorted[split - 1];
-    const double a = low / static_cast<double>(split), b = (total - low) / static_cast<double>(sorted.size() - split);
-    const double between = (b - a) * (b - a) * static_cast<double>(split) * static_cast<double>(sorted.size() - split);
-    if (between > best) best = between, means = {a, b};
-  }
-  return means;
-}
-
-std::pair<double, double> gait_speeds(const std::vector<Control>& evident, double scale) {
-  std::vector<double> speeds;
-  for (const Control& ev : evident) {
-    const double speed = ev.speed() * scale;
-    if (speed > kMoving && !ev.jumps()) speeds.push_back(speed);
-  }
-  if (speeds.empty()) return {1.2, 3.3};
-  std::sort(speeds.begin(), speeds.end());
-  const auto [slow, fast] = two_means(speeds);
-  if (fast > kTwoGaits * slow) return {slow, fast};
-  const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
-  return mean < kWalkOrRun ? std::pair{mean, mean * kRunOverWalk} : std::pair{mean / kRunOverWalk, mean};
-}
-
-double turn_rate(const std::vector<Control>& evident) {
-  const double unit = ControlSpace().turn_rate();
-  std::vector<double> rates;
-  for (const Control& ev : evident) {
-    if (std::abs(ev.turn) * unit > kTurning) rates.push_back(std::abs(ev.turn) * unit);
-  }
-  if (rates.size() * 20 < evident.size() || rates.empty()) return unit;
-  const std::size_t at = rates.size() * 3 / 4;
-  std::nth_element(rates.begin(), rates.begin() + at, rates.end());
-  return rates[at];
-}
 
 // Cuts the clips from `first` on and marks their fragments.
 void cut(FragmentPool& pool, const Kinematics& kinematics, std::size_t first, Origin origin,
@@ -120,7 +76,7 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
 }
 
 // Fills the evident controls; returns the space that fits them and the usual height of the centre of mass.
-ControlSpace perform(FragmentPool& pool, const Kinematics& kinematics, double& usual) {
+ControlSpace perform(FragmentPool& pool, const Kinematics& kinematics, const ControlOptions& options, double& usual) {
   const double scale = standard_scale(pool.skeleton);
   std::vector<BodyMotion> motions;
   for (const Clip& clip : pool.clips) motions.push_back(body_motion(kinematics, clip));
@@ -131,9 +87,20 @@ ControlSpace perform(FragmentPool& pool, const Kinematics& kinematics, double& u
     f.evident = evident_control(motions[f.clip], pool.clips[f.clip].rate, f.begin, f.end, usual, standard);
     evident.push_back(f.evident);
   }
-  const ControlSpace space = control_space_of(evident, scale);
+  const ControlSpace space = control_space_of(evident, scale, options);
   for (Fragment& f : pool.fragments) f.evident.turn *= standard.turn_rate() / space.turn_rate();
   return space;
+}
+
+// What the takes hold of the controls, beside what was asked for.
+void report_held(Character& c, const FragmentPool& pool) {
+  std::vector<Control> evident;
+  for (const Fragment& f : pool.fragments) evident.push_back(f.evident);
+  const HeldControls held = held_controls(evident, c.space);
+  c.report["speeds_held"] = held.speeds;
+  c.report["directions_held"] = held.directions;
+  c.report["turn_held"] = held.turn ? 1 : 0;
+  c.report["jump_held"] = held.jump ? 1 : 0;
 }
 
 // Fragments that differ by less than single precision are the same.
@@ -202,6 +169,7 @@ void check(const Trace& trace, std::size_t number) {
 // Before the stages that would find it, which take their time.
 void check(const BuildOptions& options) {
   check(options.cut);
+  check(options.controls.layout);
   require_range("the number of classes", options.classes, 1, kMostClasses);
   require_range("the number of restarts", std::max(1, options.restarts), 1, kMostRestarts);
 }
@@ -242,11 +210,6 @@ const std::vector<std::string>& policy_names() {
   return names;
 }
 
-ControlSpace control_space_of(const std::vector<Control>& evident, double scale) {
-  const auto [walk, run] = gait_speeds(evident, scale);
-  return ControlSpace(walk / scale, run / scale, turn_rate(evident), scale);
-}
-
 std::vector<Contacts> contacts_of(const FragmentPool& pool, int threads) {
   std::vector<bool> captured(pool.clips.size(), false);
   for (const Fragment& f : pool.fragments) {
@@ -284,7 +247,8 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   FragmentPool pool = captured_pool(kinematics, clips, options);
   c.report["captured"] = static_cast<double>(pool.fragments.size());
   double usual = 0;
-  c.space = perform(pool, kinematics, usual);
+  c.space = perform(pool, kinematics, options.controls, usual);
+  report_held(c, pool);
   c.report["cut_seconds"] = stage.lap();
   report(progress, 0.5, "Synthesizing fragments");
   if (options.synthesize) {
@@ -326,7 +290,7 @@ void learn(const Material& material, const BuildOptions& options, const Progress
   c.quality = quality_table(c.pool.fragments, t, c.classes, c.space);
   c.bridges = stand_bridges(c.pool.fragments, t, c.classes, c.space);
   c.report["quality_seconds"] = stage.lap();
-  c.control_model = control_model(material.traces, kGenericPrior);
+  c.control_model = control_model(material.traces, kGenericPrior, c.space.size());
   c.policies.clear();
   for (const std::string& name : options.policies) {
     c.policies.push_back(policy_named(name, c, t, material.traces, options.threads, part_of(progress, 0.5, 1)));

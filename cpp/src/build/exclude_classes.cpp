@@ -10,8 +10,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr int kPoints = ControlSpace::kPoints;
-
 std::vector<bool> allowed_classes(int count, const std::vector<int>& excluded) {
   std::vector<bool> allowed(count, true);
   for (const int k : excluded) {
@@ -42,8 +40,8 @@ void avoid(const std::vector<bool>& allowed, const Character& whole, Policy& pol
   if (std::all_of(policy.next.begin(), policy.next.end(), is_allowed)) return;
   const std::vector<double> future_value = future_values(whole.quality, policy, whole.control_model);
   for (int from = 0; from < policy.classes; ++from) {
-    for (int c = 0; c < kPoints; ++c) {
-      int& next = policy.next[static_cast<std::size_t>(from) * kPoints + c];
+    for (int c = 0; c < policy.controls; ++c) {
+      int& next = policy.next[static_cast<std::size_t>(from) * policy.controls + c];
       if (!allowed[next]) next = best_of(allowed, whole.quality, future_value, from, c);
     }
   }
@@ -56,7 +54,9 @@ Character without_classes(const Character& character, const std::vector<int>& ex
   Character result = character;
   for (Policy& policy : result.policies) avoid(allowed, character, policy);
   repair_policies(result);
-  for (const int k : excluded) std::fill_n(&result.quality.match[static_cast<std::size_t>(k) * kPoints], kPoints, 0.0);
+  const int controls = result.quality.controls;
+  for (const int k : excluded)
+    std::fill_n(&result.quality.match[static_cast<std::size_t>(k) * controls], controls, 0.0);
   result.bridges = stand_bridges(result.pool.fragments, trajectories(result.pool, 2), result.classes, result.space,
                                  kBridgeDistance, allowed);
   return result;

@@ -47,18 +47,19 @@ Clip checked_clip(const Skeleton& skeleton, const MoveClip& move) {
   return made;
 }
 
-void drop_moves(Character& character) {
+}  // namespace
+
+Character without_moves(Character character) {
   character.pool.clips.resize(character.takes());
   character.contacts.resize(character.pool.clips.size());
   character.moves.clear();
+  character.move_parts.clear();
+  return character;
 }
-
-}  // namespace
 
 Character with_moves(const Character& character, const std::vector<MoveClip>& moves) {
   check_names(moves);
-  Character result = character;
-  drop_moves(result);
+  Character result = without_moves(character);
   const Skeleton& skeleton = result.pool.skeleton;
   const Kinematics kinematics(skeleton);
   const Floors floors = usual_floors(result.contacts, std::vector<bool>(result.contacts.size(), true));

@@ -25,6 +25,9 @@ void learn(const Material& material, const BuildOptions& options, const Progress
 /// A part of a task's progress as the whole's.
 Progress part_of(const Progress& progress, double from, double to);
 
+/// The character without its moves.
+Character without_moves(Character character);
+
 /// The median floor of the captured clips.
 Floors usual_floors(const std::vector<Contacts>& contacts, const std::vector<bool>& captured);
 

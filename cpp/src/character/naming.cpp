@@ -1,31 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/character/naming.hpp"
 
+#include "fragmotion/control/gaits.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr const char* kDirections[] = {"forward", "forward left", "left",  "back left",
-                                       "back",    "back right",   "right", "forward right"};
-
 // The gait or jump with its direction, without a turn.
-std::string moving(int velocity, bool jumps) {
-  const bool runs = ControlSpace::runs(velocity);
-  const int direction = ControlSpace::direction_of(velocity);
-  const bool aside = direction % 4 == 2;
-  const char* verb = runs ? "run" : aside ? "sidestep" : "walk";
-  if (jumps) verb = runs ? "running jump" : "jump";
-  return std::string(verb) + " " + kDirections[direction];
+std::string moving(const ControlSpace& space, int velocity, bool jumps) {
+  const ControlLayout& layout = space.layout();
+  const int gait = space.gaits()[layout.speed_of(velocity)];
+  const int direction = layout.direction_of(velocity) * (kMostDirections / layout.directions);
+  const bool aside = direction % (kMostDirections / 2) == kMostDirections / 4;
+  const char* verb = jumps ? kGaits[gait].jump : aside && gait == kWalk ? "sidestep" : kGaits[gait].name;
+  return std::string(verb) + " " + kDirectionNames[direction];
 }
 
 }  // namespace
 
 std::string control_name(const ControlSpace& space, const Control& control) {
-  const int point = space.nearest(control);
-  const int velocity = ControlSpace::velocity_of(point), turn = ControlSpace::turn_of(point);
-  const bool jumps = ControlSpace::jumps(point);
+  const ControlLayout& layout = space.layout();
+  const int point = space.nearest(control), velocity = layout.velocity_of(point), turn = layout.turn_of(point);
+  const bool jumps = layout.is_jump(point);
   const std::string side = turn > 0 ? "left" : "right";
   if (velocity == 0 && !jumps) return turn == 0 ? "stand" : "turn " + side + " in place";
-  const std::string name = velocity == 0 ? "jump up" : moving(velocity, jumps);
+  const std::string name = velocity == 0 ? "jump up" : moving(space, velocity, jumps);
   return turn == 0 ? name : name + " turning " + side;
 }
 

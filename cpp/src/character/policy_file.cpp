@@ -2,21 +2,19 @@
 #include "fragmotion/character/policy_file.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
+#include <memory>
 #include <stdexcept>
 #include <type_traits>
 
-#include "base/ranges.hpp"
 #include "base/read_file.hpp"
 #include "base/write_file.hpp"
+#include "character/check_character.hpp"
 #include "character/policy_bytes.hpp"
 #include "fragmotion/base/utf8.hpp"
 #include "fragmotion/fragments/body_tips.hpp"
 #include "fragmotion/fragments/entry_poses.hpp"
 #include "fragmotion/fragments/whole_jumps.hpp"
-#include "fragmotion/motion/trunk.hpp"
 #include "fragmotion/skeleton/role_names.hpp"
 #include "fragmotion/skeleton/two_bone_ik.hpp"
 
@@ -28,10 +26,6 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "policy files are littl
 constexpr char kMagic[9] = "FRAGMOTN";
 constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
-constexpr double kRounding = 1e-6;
-constexpr double kShortest = (1 - kRounding) * kShortestFragment, kLongest = 3600;  // s that a fragment may last
-constexpr double kMost = 1e9;  // of what is in m/s, rad/s or a ratio: its square is a number, and no body is so fast
-constexpr double kHighest = 1e10;  // m of a floor: above any chain of bones at any place
 // Memory of the entry poses, which a player needs beside the file: a file takes at most 20 times its size, beyond 50
 // MB.
 constexpr std::size_t kRoom = 48000000, kTimes = 16;  // bytes, and for each byte of the file
@@ -188,8 +182,7 @@ void exchange_contacts(Archive& a, Contacts& contacts) {
 }
 
 template <typename Archive>
-void exchange_pool(Archive& a, PackedPool& pool) {
-  exchange_skeleton(a, pool.skeleton);
+void exchange_clips(Archive& a, PackedPool& pool) {
   PoseGrid grid = pool.clips.empty() ? PoseGrid() : *pool.clips[0].grid;
   a.template number<std::int32_t>(grid.bones);
   a.template numbers<float>(grid.usual);
@@ -206,14 +199,25 @@ void exchange_pool(Archive& a, PackedPool& pool) {
   });
 }
 
+// Of a space that is not the paper's, whose two speeds are before it.
+template <typename Archive>
+void exchange_layout(Archive& a, ControlLayout& layout, std::vector<double>& speeds) {
+  a.template numbers<double>(speeds);
+  layout.speeds = static_cast<int>(std::min<std::size_t>(speeds.size(), kMostSpeeds + 1));  // more are refused
+  a.template number<std::uint8_t>(layout.directions);
+  for (bool* part : {&layout.turn, &layout.jump}) a.template number<std::uint8_t>(*part);
+}
+
 template <typename Archive>
 void exchange_space(Archive& a, ControlSpace& space) {
-  double values[] = {
-      space.walk(),         space.run(),         space.turn_rate(), space.scale(), space.weights().velocity,
-      space.weights().turn, space.weights().jump};
+  ControlLayout layout = space.layout();
+  double values[] = {space.slowest(),          space.run(),          space.turn_rate(),   space.scale(),
+                     space.weights().velocity, space.weights().turn, space.weights().jump};
   for (double& value : values) a.template number<double>(value);
+  std::vector<double> speeds = Archive::kReads ? std::vector{values[0], values[1]} : space.speeds();
+  if (a.section("controls", layout != ControlLayout())) exchange_layout(a, layout, speeds);
   if (Archive::kReads) {
-    space = ControlSpace(values[0], values[1], values[2], values[3], {values[4], values[5], values[6]});
+    space = ControlSpace(layout, speeds, values[2], values[3], {values[4], values[5], values[6]});
   }
 }
 
@@ -229,9 +233,10 @@ void exchange_moves(Archive& a, std::vector<Move>& moves) {
   });
 }
 
+// All of a style but its skeleton.
 template <typename Archive>
-void exchange(Archive& a, Character& c) {
-  exchange_pool(a, c.pool);
+void exchange_style(Archive& a, Character& c) {
+  exchange_clips(a, c.pool);
   exchange_space(a, c.space);
   a.template number<std::int32_t>(c.classes.count);
   a.template numbers<std::int32_t>(c.classes.labels);
@@ -240,112 +245,45 @@ void exchange(Archive& a, Character& c) {
   a.template number<std::int32_t>(c.quality.classes);
   a.template numbers<double>(c.quality.smoothness);
   a.template numbers<double>(c.quality.match);
+  if (Archive::kReads) c.quality.controls = c.space.size();
   a.list(c.policies, 16, [&](auto& policy) {
     a.text(policy.name);
     a.template number<std::int32_t>(policy.classes);
     a.template numbers<std::int32_t>(policy.next);
+    if (Archive::kReads) policy.controls = c.space.size();
   });
   a.template numbers<std::int32_t>(c.bridges);
   a.template numbers<double>(c.control_model);
   a.list(c.contacts, 40, [&](auto& contacts) { exchange_contacts(a, contacts); });
   for (Leg& leg : c.legs) exchange_vector(a, leg.hinge);  // the bones are found anew by their roles
+}
+
+// What the other styles are of a character that has its skeleton.
+template <typename Archive>
+void exchange_styles(Archive& a, Character& c) {
+  a.text(c.style);
+  a.list(c.styles, 200, [&](auto& style) {
+    const auto other = Archive::kReads ? std::make_shared<Character>() : std::const_pointer_cast<Character>(style);
+    if (Archive::kReads) other->pool.skeleton = c.pool.skeleton;
+    a.text(other->style);
+    exchange_style(a, *other);
+    style = other;
+  });
+}
+
+template <typename Archive>
+void exchange(Archive& a, Character& c) {
+  exchange_skeleton(a, c.pool.skeleton);
+  exchange_style(a, c);
   if (a.section("moves", !c.moves.empty())) exchange_moves(a, c.moves);
-}
-
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(std::string("its ") + what + " do not fit together");
-}
-
-bool all_within(const std::vector<int>& values, int least, int end) {
-  for (const int value : values) {
-    if (value < least || value >= end) return false;
-  }
-  return true;
-}
-
-bool all_in_range(const std::vector<double>& values, double least, double most) {
-  for (const double value : values) {
-    if (!(value >= least && value <= most)) return false;
-  }
-  return true;
-}
-
-void check_pool(const PackedPool& pool) {
-  require(pool.skeleton.roles.hips >= 0, "roles");  // make_skeleton would find new ones
-  make_skeleton(pool.skeleton);
-  check_stature(pool.skeleton);
-  for (const PackedClip& clip : pool.clips) check(clip, pool.skeleton);
-  for (const Fragment& f : pool.fragments) {
-    require(f.clip >= 0 && f.clip < static_cast<int>(pool.clips.size()) && f.begin >= 0 && f.begin < f.end &&
-                f.end < pool.clips[f.clip].frames && f.origin <= Origin::transformed,
-            "fragments and clips");
-    require(pool.seconds(f) >= kShortest && pool.seconds(f) <= kLongest, "fragments and rates");
-    require(all_in_range({f.evident.x, f.evident.y, f.evident.turn, f.evident.jump}, -kMost, kMost),
-            "evident controls");
-  }
-}
-
-// Whose constructor bounds the numbers above.
-void check_space(const ControlSpace& space) {
-  require(all_in_range({space.walk(), space.run(), space.turn_rate(), space.scale()}, 1 / kMost, kMost), "controls");
-}
-
-// Classes that without_classes() leaves out match nothing.
-void check_quality(const Quality& quality, std::size_t classes) {
-  require(static_cast<std::size_t>(quality.classes) == classes && quality.smoothness.size() == classes * classes &&
-              quality.match.size() == classes * ControlSpace::kPoints &&
-              all_in_range(quality.smoothness, std::numeric_limits<double>::min(), 1) &&
-              all_in_range(quality.match, 0, 1),
-          "qualities");
-}
-
-// A row that summed to more than 1 would let values grow without end.
-void check_model(const std::vector<double>& model) {
-  constexpr std::size_t kPoints = ControlSpace::kPoints;
-  require(model.size() == kPoints * kPoints, "control probabilities");
-  for (std::size_t c = 0; c < kPoints; ++c) {
-    double sum = 0;
-    for (std::size_t next = 0; next < kPoints; ++next) {
-      const double p = model[c * kPoints + next];
-      require(p >= 0 && p <= 1, "control probabilities");
-      sum += p;
-    }
-    require(std::abs(sum - 1) < 1e-6, "control probabilities");
-  }
-}
-
-void check_contacts(const Character& c) {
-  require(c.contacts.size() == c.pool.clips.size(), "contacts");
-  for (std::size_t i = 0; i < c.contacts.size(); ++i) {
-    const auto& [left, right] = c.contacts[i].feet;
-    require(left.size() == right.size() &&
-                (left.empty() || left.size() == static_cast<std::size_t>(c.pool.clips[i].frames)),
-            "contacts");
-    for (const FootHeights& floor : c.contacts[i].floors) {
-      require(all_in_range({floor.ball, floor.heel}, -kHighest, kHighest), "contacts");
-    }
-  }
-}
-
-// Moves' clips are the last ones, in the order of the moves, and no fragment's.
-void check_moves(const Character& c) {
-  require(c.moves.size() <= kMostMoves && c.moves.size() <= c.pool.clips.size(), "moves");
-  for (const Fragment& f : c.pool.fragments) require(f.clip < c.takes(), "moves");
-  for (std::size_t m = 0; m < c.moves.size(); ++m) {
-    const Move& move = c.moves[m];
-    require(move.clip == c.takes() + static_cast<int>(m), "moves");
-    const PackedClip& clip = c.pool.clips[move.clip];
-    require(all_within({move.loop_begin, move.loop_end}, 0, clip.frames), "moves");
-    check_move_times(move.name, (clip.frames - 1) / clip.rate, move.wait,
-                     {move.loop_begin / clip.rate, move.loop_end / clip.rate});
-    require(!move.upper_body || Trunk(c.pool.skeleton).base >= 0, "moves");
-  }
+  if (a.section("styles", !c.style.empty())) exchange_styles(a, c);
 }
 
 // That the entry poses of a file of `size` bytes are in proportion.
 void check_memory(const Character& c, std::size_t size) {
-  const std::size_t fragments = c.pool.fragments.size() + kMoveParts * c.moves.size(),
-                    tips = measured_bones(c.pool.skeleton).size(),
+  std::size_t fragments = kMoveParts * c.moves.size();
+  for (int style = 0; style < c.style_count(); ++style) fragments += c.in_style(style).pool.fragments.size();
+  const std::size_t tips = measured_bones(c.pool.skeleton).size(),
                     bytes = fragments * 3 * padded(2 * static_cast<int>(tips)) * sizeof(float);
   if (bytes <= kRoom + kTimes * size) return;
   throw std::invalid_argument(std::to_string(fragments) + " fragments of " + std::to_string(tips) +
@@ -354,32 +292,16 @@ void check_memory(const Character& c, std::size_t size) {
                               " times the file's size");
 }
 
-// All that a character must be to be saved and played.
-void check(const Character& c) {
-  check_pool(c.pool);
-  check_space(c.space);
-  const std::size_t n = c.classes.count, fragments = c.pool.fragments.size();
-  require(c.classes.count > 0 && c.classes.labels.size() == fragments && c.classes.representatives.size() == n &&
-              all_within(c.classes.labels, 0, c.classes.count) &&
-              all_within(c.classes.representatives, 0, static_cast<int>(fragments)),
-          "classes");
-  for (std::size_t k = 0; k < n; ++k) {
-    require(c.classes.labels[c.classes.representatives[k]] == static_cast<int>(k), "representatives");
-  }
-  for (const std::vector<int>& members : c.classes.members()) require(!members.empty(), "classes");
-  require(c.classes.inertia >= 0 && std::isfinite(c.classes.inertia), "classes");
-  check_quality(c.quality, n);
-  require(!c.policies.empty(), "policy tables");
-  for (const Policy& policy : c.policies) {
-    require(policy.classes == c.classes.count && policy.next.size() == n * ControlSpace::kPoints &&
-                all_within(policy.next, 0, c.classes.count),
-            "policy tables");
-  }
-  require(c.bridges.size() == n * n && all_within(c.bridges, -1, c.classes.count), "stand-in-place classes");
-  check_model(c.control_model);
-  check_contacts(c);
-  check_moves(c);
-  for (const Leg& leg : c.legs) require(std::abs(leg.hinge.norm() - 1) < 1e-6, "legs");
+// Makes anew what a file does not hold.
+void complete(Character& c) {
+  Legs legs = resting_legs(c.pool.skeleton);
+  for (std::size_t side = 0; side < legs.size(); ++side) legs[side].hinge = c.legs[side].hinge;
+  c.legs = legs;
+  repair_policies(c);  // of a program that repaired as it played
+  c.coverage = coverage(c.pool.fragments, c.space);
+  find_whole_jumps(c.pool);
+  c.entry_poses = entry_poses(c.pool);
+  c.move_parts = move_parts(c.pool, c.moves);
 }
 
 }  // namespace
@@ -398,7 +320,7 @@ std::string unchecked_bytes(const Character& character) {
 
 std::string to_bytes(const Character& character) {
   try {
-    check(character);
+    check_character(character);
     std::string bytes = unchecked_bytes(character);
     check_memory(character, bytes.size());
     return bytes;
@@ -430,16 +352,10 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     Reader reader(bytes.data() + kHeader, length);
     exchange(reader, character);
     if (!reader.done()) throw std::invalid_argument("it has bytes too many");
-    check(character);
+    check_character(character);
     check_memory(character, bytes.size());
-    Legs legs = resting_legs(character.pool.skeleton);
-    for (std::size_t side = 0; side < legs.size(); ++side) legs[side].hinge = character.legs[side].hinge;
-    character.legs = legs;
-    repair_policies(character);  // of a program that repaired as it played
-    character.coverage = coverage(character.pool.fragments, character.space);
-    find_whole_jumps(character.pool);
-    character.entry_poses = entry_poses(character.pool);
-    character.move_parts = move_parts(character.pool, character.moves);
+    complete(character);
+    for (const auto& style : character.styles) complete(const_cast<Character&>(*style));  // which from_bytes() made
     return character;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(name + " is refused: " + error.what());

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+
+#include "fragmotion/control/gaits.hpp"
 
 namespace fragmotion {
 
@@ -28,23 +31,35 @@ void require_weight(const char* name, double value) {
   require(value >= 0 && value <= kMost, name, value, "a number from 0 to 1e9");
 }
 
-/// Unit vectors counter-clockwise from forward; a table, so that the axes are exact.
-Vector2 direction(int index) {
-  const double d = std::sqrt(0.5);
-  const double directions[8][2] = {{0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}, {1, 0}, {d, d}};
-  return {directions[index][0], directions[index][1]};
+/// Unit vectors counter-clockwise from forward, of kMostDirections; a table, so that the axes are exact and all others
+/// the same everywhere; zeros are positive.
+Vector2 direction(int sixteenth) {
+  const double d = std::sqrt(0.5), near = 0.92387953251128674, far = 0.38268343236508977;  // cosines of 22.5, 67.5 deg
+  const double quarter[4][2] = {{0, 1}, {-far, near}, {-d, d}, {-near, far}};
+  const double x = quarter[sixteenth % 4][0], y = quarter[sixteenth % 4][1];
+  switch (sixteenth / 4) {
+    case 0:
+      return {x, y};
+    case 1:
+      return {0 - y, x};
+    case 2:
+      return {0 - x, 0 - y};
+    default:
+      return {y, 0 - x};
+  }
 }
 
-Vector2 velocity(int number, double walk, double run) {
+Vector2 velocity(const ControlLayout& layout, const std::vector<double>& speeds, int number) {
   if (number == 0) return Vector2::Zero();
-  return (ControlSpace::runs(number) ? run : walk) * direction(ControlSpace::direction_of(number));
+  return speeds[layout.speed_of(number)] *
+         direction(layout.direction_of(number) * (kMostDirections / layout.directions));
 }
 
 double square(double value) { return value * value; }
 
 /// The index below `count` whose value is least; the lower one on a tie.
-template <int count, typename Value>
-int least(const Value& value) {
+template <typename Value>
+int least(int count, const Value& value) {
   int best = 0;
   double best_value = value(0);
   for (int i = 1; i < count; ++i) {
@@ -58,8 +73,27 @@ int least(const Value& value) {
 
 constexpr double kLeap = 0.9;                  // evident jump of what is no run
 constexpr double kQuickest = 170 * kPi / 180;  // rad/s
-constexpr double kMostTurn = 6;                // turn rates
 constexpr double kFacing = 0.25;               // s: time constant of the last of a turn
+
+void check_speeds(const std::vector<double>& speeds) {
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    const char* name = speeds.size() != 2 ? "speed (m/s)" : i == 0 ? "walk (m/s)" : "run (m/s)";
+    require_positive(name, speeds[i]);
+    if (i > 0) require(speeds[i] > speeds[i - 1], name, speeds[i], "more than what is slower");
+  }
+}
+
+std::vector<double> scaled(std::vector<double> speeds, double scale) {
+  for (double& speed : speeds) speed *= scale;
+  return speeds;
+}
+
+// The number of the speed that is a walk, or else of the first that is faster, or of the fastest.
+std::size_t nearest_to_walk(const std::vector<int>& gaits) {
+  std::size_t number = 0;
+  while (number + 1 < gaits.size() && gaits[number] < kWalk) ++number;
+  return number;
+}
 
 }  // namespace
 
@@ -67,19 +101,32 @@ bool matches_jump(const Control& evident, const Control& wanted) {
   return wanted.jumps() ? evident.jumps() : evident.jump < kLeap;
 }
 
+void check(const ControlLayout& layout) {
+  require(layout.speeds >= 1 && layout.speeds <= kMostSpeeds, "number of speeds", layout.speeds, "1 to 4");
+  require(layout.directions == 4 || layout.directions == 8 || layout.directions == kMostDirections,
+          "number of directions", layout.directions, "4, 8 or 16");
+}
+
 ControlSpace::ControlSpace(double walk, double run, double turn_rate, double scale, ControlWeights weights)
-    : walk_(walk), run_(run), turn_rate_(turn_rate), scale_(scale), weights_(weights) {
-  require_positive("walk (m/s)", walk);
-  require_positive("run (m/s)", run);
-  require(run > walk, "run (m/s)", run, "more than walk");
+    : ControlSpace(ControlLayout(), {walk, run}, turn_rate, scale, weights) {}
+
+ControlSpace::ControlSpace(const ControlLayout& layout, std::vector<double> speeds, double turn_rate, double scale,
+                           ControlWeights weights)
+    : layout_(layout), speeds_(std::move(speeds)), turn_rate_(turn_rate), scale_(scale), weights_(weights) {
+  check(layout);
+  require(static_cast<int>(speeds_.size()) == layout.speeds, "number of speeds", static_cast<double>(speeds_.size()),
+          "as many as the layout has");
+  check_speeds(speeds_);
   require_positive("turn rate (rad/s)", turn_rate);
   require_positive("scale", scale);
   require_weight("velocity weight", weights.velocity);
   require_weight("turn weight", weights.turn);
   require_weight("jump weight", weights.jump);
-  for (int i = 0; i < kPoints; ++i) {
-    const Vector2 v = velocity(velocity_of(i), walk, run);
-    points_[i] = {v.x(), v.y(), static_cast<double>(turn_of(i)), jumps(i) ? 1.0 : 0.0};
+  gaits_ = gaits_of(scaled(speeds_, scale));
+  walk_ = speeds_[nearest_to_walk(gaits_)];
+  for (int i = 0; i < layout.size(); ++i) {
+    const Vector2 v = velocity(layout, speeds_, layout.velocity_of(i));
+    points_.push_back({v.x(), v.y(), static_cast<double>(layout.turn_of(i)), layout.is_jump(i) ? 1.0 : 0.0});
   }
 }
 
@@ -87,13 +134,15 @@ ControlSpace::ControlSpace(double walk, double run, double turn_rate, double sca
 // that the nearest of each make the nearest point.
 int ControlSpace::nearest(const Control& control) const {
   const double velocity_weight = square(weights_.velocity * scale_);
-  const int velocity = least<kVelocities>([&](int i) {
-    const Control& point = points_[index(i, 0, false)];
+  const Control* points = points_.data();
+  const int stride = layout_.turns() * layout_.jumps();
+  const int velocity = least(layout_.velocities(), [&](int i) {
+    const Control& point = points[i * stride];
     return velocity_weight * (square(point.x - control.x) + square(point.y - control.y));
   });
-  const int turn = least<kTurns>([&](int i) { return square(weights_.turn * (i - 1 - control.turn)); });
-  const int jump = least<kJumps>([&](int i) { return square(weights_.jump * (i - control.jump)); });
-  return index(velocity, turn - 1, jump == 1);
+  const int turn = least(3, [&](int i) { return square(weights_.turn * (i - 1 - control.turn)); });
+  const int jump = least(2, [&](int i) { return square(weights_.jump * (i - control.jump)); });
+  return layout_.index(velocity, turn - 1, jump == 1);
 }
 
 double ControlSpace::quickest_turn() const { return std::clamp(kQuickest / turn_rate_, 1.0, kMostTurn); }

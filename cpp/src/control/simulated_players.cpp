@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/control/simulated_players.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -59,8 +60,9 @@ class PlayerSimulation {
     if (expired(turn_left_)) choose_turn();
     if (expired(jump_left_) && chance(habits_.jumps / kTraceRate)) jump_left_ = between(0.3, 0.6);
     for (int i = 0; i < kSteps; ++i) move_stick();
-    const int velocity = ControlSpace::velocity_of(space_.nearest({stick_.x(), stick_.y(), 0, 0}));
-    return space_.point(ControlSpace::index(velocity, turn_, jump_left_ > 0));
+    const ControlLayout& layout = space_.layout();
+    const int velocity = layout.velocity_of(space_.nearest({stick_.x(), stick_.y(), 0, 0}));
+    return space_.point(layout.index(velocity, turn_, jump_left_ > 0));
   }
 
  private:
@@ -76,9 +78,18 @@ class PlayerSimulation {
   void choose_target() {
     stick_left_ = between(habits_.shortest, habits_.longest);
     if (chance(habits_.redirect)) choose_direction();
-    const double pace = random_.uniform();
-    const double speed = pace < habits_.stand ? 0 : pace < habits_.stand + habits_.walk ? space_.walk() : space_.run();
-    target_ = speed * direction_;
+    target_ = choose_speed() * direction_;
+  }
+
+  /// Whoever walks goes at one of the slower half of the speeds, and whoever runs at one of the faster half, each as
+  /// often; the one in the middle is of both.
+  double choose_speed() {
+    const double pace = random_.uniform(), walk = habits_.stand + habits_.walk;
+    if (pace < habits_.stand) return 0;
+    const bool walks = pace < walk;
+    const double share = walks ? (pace - habits_.stand) / habits_.walk : (pace - walk) / (1 - walk);
+    const int count = space_.layout().speeds, half = (count + 1) / 2;
+    return space_.speeds()[(walks ? 0 : count - half) + std::min(static_cast<int>(share * half), half - 1)];
   }
 
   void choose_direction() {

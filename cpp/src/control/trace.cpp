@@ -22,7 +22,6 @@ namespace {
 
 constexpr const char* kColumns[] = {"velocity_x", "velocity_y", "turn", "jump"};
 constexpr double kFastest = 1e9;  // m/s: three times as fast as light
-constexpr double kMostTurn = 6;   // turn rates: ControlSpace::quickest_turn() is no more
 constexpr const char* kHeader = "velocity_x,velocity_y,turn,jump";
 
 [[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& cause) {

@@ -14,7 +14,10 @@ constexpr double kShortest = 1 / kTraceRate, kLongest = 3600;  // s
 constexpr double kStandsOn = 1;                                // s at the end
 constexpr double kInTime = 0.25;                               // s from the time of arrival that will do
 constexpr double kGoodEnough = 0.4;                            // of what will do, in place and in time
-constexpr double kSooner[] = {0, 0.05, -0.05, 0.1, -0.1, 0.15, 0.08, -0.08, 0.02, -0.02};  // m: tries of stop_early
+// m: tries of stop_early; those after kUsualTries where none before will do.
+constexpr double kSooner[] = {0,    0.05,  -0.05, 0.1,   -0.1, 0.15,  0.08, -0.08, 0.02, -0.02,
+                              0.03, -0.03, 0.06,  -0.06, 0.12, -0.12, 0.2,  -0.15, 0.04, 0.25};
+constexpr int kUsualTries = 10;
 constexpr double kAround = 0.5;  // m of a 1.8 m character around its place in which it is looked for on the path
 
 // Measures a walk frame by frame.
@@ -68,8 +71,8 @@ class Measure {
 
 PathWalk walk_once(Player& player, const CharacterFrame& start, const Path& path, const FollowOptions& options,
                    double rate, int frames, const Progress& progress) {
-  const ControlSpace& space = player.character().space;
-  player.reset(start);
+  const ControlSpace& space = player.styled_character().space;
+  player.reset(start, player.playing_style());
   PathFollower follower(space, path, options);
   Measure measure(follower, options.end, space.scale(), rate);
   PathWalk walk;
@@ -103,19 +106,21 @@ PathWalk follow_path(Player& player, const CharacterFrame& start, const Path& pa
                      double rate, double seconds, const Progress& progress) {
   require_range("the longest that a path is followed, in s,", seconds, kShortest, kLongest);
   const int frames = frame_count(static_cast<std::size_t>(std::lround(seconds * kTraceRate)), rate);
-  const ControlSpace& space = player.character().space;
+  const ControlSpace& space = player.styled_character().space;
   const PathFollower plan(space, path, options);
   const double soonest = plan.seconds_left();
   const double arrive = options.arrive > 0 ? std::max(options.arrive, soonest) : 0;
   const auto badness = [&](const PathWalk& walk) { return amiss(walk, arrive, space.scale()); };
   FollowOptions tried = options;
   PathWalk best;
+  int tries = 0;
   for (const double sooner : kSooner) {
     tried.stop_early = options.stop_early + sooner / space.scale();
     PathWalk walk = walk_once(player, start, path, tried, rate, frames, progress);
     const double late = walk.arrived ? walk.seconds - options.arrive : 0;
     if (best.trace.empty() || badness(walk) < badness(best)) best = std::move(walk);
-    if (options.end != PathEnd::stand || badness(best) < kGoodEnough) break;
+    const double enough = ++tries < kUsualTries ? kGoodEnough : 1;
+    if (options.end != PathEnd::stand || badness(best) < enough) break;
     if (soonest < options.arrive) tried.arrive = std::max(options.arrive - late / 2, kShortest);
   }
   best.asked_speed = plan.asked_speed();

@@ -9,10 +9,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kFarthest = 1e6;   // m
-constexpr double kShortest = 1e-3;  // m that a path is long at least
-constexpr double kSame = 1e-9;      // m between points that are one
-constexpr double kFastest = 1000;   // m/s
+constexpr double kFarthestPoint = 1e6;  // m
+constexpr double kShortestPath = 1e-3;  // m that a path is long at least
+constexpr double kSame = 1e-9;          // m between points that are one
 
 void check(const std::vector<Vector2>& points, const std::vector<double>& speeds) {
   if (points.size() < 2)
@@ -21,7 +20,7 @@ void check(const std::vector<Vector2>& points, const std::vector<double>& speeds
     throw std::invalid_argument("a path may have a million points, and has " + std::to_string(points.size()));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!(points[i].cwiseAbs().maxCoeff() <= kFarthest))
+    if (!(points[i].cwiseAbs().maxCoeff() <= kFarthestPoint))
       throw std::invalid_argument("point " + std::to_string(i) + " of the path is not within 1e6 m");
   }
   if (!speeds.empty() && speeds.size() != points.size()) {
@@ -29,7 +28,7 @@ void check(const std::vector<Vector2>& points, const std::vector<double>& speeds
                                 std::to_string(speeds.size()) + " speeds");
   }
   for (std::size_t i = 0; i < speeds.size(); ++i) {
-    if (!(speeds[i] > 0 && speeds[i] <= kFastest))
+    if (!(speeds[i] > 0 && speeds[i] <= kFastestPath))
       throw std::invalid_argument("the speed at point " + std::to_string(i) +
                                   " of the path must be over 0 to 1000 m/s");
   }
@@ -48,7 +47,7 @@ Path::Path(const std::vector<Vector2>& points, bool closed, const std::vector<do
     points_.push_back(points[at]);
     if (!speeds.empty()) speeds_.push_back(speeds[at]);
   }
-  if (!(length() > kShortest)) {
+  if (!(length() > kShortestPath)) {
     throw std::invalid_argument("the path has no length on the ground: its points lie above one another");
   }
 }

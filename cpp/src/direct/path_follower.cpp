@@ -11,17 +11,15 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kFastest = 1000;        // m/s
 constexpr double kLatest = 24 * 3600.0;  // s
-constexpr double kLongest = 3600;        // s between two calls
-constexpr double kFarthest = 1e9;        // m, and rad
+constexpr double kLongestCall = 3600;    // s between two calls
 
-constexpr double kReaction = 0.08;              // s after which a control shows
+constexpr double kShowsAfter = 0.08;            // s after which a control shows
 constexpr double kTurning = 0.3;                // s by which a turn begins before the path does
 constexpr double kReturning = 2.2;              // 1/s: how fast a body comes back to the path
 constexpr double kMeasured = 0.1;               // s over which its velocity is measured
 constexpr double kOnTheSpot = 100 * kPi / 180;  // rad: what faces farther away turns before it goes
-constexpr double kSettled = 0.03;               // rad that a body which stands may face amiss
+constexpr double kFaces = 0.03;                 // rad that a body which stands may face amiss
 constexpr double kUnhurried = 0.6;              // of a walk: the pace for which it sets off where there is time,
 constexpr double kLeastPace = 0.5;              // and the slowest on the way
 constexpr double kStill = 0.4;                  // s after which what stands in the wrong place goes there
@@ -41,12 +39,12 @@ Path followed(const Path& path, PathEnd end) { return end == PathEnd::loop ? pat
 bool stops(const FollowOptions& options) { return options.end == PathEnd::stand; }
 
 void check(const FollowOptions& options) {
-  require_range("the speed along the path, in m/s,", options.speed, 0, kFastest);
+  require_range("the speed along the path, in m/s,", options.speed, 0, kFastestPath);
   require_range("the time of arrival, in s,", options.arrive, 0, kLatest);
-  require_range("how much sooner to stop, in m,", options.stop_early, -kFarthest, kFarthest);
-  require_range("the heading to face", options.heading, -kFarthest, kFarthest);
+  require_range("how much sooner to stop, in m,", options.stop_early, -kFarthestPlace, kFarthestPlace);
+  require_range("the heading to face", options.heading, -kFarthestPlace, kFarthestPlace);
   for (const double value : {options.place.x(), options.place.y()})
-    require_range("the place to face", value, -kFarthest, kFarthest);
+    require_range("the place to face", value, -kFarthestPlace, kFarthestPlace);
 }
 
 }  // namespace
@@ -83,8 +81,8 @@ double PathFollower::seconds_left() const { return pace_.seconds_left(way_, velo
 
 Control PathFollower::steer(const CharacterFrame& frame, double seconds) {
   for (const double value : {frame.position.x(), frame.position.y(), frame.heading})
-    require_range("where the character is", value, -kFarthest, kFarthest);
-  require_range("the seconds since the last call", seconds, 0, kLongest);
+    require_range("where the character is", value, -kFarthestPlace, kFarthestPlace);
+  require_range("the seconds since the last call", seconds, 0, kLongestCall);
   observe(frame, seconds);
   follow_way(frame, seconds);
   if (!stands_) set_speed();
@@ -93,7 +91,7 @@ Control PathFollower::steer(const CharacterFrame& frame, double seconds) {
   const bool on_the_spot = options_.facing == PathFacing::along && std::abs(off) > kOnTheSpot;
   const Vector2 wanted = on_the_spot || waits() ? Vector2::Zero() : velocity(aim);
   const Vector2 going = stops(options_) ? stopped(wanted, aim, seconds) : wanted;
-  const double turn = stands_ && std::abs(off) < kSettled ? 0 : space_.turn_towards(off);
+  const double turn = stands_ && std::abs(off) < kFaces ? 0 : space_.turn_towards(off);
   const double heading = frame.heading + turn * space_.turn_rate() * seconds / 2;
   const Vector2 local = Eigen::Rotation2Dd(-heading) * going;
   return {local.x(), local.y(), turn, 0};
@@ -138,7 +136,7 @@ bool PathFollower::waits() const {
 PathFollower::Aim PathFollower::aim(const CharacterFrame& frame) const {
   Aim aim;
   aim.off = path_.place(way_) - frame.position;
-  aim.speed = std::min(speed_, pace_.limit(way_ + kReaction * velocity_.norm()));
+  aim.speed = std::min(speed_, pace_.limit(way_ + kShowsAfter * velocity_.norm()));
   aim.left = stops(options_) ? path_.length() - way_ : std::numeric_limits<double>::infinity();
   return aim;
 }
@@ -147,7 +145,7 @@ PathFollower::Aim PathFollower::aim(const CharacterFrame& frame) const {
 Vector2 PathFollower::velocity(const Aim& aim) const {
   const Vector2 back = kReturning * aim.off;
   if (approaches_) return clamp_length(back, aim.speed);
-  const double seen = way_ + kReaction * std::max(aim.speed, velocity_.norm());
+  const double seen = way_ + kShowsAfter * std::max(aim.speed, velocity_.norm());
   const double most = std::max(aim.speed, std::min(space_.walk(), back.norm()));
   return clamp_length(aim.speed * direction(seen, scaled(kTangent)) + back, most);
 }

@@ -14,10 +14,12 @@ constexpr double kMostSteps = 20000;  // which are so many at most
 constexpr double kBend = 1;           // m before and behind a place in which the path's radius is seen
 constexpr double kSideways = 4;       // m/s^2 in a bend,
 constexpr double kBraking = 2;        // before it,
-constexpr double kSpeedingUp = 4;     // after it,
+constexpr double kSpeedingUp = 2.5;   // after it,
 constexpr double kStopping = 5;       // and once it is told to stand,
 constexpr double kReaction = 0.09;    // s after which a command is followed
 constexpr double kSettingOff = 0.15;  // s longer from standing
+constexpr double kTurningOff = 0.2;   // s longer out of a bend
+constexpr double kSharp = 0.6;        // that is taken slower than by this of the speed
 constexpr double kSlowest = 0.5;      // of a walk: in the sharpest bend
 constexpr double kCrawl = 0.05;       // m/s
 constexpr int kHalvings = 24;         // of the span in which a speed is sought
@@ -79,6 +81,10 @@ double PathPace::limit(double way) const {
   return limits_[i] + share * (limits_[i + 1] - limits_[i]);
 }
 
+bool PathPace::leaves_bend(std::size_t i) const {
+  return i + 1 < limits_.size() && limits_[i - 1] >= limits_[i] && limits_[i] < limits_[i + 1];
+}
+
 double PathPace::seconds_left(double way, double going, double speed) const {
   const double last = std::min(speed, limits_.back());
   const double stop = stands_ ? length_ - stopping_distance(last) : length_, faster = 2 * kSpeedingUp / scale_;
@@ -87,6 +93,7 @@ double PathPace::seconds_left(double way, double going, double speed) const {
     const double next = std::min(static_cast<double>(i) * step_, stop), limit = std::min(speed, limits_[i]);
     const double then = std::min(limit, std::sqrt(now * now + faster * (next - at)));
     seconds += (next - at) / std::max((std::min(now, limit) + then) / 2, kCrawl / scale_);
+    if (limits_[i] < kSharp * speed && leaves_bend(i)) seconds += kTurningOff;
     now = then;
     at = next;
   }

@@ -18,14 +18,12 @@ namespace {
 constexpr int kBumps = 3;
 constexpr int kParts = 3;  // of a change: speed, direction, turn
 constexpr std::array<double, kParts> kMost = {0.4, 20 * kPi / 180, 0.6};
-constexpr int kRound = 64, kBest = 8;  // tries of a round, and those of them that the next is drawn about
-constexpr double kWide = 0.4;          // of kMost: the spread of a first round,
-constexpr double kNear = 0.12;         // and of one about the best so far
-constexpr double kSettled = 0.01;      // of kMost: the spread at which a search has settled
-constexpr int kLongest = 24;           // rounds until it begins anew
-constexpr double kMostTurn = 6;        // of a recording's controls
+constexpr int kRound = 64, kBest = 8;    // tries of a round, and those of them that the next is drawn about
+constexpr double kWide = 0.4;            // of kMost: the spread of a first round,
+constexpr double kNear = 0.12;           // and of one about the best so far
+constexpr double kSettledSpread = 0.01;  // of kMost: the spread at which a search has settled
+constexpr int kMostRounds = 24;          // rounds until it begins anew
 constexpr double kRounding = 1e-9;
-constexpr double kFarthest = 1e9;  // m, and rad
 
 using Change = std::array<double, kBumps * kParts>;
 
@@ -40,7 +38,7 @@ struct Cloud {
   bool settled() const {
     double widest = 0;
     for (std::size_t i = 0; i < spread.size(); ++i) widest = std::max(widest, spread[i] / kMost[i % kParts]);
-    return widest < kSettled;
+    return widest < kSettledSpread;
   }
 
   Change draw(Random& random) const {
@@ -113,7 +111,7 @@ class PinSearch {
       std::stable_sort(trials.begin(), trials.end(), cheaper);
       if (trials[0].cost < best.cost) best = trials[0];
       narrow(cloud, trials);
-      if (!cloud.settled() && (round + 1) % kLongest != 0) continue;
+      if (!cloud.settled() && (round + 1) % kMostRounds != 0) continue;
       // In turn about the best so far and, with another seed where that may change, anywhere.
       const bool about_best = ++turn % 2 == 1;
       cloud = about_best ? Cloud(best.change, kNear) : Cloud({}, kWide);
@@ -214,7 +212,7 @@ void check(const CharacterFrame& start, const Trace& trace, const PinGoal& goal,
   require_range("the number of tries", options.tries, 1, 1e6);
   for (const CharacterFrame& frame : {start, goal.frame}) {
     for (const double value : {frame.position.x(), frame.position.y(), frame.heading})
-      require_range("a place or a heading", value, -kFarthest, kFarthest);
+      require_range("a place or a heading", value, -kFarthestPlace, kFarthestPlace);
   }
 }
 

@@ -7,8 +7,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kNear = 0.8;  // cosine
-constexpr int kPoses = 200;    // that are looked at, at most
+constexpr double kNearAxis = 0.8;    // cosine
+constexpr int kMostPosesSeen = 200;  // that are looked at, at most
 
 void change(const Eigen::Matrix3d& matrix, Vector3& v) { v = matrix * v; }
 
@@ -31,7 +31,7 @@ Vector3 across(const Patient& patient, int frame, const Vector3& up) {
 bool points(const Patient& resting, int from, int to, const Vector3& up) {
   if (from < 0) return false;
   const Vector3 way = resting.head(0, to) - resting.head(0, from);
-  return way.dot(up) > kNear * way.norm();
+  return way.dot(up) > kNearAxis * way.norm();
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ Vector3 nearest_axis(const Vector3& direction) {
   int axis = 0;
   const double most = direction.cwiseAbs().maxCoeff(&axis);
   Vector3 result = Vector3::Zero();
-  if (most > kNear * direction.norm()) result[axis] = direction[axis] > 0 ? 1 : -1;
+  if (most > kNearAxis * direction.norm()) result[axis] = direction[axis] > 0 ? 1 : -1;
   return result;
 }
 
@@ -66,13 +66,13 @@ std::string axis_name(const Vector3& axis) {
 Vector3 up_axis(const Patient& patient) {
   if (!patient.has_legs() || patient.skull < 0) return Vector3::Zero();
   Vector3 sum = Vector3::Zero();
-  const int apart = std::max(1, patient.frames() / kPoses);
+  const int apart = std::max(1, patient.frames() / kMostPosesSeen);
   int poses = 0;
   for (int f = 0; f < patient.frames(); f += apart, ++poses) {
     const Vector3 up = patient.head(f, patient.skull) - middle_of_feet(patient, f);
     if (up.norm() > 0) sum += up.normalized();
   }
-  return sum.norm() > kNear * poses ? nearest_axis(sum) : Vector3::Zero();
+  return sum.norm() > kNearAxis * poses ? nearest_axis(sum) : Vector3::Zero();
 }
 
 Vector3 standing_axis(const Patient& resting) {

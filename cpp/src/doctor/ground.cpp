@@ -17,7 +17,7 @@ namespace {
 constexpr double kUnder = -0.02, kOver = 0.08;  // m: where it may be on the ground
 constexpr double kRise = 0.08;                  // m: of the ground from one place of the take to another
 constexpr double kExplained = 0.7;              // of the heights' variance, by a slope
-constexpr int kFewest = 10;                     // places where feet stand
+constexpr int kFewestStands = 10;               // places where feet stand
 constexpr double kLow = 0.045;                  // m over its lowest: a foot that could stand
 constexpr double kAnyHeight = 1e9;              // m
 constexpr double kSlides = 0.5, kStays = 0.4;   // m/s; m: feet that slide under hips that stay
@@ -68,7 +68,7 @@ std::optional<double> ground_of(const Patient& patient) {
 /// level.
 double rise_of(const Patient& patient) {
   const Stands stands = stands_of(patient, false);
-  if (stands.size() < kFewest) return 0;
+  if (stands.size() < kFewestStands) return 0;
   Eigen::MatrixXd places(stands.size(), 4);
   Eigen::VectorXd heights(stands.size());
   for (std::size_t i = 0; i < stands.size(); ++i) {

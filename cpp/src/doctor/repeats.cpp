@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kMostCopies = 8;      // of each frame
 constexpr double kMoving = 0.6;     // of the frames that should move, that do
-constexpr int kFewest = 4;          // frames of their own, to tell that each stands several times
+constexpr int kFewestOwn = 4;       // frames of their own, to tell that each stands several times
 constexpr double kHeldAtEnd = 0.1;  // s
 
 /// Whether a frame is the one before, to the bit.
@@ -54,7 +54,7 @@ bool stands_so_often(const Patient& patient, const Repeats& repeats, const Copie
 Copies copies_of(const Patient& patient) {
   const Repeats repeats(patient);
   for (int count = kMostCopies; count > 1; --count) {
-    if (patient.frames() < kFewest * count) continue;
+    if (patient.frames() < kFewestOwn * count) continue;
     for (int first = 0; first < count; ++first) {
       if (stands_so_often(patient, repeats, {count, first})) return {count, first};
     }

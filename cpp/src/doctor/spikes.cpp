@@ -15,7 +15,7 @@ constexpr double kBack = 0.5;                       // of the jump: how far a bo
 constexpr double kCalm = 0.3;      // of the jump: how far it moves from frame to frame before and after
 constexpr double kLongest = 0.05;  // s, four frames at the least
 constexpr int kMostRounds = 8;
-constexpr double kOver = 0.75 * kPi;  // rad: turned over
+constexpr double kTurnedOver = 0.75 * kPi;  // rad: turned over
 
 /// A bone's frames out of line, and how far they are.
 struct Spike {
@@ -67,7 +67,7 @@ class SpikeFinder {
     for (int f = 1; f < patient_.frames(); ++f) {
       const int end = steps_[f] > 1 ? back_from(bone, f) : 0;
       if (end == 0) continue;
-      spikes.push_back({bone, {f, end - 1}, distance_.turned(bone, f - 1, f) > kOver});
+      spikes.push_back({bone, {f, end - 1}, distance_.turned(bone, f - 1, f) > kTurnedOver});
       f = end;
     }
   }

@@ -10,14 +10,14 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kPush = 0.2;  // s
+constexpr double kPushSeconds = 0.2;  // s
 
 template <typename T, typename Length>
 std::vector<double> second_differences(const std::vector<T>& path, double rate, const Length& length) {
-  const auto apart = static_cast<std::size_t>(std::max(1L, std::lround(kPush * rate)));
+  const auto apart = static_cast<std::size_t>(std::max(1L, std::lround(kPushSeconds * rate)));
   std::vector<double> found;
   for (std::size_t f = 2 * apart; f < path.size(); ++f) {
-    found.push_back(length(path[f] - 2 * path[f - apart] + path[f - 2 * apart]) / (kPush * kPush));
+    found.push_back(length(path[f] - 2 * path[f - apart] + path[f - 2 * apart]) / (kPushSeconds * kPushSeconds));
   }
   return found;
 }

@@ -14,7 +14,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kReversed = 100 * kPi / 180, kSameWay = 20 * kPi / 180;  // rad
-constexpr double kAfter = 1.5, kPush = 0.2;                               // s
+constexpr double kAfter = 1.5, kBefore = 0.2;                             // s
 constexpr double kStill = 1e-9;                                           // m/s
 
 struct Step {
@@ -22,14 +22,16 @@ struct Step {
 };
 
 std::vector<Step> all_steps(const ControlSpace& space) {
-  const auto point = [&](int velocity, int turn) { return space.point(ControlSpace::index(velocity, turn, false)); };
+  const ControlLayout& layout = space.layout();
+  const auto point = [&](int velocity, int turn) { return space.point(layout.index(velocity, turn, false)); };
   std::vector<Step> steps;
-  for (int from = 0; from < ControlSpace::kVelocities; ++from) {
-    for (int to = 0; to < ControlSpace::kVelocities; ++to) {
+  for (int from = 0; from < layout.velocities(); ++from) {
+    for (int to = 0; to < layout.velocities(); ++to) {
       if (to != from) steps.push_back({point(from, 0), point(to, 0)});
     }
   }
-  for (const int forward : {1, 1 + ControlSpace::kDirections}) {
+  for (int speed = 0; layout.turn && speed < layout.speeds; ++speed) {
+    const int forward = 1 + speed * layout.directions;
     for (const int turn : {-1, 1}) {
       steps.push_back({point(forward, 0), point(forward, turn)});
       steps.push_back({point(forward, turn), point(forward, 0)});
@@ -63,8 +65,8 @@ class CenterPath {
 
 // Of the frames from the change until kAfter later; a push is of the 0.2 s to each side of a frame.
 std::vector<double> pushes_after(Runner& runner, CenterPath& path, const Step& step) {
-  const int before = static_cast<int>(kPush * Runner::kRate),
-            after = static_cast<int>((kAfter + kPush) * Runner::kRate);
+  const int before = static_cast<int>(kBefore * Runner::kRate),
+            after = static_cast<int>((kAfter + kBefore) * Runner::kRate);
   for (int f = 0; f < before; ++f) {
     runner.frame(step.from);
     path.add(runner.player());

@@ -8,12 +8,6 @@
 #include "fragmotion/policy/optimal.hpp"
 
 namespace fragmotion {
-namespace {
-
-constexpr int kPoints = ControlSpace::kPoints;
-
-}  // namespace
-
 Explainer::Explainer(std::shared_ptr<const Character> character, const std::string& policy)
     : character_(std::move(character)),
       policy_(character_->policy(policy)),
@@ -26,12 +20,12 @@ std::vector<Alternative> Explainer::operator()(int from, int control) const {
   if (from < 0 || from >= quality.classes) {
     throw std::invalid_argument("class " + std::to_string(from) + " does not exist");
   }
-  check_controls({control});
+  check_controls({control}, quality.controls);
   std::vector<Alternative> ranked;
   for (int next = 0; next < quality.classes; ++next) {
     const auto q = static_cast<std::size_t>(next);
     ranked.push_back({next, quality.smoothness[static_cast<std::size_t>(from) * quality.classes + q],
-                      quality.match[q * kPoints + control],
+                      quality.match[q * quality.controls + control],
                       future_value_[static_cast<std::size_t>(control) * quality.classes + q],
                       nearest(from, next, control)});
   }

@@ -7,7 +7,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kGoing = 0.5;    // m/s
-constexpr double kAround = 0.25;  // s to each side
+constexpr double kBeside = 0.25;  // s to each side
 constexpr double kQuick = 0.2;    // s
 
 struct Footfall {
@@ -26,7 +26,7 @@ std::vector<Footfall> footfalls(const BodyTrack& track) {
 
 // Along the ground, m/s.
 double speed(const BodyTrack& track, int f) {
-  const int half = track.frames_in(kAround), first = std::max(0, f - half),
+  const int half = track.frames_in(kBeside), first = std::max(0, f - half),
             last = std::min(track.frames() - 1, f + half);
   const double middle = 0.5 * (first + last);
   Vector2 sum = Vector2::Zero();

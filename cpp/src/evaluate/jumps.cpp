@@ -5,13 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "evaluate/tracks.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr double kLow = 0.045, kRise = 0.2;  // m
-constexpr double kAround = 0.5;              // s
-constexpr double kGravity = 9.81;            // m/s^2
-constexpr double kShortest = 0.05;           // s
+constexpr double kRise = 0.2;        // m
+constexpr double kAroundJump = 0.5;  // s
+constexpr double kShortest = 0.05;   // s
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double median_height(const std::vector<BodyTrack>& tracks, std::vector<Vector3> BodyTrack::*path) {
@@ -63,7 +64,7 @@ UsualHeights usual_heights(const std::vector<BodyTrack>& tracks) {
 std::vector<Jump> find_jumps(const BodyTrack& track, const UsualHeights& usual) {
   std::vector<Jump> jumps;
   if (!track.has_feet()) return jumps;
-  const int around = track.frames_in(kAround);
+  const int around = track.frames_in(kAroundJump);
   for (int f = 1; f < track.frames(); ++f) {
     if (!in_the_air(track, f)) continue;
     const int take_off = f - 1;

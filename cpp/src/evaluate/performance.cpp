@@ -14,7 +14,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kRounding = 1e-9;         // frames
-constexpr double kAround = 0.5;            // s over which speeds are measured
+constexpr double kSpeedWindow = 0.5;       // s over which speeds are measured
 constexpr double kSpan = 2;                // s over which the root drifts
 constexpr double kLongestShortest = 3600;  // s: the longest step of a player, too
 
@@ -30,6 +30,11 @@ Vector3 slope(const std::vector<double>& path, int first, int last) {
   return sum / square;
 }
 
+// The character in the style that a frame shows.
+const Character& in_style(const Character& character, const Performance& p, int frame) {
+  return character.in_style(p.styles.empty() ? 0 : p.styles[frame]);
+}
+
 // What a control becomes within a limit, which goes on.
 Control advanced(CommandLimit& limit, const Control& control, double heading, double seconds) {
   const Control able = limit.after(control, heading, seconds);
@@ -38,12 +43,13 @@ Control advanced(CommandLimit& limit, const Control& control, double heading, do
 }
 
 // Where a trace that is followed exactly, within a limit, leads from the origin: the character frame of each frame.
-std::vector<CharacterFrame> exact_path(const Performance& p, const Trace& trace, double turn_rate, CommandLimit limit) {
+std::vector<CharacterFrame> exact_path(const Performance& p, const Trace& trace, const Character& character,
+                                       CommandLimit limit) {
   std::vector<CharacterFrame> path(1);
   for (int f = 1; f < p.frames; ++f) {
     CharacterFrame next = path.back();
     const Control control = advanced(limit, trace[control_at(f, p.rate, trace.size())], next.heading, 1 / p.rate);
-    const double angle = control.turn * turn_rate / p.rate;
+    const double angle = control.turn * in_style(character, p, f).space.turn_rate() / p.rate;
     next.position += Eigen::Rotation2Dd(next.heading + angle / 2) * Vector2{control.x, control.y} / p.rate;
     next.heading += angle;
     path.push_back(next);
@@ -90,7 +96,7 @@ class Hindsight {
     for (int f = 0; f < frames_; ++f) {
       for (int q = 0; q < n_; ++q) {
         match_[at(f + 1, q)] =
-            match_[at(f, q)] + c.quality.match[static_cast<std::size_t>(q) * ControlSpace::kPoints + controls[f]];
+            match_[at(f, q)] + c.quality.match[static_cast<std::size_t>(q) * c.quality.controls + controls[f]];
       }
     }
   }
@@ -122,14 +128,19 @@ class Hindsight {
   std::vector<double> value_;            // [frames + 1, classes] of what follows a class that ends at a frame
 };
 
-// Starts and releases moves as a trace is played.
+// Starts and releases moves, and changes styles, as a trace is played.
 class Pressing {
  public:
-  Pressing(const Player& player, const std::vector<MovePress>& presses, std::size_t controls) {
+  Pressing(const Player& player, const std::vector<MovePress>& presses, const std::vector<StyleChange>& styles,
+           std::size_t controls) {
+    for (const StyleChange& change : styles) {
+      check(change, player.character().style_count(), controls);
+      events_.push_back({change.control, change.style, Event::change_style});
+    }
     for (const MovePress& press : presses) {
       check(press, player.character().moves.size(), controls);
-      events_.push_back({press.control, press.move, true});
-      events_.push_back({static_cast<long long>(press.control) + press.held, press.move, false});
+      events_.push_back({press.control, press.move, Event::start});
+      events_.push_back({static_cast<long long>(press.control) + press.held, press.move, Event::release});
     }
     const auto earlier = [](const Event& a, const Event& b) { return a.control < b.control; };
     std::stable_sort(events_.begin(), events_.end(), earlier);
@@ -138,17 +149,31 @@ class Pressing {
   // All that happens up to this control.
   void until(std::size_t control, Player& player) {
     for (; next_ < events_.size() && events_[next_].control <= static_cast<long long>(control); ++next_) {
-      const auto& [at, move, starts] = events_[next_];
-      starts ? player.start_move(move) : player.release_move(move);
+      const auto& [at, number, kind] = events_[next_];
+      if (kind == Event::change_style) player.change_style(number);
+      if (kind == Event::start) player.start_move(number);
+      if (kind == Event::release) player.release_move(number);
     }
   }
 
  private:
   struct Event {
+    enum Kind { change_style, start, release };
     long long control;
-    int move;
-    bool starts;
+    int number;
+    Kind kind;
   };
+
+  static void check(const StyleChange& change, int styles, std::size_t controls) {
+    if (change.style < 0 || change.style >= styles) {
+      throw std::invalid_argument("style " + std::to_string(change.style) + " does not exist; the character has " +
+                                  std::to_string(styles));
+    }
+    if (change.control < 0 || change.control >= static_cast<long long>(controls)) {
+      throw std::invalid_argument("a style is asked for before control " + std::to_string(change.control) +
+                                  " of a trace of " + std::to_string(controls));
+    }
+  }
 
   static void check(const MovePress& press, std::size_t moves, std::size_t controls) {
     if (press.move < 0 || press.move >= static_cast<long long>(moves)) {
@@ -181,10 +206,9 @@ void check_shown(const Character& character, const Trace& trace, const Clip& cli
 }  // namespace
 
 Performance perform(Player& player, const Trace& trace, double rate, const Progress& progress,
-                    const std::vector<MovePress>& moves) {
+                    const std::vector<MovePress>& moves, const std::vector<StyleChange>& styles) {
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
-  const Character& character = player.character();
-  Pressing pressing(player, moves, trace.size());
+  Pressing pressing(player, moves, styles, trace.size());
   const int entered = player.entered();
   Performance p;
   p.rate = rate;
@@ -202,19 +226,20 @@ Performance perform(Player& player, const Trace& trace, double rate, const Progr
     p.root_positions.insert(p.root_positions.end(), root.data(), root.data() + 3);
     p.rotations.insert(p.rotations.end(), player.rotations().begin(), player.rotations().end());
     p.path.insert(p.path.end(), {now.position.x(), now.position.y(), now.heading});
+    p.styles.push_back(player.playing_style());
     p.classes.push_back(player.playing_class());
     p.fragments.push_back(player.playing_fragment());
     const auto [whole_body, upper_body] = player.playing_moves();
     p.moves.insert(p.moves.end(), {whole_body, upper_body});
     p.entered.push_back(player.entered() - entered);
-    if (f > 0) p.quality += player.quality(character.space.nearest(control)) / (p.frames - 1);
+    if (f > 0) p.quality += player.quality(player.styled_character().space.nearest(control)) / (p.frames - 1);
   }
-  judge(p, character, trace);
+  judge(p, player.character(), trace);
   return p;
 }
 
 void judge(Performance& p, const Character& character, const Trace& trace) {
-  const int half = std::max(1, static_cast<int>(std::lround(kAround / 2 * p.rate)));
+  const int half = std::max(1, static_cast<int>(std::lround(kSpeedWindow / 2 * p.rate)));
   const double weight = 1.0 / (p.frames - 1);
   const CommandLimit unlimited(std::numeric_limits<double>::infinity());
   const CommandLimit body(kBodyAcceleration / character.space.scale());
@@ -225,17 +250,17 @@ void judge(Performance& p, const Character& character, const Trace& trace) {
     const Control& control = trace[control_at(f, p.rate, trace.size())];
     const Vector3 speed = slope(p.path, std::max(0, f - half), std::min(p.frames - 1, f + half)) * p.rate;
     const Vector2 velocity = Eigen::Rotation2Dd(-p.path[std::size_t{3} * f + 2]) * speed.head<2>();
-    const bool jumps = !p.fragments.empty() && character.pool.fragments[p.fragments[f]].evident.jumps();
+    const Character& styled = in_style(character, p, f);
+    const bool jumps = !p.fragments.empty() && styled.pool.fragments[p.fragments[f]].evident.jumps();
     p.velocity_error += weight * (velocity - Vector2{control.x, control.y}).norm();
     const Control able = advanced(limit, control, p.path[std::size_t{3} * f + 2], 1 / p.rate);
     p.velocity_error_limited += weight * (velocity - Vector2{able.x, able.y}).norm();
-    p.turn_error += weight * std::abs(speed.z() - control.turn * character.space.turn_rate());
+    p.turn_error += weight * std::abs(speed.z() - control.turn * styled.space.turn_rate());
     p.jump_error += jumps != control.jumps() ? weight : 0;
     p.commanded_speed += weight * control.speed();
   }
-  const double turn_rate = character.space.turn_rate();
-  const Drift whole = drift(p, exact_path(p, trace, turn_rate, unlimited));
-  const Drift limited = drift(p, exact_path(p, trace, turn_rate, body));
+  const Drift whole = drift(p, exact_path(p, trace, character, unlimited));
+  const Drift limited = drift(p, exact_path(p, trace, character, body));
   p.drift = whole.place;
   p.drift_heading = whole.heading;
   p.drift_limited = limited.place;

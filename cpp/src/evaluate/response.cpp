@@ -6,13 +6,13 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kShare = 0.9;  // of the step
+constexpr double kOfStep = 0.9;  // of the step
 
 double response(Runner& runner, const Control& from, const Control& to) {
   const Vector2 before{from.x, from.y}, step = Vector2{to.x, to.y} - before;
   for (int f = 1; f <= kNoResponse * Runner::kRate; ++f) {
     runner.frame(to);
-    if ((runner.velocity() - before).dot(step) >= kShare * step.squaredNorm()) return f / Runner::kRate;
+    if ((runner.velocity() - before).dot(step) >= kOfStep * step.squaredNorm()) return f / Runner::kRate;
   }
   return kNoResponse;
 }
@@ -23,10 +23,11 @@ std::vector<double> response_times(const std::shared_ptr<const Character>& chara
   Player player(character, options);
   Runner runner(player);
   Random random(options.seed);
-  const auto point = [&](int velocity) { return character->space.point(ControlSpace::index(velocity, 0, false)); };
+  const ControlSpace& space = character->space;
+  const auto point = [&](int velocity) { return space.point(space.layout().index(velocity, 0, false)); };
   std::vector<double> times;
-  for (int from = 0; from < ControlSpace::kVelocities; ++from) {
-    for (int to = 0; to < ControlSpace::kVelocities; ++to) {
+  for (int from = 0; from < space.layout().velocities(); ++from) {
+    for (int to = 0; to < space.layout().velocities(); ++to) {
       if (to == from) continue;
       runner.hold(point(from), random);
       times.push_back(response(runner, point(from), point(to)));

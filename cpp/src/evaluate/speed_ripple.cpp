@@ -11,7 +11,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRate = 60;                    // frames a second
 constexpr double kLong = 1, kSmooth = 0.1;      // s
 constexpr double kForward = kPi / 6;            // rad
 constexpr double kSteady = 0.1;                 // of the speed
@@ -91,7 +90,7 @@ std::vector<SpeedRipple> speed_ripples(const std::shared_ptr<const Character>& c
   for (double commanded = kSlowest; commanded <= kFastest; commanded += kSlowest) {
     const Trace trace(static_cast<std::size_t>(kHeld * kTraceRate),
                       Control{0, commanded / character->space.scale(), 0, 0});
-    const Performance performance = perform(Player(character, options), trace, kRate);
+    const Performance performance = perform(Player(character, options), trace, kTrackRate);
     const BodyTrack track = body_track(kinematics, clip_of(performance));
     SpeedRipple row;
     row.commanded = commanded;

@@ -15,7 +15,7 @@ namespace {
 constexpr int kTried[] = {24, 34, 48, 68, 97, 137, 194, 274};
 constexpr int kFragmentsAClass = 4;
 constexpr double kAsGood = 1.05;  // times the smallest error
-constexpr double kSeconds = 60, kRate = 30;
+constexpr double kSeconds = 60, kSuggestRate = 30;
 constexpr std::uint64_t kSeed = 7;
 
 ClassesTried judged(const std::shared_ptr<const Character>& character) {
@@ -23,7 +23,8 @@ ClassesTried judged(const std::shared_ptr<const Character>& character) {
   double commanded = 0, error = 0;
   const std::vector<std::string>& players = simulated_players();
   for (const std::string& name : players) {
-    const Performance p = perform(Player(character), simulate_trace(name, kSeconds, kSeed, character->space), kRate);
+    const Performance p =
+        perform(Player(character), simulate_trace(name, kSeconds, kSeed, character->space), kSuggestRate);
     tried.quality += p.quality / static_cast<double>(players.size());
     error += p.velocity_error;
     commanded += p.commanded_speed;

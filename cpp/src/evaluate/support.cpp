@@ -5,14 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "evaluate/tracks.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr double kAround = 0.125;     // s to each side, which an acceleration is of
-constexpr double kGravity = 9.81;     // m/s^2
-constexpr double kTolerance = 3;      // m/s^2
-constexpr double kFootLength = 0.27;  // m
-constexpr double kLow = 0.045;        // m over the floor
+constexpr double kHalfWindow = 0.125;  // s to each side, which an acceleration is of
+constexpr double kTolerance = 3;       // m/s^2
+constexpr double kFootLength = 0.27;   // m
 
 using Places = std::vector<Vector2>;
 
@@ -107,7 +107,7 @@ void Support::add(const Support& other) {
 
 Support find_support(const BodyTrack& track) {
   if (!track.has_feet()) return {};
-  const int half = track.frames_in(kAround);
+  const int half = track.frames_in(kHalfWindow);
   const Vector3 ground{0, 0, std::min(track.floors[0].ball, track.floors[1].ball)};
   Support support;
   for (int f = half; f + half < track.frames(); ++f) {

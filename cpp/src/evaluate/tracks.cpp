@@ -6,15 +6,13 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRate = 60;  // frames a second
-
 Clip sampled(const PackedClip& packed, int bones) {
   Clip clip;
   clip.name = packed.name;
-  clip.rate = kRate;
+  clip.rate = kTrackRate;
   std::vector<double> rotations(std::size_t{4} * bones);
-  for (; clip.frames * packed.rate / kRate <= packed.frames - 1; ++clip.frames) {
-    const Vector3 root = sample_pose(packed, clip.frames * packed.rate / kRate, rotations.data());
+  for (; clip.frames * packed.rate / kTrackRate <= packed.frames - 1; ++clip.frames) {
+    const Vector3 root = sample_pose(packed, clip.frames * packed.rate / kTrackRate, rotations.data());
     clip.root_positions.insert(clip.root_positions.end(), root.data(), root.data() + 3);
     clip.rotations.insert(clip.rotations.end(), rotations.begin(), rotations.end());
   }

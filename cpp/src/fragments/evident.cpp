@@ -8,7 +8,6 @@ namespace fragmotion {
 namespace {
 
 constexpr double kNoRise = 0.08, kRise = 0.2;  // m of a 1.8 m character
-constexpr double kGravity = 9.81;              // m/s^2
 constexpr double kTakesOff = 0.4;              // evident jump of what only leads into a jump, or out of it
 
 double evident_jump(double rise) { return std::clamp((rise - kNoRise) / (kRise - kNoRise), 0.0, 1.0); }

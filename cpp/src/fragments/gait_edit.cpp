@@ -15,11 +15,10 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kGravity = 9.81;  // m/s^2
-constexpr double kBow = 2;         // rad that the trunk bows forward for each m of a crouch, of a 1.8 m character
-constexpr double kWidest = 0.2;    // m of a 1.8 m character that each foot is set out so as not to cross the other
-constexpr double kLevel = 0.8;     // of the way to flat, where feet go straight to the side
-constexpr double kTuck = 0.35;     // of the body's height: how much further the feet are lifted
+constexpr double kBow = 2;       // rad that the trunk bows forward for each m of a crouch, of a 1.8 m character
+constexpr double kWidest = 0.2;  // m of a 1.8 m character that each foot is set out so as not to cross the other
+constexpr double kLevel = 0.8;   // of the way to flat, where feet go straight to the side
+constexpr double kTuck = 0.35;   // of the body's height: how much further the feet are lifted
 
 // One cycle of a gait, each pose seen from its character frame, and the way from each to the next.
 struct GaitCycle {

@@ -82,8 +82,8 @@ class Synthesizer {
 
   void fill() {
     std::vector<int> missing;
-    for (int c = 0; c < ControlSpace::kPoints; ++c) missing.push_back(std::max(0, options_.wanted - performers(c)));
-    for (int c = 0; c < ControlSpace::kPoints; ++c) {
+    for (int c = 0; c < space_.size(); ++c) missing.push_back(std::max(0, options_.wanted - performers(c)));
+    for (int c = 0; c < space_.size(); ++c) {
       if (missing[c] == 0) continue;
       interpolate(space_.point(c), missing[c]);
       transform(space_.point(c));

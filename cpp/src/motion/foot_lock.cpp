@@ -33,6 +33,11 @@ double lifted(double depth) {
 
 }  // namespace
 
+Vector2 StepEdit::moved(const Vector2& from_hips, double heading) const {
+  const Matrix2 turn = Eigen::Rotation2Dd(heading).toRotationMatrix();
+  return turn * stride * turn.transpose() * from_hips + turn * shift;
+}
+
 FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs)
     : kinematics(kinematics),
       legs(legs),
@@ -66,6 +71,16 @@ void FootLock::settle(double seconds) {
   Foot& foot = astray(feet_[0]) > astray(feet_[1]) ? feet_[0] : feet_[1];
   if (astray(foot) < kAstray) return;
   release(foot, foot.place - foot.moved);
+}
+
+Vector2 FootLock::coming_to_rest(int side) const {
+  const Foot& foot = feet_[side];
+  return foot.locked ? Vector2{kSettle * foot.drift} : Vector2::Zero();
+}
+
+double FootLock::stepping(int side) const {
+  const Foot& foot = feet_[side];
+  return foot.steps ? std::max(0.0, kRelease - foot.free) : 0;
 }
 
 // The height of a foot that steps to where its motion has it.

@@ -9,7 +9,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kHeight = 0.045, kSpeed = 0.5, kSpeedShare = 0.2, kShortest = 0.06;
+constexpr double kHeight = 0.045, kSlow = 0.5, kSpeedShare = 0.2, kShortest = 0.06;
 
 double speed_at(const std::vector<Vector3>& path, int f, double rate) {
   const int last = static_cast<int>(path.size()) - 1, a = std::max(0, f - 1), b = std::min(last, f + 1);
@@ -53,7 +53,7 @@ std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, 
                                 double rate, double scale) {
   std::vector<bool> flags(path.ball.size());
   for (int f = 0; f < static_cast<int>(flags.size()); ++f) {
-    const double limit = kSpeed + kSpeedShare * speed_at(hips, f, rate) * scale;
+    const double limit = kSlow + kSpeedShare * speed_at(hips, f, rate) * scale;
     const auto stands = [&](const std::vector<Vector3>& point, double lowest) {
       return (point[f].z() - lowest) * scale < kHeight && speed_at(point, f, rate) * scale < limit;
     };

@@ -15,12 +15,12 @@ namespace fragmotion {
 namespace {
 
 // Lengths are those of a character of 1.8 m.
-constexpr double kTurn = 0.045 * kPi / 180;  // rad that a bone's rotation in the world may be off
-constexpr double kReach = 0.75e-3;           // m that a tip may be off because of the turns of its chain
-constexpr double kPlace = 0.15e-3;           // m that the hips may be off
-constexpr double kHeading = 1e-3;            // rad
-constexpr double kFinest = 2e-7;             // step of a turn that single precision still tells apart
-const double kOff = 2 * std::sqrt(3.0);      // rad that a rotation may be off for a step of 1
+constexpr double kMostOff = 0.045 * kPi / 180;  // rad that a bone's rotation in the world may be off
+constexpr double kReach = 0.75e-3;              // m that a tip may be off because of the turns of its chain
+constexpr double kPlace = 0.15e-3;              // m that the hips may be off
+constexpr double kHeading = 1e-3;               // rad
+constexpr double kFinest = 2e-7;                // step of a turn that single precision still tells apart
+const double kOff = 2 * std::sqrt(3.0);         // rad that a rotation may be off for a step of 1
 constexpr int kRootNumbers = 4;
 constexpr double kUnit = 1e-6;  // that a usual rotation may be off
 constexpr double kMostSteps = 1 << PackedClip::kMostBits;
@@ -213,11 +213,11 @@ void write_poses(const Clip& clip, const std::vector<std::int32_t>& steps, Packe
 }
 
 // The poses on both sides of a time, and how near it is to the second.
-struct Between {
+struct PackedBetween {
   const std::uint8_t *pose, *next;
   double weight;
 
-  Between(const PackedClip& clip, double at) {
+  PackedBetween(const PackedClip& clip, double at) {
     const int frame = std::clamp(static_cast<int>(std::floor(at)), 0, clip.frames - 1);
     const std::size_t bytes = clip.pose_bytes();
     pose = &clip.poses[bytes * frame];
@@ -312,7 +312,7 @@ PoseGrid pose_grid(const Skeleton& skeleton, const std::vector<Clip>& clips) {
     const Quaternion usual = mean_rotation(clips, b, grid.bones);
     const double values[] = {usual.w(), usual.x(), usual.y(), usual.z()};
     for (int axis = 0; axis < 4; ++axis) grid.usual[number_of(b, axis, 4)] = static_cast<float>(values[axis]);
-    const double off = std::min(kTurn, kReach / (chains[b] * lengths[b] * scale));
+    const double off = std::min(kMostOff, kReach / (chains[b] * lengths[b] * scale));
     grid.steps[b] = static_cast<float>(std::max(kFinest, off / kOff));
   }
   return grid;
@@ -347,7 +347,7 @@ Clip unpack(const PackedClip& packed) {
 
 FRAGMOTION_VECTORISED Vector3 sample_pose(const PackedClip& clip, double at, double* rotations) {
   const PoseGrid& grid = *clip.grid;
-  const Between between(clip, at);
+  const PackedBetween between(clip, at);
   double root[kRootNumbers];
   unsigned bit = between.root(clip, root);
   const std::int32_t* least = clip.least.data();
@@ -375,7 +375,7 @@ FRAGMOTION_VECTORISED Vector3 sample_pose(const PackedClip& clip, double at, dou
 
 CharacterFrame frame_at(const PackedClip& clip, double at) {
   double root[kRootNumbers];
-  Between(clip, at).root(clip, root);
+  PackedBetween(clip, at).root(clip, root);
   return {{root[0], root[1]}, root[3]};
 }
 

@@ -10,8 +10,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLowestRate = 0.1, kHighestRate = 10000;  // frames/s, as of clips
-constexpr double kLeastUnit = 1e-6, kMostUnit = 1e3;       // m, as of files
+constexpr double kLeastUnit = 1e-6, kMostUnit = 1e3;  // m, as of files
 
 void check_sizes(const Take& take) {
   const std::size_t poses = static_cast<std::size_t>(take.frames) * take.skeleton.names.size();

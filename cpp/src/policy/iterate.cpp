@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -14,7 +13,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr int kPoints = ControlSpace::kPoints;
 constexpr double kValueTolerance = 1e-6;
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -27,22 +25,22 @@ void add(std::vector<double>& sums, std::size_t at, double weight, const double*
 // rest of the prior; only the others are multiplied one by one.
 class Expectation {
  public:
-  explicit Expectation(const std::vector<double>& model) {
-    for (int c = 0; c < kPoints; ++c) {
-      const double* row = &model[c * kPoints];
-      least_[c] = *std::min_element(row, row + kPoints);
-      for (int next = 0; next < kPoints; ++next) {
+  Expectation(const std::vector<double>& model, int controls) : controls_(controls), least_(controls), more_(controls) {
+    for (int c = 0; c < controls; ++c) {
+      const double* row = &model[static_cast<std::size_t>(c) * controls];
+      least_[c] = *std::min_element(row, row + controls);
+      for (int next = 0; next < controls; ++next) {
         if (row[next] > least_[c]) more_[c].emplace_back(next, row[next] - least_[c]);
       }
     }
   }
 
-  // The sums over c' of P(c' | c) values(c'); both are [102, count].
+  // The sums over c' of P(c' | c) values(c'); both are [controls, count].
   std::vector<double> of(const std::vector<double>& values, int count) const {
     const auto after = [&](int c) { return &values[static_cast<std::size_t>(c) * count]; };
     std::vector<double> total(count, 0), sums(values.size(), 0);
-    for (int c = 0; c < kPoints; ++c) add(total, 0, 1, after(c), count);
-    for (int c = 0; c < kPoints; ++c) {
+    for (int c = 0; c < controls_; ++c) add(total, 0, 1, after(c), count);
+    for (int c = 0; c < controls_; ++c) {
       const std::size_t at = static_cast<std::size_t>(c) * count;
       add(sums, at, least_[c], total.data(), count);
       for (const auto& [next, more] : more_[c]) add(sums, at, more, after(next), count);
@@ -51,8 +49,9 @@ class Expectation {
   }
 
  private:
-  std::array<double, kPoints> least_{};
-  std::array<std::vector<std::pair<int, double>>, kPoints> more_;
+  int controls_;
+  std::vector<double> least_;
+  std::vector<std::vector<std::pair<int, double>>> more_;
 };
 
 void check(const IterateOptions& options) {
@@ -75,40 +74,40 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 
 Policy value_iteration(const Quality& quality, const std::vector<double>& model, const IterateOptions& options) {
   check(options);
-  const int n = quality.classes;
+  const int n = quality.classes, controls = quality.controls;
   const NextClass next(quality);
-  const Expectation expectation(model);
-  const std::vector<double> matches = transposed(quality.match, n, kPoints);
-  std::vector<double> value(matches.size(), 0), promise, before;  // [102, classes]
+  const Expectation expectation(model, controls);
+  const std::vector<double> matches = transposed(quality.match, n, controls);
+  std::vector<double> value(matches.size(), 0), promise, before;  // [controls, classes]
   const auto of = [&](auto& values, int c) { return &values[static_cast<std::size_t>(c) * n]; };
   for (int sweep = 0; sweep < options.sweeps; ++sweep) {
     promise = expectation.of(value, n);
     for (double& sum : promise) sum *= options.discount;
     before = value;
-    for (int c = 0; c < kPoints; ++c) next.values(of(matches, c), of(promise, c), of(value, c));
+    for (int c = 0; c < controls; ++c) next.values(of(matches, c), of(promise, c), of(value, c));
     if (largest_difference(value, before) <= options.tolerance) break;
   }
-  Policy policy{"iterate", n, {}};
+  Policy policy{"iterate", n, {}, controls};
   for (int from = 0; from < n; ++from) {
-    for (int c = 0; c < kPoints; ++c) policy.next.push_back(next.after(from, of(matches, c), of(promise, c)));
+    for (int c = 0; c < controls; ++c) policy.next.push_back(next.after(from, of(matches, c), of(promise, c)));
   }
   return policy;
 }
 
 Policy iterate_policy(const Quality& quality, const std::vector<std::vector<int>>& traces,
                       const IterateOptions& options) {
-  return value_iteration(quality, control_model(traces, kPersistencePrior), options);
+  return value_iteration(quality, control_model(traces, kPersistencePrior, quality.controls), options);
 }
 
 std::vector<double> future_values(const Quality& quality, const Policy& policy, const std::vector<double>& model) {
-  const int n = quality.classes;
-  const Matrix steps = IterateOptions().discount * Eigen::Map<const Matrix>(model.data(), kPoints, kPoints);
-  Matrix value = Matrix::Zero(kPoints, n), future_value = value;
+  const int n = quality.classes, controls = quality.controls;
+  const Matrix steps = IterateOptions().discount * Eigen::Map<const Matrix>(model.data(), controls, controls);
+  Matrix value = Matrix::Zero(controls, n), future_value = value;
   double change = 1;
   while (change > kValueTolerance) {
     future_value = steps * value;
     change = 0;
-    for (int c = 0; c < kPoints; ++c) {
+    for (int c = 0; c < controls; ++c) {
       for (int from = 0; from < n; ++from) {
         const int next = policy(from, c);
         const double better = quality(from, next, c) + future_value(c, next);

@@ -11,10 +11,11 @@
 
 namespace fragmotion {
 
-void check_controls(const std::vector<int>& trace) {
+void check_controls(const std::vector<int>& trace, int controls) {
   for (const int control : trace) {
-    if (control < 0 || control >= ControlSpace::kPoints) {
-      throw std::invalid_argument("control " + std::to_string(control) + " is not one of the 102 points");
+    if (control < 0 || control >= controls) {
+      throw std::invalid_argument("control " + std::to_string(control) + " is not one of the " +
+                                  std::to_string(controls) + " points");
     }
   }
 }
@@ -48,10 +49,10 @@ int NextClass::after(int from, const double* match, const double* value) const {
 
 OptimalPath optimal_path(const Quality& quality, const std::vector<int>& trace) {
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
-  check_controls(trace);
+  check_controls(trace, quality.controls);
   const std::size_t n = quality.classes, steps = trace.size();
   const NextClass next(quality);
-  const std::vector<double> matches = transposed(quality.match, quality.classes, ControlSpace::kPoints);
+  const std::vector<double> matches = transposed(quality.match, quality.classes, quality.controls);
   const auto match = [&](std::size_t step) { return &matches[trace[step] * n]; };
   std::vector<double> values((steps + 1) * n, 0);  // of each class before each step and after the last one
   for (std::size_t i = steps; i-- > 0;) next.values(match(i), &values[(i + 1) * n], &values[i * n]);

@@ -19,16 +19,16 @@ void repair_policy(Policy& policy, const Quality& quality, const ControlSpace& s
     if (policy.leads_to(k)) led_to.push_back(k);
   }
   for (int from = 0; from < policy.classes; ++from) {
-    for (int control = 0; control < ControlSpace::kPoints; ++control) {
+    for (int control = 0; control < policy.controls; ++control) {
       const Control& wanted = space.point(control);
       const auto suits = [&](int k) {
         return matches_jump(evident[k], wanted) && !turns_back(evident[from], evident[k], wanted);
       };
-      int& next = policy.next[static_cast<std::size_t>(from) * ControlSpace::kPoints + control];
+      int& next = policy.next[static_cast<std::size_t>(from) * policy.controls + control];
       if (suits(next)) continue;
       double best = 0;
       for (const int k : led_to) {
-        const double match = quality.match[static_cast<std::size_t>(k) * ControlSpace::kPoints + control],
+        const double match = quality.match[static_cast<std::size_t>(k) * quality.controls + control],
                      worth = quality(from, k, control) * match;
         if (suits(k) && worth > best) best = worth, next = k;
       }

@@ -114,14 +114,15 @@ void cross_validate(const SvmSamples& samples, const SvmOptions& options, SvmPol
 Policy whole_table(const Model& model, const std::vector<double>& features, int classes, const ControlSpace& space,
                    int threads) {
   const int width = static_cast<int>(features.size()) / classes;
-  Policy policy{"svm", classes, std::vector<int>(static_cast<std::size_t>(classes) * ControlSpace::kPoints)};
+  const int controls = space.size();
+  Policy policy{"svm", classes, std::vector<int>(static_cast<std::size_t>(classes) * controls), controls};
   parallel_for(classes, thread_count(threads), [&](int begin, int end) {
     for (int from = begin; from < end; ++from) {
-      for (int c = 0; c < ControlSpace::kPoints; ++c) {
+      for (int c = 0; c < controls; ++c) {
         const std::vector<double> x =
             input(&features[static_cast<std::size_t>(from) * width], width, space.point(c), space);
         Nodes node(x, static_cast<int>(x.size()));
-        policy.next[static_cast<std::size_t>(from) * ControlSpace::kPoints + c] = model.predict(node.row(0));
+        policy.next[static_cast<std::size_t>(from) * controls + c] = model.predict(node.row(0));
       }
     }
   });

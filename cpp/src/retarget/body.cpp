@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/listed.hpp"
+#include "base/turn_between.hpp"
 #include "retarget/posture.hpp"
 
 namespace fragmotion {
@@ -126,7 +127,7 @@ class Directions {
   // What is left to turn a bone that has been turned by `turn` already.
   Quaternion rest_of(int bone, const Quaternion& turn) const {
     if (from_[bone].squaredNorm() == 0) return Quaternion::Identity();
-    const Quaternion there = Quaternion::FromTwoVectors(turn * from_[bone], to_[bone]);
+    const Quaternion there = turn_between(turn * from_[bone], to_[bone]);
     if (hinges_.empty() || hinges_[bone].squaredNorm() == 0) return there;
     const Vector3 &along = to_[bone], now = there * turn * posture_.rotations[bone] * hinges_[bone],
                   wanted = std::abs(along.z()) > std::abs(along.x()) ? Vector3{-Vector3::UnitX()}
@@ -208,7 +209,7 @@ Quaternion ahead(const Vector3& foot, const Quaternion& turned) {
   const Vector2 way = foot.head<2>();
   if (foot.norm() == 0) return turned;
   if (way.y() < kNoDirection * foot.norm()) {
-    return Quaternion::FromTwoVectors(turned * foot, Vector3{0, std::cos(kInstep), -std::sin(kInstep)}) * turned;
+    return turn_between(turned * foot, Vector3{0, std::cos(kInstep), -std::sin(kInstep)}) * turned;
   }
   return Quaternion{Eigen::AngleAxisd(std::atan2(way.x(), way.y()), Vector3::UnitZ())};
 }

@@ -30,7 +30,7 @@ Crowd::Crowd(std::shared_ptr<const Character> character, int count, const Player
       PlayerOptions own = options;
       own.seed += players_.size();
       players_.push_back(Player(character, own, workspace));
-      players_.back().make_moves(own);
+      players_.back().make_extras(own);
     }
   }
 }
@@ -40,7 +40,9 @@ Player& Crowd::existing(int player) {
   throw std::invalid_argument("player " + std::to_string(player) + " does not exist");
 }
 
-void Crowd::reset(int player, const CharacterFrame& frame) { existing(player).reset(frame); }
+void Crowd::reset(int player, const CharacterFrame& frame, int style) { existing(player).reset(frame, style); }
+
+void Crowd::change_style(int player, int style) { existing(player).change_style(style); }
 
 void Crowd::force(int player, int next_class) { existing(player).force(next_class); }
 

@@ -7,7 +7,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kInstant = 1e-9;            // s: no time
 constexpr double kSame = 1e-6;               // ControlDis between controls that differ by rounding alone
 constexpr double kChange = 1;                // ControlDis between controls that is "a lot"
 constexpr double kHaste = 10 / kTunedReach;  // m a metre of reach that a second of waiting costs by default
@@ -26,9 +25,7 @@ void Director::reset() {
   const int still = character_->space.nearest({});
   class_ = 0;
   for (int k = 1; k < quality.classes; ++k) {
-    const auto match = [&](int q) {
-      return quality.match[static_cast<std::size_t>(q) * ControlSpace::kPoints + still];
-    };
+    const auto match = [&](int q) { return quality.match[static_cast<std::size_t>(q) * quality.controls + still]; };
     if (match(k) > match(class_)) class_ = k;
   }
   previous_ = class_;
@@ -38,6 +35,12 @@ void Director::reset() {
   exit_ = {};
   jump_latched_ = jump_pressed_ = false;
   decided_for_ = {};
+}
+
+void Director::change_style(const Character& style, const Policy& policy) {
+  character_ = &style;
+  policy_ = &policy;
+  forced_ = -1;
 }
 
 void Director::observe(const Control& control) {
@@ -58,14 +61,14 @@ bool Director::has_changed(const Control& wanted) const {
   return character_->space.distance(wanted, decided_for_) > kChange;
 }
 
-// Whatever goes slower than a walk, and does not stand, is walked.
+// Whatever goes slower than the slowest speed, and does not stand, goes at that.
 int Director::look_up_class(int playing, const Control& wanted) const {
   const ControlSpace& space = character_->space;
   Control asked = wanted;
   const double speed = wanted.speed();
-  if (speed * space.scale() > kMoving && speed < space.walk()) {
-    asked.x *= space.walk() / speed;
-    asked.y *= space.walk() / speed;
+  if (speed * space.scale() > kMoving && speed < space.slowest()) {
+    asked.x *= space.slowest() / speed;
+    asked.y *= space.slowest() / speed;
   }
   return (*policy_)(playing, space.nearest(asked));
 }

@@ -17,8 +17,10 @@ constexpr double kLook = kEntry / 2;              // s between the moments at wh
 
 }  // namespace
 
-FragmentSelector::FragmentSelector(const Character& character, Workspace& workspace, std::uint64_t seed)
-    : character_(&character), workspace_(&workspace), seed_(seed), random_(seed) {}
+FragmentSelector::FragmentSelector(Workspace& workspace, std::uint64_t seed)
+    : workspace_(&workspace), style_(&workspace.styles.front()), seed_(seed), random_(seed) {}
+
+void FragmentSelector::change_style(int style) { style_ = &workspace_->styles[style]; }
 
 // Poses what plays as it is shown at a time since its first pose.
 CharacterFrame FragmentSelector::pose_tips(const Playback& playback, double seconds, BodyTips& tips) const {
@@ -50,7 +52,7 @@ void FragmentSelector::extrapolate(const Playback& playback) const {
 // Finds the members that perform the control nearly as well as any of them does. Where the representative jumps, or
 // does not, as is wanted, they do so too.
 void FragmentSelector::find_candidates(int next_class, const Control& control) const {
-  const Character& c = *character_;
+  const Character& c = *style_->character;
   const auto matches = [&](int fragment) { return matches_jump(c.pool.fragments[fragment].evident, control); };
   const int representative = c.classes.representatives[next_class];
   const auto error = [&](int fragment) {
@@ -59,10 +61,10 @@ void FragmentSelector::find_candidates(int next_class, const Control& control) c
   };
   double best = error(representative);
   const double usual = best;
-  for (const int fragment : workspace_->members[next_class]) best = std::min(best, error(fragment));
+  for (const int fragment : style_->members[next_class]) best = std::min(best, error(fragment));
   const double allowed = best + kAsWell * (usual - best);
   workspace_->candidates.clear();
-  for (const int fragment : workspace_->members[next_class]) {
+  for (const int fragment : style_->members[next_class]) {
     if (error(fragment) > allowed) continue;
     workspace_->candidates.emplace_back(0.0F, fragment);
   }
@@ -72,15 +74,20 @@ void FragmentSelector::find_candidates(int next_class, const Control& control) c
 // the least.
 float FragmentSelector::measure_candidates(const Control& evident, const StepSequence& steps) const {
   const std::vector<float>& onward = workspace_->onward;
-  const auto goes = [&](const Control& c) { return c.speed() * character_->space.scale() > kMoving; };
+  const Character& c = *style_->character;
+  const float* entries = c.entry_poses.data();
+  const Fragment* fragments = c.pool.fragments.data();
+  const EntrySteps* entry_steps = style_->entry_steps.data();
+  const double scale = c.space.scale();
+  const auto goes = [scale](const Control& control) { return control.speed() * scale > kMoving; };
   const bool went = goes(evident);
   const auto out_of_turn = static_cast<float>(kOutOfTurn * workspace_->tips[0].reach());
   float least = std::numeric_limits<float>::infinity();
   for (auto& [distance, fragment] : workspace_->candidates) {
-    const float* entry = &character_->entry_poses[onward.size() * fragment];
+    const float* entry = entries + onward.size() * fragment;
     distance = tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3) / 2;
-    if (went && goes(character_->pool.fragments[fragment].evident)) {
-      distance += out_of_turn * static_cast<float>(steps_out_of_turn(steps, workspace_->entry_steps[fragment]));
+    if (went && goes(fragments[fragment].evident)) {
+      distance += out_of_turn * static_cast<float>(steps_out_of_turn(steps, entry_steps[fragment]));
     }
     least = std::min(least, distance);
   }
@@ -99,24 +106,31 @@ int FragmentSelector::choose(int next_class, const Control& control, const Playb
 }
 
 int FragmentSelector::choose_any(int next_class) {
-  const std::vector<int>& members = workspace_->members[next_class];
+  const std::vector<int>& members = style_->members[next_class];
   return members[random_.below(static_cast<int>(members.size()))];
 }
 
 int FragmentSelector::best_class(const Control& control, const Playback& playback) const {
   extrapolate(playback);
   const std::vector<float>& onward = workspace_->onward;
-  const int point = character_->space.nearest(control);
+  const Character& c = *style_->character;
+  const int point = c.space.nearest(control);
   int best = 0;
   double most = -1;
-  for (int k = 0; k < character_->classes.count; ++k) {
-    const float* entry = &character_->entry_poses[onward.size() * character_->classes.representatives[k]];
+  for (int k = 0; k < c.classes.count; ++k) {
+    const float* entry = &c.entry_poses[onward.size() * c.classes.representatives[k]];
     const double distance = tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3) / 2,
-                 match = character_->quality.match[static_cast<std::size_t>(k) * ControlSpace::kPoints + point],
+                 match = c.quality.match[static_cast<std::size_t>(k) * c.quality.controls + point],
                  quality = match / (1 + distance);
     if (quality > most) most = quality, best = k;
   }
   return best;
+}
+
+double FragmentSelector::distance_to_class(int next_class, const Control& control, const Playback& playback) const {
+  find_candidates(next_class, control);
+  extrapolate(playback);
+  return measure_candidates(playback.evident(), playback.steps()) / workspace_->tips[0].reach();
 }
 
 double FragmentSelector::distance_to(int move, const Playback& playback) const {

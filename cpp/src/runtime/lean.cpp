@@ -6,7 +6,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kGravity = 9.81;  // m/s^2
 constexpr double kShare = 0.5;     // of the angle that would balance the body
 constexpr double kFollows = 0.12;  // s: time constant
 constexpr double kMost = 6,

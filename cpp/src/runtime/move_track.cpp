@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/runtime/move_track.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace fragmotion {
-namespace {
-
-constexpr double kOtherwise = 0.5;  // ControlDis to the control that was planned for that makes a plan void
-
-}  // namespace
 
 void MoveTrack::press(int move) {
   waiting_ = move;
   waiting_is_held_ = true;
-  planned_ = false;
-  patience_ = character_->moves[move].wait;
+  moment.await(character_->moves[move].wait);
 }
 
 void MoveTrack::release(int move) {
@@ -24,21 +17,6 @@ void MoveTrack::release(int move) {
   } else if (move == playing_) {
     held_ = false;
   }
-}
-
-bool MoveTrack::needs_plan(const Control& control) const {
-  return !planned_ || (begins_in_ > 0 && character_->space.distance(control, planned_for_) > kOtherwise);
-}
-
-void MoveTrack::plan(double seconds, const Control& control) {
-  begins_in_ = seconds;
-  planned_for_ = control;
-  planned_ = true;
-}
-
-void MoveTrack::wait(double seconds) {
-  begins_in_ = std::max(0.0, begins_in_ - seconds);
-  patience_ = std::max(0.0, patience_ - seconds);
 }
 
 int MoveTrack::begin() {

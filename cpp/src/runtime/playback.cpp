@@ -23,31 +23,30 @@ Playback::Playback(const Character& character, Workspace& workspace, Stitching s
 void Playback::reset(int fragment, const CharacterFrame& frame) {
   faded_ = 0;
   inertialization_.clear();
-  now_ = place(fragment, frame);
+  now_ = place(style_, fragment, frame);
   steps_ = {standing_feet(0), -1, 0};
   show();
 }
 
-Playback::Placed Playback::place(int fragment, const CharacterFrame& frame) const {
-  const Fragment& f = character_->played(fragment);
-  const CharacterFrame first = frame_at(character_->pool.clips[f.clip], f.first_played());
+Playback::Placed Playback::place(int style, int number, const CharacterFrame& frame) const {
   Placed placed;
-  placed.fragment = fragment;
+  placed.style = style;
+  placed.number = number;
+  const CharacterFrame first = frame_at(clip(placed), fragment(placed).first_played());
   placed.heading = frame.heading - first.heading;
   placed.offset = frame.position - Eigen::Rotation2Dd(placed.heading) * first.position;
   return placed;
 }
 
 void Playback::sample(const Placed& placed, WorldPose& pose) const {
-  const Fragment& f = character_->played(placed.fragment);
-  const PackedClip& clip = character_->pool.clips[f.clip];
-  const double at = f.first_played() + placed.seconds * clip.rate;
-  const Vector3 root = sample_pose(clip, at, pose.rotations.data());
+  const PackedClip& source = clip(placed);
+  const double at = fragment(placed).first_played() + placed.seconds * source.rate;
+  const Vector3 root = sample_pose(source, at, pose.rotations.data());
   // By half the angle, for the quaternion as well as for the plane.
   const double w = std::cos(placed.heading / 2), z = std::sin(placed.heading / 2), c = w * w - z * z, s = 2 * w * z;
   pose.root = {placed.offset.x() + c * root.x() - s * root.y(), placed.offset.y() + s * root.x() + c * root.y(),
                root.z()};
-  pose.heading = placed.heading + frame_at(clip, at).heading;
+  pose.heading = placed.heading + frame_at(source, at).heading;
   double* hips = &pose.rotations[std::size_t{4} * character_->pool.skeleton.roles.hips];
   store_quaternion(Quaternion{w, 0, 0, z} * load_quaternion(hips), hips);
 }
@@ -60,9 +59,13 @@ void Playback::sample_stitched(Placed placed, double seconds, WorldPose& pose) c
 
 void Playback::sample(double seconds, WorldPose& pose) const { sample_stitched(now_, seconds, pose); }
 
-Vector2 Playback::start(int fragment) {
+Vector2 Playback::start(int fragment) { return start(place(style_, fragment, frame_)); }
+
+Vector2 Playback::start_move(int part) { return start(place(0, part, frame_)); }
+
+Vector2 Playback::start(const Placed& next) {
   before_ = now_;
-  now_ = place(fragment, frame_);
+  now_ = next;
   const bool inertializes = stitching_ == Stitching::inertialize;
   const Vector2 faster = inertializes && stitch_ > 0 ? begin_stitch(before_) : Vector2::Zero();
   faded_ = inertializes ? 0 : std::min(stitch_, left());
@@ -121,33 +124,39 @@ void Playback::crossfade(double weight, WorldPose& pose) const {
 }
 
 bool Playback::is_jumping() const {
-  const Fragment& f = character_->played(now_.fragment);
+  const Fragment& f = fragment();
   const double landed = f.end + f.lead_out / 2.0 - f.first_played();
-  return f.evident.jumps() && now_.seconds * character_->pool.clips[f.clip].rate < landed;
+  return f.evident.jumps() && now_.seconds * clip(now_).rate < landed;
 }
 
 std::size_t Playback::frame_of_clip(double seconds) const {
-  const Fragment& f = character_->played(now_.fragment);
-  const PackedClip& clip = character_->pool.clips[f.clip];
-  const long at = std::lround(f.first_played() + seconds * clip.rate);
-  return static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(clip.frames) - 1));
+  const PackedClip& source = clip(now_);
+  const long at = std::lround(fragment().first_played() + seconds * source.rate);
+  return static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(source.frames) - 1));
 }
 
 std::array<bool, 2> Playback::standing_feet(double seconds) const {
-  return fragmotion::standing_feet(character_->contacts[character_->played(now_.fragment).clip],
-                                   frame_of_clip(seconds));
+  return fragmotion::standing_feet(contacts(), frame_of_clip(seconds));
+}
+
+double Playback::until_standing(int side) const {
+  const Fragment& f = fragment();
+  const double rate = clip(now_).rate, at = f.first_played() + now_.seconds * rate;
+  const std::vector<bool>& stands = contacts().feet[side];
+  const auto next = std::find(stands.begin() + static_cast<std::ptrdiff_t>(frame_of_clip()), stands.end(), true);
+  return std::max(0.0, (static_cast<double>(next - stands.begin()) - at) / rate);
 }
 
 bool Playback::is_in_the_air() const {
   if (!evident().jumps()) return false;
-  const auto& [left, right] = character_->contacts[character_->played(now_.fragment).clip].feet;
+  const auto& [left, right] = contacts().feet;
   const std::size_t frame = frame_of_clip();
   return !left.empty() && !left[frame] && !right[frame];
 }
 
 double Playback::left() const {
-  const Fragment& f = character_->played(now_.fragment);
-  return (f.last_played() - f.first_played()) / character_->pool.clips[f.clip].rate - now_.seconds;
+  const Fragment& f = fragment();
+  return (f.last_played() - f.first_played()) / clip(now_).rate - now_.seconds;
 }
 
 Vector2 Playback::velocity() const {

@@ -8,12 +8,13 @@
 
 #include "base/ranges.hpp"
 #include "fragmotion/base/simd.hpp"
+#include "fragmotion/ground/ground_follower.hpp"
+#include "fragmotion/runtime/look_ahead.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr double kLongest = 3600;  // s that a step may last
-constexpr double kFarthest = 1e9;  // m, and rad: where steps are still told apart
 constexpr double kLaziest = 2.5;   // m/s^2 of a 1.8 m character, at a responsiveness of 0
 
 double within_one(double value, const char* name) {
@@ -29,7 +30,7 @@ double acceleration_of(double responsiveness, const ControlSpace& space) {
 
 Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options)
     : Player(character, options, std::make_shared<Workspace>(*character)) {
-  make_moves(options);
+  make_extras(options);
 }
 
 Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options,
@@ -38,7 +39,7 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
       workspace_(std::move(workspace)),
       limit_(acceleration_of(options.responsiveness, character_->space)),
       director_(*character_, character_->policy(options.policy), within_one(options.responsiveness, "responsiveness")),
-      selector_(*character_, *workspace_, options.seed),
+      selector_(*workspace_, options.seed),
       playback_(*character_, *workspace_, options.stitching, within_one(options.stitch, "stitching time, in s,")),
       correction_(*character_, *workspace_, within_one(options.root_adjustment, "root adjustment"),
                   acceleration_of(options.responsiveness, character_->space), options.lock_feet) {
@@ -47,7 +48,8 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
 
 Player Player::branch() const {
   Player player(*this);
-  if (moves_ != nullptr) player.moves_ = std::make_shared<Moves>(*moves_);
+  if (extras_ != nullptr) player.extras_ = std::make_shared<Extras>(*extras_);
+  if (follower_ != nullptr) player.follower_ = std::make_shared<GroundFollower>(*follower_);
   return player;
 }
 
@@ -64,25 +66,28 @@ void Player::check_step(const Control& control, double seconds) {
   if (!(seconds >= 0 && seconds <= kLongest)) throw std::invalid_argument("a step must last 0 s to an hour");
 }
 
-void Player::reset(const CharacterFrame& frame) {
+void Player::reset(const CharacterFrame& frame, int style) {
+  check_style(style);
   for (const double value : {frame.position.x(), frame.position.y(), frame.heading})
-    require_range("the place and the heading to stand at", value, -kFarthest, kFarthest);
+    require_range("the place and the heading to stand at", value, -kFarthestPlace, kFarthestPlace);
   limit_.reset(frame.heading);
+  if (extras_ != nullptr) {
+    set_style(style);
+    extras_->whole_body.reset();
+    extras_->upper_body.reset();
+  }
   director_.reset();
   selector_.reset();
-  if (moves_ != nullptr) {
-    moves_->whole_body.reset();
-    moves_->upper_body.reset();
-  }
   correction_.reset(frame.heading);
+  if (follower_ != nullptr) follower_->reset();
   acceleration_ = Vector2::Zero();
-  fragment_ = character_->classes.representatives[director_.playing_class()];
+  fragment_ = styled_character().classes.representatives[director_.playing_class()];
   playback_.reset(fragment_, frame);
   correct(0);
 }
 
 void Player::force(int next_class) {
-  if (next_class < 0 || next_class >= character_->classes.count) {
+  if (next_class < 0 || next_class >= styled_character().classes.count) {
     throw std::invalid_argument("class " + std::to_string(next_class) + " does not exist");
   }
   director_.force(next_class);
@@ -96,18 +101,32 @@ void Player::go_on(const Control& control) {
   play(fragment_);
 }
 
-void Player::play(int fragment) {
-  correction_.keep_velocity(correction_.tempo() * playback_.start(fragment));
+void Player::play(int fragment) { keep(playback_.start(fragment)); }
+
+// Goes on as fast as what played, which was so much faster than what begins to.
+void Player::keep(const Vector2& faster) {
+  correction_.keep_velocity(correction_.tempo() * faster);
   ++entered_;
 }
 
 void Player::correct(double seconds) {
   correction_.correct(playback_, acceleration_, seconds);
+  if (follower_ != nullptr) {
+    follower_->apply(workspace_->shown, look_ahead(playback_, correction_, *workspace_), seconds);
+  }
   root_ = workspace_->shown.root;
 }
 
+void Player::stand_on(Ground ground) {
+  follower_ = ground ? std::make_shared<GroundFollower>(workspace_->body, std::move(ground)) : nullptr;
+}
+
+double Player::ground_level() const { return follower_ != nullptr ? follower_->level() : 0; }
+
+double Player::ground_missed() const { return follower_ != nullptr ? follower_->missed() : 0; }
+
 double Player::quality(int control) const {
-  return character_->quality(director_.previous_class(), director_.playing_class(), control);
+  return styled_character().quality(director_.previous_class(), director_.playing_class(), control);
 }
 
 std::array<std::optional<Vector3>, 2> Player::standing_feet() const {
@@ -127,22 +146,24 @@ std::array<std::optional<Vector3>, 2> Player::standing_feet() const {
   return soles;
 }
 
-void Player::step(const Control& control, double seconds) {
-  check_step(control, seconds);
+void Player::step(const Control& given, double seconds) {
+  check_step(given, seconds);
+  const Control control = styled_character().space.admitted(given);
   director_.observe(control);
   if (seconds == 0) playback_.show();
   for (double rest = seconds; rest > 0;) rest -= advance(control, std::min(rest, kFinest));
-  if (moves_ != nullptr) moves_->upper_body.lay(workspace_->shown);
+  if (extras_ != nullptr) extras_->upper_body.lay(workspace_->shown);
   correct(seconds);
 }
 
 // Plays on for a while, which it returns, and shows it.
 double Player::advance(const Control& control, double most) {
-  if (moves_ != nullptr) most = begin_moves(control, most);
+  if (extras_ != nullptr) most = begin_style(control, begin_moves(control, most));
   const double part = continue_move(control) ? advance_by_move(most) : advance_by_policy(control, most);
-  if (moves_ != nullptr) {
-    for (MoveTrack* track : {&moves_->whole_body, &moves_->upper_body.track}) track->wait(part);
-    moves_->upper_body.advance(part);
+  if (extras_ != nullptr) {
+    for (MoveTrack* track : {&extras_->whole_body, &extras_->upper_body.track}) track->moment.wait(part);
+    extras_->style.moment.wait(part);
+    extras_->upper_body.advance(part);
   }
   playback_.show();
   return part;

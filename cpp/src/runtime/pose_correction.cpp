@@ -13,7 +13,6 @@ constexpr double kAdjusting = 0.05;    // s: time constant of the velocity's adj
 constexpr double kTurning = 0.1;       // and of the turn rate's
 constexpr double kSlowest = 0.75;      // of the tempo
 constexpr double kPacing = 0.15;       // s: time constant of the tempo's,
-constexpr double kGravity = 9.81;      // m/s^2
 constexpr double kSetOff = 0.5;        // of what balances it that the feet are set off for a body's acceleration
 constexpr double kStriding = 0.2;      // s: time constant of the steps'
 constexpr double kHeading = 0.15;      // s in which the heading gets to where it is led,
@@ -24,7 +23,7 @@ constexpr double kStill = 0.2;         // m/s of a 1.8 m character, and of the t
 
 PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace, double root_adjustment,
                                double acceleration, bool lock_feet)
-    : character_(&character),
+    : space_(&character.space),
       workspace_(&workspace),
       root_adjustment_(root_adjustment),
       acceleration_(acceleration),
@@ -52,17 +51,17 @@ Vector2 PoseCorrection::velocity_to_add(const Control& control, const Control& e
 
 // The turn rate that the fragment lacks, and what brings back the heading that it has lost.
 double PoseCorrection::turn_to_add(const Control& control, const Playback& playback, double seconds) {
-  const double unit = character_->space.turn_rate(), heading = playback.frame().heading;
+  const double unit = space_->turn_rate(), heading = playback.frame().heading;
   led_ += seconds * control.turn * unit;
   const double behind = std::clamp(std::remainder(led_ - heading, 2 * kPi), -kLeash, kLeash);
   led_ = heading + behind;
-  const double quickest = std::max(kMostTurned, character_->space.quickest_turn()),
+  const double quickest = std::max(kMostTurned, space_->quickest_turn()),
                lacks = std::clamp(control.turn - tempo_ * playback.evident().turn, -quickest, quickest);
   return root_adjustment_ * unit * (lacks + std::clamp(behind / kHeading / unit, -kMostTurned, kMostTurned));
 }
 
 void PoseCorrection::adjust_tempo(const Control& control, const Control& evident, double seconds) {
-  const double least = kMoving / character_->space.scale();
+  const double least = kMoving / space_->scale();
   const bool goes = evident.speed() > least && control.speed() > least && !evident.jumps();
   const double faster = goes ? std::sqrt(control.speed() / evident.speed()) : 1,
                wanted = 1 + root_adjustment_ * (std::clamp(faster, kSlowest, 1.0) - 1);
@@ -100,7 +99,7 @@ void PoseCorrection::correct(const Playback& playback, const Vector2& accelerati
 // accelerated are set where their push goes through it: behind one that gets faster, ahead of one that brakes.
 void PoseCorrection::edit_steps(const Control& evident, double seconds) {
   const Vector2 velocity{evident.x, evident.y};
-  const bool goes = evident.speed() * character_->space.scale() > kMoving;
+  const bool goes = evident.speed() * space_->scale() > kMoving;
   const Matrix2 wanted =
       goes ? Matrix2{velocity_ * velocity.transpose() / (tempo_ * velocity.squaredNorm())} : Matrix2{Matrix2::Zero()};
   steps_.stride += (1 - std::exp(-seconds / kStriding)) * (wanted - steps_.stride);
@@ -109,11 +108,11 @@ void PoseCorrection::edit_steps(const Control& evident, double seconds) {
 }
 
 bool PoseCorrection::stands(const Control& evident) const {
-  return evident.speed() * character_->space.scale() < kStill && std::abs(evident.turn) < kStill && !evident.jumps();
+  return evident.speed() * space_->scale() < kStill && std::abs(evident.turn) < kStill && !evident.jumps();
 }
 
 void PoseCorrection::lock_feet(const Playback& playback, double seconds) {
-  const Contacts& contacts = character_->contacts[character_->played(playback.fragment()).clip];
+  const Contacts& contacts = playback.contacts();
   if (contacts.feet[0].empty()) return;
   foot_lock_.apply(workspace_->shown, contacts, playback.frame_of_clip(), seconds, steps_);
 }

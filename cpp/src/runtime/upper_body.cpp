@@ -6,8 +6,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kBlend = 0.3;     // s
-constexpr double kInstant = 1e-9;  // s: no time
+constexpr double kBlend = 0.3;  // s
 
 // The bone's rotation in the world, of a pose's rotations as in Clip.
 Quaternion world_rotation(const Skeleton& skeleton, int bone, const std::vector<double>& rotations) {
@@ -56,7 +55,7 @@ void UpperBody::begin() {
 bool UpperBody::is_ending() const {
   if (!track.plays()) return true;
   const Move& move = character_->moves[track.playing()];
-  const Fragment& part = character_->played(playback_.fragment());
+  const Fragment& part = playback_.fragment();
   return part.end == character_->pool.clips[move.clip].frames - 1 && !track.repeats() && playback_.left() < kBlend;
 }
 

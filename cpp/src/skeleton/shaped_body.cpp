@@ -23,7 +23,6 @@ constexpr double kStandsOut = 1.5;  // times as long as the neck
 constexpr double kDoubtful = 0.15;  // of the head's length, that a bone beyond it has: which is the head?
 constexpr double kStiff = 0.05;     // rad that a joint bends by at least in a motion, if it is one
 constexpr double kSplit = 0.8;      // a third bone of a limb that is as long as that of the shorter two: no telling
-constexpr double kUpright = 0.5;    // of a leg's length that feet are under the hips
 constexpr double kPart = 0.75;      // times as long at least a bone becomes by a part
 constexpr double kHeadAbove = 0.16, kHeadUnder = 0.5;  // of the trunk's length that a head begins above the shoulders
 constexpr double kCopied = 1e-3;                       // of a bone's length that a copy of it differs by
@@ -31,7 +30,7 @@ constexpr double kSure = 1.5;                          // votes more for one way
 constexpr int kMostPoses = 200;
 constexpr int kFingers = 3;  // at least on a hand
 
-constexpr double kTiny = 1e-12;
+constexpr double kNoTrunk = 1e-12;
 
 using Chain = std::vector<int>;
 using Joints = std::array<int, 3>;  // of a limb's chain: where its upper and lower bone and its end begin
@@ -272,7 +271,7 @@ class ShapeFinder {
     for (const Vector3* heads : poses_) {
       const Vector3 shoulders = between(body.arms, heads), trunk = shoulders - between(body.legs, heads);
       if (across(body.arms, heads).norm() < kBroad * trunk.norm()) continue;
-      above += (heads[bone] - shoulders).dot(trunk) / std::max(trunk.squaredNorm(), kTiny);
+      above += (heads[bone] - shoulders).dot(trunk) / std::max(trunk.squaredNorm(), kNoTrunk);
       ++told;
     }
     return above / std::max(told, 1);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/turn_between.hpp"
+
 namespace fragmotion {
 namespace {
 
@@ -40,14 +42,6 @@ Quaternion rotation(const Vector3& axis, double cosine, double sine) {
   if (1 + cosine <= kOpposite) return Quaternion{Eigen::AngleAxisd(std::atan2(sine, cosine), axis)};
   const double w = std::sqrt((1 + cosine) / 2), along = sine / (2 * w);
   return {w, along * axis.x(), along * axis.y(), along * axis.z()};
-}
-
-// The least rotation that brings one direction to another.
-Quaternion turn_between(const Vector3& from, const Vector3& to) {
-  const double product = std::sqrt(from.squaredNorm() * to.squaredNorm()), w = product + from.dot(to);
-  if (w <= kOpposite * product) return Quaternion::FromTwoVectors(from, to);
-  const Vector3 axis = from.cross(to);
-  return Quaternion{w, axis.x(), axis.y(), axis.z()}.normalized();
 }
 
 // A knee that is bent about a hinge.

@@ -132,7 +132,7 @@ def test_esc_stops_a_crowd_and_changes_nothing(
         prepared = prepare(*arguments)
 
         def task(report: Any) -> Any:
-            heard.append(addon.operators.background.current.label)
+            heard.append(addon.operators.base.background.current.label)
             if len(heard) == 2:
                 assert bpy.ops.fragmotion.cancel() == {"FINISHED"}
             return prepared.task(report)

@@ -123,7 +123,7 @@ def test_what_cannot_be_baked_is_said_and_changes_nothing(
 def test_esc_stops_a_bake_and_changes_nothing(
     addon: ModuleType, obj: bpy.types.Object, recording: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    button, play_on = addon.operators.background, addon.bake.performing.prepare
+    button, play_on = addon.operators.base.background, addon.bake.performing.prepare
 
     def slow(*arguments: Any) -> Any:
         play = play_on(*arguments)

@@ -114,11 +114,11 @@ def test_a_mesh_leads_to_its_armature(addon: ModuleType, obj: bpy.types.Object) 
     hat = making.add_mesh(deformed)
     for thing in (deformed, carried, hat):
         making.activate(thing)
-        assert addon.operators.context.active_armature(bpy.context) == obj
+        assert addon.operators.base.context.active_armature(bpy.context) == obj
         assert bpy.ops.fragmotion.bake(seconds=1, action=f"of {thing.name}") == {"FINISHED"}
         assert obj.animation_data.action.name == f"of {thing.name}"
     making.activate(making.add_mesh())
-    assert addon.operators.context.active_armature(bpy.context) is None
+    assert addon.operators.base.context.active_armature(bpy.context) is None
 
 
 def test_the_character_is_decoded_once(addon: ModuleType, obj: bpy.types.Object) -> None:
@@ -279,7 +279,7 @@ def test_a_cancelled_build_changes_nothing(addon: ModuleType, obj: bpy.types.Obj
 def test_the_cancel_button_stops_the_build(
     addon: ModuleType, obj: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    button = addon.operators.background
+    button = addon.operators.base.background
     assert not bpy.ops.fragmotion.cancel.poll()
     build = addon.character.building.core.build
     stages = []

@@ -26,7 +26,6 @@ def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The sample file after Build, saved."""
     bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE))
     making.activate(bpy.data.objects[ARMATURE])
-    bpy.ops.fragmotion.tick_actions(use=True)
     build()
     path = tmp_path_factory.mktemp("built") / "built.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
@@ -205,7 +204,7 @@ def test_a_preview_that_is_too_far_away_says_so(addon: ModuleType, obj: bpy.type
 def test_the_inspector_shows_the_best_and_the_chosen(addon: ModuleType, obj: bpy.types.Object) -> None:
     core, character = addon.compat.core.core, addon.character.building.load(obj)
     settings = bpy.context.window_manager.fragmotion.inspector
-    settings.velocity, settings.turn, settings.jump = "9", "2", True
+    settings.gait, settings.direction, settings.turn, settings.jump = "run", "0", "2", True
     playing, control, live = addon.character.inspector.decision(obj, settings, 4)
     assert (playing, live) == (4, False)
     assert character.space.points[control].tolist() == [0, character.space.run, 1, 1]
@@ -333,16 +332,17 @@ def pixel(addon: ModuleType, picture: np.ndarray, place: np.ndarray, off: float 
 def test_the_picture_shows_each_velocity_where_the_stick_would_be(addon: ModuleType) -> None:
     drawing = addon.character.coverage_picture
     points = addon.compat.core.core.ControlSpace().points[2::6]  # straight, no jump
-    for index, (place, point) in enumerate(zip(drawing.places(), points)):
+    layout = addon.character.control_layout.ControlLayout()
+    for index, (place, point) in enumerate(zip(drawing.places(layout), points)):
         radius = np.hypot(*place)
         if index > 0:
             np.testing.assert_allclose(place / radius, point[:2] / np.hypot(*point[:2]), atol=1e-9)
         distances = np.zeros(17)
         distances[index] = np.inf
-        picture = drawing.draw_controls(distances)
+        picture = drawing.draw_controls(distances, layout)
         np.testing.assert_allclose(pixel(addon, picture, place), drawing._CROSS, atol=0.05)
         np.testing.assert_allclose(pixel(addon, picture, place, 0.09)[:3], drawing.colour_of(np.inf), atol=0.05)
-        others = [pixel(addon, picture, other) for i, other in enumerate(drawing.places()) if i != index]
+        others = [pixel(addon, picture, other) for i, other in enumerate(drawing.places(layout)) if i != index]
         np.testing.assert_allclose(np.array(others)[:, :3], np.tile(drawing.colour_of(0), (16, 1)), atol=0.05)
 
 
@@ -358,9 +358,9 @@ def test_every_dot_has_one_of_the_legends_colours(addon: ModuleType) -> None:
 
 def test_a_control_is_marked_as_a_hole_where_none_performs_it_well(addon: ModuleType) -> None:
     drawing, well = addon.character.coverage_picture, addon.character.coverage.WELL
-    centre = np.zeros(2)
+    centre, layout = np.zeros(2), addon.character.control_layout.ControlLayout()
     for distance, crossed in ((0, False), (well, False), (well + 1e-3, True), (9, True)):
-        colour = pixel(addon, drawing.draw_controls(np.full(17, distance)), centre)
+        colour = pixel(addon, drawing.draw_controls(np.full(17, distance), layout), centre)
         assert (np.abs(colour - drawing._CROSS).max() < 0.05) == crossed, distance
 
 
@@ -371,15 +371,16 @@ def test_build_keeps_the_distances_that_the_picture_shows(addon: ModuleType, obj
 
 def test_pictures_become_icons_once_and_are_given_back(addon: ModuleType) -> None:
     drawing, made = addon.character.coverage_picture, []
+    layout = addon.character.control_layout.ControlLayout()
 
     def draw() -> np.ndarray:
         made.append(1)
-        return drawing.draw_controls(np.linspace(0, 2, 17))
+        return drawing.draw_controls(np.linspace(0, 2, 17), layout)
 
     icon = drawing.icon_of("test", draw, b"1")  # 0 where Blender has no window
     assert drawing.icon_of("test", draw, b"1") == icon and len(made) == 1
     shown = np.array(drawing._previews["test"].image_pixels_float[:]).reshape(drawing.SIZE, drawing.SIZE, 4)
-    np.testing.assert_allclose(shown, drawing.draw_controls(np.linspace(0, 2, 17)), atol=1 / 128)
+    np.testing.assert_allclose(shown, drawing.draw_controls(np.linspace(0, 2, 17), layout), atol=1 / 128)
     drawing.icon_of("test", draw, b"2")
     assert len(made) == 2
     drawing.free()

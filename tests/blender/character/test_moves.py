@@ -203,6 +203,51 @@ def test_recordings_keep_their_moves_when_they_are_trimmed_and_copied(addon: Mod
     assert recordings.moves_of(recordings.duplicate_recording(obj, 0)) == [recordings.StartedMove(10, "b", 3)]
 
 
+def test_a_glued_recording_asks_for_what_both_asked_for(addon: ModuleType, obj: bpy.types.Object) -> None:
+    add(addon, obj, JUMP)
+    recordings, styles = part(addon, "recordings.recordings"), part(addon, "recordings.styles")
+    trace = np.zeros((40, 4))
+    first = recordings.add_recording(
+        obj, trace, moves=[recordings.StartedMove(5, JUMP, 1)], styles=[styles.StyleChange(30, "tired")]
+    )
+    recordings.add_recording(
+        obj, trace, moves=[recordings.StartedMove(20, JUMP, 3)], style="proud", styles=[styles.StyleChange(9, "tired")]
+    )
+    seam = part(addon, "edits.cutting").append(obj, obj.fragmotion.takes[0], obj.fragmotion.takes[1])
+    moved = seam.end - seam.beginning
+    first = obj.fragmotion.takes[0]
+    assert recordings.moves_of(first) == [
+        recordings.StartedMove(5, JUMP, 1),
+        recordings.StartedMove(20 + moved, JUMP, 3),
+    ]
+    assert recordings.styles_of(first) == [(30, "tired"), (seam.end, "proud"), (9 + moved, "tired")]
+
+
+def test_a_cut_takes_out_the_moves_of_its_stretch(addon: ModuleType, obj: bpy.types.Object) -> None:
+    add(addon, obj, JUMP)
+    recordings = part(addon, "recordings.recordings")
+    started = [recordings.StartedMove(at, JUMP, 1) for at in (2, 20, 38)]
+    recording = recordings.add_recording(obj, np.zeros((40, 4)), moves=started)
+    seam = part(addon, "edits.cutting").cut_out(obj, recording, 1.5, 2.5)
+    assert recordings.moves_of(recording) == [
+        recordings.StartedMove(2, JUMP, 1),
+        recordings.StartedMove(38 - (seam.beginning - seam.end), JUMP, 1),
+    ]
+
+
+def test_playing_again_plays_the_moves_and_a_pin_says_that_it_cannot(addon: ModuleType, obj: bpy.types.Object) -> None:
+    add(addon, obj, JUMP)
+    recordings, replaying = part(addon, "recordings.recordings"), part(addon, "edits.replaying")
+    recording = recordings.add_recording(obj, np.zeros((40, 4)), moves=[recordings.StartedMove(5, JUMP, 1)])
+    character = part(addon, "character.building").load(obj)
+    shown = replaying.replay(obj, character, recording, np.zeros((40, 4)), 1)
+    assert shown.root_positions[:, 2].max() > 1.2
+    pinning = part(addon, "edits.pinning")
+    with pytest.raises(addon.errors.UserError, match=r"starts the move 'jump up' 0\.5 s after its beginning"):
+        pinning.prepare(obj, recording, pinning.Goal(3.0, 1.0, (0.0, 0.0, 0.0)))
+    assert pinning.prepare(obj, recording, pinning.Goal(0.4, 0.0, (0.0, 0.0, 0.0)))
+
+
 @pytest.mark.parametrize(
     "forged", ["nonsense", "5", "[[1]]", '[["1", "a", 2]]', "[[1, 2, 3]]", '[[99, "a", 1]]', '[[1, "a", -1]]', "{}{"]
 )

@@ -121,13 +121,18 @@ def test_the_screens_up_on_the_ground_is_where_the_view_looks(steering: ModuleTy
             assert math.remainder(heading - around, 2 * math.pi) == pytest.approx(0, abs=1e-5)
 
 
-def test_a_control_in_words(steering: ModuleType) -> None:
-    def say(*control: float) -> str:
-        return str(steering.describe(steering.Control(*control), WALK, RUN))
+def test_a_control_in_words(addon: ModuleType, steering: ModuleType) -> None:
+    core = addon.compat.core.core
+
+    def say(*control: float, space: Any = None) -> str:
+        return str(steering.describe(steering.Control(*control), space or core.ControlSpace(WALK, RUN)))
 
     assert say() == "stand" and say(0, 0, -1, 1) == "stand, turn right, jump"
     assert say(0, WALK) == "walk forward" and say(-RUN, 0, 1) == "run left, turn left"
     assert say(WALK, -WALK) == "walk back-right"
+    fine = core.ControlSpace(speeds=[0.7, 1.3, 2.2, 3.5], directions=16)
+    assert say(0, 0.5, space=fine) == "stroll forward" and say(-0.9, 2, space=fine) == "jog forward-slightly-left"
+    assert say(0, -9, space=fine) == "run back" and say(0.3, 0, space=fine) == "stand"
 
 
 def test_the_keyboard_walks_runs_turns_and_jumps(addon: ModuleType) -> None:

@@ -308,7 +308,11 @@ def test_a_folder_of_mixed_formats_comes_in_at_any_depth(
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     files = addon.mocap.take_files.find_takes(tmp_path)
     assert [f.path.name for f in files] == ["chair.glb", "dance.glb", "step.fbx", "walk.bvh"]
-    imported = addon.mocap.importing.import_takes(bpy.context, "mixed", files, None, lambda _: None, mends=False)
+    job = addon.jobs.SteppedJob(
+        "", "", addon.mocap.importing.import_takes(bpy.context, "mixed", files, None, mends=False)
+    )
+    job.run(lambda _: None)
+    imported = job.result()
     assert [action.name for action in imported.actions] == ["dance", "step", "walk"]
     assert [path.name for path in imported.without] == ["chair.glb"]
     names = [bone.name for bone in imported.obj.pose.bones if bone.name != "root"]

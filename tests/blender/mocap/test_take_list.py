@@ -38,9 +38,10 @@ def test_an_imported_take_is_as_long_as_it_was_whatever_the_scenes_rate(addon: M
         assert addon.mocap.actions.seconds_of(action, bpy.context.scene) == pytest.approx(1.0, abs=1e-4)
 
 
-def test_only_what_is_found_is_ticked(addon: ModuleType) -> None:
-    making.open_sample()
-    everything = {action.name for action in bpy.data.actions}
+def test_only_what_is_found_is_ticked_and_no_move(addon: ModuleType) -> None:
+    moves = {row.action.name for row in making.open_sample().fragmotion.moves}
+    everything = {action.name for action in bpy.data.actions} - moves
+    assert len(moves) == 3
     assert bpy.ops.fragmotion.tick_actions(use=False) == {"FINISHED"} and ticked() == set()
     assert bpy.ops.fragmotion.tick_actions(use=True, search="RUN") == {"FINISHED"}
     assert ticked() == {name for name in everything if "run" in name} and len(ticked()) > 3
@@ -53,7 +54,6 @@ def test_build_folds_away_what_led_to_it(addon: ModuleType) -> None:
     subs = [panels.bones.FRAGMOTION_PT_bones, panels.panel.FRAGMOTION_PT_training]
     settings.show_mocap = settings.show_build = False
     assert all(panel.poll(bpy.context) for panel in subs), "before there is a character all is open"
-    bpy.ops.fragmotion.tick_actions(use=True)
     settings.show_mocap = settings.show_build = True
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=20, synthesize=False) == {"FINISHED"}
     assert not (settings.show_mocap or settings.show_build or any(panel.poll(bpy.context) for panel in subs))

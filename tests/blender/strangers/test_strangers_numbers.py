@@ -161,8 +161,9 @@ def test_a_key_in_the_far_future_is_said(addon: ModuleType, obj: bpy.types.Objec
 
 @pytest.mark.parametrize("stored", [b"", b"short", bytes(412)])
 def test_coverage_of_another_length_is_not_drawn(addon: ModuleType, stored: bytes) -> None:
-    layout = bpy.types.UILayout
-    assert addon.character.coverage_picture.draw_pictures(layout, stored, 300.0) is None
+    layout, paper = bpy.types.UILayout, addon.character.control_layout.ControlLayout()
+    assert addon.character.coverage_picture.draw_pictures(layout, stored, paper, 300.0) is None
+    assert addon.character.coverage_picture.draw_pictures(layout, bytes(408), None, 300.0) is None
 
 
 def stored(data: Any) -> Any:

@@ -43,7 +43,7 @@ TEST(Build, HoldsWhatItsReportSays) {
     return f.origin == Origin::captured || f.origin == Origin::mirrored;
   });
   EXPECT_EQ(c.report.at("captured"), static_cast<double>(captured));
-  EXPECT_EQ(c.policy().next.size(), std::size_t{40} * ControlSpace::kPoints);
+  EXPECT_EQ(c.policy().next.size(), std::size_t{40} * kPaperPoints);
   EXPECT_EQ(c.bridges.size(), std::size_t{40} * 40);
   for (const auto& [name, value] : c.report) EXPECT_TRUE(std::isfinite(value) && value >= 0) << name;
 }

@@ -12,7 +12,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr int kPoints = ControlSpace::kPoints;
+constexpr int kPoints = kPaperPoints;
 
 // The classes that the driving table says most often.
 std::vector<int> popular(const Character& c, int count) {

@@ -31,7 +31,7 @@ bool accepts(const std::string& bytes) {
   Player player(character);
   Random random(1);
   for (int i = 0; i < 60; ++i) {
-    player.step(character->space.point(random.below(ControlSpace::kPoints)), 1.0 / 30);
+    player.step(character->space.point(random.below(kPaperPoints)), 1.0 / 30);
     bool finite = player.root_position().allFinite() && std::isfinite(player.frame().heading);
     for (const double value : player.rotations()) finite = finite && std::isfinite(value);
     EXPECT_TRUE(finite) << "step " << i;
@@ -176,8 +176,8 @@ Character same_fragments(int bones, int fragments) {
   Character c;
   c.pool = pack(pool);
   c.classes = {1, std::vector<int>(fragments, 0), {0}, 0};
-  c.quality = {1, {1}, std::vector<double>(ControlSpace::kPoints, 1)};
-  c.policies = {{"greedy", 1, std::vector<int>(ControlSpace::kPoints, 0)}};
+  c.quality = {1, {1}, std::vector<double>(kPaperPoints, 1)};
+  c.policies = {{"greedy", 1, std::vector<int>(kPaperPoints, 0)}};
   c.bridges = {-1};
   c.control_model = control_model({}, kGenericPrior);
   c.contacts.resize(1);

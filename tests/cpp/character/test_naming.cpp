@@ -35,8 +35,8 @@ TEST(ControlName, IsAsThePaperNamesClasses) {
 TEST(ControlName, TellsAllPointsApart) {
   const ControlSpace space;
   std::set<std::string> names;
-  for (int i = 0; i < ControlSpace::kPoints; ++i) names.insert(control_name(space, space.point(i)));
-  EXPECT_EQ(names.size(), std::size_t{ControlSpace::kPoints});
+  for (int i = 0; i < kPaperPoints; ++i) names.insert(control_name(space, space.point(i)));
+  EXPECT_EQ(names.size(), std::size_t{kPaperPoints});
 }
 
 TEST(ClassNames, AreTheRepresentativesAndNumberedWhereTheyRepeat) {

@@ -14,7 +14,7 @@ namespace {
 
 TEST(ControlSpace, NumbersItsPointsAsDocumented) {
   const ControlSpace space(1, 2);
-  for (int i = 0; i < ControlSpace::kPoints; ++i) {
+  for (int i = 0; i < kPaperPoints; ++i) {
     const Control& point = space.point(i);
     const int velocity = i / 6;
     EXPECT_EQ(i, 6 * velocity + 2 * (point.turn + 1) + point.jump);
@@ -24,16 +24,16 @@ TEST(ControlSpace, NumbersItsPointsAsDocumented) {
 
 TEST(ControlSpace, TellsAPointsPartsAndThePointOfThem) {
   const ControlSpace space;
-  for (int i = 0; i < ControlSpace::kPoints; ++i) {
+  for (int i = 0; i < kPaperPoints; ++i) {
     const Control& point = space.point(i);
-    const int velocity = ControlSpace::velocity_of(i);
+    const int velocity = ControlLayout().velocity_of(i);
     EXPECT_EQ(velocity, i / 6);
-    EXPECT_EQ(ControlSpace::turn_of(i), point.turn);
-    EXPECT_EQ(ControlSpace::jumps(i), point.jumps());
-    EXPECT_EQ(ControlSpace::index(velocity, ControlSpace::turn_of(i), ControlSpace::jumps(i)), i);
-    EXPECT_EQ(ControlSpace::runs(velocity), point.speed() > 2);
+    EXPECT_EQ(ControlLayout().turn_of(i), point.turn);
+    EXPECT_EQ(ControlLayout().is_jump(i), point.jumps());
+    EXPECT_EQ(ControlLayout().index(velocity, ControlLayout().turn_of(i), ControlLayout().is_jump(i)), i);
+    EXPECT_EQ(velocity > 0 && ControlLayout().speed_of(velocity) == 1, point.speed() > 2);
   }
-  for (const int gait : {1, 9}) EXPECT_EQ(ControlSpace::direction_of(gait + 5), 5);
+  for (const int gait : {1, 9}) EXPECT_EQ(ControlLayout().direction_of(gait + 5), 5);
 }
 
 TEST(MatchesJump, TakesABouncyRunForARun) {
@@ -78,7 +78,7 @@ TEST(ControlSpace, CountsDirectionsCounterClockwiseFromForward) {
 
 TEST(ControlSpace, FindsEachPointNearestToItself) {
   const ControlSpace space;
-  for (int i = 0; i < ControlSpace::kPoints; ++i) EXPECT_EQ(space.nearest(space.point(i)), i);
+  for (int i = 0; i < kPaperPoints; ++i) EXPECT_EQ(space.nearest(space.point(i)), i);
 }
 
 TEST(ControlSpace, FindsNoPointNearerThanTheNearest) {
@@ -88,13 +88,13 @@ TEST(ControlSpace, FindsNoPointNearerThanTheNearest) {
     const Control control{8 * random.uniform() - 4, 8 * random.uniform() - 4, 2 * random.uniform() - 1,
                           random.uniform()};
     const double found = space.distance(space.point(space.nearest(control)), control);
-    for (int i = 0; i < ControlSpace::kPoints; ++i) EXPECT_LE(found, space.distance(space.point(i), control));
+    for (int i = 0; i < kPaperPoints; ++i) EXPECT_LE(found, space.distance(space.point(i), control));
   }
 }
 
 int first_of_the_nearest(const ControlSpace& space, const Control& control) {
   int best = 0;
-  for (int i = 1; i < ControlSpace::kPoints; ++i) {
+  for (int i = 1; i < kPaperPoints; ++i) {
     if (space.distance(space.point(i), control) < space.distance(space.point(best), control)) best = i;
   }
   return best;
@@ -138,12 +138,12 @@ TEST(ControlSpace, WeighsDifferencesBeforeSquaring) {
 
 TEST(ControlSpace, HasAMetric) {
   const ControlSpace space;
-  for (int a = 0; a < ControlSpace::kPoints; a += 7) {
-    for (int b = 0; b < ControlSpace::kPoints; b += 5) {
+  for (int a = 0; a < kPaperPoints; a += 7) {
+    for (int b = 0; b < kPaperPoints; b += 5) {
       const double ab = space.distance(space.point(a), space.point(b));
       EXPECT_EQ(ab, space.distance(space.point(b), space.point(a)));
       EXPECT_EQ(ab == 0, a == b);
-      for (int c = 0; c < ControlSpace::kPoints; c += 3)
+      for (int c = 0; c < kPaperPoints; c += 3)
         EXPECT_LE(ab, space.distance(space.point(a), space.point(c)) + space.distance(space.point(c), space.point(b)) +
                           1e-12);
     }
@@ -155,7 +155,7 @@ TEST(ControlSpace, IgnoresWhatHasNoWeight) {
   EXPECT_EQ(turnless.distance({1, 1, 0.7, 1}, {1, 1, -0.2, 1}), 0);
   EXPECT_EQ(turnless.distance({1, 0, 0.7, 1}, {0, 0, -0.2, 1}), 2);
   EXPECT_EQ(turnless.nearest({0, 1, 1, 0}), turnless.nearest({0, 1, -1, 0}));
-  for (int i = 0; i < ControlSpace::kPoints; ++i) EXPECT_EQ(blind.nearest(blind.point(i)), 0);
+  for (int i = 0; i < kPaperPoints; ++i) EXPECT_EQ(blind.nearest(blind.point(i)), 0);
 }
 
 TEST(ControlSpace, NamesTheValueThatIsOutOfRange) {

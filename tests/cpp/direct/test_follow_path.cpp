@@ -52,7 +52,9 @@ TEST(FollowPath, KeepsToThePathAndArrivesInTime) {
     EXPECT_TRUE(walk.arrived);
     EXPECT_LT(walk.mean_distance, 0.15);
     EXPECT_LT(walk.arrival_distance, kArrived);
-    if (arrive > 0) EXPECT_NEAR(walk.seconds, arrive, 0.25);
+    if (arrive > 0) {
+      EXPECT_NEAR(walk.seconds, arrive, 0.25);
+    }
   }
 }
 

@@ -10,7 +10,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr int kPoints = ControlSpace::kPoints;
+constexpr int kPoints = kPaperPoints;
 
 TEST(Explainer, RanksEveryClassOnceByItsValue) {
   const auto character = gait_character();

@@ -7,8 +7,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kG = 9.81, kTakeOff = 1, kUp = 3;  // s, m/s
-constexpr double kFlight = 2 * kUp / kG;            // s
+constexpr double kTakeOff = 1, kUp = 3;         // s, m/s
+constexpr double kFlight = 2 * kUp / kGravity;  // s
 const UsualHeights kUsual{0.95, 0.95};
 
 // A smooth dip of `depth` from `begin` to `end`.
@@ -23,7 +23,7 @@ BodyTrack jumping(double before, double after, double slow = 1) {
   const double landing = kTakeOff + slow * kFlight;
   for (int f = 0; f < track.frames(); ++f) {
     const double t = f / track.rate, in = (t - kTakeOff) / slow;
-    const double air = t > kTakeOff && t < landing ? kUp * in - 0.5 * kG * in * in : 0;
+    const double air = t > kTakeOff && t < landing ? kUp * in - 0.5 * kGravity * in * in : 0;
     const double bent = dip(t, kTakeOff - 0.4, kTakeOff, before) + dip(t, landing, landing + 0.4, after);
     track.center[f].z() += air + bent;
     track.hips[f].z() += air + bent;

@@ -62,7 +62,7 @@ TEST(OptimalPerformance, IsTheBestOfAllPlays) {
     Trace trace;
     std::vector<int> controls;
     for (int i = 0; i < 7; ++i) {
-      const int control = random.below(ControlSpace::kPoints);
+      const int control = random.below(kPaperPoints);
       trace.push_back(c.space.point(control));
       controls.insert(controls.end(), 2, control);
     }

@@ -7,8 +7,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kG = 9.81;
-
 void lift(BodyTrack& track) {
   for (int side = 0; side < 2; ++side) track.stands[side].assign(track.stands[side].size(), false);
 }
@@ -23,7 +21,7 @@ TEST(Support, BearsAnInvertedPendulumThatFallsFromItsFoot) {
   // x'' = g x / h about the right foot: its zero-moment point is there throughout.
   BodyTrack track = standing_track(1);
   track.stands[0].assign(track.stands[0].size(), false);
-  const double w = std::sqrt(kG / 0.95);
+  const double w = std::sqrt(kGravity / 0.95);
   move(track, false, [&](double t) { return Vector3(0.1 + 0.05 * std::cosh(w * t), 0, 0); });
   EXPECT_GT(track.center.back().x(), 0.5);
   EXPECT_EQ(find_support(track).unsupported, 0);
@@ -42,7 +40,7 @@ TEST(Support, BearsNoSlide) {
 
 TEST(Support, MeasuresFromTheHullOfTheFeet) {
   // To the side, 0.1 m and a foot's length are as far as the zero-moment point gets: a = (0.1 + 0.27) g / 0.95.
-  const double most = (0.1 + 0.27) * kG / 0.95;
+  const double most = (0.1 + 0.27) * kGravity / 0.95;
   for (const double share : {0.98, 1.02}) {
     BodyTrack track = standing_track(16 / 60.0);  // whose middle frame alone is judged
     move(track, false, [&](double t) {
@@ -58,7 +56,7 @@ TEST(Support, MeasuresFromTheHullOfTheFeet) {
 TEST(Support, LetsABodyInTheAirFallAndNothingElse) {
   BodyTrack falls = standing_track(0.6), hovers = falls, drifts = falls;
   for (BodyTrack* track : {&falls, &hovers, &drifts}) lift(*track);
-  const auto flight = [](double t) { return Vector3(2 * t, 0, 0.1 + 3 * t - 0.5 * kG * t * t); };
+  const auto flight = [](double t) { return Vector3(2 * t, 0, 0.1 + 3 * t - 0.5 * kGravity * t * t); };
   move(falls, true, flight);
   move(hovers, true, [](double t) { return Vector3(2 * t, 0, 0.3); });
   move(drifts, true, [&](double t) { return Vector3(flight(t) + Vector3(0, 2.5 * t * t, 0)); });

@@ -250,7 +250,7 @@ TEST(Coverage, CountsEveryFragmentOnceAndMeasuresTheNearest) {
   }
   const Coverage found = coverage(pool.fragments, space);
   EXPECT_EQ(std::accumulate(found.counts.begin(), found.counts.end(), 0), 60);
-  for (int c = 0; c < ControlSpace::kPoints; ++c) {
+  for (int c = 0; c < kPaperPoints; ++c) {
     int count = 0;
     double nearest = 1e9;
     for (const Fragment& f : pool.fragments) {

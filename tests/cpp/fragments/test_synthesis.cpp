@@ -376,7 +376,7 @@ TEST(Synthesize, OnlyAddsAndBringsControlsNearer) {
   }
   const Coverage was = coverage(before.fragments, space), is = coverage(after.fragments, space);
   double sum_was = 0, sum_is = 0;
-  for (int c = 0; c < ControlSpace::kPoints; ++c) {
+  for (int c = 0; c < kPaperPoints; ++c) {
     EXPECT_LE(is.distances[c], was.distances[c]);
     sum_was += was.distances[c];
     sum_is += is.distances[c];

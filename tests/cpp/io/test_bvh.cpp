@@ -12,7 +12,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kTolerance = 1e-12;
+constexpr double kBvhTolerance = 1e-12;
 
 /// An arm of two joints and a leg; the tests below break it line by line.
 const char* const kSmall =
@@ -55,7 +55,7 @@ Vector3 turned(const Take& take, int frame, const std::string& bone, const Vecto
 }
 
 void expect_near(const Vector3& actual, const Vector3& expected) {
-  EXPECT_LT((actual - expected).norm(), kTolerance)
+  EXPECT_LT((actual - expected).norm(), kBvhTolerance)
       << "actual " << actual.transpose() << ", expected " << expected.transpose();
 }
 
@@ -132,13 +132,13 @@ TEST(Bvh, SnapsTheRateToTheOneMeant) {
   }
 }
 
-struct Broken {
+struct BrokenBvh {
   const char* what;
   std::string text;
   const char* error;
 };
 
-std::vector<Broken> broken_hierarchies() {
+std::vector<BrokenBvh> broken_hierarchies() {
   const std::string small = kSmall;
   return {
       {"empty file", "", "1: 'HIERARCHY' expected, found the end of the file"},
@@ -175,7 +175,7 @@ std::vector<Broken> broken_hierarchies() {
   };
 }
 
-std::vector<Broken> broken_motions() {
+std::vector<BrokenBvh> broken_frames() {
   const std::string small = kSmall;
   return {
       {"too few values", replaced(small, "90 90 0 0 0 90", "90 90"), "20: frame 2 holds 5 values, 9 expected"},
@@ -206,8 +206,8 @@ std::vector<Broken> broken_motions() {
   };
 }
 
-void expect_errors(const std::vector<Broken>& cases) {
-  for (const Broken& broken : cases) {
+void expect_errors(const std::vector<BrokenBvh>& cases) {
+  for (const BrokenBvh& broken : cases) {
     const std::string error = error_of([&] { read_text(broken.text); });
     EXPECT_EQ(error.find(std::string("small.bvh:") + broken.error), 0u) << broken.what << ": " << error;
   }
@@ -215,7 +215,7 @@ void expect_errors(const std::vector<Broken>& cases) {
 
 TEST(Bvh, NamesFileLineAndCauseOfABrokenHierarchy) { expect_errors(broken_hierarchies()); }
 
-TEST(Bvh, NamesFileLineAndCauseOfABrokenMotion) { expect_errors(broken_motions()); }
+TEST(Bvh, NamesFileLineAndCauseOfABrokenMotion) { expect_errors(broken_frames()); }
 
 TEST(Bvh, NamesAFileThatCannotBeRead) {
   const TemporaryFolder folder;

@@ -15,8 +15,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr int kPoints = ControlSpace::kPoints;
-
 double path_quality(const Quality& quality, const std::vector<int>& path, const std::vector<int>& trace) {
   double sum = 0;
   for (std::size_t i = 0; i < trace.size(); ++i) sum += quality(path[i], path[i + 1], trace[i]);
@@ -114,9 +112,9 @@ TEST(GreedyPolicy, TakesTheGreatestQualityAtEachStep) {
   for (const bool coarse : {false, true}) {
     const Quality quality = random_quality(random, 7, coarse);
     const Policy policy = greedy_policy(quality);
-    ASSERT_EQ(policy.next.size(), 7U * kPoints);
+    ASSERT_EQ(policy.next.size(), 7U * kPaperPoints);
     for (int from = 0; from < 7; ++from) {
-      for (int c = 0; c < kPoints; ++c) {
+      for (int c = 0; c < kPaperPoints; ++c) {
         const int chosen = policy(from, c);
         for (int to = 0; to < 7; ++to) {
           EXPECT_LE(quality(from, to, c), quality(from, chosen, c));
@@ -131,7 +129,7 @@ TEST(GreedyPolicy, TakesTheGreatestQualityAtEachStep) {
 
 Policy random_policy(Random& random, int classes) {
   Policy policy{"random", classes, {}};
-  for (int i = 0; i < classes * kPoints; ++i) policy.next.push_back(random.below(classes));
+  for (int i = 0; i < classes * kPaperPoints; ++i) policy.next.push_back(random.below(classes));
   return policy;
 }
 
@@ -140,7 +138,7 @@ TEST(PercentOfOptimal, IsNeverOverAHundred) {
   for (int n = 0; n < 100; ++n) {
     const int classes = 1 + random.below(8);
     const Quality quality = random_quality(random, classes, n % 2 == 0);
-    const std::vector<int> trace = random_trace(random, 1 + random.below(40), 1 + random.below(kPoints));
+    const std::vector<int> trace = random_trace(random, 1 + random.below(40), 1 + random.below(kPaperPoints));
     for (const Policy& policy :
          {random_policy(random, classes), greedy_policy(quality), iterate_policy(quality, {trace})}) {
       const double percent = percent_of_optimal(quality, policy, trace);
@@ -156,7 +154,7 @@ TEST(TraceQuality, AddsEq2AlongThePathOfThePolicy) {
   const Policy policy = random_policy(random, 5);
   const std::vector<int> trace = random_trace(random, 30);
   std::vector<int> path{3};
-  for (const int control : trace) path.push_back(policy.next[path.back() * kPoints + control]);
+  for (const int control : trace) path.push_back(policy.next[path.back() * kPaperPoints + control]);
   EXPECT_NEAR(trace_quality(quality, policy, trace, 3), path_quality(quality, path, trace), 1e-12);
 }
 
@@ -164,11 +162,11 @@ TEST(ControlModel, LearnsCountsAndItsRowsSumToOne) {
   Random random(9);
   const std::vector<std::vector<int>> traces{random_trace(random, 500, 7), random_trace(random, 300, 102), {3}, {}};
   const std::vector<double> model = control_model(traces, {3, 2});
-  ASSERT_EQ(model.size(), static_cast<std::size_t>(kPoints) * kPoints);
-  for (int c = 0; c < kPoints; ++c) {
+  ASSERT_EQ(model.size(), static_cast<std::size_t>(kPaperPoints) * kPaperPoints);
+  for (int c = 0; c < kPaperPoints; ++c) {
     double sum = 0;
-    for (int next = 0; next < kPoints; ++next) {
-      const double p = model[c * kPoints + next];
+    for (int next = 0; next < kPaperPoints; ++next) {
+      const double p = model[c * kPaperPoints + next];
       EXPECT_TRUE(p >= 0 && p <= 1);
       sum += p;
     }
@@ -178,13 +176,13 @@ TEST(ControlModel, LearnsCountsAndItsRowsSumToOne) {
 
 TEST(ControlModel, AddsThePriorsCounts) {
   const std::vector<double> model = control_model({{0, 1, 1, 0, 1}}, {8, 2});  // 0 -> 1 twice; 1 -> 1 and 1 -> 0 once
-  const double anywhere = 2.0 / kPoints;
-  EXPECT_NEAR(model[0 * kPoints + 1], (2 + anywhere) / 12, 1e-12);
-  EXPECT_NEAR(model[0 * kPoints + 0], (8 + anywhere) / 12, 1e-12);
-  EXPECT_NEAR(model[1 * kPoints + 1], (9 + anywhere) / 12, 1e-12);
-  EXPECT_NEAR(model[1 * kPoints + 0], (1 + anywhere) / 12, 1e-12);
-  EXPECT_NEAR(model[50 * kPoints + 50], (8 + anywhere) / 10, 1e-12);
-  EXPECT_NEAR(model[50 * kPoints + 7], anywhere / 10, 1e-12);
+  const double anywhere = 2.0 / kPaperPoints;
+  EXPECT_NEAR(model[0 * kPaperPoints + 1], (2 + anywhere) / 12, 1e-12);
+  EXPECT_NEAR(model[0 * kPaperPoints + 0], (8 + anywhere) / 12, 1e-12);
+  EXPECT_NEAR(model[1 * kPaperPoints + 1], (9 + anywhere) / 12, 1e-12);
+  EXPECT_NEAR(model[1 * kPaperPoints + 0], (1 + anywhere) / 12, 1e-12);
+  EXPECT_NEAR(model[50 * kPaperPoints + 50], (8 + anywhere) / 10, 1e-12);
+  EXPECT_NEAR(model[50 * kPaperPoints + 7], anywhere / 10, 1e-12);
 }
 
 TEST(ControlModel, RefusesPriorsThatAreNoCounts) {
@@ -195,18 +193,18 @@ TEST(ControlModel, RefusesPriorsThatAreNoCounts) {
 }
 
 TEST(PercentOfOptimal, IsAllWhereNothingIsAnyGood) {
-  const Quality none{1, {0}, std::vector<double>(ControlSpace::kPoints, 0)};
-  EXPECT_EQ(percent_of_optimal(none, {"only", 1, std::vector<int>(ControlSpace::kPoints, 0)}, {0, 5}), 100);
+  const Quality none{1, {0}, std::vector<double>(kPaperPoints, 0)};
+  EXPECT_EQ(percent_of_optimal(none, {"only", 1, std::vector<int>(kPaperPoints, 0)}, {0, 5}), 100);
 }
 
 TEST(ControlModel, ExpectsAControlOfWhichNothingIsKnownToStay) {
   const std::vector<double> model = control_model({{3, 4}}, {});
-  EXPECT_EQ(model[3 * kPoints + 4], 1);
-  EXPECT_EQ(model[50 * kPoints + 50], 1);
+  EXPECT_EQ(model[3 * kPaperPoints + 4], 1);
+  EXPECT_EQ(model[50 * kPaperPoints + 50], 1);
 }
 
 TEST(ControlModel, RefusesIndicesThatAreNoControl) {
-  EXPECT_THROW(control_model({{3, kPoints}}, kPersistencePrior), std::invalid_argument);
+  EXPECT_THROW(control_model({{3, kPaperPoints}}, kPersistencePrior), std::invalid_argument);
 }
 
 TEST(AnticipatePolicy, ForeseesForControlsThatWereNeverSeen) {
@@ -215,10 +213,10 @@ TEST(AnticipatePolicy, ForeseesForControlsThatWereNeverSeen) {
   Quality quality;
   quality.classes = 2;
   quality.smoothness = {1, 0.9, 0.5, 1};
-  quality.match.assign(std::size_t{2} * kPoints, 0.1);
-  for (int c = 0; c < kPoints; ++c) quality.match[c] = 1;
+  quality.match.assign(std::size_t{2} * kPaperPoints, 0.1);
+  for (int c = 0; c < kPaperPoints; ++c) quality.match[c] = 1;
   quality.match[5] = 0.6;
-  quality.match[kPoints + 5] = 0.63;
+  quality.match[kPaperPoints + 5] = 0.63;
   const std::vector<std::vector<int>> traces{{7, 7, 7}};
   EXPECT_EQ(iterate_policy(quality, traces)(0, 5), 1);
   EXPECT_EQ(anticipate_policy(quality, traces)(0, 5), 0);
@@ -237,7 +235,7 @@ TEST(IteratePolicy, UnderOneControlThatStaysFollowsTheBestLoop) {
   Quality quality;
   quality.classes = 3;
   quality.smoothness = {0.5, 0.4, 0.1, 0.1, 0.1, 1, 0.1, 1, 0.1};
-  quality.match.assign(std::size_t{3} * kPoints, 1);
+  quality.match.assign(std::size_t{3} * kPaperPoints, 1);
   const Policy policy = iterate_policy(quality, {{7, 7, 7, 7}});
   EXPECT_EQ(greedy_policy(quality)(0, 7), 0);
   EXPECT_EQ(policy(0, 7), 1);
@@ -249,25 +247,25 @@ TEST(IteratePolicy, UnderOneControlThatStaysFollowsTheBestLoop) {
 Policy plain_iteration(const Quality& quality, const std::vector<std::vector<int>>& traces, double discount) {
   const int n = quality.classes;
   const std::vector<double> model = control_model(traces, kPersistencePrior);
-  std::vector<double> value(n * kPoints, 0);
-  Policy policy{"plain", n, std::vector<int>(n * kPoints)};
+  std::vector<double> value(n * kPaperPoints, 0);
+  Policy policy{"plain", n, std::vector<int>(n * kPaperPoints)};
   for (double change = 1; change > 1e-4;) {
     const std::vector<double> before = value;
     change = 0;
-    for (int c = 0; c < kPoints; ++c) {
+    for (int c = 0; c < kPaperPoints; ++c) {
       std::vector<double> promise(n, 0);
       for (int to = 0; to < n; ++to) {
-        for (int then = 0; then < kPoints; ++then) {
-          promise[to] += discount * model[c * kPoints + then] * before[to * kPoints + then];
+        for (int then = 0; then < kPaperPoints; ++then) {
+          promise[to] += discount * model[c * kPaperPoints + then] * before[to * kPaperPoints + then];
         }
       }
       for (int from = 0; from < n; ++from) {
         const auto worth = [&](int to) { return quality(from, to, c) + promise[to]; };
         int best = 0;
         for (int to = 1; to < n; ++to) best = worth(to) > worth(best) ? to : best;
-        policy.next[from * kPoints + c] = best;
-        value[from * kPoints + c] = worth(best);
-        change = std::max(change, std::abs(worth(best) - before[from * kPoints + c]));
+        policy.next[from * kPaperPoints + c] = best;
+        value[from * kPaperPoints + c] = worth(best);
+        change = std::max(change, std::abs(worth(best) - before[from * kPaperPoints + c]));
       }
     }
   }
@@ -306,7 +304,7 @@ TEST(IteratePolicy, EndsAfterItsSweepsHoweverFarTheValues) {
   const Quality quality = random_quality(random, 6);
   const std::vector<std::vector<int>> traces{random_trace(random, 50)};
   EXPECT_EQ(iterate_policy(quality, traces, {0.999999999, 1e-300, 1}).next, greedy_policy(quality).next);
-  EXPECT_EQ(iterate_policy(quality, traces, {0.999999999, 1e-300, 100}).next.size(), 6U * kPoints);
+  EXPECT_EQ(iterate_policy(quality, traces, {0.999999999, 1e-300, 100}).next.size(), 6U * kPaperPoints);
 }
 
 TEST(QualityTable, IsEq2ForTheRepresentatives) {
@@ -322,7 +320,7 @@ TEST(QualityTable, IsEq2ForTheRepresentatives) {
     for (int to = 0; to < 12; ++to) {
       const int f = classes.representatives[from], g = classes.representatives[to];
       const double smooth = 1 / (1 + double(transition_distance(t, f, g)));
-      for (int c = 0; c < kPoints; ++c) {
+      for (int c = 0; c < kPaperPoints; ++c) {
         const Control &ev = pool.fragments[g].evident, &want = space.point(c);
         const double dx = 1.5 * 0.9 * (ev.x - want.x), dy = 1.5 * 0.9 * (ev.y - want.y),
                      dt = 0.5 * (ev.turn - want.turn), dj = 2 * (ev.jump - want.jump);

@@ -51,7 +51,7 @@ void play(Player& player, Random& random) {
   const Character& c = player.character();
   for (int i = 0; i < 1000; ++i) {
     if (i % 50 == 0) player.force(random.below(c.classes.count));
-    player.step(c.space.point(random.below(ControlSpace::kPoints)), 0.04 * random.uniform());
+    player.step(c.space.point(random.below(kPaperPoints)), 0.04 * random.uniform());
   }
 }
 
@@ -81,7 +81,7 @@ TEST(Allocations, AreNoneInACrowdsStepsOnOneThread) {
   std::vector<double> roots(std::size_t{3} * crowd.size()), rotations(std::size_t{4} * crowd.bones() * crowd.size());
   const auto play = [&] {
     for (int i = 0; i < 300; ++i) {
-      for (Control& control : controls) control = gait_character()->space.point(random.below(ControlSpace::kPoints));
+      for (Control& control : controls) control = gait_character()->space.point(random.below(kPaperPoints));
       crowd.step(controls.data(), 1.0 / 60, roots.data(), rotations.data());
     }
   };

@@ -3,15 +3,14 @@
 
 #include "fragmotion/runtime/breathing.hpp"
 #include "fragmotion/skeleton/two_bone_ik.hpp"
+#include "steering.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;
-
 // Heads of all bones while a body stands and breathes, or does not.
-struct Body {
+struct BreathingBody {
   Skeleton skeleton = humanoid();
   Kinematics kinematics{skeleton};
   Breathing breathing{Trunk(skeleton)};
@@ -20,7 +19,7 @@ struct Body {
   PosedBones shown(bool stands) {
     WorldPose pose{load_vector(clip.root_positions.data()), clip.headings[0], {}};
     pose.rotations.assign(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
-    breathing.apply(skeleton, pose, stands, kFrame);
+    breathing.apply(skeleton, pose, stands, kStep);
     PosedBones posed(skeleton.size());
     kinematics.world(pose.root, pose.rotations.data(), posed.heads.data(), posed.rotations.data());
     return posed;
@@ -28,7 +27,7 @@ struct Body {
 };
 
 TEST(Breathing, MovesTheHandsALittleSmoothlyAndNeverTheFeet) {
-  Body body;
+  BreathingBody body;
   const Roles& roles = body.skeleton.roles;
   const PosedBones still = body.shown(false);
   PosedBones before = still;
@@ -47,7 +46,7 @@ TEST(Breathing, MovesTheHandsALittleSmoothlyAndNeverTheFeet) {
 }
 
 TEST(Breathing, FadesWhereTheBodyGoes) {
-  Body body;
+  BreathingBody body;
   const Roles& roles = body.skeleton.roles;
   const PosedBones still = body.shown(false);
   for (int f = 0; f < 100; ++f) body.shown(true);
@@ -56,7 +55,7 @@ TEST(Breathing, FadesWhereTheBodyGoes) {
 }
 
 TEST(Breathing, LeavesASkeletonWithoutArmsAsItIs) {
-  Body body;
+  BreathingBody body;
   body.skeleton.roles.left_hand = -1;
   body.breathing = Breathing(Trunk(body.skeleton));
   const PosedBones still = body.shown(false);

@@ -6,12 +6,12 @@
 #include "fragmotion/runtime/step_on_threads.hpp"
 #include "mocap_files.hpp"
 #include "small_character.hpp"
+#include "steering.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr int kCount = 37, kSteps = 200;
-constexpr double kStep = 1.0 / 60;
 
 Control any_control(Random& random) {
   return {4 * random.uniform() - 2, 4 * random.uniform() - 2, 2 * random.uniform() - 1, random.uniform()};

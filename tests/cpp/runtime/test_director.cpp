@@ -7,11 +7,10 @@
 
 #include "fragmotion/runtime/player.hpp"
 #include "small_character.hpp"
+#include "steering.hpp"
 
 namespace fragmotion {
 namespace {
-
-const Control kForward{0, 1.2, 0, 0};
 
 // Follows the control as it is.
 PlayerOptions at_once() {
@@ -28,12 +27,11 @@ struct Acts {
       std::make_shared<Character>(tiny_character({tiny_clip(0), tiny_clip(1.5), tiny_clip(-1.5), tiny_clip(0, 0.5)}));
 
   Acts() {
-    for (int point = 0; point < ControlSpace::kPoints; ++point) {
+    for (int point = 0; point < kPaperPoints; ++point) {
       const Control control = character->space.point(point);
       const int asked = control.jump > 0 ? jump : control.y > 0 ? forward : control.y < 0 ? back : stand;
       for (int from = 0; from < 4; ++from) {
-        character->policies[0].next[from * ControlSpace::kPoints + point] =
-            from == stand && asked == back ? stand : asked;
+        character->policies[0].next[from * kPaperPoints + point] = from == stand && asked == back ? stand : asked;
       }
     }
     std::fill(character->bridges.begin(), character->bridges.end(), -1);

@@ -20,7 +20,7 @@ struct Choice {
   FragmentSelector selector;
 
   explicit Choice(std::uint64_t seed, std::shared_ptr<const Character> of = gait_character())
-      : character(std::move(of)), selector(*character, workspace, seed) {
+      : character(std::move(of)), selector(workspace, seed) {
     playback.reset(0, {});
   }
 };
@@ -29,7 +29,7 @@ TEST(FragmentSelector, ChoosesMembersThatPerformTheControlAtLeastAsWellAsTheRepr
   Choice choice(3);
   const Character& c = *choice.character;
   for (int k = 0; k < c.classes.count; ++k) {
-    for (int point = 0; point < ControlSpace::kPoints; point += 7) {
+    for (int point = 0; point < kPaperPoints; point += 7) {
       const Control control = c.space.point(point);
       const int chosen = choice.selector.choose(k, control, choice.playback);
       EXPECT_EQ(c.classes.labels[chosen], k);
@@ -105,10 +105,10 @@ TEST(FragmentSelector, LeavesAFragmentAtTheSameMomentWhereTheSameLimbsAreOfMoreB
 }
 
 // How many feet come down out of turn in all where fragments are left early for classes.
-int steps_out_of_turn(Choice& choice, bool known) {
+int steps_out_of_turn_when_left(Choice& choice, bool known) {
   int all = 0;
   const Character& c = *choice.character;
-  if (!known) choice.workspace.entry_steps.assign(c.pool.fragments.size(), EntrySteps{});
+  if (!known) choice.workspace.styles[0].entry_steps.assign(c.pool.fragments.size(), EntrySteps{});
   const std::vector<EntrySteps> entries = entry_steps(c);
   for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 3) {
     if (!(c.pool.fragments[fragment].evident.speed() > kMoving)) continue;
@@ -123,7 +123,7 @@ int steps_out_of_turn(Choice& choice, bool known) {
       const Exit exit = choice.selector.best_exit(k, control, choice.playback, 0.1);
       choice.playback.advance(exit.seconds - choice.playback.seconds());
       const int chosen = choice.selector.choose(k, control, choice.playback);
-      all += fragmotion::steps_out_of_turn(choice.playback.steps(), entries[chosen]);
+      all += steps_out_of_turn(choice.playback.steps(), entries[chosen]);
     }
   }
   return all;
@@ -131,7 +131,7 @@ int steps_out_of_turn(Choice& choice, bool known) {
 
 TEST(FragmentSelector, LeavesAFragmentWhereFeetComeDownInTurn) {
   Choice knows(1), does_not(1);
-  EXPECT_LT(steps_out_of_turn(knows, true), steps_out_of_turn(does_not, false));
+  EXPECT_LT(steps_out_of_turn_when_left(knows, true), steps_out_of_turn_when_left(does_not, false));
 }
 
 }  // namespace

@@ -5,22 +5,21 @@
 
 #include "fragmotion/runtime/lean.hpp"
 #include "fragmotion/skeleton/two_bone_ik.hpp"
+#include "steering.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;
-
 // A standing body, turned by a heading, that is accelerated.
-struct Body {
+struct LeaningBody {
   Skeleton skeleton = humanoid();
   Kinematics kinematics{skeleton};
   Lean lean{Trunk(skeleton), 1};
   Clip clip = gait_clip({0, 0, 0});
   double heading = 0;
 
-  Body() {
+  LeaningBody() {
     Gait gait{0, 0, 0};
     gait.heading = heading = 0.8;
     clip = gait_clip(gait);
@@ -29,10 +28,10 @@ struct Body {
   // The heads of hips, chest, head and left foot, seen from the character frame, after an acceleration for a while.
   std::array<Vector3, 4> after(const Vector2& acceleration, double seconds) {
     std::array<Vector3, 4> heads;
-    for (double t = 0; t < seconds; t += kFrame) {
+    for (double t = 0; t < seconds; t += kStep) {
       WorldPose pose{load_vector(clip.root_positions.data()), clip.headings[0], {}};
       pose.rotations.assign(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
-      lean.apply(skeleton, pose, acceleration, kFrame);
+      lean.apply(skeleton, pose, acceleration, kStep);
       PosedBones posed(skeleton.size());
       kinematics.world(pose.root, pose.rotations.data(), posed.heads.data(), posed.rotations.data());
       const CharacterFrame frame{pose.root.head<2>(), pose.heading};
@@ -44,7 +43,7 @@ struct Body {
 };
 
 TEST(Lean, LeansTheTrunkIntoTheAccelerationByHalfOfWhatBalancesIt) {
-  Body body;
+  LeaningBody body;
   const auto upright = body.after({0, 0}, 0.5);
   for (const double angle : {0.0, 1.0, 2.5, -2.0}) {
     const Vector2 acceleration = 4 * Vector2{std::cos(angle), std::sin(angle)};
@@ -58,11 +57,11 @@ TEST(Lean, LeansTheTrunkIntoTheAccelerationByHalfOfWhatBalancesIt) {
 }
 
 TEST(Lean, ComesAndGoesSmoothly) {
-  Body body;
-  Vector3 before = body.after({0, 0}, kFrame)[2];
+  LeaningBody body;
+  Vector3 before = body.after({0, 0}, kStep)[2];
   const auto steps = [&](const Vector2& acceleration) {
     for (int f = 0; f < 60; ++f) {
-      const Vector3 now = body.after(acceleration, kFrame / 2)[2];
+      const Vector3 now = body.after(acceleration, kStep / 2)[2];
       EXPECT_LT((now - before).norm(), 0.02) << f;  // 1.2 m/s
       before = now;
     }
@@ -75,7 +74,7 @@ TEST(Lean, ComesAndGoesSmoothly) {
 }
 
 TEST(Lean, LeavesASkeletonWithoutASpineAsItIs) {
-  Body body;
+  LeaningBody body;
   body.skeleton.roles.left_hand = body.skeleton.roles.right_hand = -1;
   body.lean = Lean(Trunk(body.skeleton), 1);
   const auto upright = body.after({0, 0}, 0.5), leaning = body.after({0, 5}, 1);

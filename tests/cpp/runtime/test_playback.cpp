@@ -60,7 +60,7 @@ TEST(Playback, ShowsTheSameAtTheBeginningOfAStitchOfEitherKind) {
     stage.playback.show();
     const WorldPose before = stage.workspace.shown;
     stage.playback.start(0);
-    EXPECT_EQ(stage.playback.fragment(), 0);
+    EXPECT_EQ(&stage.playback.fragment(), &stage.character->played(0));
     EXPECT_EQ(stage.playback.seconds(), 0);
     EXPECT_LT(apart(before, stage.workspace.shown), 1e-3);  // offsets are kept in single precision
   }

@@ -11,11 +11,10 @@
 #include "fragmotion/runtime/player.hpp"
 #include "mocap_files.hpp"
 #include "small_character.hpp"
+#include "steering.hpp"
 
 namespace fragmotion {
 namespace {
-
-const Control kForward{0, 1.2, 0, 0};
 
 std::vector<Vector3> joints(const Kinematics& kinematics, const Vector3& root, const std::vector<double>& rotations) {
   std::vector<Vector3> heads(kinematics.bones());
@@ -82,7 +81,7 @@ TEST(Player, NeverJumps) {
     std::vector<Vector3> before = joints(kinematics, player.root_position(), player.rotations());
     double heading = player.frame().heading, largest = 0;
     for (int i = 0; i < static_cast<int>(8 / dt); ++i) {
-      if (i % static_cast<int>(0.3 / dt) == 0) control = c->space.point(random.below(ControlSpace::kPoints));
+      if (i % static_cast<int>(0.3 / dt) == 0) control = c->space.point(random.below(kPaperPoints));
       if (i % static_cast<int>(0.7 / dt) == 0) player.force(random.below(c->classes.count));
       player.step(control, dt);
       const std::vector<Vector3> now = joints(kinematics, player.root_position(), player.rotations());
@@ -152,7 +151,7 @@ TEST(Player, JumpsWheneverItIsAskedTo) {
 
 TEST(Player, NeverHopsUnasked) {
   const Character& c = *gait_character();
-  for (int point = 0; point < ControlSpace::kPoints; point += 2) {
+  for (int point = 0; point < kPaperPoints; point += 2) {
     Player player(gait_character(), unadjusted(3));
     for (int i = 0; i < 180; ++i) {
       player.step(c.space.point(point), 1.0 / 60);
@@ -298,7 +297,7 @@ TEST(Player, MovesAndTurnsWithThePlaceWhereItStarts) {
   Random random(3);
   Control control;
   for (int i = 0; i < 300; ++i) {
-    if (i % 30 == 0) control = gait_character()->space.point(random.below(ControlSpace::kPoints));
+    if (i % 30 == 0) control = gait_character()->space.point(random.below(kPaperPoints));
     here.step(control, 1.0 / 30);
     there.step(control, 1.0 / 30);
     ASSERT_LT((there.root_position() - place.to_world(here.root_position())).norm(), 1e-6) << i;

@@ -11,13 +11,12 @@
 #include "fragmotion/runtime/crowd.hpp"
 #include "made_moves.hpp"
 #include "mocap_files.hpp"
+#include "steering.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr int kLunge = 0, kLongLunge = 1, kWave = 2, kLongWave = 3;
-constexpr double kStep = 1.0 / 60;
-const Control kForward{0, 1.2, 0, 0}, kStand{};
 
 PlayerOptions bare() {
   PlayerOptions options;
@@ -35,10 +34,6 @@ double steps_until(Player& player, const Control& control, double most, const Do
 
 bool lunges(const Player& player) { return player.playing_moves()[0] >= 0; }
 bool waves(const Player& player) { return player.playing_moves()[1] >= 0; }
-
-void settle(Player& player, const Control& control, double seconds = 2) {
-  steps_until(player, control, seconds, [] { return false; });
-}
 
 TEST(PlayerMoves, AreThePoliciesBitsWhereNoneIsPressed) {
   const Trace trace = simulate_trace("explorer", 20, 3, gait_character()->space);
@@ -238,7 +233,7 @@ TEST(PlayerMoves, NeverJump) {
     PosedBones before(kinematics.bones()), now(kinematics.bones());
     Control control;
     for (int i = 0; i < 60 * 40; ++i) {
-      if (i % 37 == 0) control = c->space.point(random.below(ControlSpace::kPoints));
+      if (i % 37 == 0) control = c->space.point(random.below(kPaperPoints));
       if (i % 53 == 0) player.start_move(random.below(4));
       if (i % 71 == 0) player.release_move(random.below(4));
       player.step(control, kStep);
@@ -305,7 +300,7 @@ TEST(PlayerMoves, AllocateNothing) {
   for (int i = 0; i < 1500; ++i) {
     if (i % 40 == 0) player.start_move(random.below(4));
     if (i % 90 == 0) player.release_move(random.below(4));
-    player.step(player.character().space.point(random.below(ControlSpace::kPoints)), 0.04 * random.uniform());
+    player.step(player.character().space.point(random.below(kPaperPoints)), 0.04 * random.uniform());
   }
   EXPECT_EQ(allocations - before, 0U);
 }

@@ -3,22 +3,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
 
 from ...bake.performing import character_frame, origin_frame
-from ...character.building import check_skeleton, has_character, load, make_player
+from ...character.building import check_skeleton, has_character, in_styles, load, make_player
 from ...compat.core import core
 from ...errors import core_errors
+from ...ground.meshes import Ground
 from ...rig.posing import check_free
 from ...rig.rigs import carriers, make_rig
 from ..input.steering import Control
 from .slider import Slider
 
 if TYPE_CHECKING:
-    from fragmotion_core import Doubles, Player
+    from fragmotion_core import ControlSpace, Doubles, Player
 
 _TURNS_WELL = 0.75  # of the turn rate that is asked for
 _START, _TRIAL = 1.0, 2.0  # s of going straight, and of turning then
@@ -28,24 +30,33 @@ _STEP = 1 / 60  # s
 class Actor:
     """Poses an armature by its character, or lets it slide where it has none. UserError where it cannot be driven.
 
-    It begins where its DriveSettings.start says.
+    It begins where its DriveSettings.start says. Its character stands on `ground`; what slides, slides on the plane.
     """
 
-    def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, seed: int, policy: str = "") -> None:
+    def __init__(
+        self,
+        context: bpy.types.Context,
+        obj: bpy.types.Object,
+        seed: int,
+        policy: str = "",
+        ground: Ground | None = None,
+    ) -> None:
         check_free(obj)
         self._obj, self._rig = obj, make_rig(obj)
         self.skeleton = self._rig.skeleton
         carriers(obj, self._rig)
         self.character = load(obj) if has_character(obj) else None
         self.policy = policy or (self.character.policy if self.character else "")
-        self.space = self.character.space if self.character else core.ControlSpace()
+        self._spaces = [styled.space for styled in in_styles(self.character)] if self.character else []
         self.player: Any
         if self.character is None:
+            self._spaces = [core.ControlSpace()]
             self.player = Slider(self.skeleton, self.space)
         else:
             check_skeleton(obj, self.character, self._rig)
             with core_errors("Drive"):
                 self.player = make_player(obj, self.character, seed, policy)
+                self.player.stand_on(ground)
         self._order = [obj.data.bones.find(bone.name) for bone in obj.pose.bones]
         stands = obj.fragmotion.drive.start == "CHARACTER"
         self.player.reset(*(character_frame(context, obj, self._rig) if stands else origin_frame(obj)))
@@ -55,16 +66,37 @@ class Actor:
         pose: tuple[Doubles, Doubles] = self.player.step(control, seconds)
         return pose
 
+    @property
+    def style(self) -> int:
+        """The number of the style that plays."""
+        return 0 if self.character is None else int(self.player.playing_style)
+
+    @property
+    def space(self) -> ControlSpace:
+        """What controls mean in the style that plays."""
+        return self._spaces[self.style if len(self._spaces) > 1 else 0]
+
     def turns_well(self, pace: float) -> bool:
         """Whether it turns about as fast as it is told while it goes ahead at a speed in m/s."""
         if self.character is None:
             return True
-        turned = sum(_turned(make_player(self._obj, self.character, 1, self.policy), pace, turn) for turn in (1, -1))
+        turned = 0.0
+        for turn in (1, -1):
+            player = make_player(self._obj, self.character, 1, self.policy)
+            player.reset(style=self.style)
+            turned += _turned(player, pace, turn)
         return bool(turned / 2 > _TURNS_WELL * self.space.turn_rate * _TRIAL)
+
+    def begin(self, frame: Sequence[float], style: int = 0) -> None:
+        """Stand at a character frame, in a style."""
+        if self.character is None:
+            self.player.reset(*frame)
+        else:
+            self.player.reset(*frame, style=style)
 
     def start_afresh(self) -> None:
         """Stand where the character is, as a replay will begin."""
-        self.player.reset(*self.player.frame)
+        self.begin(self.frame, self.style)
 
     def show(self, root: Doubles, rotations: Doubles) -> None:
         """Write a pose to the armature, whose bones rotate by quaternions."""

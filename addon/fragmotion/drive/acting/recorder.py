@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...character.moves import names_of
-from ...recordings.recordings import TRACE_RATE, StartedMove
+from ...recordings.asked import StartedMove
+from ...recordings.recordings import TRACE_RATE
+from ...recordings.styles import StyleChange
 from ...rig.motion import Motion
 from ..input.steering import Control
 from .actor import Actor
@@ -36,6 +38,12 @@ class Recorder:
         self._started: list[StartedMove] = []
         self._held: dict[int, int] = {}  # the moves that are held, and which of those started each is
         self._tapped: set[int] = set()
+        self._style_names = list(actor.character.style_names) if actor.character is not None else []
+        self._style = actor.style
+        self.style = self._style_names[self._style] if self._style_names else ""
+        """The one in which it begins."""
+        self.styles: list[StyleChange] = []
+        """Those to which it changed."""
         self._poses: list[tuple[Doubles, Doubles]] = []
         self._frames: list[tuple[float, float, float]] = []
         self._classes: list[int] = []
@@ -67,6 +75,13 @@ class Recorder:
         for move in list(moves):
             index = self._held.pop(move)
             self._started[index] = self._started[index]._replace(held=now - self._started[index].control)
+
+    def hold_style(self, wanted: int) -> int:
+        """The style of the next step, whose control `hold` has told: it changes with the controls."""
+        if self._begins and wanted != self._style:
+            self._style = wanted
+            self.styles.append(StyleChange(len(self._controls) - 1, self._style_names[wanted]))
+        return self._style
 
     def add(self, pose: tuple[Doubles, Doubles]) -> None:
         """The step has led to this pose."""

@@ -38,6 +38,7 @@ class Slider:
 
     standing_feet = np.empty((0, 3))
     """None stands: the body slides."""
+    ground_level = ground_missed = 0.0
 
     def __init__(self, skeleton: Skeleton, space: ControlSpace) -> None:
         self._space = space

@@ -24,14 +24,16 @@ def rows(shown: Shown) -> list[Row]:
     """What the display says: labels and values with their units."""
     readings, space = shown.readings, shown.readings.space
     table = [("Input", shown.input or "none yet: push a stick or press a key")]
-    table.append(("Control", describe(readings.control, space.walk, space.run)))
+    table.append(("Control", describe(readings.control, space)))
     if readings.judge is not None:
         judge = readings.judge
-        table.append(("Class", f"{judge.playing_class}: {describe(judge.evident, space.walk, space.run)}"))
+        table.append(("Class", f"{judge.playing_class}: {describe(judge.evident, space)}"))
         table.append(("Fragment", f"{judge.left:.2f} s left"))
         table.append(("Quality", f"{judge.quality:.2f} now, {judge.mean:.2f} on the whole"))
     else:
         table.append(("Class", "none before Build: the body slides"))
+    if shown.style:
+        table.append(("Style", shown.style))
     if shown.move:
         table.append(("Move", shown.move))
     answered = readings.stopwatch.seconds

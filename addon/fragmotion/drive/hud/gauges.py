@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...character.building import in_styles
 from ..input.steering import Control
 
 if TYPE_CHECKING:
@@ -54,7 +55,7 @@ class Stopwatch:
 
     def step(self, control: Control, velocity: tuple[float, float], seconds: float) -> None:
         """Some seconds have gone under a control; the velocity is in the character frame."""
-        asked = int(np.unravel_index(self._space.nearest([control])[0], self._space.SHAPE)[0])
+        asked = int(np.unravel_index(self._space.nearest([control])[0], self._space.shape)[0])
         if asked != self._asked:
             self._asked, self._before, self._wanted = asked, velocity, (control.right, control.forward)
             self._since = 0.0 if math.dist(self._before, self._wanted) > _STEP else None
@@ -72,7 +73,8 @@ class Judge:
     """Eq. 2 of what plays, now and on the whole, and how long the fragment still lasts."""
 
     def __init__(self, character: Character) -> None:
-        self._evident = character.evident[character.representatives]
+        self._evident = [styled.evident[styled.representatives] for styled in in_styles(character)]
+        self._style = 0
         self._total = self._seconds = 0.0
         self.playing_class = 0
         self.quality = 0.0
@@ -83,6 +85,7 @@ class Judge:
     def step(self, player: Player, control: Control, seconds: float) -> None:
         """Some seconds have gone under a control."""
         self.playing_class, self.left = player.playing[0], player.seconds_left
+        self._style = player.playing_style
         self.quality = player.quality(control)
         self._total += self.quality * seconds
         self._seconds += seconds
@@ -95,4 +98,4 @@ class Judge:
     @property
     def evident(self) -> Control:
         """What the class visibly does (Sec. 3.2)."""
-        return Control(*self._evident[self.playing_class])
+        return Control(*self._evident[self._style][self.playing_class])

@@ -52,15 +52,16 @@ def _draw_ground(look: Look) -> None:
         return
     settings, readings = shown.settings, shown.readings
     x, y, _ = readings.frame
+    level = readings.level
     with paint.blending():
         if settings.show_ideal:
-            paint.draw_line([_lifted(*point) for point in readings.ideal_path.points], _IDEAL, 2)
-            _draw_ghost(*readings.ideal.frame)
+            paint.draw_line([_lifted(*point, level) for point in readings.ideal_path.points], _IDEAL, 2)
+            _draw_ghost(*readings.ideal.frame, level)
         if settings.show_path:
-            paint.draw_line([_lifted(*point) for point in (*readings.path.points, (x, y))], _PATH, 2)
+            paint.draw_line([_lifted(*point, level) for point in (*readings.path.points, (x, y))], _PATH, 2)
         if settings.show_velocity:
-            _draw_velocity(_lifted(x, y), readings.commanded, COMMANDED)
-            _draw_velocity(_lifted(x, y, 2), readings.velocity, ACTUAL)
+            _draw_velocity(_lifted(x, y, level), readings.commanded, COMMANDED)
+            _draw_velocity(_lifted(x, y, level, 2), readings.velocity, ACTUAL)
         if settings.show_feet:
             for place in readings.standing_feet.tolist():
                 paint.draw_fan(paint.circle(place, _FOOT)[:-1], _PLANTED)
@@ -70,16 +71,16 @@ def _draw_velocity(start: paint.Point, velocity: tuple[float, float], color: pai
     paint.draw_arrow(start, (_REACH * velocity[0], _REACH * velocity[1]), color, _ARROW)
 
 
-def _draw_ghost(x: float, y: float, heading: float) -> None:
+def _draw_ghost(x: float, y: float, heading: float, level: float) -> None:
     """A ring that shows by its nose where it faces."""
-    ring = paint.circle(_lifted(x, y), _GHOST)
+    ring = paint.circle(_lifted(x, y, level), _GHOST)
     paint.draw_line(ring, _IDEAL, 2)
-    nose = _lifted(x - 2 * _GHOST * math.sin(heading), y + 2 * _GHOST * math.cos(heading))
-    paint.draw_line([_lifted(x, y), nose], _IDEAL, 2)
+    nose = _lifted(x - 2 * _GHOST * math.sin(heading), y + 2 * _GHOST * math.cos(heading), level)
+    paint.draw_line([_lifted(x, y, level), nose], _IDEAL, 2)
 
 
-def _lifted(x: float, y: float, times: int = 1) -> paint.Point:
-    return x, y, times * _LIFT
+def _lifted(x: float, y: float, level: float, times: int = 1) -> paint.Point:
+    return x, y, level + times * _LIFT
 
 
 def _draw_front(look: Look, where: views.Views) -> None:

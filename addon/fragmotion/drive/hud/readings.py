@@ -50,6 +50,11 @@ class Readings:
         return self._actor.frame
 
     @property
+    def level(self) -> float:
+        """The height of the ground under the character, m."""
+        return float(self._actor.player.ground_level)
+
+    @property
     def standing_feet(self) -> Doubles:
         """Where feet stand [0 .. 2,3], m."""
         feet: Doubles = self._actor.player.standing_feet

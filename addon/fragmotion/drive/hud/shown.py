@@ -30,3 +30,5 @@ class Shown(NamedTuple):
     """Our own time for an update and the time between updates, s."""
     move: str = ""
     """The moves that play or wait, in words."""
+    style: str = ""
+    """The style that plays, and the one that waits, in words."""

@@ -8,7 +8,7 @@ from typing import Any
 
 from .arbiter import Arbiter
 from .keyboard import Keyboard
-from .pads import Pad, Pads
+from .pads import STYLE_BUTTONS, Pad, Pads
 from .screen_stick import ScreenStick
 from .sdl import SdlMissing
 from .steering import REST, Intent
@@ -27,6 +27,7 @@ class Inputs:
         self._arbiter = Arbiter((self.keyboard, self.stick, self.trace, self.target))
         self._pads: Pads | None = None
         self._record_pressed = False
+        self._style_pressed: set[str] = set()
         self.shown = REST
         """The last intent, for drawing."""
         self.messages: list[str] = []
@@ -62,16 +63,23 @@ class Inputs:
         by_pads = {self._move_of[button] for button in pressed if button in self._move_of}
         return self.keyboard.moves() | by_pads | self.trace.moves()
 
-    def play(self, trace: Any, moves: Any = ()) -> None:
-        """Let a trace [T,4] drive with the moves [M,3] that were started in it, until it ends or another input is
-        touched."""
-        self.trace.play(trace, moves)
+    def play(self, trace: Any, moves: Any = (), styles: Any = ()) -> None:
+        """Let a trace [T,4] drive with the moves [M,3] that were started and the styles [S,2] that were changed in it,
+        until it ends or another input is touched."""
+        self.trace.play(trace, moves, styles)
         self._arbiter.take(self.trace)
 
     def walk(self, space: Any, frame: tuple[float, float, float], place: tuple[float, float], pace: float) -> None:
         """Let the character go to a place, until it is there or another input is touched."""
         if self.target.go(space, frame, place, pace):
             self._arbiter.take(self.target)
+
+    def style_step(self) -> int:
+        """By how many styles to go on, or back, as pads' buttons say that have gone down since this was last asked; a
+        button that starts a move does that alone."""
+        pressed = {button for pad in self.pads for button in pad.state.buttons}
+        fresh, self._style_pressed = pressed - self._style_pressed, pressed
+        return sum(STYLE_BUTTONS.get(button, 0) for button in fresh if button not in self._move_of)
 
     @property
     def label(self) -> str:

@@ -18,8 +18,13 @@ DEFAULT_KEYS = {
     "turn_right": "E",
     "jump": "SPACE",
     "record": "R",
+    "previous_style": "LEFT_BRACKET",
+    "next_style": "RIGHT_BRACKET",
 }
 """What a key does, and the key that does it unless the user chose another."""
+
+STYLE_STEPS = {"previous_style": -1, "next_style": 1}
+"""What changes the style, and by how many."""
 
 NO_KEY = "NONE"
 

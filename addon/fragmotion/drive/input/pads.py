@@ -22,6 +22,10 @@ MOVE_BUTTONS = (
 """Buttons that may start a move, by SDL's names."""
 
 
+STYLE_BUTTONS = {"DPAD_RIGHT": 1, "DPAD_LEFT": -1}
+"""Buttons that change to the next style and to the one before, unless they start a move."""
+
+
 class PadState(NamedTuple):
     """Sticks from -1 to 1, right and up; a turn from -1 to 1 (left) by the shoulder buttons."""
 

@@ -6,22 +6,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...compat.core import core
+
 if TYPE_CHECKING:
     from fragmotion_core import ControlSpace
 
 HALF = 0.5
 """How far the stick is pushed for a walk; fully pushed it is a run."""
 
-_DIRECTIONS = (
-    "forward",
-    "forward-left",
-    "left",
-    "back-left",
-    "back",
-    "back-right",
-    "right",
-    "forward-right",
-)
 _RUNS = 0.75  # of the stick's way; the speed beyond is nearer to a run
 _ON_THE_SPOT = math.radians(100)  # off by more, a character that turns well stops for it
 _BEHIND = math.radians(160)  # off by more, a turn goes on to the side on which it began
@@ -122,14 +114,15 @@ def view_heading(rotation: list[list[float]]) -> float:
     return math.atan2(-(lean * up[0] - back[0]), lean * up[1] - back[1])
 
 
-def describe(control: Control, walk: float, run: float) -> str:
+def describe(control: Control, space: ControlSpace) -> str:
     """A control in words: "run forward, turn left, jump"."""
     pace = math.hypot(control.right, control.forward)
     words = ["stand"]
-    if pace > walk / 2:
-        gait = "walk" if pace < (walk + run) / 2 else "run"
-        octant = round(math.atan2(-control.right, control.forward) / (math.pi / 4)) % 8
-        words = [f"{gait} {_DIRECTIONS[octant]}"]
+    if pace > space.speeds[0] / 2:
+        faster = sum(pace >= (slow + fast) / 2 for slow, fast in zip(space.speeds, space.speeds[1:]))
+        names = core.DIRECTIONS[:: len(core.DIRECTIONS) // space.directions]
+        way = round(math.atan2(-control.right, control.forward) / (2 * math.pi) * len(names)) % len(names)
+        words = [f"{space.gaits[faster]} {names[way].replace(' ', '-')}"]
     if abs(control.turn) >= HALF:
         words.append("turn left" if control.turn > 0 else "turn right")
     if control.jump >= HALF:

@@ -23,11 +23,13 @@ class TraceInput:
         self._steps = 0
         self._trace: list[Control] = []
         self._moves: list[Sequence[int]] = []
+        self._styles: list[Sequence[int]] = []
 
-    def play(self, trace: Doubles, moves: Sequence[Sequence[int]] = ()) -> None:
-        """Begin with the trace [T,4], in which moves [M,3] were started as Player.run has them."""
+    def play(self, trace: Doubles, moves: Sequence[Sequence[int]] = (), styles: Sequence[Sequence[int]] = ()) -> None:
+        """Begin with the trace [T,4], in which moves [M,3] were started and styles [S,2] changed as Player.run has
+        them."""
         self._steps, self._trace = 0, [Control(*row) for row in trace.tolist()]
-        self._moves = list(moves)
+        self._moves, self._styles = list(moves), list(styles)
 
     def advance(self) -> None:
         """A step has been made."""
@@ -37,12 +39,19 @@ class TraceInput:
 
     def release(self) -> None:
         """Stop the trace."""
-        self._trace, self._moves = [], []
+        self._trace, self._moves, self._styles = [], [], []
 
     def moves(self) -> set[int]:
         """Those that are held now."""
         now = self._steps * TRACE_RATE // self._rate
         return {move for control, move, held in self._moves if control <= now < control + held}
+
+    def style(self) -> int | None:
+        """The style to which it has changed since this was last asked, if it has."""
+        now, due = self._steps * TRACE_RATE // self._rate, None
+        while self._styles and self._styles[0][0] <= now:
+            due = self._styles.pop(0)[1]
+        return due
 
     def intent(self) -> Intent:
         return Intent(control=self._trace[self._steps * TRACE_RATE // self._rate]) if self._trace else REST

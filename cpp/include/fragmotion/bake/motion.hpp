@@ -3,34 +3,42 @@
 
 #include <vector>
 
-#include "fragmotion/base/types.hpp"
+#include "fragmotion/motion/pose.hpp"
 
 namespace fragmotion {
 
-/// Poses at a fixed rate and where the character is in them.
+/// What was shown, a pose a frame, as Performance has it.
 struct Motion {
+  double rate = 0;                     ///< Frames a second.
   std::vector<double> root_positions;  ///< [frames, 3] m
   std::vector<double> rotations;       ///< [frames, bones, 4] as in Clip
-  std::vector<double> places;          ///< [frames, 3]: the character frame's x, y (m) and heading (rad)
+  std::vector<double> path;            ///< [frames, 3]: character frame x, y in m and heading in rad, unwrapped
 
-  int frames() const { return static_cast<int>(places.size() / 3); }
+  int frames() const { return static_cast<int>(path.size() / 3); }
   int bones() const { return static_cast<int>(rotations.size() / 4) / frames(); }
+  CharacterFrame frame(int f) const {
+    const double* at = &path[std::size_t{3} * f];
+    return {{at[0], at[1]}, at[2]};
+  }
 };
 
-/// The same poses, seen from the character frame, with that frame at `places` [frames, 3]. `hips` is a number of a
-/// bone.
-Motion carried(const Motion& motion, int hips, const std::vector<double>& places);
+/// Throws std::invalid_argument, which begins with `name`, unless it has the skeleton's bones, a frame at least, a rate
+/// of over 0 to 1000, finite numbers, places within 1e9 m, and unit quaternions.
+void check_motion(const Skeleton& skeleton, const Motion& motion, const char* name);
 
-/// The motion with its last `count` frames eased so that it ends as it began: seen from the character frame, the last
-/// pose is the first one, and the one before leads up to it at the first's velocity; the path's last step is its first.
-/// `count` is brought within 2 and the motion's steps; fewer than three frames stay as they are.
-Motion looped(const Motion& motion, int hips, int count);
+/// A frame of it. `at` must be 0 .. frames - 1.
+WorldPose pose_at(const Motion& motion, int at);
 
-/// A motion that was shown at times (s, ascending from 0) at a fixed rate: straight lines between what was shown.
-struct Resampled {
-  Motion motion;
-  std::vector<int> nearest;  ///< [frames]: of what was shown
-};
-Resampled resampled(const std::vector<double>& times, const Motion& motion, double rate);
+/// Replaces frame `at` by a pose and the place of its character frame, which faces as the pose.
+void set_pose(Motion& motion, int at, const WorldPose& pose, const Vector2& place);
+
+/// Where `place` is once the character frame `from` is at `to`.
+Vector2 carried(const CharacterFrame& from, const CharacterFrame& to, const Vector2& place);
+
+/// The pose once its character frame `from` is at `to`. `hips` is a number of a bone.
+void carry(int hips, const CharacterFrame& from, const CharacterFrame& to, WorldPose& pose);
+
+/// The same poses, seen from the character frame, with that frame at `path` [frames, 3].
+Motion carried(const Motion& motion, int hips, const std::vector<double>& path);
 
 }  // namespace fragmotion

@@ -9,6 +9,9 @@ namespace fragmotion {
 /// Half a turn, rad.
 constexpr double kPi = 3.14159265358979323846;
 
+/// What pulls everything down, m/s^2.
+constexpr double kGravity = 9.81;
+
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
 using Matrix2 = Eigen::Matrix2d;

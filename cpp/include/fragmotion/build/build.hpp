@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fragmotion/base/progress.hpp"
+#include "fragmotion/build/find_controls.hpp"
 #include "fragmotion/character/character.hpp"
 #include "fragmotion/control/trace.hpp"
 #include "fragmotion/fragments/cutting.hpp"
@@ -11,6 +12,7 @@ namespace fragmotion {
 /// All that a build can be told.
 struct BuildOptions {
   CutOptions cut;
+  ControlOptions controls;
   bool mirror = true;      ///< Add the mirror image of every take.
   bool synthesize = true;  ///< Fill the controls that the takes lack.
   int classes = 97;        ///< 1 .. kMostClasses
@@ -25,11 +27,6 @@ struct BuildOptions {
 
 /// The policies that build() knows.
 const std::vector<std::string>& policy_names();
-
-/// The control space of a set of evident controls (in the default space): the speeds are the means of the two gaits
-/// that the fragments fall into, the turn rate the upper quartile of those that turn; the defaults where the fragments
-/// show none.
-ControlSpace control_space_of(const std::vector<Control>& evident, double scale);
 
 /// Clips to a character: fragments, synthesis, classes, Eq. 2, policy. `traces` teach the policy.
 /// Deterministic: the same input gives the same bits, whatever the number of threads.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,12 +26,15 @@ struct Character {
   Quality quality;
   std::vector<Policy> policies;  ///< The first one drives.
   std::vector<int> bridges;      ///< [classes, classes]: stand_bridges().
-  /// [102, 102]: control_model() of the traces that taught the policies, with kGenericPrior.
+  /// [controls, controls]: control_model() of the traces that taught the policies, with kGenericPrior.
   std::vector<double> control_model;
   Coverage coverage;
-  std::vector<Contacts> contacts;        ///< Of each clip of the pool.
-  Legs legs;                             ///< As they bend in the clips.
-  std::vector<Move> moves;               ///< Their clips are the pool's last ones.
+  std::vector<Contacts> contacts;  ///< Of each clip of the pool.
+  Legs legs;                       ///< As they bend in the clips.
+  std::vector<Move> moves;         ///< Their clips are the pool's last ones.
+  std::string style;               ///< What its takes have in common; empty where there is one style alone.
+  /// In its other styles, on the same skeleton: each a character without moves and further styles.
+  std::vector<std::shared_ptr<const Character>> styles;
   std::vector<float> entry_poses;        ///< entry_poses() of the fragments. Not saved.
   std::vector<Fragment> move_parts;      ///< move_parts() of the moves. Not saved.
   std::map<std::string, double> report;  ///< Figures of the build: counts, and seconds of each stage. Not saved.
@@ -48,9 +52,15 @@ struct Character {
   int number_of(int move, MovePart part) const {
     return static_cast<int>(pool.fragments.size()) + kMoveParts * move + static_cast<int>(part);
   }
+  /// Its styles, of which the first is its own.
+  int style_count() const { return 1 + static_cast<int>(styles.size()); }
+  const Character& in_style(int style) const { return style == 0 ? *this : *styles[style - 1]; }
   /// The clips that are not of moves.
   int takes() const { return static_cast<int>(pool.clips.size() - moves.size()); }
 };
+
+/// The most styles of a character.
+constexpr int kMostStyles = 64;
 
 /// repair_policy() of all its policies.
 void repair_policies(Character& character);

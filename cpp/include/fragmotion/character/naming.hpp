@@ -5,7 +5,7 @@
 
 namespace fragmotion {
 
-/// What performing a control is called, by the nearest of the 102 points (Sec. 3.1): "stand", "walk forward left",
+/// What performing a control is called, by the nearest point (Sec. 3.1): "stand", "walk forward left",
 /// "sidestep left", "run back", "turn left in place", "walk forward turning left", "jump up", "jump forward",
 /// "running jump forward" ... Each point has a name of its own.
 std::string control_name(const ControlSpace& space, const Control& control);

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include "fragmotion/base/types.hpp"
+#include "fragmotion/control/control_layout.hpp"
 
 namespace fragmotion {
 
 /// Slower than this a character of 1.8 m stands, m/s.
 constexpr double kMoving = 0.3;
+
+/// Turn rates of a space that are asked for at most: what ControlSpace::quickest_turn() is at most.
+constexpr double kMostTurn = 6;
 
 /// What the user asks for, or what a fragment visibly does (Sec. 3.2), in the character frame.
 struct Control {
@@ -35,33 +39,28 @@ struct ControlWeights {
   double jump = 4;
 };
 
-/// The 102 points of the control space (Sec. 4, Fig. 4): standing, 8 directions at a walk and at a run; turning right,
-/// not, or left; jumping or not. Point i = 6 velocity + 2 (turn + 1) + jump; velocity 0 stands, 1-8 walk, 9-16 run,
-/// both counter-clockwise from forward.
+/// What can be asked for (Sec. 4): the points of a layout at a character's own speeds and turn rate. The default is the
+/// paper's, of 102 points (Fig. 4).
 class ControlSpace {
  public:
-  static constexpr int kDirections = 8;
-  static constexpr int kVelocities = 1 + 2 * kDirections, kTurns = 3, kJumps = 2;
-  static constexpr int kPoints = kVelocities * kTurns * kJumps;
-
-  /// The point of a velocity 0 .. 16, a turn -1 (right) .. 1, and a jump or none; and these of a point.
-  static constexpr int index(int velocity, int turn, bool jump) {
-    return (velocity * kTurns + turn + 1) * kJumps + (jump ? 1 : 0);
-  }
-  static constexpr int velocity_of(int index) { return index / (kTurns * kJumps); }
-  static constexpr int turn_of(int index) { return index / kJumps % kTurns - 1; }
-  static constexpr bool jumps(int index) { return index % kJumps == 1; }
-  /// Whether a velocity is a run; and its direction 0 .. 7 where it does not stand.
-  static constexpr bool runs(int velocity) { return velocity > kDirections; }
-  static constexpr int direction_of(int velocity) { return (velocity - 1) % kDirections; }
-
   /// Speeds in m/s with 0 < walk < run, turn rate in rad/s, scale = 1.8 m / stature (distances are those of a character
   /// of 1.8 m). Throws std::invalid_argument naming the value that is out of range.
   explicit ControlSpace(double walk = 1.2, double run = 3.3, double turn_rate = 70 * kPi / 180, double scale = 1,
                         ControlWeights weights = {});
+  /// As many speeds as the layout has, ascending.
+  ControlSpace(const ControlLayout& layout, std::vector<double> speeds, double turn_rate, double scale,
+               ControlWeights weights = {});
 
+  const ControlLayout& layout() const { return layout_; }
+  /// How many points there are.
+  int size() const { return static_cast<int>(points_.size()); }
+  /// m/s, the slowest first; and what they are called, numbers into kGaits.
+  const std::vector<double>& speeds() const { return speeds_; }
+  const std::vector<int>& gaits() const { return gaits_; }
+  /// The slowest speed, that of the walk or of what comes nearest to one, and the fastest.
+  double slowest() const { return speeds_.front(); }
   double walk() const { return walk_; }
-  double run() const { return run_; }
+  double run() const { return speeds_.back(); }
   double turn_rate() const { return turn_rate_; }
   double scale() const { return scale_; }
   /// The most that a control's turn is: 1 or, where the takes turn slowly, 170 degrees/s, but no more than 6.
@@ -71,6 +70,10 @@ class ControlSpace {
   const ControlWeights& weights() const { return weights_; }
   const Control& point(int index) const { return points_[index]; }
 
+  /// The control without a turn or a jump where none can be asked for.
+  Control admitted(const Control& control) const {
+    return {control.x, control.y, layout_.turn ? control.turn : 0, layout_.jump ? control.jump : 0};
+  }
   /// Index of the point nearest to `control` by distance(); the lower index on a tie.
   int nearest(const Control& control) const;
   /// ControlDis (Eq. 2): weighted Euclidean, a weight multiplying its difference before it is squared:
@@ -79,9 +82,12 @@ class ControlSpace {
   double distance(const Control& a, const Control& b) const;
 
  private:
-  double walk_, run_, turn_rate_, scale_;
+  ControlLayout layout_;
+  std::vector<double> speeds_;
+  std::vector<int> gaits_;
+  double walk_, turn_rate_, scale_;
   ControlWeights weights_;
-  std::array<Control, kPoints> points_;
+  std::vector<Control> points_;
 };
 
 }  // namespace fragmotion

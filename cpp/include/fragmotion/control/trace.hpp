@@ -14,7 +14,7 @@ namespace fragmotion {
 constexpr double kTraceRate = 10;
 
 /// What a user did with the joystick, a control every 1/kTraceRate s. Controls are kept as they were given, since the
-/// 102 points are known only with a character: build() and whatever asks a policy snap() them to its ControlSpace.
+/// points are known only with a character: build() and whatever asks a policy snap() them to its ControlSpace.
 /// Player asks for the nearest point, too, but draws fragments by the very control.
 using Trace = std::vector<Control>;
 

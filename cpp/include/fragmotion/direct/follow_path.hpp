@@ -24,11 +24,11 @@ struct PathWalk {
 /// How near to its end a path is done, m of a 1.8 m character.
 constexpr double kArrived = 0.2;
 
-/// Lets a player follow a path from `start`, where it is reset to, a control every 1/kTraceRate s, shown at `rate`
-/// frames a second as perform() shows a trace. It lasts a second longer than until it stands at the end, and `seconds`
-/// at most. Where it does not stand or arrive just so, it is tried again, with the way to the end begun sooner or
-/// later, and the best is taken. Throws std::invalid_argument on a rate that is not over 0 and at most 1000, unless
-/// `seconds` is 0.1 to 3600, and as Player::reset and PathFollower.
+/// Lets a player follow a path from `start`, where it is reset to in the style that it plays, a control every
+/// 1/kTraceRate s, shown at `rate` frames a second as perform() shows a trace. It lasts a second longer than until it
+/// stands at the end, and `seconds` at most. Where it does not stand or arrive just so, it is tried again, with the way
+/// to the end begun sooner or later, and the best is taken. Throws std::invalid_argument on a rate that is not over 0
+/// and at most 1000, unless `seconds` is 0.1 to 3600, and as Player::reset and PathFollower.
 PathWalk follow_path(Player& player, const CharacterFrame& start, const Path& path, const FollowOptions& options,
                      double rate, double seconds, const Progress& progress = {});
 

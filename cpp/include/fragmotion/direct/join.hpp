@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fragmotion/direct/shown_motion.hpp"
+#include "fragmotion/bake/motion.hpp"
 
 namespace fragmotion {
 
@@ -10,9 +10,9 @@ constexpr double kJoined = 0.8;
 
 /// The first motion's frames 0 .. `end` to the bit, and then the second's after frame `beginning`, which is taken for
 /// the moment of `end`: carried to where the character is and faces then, at the velocity that it has, and stitched
-/// (inertialization.hpp). Throws std::invalid_argument as check_shown(), unless the rates are the same, and on frames
+/// (inertialization.hpp). Throws std::invalid_argument as check_motion(), unless the rates are the same, and on frames
 /// that do not exist.
-ShownMotion join(const Skeleton& skeleton, const ShownMotion& first, int end, const ShownMotion& second, int beginning);
+Motion join(const Skeleton& skeleton, const Motion& first, int end, const Motion& second, int beginning);
 
 /// Where two motions are best joined.
 struct Seam {
@@ -22,14 +22,13 @@ struct Seam {
 };
 
 /// Of all pairs of these frames the one whose poses, and poses a thirtieth of a second later, are nearest; the first of
-/// several. Throws std::invalid_argument as check_shown(), and on frames that there are none of or that do not exist.
-Seam find_seam(const Skeleton& skeleton, const ShownMotion& first, const std::vector<int>& ends,
-               const ShownMotion& second, const std::vector<int>& beginnings);
+/// several. Throws std::invalid_argument as check_motion(), and on frames that there are none of or that do not exist.
+Seam find_seam(const Skeleton& skeleton, const Motion& first, const std::vector<int>& ends, const Motion& second,
+               const std::vector<int>& beginnings);
 
 /// The motion with its character frame at frame `end` moved to `target`: frames 0 .. `begin` are to the bit as they
 /// were, what follows `end` is moved with it as a whole, and in between place and heading go there smoothly. Throws
-/// std::invalid_argument as check_shown(), unless 0 <= begin < end < frames, and unless `target` is within 1e9.
-ShownMotion spread(const Skeleton& skeleton, const ShownMotion& motion, int begin, int end,
-                   const CharacterFrame& target);
+/// std::invalid_argument as check_motion(), unless 0 <= begin < end < frames, and unless `target` is within 1e9.
+Motion spread(const Skeleton& skeleton, const Motion& motion, int begin, int end, const CharacterFrame& target);
 
 }  // namespace fragmotion

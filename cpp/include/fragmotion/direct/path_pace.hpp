@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "fragmotion/control/control.hpp"
@@ -30,6 +31,7 @@ class PathPace {
  private:
   double corner(const Path& path, double way, double run) const;
   void brake();
+  bool leaves_bend(std::size_t i) const;  // whether it goes faster from there on
 
   double length_, scale_, walk_, step_;
   bool closed_, stands_;

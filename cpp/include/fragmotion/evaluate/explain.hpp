@@ -43,7 +43,7 @@ class Explainer {
   const Policy& policy_;
   Trajectories poses_;
   std::vector<std::vector<int>> members_;
-  std::vector<double> future_value_;  // [102, classes]
+  std::vector<double> future_value_;  // [controls, classes]
 };
 
 }  // namespace fragmotion

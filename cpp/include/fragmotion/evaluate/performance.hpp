@@ -18,8 +18,9 @@ struct Performance {
   std::vector<double> root_positions;  ///< [frames, 3] m
   std::vector<double> rotations;       ///< [frames, bones, 4]
   std::vector<double> path;            ///< [frames, 3]: character frame x, y in m and heading in rad, unwrapped
-  std::vector<int> classes;            ///< [frames]
-  std::vector<int> fragments;          ///< [frames]
+  std::vector<int> styles;             ///< [frames]: Player::playing_style()
+  std::vector<int> classes;            ///< [frames], of the style that plays
+  std::vector<int> fragments;          ///< [frames], likewise
   std::vector<int> moves;              ///< [frames, 2]: Player::playing_moves()
   std::vector<int> entered;            ///< [frames]: fragments begun since the first frame; one may follow itself
   double quality = 0;                  ///< Eq. 2 for what plays and the control then, 0..1.
@@ -37,17 +38,23 @@ struct Performance {
   double drift_limited = 0, drift_heading_limited = 0;  ///< m/s; rad
 };
 
+/// A change of style that was asked for while a trace was played.
+struct StyleChange {
+  int control = 0;  ///< Before which of the trace's controls.
+  int style = 0;
+};
+
 /// By how much a body of 1.8 m changes its velocity, m/s^2.
 constexpr double kBodyAcceleration = 5;
 
 /// Steps a player through a trace from now: frames 0 .. round(duration * rate), each control for 1/kTraceRate s. Throws
 /// std::invalid_argument on an empty trace and a rate that is not over 0 and at most 1000, and on a move that does not
-/// exist, is asked for after the trace or held for less than no time.
+/// exist, is asked for after the trace or held for less than no time; likewise on styles.
 Performance perform(Player& player, const Trace& trace, double rate, const Progress& progress = {},
-                    const std::vector<MovePress>& moves = {});
+                    const std::vector<MovePress>& moves = {}, const std::vector<StyleChange>& styles = {});
 inline Performance perform(Player&& player, const Trace& trace, double rate, const Progress& progress = {},
-                           const std::vector<MovePress>& moves = {}) {
-  return perform(player, trace, rate, progress, moves);
+                           const std::vector<MovePress>& moves = {}, const std::vector<StyleChange>& styles = {}) {
+  return perform(player, trace, rate, progress, moves, styles);
 }
 
 /// Fills the errors, the commanded speed and the drift of a performance of a trace.

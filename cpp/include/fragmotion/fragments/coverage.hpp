@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "fragmotion/fragments/fragment.hpp"
 
@@ -9,8 +9,8 @@ namespace fragmotion {
 
 /// How well the fragments cover the control space.
 struct Coverage {
-  std::array<int, ControlSpace::kPoints> counts{};        ///< Fragments whose evident control is nearest to this point.
-  std::array<double, ControlSpace::kPoints> distances{};  ///< ControlDis to the nearest fragment's evident control.
+  std::vector<int> counts;        ///< Fragments whose evident control is nearest to this point.
+  std::vector<double> distances;  ///< ControlDis to the nearest fragment's evident control.
 };
 
 Coverage coverage(const std::vector<Fragment>& fragments, const ControlSpace& space);

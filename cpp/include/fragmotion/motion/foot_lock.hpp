@@ -15,6 +15,9 @@ namespace fragmotion {
 struct StepEdit {
   Matrix2 stride = Matrix2::Zero();
   Vector2 shift = Vector2::Zero();
+
+  /// By how much a foot is moved that is so far from the hips, m in the world, of a body that faces `heading`.
+  Vector2 moved(const Vector2& from_hips, double heading) const;
 };
 
 /// Keeps planted feet where they are: the ball of a foot that is planted comes to rest and stays there, the leg follows
@@ -47,6 +50,10 @@ class FootLock {
   void apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds, const StepEdit& edit = {});
 
   bool locked(int side) const { return feet_[side].locked; }
+  /// How far a locked foot goes on until it is at rest, m.
+  Vector2 coming_to_rest(int side) const;
+  /// Until a foot that steps to where its motion has it is there, s; 0 where none does.
+  double stepping(int side) const;
 
  private:
   // Places of a ball on the ground, m, and speeds, m/s.

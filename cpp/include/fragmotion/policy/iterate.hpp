@@ -13,9 +13,9 @@ struct IterateOptions {
   int sweeps = 10000;       ///< At most; 1 .. 1,000,000.
 };
 
-/// Value iteration with a control model [102, 102] (McCann and Pollard, "Responsive characters from motion fragments",
-/// SIGGRAPH 2007): V(Q, c) = max over Q' of Quality(Q, Q', c) + discount * sum over c' of P(c' | c) V(Q', c').
-/// Ties go to the lower class. Throws std::invalid_argument on an option that is out of its range.
+/// Value iteration with a control model [controls, controls] (McCann and Pollard, "Responsive characters from motion
+/// fragments", SIGGRAPH 2007): V(Q, c) = max over Q' of Quality(Q, Q', c) + discount * sum over c' of P(c' | c) V(Q',
+/// c'). Ties go to the lower class. Throws std::invalid_argument on an option that is out of its range.
 Policy value_iteration(const Quality& quality, const std::vector<double>& model, const IterateOptions& options = {});
 
 /// McCann and Pollard's prior: a control that was never seen is kept.
@@ -25,8 +25,8 @@ constexpr ControlPrior kPersistencePrior{0.5, 0};
 Policy iterate_policy(const Quality& quality, const std::vector<std::vector<int>>& traces,
                       const IterateOptions& options = {});
 
-/// Eq. 2 expected of all steps after each control and class [102, classes], discounted, where the policy goes on
-/// choosing and the controls follow the model [102, 102].
+/// Eq. 2 expected of all steps after each control and class [controls, classes], discounted, where the policy goes on
+/// choosing and the controls follow the model [controls, controls].
 std::vector<double> future_values(const Quality& quality, const Policy& policy, const std::vector<double>& model);
 
 }  // namespace fragmotion

@@ -6,8 +6,8 @@
 
 namespace fragmotion {
 
-/// Throws std::invalid_argument on a control index outside 0..101.
-void check_controls(const std::vector<int>& trace);
+/// Throws std::invalid_argument on a control index outside 0 .. controls - 1.
+void check_controls(const std::vector<int>& trace, int controls);
 
 /// The choice of the next class Q' by Quality(Q, Q', c) + value(Q') (Eqs. 1 and 4), for one table of qualities. `match`
 /// is the second factor of Eq. 2 for c, `value` what each class is worth afterwards, both [classes].
@@ -34,7 +34,8 @@ struct OptimalPath {
 };
 
 /// Dynamic programming over a trace of control indices (Eqs. 1, 3 and 4): O(steps classes^2).
-/// Ties go to the lower class. Throws std::invalid_argument on an empty trace or an index outside 0..101.
+/// Ties go to the lower class. Throws std::invalid_argument on an empty trace or an index outside the quality's
+/// controls.
 OptimalPath optimal_path(const Quality& quality, const std::vector<int>& trace);
 
 /// The sum of Eq. 2 along the path that the policy takes from class `start` over a trace of control indices.

@@ -14,11 +14,10 @@ namespace fragmotion {
 struct Policy {
   std::string name;
   int classes = 0;
-  std::vector<int> next;  ///< [classes, 102]
+  std::vector<int> next;        ///< [classes, controls]
+  int controls = kPaperPoints;  ///< The points of the control space.
 
-  int operator()(int from, int control) const {
-    return next[static_cast<std::size_t>(from) * ControlSpace::kPoints + control];
-  }
+  int operator()(int from, int control) const { return next[static_cast<std::size_t>(from) * controls + control]; }
   /// Whether it ever leads to a class.
   bool leads_to(int k) const { return std::find(next.begin(), next.end(), k) != next.end(); }
 };

@@ -12,11 +12,12 @@ namespace fragmotion {
 struct Quality {
   int classes = 0;
   std::vector<double> smoothness;  ///< [classes, classes]: 1 / (1 + Dis(last pose of Q, first pose of Q'))
-  std::vector<double> match;       ///< [classes, 102]: 1 / (1 + ControlDis(Ev(Q'), c))
+  std::vector<double> match;       ///< [classes, controls]: 1 / (1 + ControlDis(Ev(Q'), c))
+  int controls = kPaperPoints;     ///< The points of the control space.
 
   double operator()(int from, int to, int control) const {
     return smoothness[static_cast<std::size_t>(from) * classes + to] *
-           match[static_cast<std::size_t>(to) * ControlSpace::kPoints + control];
+           match[static_cast<std::size_t>(to) * controls + control];
   }
 };
 

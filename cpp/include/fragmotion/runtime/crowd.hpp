@@ -26,8 +26,9 @@ class Crowd {
   /// Where a player is and what it plays. How it is posed, step() tells alone.
   const Player& operator[](int player) const { return players_[player]; }
 
-  /// Player::reset of one; throws std::invalid_argument on a player that does not exist.
-  void reset(int player, const CharacterFrame& frame = {});
+  /// Player::reset and change_style of one; they throw likewise, and on a player that does not exist.
+  void reset(int player, const CharacterFrame& frame = {}, int style = 0);
+  void change_style(int player, int style);
 
   /// Player::force of one; throws std::invalid_argument on a player or a class that does not exist.
   void force(int player, int next_class);

@@ -18,6 +18,9 @@ class Director {
 
   /// Plays the class that best performs standing still.
   void reset();
+  /// Decides among another style's classes from now on, by its policy; a class that was forced is forgotten. resume()
+  /// or reset() follows.
+  void change_style(const Character& style, const Policy& policy);
   /// Takes notice of a control: a jump that is pressed is latched.
   void observe(const Control& control);
   /// The control with the latched jump.

@@ -17,13 +17,15 @@ struct Exit {
 /// the representative or better and join on well. Allocates nothing once it is made.
 class FragmentSelector {
  public:
-  /// Character and workspace must outlive it.
-  FragmentSelector(const Character& character, Workspace& workspace, std::uint64_t seed);
+  /// Chooses from the first style. The workspace and its character must outlive it.
+  FragmentSelector(Workspace& workspace, std::uint64_t seed);
 
   /// Draws from the seed again.
   void reset() { random_ = Random(seed_); }
   /// Draws from another seed, from the next reset on.
   void reseed(std::uint64_t seed) { seed_ = seed; }
+  /// What is chosen from now on is of this style.
+  void change_style(int style);
   /// The member to play after what plays now.
   int choose(int next_class, const Control& control, const Playback& playback);
   /// Any member.
@@ -31,6 +33,9 @@ class FragmentSelector {
 
   /// The class to enter, in the shown pose, after what was no fragment: of the greatest Eq. 2 for the control.
   int best_class(const Control& control, const Playback& playback) const;
+  /// How badly the best member of a class joins on to what is shown, m a metre of tip_reach(), of places, speeds and
+  /// steps.
+  double distance_to_class(int next_class, const Control& control, const Playback& playback) const;
   /// How badly a move joins on to what is shown, m a metre of tip_reach(), of places and speeds.
   double distance_to(int move, const Playback& playback) const;
 
@@ -45,8 +50,8 @@ class FragmentSelector {
   void find_candidates(int next_class, const Control& control) const;
   float measure_candidates(const Control& evident, const StepSequence& steps) const;
 
-  const Character* character_;
   Workspace* workspace_;
+  const FragmentLists* style_;  // that is chosen from
   std::uint64_t seed_;
   Random random_;
 };

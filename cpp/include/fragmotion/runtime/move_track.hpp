@@ -2,6 +2,7 @@
 #pragma once
 
 #include "fragmotion/character/character.hpp"
+#include "fragmotion/runtime/moment.hpp"
 
 namespace fragmotion {
 
@@ -25,17 +26,6 @@ class MoveTrack {
   bool plays() const { return playing_ >= 0; }
   bool waits() const { return waiting_ >= 0; }
 
-  /// Whether the moment for the waiting move is to be found (again): none is known, or it was for another control.
-  bool needs_plan(const Control& control) const;
-  /// The moment is in `seconds`, under this control.
-  void plan(double seconds, const Control& control);
-  /// s that the moment may be away.
-  double patience() const { return patience_; }
-  /// s until the moment; at least 0.
-  double until_begin() const { return begins_in_; }
-  /// A time goes by.
-  void wait(double seconds);
-
   /// Whether the loop follows what plays.
   bool repeats() const;
   /// Begins the waiting move. Returns the number of its first part.
@@ -43,14 +33,13 @@ class MoveTrack {
   /// The number of the part that follows the one that has ended; -1 where the move is over, and plays no more.
   int next_part();
 
+  Moment moment;  ///< Of the move that waits.
+
  private:
   const Character* character_;
   int playing_ = -1, waiting_ = -1;
   bool held_ = false, waiting_is_held_ = false;
   MovePart part_ = MovePart::opening;
-  double begins_in_ = 0, patience_ = 0;  // s
-  bool planned_ = false;
-  Control planned_for_;
 };
 
 }  // namespace fragmotion

@@ -7,6 +7,9 @@
 
 namespace fragmotion {
 
+/// Shorter than this is no time, s.
+constexpr double kInstant = 1e-9;
+
 /// How the next fragment joins on to what is shown (Fig. 3).
 enum class Stitching {
   inertialize,  ///< It takes over pose and velocity, whose differences fade (inertialization.hpp).
@@ -17,14 +20,18 @@ enum class Stitching {
 /// (Sec. 3.3, Fig. 3). Allocates nothing once it is made.
 class Playback {
  public:
-  /// `stitch` as PlayerOptions::stitch. Character and workspace must outlive it.
+  /// `stitch` as PlayerOptions::stitch. Plays in the character's first style. Character and workspace must outlive it.
   Playback(const Character& character, Workspace& workspace, Stitching stitching, double stitch);
 
+  /// What is begun from now on is of this style, but for moves, which are the character's.
+  void change_style(int style) { style_ = style; }
   /// Nothing but this fragment plays, from its first pose, placed at `frame`.
   void reset(int fragment, const CharacterFrame& frame);
   /// Stitches a fragment on to what is shown. Returns how much faster what played went over the ground, m/s in the
   /// character frame: a stitch with inertialization leaves it to the caller to let a body go on so. 0 with a crossfade.
   Vector2 start(int fragment);
+  /// The same of a part of a move.
+  Vector2 start_move(int part);
   void advance(double seconds);
   /// Moves the character for `seconds` at a velocity, m/s in its own frame, and a turn rate, rad/s.
   void move(const Vector2& velocity, double turn_rate, double seconds);
@@ -34,10 +41,12 @@ class Playback {
   /// As it is shown at a time since the fragment's first pose, without a crossfade's old fragment.
   void sample(double seconds, WorldPose& pose) const;
 
-  /// What plays, as Character::played() numbers it.
-  int fragment() const { return now_.fragment; }
-  const Control& evident() const { return character_->played(now_.fragment).evident; }
-  bool plays_move() const { return now_.fragment >= static_cast<int>(character_->pool.fragments.size()); }
+  /// What plays.
+  const Fragment& fragment() const { return fragment(now_); }
+  const Control& evident() const { return fragment().evident; }
+  bool plays_move() const { return now_.number >= static_cast<int>(styled(now_).pool.fragments.size()); }
+  /// Of the clip that plays.
+  const Contacts& contacts() const { return styled(now_).contacts[fragment().clip]; }
   /// Whether it is in a jump that cannot be left: until it has landed and is half up again.
   bool is_jumping() const;
   /// Whether it jumps and touches no ground now.
@@ -46,6 +55,8 @@ class Playback {
   std::size_t frame_of_clip() const { return frame_of_clip(now_.seconds); }
   /// Which feet stand at a time since the fragment's first pose, s.
   std::array<bool, 2> standing_feet(double seconds) const;
+  /// Until a foot stands, as the take has it, s: 0 where it does; the take's end where it does not any more.
+  double until_standing(int side) const;
   /// How the feet came down so far.
   const StepSequence& steps() const { return steps_; }
   /// Since the first pose that is played of the fragment, s.
@@ -64,13 +75,18 @@ class Playback {
  private:
   // A fragment that plays, placed in the world: its clip turned by `heading` about z and moved by `offset`.
   struct Placed {
-    int fragment = 0;
+    int style = 0;
+    int number = 0;      // as Character::played() has it in that style
     double seconds = 0;  // since its first pose
     double heading = 0;
     Vector2 offset = Vector2::Zero();
   };
 
-  Placed place(int fragment, const CharacterFrame& frame) const;
+  const Character& styled(const Placed& placed) const { return character_->in_style(placed.style); }
+  const Fragment& fragment(const Placed& placed) const { return styled(placed).played(placed.number); }
+  const PackedClip& clip(const Placed& placed) const { return styled(placed).pool.clips[fragment(placed).clip]; }
+  Placed place(int style, int number, const CharacterFrame& frame) const;
+  Vector2 start(const Placed& next);
   void sample(const Placed& placed, WorldPose& pose) const;
   void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
   Vector2 begin_stitch(const Placed& old);
@@ -80,6 +96,7 @@ class Playback {
   const Character* character_;
   Workspace* workspace_;
   Stitching stitching_;
+  int style_ = 0;
   double stitch_;
   Placed now_, before_;
   double faded_ = 0;

@@ -7,12 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "fragmotion/ground/ground.hpp"
 #include "fragmotion/runtime/command_limit.hpp"
 #include "fragmotion/runtime/director.hpp"
 #include "fragmotion/runtime/pose_correction.hpp"
 #include "fragmotion/runtime/upper_body.hpp"
 
 namespace fragmotion {
+
+class GroundFollower;
 
 /// Seconds that a stitch takes, unless told: a crossfade all, inertialization most of its way (inertialization.hpp).
 constexpr double kStitch = 0.2;
@@ -32,6 +35,9 @@ struct PlayerOptions {
   double responsiveness = 0.5;
 };
 
+/// s in which a change of style looks for the moment that joins best.
+constexpr double kStyleWait = 0.8;
+
 /// The run time (Sec. 3.3, Fig. 3): a CommandLimit asks of the body what it can do, a Director decides which class
 /// comes next and when, a FragmentSelector chooses one of its fragments, Playback stitches that on to what is shown,
 /// and PoseCorrection lets the pose do better what is asked. Moves play in between (MoveTrack) or over it (UpperBody).
@@ -45,16 +51,25 @@ class Player {
   /// rotations() tells is the pose of the one that stepped last.
   Player branch() const;
 
-  /// Stands at `frame`, in the class that best performs standing still, and draws again from the seed: after a reset
-  /// the same steps show the same poses. Throws std::invalid_argument unless `frame` is within 1e9 m and 1e9 rad.
-  void reset(const CharacterFrame& frame = {});
+  /// Stands at `frame` in a style, in the class that best performs standing still, and draws again from the seed: after
+  /// a reset the same steps show the same poses. Throws std::invalid_argument unless `frame` is within 1e9 m and 1e9
+  /// rad and the style exists.
+  void reset(const CharacterFrame& frame = {}, int style = 0);
 
   /// Draws from another seed, from the next reset on.
   void reseed(std::uint64_t seed) { selector_.reseed(seed); }
 
-  /// Plays on for `seconds` under a control, which need not be one of the 102 points. Allocates nothing. Throws
+  /// Plays on for `seconds` under a control, which need not be a point of its space. Allocates nothing. Throws
   /// std::invalid_argument unless the control is finite and `seconds` is 0 .. 3600.
   void step(const Control& control, double seconds);
+
+  /// Goes on in another style: at the moment within kStyleWait at which it joins best, but not within a jump, and after
+  /// a move of the whole body. One that waits already is forgotten. Classes and fragments are that style's from then
+  /// on. Throws std::invalid_argument on a style that does not exist.
+  void change_style(int style);
+  int playing_style() const { return extras_ == nullptr ? 0 : extras_->style.playing; }
+  /// Which waits for its moment, or -1.
+  int waiting_style() const { return extras_ == nullptr ? -1 : extras_->style.waiting; }
 
   /// Plays a member of this class, drawn at random, whatever the policy says: as soon as the stitch under way is done,
   /// and to its end, from where the policy goes on. Throws std::invalid_argument on a class that does not exist.
@@ -73,6 +88,13 @@ class Player {
   std::array<int, 2> playing_moves() const;
   /// What waits for its moment, or -1, likewise.
   std::array<int, 2> waiting_moves() const;
+  /// Stands and goes from now on on this ground (ground_follower.hpp), or, without one, on level ground at height 0.
+  void stand_on(Ground ground);
+  /// The height of the ground under it, m, as its hips follow it.
+  double ground_level() const;
+  /// Since it stands on its ground, or a reset: s in which it asked for ground where there is none, and went on at the
+  /// height that it had.
+  double ground_missed() const;
 
   const Vector3& root_position() const { return root_; }
   /// [bones, 4] as in Clip; of a crowd's player see Crowd::step.
@@ -92,6 +114,8 @@ class Player {
   std::array<std::optional<Vector3>, 2> standing_feet() const;
 
   const Character& character() const { return *character_; }
+  /// In the style that plays.
+  const Character& styled_character() const { return character_->in_style(playing_style()); }
 
  private:
   friend class Crowd;
@@ -100,33 +124,48 @@ class Player {
   Player(std::shared_ptr<const Character> character, const PlayerOptions& options,
          std::shared_ptr<Workspace> workspace);
 
-  // What a player has whose character has moves.
-  struct Moves {
+  struct Style {
+    int playing = 0, waiting = -1;
+    Moment moment;  // of the one that waits
+  };
+
+  // What a player has whose character has moves or styles.
+  struct Extras {
     MoveTrack whole_body;
     UpperBody upper_body;
     std::shared_ptr<Player> rehearsal;  // plays ahead what would be shown; takes its state anew each time
+    int policy = 0;                     // the number that the policy has in each style
+    Style style;
   };
 
   static constexpr double kFinest = 1 / 60.0;  // s for which a command is the same at most
 
-  void make_moves(const PlayerOptions& options);
+  void make_extras(const PlayerOptions& options);
+  void check_style(int style) const;
+  void set_style(int style);
+  double begin_style(const Control& control, double most);
+  Control wanted(const Control& control) const;
+  double distance_to_style(int style, const Control& wanted) const;
   MoveTrack& track_of(int move);
   void prefetch() const;
   static void check_step(const Control& control, double seconds);
   void go_on(const Control& control);
   void play(int fragment);
+  void play_move(int part);
+  void keep(const Vector2& faster);
   double advance(const Control& control, double most);
   double advance_by_policy(const Control& control, double most);
   double advance_by_move(double most);
   double begin_moves(const Control& control, double most);
   template <typename Cost>
-  void plan(MoveTrack& track, const Control& control, const Cost& cost);
+  void plan(Moment& moment, const Control& control, const Cost& cost);
   template <typename Cost>
   bool is_due(MoveTrack& track, const Control& control, const Cost& cost);
   void imitate(const Player& other);
   bool can_begin_move() const;
   bool continue_move(const Control& control);
   void resume(const Control& control);
+  void enter_best_class(const Control& wanted);
   void correct(double seconds);
 
   std::shared_ptr<const Character> character_;
@@ -136,7 +175,8 @@ class Player {
   FragmentSelector selector_;
   Playback playback_;
   PoseCorrection correction_;
-  std::shared_ptr<Moves> moves_;  // its own; null without moves, and in a rehearsal
+  std::shared_ptr<Extras> extras_;            // its own; null without moves and styles, and in a rehearsal
+  std::shared_ptr<GroundFollower> follower_;  // its own; null without ground
   int entered_ = 0;
   int fragment_ = 0;
   Vector3 root_ = Vector3::Zero();          // as it is shown

@@ -19,11 +19,22 @@ class PoseCorrection {
                  bool lock_feet);
 
   void reset(double heading);
+  /// Controls are asked of this style from now on.
+  void change_style(const Character& style) { space_ = &style.space; }
   /// Lets the root keep the velocity by which it was faster than what begins to play, m/s in the character frame.
   void keep_velocity(const Vector2& faster) { velocity_ += faster; }
   /// How much faster than captured what plays is to be played, at most 1: where the control is slower than the
   /// fragment, its steps make up for half of that by following each other later, and for the rest by being shorter.
   double tempo() const { return tempo_; }
+  /// Of the root beyond what plays: m/s in the character frame, and rad/s.
+  const Vector2& velocity() const { return velocity_; }
+  double turn_rate() const { return turn_rate_; }
+  const StepEdit& steps() const { return steps_; }
+  /// Whether a foot that is to stand does: it is held where it is, or, where feet are not held, it is low.
+  bool plants(int side, bool low) const { return lock_feet_ ? foot_lock_.locked(side) : low; }
+  /// Of a foot that is held, as FootLock has it.
+  Vector2 coming_to_rest(int side) const { return lock_feet_ ? foot_lock_.coming_to_rest(side) : Vector2::Zero(); }
+  double stepping(int side) const { return lock_feet_ ? foot_lock_.stepping(side) : 0; }
   /// Moves and turns what plays over `seconds`, so that it does more of what the control says.
   void adjust_root(const Control& control, double seconds, Playback& playback);
   /// Lets what plays go its own way over `seconds`: the velocity that was kept and the adjustment's fade.
@@ -40,14 +51,14 @@ class PoseCorrection {
   bool stands(const Control& evident) const;
   void lock_feet(const Playback& playback, double seconds);
 
-  const Character* character_;
+  const ControlSpace* space_;  // of the style that plays
   Workspace* workspace_;
   double root_adjustment_, acceleration_;
-  bool lock_feet_;
   Vector2 velocity_ = Vector2::Zero();  // of the adjustment, m/s, in the character frame
   double turn_rate_ = 0;                // of the adjustment, rad/s
   double tempo_ = 1;
   double led_ = 0;  // the heading that the controls lead to, rad
+  bool lock_feet_;
   StepEdit steps_;
   FootLock foot_lock_;
   Breathing breathing_;

@@ -13,15 +13,23 @@
 
 namespace fragmotion {
 
+/// What is looked up of the fragments of one style.
+struct FragmentLists {
+  const Character* character;             ///< In that style.
+  std::vector<std::vector<int>> members;  ///< Classes::members()
+  std::vector<EntrySteps> entry_steps;    ///< entry_steps()
+};
+
 /// What players of one character that step in turn share: what never changes, and room to work in.
 struct Workspace {
+  /// The character must outlive it.
   explicit Workspace(const Character& character);
 
   Kinematics kinematics;
   std::shared_ptr<FootLock::Body> body;
-  std::vector<std::vector<int>> members;  ///< Classes::members()
-  std::vector<EntrySteps> entry_steps;    ///< entry_steps()
-  std::vector<float> move_entries;        ///< entry_poses() of the moves' parts
+  Floors floors;  ///< The medians of those of the takes.
+  std::vector<FragmentLists> styles;
+  std::vector<float> move_entries;  ///< entry_poses() of the moves' parts
 
   // Of the FragmentSelector's: rows as those of Character::entry_poses.
   std::array<BodyTips, 3> tips;

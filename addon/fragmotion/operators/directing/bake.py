@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bake a trace to an Action."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import bpy
+
+from ...bake.baking import Baked, hindrances, prepare
+from ...bake.targets import find_target, write
+from ...jobs import Job
+from ...recordings.recordings import baked_source
+from ...settings.bake_fields import BakeFields
+from ...settings.drawing import draw_bake, draw_bake_options
+from ..base.background import Background, poll_character
+from ..base.context import active_armature
+
+
+class Baking(Background):
+    """An operator that bakes the active armature's character, a short motion at once."""
+
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+    patience = 0.5
+
+    @classmethod
+    def poll(cls: Any, context: bpy.types.Context) -> bool:
+        return poll_character(cls, context)
+
+
+class FRAGMOTION_OT_bake(BakeFields, Baking, bpy.types.Operator):
+    """Bake a trace to an Action of the active armature; a short one at once."""
+
+    bl_idname = "fragmotion.bake"
+    bl_label = "Bake"
+    bl_description = (
+        "Write the recording that is selected, or what else is chosen as the source, played by the armature's "
+        "character, to an Action at the scene's frame rate"
+    )
+    verb = "Bake"
+    settings = "bake"
+
+    def _make_job(self, context: bpy.types.Context) -> Job:
+        if not self.properties.is_property_set("trace_source"):
+            obj = active_armature(context)
+            self.trace_source = baked_source(obj, obj.fragmotion.bake)
+        return super()._make_job(context)
+
+    def _prepare(self, context: bpy.types.Context, obj: bpy.types.Object) -> Job:
+        prepared = prepare(context, obj, self)
+        # Blender may replace an Action while the bake runs: only names stay valid.
+        self._name, self._first = prepared.target.name, prepared.target.first
+        return Job(f"Baking '{obj.name}'", prepared.task)
+
+    def _keep(self, context: bpy.types.Context, obj: bpy.types.Object, baked: Baked) -> None:
+        target = find_target(context, obj, self, self._name)._replace(first=self._first)
+        action = write(context, obj, target, baked.tracks, baked.classes, self)
+        first, frames = target.first, len(baked.classes)
+        self.report(
+            {"INFO"},
+            f"Baked {frames} frames ({first}-{first + frames - 1}) to Action '{action.name}'; {baked.remark}",
+        )
+        others = hindrances(obj, own_strip=self.target == "NLA")
+        if others:
+            self.report({"WARNING"}, f"The pose will differ from the bake because of {'; '.join(others)}")
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_bake(self.layout, self, active_armature(context))
+        draw_bake_options(self.layout, self)

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Change what was recorded: as curves, by a cut, by another recording behind it, and by a pin."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, ClassVar
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty
+
+from ...edits import cutting, pinning
+from ...edits.replaying import play_again
+from ...errors import UserError, reported
+from ...jobs import Job
+from ...recordings.curves import curves_of, read_curves, show_curves
+from ...recordings.recordings import TRACE_RATE, active_recording
+from ...settings.pin_fields import PinFields
+from ..base.background import Background, poll_idle
+from ..base.context import active_armature, first_frame, playhead
+from .recordings import OnRecording, selected
+
+
+class FRAGMOTION_OT_edit_curves(OnRecording, bpy.types.Operator):
+    """Show the selected recording's controls as F-curves: of an empty below the armature, which is selected"""
+
+    bl_idname = "fragmotion.edit_curves"
+    bl_label = "Edit Curves"
+    bl_description = (
+        "Show the selected recording's controls as curves in the Graph Editor and the Dope Sheet: velocity to the "
+        "right and forward, turn and jump. An empty below the armature has them, and is selected. Play Again uses them"
+    )
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        obj, recording = active_armature(context), selected(context)
+        empty = curves_of(obj, recording)
+        if empty is None or empty.name not in context.view_layer.objects:
+            empty = show_curves(context.scene, obj, recording, first_frame(obj, recording))
+        if context.mode != "OBJECT":
+            bpy.ops.object.mode_set(mode="OBJECT")
+        for other in context.selected_objects:
+            other.select_set(False)
+        empty.select_set(True)
+        context.view_layer.objects.active = empty
+        self.report({"INFO"}, f"The curves of '{recording.name}' are in the Graph Editor; Play Again uses them")
+        return {"FINISHED"}
+
+
+class FRAGMOTION_OT_play_again(OnRecording, bpy.types.Operator):
+    """Play the selected recording anew as its curves say. What comes before the first change stays as it was"""
+
+    bl_idname = "fragmotion.play_again"
+    bl_label = "Play Again"
+
+    @classmethod
+    def poll(cls: Any, context: bpy.types.Context) -> bool:
+        if not super().poll(context):
+            return False
+        obj = active_armature(context)
+        has_curves = curves_of(obj, active_recording(obj)) is not None  # type: ignore[arg-type]
+        if not has_curves:
+            cls.poll_message_set("The recording has no curves: press Edit Curves first")
+        return has_curves
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        obj, recording = active_armature(context), selected(context)
+        drawn = read_curves(obj, recording)
+        for remark in drawn.remarks:
+            self.report({"WARNING"}, remark)
+        if drawn.first == len(drawn.trace):
+            self.report({"INFO"}, f"The curves of '{recording.name}' say what was recorded: nothing has changed")
+            return {"FINISHED"}
+        play_again(obj, recording, drawn.trace, drawn.first)
+        self.report({"INFO"}, f"'{recording.name}' is played anew from {drawn.first / TRACE_RATE:.1f} s on")
+        return {"FINISHED"}
+
+
+def _moment(name: str, description: str, default: float) -> Any:
+    return FloatProperty(
+        name=name, description=description, default=default, min=0.0, step=10, precision=1, unit="TIME_ABSOLUTE"
+    )
+
+
+class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
+    """Cut a stretch out of the middle of the selected recording; what follows goes on from where the character is."""
+
+    bl_idname = "fragmotion.cut_recording"
+    bl_label = "Cut Out"
+    bl_description = (
+        "Cut a stretch out of the middle of the selected recording, and up to half a second more on either side, so "
+        "that the poses fit. What follows goes on from where the character is then, and moves as it did"
+    )
+
+    start: _moment("From", "Where the stretch begins, in seconds from the recording's beginning", 1.0)  # type: ignore[valid-type]
+    end: _moment("To", "Where the stretch ends, in seconds from the recording's beginning", 2.0)  # type: ignore[valid-type]
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        now = playhead(context, selected(context))
+        self.start, self.end = max(now, 0.0), max(now, 0.0) + 1.0
+        result: set[str] = context.window_manager.invoke_props_dialog(self)
+        return result
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        recording = selected(context)
+        seam = cutting.cut_out(active_armature(context), recording, self.start, self.end)
+        self.report(
+            {"INFO"},
+            f"Cut {seam.end / TRACE_RATE:.1f} s to {seam.beginning / TRACE_RATE:.1f} s out of '{recording.name}'"
+            f"{_fit(seam)}",
+        )
+        return {"FINISHED"}
+
+
+class FRAGMOTION_OT_glue_recording(OnRecording, bpy.types.Operator):
+    """Let the recording that is next in the list follow the selected one, from where the character is then"""
+
+    bl_idname = "fragmotion.glue_recording"
+    bl_label = "Glue Next"
+
+    @classmethod
+    def poll(cls: Any, context: bpy.types.Context) -> bool:
+        if not super().poll(context):
+            return False
+        settings = active_armature(context).fragmotion
+        has_next: bool = settings.active_take + 1 < len(settings.takes)
+        if not has_next:
+            cls.poll_message_set("No recording comes after it in the list")
+        return has_next
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        obj, recording = active_armature(context), selected(context)
+        other = obj.fragmotion.takes[obj.fragmotion.active_take + 1]
+        seam = cutting.append(obj, recording, other)
+        self.report(
+            {"INFO"}, f"'{other.name}' follows in '{recording.name}' from {seam.end / TRACE_RATE:.1f} s on{_fit(seam)}"
+        )
+        return {"FINISHED"}
+
+
+class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.Operator):
+    """Bend the recording before the playhead, so that the character is at a place at that frame."""
+
+    bl_idname = "fragmotion.pin_recording"
+    bl_label = "Pin Here"
+    bl_description = (
+        "At the playhead's frame the character is to be at the 3D cursor, or at the object below, facing its -Y. The "
+        "stretch before is played with small changes of its controls until it gets there. What comes before that stays"
+    )
+    bl_options: ClassVar[set[str]] = {"UNDO"}
+    verb = "Pin"
+    settings = "pin"
+    patience = 0.5
+
+    place: EnumProperty(  # type: ignore[valid-type]
+        name="At",
+        description="Where the character is to be",
+        items=(
+            ("PANEL", "Panel", "At the object that the panel names, or the 3D cursor"),
+            ("CURSOR", "3D Cursor", "At the 3D cursor"),
+        ),
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def poll(cls: Any, context: bpy.types.Context) -> bool:
+        return super().poll(context) and poll_idle(cls)
+
+    def _prepare(self, context: bpy.types.Context, obj: bpy.types.Object) -> Job:
+        recording = selected(context)
+        named = obj.fragmotion.pin_at if self.place == "PANEL" else None
+        now = playhead(context, recording)
+        self._goal = pinning.Goal(now, now - self.stretch, pinning.frame_of(named or context.scene.cursor))
+        self._recording, self._controls = recording.name, recording.controls
+        return Job(f"Pinning '{recording.name}'", pinning.prepare(obj, recording, self._goal))
+
+    def _keep(self, _context: bpy.types.Context, obj: bpy.types.Object, pinned: pinning.Pinned) -> None:
+        recording = obj.fragmotion.takes.get(self._recording)
+        if recording is None or recording.controls != self._controls:
+            raise UserError(f"Recording '{self._recording}' was changed meanwhile")
+        pinning.keep_pin(obj, recording, self._goal, pinned)
+        pin = pinned.pin
+        self.report(
+            {"INFO"},
+            f"'{recording.name}' is at the pin: it was {pin.asked:.2f} m and {math.degrees(pin.asked_angle):.0f} "
+            f"degrees away, {pin.tries} tries left {100 * pin.distance:.1f} cm and {math.degrees(pin.angle):.1f} "
+            "degrees, which are spread",
+        )
+
+
+def _fit(seam: cutting.Seam) -> str:
+    return (
+        "" if seam.distance is None else f"; there the poses are {100 * seam.distance:.0f} cm apart, and are stitched"
+    )
+
+
+CLASSES = (
+    FRAGMOTION_OT_edit_curves,
+    FRAGMOTION_OT_play_again,
+    FRAGMOTION_OT_cut_recording,
+    FRAGMOTION_OT_glue_recording,
+    FRAGMOTION_OT_pin_recording,
+)

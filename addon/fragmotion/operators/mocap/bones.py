@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Find what the bones of the armature are to a body, and keep it as a preset."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import ClassVar
+
+import bpy
+from bpy.props import StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from ...errors import UserError, reported
+from ...rig.bodies import chosen_roles, find_roles, read_roles, save_roles, set_roles
+from ...rig.rigs import make_rig
+from ..base.context import active_armature, poll_armature
+from ..base.saving import Saving
+
+EXTENSION = ".json"
+
+
+class FRAGMOTION_OT_find_bones(bpy.types.Operator):
+    """Find which bone is the hips, a thigh, a hand ..., by their names and where those say nothing by their shape"""
+
+    bl_idname = "fragmotion.find_bones"
+    bl_label = "Find Bones"
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return poll_armature(cls, context)
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        obj = active_armature(context)
+        found = find_roles(make_rig(obj))
+        set_roles(obj, found)
+        missing = [role.name for role in obj.fragmotion.roles if not role.bone]
+        told = f"Found {len(found)} bones of the body"
+        self.report({"INFO"}, f"{told}; not found: {', '.join(missing)}" if missing else told)
+        return {"FINISHED"}
+
+
+class FRAGMOTION_OT_save_bones(Saving, bpy.types.Operator):
+    """Save which bone is which, for other characters with the same bones"""
+
+    bl_idname = "fragmotion.save_bones"
+    bl_label = "Save Bones"
+    bl_options: ClassVar[set[str]] = {"REGISTER"}
+
+    filename_ext = EXTENSION
+    filter_glob: StringProperty(default=f"*{EXTENSION}", options={"HIDDEN"})  # type: ignore[valid-type]
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        obj = active_armature(context)
+        if obj is None or chosen_roles(obj) is None:
+            cls.poll_message_set("Nothing to save: press Find Bones first")
+            return False
+        return True
+
+    def _suggestion(self, context: bpy.types.Context) -> str:
+        return f"{active_armature(context).name} bones"
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        path = self._path()
+        save_roles(active_armature(context), path)
+        self.report({"INFO"}, f"Saved '{path}'")
+        return {"FINISHED"}
+
+
+class FRAGMOTION_OT_load_bones(ImportHelper, bpy.types.Operator):
+    """Load which bone is which from a preset"""
+
+    bl_idname = "fragmotion.load_bones"
+    bl_label = "Load Bones"
+    bl_options: ClassVar[set[str]] = {"UNDO"}
+
+    filename_ext = EXTENSION
+    filter_glob: StringProperty(default=f"*{EXTENSION}", options={"HIDDEN"})  # type: ignore[valid-type]
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return poll_armature(cls, context)
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        if not self.filepath:
+            raise UserError("No file is chosen")
+        obj = active_armature(context)
+        set_roles(obj, read_roles(obj, Path(bpy.path.abspath(self.filepath))))
+        self.report({"INFO"}, f"Armature '{obj.name}' has {len(chosen_roles(obj) or ())} bones of a body")
+        return {"FINISHED"}

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a recording asks for beside its trace: moves, and styles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from .styles import StyleChange
+
+
+class StartedMove(NamedTuple):
+    """A move that was started before a control of a recording, and for how many controls it was held."""
+
+    control: int
+    name: str
+    held: int
+
+
+class Asked(NamedTuple):
+    """What a recording asks for beside its trace: moves, the style in which it begins, and changes of it."""
+
+    moves: Sequence[StartedMove] = ()
+    style: str = ""
+    styles: Sequence[StyleChange] = ()
+
+
+def joined_asked(first: Asked, length: int, second: Asked) -> Asked:
+    """What is asked for in `length` controls, and then in others that follow them."""
+    later = [move._replace(control=move.control + length) for move in second.moves]
+    former = (first.styles[-1].name if first.styles else first.style) or ""
+    begins = [StyleChange(length, second.style)] if second.style and second.style != former else []
+    changes = [change._replace(control=change.control + length) for change in second.styles]
+    return Asked([*first.moves, *later], first.style, [*first.styles, *begins, *changes])

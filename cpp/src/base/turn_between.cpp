@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "base/turn_between.hpp"
+
+#include <cmath>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kOpposite = 1e-6;  // 1 + cosine of an angle, below which half of it is not to be had from that
+
+}  // namespace
+
+Quaternion turn_between(const Vector3& from, const Vector3& to) {
+  const double product = std::sqrt(from.squaredNorm() * to.squaredNorm()), w = product + from.dot(to);
+  if (!(product > 0)) return Quaternion::Identity();
+  if (w <= kOpposite * product) {
+    const Vector3 across = from.unitOrthogonal();
+    return turn_between(-from, to) * Quaternion{0, across.x(), across.y(), across.z()};
+  }
+  const Vector3 axis = from.cross(to);
+  return Quaternion{w, axis.x(), axis.y(), axis.z()}.normalized();
+}
+
+}  // namespace fragmotion

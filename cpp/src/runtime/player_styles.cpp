@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <stdexcept>
+
+#include "runtime/plan_moment.hpp"
+
+namespace fragmotion {
+void Player::check_style(int style) const {
+  if (style >= 0 && style < character_->style_count()) return;
+  throw std::invalid_argument("style " + std::to_string(style) + " does not exist; the character has " +
+                              std::to_string(character_->style_count()));
+}
+
+void Player::change_style(int style) {
+  check_style(style);
+  if (extras_ == nullptr) return;
+  extras_->style.waiting = style == playing_style() ? -1 : style;
+  extras_->style.moment.await(kStyleWait);
+}
+
+// What is begun from now on is of this style.
+void Player::set_style(int style) {
+  const Character& character = character_->in_style(style);
+  director_.change_style(character, character.policies[extras_->policy]);
+  selector_.change_style(style);
+  playback_.change_style(style);
+  correction_.change_style(character);
+  extras_->style.playing = style;
+  extras_->style.waiting = -1;
+}
+
+Control Player::wanted(const Control& control) const {
+  return director_.wanted(limit_.after(control, frame().heading, kFinest));
+}
+
+// How badly another style joins on to what is shown, m a metre of tip_reach().
+double Player::distance_to_style(int style, const Control& wanted) const {
+  FragmentSelector there = selector_;
+  there.change_style(style);
+  return there.distance_to_class(there.best_class(wanted, playback_), wanted, playback_);
+}
+
+// Begins the style that waits, where its moment has come. Returns as begin_moves().
+double Player::begin_style(const Control& control, double most) {
+  const int style = waiting_style();
+  if (style < 0 || extras_->whole_body.plays()) return most;
+  Moment& moment = extras_->style.moment;
+  if (moment.needs_plan(control, styled_character().space)) {
+    plan(moment, control, [&](const Player& p) { return p.distance_to_style(style, p.wanted(control)); });
+  }
+  if (moment.until() > kInstant) return std::min(most, moment.until());
+  if (can_begin_move()) {
+    set_style(style);
+    enter_best_class(wanted(control));
+  }
+  return most;
+}
+
+}  // namespace fragmotion

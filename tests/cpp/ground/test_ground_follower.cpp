@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "allocations.hpp"
+#include "fragmotion/control/simulated_players.hpp"
+#include "fragmotion/ground/ground_follower.hpp"
+#include "fragmotion/runtime/player.hpp"
+#include "small_character.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kStep = 1.0 / 60;
+const double kSlope = std::tan(20 * kPi / 180);
+
+Ground level(double height) {
+  return [height](const Vector3&) { return GroundPoint{height, Vector3::UnitZ()}; };
+}
+
+GroundPoint up_along_y(const Vector3& from) { return {kSlope * from.y(), {0, -kSlope, 1}}; }
+
+GroundPoint stairs(const Vector3& from) { return {0.18 * std::floor(from.y() / 0.3), Vector3::UnitZ()}; }
+
+struct Shown {
+  std::vector<Vector3> roots;
+  std::vector<std::vector<double>> rotations;
+  double missed = 0;
+};
+
+// An explorer's half minute, from a heading.
+Shown play(const Ground& ground, double heading = 0) {
+  Player player(gait_character());
+  player.stand_on(ground);
+  player.reset({{0, 0.1}, heading});
+  Shown shown;
+  for (const Control& control : simulate_trace("explorer", 30, 5, player.character().space)) {
+    for (int i = 0; i < 6; ++i) {
+      player.step(control, kStep);
+      shown.roots.push_back(player.root_position());
+      shown.rotations.push_back(player.rotations());
+    }
+  }
+  shown.missed = player.ground_missed();
+  return shown;
+}
+
+TEST(GroundFollower, ShowsOnLevelGroundToTheBitWhatIsShownWithoutGround) {
+  const Shown without = play({}), on = play(level(0));
+  EXPECT_EQ(without.roots, on.roots);
+  EXPECT_EQ(without.rotations, on.rotations);
+}
+
+TEST(GroundFollower, IsLiftedOnAHigherLevelAndOtherwiseTheSame) {
+  const Shown without = play({}), on = play(level(1));
+  EXPECT_EQ(without.rotations, on.rotations);
+  for (std::size_t f = 0; f < on.roots.size(); ++f)
+    EXPECT_LT((on.roots[f] - without.roots[f] - Vector3{0, 0, 1}).norm(), 1e-12);
+}
+
+TEST(GroundFollower, GoesTheSameWayOnTheSlopeAndIsTheSameEveryTime) {
+  const Shown without = play({}), on = play(up_along_y), again = play(up_along_y);
+  EXPECT_EQ(on.rotations, again.rotations);
+  double highest = 0;
+  for (std::size_t f = 0; f < on.roots.size(); ++f) {
+    EXPECT_EQ(on.roots[f].head<2>(), without.roots[f].head<2>());
+    highest = std::max(highest, std::abs(on.roots[f].z() - without.roots[f].z() - kSlope * on.roots[f].y()));
+  }
+  EXPECT_LT(highest, 0.5) << "the hips follow the slope";
+}
+
+TEST(GroundFollower, LooksTheSameOnASlopeThatIsTurnedWithTheCharacter) {
+  const Shown up = play(up_along_y);
+  const Ground turned = [](const Vector3& from) { return GroundPoint{-kSlope * (from.x() - 0.1), {kSlope, 0, 1}}; };
+  Player player(gait_character());
+  player.stand_on(turned);
+  player.reset({{0, 0.1}, kPi / 2});
+  std::size_t f = 0;
+  for (const Control& control : simulate_trace("explorer", 2, 5, player.character().space)) {
+    for (int i = 0; i < 6; ++i, ++f) {
+      player.step(control, kStep);
+      EXPECT_NEAR(player.root_position().z() - kSlope * 0.2, up.roots[f].z() - kSlope * 0.1, 0.1);
+    }
+  }
+}
+
+TEST(GroundFollower, StaysWithinABodysReachOfTheGroundItIsOver) {
+  for (const Ground& ground : {Ground(up_along_y), Ground(stairs)}) {
+    const Shown without = play({}), on = play(ground);
+    for (std::size_t f = 0; f < on.roots.size(); ++f) {
+      const double over = on.roots[f].z() - ground(on.roots[f])->height;
+      ASSERT_GT(over, 0.2) << f;
+      ASSERT_LT(over, without.roots[f].z() + 0.6) << f;
+    }
+  }
+}
+
+TEST(GroundFollower, TellsHowLongThereWasNoGroundAndKeepsItsHeight) {
+  const Ground none = [](const Vector3&) { return std::nullopt; };
+  const Shown without = play({}), on = play(none);
+  EXPECT_NEAR(on.missed, 30, 0.1);
+  EXPECT_EQ(without.rotations, on.rotations);
+  EXPECT_EQ(without.roots, on.roots);
+  EXPECT_EQ(play(level(2)).missed, 0);
+}
+
+TEST(GroundFollower, TakesNoNumbersThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const GroundPoint& broken : {GroundPoint{nan, Vector3::UnitZ()}, GroundPoint{0, {0, nan, 1}}}) {
+    const Shown on = play([broken](const Vector3&) { return broken; });
+    EXPECT_NEAR(on.missed, 30, 0.1);
+    for (const Vector3& root : on.roots) ASSERT_TRUE(root.allFinite());
+  }
+}
+
+TEST(GroundFollower, ShowsPosesOnGroundThatIsNoise) {
+  const Ground noise = [](const Vector3& from) {
+    const double bump = std::sin(37 * from.x()) * std::cos(41 * from.y());
+    return GroundPoint{0.3 * bump, {bump, -bump, 0.01}};
+  };
+  const Shown on = play(noise);
+  for (const std::vector<double>& rotations : on.rotations) {
+    for (std::size_t b = 0; b < rotations.size(); b += 4) ASSERT_NEAR(load_quaternion(&rotations[b]).norm(), 1, 1e-6);
+  }
+  for (const Vector3& root : on.roots) ASSERT_LT(std::abs(root.z()), 3);
+}
+
+TEST(GroundFollower, AllocatesNothing) {
+  Player player(gait_character());
+  player.stand_on(stairs);
+  const Trace trace = simulate_trace("explorer", 10, 3, player.character().space);
+  const std::size_t before = allocations;
+  for (const Control& control : trace) player.step(control, 0.1);
+  EXPECT_EQ(allocations, before);
+}
+
+TEST(Approach, GetsThereAtTheTimeAndAtRest) {
+  Approach one{1, -2}, many{1, -2};
+  one.advance(3, 0.5, 0.25);
+  for (int i = 0; i < 5; ++i) many.advance(3, 0.5 - 0.05 * i, 0.05);
+  EXPECT_NEAR(one.value, many.value, 1e-12) << "whatever the steps";
+  EXPECT_NEAR(one.speed, many.speed, 1e-12);
+  many.advance(3, 0.25, 0.25);
+  EXPECT_EQ(many.value, 3);
+  EXPECT_EQ(many.speed, 0);
+}
+
+TEST(GroundProbe, StandsOnTheHighestGroundUnderASole) {
+  const Sole sole{{0, 0.2, 0}, {0, 0.32, 0}, {0, 0.38, 0}};
+  const Ground steps = stairs, slope = up_along_y;
+  const auto footing = GroundProbe(steps, 1).under(sole);
+  ASSERT_TRUE(footing);
+  EXPECT_DOUBLE_EQ(footing->height, 0.18);
+  EXPECT_TRUE(footing->slope.isZero(0));
+  const auto sloping = GroundProbe(slope, 1).under(sole);
+  ASSERT_TRUE(sloping);
+  EXPECT_NEAR(sloping->height, 0.32 * kSlope, 1e-12);
+  EXPECT_NEAR(sloping->slope.y(), kSlope, 1e-12);
+}
+
+TEST(GroundProbe, FindsEdgesUnderASoleAndNoneOnASlope) {
+  const Ground steps = stairs, slope = up_along_y;
+  const Sole free{{0, 0.36, 0}, {0, 0.48, 0}, {0, 0.54, 0}}, low{{0, 0.44, 0}, {0, 0.56, 0}, {0, 0.62, 0}};
+  EXPECT_EQ(GroundProbe(steps, 1).edges(free, false), 0);
+  EXPECT_GE(GroundProbe(steps, 1).edges(low, false), GroundProbe::kInTheWay) << "its tip is in the next step";
+  EXPECT_EQ(GroundProbe(slope, 1).edges(low, false), 0);
+  const Sole down{{0, 0.54, 0}, {0, 0.42, 0}, {0, 0.36, 0}}, up{{0, 0.24, 0}, {0, 0.36, 0}, {0, 0.42, 0}};
+  EXPECT_LT(GroundProbe(steps, 1).edges(up, false), GroundProbe(steps, 1).edges(up, true)) << "a heel over the edge";
+  EXPECT_EQ(GroundProbe(steps, 1).edges(down, true), 0);
+}
+
+// A foot over stairs that is on level ground at a place, and lands there in a time.
+FootAhead foot_at(double y, double due, double landing) {
+  FootAhead foot;
+  foot.stands = due == 0;
+  foot.due = due;
+  foot.now = Sole{{0, -0.12, 0}, {0, 0, 0}, {0, 0.06, 0}}.moved({0, y});
+  for (std::size_t i = 0; i < FootAhead::kPoints; ++i)
+    foot.way[i] = foot.now.moved({0, (landing - y) * static_cast<double>(i + 1) / FootAhead::kPoints});
+  return foot;
+}
+
+TEST(FootOnGround, IsOnTheTreadThatWasForeseenWhenItLands) {
+  const Ground steps = stairs;
+  const GroundProbe probe(steps, 5);
+  FootOnGround foot;
+  foot.advance(foot_at(0.16, 0, 0.16), 0, 0, probe);
+  EXPECT_DOUBLE_EQ(foot.height(), 0);
+  for (int i = 1; i < 30; ++i) {
+    foot.advance(foot_at(0.16 + 0.02 * i, (30 - i) * kStep, 0.76), 0, kStep, probe);
+    const double y = 0.16 + 0.02 * i + foot.shift().y();
+    EXPECT_GE(foot.height() + 1e-9, stairs({0, y, 0}).height) << "it goes over the steps";
+  }
+  foot.advance(foot_at(0.76, 0, 0.76), 0, kStep, probe);
+  EXPECT_NEAR(foot.height(), 0.36, 0.02);
+  for (int i = 0; i < 5; ++i) foot.advance(foot_at(0.76, 0, 0.76), 0, kStep, probe);
+  EXPECT_NEAR(foot.height(), 0.36, 0.001);
+  EXPECT_TRUE(foot.slope().isZero(1e-6));
+}
+
+TEST(FootOnGround, ComesDownQuicklyWhereItsLandingWasNotForeseen) {
+  const Ground steps = stairs;
+  const GroundProbe probe(steps, 5);
+  FootOnGround foot;
+  foot.advance(foot_at(0.16, 0, 0.16), 0, 0, probe);
+  for (int i = 1; i < 15; ++i) foot.advance(foot_at(0.16 + 0.02 * i, (30 - i) * kStep, 0.76), 0, kStep, probe);
+  double last = foot.height();
+  for (int i = 0; i < 6; ++i) {
+    foot.advance(foot_at(0.46, 0, 0.46), 0, kStep, probe);
+    EXPECT_LT(std::abs(foot.height() - last), 5 * kStep) << "no faster than a foot goes";
+    last = foot.height();
+  }
+  EXPECT_NEAR(last, 0.18, 0.01);
+}
+
+TEST(HipsOnGround, GoUpASlopeAsThePlaneDoesAndOverStairsWithoutAKink) {
+  for (const Ground& ground : {Ground(up_along_y), Ground(stairs)}) {
+    const GroundProbe probe(ground, 50);
+    FeetOnGround feet;
+    HipsOnGround hips;
+    double before = 0, speed = 0;
+    for (int i = 0; i < 240; ++i) {
+      for (int side = 0; side < 2; ++side) {  // steps of 0.6 m in half a second each, in turn
+        const int phase = i + 30 * side, step = phase / 60;
+        const double from = 1.2 * step - 0.6 * side, part = std::max(0, phase % 60 - 30) / 30.0;
+        feet[side].advance(foot_at(from + 1.2 * part, part > 0 ? (1 - part) * 0.5 : 0, from + (part > 0 ? 1.2 : 0)), 0,
+                           i > 0 ? kStep : 0, probe);
+      }
+      const double y = 1.2 * i * kStep;
+      hips.advance({0, y}, feet, i > 0 ? kStep : 0);
+      if (i > 20) {
+        const double now = (hips.level() - before) / kStep;
+        if (i > 21) EXPECT_LT(std::abs(now - speed) / kStep, 12) << i << " m/s^2";
+        speed = now;
+      }
+      before = hips.level();
+      EXPECT_NEAR(hips.level(), ground({0, y, 50})->height, 0.3) << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fragmotion
