@@ -21,7 +21,9 @@ gtest_discover_tests(fragmotion_tests WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" 
 add_executable(fragmotion_runtime_tests tests/cpp/test_runtime_alone.cpp)
 target_link_libraries(fragmotion_runtime_tests PRIVATE fragmotion_runtime GTest::gtest_main)
 target_compile_options(fragmotion_runtime_tests PRIVATE -Wall -Wextra -Wpedantic)
-gtest_discover_tests(fragmotion_runtime_tests WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 60)
+gtest_discover_tests(fragmotion_runtime_tests WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 60
+                     PROPERTIES LABELS runtime)
 add_test(NAME RuntimeLibrary.StartsNoThreadAndKnowsNoLibsvm
          COMMAND ${CMAKE_COMMAND} -D "NM=${CMAKE_NM}" -D "LIBRARY=$<TARGET_FILE:fragmotion_runtime>"
                  -P "${PROJECT_SOURCE_DIR}/cmake/check_symbols.cmake")
+set_tests_properties(RuntimeLibrary.StartsNoThreadAndKnowsNoLibsvm PROPERTIES LABELS runtime)

@@ -111,7 +111,7 @@ def picture_of_a_pin() -> Iterator[None]:
     obj, scene = character(), bpy.context.scene
     recording = obj.fragmotion.takes[0]
     pose = round(60 * AT)
-    frame = window.module("edits.replaying").shown_poses(obj, recording).frames[pose] + OFF
+    frame = window.module("edits.replaying").shown_poses(obj, recording).path[pose] + OFF
     mark = bpy.data.objects.new("Pin", None)
     scene.collection.objects.link(mark)
     mark.empty_display_type, mark.empty_display_size = "ARROWS", 0.8

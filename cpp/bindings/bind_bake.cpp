@@ -16,14 +16,14 @@ namespace {
 
 constexpr double kMostPlace = 1e9, kMostTime = 1e6, kMostRate = 1000;  // m and rad, s, frames a second
 
-Motion to_motion(const Doubles& root_positions, const Doubles& rotations, const Doubles& frames) {
-  check_shape(frames, "frames", {-1, 3});
-  check_shape(root_positions, "root_positions", {frames.shape(0), 3});
-  check_shape(rotations, "rotations", {frames.shape(0), -1, 4});
-  if (frames.shape(0) < 1 || rotations.shape(1) < 1)
+Motion to_motion(const Doubles& root_positions, const Doubles& rotations, const Doubles& path) {
+  check_shape(path, "path", {-1, 3});
+  check_shape(root_positions, "root_positions", {path.shape(0), 3});
+  check_shape(rotations, "rotations", {path.shape(0), -1, 4});
+  if (path.shape(0) < 1 || rotations.shape(1) < 1)
     throw std::invalid_argument("a motion has a frame and a bone at least");
   return {0, to_vector(root_positions, "root_positions", -kMostPlace, kMostPlace),
-          to_vector(rotations, "rotations", -2, 2), to_vector(frames, "frames", -kMostPlace, kMostPlace)};
+          to_vector(rotations, "rotations", -2, 2), to_vector(path, "path", -kMostPlace, kMostPlace)};
 }
 
 py::tuple to_tuple(Motion motion) {
@@ -38,23 +38,23 @@ int checked_bone(const Motion& motion, int bone) {
   throw std::invalid_argument("bone " + std::to_string(bone) + " does not exist");
 }
 
-py::tuple bound_carried(const Doubles& root_positions, const Doubles& rotations, const Doubles& frames, int hips,
+py::tuple bound_carried(const Doubles& root_positions, const Doubles& rotations, const Doubles& path, int hips,
                         const Doubles& to) {
-  const Motion motion = to_motion(root_positions, rotations, frames);
+  const Motion motion = to_motion(root_positions, rotations, path);
   checked_bone(motion, hips);
   check_shape(to, "to", {motion.frames(), 3});
   return to_tuple(carried(motion, hips, to_vector(to, "to", -kMostPlace, kMostPlace)));
 }
 
-py::tuple bound_looped(const Doubles& root_positions, const Doubles& rotations, const Doubles& frames, int hips,
+py::tuple bound_looped(const Doubles& root_positions, const Doubles& rotations, const Doubles& path, int hips,
                        int count) {
-  const Motion motion = to_motion(root_positions, rotations, frames);
+  const Motion motion = to_motion(root_positions, rotations, path);
   return to_tuple(looped(motion, checked_bone(motion, hips), count));
 }
 
 py::tuple bound_resampled(const Doubles& times, const Doubles& root_positions, const Doubles& rotations,
-                          const Doubles& frames, double rate) {
-  const Motion motion = to_motion(root_positions, rotations, frames);
+                          const Doubles& path, double rate) {
+  const Motion motion = to_motion(root_positions, rotations, path);
   check_shape(times, "times", {motion.frames()});
   const std::vector<double> shown = to_vector(times, "times", 0, kMostTime);
   if (!std::is_sorted(shown.begin(), shown.end())) throw std::invalid_argument("times do not ascend");
@@ -121,12 +121,12 @@ py::tuple bound_reduce_keys(const Rig& rig, const std::vector<std::tuple<int, st
 }  // namespace
 
 void bind_bake(py::module_& m) {
-  m.def("carried_motion", &bound_carried, py::arg("root_positions"), py::arg("rotations"), py::arg("frames"),
+  m.def("carried_motion", &bound_carried, py::arg("root_positions"), py::arg("rotations"), py::arg("path"),
         py::arg("hips"), py::arg("to"));
-  m.def("looped_motion", &bound_looped, py::arg("root_positions"), py::arg("rotations"), py::arg("frames"),
+  m.def("looped_motion", &bound_looped, py::arg("root_positions"), py::arg("rotations"), py::arg("path"),
         py::arg("hips"), py::arg("count"));
   m.def("resampled_motion", &bound_resampled, py::arg("times"), py::arg("root_positions"), py::arg("rotations"),
-        py::arg("frames"), py::arg("rate"));
+        py::arg("path"), py::arg("rate"));
   m.def("fit_keys", &bound_fit_keys, py::arg("values"), py::arg("tolerance"));
   m.def("reduce_keys", &bound_reduce_keys, py::arg("rig"), py::arg("tracks"), py::arg("locations"),
         py::arg("rotations"), py::arg("object_locations"), py::arg("object_rotations"), py::arg("above"),

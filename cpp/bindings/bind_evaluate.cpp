@@ -36,7 +36,7 @@ void bind_performance(py::module_& m) {
                                const auto bones = static_cast<py::ssize_t>(p.rotations.size()) / p.frames / 4;
                                return view(p.rotations, {p.frames, bones, 4}, self);
                              })
-      .def_property_readonly("frames", viewed(&Performance::path, {3}))
+      .def_property_readonly("path", viewed(&Performance::path, {3}))
       .def_property_readonly("styles", viewed(&Performance::styles, {}))
       .def_property_readonly("classes", viewed(&Performance::classes, {}))
       .def_property_readonly("fragments", viewed(&Performance::fragments, {}))

@@ -18,11 +18,11 @@ py::array_t<double> frame_array(const CharacterFrame& frame) {
   return to_array(std::vector<double>{frame.position.x(), frame.position.y(), frame.heading}, {3});
 }
 
-Motion make_motion(double rate, const Doubles& roots, const Doubles& rotations, const Doubles& frames) {
+Motion make_motion(double rate, const Doubles& roots, const Doubles& rotations, const Doubles& path) {
   check_shape(roots, "root_positions", {-1, 3});
   check_shape(rotations, "rotations", {roots.shape(0), -1, 4});
-  check_shape(frames, "frames", {roots.shape(0), 3});
-  return {rate, to_vector(roots), to_vector(rotations), to_vector(frames)};
+  check_shape(path, "path", {roots.shape(0), 3});
+  return {rate, to_vector(roots), to_vector(rotations), to_vector(path)};
 }
 
 py::array_t<double> rotations_of(const py::object& self) {
@@ -33,7 +33,7 @@ py::array_t<double> rotations_of(const py::object& self) {
 
 void bind_motions(py::module_& m) {
   py::class_<Motion>(m, "Motion", py::module_local())
-      .def(py::init(&make_motion), py::arg("rate"), py::arg("root_positions"), py::arg("rotations"), py::arg("frames"))
+      .def(py::init(&make_motion), py::arg("rate"), py::arg("root_positions"), py::arg("rotations"), py::arg("path"))
       .def_readonly("rate", &Motion::rate)
       .def_property_readonly("root_positions",
                              [](const py::object& self) {
@@ -41,7 +41,7 @@ void bind_motions(py::module_& m) {
                                return view(motion.root_positions, {motion.frames(), 3}, self);
                              })
       .def_property_readonly("rotations", &rotations_of)
-      .def_property_readonly("frames", [](const py::object& self) {
+      .def_property_readonly("path", [](const py::object& self) {
         const auto& motion = self.cast<const Motion&>();
         return view(motion.path, {motion.frames(), 3}, self);
       });

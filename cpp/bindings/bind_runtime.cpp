@@ -140,7 +140,7 @@ void bind_crowd(py::module_& m) {
           "release_move",
           [](OneCrowd& crowd, int player, int move) { OneCrowd::Call(crowd)->release_move(player, move); },
           py::arg("player"), py::arg("move"))
-      .def_property_readonly("frames", &frames_of)
+      .def_property_readonly("character_frames", &frames_of)
       .def_property_readonly("playing", &playing_of);
 }
 

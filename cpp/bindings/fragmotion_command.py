@@ -138,7 +138,7 @@ def _play(options: argparse.Namespace) -> dict[str, Any]:
         character.skeleton, options.bvh.stem, performance.rate, performance.root_positions, performance.rotations
     )
     core.write_bvh(core.Take.from_clip(clip, character.skeleton), options.bvh)
-    return {"frames": len(performance.frames), "rate": performance.rate}
+    return {"frames": len(performance.path), "rate": performance.rate}
 
 
 def _evaluate(options: argparse.Namespace) -> dict[str, Any]:

@@ -658,25 +658,25 @@ class Crowd:
         """Player.start_move of one of them."""
     def release_move(self, player: int, move: int) -> None:
         """Player.release_move of one of them."""
-    frames: Doubles
+    character_frames: Doubles
     """[count,3]: x, y, heading of the character frames now."""
     playing: Ints
     """[count,2]: class and fragment that play now."""
 
 def carried_motion(
-    root_positions: ArrayLike, rotations: ArrayLike, frames: ArrayLike, hips: int, to: ArrayLike
+    root_positions: ArrayLike, rotations: ArrayLike, path: ArrayLike, hips: int, to: ArrayLike
 ) -> tuple[Doubles, Doubles, Doubles]:
-    """Poses [F,3], [F,B,4] in which the character frame is `frames` [F,3] (x, y, heading), as they are seen from there,
+    """Poses [F,3], [F,B,4] in which the character frame is `path` [F,3] (x, y, heading), as they are seen from there,
     with that frame at `to` [F,3]: root positions, rotations and `to`. `hips` is the bone's number."""
 
 def looped_motion(
-    root_positions: ArrayLike, rotations: ArrayLike, frames: ArrayLike, hips: int, count: int
+    root_positions: ArrayLike, rotations: ArrayLike, path: ArrayLike, hips: int, count: int
 ) -> tuple[Doubles, Doubles, Doubles]:
     """The same, its last `count` frames eased so that it ends as it began: seen from the character frame the last pose
     is the first one, and the one before leads up to it at the first's velocity; the path's last step is its first."""
 
 def resampled_motion(
-    times: ArrayLike, root_positions: ArrayLike, rotations: ArrayLike, frames: ArrayLike, rate: float
+    times: ArrayLike, root_positions: ArrayLike, rotations: ArrayLike, path: ArrayLike, rate: float
 ) -> tuple[Doubles, Doubles, Doubles, Ints]:
     """Poses that were shown at times [F] (s, ascending from 0) at a fixed rate (frames a second), on straight lines
     between them; and which [G] of those shown is nearest to each."""
@@ -805,7 +805,7 @@ class Performance:
     """[F,3] m"""
     rotations: Doubles
     """[F,B,4]"""
-    frames: Doubles
+    path: Doubles
     """[F,3]: character frame x, y, heading (unwrapped)."""
     styles: Ints
     """[F]"""
@@ -935,13 +935,13 @@ def change_pushes(
 class Motion:
     """What was shown at a fixed rate: as Performance's arrays of these names."""
 
-    def __init__(self, rate: float, root_positions: ArrayLike, rotations: ArrayLike, frames: ArrayLike) -> None:
-        """`rate`: frames a second; `root_positions` [F,3] m, `rotations` [F,B,4] as in Clip, `frames` [F,3]: character
+    def __init__(self, rate: float, root_positions: ArrayLike, rotations: ArrayLike, path: ArrayLike) -> None:
+        """`rate`: frames a second; `root_positions` [F,3] m, `rotations` [F,B,4] as in Clip, `path` [F,3]: character
         frame x, y (m) and heading (rad), unwrapped. What they hold is checked where it is used."""
     rate: float
     root_positions: Doubles
     rotations: Doubles
-    frames: Doubles
+    path: Doubles
 
 def join(skeleton: Skeleton, first: Motion, end: int, second: Motion, beginning: int) -> Motion:
     """The first motion's frames 0 .. `end` to the bit, then the second's after frame `beginning`, which is taken for

@@ -71,10 +71,10 @@ def test_a_recording_is_replayed_and_baked(addon: ModuleType, session: ModuleTyp
     obj = armature(name)
     _, shown = addon.recordings.recordings.shown_of(obj.fragmotion.takes[1])
     driven = session.replay(bpy.context, obj, obj.fragmotion.takes[1])
-    for _ in shown.frames[1:]:  # another way, since the bodies of the program before had no weight
+    for _ in shown.path[1:]:  # another way, since the bodies of the program before had no weight
         driven.update(1 / 60)
         assert np.isfinite(driven.player.frame).all()
-    assert np.linalg.norm(np.subtract(driven.player.frame, shown.frames[0])[:2]) > 0.3
+    assert np.linalg.norm(np.subtract(driven.player.frame, shown.path[0])[:2]) > 0.3
     session.stop()
     bpy.context.scene.render.fps = 60
     assert bpy.ops.fragmotion.bake(trace_source="RECORDING", recording=1, as_recorded=True) == {"FINISHED"}

@@ -183,7 +183,7 @@ def test_what_was_shown_survives_saving_and_is_trimmed_with_its_recording(
     assert_shown(0, 150)
     addon.recordings.recordings.trim_recording(recording, 1, 3)
     assert_shown(30, 91)
-    assert tuple(recording.start) == pytest.approx(tuple(motion.frames[30]), abs=1e-6)
+    assert tuple(recording.start) == pytest.approx(tuple(motion.path[30]), abs=1e-6)
     recording.shown = recording.shown[:-3]
     with pytest.raises(addon.errors.UserError, match="'Seen' is damaged"):
         addon.recordings.recordings.shown_of(recording)

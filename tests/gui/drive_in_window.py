@@ -295,7 +295,7 @@ def bake_and_undo(obj: bpy.types.Object, before: dict[str, Any]) -> Generator[No
     last = round(obj.animation_data.action.frame_range[1])
     shown = making.play(obj, obj.animation_data.action, last)
     hips = shown.matrix_world @ shown.pose.bones["hips"].head
-    assert math.dist(hips[:2], motion.frames[-1][:2]) < 0.3, "the bake does not end where the character stood"
+    assert math.dist(hips[:2], motion.path[-1][:2]) < 0.3, "the bake does not end where the character stood"
     scene.frame_set(last // 2)
     yield from window.picture("7 baked")
     bpy.ops.ed.undo()
@@ -327,7 +327,7 @@ def replay(obj: bpy.types.Object) -> Iterator[None]:
     driven = session.current
     assert driven.inputs.label == "Trace" and driven.recording is None
     np.testing.assert_array_equal(driven.control, trace[(driven._steps - 1) * 10 // RATE])
-    np.testing.assert_allclose(driven.actor.frame, motion.frames[driven._steps], atol=1e-3)
+    np.testing.assert_allclose(driven.actor.frame, motion.path[driven._steps], atol=1e-3)
     yield from window.picture("8 replay")
     yield from window.send("ESC", "PRESS", *MIDDLE)
     assert session.current is None and state(obj) == before

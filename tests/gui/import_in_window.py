@@ -84,6 +84,7 @@ def browse(folder: Path) -> Iterator[None]:
 def stopped_import(before: dict[str, Any]) -> Iterator[None]:
     """Begin to import more files than are read in a moment, and stop it by Esc."""
     background = window.module("operators.base.background")
+    background._SLICE = 0.02  # s: it takes longer than a picture on any machine
     many = FILES / "many"
     many.mkdir()
     for seed in range(MANY):

@@ -93,10 +93,10 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
     motion = {
         "root_positions": short.root_positions,
         "rotations": short.rotations,
-        "frames": short.frames,
+        "path": short.path,
         "hips": 0,
     }
-    shown = core.Motion(30.0, short.root_positions, short.rotations, short.frames)
+    shown = core.Motion(30.0, short.root_positions, short.rotations, short.path)
     return {
         "Skeleton": {
             "names": NAMES,
@@ -234,7 +234,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "rate": 30.0,
             "root_positions": short.root_positions,
             "rotations": short.rotations,
-            "frames": short.frames,
+            "path": short.path,
         },
         "join": {"skeleton": skeleton, "first": shown, "end": 4, "second": shown, "beginning": 5},
         "find_seam": {"skeleton": skeleton, "first": shown, "ends": [3, 4], "second": shown, "beginnings": [0, 5]},
@@ -284,11 +284,11 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "about_face_times": {"character": other, **player},
         "speed_ripples": {"character": other, **player},
         "change_pushes": {"character": other, **player},
-        "carried_motion": {**motion, "to": short.frames},
+        "carried_motion": {**motion, "to": short.path},
         "looped_motion": {**motion, "count": 5},
         "resampled_motion": {
             **{k: motion[k] for k in list(motion)[:3]},
-            "times": np.arange(len(short.frames)) / 30,
+            "times": np.arange(len(short.path)) / 30,
             "rate": 24.0,
         },
         "fit_keys": {"values": short.root_positions, "tolerance": 0.01},

@@ -18,7 +18,7 @@ HIPS, BONES, FRAMES = 1, 4, 50
 class Motion(NamedTuple):
     root_positions: Array
     rotations: Array
-    frames: Array
+    path: Array
 
 
 @pytest.fixture
@@ -42,7 +42,7 @@ def turned(values: Array) -> Rotation:
 
 def still(motion: Motion) -> Motion:
     """As seen from the character frame."""
-    return Motion(*core.carried_motion(*motion, HIPS, np.zeros_like(motion.frames)))
+    return Motion(*core.carried_motion(*motion, HIPS, np.zeros_like(motion.path)))
 
 
 def test_a_carried_motion_is_the_same_seen_from_its_frame(motion: Motion) -> None:
@@ -50,14 +50,14 @@ def test_a_carried_motion_is_the_same_seen_from_its_frame(motion: Motion) -> Non
     roots, rotations, frames = core.carried_motion(*motion, HIPS, to)
     np.testing.assert_array_equal(frames, to)
     for f in range(FRAMES):
-        turn = Rotation.from_euler("z", to[f, 2] - motion.frames[f, 2])
-        seen = turn.apply(motion.root_positions[f] - motion.frames[f] * (1, 1, 0))
+        turn = Rotation.from_euler("z", to[f, 2] - motion.path[f, 2])
+        seen = turn.apply(motion.root_positions[f] - motion.path[f] * (1, 1, 0))
         np.testing.assert_allclose(roots[f], seen + to[f] * (1, 1, 0), atol=1e-12)
         wanted = turn * turned(motion.rotations[f, HIPS])
         assert (wanted.inv() * turned(rotations[f, HIPS])).magnitude() < 1e-12
     others = np.delete(np.arange(BONES), HIPS)
     np.testing.assert_array_equal(rotations[:, others], motion.rotations[:, others])
-    back = core.carried_motion(roots, rotations, frames, HIPS, motion.frames)
+    back = core.carried_motion(roots, rotations, frames, HIPS, motion.path)
     np.testing.assert_allclose(back[0], motion.root_positions, atol=1e-12)
 
 
@@ -74,13 +74,13 @@ def test_a_looped_motion_ends_as_it_began(motion: Motion, count: int) -> None:
         lead, last = begin[1] * begin[0].inv(), end[1] * end[0].inv()
         assert (lead.inv() * last).magnitude() < 1e-6, "it goes on as it begins"
     step = [
-        Rotation.from_euler("z", -ended.frames[f, 2]).apply((ended.frames[f + 1] - ended.frames[f]) * (1, 1, 0))
+        Rotation.from_euler("z", -ended.path[f, 2]).apply((ended.path[f + 1] - ended.path[f]) * (1, 1, 0))
         for f in (0, FRAMES - 2)
     ]
     np.testing.assert_allclose(step[1], step[0], atol=1e-9)
     kept = FRAMES - 1 - min(count, FRAMES - 1)
     np.testing.assert_allclose(seen.root_positions[:kept], was.root_positions[:kept], atol=1e-12)
-    np.testing.assert_allclose(ended.frames[: kept + 1], motion.frames[: kept + 1], atol=1e-12)
+    np.testing.assert_allclose(ended.path[: kept + 1], motion.path[: kept + 1], atol=1e-12)
 
 
 def test_two_frames_are_no_loop(motion: Motion) -> None:
@@ -103,7 +103,7 @@ def test_a_motion_shown_at_odd_times_lies_on_straight_lines(motion: Motion) -> N
     at = np.arange(len(roots)) / 24
     for k in range(3):
         np.testing.assert_allclose(roots[:, k], np.interp(at, times, motion.root_positions[:, k]), atol=1e-12)
-        np.testing.assert_allclose(frames[:, k], np.interp(at, times, motion.frames[:, k]), atol=1e-12)
+        np.testing.assert_allclose(frames[:, k], np.interp(at, times, motion.path[:, k]), atol=1e-12)
     np.testing.assert_allclose(np.linalg.norm(rotations, axis=-1), 1, atol=1e-12)
     assert (np.abs(times[nearest] - at) <= np.abs(times[:, None] - at).min(0) + 1e-12).all()
     after = np.searchsorted(times, at).clip(1)

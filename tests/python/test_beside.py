@@ -96,7 +96,7 @@ def test_both_show_as_many_frames_as_the_trace_asks_for(made: Setting, peer: Mat
 
 def test_a_body_faces_where_the_core_sees_it_face(made: Setting, traces: dict[str, Array]) -> None:
     shown = Fragments(made).play([traces["circler"]], [0])[0]
-    np.testing.assert_allclose(facing(made.body, shown.motion.rotations), shown.judged.frames[:, 2], atol=1e-6)
+    np.testing.assert_allclose(facing(made.body, shown.motion.rotations), shown.judged.path[:, 2], atol=1e-6)
 
 
 def test_answers_are_timed_as_the_core_times_them(made: Setting) -> None:

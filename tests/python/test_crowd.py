@@ -32,7 +32,7 @@ def test_a_crowd_shows_what_its_players_show_alone(character: core.Character, co
         alone = [player.step(control, 1 / 60) for player, control in zip(players, step)]
     np.testing.assert_array_equal(roots, [root for root, _ in alone])
     np.testing.assert_array_equal(rotations, [pose for _, pose in alone])
-    np.testing.assert_array_equal(crowd.frames, [player.frame for player in players])
+    np.testing.assert_array_equal(crowd.character_frames, [player.frame for player in players])
     np.testing.assert_array_equal(crowd.playing, [player.playing for player in players])
     assert len(crowd) == COUNT
 
@@ -50,7 +50,7 @@ def test_a_crowd_writes_to_the_arrays_that_it_is_given(character: core.Character
 def test_a_crowd_refuses_what_it_cannot_do_and_moves_nobody(character: core.Character, controls: Array) -> None:
     crowd = core.Crowd(character, COUNT)
     crowd.step_many(controls[0], 0.1)
-    before = crowd.frames
+    before = crowd.character_frames
     broken = controls[1].copy()
     broken[-1, 2] = np.nan
     roots = np.zeros((COUNT, 3))
@@ -76,7 +76,7 @@ def test_a_crowd_refuses_what_it_cannot_do_and_moves_nobody(character: core.Char
         crowd.reset(-1)
     with pytest.raises(ValueError, match="crowd"):
         core.Crowd(character, -1)
-    np.testing.assert_array_equal(crowd.frames, before)
+    np.testing.assert_array_equal(crowd.character_frames, before)
 
 
 def test_a_crowd_may_be_empty(character: core.Character) -> None:

@@ -39,10 +39,10 @@ def test_a_followed_path_is_played_again_to_the_bit(character: core.Character, p
     player = core.Player(character, seed=3)
     player.reset(*path.start)
     played = player.run(walk.trace, FRAMES)
-    off = distances(path, played.frames[1 : round(walk.seconds * FRAMES) + 1, :2])
+    off = distances(path, played.path[1 : round(walk.seconds * FRAMES) + 1, :2])
     assert off.mean() == pytest.approx(walk.mean_distance, abs=1e-4)
     assert off.max() == pytest.approx(walk.greatest_distance, abs=1e-3)
-    assert math.dist(played.frames[-1, :2], path.places([path.length])[0]) == walk.arrival_distance
+    assert math.dist(played.path[-1, :2], path.places([path.length])[0]) == walk.arrival_distance
 
 
 def test_steering_by_hand_is_what_follow_path_does(character: core.Character, path: core.Path) -> None:
@@ -87,7 +87,7 @@ def test_a_path_has_speeds(character: core.Character) -> None:
     walk = core.follow_path(core.Player(character), path)
     player = core.Player(character)
     player.reset(*path.start)
-    places = player.run(walk.trace, FRAMES).frames[:, 1]
+    places = player.run(walk.trace, FRAMES).path[:, 1]
     slow = np.diff(places[(places > 2) & (places < 5)]).mean() * FRAMES
     fast = np.diff(places[(places > 8) & (places < 10)]).mean() * FRAMES
     assert slow == pytest.approx(1.0, rel=0.15) and fast > 1.6 * slow
@@ -124,4 +124,4 @@ def test_a_cusp_is_walked_to_and_back(character: core.Character) -> None:
     assert walk.arrived and walk.mean_distance < 0.15
     player = core.Player(character)
     player.reset(*path.start)
-    assert player.run(walk.trace, FRAMES).frames[:, 1].max() > 4.6
+    assert player.run(walk.trace, FRAMES).path[:, 1].max() > 4.6

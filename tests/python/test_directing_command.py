@@ -30,6 +30,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.fixture(autouse=True)
+def one_player_is_pinned(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Since each pin is searched for."""
+    monkeypatch.setattr("tools.directing.pins._PLAYERS", ("walker",))
+
+
 @pytest.fixture(scope="module")
 def made(folder: Path) -> core.Character:
     return make_character(read_recordings([folder], 0.01), 1)

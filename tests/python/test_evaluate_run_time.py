@@ -121,7 +121,7 @@ def test_what_is_followed_is_what_a_body_can_do(built: core.Character) -> None:
     space, rate = built.space, 60
     trace = core.simulate_trace("walker", 20, 3, space)
     performance = core.Player(built, 1).run(trace, rate)
-    path, frames, most = performance.frames, len(performance.frames), 5 / space.scale
+    path, frames, most = performance.path, len(performance.path), 5 / space.scale
     controls = trace[
         np.minimum((np.maximum(0, np.arange(1, frames) - 1) / rate * 10 + 1e-9).astype(int), len(trace) - 1)
     ]

@@ -16,12 +16,12 @@ def play(character: core.Character, player: str, seed: int, seconds: float = 8) 
     runner = core.Player(character, seed)
     runner.reset(5 * seed, 1, 2.0 * seed)
     performance = runner.run(core.simulate_trace(player, seconds, seed, character.space), RATE)
-    return core.Motion(RATE, performance.root_positions, performance.rotations, performance.frames)
+    return core.Motion(RATE, performance.root_positions, performance.rotations, performance.path)
 
 
 def seen(motion: core.Motion) -> Array:
     """Roots [F,3] seen from the character frame, and the hips' facing [F] from it, and all other bones' rotations."""
-    roots, frames = motion.root_positions.copy(), motion.frames
+    roots, frames = motion.root_positions.copy(), motion.path
     cos, sin = np.cos(frames[:, 2]), np.sin(frames[:, 2])
     x, y = (roots[:, :2] - frames[:, :2]).T
     roots[:, 0], roots[:, 1] = cos * x + sin * y, cos * y - sin * x
@@ -43,11 +43,11 @@ def test_a_join_keeps_the_first_to_the_bit_and_becomes_the_second(
 ) -> None:
     first, second = play(character, "walker", 1), play(character, "runner", 2)
     both = core.join(skeleton, first, 299, second, 100)
-    assert len(both.frames) == 300 + len(second.frames) - 101
-    for name in ("root_positions", "rotations", "frames"):
+    assert len(both.path) == 300 + len(second.path) - 101
+    for name in ("root_positions", "rotations", "path"):
         np.testing.assert_array_equal(getattr(both, name)[:300], getattr(first, name)[:300])
     np.testing.assert_allclose(seen(both)[300 + JOINED :], seen(second)[101 + JOINED :], atol=1e-6)
-    np.testing.assert_allclose(both.frames[:, :2], both.root_positions[:, :2], atol=1e-6)
+    np.testing.assert_allclose(both.path[:, :2], both.root_positions[:, :2], atol=1e-6)
 
 
 def test_a_join_is_as_smooth_as_its_parts(skeleton: core.Skeleton, character: core.Character) -> None:
@@ -65,10 +65,10 @@ def test_joining_a_motion_to_itself_where_it_was_cut_changes_nothing(
     skeleton: core.Skeleton, character: core.Character
 ) -> None:
     motion = play(character, "explorer", 3)
-    for at in (0, 1, 200, len(motion.frames) - 1):
+    for at in (0, 1, 200, len(motion.path) - 1):
         both = core.join(skeleton, motion, at, motion, at)
         np.testing.assert_allclose(both.root_positions, motion.root_positions, atol=1e-6)
-        np.testing.assert_allclose(both.frames, motion.frames, atol=1e-6)
+        np.testing.assert_allclose(both.path, motion.path, atol=1e-6)
         np.testing.assert_allclose(both.rotations, motion.rotations, atol=1e-6)
 
 
@@ -87,23 +87,23 @@ def test_a_seam_is_where_poses_are_nearest(skeleton: core.Skeleton, character: c
 
 def test_a_motion_is_spread_to_where_it_is_to_be(skeleton: core.Skeleton, character: core.Character) -> None:
     motion = play(character, "walker", 1)
-    target = motion.frames[400] + (0.02, -0.01, 0.03)
+    target = motion.path[400] + (0.02, -0.01, 0.03)
     moved = core.spread(skeleton, motion, 200, 400, target)
     np.testing.assert_array_equal(moved.root_positions[:201], motion.root_positions[:201])
     np.testing.assert_array_equal(moved.rotations[:201], motion.rotations[:201])
-    np.testing.assert_allclose(moved.frames[400], target, atol=1e-12)
+    np.testing.assert_allclose(moved.path[400], target, atol=1e-12)
     np.testing.assert_allclose(seen(moved), seen(motion), atol=1e-9)
-    steps = np.linalg.norm(np.diff(moved.frames - motion.frames, axis=0)[200:400, :2], axis=1)
+    steps = np.linalg.norm(np.diff(moved.path - motion.path, axis=0)[200:400, :2], axis=1)
     assert steps.max() * RATE < 2 * np.hypot(0.02, 0.01) / (200 / RATE)
     cos, sin = np.cos(0.03), np.sin(0.03)
-    way, way_then = (m.frames[401:, :2] - m.frames[400, :2] for m in (motion, moved))
+    way, way_then = (m.path[401:, :2] - m.path[400, :2] for m in (motion, moved))
     np.testing.assert_allclose(way_then, way @ np.array([[cos, sin], [-sin, cos]]), atol=1e-9)
-    np.testing.assert_allclose(moved.frames[400:, 2] - motion.frames[400:, 2], 0.03, atol=1e-9)
+    np.testing.assert_allclose(moved.path[400:, 2] - motion.path[400:, 2], 0.03, atol=1e-9)
 
 
 def test_what_cannot_be_joined_is_refused(skeleton: core.Skeleton, character: core.Character) -> None:
     motion = play(character, "walker", 1, 2)
-    arrays = (motion.root_positions, motion.rotations, motion.frames)
+    arrays = (motion.root_positions, motion.rotations, motion.path)
     slow = core.Motion(30, *arrays)
     few = core.Motion(RATE, arrays[0], arrays[1][:, 1:], arrays[2])
     none = core.Motion(RATE, *(array[:0] for array in arrays))
@@ -129,6 +129,6 @@ def test_what_cannot_be_joined_is_refused(skeleton: core.Skeleton, character: co
             core.spread(skeleton, motion, begin, end, np.zeros(3))
     with pytest.raises(ValueError, match="to be at"):
         core.spread(skeleton, motion, 0, 5, [np.inf, 0, 0])
-    with pytest.raises(ValueError, match="frames"):
+    with pytest.raises(ValueError, match="path"):
         core.Motion(RATE, arrays[0], arrays[1], arrays[2][1:])
     assert skeleton.names == NAMES

@@ -56,7 +56,7 @@ def test_a_move_is_played_and_moves_the_body(moving: core.Character) -> None:
     plays = np.flatnonzero(performance.moves[:, 0] == LUNGE)
     assert 30 <= plays[0] <= 30 + 0.5 * 30 + 2
     assert len(plays) == pytest.approx(30, abs=2)
-    assert performance.frames[-1, 1] - performance.frames[0, 1] == pytest.approx(0.5, abs=0.08)
+    assert performance.path[-1, 1] - performance.path[0, 1] == pytest.approx(0.5, abs=0.08)
     assert (performance.moves[:, 1] == -1).all()
 
 

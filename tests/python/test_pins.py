@@ -23,7 +23,7 @@ def trace(character: core.Character) -> Array:
 def frames_of(character: core.Character, trace: Array, start: Array, **options: Any) -> Array:
     player = core.Player(character, **options)
     player.reset(*start)
-    return player.run(trace, RATE).frames
+    return player.run(trace, RATE).path
 
 
 def apart(frame: Array, other: Array) -> tuple[float, float]:

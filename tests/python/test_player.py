@@ -15,12 +15,12 @@ def test_player_gives_every_frame_of_any_rate(character: core.Character, rate: f
     frames = round(7 * rate) + 1
     bones = len(NAMES)
     assert performance.rate == rate
-    shapes = {"root_positions": (frames, 3), "rotations": (frames, bones, 4), "frames": (frames, 3)}
+    shapes = {"root_positions": (frames, 3), "rotations": (frames, bones, 4), "path": (frames, 3)}
     shapes |= {"classes": (frames,), "fragments": (frames,), "entered": (frames,)}
     for name, shape in shapes.items():
         assert getattr(performance, name).shape == shape
     np.testing.assert_allclose(np.linalg.norm(performance.rotations, axis=-1), 1, atol=1e-6)
-    np.testing.assert_allclose(performance.frames[:, :2], performance.root_positions[:, :2], atol=1e-9)
+    np.testing.assert_allclose(performance.path[:, :2], performance.root_positions[:, :2], atol=1e-9)
     assert 0 < performance.quality <= 1
     assert performance.velocity_error >= 0 and performance.commanded_speed > 0 and performance.drift > 0
     assert performance.classes.dtype == np.int32

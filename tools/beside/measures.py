@@ -113,8 +113,8 @@ def _held(controls: Array) -> Array:
 
 def _velocities(judged: core.Performance) -> Array:
     """[F,2] m/s, over the half second around, as the character frame sees them: as the core's velocity error has it."""
-    slopes = savgol_filter(judged.frames[:, :2], _AROUND, 1, deriv=1, delta=1 / RATE, axis=0)
-    return turned(slopes, -judged.frames[:, 2])
+    slopes = savgol_filter(judged.path[:, :2], _AROUND, 1, deriv=1, delta=1 / RATE, axis=0)
+    return turned(slopes, -judged.path[:, 2])
 
 
 def _drift_heading(shown: Shown, trace: Array, space: core.ControlSpace) -> float:
@@ -123,7 +123,7 @@ def _drift_heading(shown: Shown, trace: Array, space: core.ControlSpace) -> floa
     if told is not None:
         return math.degrees(told)
     turns = frame_controls(trace)[1:, 2] * space.turn_rate / RATE
-    off = shown.judged.frames[:, 2] - np.concatenate(([0.0], np.cumsum(turns)))
+    off = shown.judged.path[:, 2] - np.concatenate(([0.0], np.cumsum(turns)))
     return float(np.degrees(np.abs(off[_SPAN:] - off[:-_SPAN]).mean()))
 
 

@@ -56,7 +56,7 @@ def response_times(setting: Setting, system: System, seed: int) -> Array:
     steps = step_traces(setting.space, seed)
     played = system.play([each.trace for each in steps], [seed] * len(steps))
     times = [
-        _time(shown.judged.frames, each.before, after, _FRAMES_A_ROW * row)
+        _time(shown.judged.path, each.before, after, _FRAMES_A_ROW * row)
         for each, shown in zip(steps, played)
         for row, after in zip(each.rows, each.after)
     ]

@@ -26,7 +26,7 @@ def walked(character: core.Character, course: Course, gait: str) -> Array:
     path, player = core.Path(course.points, course.closed), core.Player(character)
     walk = core.follow_path(player, path, speed=speeds(character.space)[gait], rate=_RATE)
     player.reset(*path.start)
-    places: Array = player.run(walk.trace, _RATE).frames[:, :2]
+    places: Array = player.run(walk.trace, _RATE).path[:, :2]
     return places
 
 

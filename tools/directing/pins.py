@@ -40,7 +40,7 @@ def _pin(
     random = np.random.default_rng([number, round(10 * seconds), round(100 * distance)])
     angle = random.uniform(0, 2 * math.pi)
     away = (distance * math.cos(angle), distance * math.sin(angle), random.choice((-1, 1)) * math.radians(degrees))
-    target = core.Player(character).run(trace, RATE).frames[round(seconds * RATE)] + away
+    target = core.Player(character).run(trace, RATE).path[round(seconds * RATE)] + away
     begin = time.perf_counter()
     pin = core.find_pin(character, np.zeros(3), trace, seconds, target, begin=seconds - _STRETCH)
     return {

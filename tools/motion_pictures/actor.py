@@ -55,12 +55,12 @@ class Actor:
         self.play(motion)
         with stage.stage() as scene:
             use_workbench(scene)
-            heading, (side, up) = motion.frames[0, 2], np.radians(_FROM)
+            heading, (side, up) = motion.path[0, 2], np.radians(_FROM)
             front = mathutils.Vector((-math.sin(side), math.cos(side), 0))
             right = mathutils.Vector((-front.y, front.x, 0))
             for frame, place in zip(frames, places):
                 moment = filmstrip.freeze(self.armature, scene, frame + _FIRST)
-                x, y, _ = motion.frames[frame]
+                x, y, _ = motion.path[frame]
                 add_disc(scene, right * place, 0.3 * self.stature)
                 turned = mathutils.Matrix.Rotation(-heading, 4, "Z") @ mathutils.Matrix.Translation((-x, -y, 0))
                 for ghost in moment.ghosts:

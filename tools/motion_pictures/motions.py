@@ -22,7 +22,7 @@ class Motion(NamedTuple):
     rate: float
     roots: core.Doubles  # [F,3]
     rotations: core.Doubles  # [F,B,4]
-    frames: core.Doubles  # [F,3]: the character frame's x, y and heading
+    path: core.Doubles  # [F,3]: the character frame's x, y and heading
     stitches: NDArray[np.int_]
 
     @property
@@ -37,7 +37,7 @@ class Motion(NamedTuple):
         middle = min(max(frame, apart), len(self.roots) - 1 - apart)
         before, now, after = self.roots[[middle - apart, middle, middle + apart]]
         x, y, _ = (after - 2 * now + before) / _PUSH**2
-        cosine, sine = np.cos(self.frames[0, 2]), np.sin(self.frames[0, 2])
+        cosine, sine = np.cos(self.path[0, 2]), np.sin(self.path[0, 2])
         return np.array([cosine * x + sine * y, cosine * y - sine * x, 0])
 
 
@@ -45,14 +45,14 @@ def of_performance(name: str, performance: core.Performance) -> Motion:
     """What a player did."""
     stitches = np.flatnonzero(np.diff(performance.entered)) + 1
     p = performance
-    return Motion(name, p.rate, p.root_positions, p.rotations, p.frames, stitches)
+    return Motion(name, p.rate, p.root_positions, p.rotations, p.path, stitches)
 
 
 def of_clip(clip: core.Clip, skeleton: core.Skeleton) -> Motion:
     """What a take does."""
-    frames = clip.character_frames(skeleton)
-    frames[:, 2] = np.unwrap(frames[:, 2])
-    return Motion(clip.name, clip.rate, clip.root_positions, clip.rotations, frames, np.empty(0, int))
+    path = clip.character_frames(skeleton)
+    path[:, 2] = np.unwrap(path[:, 2])
+    return Motion(clip.name, clip.rate, clip.root_positions, clip.rotations, path, np.empty(0, int))
 
 
 class Feet:

@@ -54,7 +54,7 @@ def _pictures(motion: Motion, trace: core.Doubles, actor: Actor) -> Iterator[NDA
             moment = filmstrip.freeze(actor.armature, scene, frame + 1)
             shadow.location = (moment.middle.x, moment.middle.y, 0.004)
             _show_command(arrow, motion, trace[int(frame / motion.rate * STEPS_A_SECOND)], frame)
-            angle = math.radians(_START + _AROUND * frame / frames[-1]) + motion.frames[0, 2]
+            angle = math.radians(_START + _AROUND * frame / frames[-1]) + motion.path[0, 2]
             _aim(scene.camera, middles[frame], angle, size)
             yield upright(stage.render(scene, _SIZE))
             for ghost in moment.ghosts:
@@ -86,7 +86,7 @@ def _add_arrow(scene: Any) -> Any:
 
 
 def _show_command(arrow: Any, motion: Motion, control: core.Doubles, frame: int) -> None:
-    x, y, heading = motion.frames[frame]
+    x, y, heading = motion.path[frame]
     speed = math.hypot(control[0], control[1])
     arrow.hide_render = speed == 0
     arrow.location = (x, y, 0.006)

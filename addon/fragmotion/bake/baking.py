@@ -21,7 +21,7 @@ from ..errors import UserError, core_errors
 from ..ground.meshes import Ground, find_ground
 from ..jobs import Report
 from ..mocap.sampling import scene_rate
-from ..rig.external_motion import movers
+from ..rig.external_motion import external_motion
 from ..rig.keys import Bone, Deviation, Place, Poses, Track, count_keys, make_layout, make_tracks, reduce_tracks
 from ..rig.motion import Motion, carried, looped
 from ..rig.posing import check_free
@@ -107,7 +107,7 @@ def hindrances(obj: bpy.types.Object, own_strip: bool = False) -> list[str]:
     tracks = data.nla_tracks if data is not None and data.use_nla and not own_strip else ()
     playing = [f"NLA track '{track.name}'" for track in tracks if not track.mute]
     resting = ["the armature's Rest Position"] if obj.data.pose_position == "REST" else []
-    return [*movers(obj), *playing[:1], *resting]
+    return [*external_motion(obj), *playing[:1], *resting]
 
 
 def _compute(stage: Stage, options: Options, play: Callable[[Report], performing.Played], report: Report) -> Baked:
@@ -115,7 +115,7 @@ def _compute(stage: Stage, options: Options, play: Callable[[Report], performing
     if options.looped_frames:
         motion = looped(motion, stage.hips, options.looped_frames)
     if options.root == "IN_PLACE":
-        motion = carried(motion, stage.hips, stage.origin if options.anchored else motion.frames[0])
+        motion = carried(motion, stage.hips, stage.origin if options.anchored else motion.path[0])
     poses = _make_poses(stage, motion, options)
     tracks = make_tracks(stage.layout, poses)
     if options.bound is not None:
@@ -136,7 +136,7 @@ def _make_poses(stage: Stage, motion: Motion, options: Options) -> Poses:
     with core_errors(stage.label):
         locations, rotations = stage.rig.channels(seen.root_positions, seen.rotations)
     if on_object:
-        return Poses(locations, rotations, *_move_object(stage, motion.frames))
+        return Poses(locations, rotations, *_move_object(stage, motion.path))
     if options.holds_object:
         return Poses(locations, rotations, *_move_object(stage, np.tile(stage.origin, (len(locations), 1))))
     return Poses(locations, rotations)

@@ -112,7 +112,7 @@ def _played(
 ) -> Played:
     """What a player does from where it stands, on the ground that it stands on."""
     performance = player.run(trace, rate, report, moves or None, styled.changes or None)
-    motion = Motion(performance.root_positions, performance.rotations, performance.frames, performance.classes)
+    motion = Motion(performance.root_positions, performance.rotations, performance.path, performance.classes)
     remarks = filter(None, (styled.remark, *remarks_of(player, ground)))
     return Played(motion, "; ".join((_judge(performance), *remarks)))
 

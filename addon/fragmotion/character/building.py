@@ -19,7 +19,7 @@ from ..mocap import actions
 from ..mocap.sampling import sample_parts
 from ..mocap.styles import grouped, style_of
 from ..recordings.traces import make_traces
-from ..rig.external_motion import movers
+from ..rig.external_motion import external_motion
 from ..rig.rigs import carriers, make_rig
 from ..rig.skeletons import difference
 from . import classes
@@ -136,7 +136,7 @@ def _sample_all(
                 raise
     if poses:
         warnings.append(f"Left out, as they hold a single pose: {', '.join(poses)}")
-    others = movers(obj)
+    others = external_motion(obj)
     if others:
         warnings.append(f"The takes were learned as Blender shows them, moved also by {'; '.join(others)}")
     return clips, warnings

@@ -37,7 +37,7 @@ _TURNS = (
     ("1", "None", "Not turning"),
     ("0", "Right", "Turning right"),
 )
-_MOST_TO_COME = 9.0  # Eq. 2 of at most 1 a step, discounted by 0.9 from the next step on
+_MOST_FUTURE = 9.0  # Eq. 2 of at most 1 a step, discounted by 0.9 from the next step on
 
 
 class FragmentShown(NamedTuple):
@@ -59,7 +59,7 @@ class Line(NamedTuple):
     chosen: bool
     smoothness: float
     match: float
-    to_come: float
+    future_value: float
     value: float
     fragments: list[FragmentShown]
 
@@ -96,8 +96,8 @@ class InspectorSettings(bpy.types.PropertyGroup):
     jump: BoolProperty(name="Jump", description="Whether a jump is asked for", default=False)  # type: ignore[valid-type]
     smoothness: _bars("smoothness", "How smoothly it follows what plays, 0 to 1 (Eq. 2, first factor)", 1)  # type: ignore[valid-type]
     match: _bars("match", "How well it performs the control, 0 to 1 (Eq. 2, second factor)", 1)  # type: ignore[valid-type]
-    to_come: _bars(  # type: ignore[valid-type]
-        "to_come", "Smoothness x match to be expected of all later steps, discounted: 0 to 9", _MOST_TO_COME
+    future_value: _bars(  # type: ignore[valid-type]
+        "future_value", "Smoothness x match to be expected of all later steps, discounted: 0 to 9", _MOST_FUTURE
     )
 
 

@@ -117,7 +117,7 @@ def _check_plain(recording: Recording, character: Character, goal: Goal) -> None
 
 def _seen_by_player(shown: Motion, played: Motion, frame: int, goal: tuple[float, float, float]) -> Doubles:
     """The goal as the player sees it, whom a recording that was cut or glued shows elsewhere."""
-    (x, y, heading), (at_x, at_y, facing) = shown.frames[frame], played.frames[frame]
+    (x, y, heading), (at_x, at_y, facing) = shown.path[frame], played.path[frame]
     turn = facing - heading
     cos, sin = math.cos(turn), math.sin(turn)
     across, along = goal[0] - x, goal[1] - y

@@ -43,7 +43,7 @@ def replay(obj: bpy.types.Object, character: Character, recording: Recording, tr
         player = make_player(obj, character, seed, policy)
         player.stand_on(find_ground(bpy.context, obj))
         played = perform(player, character, recording, trace, POSE_RATE, recording.start)
-    return Motion(played.root_positions, played.rotations, played.frames, played.classes)
+    return Motion(played.root_positions, played.rotations, played.path, played.classes)
 
 
 def shown_poses(obj: bpy.types.Object, recording: Recording) -> Motion | None:
@@ -98,10 +98,10 @@ def as_shown(motion: Motion) -> CoreMotion:
     """A motion of POSE_RATE poses a second as the core takes it."""
     lengths = np.linalg.norm(motion.rotations, axis=-1, keepdims=True)
     rotations = np.where(np.abs(lengths - 1) < _UNIT, motion.rotations, motion.rotations / lengths)
-    shown: CoreMotion = core.Motion(POSE_RATE, motion.root_positions, rotations, motion.frames)
+    shown: CoreMotion = core.Motion(POSE_RATE, motion.root_positions, rotations, motion.path)
     return shown
 
 
 def as_motion(shown: CoreMotion, classes: Any) -> Motion:
     """The same as the add-on keeps it."""
-    return Motion(shown.root_positions, shown.rotations, shown.frames, classes)
+    return Motion(shown.root_positions, shown.rotations, shown.path, classes)

@@ -162,7 +162,7 @@ def _draw_alternative(layout: bpy.types.UILayout, context: bpy.types.Context, in
         value.alignment = "RIGHT"
         value.label(text=f"{line.value:.2f}")
     bars = column.row(align=True)
-    for name in ("smoothness", "match", "to_come"):
+    for name in ("smoothness", "match", "future_value"):
         bars.prop(context.window_manager.fragmotion.inspector, name, index=index, text="", slider=True)
     for fragment in line.fragments if line.chosen else line.fragments[:1]:
         _draw_fragment(column, fragment)

@@ -72,7 +72,7 @@ def follow(
         player.stand_on(ground)
         player.reset(*start)
         performance = player.run(walk.trace, POSE_RATE)
-    motion = Motion(performance.root_positions, performance.rotations, performance.frames, performance.classes)
+    motion = Motion(performance.root_positions, performance.rotations, performance.path, performance.classes)
     recording = add_recording(
         obj,
         walk.trace,
@@ -81,7 +81,7 @@ def follow(
         policy=character.policy,
         start=start,
         quality=performance.quality,
-        shown=(np.arange(len(motion.frames)) / POSE_RATE, motion),
+        shown=(np.arange(len(motion.path)) / POSE_RATE, motion),
     )
     return (
         recording,

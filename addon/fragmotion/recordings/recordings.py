@@ -225,7 +225,7 @@ def set_shown(recording: Recording, times: Doubles, motion: Motion) -> None:
     """Keep the poses that were shown at times [F] (s, ascending) meanwhile, if it lasts an hour or so at most; a
     longer recording is played anew."""
     rotations = np.asarray(motion.rotations)
-    columns = (times, motion.root_positions, motion.frames, motion.classes, rotations.reshape(len(rotations), -1))
+    columns = (times, motion.root_positions, motion.path, motion.classes, rotations.reshape(len(rotations), -1))
     data = np.column_stack(columns).astype(_SMALL).tobytes()
     recording.shown = zlib.compress(data) if len(data) <= _MOST_BYTES else b""
     recording.shown_bones = rotations.shape[1]
@@ -311,7 +311,7 @@ def _trim_shown(recording: Recording, times: Doubles, motion: Motion, start: flo
     roots, rotations, frames, classes = motion
     kept = Motion(roots[inside], rotations[inside], frames[inside], classes[inside])
     set_shown(recording, np.maximum(times[inside] - start, 0), kept)
-    recording.start = motion.frames[inside][0]
+    recording.start = motion.path[inside][0]
 
 
 def _set_moves(recording: Any, moves: Sequence[StartedMove]) -> None:

@@ -8,7 +8,7 @@ import bpy
 _CHANNELS = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale", "rotation_mode")
 
 
-def movers(obj: bpy.types.Object) -> list[str]:
+def external_motion(obj: bpy.types.Object) -> list[str]:
     """The constraints, drivers and moving parents that act on the armature whatever Action it plays."""
     of_bones = [f"'{c.name}' of bone '{bone.name}'" for bone in obj.pose.bones for c in bone.constraints if _acts(c)]
     return [

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A motion to be baked: where it goes, and how it ends as it began.
 
-A motion's pose is a root position and bone rotations as the core's Clip has them; its frames [F,3] are the character
+A motion's pose is a root position and bone rotations as the core's Clip has them; its path [F,3] is the character
 frame's x, y (m) and heading (rad). Quaternions are (w, x, y, z).
 """
 
@@ -18,28 +18,28 @@ if TYPE_CHECKING:
 
 
 class Motion(NamedTuple):
-    """Poses at a fixed rate: root positions [F,3], rotations [F,B,4], character frames [F,3] and classes [F]."""
+    """Poses at a fixed rate: root positions [F,3], rotations [F,B,4], path [F,3] and classes [F]."""
 
     root_positions: Doubles
     rotations: Doubles
-    frames: Doubles
+    path: Doubles
     classes: Ints
 
 
-def carried(motion: Motion, hips: int, frames: Doubles) -> Motion:
-    """The same poses, seen from the character frame, with that frame at `frames` [F,3] or [3]."""
-    to = np.broadcast_to(frames, motion.frames.shape)
+def carried(motion: Motion, hips: int, path: Doubles) -> Motion:
+    """The same poses, seen from the character frame, with that frame at `path` [F,3] or [3]."""
+    to = np.broadcast_to(path, motion.path.shape)
     roots, rotations, placed = core.carried_motion(*motion[:3], hips, to)
     return Motion(roots, rotations, placed, motion.classes)
 
 
 def looped(motion: Motion, hips: int, count: int) -> Motion:
     """The motion with its last `count` frames eased so that it ends as it began."""
-    roots, rotations, frames = core.looped_motion(*motion[:3], hips, count)
-    return Motion(roots, rotations, frames, motion.classes)
+    roots, rotations, path = core.looped_motion(*motion[:3], hips, count)
+    return Motion(roots, rotations, path, motion.classes)
 
 
 def resampled(times: Doubles, motion: Motion, rate: float) -> Motion:
     """A motion shown at `times` [F] (s, ascending from 0) at a fixed rate: straight lines between what was shown."""
-    roots, rotations, frames, nearest = core.resampled_motion(times, *motion[:3], rate)
-    return Motion(roots, rotations, frames, motion.classes[nearest])
+    roots, rotations, path, nearest = core.resampled_motion(times, *motion[:3], rate)
+    return Motion(roots, rotations, path, motion.classes[nearest])

@@ -41,7 +41,7 @@ std::vector<int> jumps_of(const Patient& patient) {
     }
   }
   if (const std::optional<Clip> clip = clip_of(patient)) {
-    for (const int f : tears(patient.take().skeleton, *clip)) frames.insert(f);
+    for (const int f : discontinuities(patient.take().skeleton, *clip)) frames.insert(f);
   }
   return {frames.begin(), frames.end()};
 }

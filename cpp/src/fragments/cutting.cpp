@@ -74,12 +74,12 @@ void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const
                                 std::to_string(options.longest) + " s holds no whole frame of clip \"" + source.name +
                                 "\" at " + std::to_string(source.rate) + " frames a second");
   }
-  Cutter cutter{pool, clip, shortest, longest};
+  Cutter cutter{pool, clip, shortest, longest, {}, {}};
   if (options.at_gait_events) cutter.strikes = foot_strikes(contacts), cutter.lifts = foot_lifts(contacts);
   int begin = 0;
-  for (const int tear : tears(pool.skeleton, source)) {
-    cutter.cut(begin, tear - 1);
-    begin = tear;
+  for (const int found : discontinuities(pool.skeleton, source)) {
+    cutter.cut(begin, found - 1);
+    begin = found;
   }
   cutter.cut(begin, source.frames - 1);
 }

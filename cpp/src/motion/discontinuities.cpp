@@ -11,7 +11,7 @@ constexpr double kSpeed = 20;      // m/s
 
 }  // namespace
 
-std::vector<int> tears(const Skeleton& skeleton, const Clip& clip) {
+std::vector<int> discontinuities(const Skeleton& skeleton, const Clip& clip) {
   const std::vector<int> bones = measured_bones(skeleton);
   const double least = std::cos(kTurn / 2), farthest = kSpeed / (clip.rate * standard_scale(skeleton));
   const std::size_t width = std::size_t{4} * skeleton.size();

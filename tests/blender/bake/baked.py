@@ -83,7 +83,7 @@ def about_z(angles: np.ndarray) -> np.ndarray:
 
 def on_a_treadmill(oracle: Oracle) -> Oracle:
     """The same poses with the character frame where it was at first."""
-    frames = oracle.performance.frames
+    frames = oracle.performance.path
     back = about_z(frames[0, 2] - frames[:, 2])
     ground = np.column_stack((frames[:, :2], np.zeros(len(frames))))
     heads = ground[0] + np.einsum("fij,fbj->fbi", back, oracle.heads - ground[:, None])

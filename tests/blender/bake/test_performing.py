@@ -19,7 +19,7 @@ def test_a_recording_is_shown_as_the_player_plays_it(
     addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, recording: Any, root: str, target: str
 ) -> None:
     oracle = play(addon, obj, trace)
-    assert np.ptp(oracle.performance.frames, axis=0).min() > 0.5, "the character neither travels nor turns"
+    assert np.ptp(oracle.performance.path, axis=0).min() > 0.5, "the character neither travels nor turns"
     bake_recording(root=root, target=target)
     assert_seen(obj, on_a_treadmill(oracle) if root == "IN_PLACE" else oracle)
     assert "Stroll" in bpy.data.actions
@@ -42,7 +42,7 @@ def test_the_object_carries_the_character_and_its_root_bone_rests(
     assert_seen(obj, play(addon, obj, trace))
     character = addon.character.building.load(obj)
     root = seen_at(obj, range(FIRST, FIRST + 100, 9), [character.skeleton.names[0]])[0][:, 0]
-    frames = play(addon, obj, trace).performance.frames[:100:9]
+    frames = play(addon, obj, trace).performance.path[:100:9]
     np.testing.assert_allclose(root[:, :2], frames[:, :2], atol=1e-3)
 
 
@@ -96,7 +96,7 @@ def test_a_recording_that_was_seen_is_baked_as_it_was_seen(
 ) -> None:
     oracle = play(addon, obj, trace)
     played, motion = oracle.performance, addon.rig.motion.Motion
-    shown = motion(played.root_positions, played.rotations, played.frames, played.classes)
+    shown = motion(played.root_positions, played.rotations, played.path, played.classes)
     uneven = np.sort(np.random.default_rng(1).permutation(len(shown.classes))[:-20])  # a preview that left frames out
     uneven[[0, -1]] = 0, len(shown.classes) - 1
     some = motion(*(values[uneven] for values in shown))
@@ -110,7 +110,7 @@ def test_a_recording_that_was_seen_is_baked_as_it_was_seen(
     np.testing.assert_allclose(heads, oracle.heads[between], atol=0.05)
 
     addon.recordings.recordings.trim_recording(recording, 1.0, 3.0)
-    assert tuple(recording.start) == pytest.approx(tuple(played.frames[uneven[uneven >= RATE][0]]), abs=1e-4)
+    assert tuple(recording.start) == pytest.approx(tuple(played.path[uneven[uneven >= RATE][0]]), abs=1e-4)
     bake_recording()
     assert tuple(obj.animation_data.action.frame_range) == pytest.approx((FIRST, FIRST + 2 * RATE), abs=1)
     inside = uneven[(uneven >= RATE) & (uneven <= 3 * RATE)]

@@ -38,7 +38,7 @@ def test_a_bake_goes_on_where_the_character_stands(
     played = play(addon, obj, trace).performance
     bpy.context.scene.frame_set(FIRST + 100)
     bake(trace_source="RECORDING", as_recorded=False, place="CHARACTER", seed=SEED, target="CURRENT")
-    x, y, heading = played.frames[100]
+    x, y, heading = played.path[100]
     heads = seen_at(obj, [FIRST + 100], play(addon, obj, trace).names)[0]
     np.testing.assert_allclose(heads[0, 0, :2], (x, y), atol=0.01)
     far = play(addon, obj, trace, start=(x, y, heading))

@@ -215,7 +215,7 @@ def test_the_inspector_shows_the_best_and_the_chosen(addon: ModuleType, obj: bpy
     assert [line.number for line in lines if line.chosen] == [character.table[playing, control]]
     for line, each in zip(lines, ranked):
         assert line.name == obj.fragmotion.classes[each.next].name
-        assert line.value == pytest.approx(line.smoothness * line.match + line.to_come)
+        assert line.value == pytest.approx(line.smoothness * line.match + line.future_value)
     assert list(settings.match)[: len(lines)] == pytest.approx([line.match for line in lines])
 
 

@@ -158,7 +158,7 @@ def test_what_is_recorded_replays_as_it_was_seen(addon: ModuleType, session: Mod
     player.reset(*begin)
     performance = player.run(trace, RATE)
     assert way(seen) > 3, "the character stood while it was recorded"
-    np.testing.assert_allclose(performance.frames[1 : len(seen) + 1, :2], np.array(seen)[:, :2], atol=1e-9)
+    np.testing.assert_allclose(performance.path[1 : len(seen) + 1, :2], np.array(seen)[:, :2], atol=1e-9)
     assert recording.quality == pytest.approx(performance.quality, abs=0.01)
 
 
@@ -205,7 +205,7 @@ def test_a_recording_that_begins_in_motion_keeps_what_was_seen(
     (recording,) = obj.fragmotion.takes
     times, motion = import_module(f"{addon.__name__}.recordings.recordings").shown_of(recording)
     np.testing.assert_allclose(times, np.arange(len(seen) + 1) / RATE, atol=1e-5)
-    np.testing.assert_allclose(motion.frames, [before, *seen], atol=1e-5)
+    np.testing.assert_allclose(motion.path, [before, *seen], atol=1e-5)
 
 
 def test_a_recording_under_way_is_kept_when_the_drive_ends(session: ModuleType, obj: bpy.types.Object) -> None:

@@ -105,7 +105,7 @@ def test_how_well_a_character_turns_is_asked_of_the_policy_that_drives(addon: Mo
         turned = 0.0
         for turn in (1, -1):
             player = addon.compat.core.core.Player(character, 1, policy=policy)
-            frames = player.run(np.repeat([(0, space.run, 0, 0), (0, space.run, turn, 0)], (10, 20), axis=0), 60).frames
+            frames = player.run(np.repeat([(0, space.run, 0, 0), (0, space.run, turn, 0)], (10, 20), axis=0), 60).path
             turned += turn * (frames[-1, 2] - frames[60, 2]) / 2
         turns_well = part(addon, "acting.actor").Actor(bpy.context, obj, 1, policy).turns_well(space.run)
         assert turns_well == (turned > 0.75 * space.turn_rate * seconds)

@@ -84,12 +84,12 @@ def test_a_changed_curve_changes_what_comes_from_there_on_alone(
     np.testing.assert_array_equal(edited[:, [0, 1, 3]], trace[:, [0, 1, 3]])
     times, after = addon.recordings.recordings.shown_of(stroll())
     assert len(times) == 6 * len(trace) + 1
-    for name in ("root_positions", "rotations", "frames", "classes"):
+    for name in ("root_positions", "rotations", "path", "classes"):
         one, other = getattr(before, name), getattr(after, name)
         np.testing.assert_array_equal(one[: 6 * first + 1], other[: 6 * first + 1])
     replayed = addon.edits.replaying.replay(obj, addon.character.building.load(obj), stroll(), edited, 3)
     np.testing.assert_allclose(after.root_positions, replayed.root_positions, atol=1e-4)
-    assert np.abs(after.frames[-1] - before.frames[-1]).max() > 0.05, "the change shows"
+    assert np.abs(after.path[-1] - before.path[-1]).max() > 0.05, "the change shows"
 
 
 def test_an_edit_is_undone_and_redone(

@@ -45,8 +45,8 @@ def test_what_follows_a_cut_moves_as_it_did_and_what_comes_before_stays(
     np.testing.assert_array_equal(after.rotations[: 6 * seams[0] + 1], before.rotations[: 6 * seams[0] + 1])
     moves, moved = seen(addon, obj, after), seen(addon, obj, before)
     np.testing.assert_allclose(moves[6 * end + _JOINED :], moved[6 * (end + removed) + _JOINED :], atol=1e-5)
-    steps = np.linalg.norm(np.diff(after.frames[:, :2], axis=0), axis=1)
-    assert steps.max() < 1.3 * np.linalg.norm(np.diff(before.frames[:, :2], axis=0), axis=1).max(), "it never leaps"
+    steps = np.linalg.norm(np.diff(after.path[:, :2], axis=0), axis=1)
+    assert steps.max() < 1.3 * np.linalg.norm(np.diff(before.path[:, :2], axis=0), axis=1).max(), "it never leaps"
     assert recording.seconds == pytest.approx(len(rest) / 10)
 
 
@@ -57,7 +57,7 @@ def test_a_cut_is_undone_and_is_baked_as_it_is_shown(
     press("cut_recording", start=4, end=6)
     motion = shown(addon, recording)
     press("bake", trace_source="RECORDING", recording=0, as_recorded=True)
-    seconds = (len(motion.frames) - 1) / 60
+    seconds = (len(motion.path) - 1) / 60
     frames = obj.animation_data.action.frame_range
     assert (frames[1] - frames[0]) / 24 == pytest.approx(seconds, abs=0.05)
     bpy.ops.ed.undo()
@@ -105,7 +105,7 @@ def test_glued_recordings_follow_each_other_from_where_the_character_is(
     assert len(trace) + len(other) - 10 <= length <= len(trace) + len(other)
     np.testing.assert_array_equal(whole.root_positions[:400], first.root_positions[:400])
     np.testing.assert_allclose(seen(addon, obj, whole)[-120:], seen(addon, obj, second)[-120:], atol=1e-5)
-    steps = np.linalg.norm(np.diff(whole.frames[:, :2], axis=0), axis=1)
+    steps = np.linalg.norm(np.diff(whole.path[:, :2], axis=0), axis=1)
     assert steps.max() < 0.1
 
 

@@ -40,21 +40,21 @@ def test_the_character_is_at_the_pin_and_was_not_changed_before(
 ) -> None:
     before = shown(addon, recording)
     pose = playhead(8)
-    goal = before.frames[pose] + (0.15, -0.1, 0.1)
+    goal = before.path[pose] + (0.15, -0.1, 0.1)
     pin(goal)
     press("pin_recording", stretch=4)
     after, pinned = shown(addon, recording), addon.recordings.recordings.trace_of(recording)
-    np.testing.assert_allclose(after.frames[pose], goal, atol=1e-5)
+    np.testing.assert_allclose(after.path[pose], goal, atol=1e-5)
     np.testing.assert_array_equal(pinned[:40], trace[:40])
     np.testing.assert_array_equal(pinned[80:], trace[80:])
     np.testing.assert_array_equal(after.rotations[:241], before.rotations[:241])
     np.testing.assert_array_equal(after.root_positions[:241], before.root_positions[:241])
     replayed = addon.edits.replaying.replay(obj, addon.character.building.load(obj), recording, pinned, recording.seed)
-    assert np.hypot(*(replayed.frames[pose] - goal)[:2]) <= 0.02 + 1e-3, "what is left is small"
+    assert np.hypot(*(replayed.path[pose] - goal)[:2]) <= 0.02 + 1e-3, "what is left is small"
 
 
 def test_a_pin_is_baked_and_undone(addon: ModuleType, obj: bpy.types.Object, recording: Any, trace: np.ndarray) -> None:
-    goal = shown(addon, recording).frames[playhead(8)] + (0.1, 0.1, -0.05)
+    goal = shown(addon, recording).path[playhead(8)] + (0.1, 0.1, -0.05)
     pin(goal)
     bpy.ops.ed.undo_push(message="pinned next")
     press("pin_recording")
@@ -72,12 +72,12 @@ def test_a_pin_at_the_cursor_and_from_the_beginning_on(
     addon: ModuleType, obj: bpy.types.Object, recording: Any
 ) -> None:
     pose = playhead(3)
-    goal = shown(addon, recording).frames[pose] + (0.1, 0.0, 0.05)
+    goal = shown(addon, recording).path[pose] + (0.1, 0.0, 0.05)
     cursor = bpy.context.scene.cursor
     cursor.location, cursor.rotation_mode = (*goal[:2], 0), "XYZ"
     cursor.rotation_euler = (0, 0, goal[2] - math.pi)
     press("pin_recording", place="CURSOR", stretch=10)
-    frame = shown(addon, recording).frames[pose]
+    frame = shown(addon, recording).path[pose]
     np.testing.assert_allclose(frame[:2], goal[:2], atol=1e-5)
     assert math.remainder(frame[2] - goal[2], 2 * math.pi) == pytest.approx(0, abs=1e-5)
 
@@ -88,11 +88,11 @@ def test_a_recording_that_was_cut_is_pinned_where_it_is_shown(
     press("cut_recording", start=2, end=3)
     before = shown(addon, recording)
     pose = playhead(8)
-    goal = before.frames[pose] + (0.2, 0.1, 0.05)
+    goal = before.path[pose] + (0.2, 0.1, 0.05)
     pin(goal)
     press("pin_recording", stretch=4)
     after = shown(addon, recording)
-    np.testing.assert_allclose(after.frames[pose], goal, atol=1e-4)
+    np.testing.assert_allclose(after.path[pose], goal, atol=1e-4)
     np.testing.assert_array_equal(after.rotations[:241], before.rotations[:241])
 
 
@@ -100,7 +100,7 @@ def test_a_pin_out_of_reach_says_by_how_much_and_changes_nothing(
     addon: ModuleType, obj: bpy.types.Object, recording: Any
 ) -> None:
     controls, poses = recording.controls, recording.shown
-    pin(shown(addon, recording).frames[playhead(8)] + (30, 0, 0))
+    pin(shown(addon, recording).path[playhead(8)] + (30, 0, 0))
     with pytest.raises(
         RuntimeError, match=r"The pin is 30\.00 m and 0 degrees from where recording 'Stroll' leads; the near"
     ):

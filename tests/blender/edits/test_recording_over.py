@@ -22,10 +22,10 @@ def test_the_stick_is_recorded_over_a_stretch_and_the_rest_follows(
 ) -> None:
     before = addon.recordings.recordings.shown_of(recording)[1]
     driven = start(session, obj, 5.0, 7.0)
-    np.testing.assert_allclose(driven.actor.frame, before.frames[180], atol=1e-5)
+    np.testing.assert_allclose(driven.actor.frame, before.path[180], atol=1e-5)
     driven.inputs.keyboard.press("Q")
     go_on(driven, 2)
-    np.testing.assert_allclose(driven.actor.frame, before.frames[300], atol=1e-5)
+    np.testing.assert_allclose(driven.actor.frame, before.path[300], atol=1e-5)
     go_on(driven, 2.5)
     frame = driven.actor.frame
     over = addon.recordings.recordings.trace_of(obj.fragmotion.takes[0])
@@ -35,9 +35,9 @@ def test_the_stick_is_recorded_over_a_stretch_and_the_rest_follows(
     np.testing.assert_array_equal(over[70:], trace[70:])
     after = addon.recordings.recordings.shown_of(obj.fragmotion.takes[0])[1]
     np.testing.assert_array_equal(after.rotations[:301], before.rotations[:301])
-    np.testing.assert_array_equal(after.frames[:301], before.frames[:301])
-    np.testing.assert_allclose(after.frames[450], frame, atol=1e-3)
-    assert len(obj.fragmotion.takes) == 1 and len(after.frames) == len(before.frames)
+    np.testing.assert_array_equal(after.path[:301], before.path[:301])
+    np.testing.assert_allclose(after.path[450], frame, atol=1e-3)
+    assert len(obj.fragmotion.takes) == 1 and len(after.path) == len(before.path)
 
 
 def test_what_was_taken_until_the_drive_ends_is_kept(

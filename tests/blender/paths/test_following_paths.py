@@ -102,7 +102,7 @@ def frames(addon: ModuleType) -> Callable[[Any], np.ndarray]:
     def read(recording: Any) -> np.ndarray:
         shown = addon.recordings.recordings.shown_of(recording)
         assert shown is not None
-        return np.asarray(shown[1].frames)
+        return np.asarray(shown[1].path)
 
     return read
 
@@ -126,7 +126,7 @@ def test_a_poly_curve_is_walked_and_replayed_as_it_was(
     start = tuple(recording.start)
     again = player
     again.reset(*start)
-    played = again.run(trace, addon.recordings.recordings.POSE_RATE).frames
+    played = again.run(trace, addon.recordings.recordings.POSE_RATE).path
     assert np.abs(played[:, :2] - shown[:, :2]).max() < 1e-3
     assert recording.quality > 0 and recording.policy
 

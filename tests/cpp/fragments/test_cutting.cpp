@@ -141,10 +141,11 @@ Clip torn_clip() {
   return make_clip(skeleton, clip);
 }
 
-TEST(Tears, AreWhereNoBodyGetsFromOneFrameToTheNext) {
-  EXPECT_EQ(tears(humanoid(), torn_clip()), (std::vector<int>{1, 50}));
-  EXPECT_TRUE(tears(humanoid(), gait_clip({})).empty());
-  EXPECT_EQ(tears(humanoid(10), moved(humanoid(10), torn_clip(), {})), (std::vector<int>{1}));  // a giant's step
+TEST(Discontinuities, AreWhereNoBodyGetsFromOneFrameToTheNext) {
+  EXPECT_EQ(discontinuities(humanoid(), torn_clip()), (std::vector<int>{1, 50}));
+  EXPECT_TRUE(discontinuities(humanoid(), gait_clip({})).empty());
+  EXPECT_EQ(discontinuities(humanoid(10), moved(humanoid(10), torn_clip(), {})),
+            (std::vector<int>{1}));  // a giant's step
 }
 
 TEST(CutFragments, NeverGoOverATear) {
@@ -155,7 +156,7 @@ TEST(CutFragments, NeverGoOverATear) {
     EXPECT_GT(pool.fragments.size(), 4U);
     expect_whole_fragments(pool, options);
     for (const Fragment& f : pool.fragments) {
-      for (const int tear : {1, 50}) EXPECT_TRUE(f.end < tear || f.begin >= tear) << f.begin << " " << f.end;
+      for (const int found : {1, 50}) EXPECT_TRUE(f.end < found || f.begin >= found) << f.begin << " " << f.end;
     }
   }
 }

@@ -19,7 +19,7 @@ from ...drive.input.sdl import SdlMissing
 from ...errors import UserError, core_errors, reported
 from ...paths.drawing import ground_under
 from ...recordings.traces import make_trace
-from ...rig.external_motion import movers
+from ...rig.external_motion import external_motion
 from ...settings import preferences
 from ..base.background import poll_idle
 from ..base.context import active_armature, playhead, poll_armature
@@ -207,7 +207,7 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
             self.report(
                 {"WARNING"}, f"'{rig.name}' plays its own Action: press Follow, under Control Rig, to see it move"
             )
-        others = movers(obj)
+        others = external_motion(obj)
         if others:
             self.report({"WARNING"}, f"The pose will differ from the character's because of {'; '.join(others)}")
 
