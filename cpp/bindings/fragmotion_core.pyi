@@ -463,10 +463,10 @@ class Character:
     def percent_of_optimal(self, trace: ArrayLike, policy: str = "") -> float:
         """Quality of one of its policies (default: the one that drives) on a trace [T,4], in percent of Optimal's, both
         from Optimal's first class."""
-    def without(self, excluded: Sequence[int]) -> Character:
+    def without(self, excluded: Sequence[int], style: int = 0) -> Character:
         """The character that is never sent to the excluded classes: where a policy's table said one, it says the class
-        of the greatest Eq. 2 and value to come of those left. Other styles stay as they are. ValueError where a class
-        does not exist or none is left."""
+        of the greatest Eq. 2 and value to come of those left. The classes are those of one style; the others stay as
+        they are. ValueError where a class or the style does not exist or none is left."""
     move_names: list[str]
     """The moves, in the order of their numbers."""
     moves: list[Move]

@@ -190,7 +190,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Character.from_bytes": {"data": made.to_bytes()},
         "Character.optimal": {"self": made, "trace": trace},
         "Character.percent_of_optimal": {"self": made, "trace": trace, "policy": ""},
-        "Character.without": {"self": made, "excluded": [1, 2]},
+        "Character.without": {"self": made, "excluded": [1, 2], "style": 1},
         "Character.with_moves": {"self": made, "moves": made.moves},
         "Character.in_style": {"self": made, "style": 1},
         "with_styles": {"styles": [("normal", built), ("tired", built)]},

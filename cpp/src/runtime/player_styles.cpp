@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <stdexcept>
 
 #include "runtime/plan_moment.hpp"
 
 namespace fragmotion {
-void Player::check_style(int style) const {
-  if (style >= 0 && style < character_->style_count()) return;
-  throw std::invalid_argument("style " + std::to_string(style) + " does not exist; the character has " +
-                              std::to_string(character_->style_count()));
-}
-
 void Player::change_style(int style) {
-  check_style(style);
+  check_style(*character_, style);
   if (extras_ == nullptr) return;
   extras_->style.waiting = style == playing_style() ? -1 : style;
   extras_->style.moment.await(kStyleWait);

@@ -141,7 +141,6 @@ class Player {
   static constexpr double kFinest = 1 / 60.0;  // s for which a command is the same at most
 
   void make_extras(const PlayerOptions& options);
-  void check_style(int style) const;
   void set_style(int style);
   double begin_style(const Control& control, double most);
   Control wanted(const Control& control) const;
