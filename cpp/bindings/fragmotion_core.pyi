@@ -338,8 +338,19 @@ def read_trace(path: str | PathLike[str]) -> Doubles:
     """Read a trace [T,4] from CSV (header velocity_x,velocity_y,turn,jump; 10 rows a second), as it was written: what
     asks a policy snaps controls to the points of its ControlSpace. ValueError with FILE:LINE."""
 
-def write_trace(path: str | PathLike[str], trace: ArrayLike) -> None:
-    """Write a trace [T,4] as CSV."""
+def read_asked(path: str | PathLike[str]) -> tuple[list[tuple[int, str, int]], list[tuple[int, str]]]:
+    """What a trace file asks for beside its controls, by names, in its columns `move` (there may be several) and
+    `style`: moves, each with the control before which it is started and for how many it is held, and styles, each with
+    the control before which it is gone over to. ValueError with FILE:LINE."""
+
+def write_trace(
+    path: str | PathLike[str],
+    trace: ArrayLike,
+    moves: Sequence[tuple[int, str, int]] = ...,
+    styles: Sequence[tuple[int, str]] = ...,
+) -> None:
+    """Write a trace [T,4] as CSV, with moves and styles as read_asked() tells them; without any, with the four columns
+    alone. ValueError on what could not be read back."""
 
 def simulate_trace(player: str, seconds: float = 60.0, seed: int = 1, space: ControlSpace | None = None) -> Doubles:
     """A trace [T,4] of a simulated player: a stick with inertia that chases targets. See PLAYERS for the habits."""

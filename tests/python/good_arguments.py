@@ -181,7 +181,11 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "ControlSpace.distance": {"self": made.space, "a": trace[0], "b": trace[1]},
         "ControlSpace.turn_towards": {"self": made.space, "off": 1.0},
         "read_trace": {"path": folder / "trace.csv"},
-        "write_trace": {"path": folder / "written.csv", "trace": trace},
+        "read_asked": {"path": folder / "trace.csv"},
+        "write_trace": {
+            **{"path": folder / "written.csv", "trace": trace},
+            **{"moves": [(3, "stroll", 2)], "styles": [(0, "tired")]},
+        },
         "simulate_trace": {"player": "walker", "seconds": 5.0, "seed": 1, "space": made.space},
         "BuildOptions": {},
         "Character.save": {"self": made, "path": folder / "saved.policy"},
