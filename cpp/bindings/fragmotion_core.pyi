@@ -565,8 +565,9 @@ class Player:
         """Stand at a place, facing `heading` (radians, counter-clockwise from +y), in a style, and draw again from the
         seed: after a reset the same steps show the same poses. ValueError on a style that does not exist."""
     def change_style(self, style: int) -> None:
-        """Go on in another style: at the moment within 0.8 s at which it joins best, but not within a jump, and after a
-        move of the whole body. One that waits is forgotten for it. ValueError on a style that does not exist."""
+        """Go on in another style: at the moment within 0.8 s at which it joins best, but after the landing of a jump,
+        and after a move of the whole body. One that waits is forgotten for it. ValueError on a style that does not
+        exist."""
     playing_style: int
     """The style that plays: classes and fragments are its."""
     waiting_style: int

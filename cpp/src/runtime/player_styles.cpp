@@ -33,16 +33,19 @@ double Player::distance_to_style(int style, const Control& wanted) const {
   return there.distance_to_class(there.best_class(wanted, playback_), wanted, playback_);
 }
 
+bool Player::can_change_style() const { return playback_.has_landed() && is_stitched(); }
+
 // Begins the style that waits, where its moment has come. Returns as begin_moves().
 double Player::begin_style(const Control& control, double most) {
   const int style = waiting_style();
   if (style < 0 || extras_->whole_body.plays()) return most;
   Moment& moment = extras_->style.moment;
   if (moment.needs_plan(control, styled_character().space)) {
-    plan(moment, control, [&](const Player& p) { return p.distance_to_style(style, p.wanted(control)); });
+    plan(moment, control, &Player::can_change_style,
+         [&](const Player& p) { return p.distance_to_style(style, p.wanted(control)); });
   }
   if (moment.until() > kInstant) return std::min(most, moment.until());
-  if (can_begin_move()) {
+  if (can_change_style()) {
     set_style(style);
     enter_best_class(wanted(control));
   }
