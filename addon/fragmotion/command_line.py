@@ -37,7 +37,9 @@ _EXAMPLES = """examples:
   blender -c fragmotion build walks/ --blend hero.blend --policy hero.policy
   blender -c fragmotion build takes.blend --armature Hero --blend hero.blend
   blender -c fragmotion build walks/ --onto rig.blend --armature Hero --blend hero.blend
+  blender -c fragmotion build walks/ --style tired=*_tired_* --style happy=*_happy_* --blend hero.blend
   blender -c fragmotion bake hero.blend --trace path.csv --blend shot.blend
+  blender -c fragmotion bake hero.blend --player walker --style tired --blend shot.blend
   blender -c fragmotion bake hero.blend --recordings --blend shots.blend
   blender -c fragmotion bake scenes/*.blend --recordings --into shots/
   blender -c fragmotion evaluate hero.blend --player runner --json -
@@ -81,11 +83,22 @@ def _parser() -> argparse.ArgumentParser:
     build.add_argument(
         "--no-jump", dest="jump", action="store_false", default=None, help="it can be asked for no jumps"
     )
+    build.add_argument(
+        "--style",
+        action="append",
+        default=[],
+        metavar="NAME=PATTERN",
+        help="the style of the takes whose name fits, such as tired=*_tired_*; once for each style",
+    )
+    build.add_argument(
+        "--folder-styles", action="store_true", help="each take is of the style that the folder of its file is called"
+    )
     build.add_argument("--seed", type=int, metavar="N", help="draws the first centres and the simulated players")
     build.add_argument("--policy", type=Path, metavar="FILE", help="where to write the policy file")
     build.set_defaults(command=_build)
     bake = commands.add_parser("bake", help="bake motion of characters to Actions, several files over all processors")
     bake.add_argument("sources", type=Path, nargs="+", metavar="CHARACTER.blend")
+    bake.add_argument("--style", metavar="NAME", help="what a trace or a player is played in (the first one)")
     bake.add_argument("--into", type=Path, metavar="FOLDER", help="where to write the .blends, by their names")
     bake.set_defaults(command=_bake)
     evaluate = commands.add_parser("evaluate", help="measure how well a character follows traces")
@@ -114,8 +127,11 @@ def _build(options: argparse.Namespace) -> dict[str, Any]:
         raise UserError("Nothing would be kept: say where to, by --blend or --policy")
     if options.source.is_dir():
         _import(options)
+    elif options.folder_styles:
+        raise UserError(f"--folder-styles asks for a folder of takes, and '{options.source}' is none")
     else:
         _open(options.source, options.armature)
+    _set_styles(options.style)
     bpy.ops.fragmotion.build("EXEC_DEFAULT", **_given(options, "classes", "seed"), **_controls(options))
     obj = active_armature(bpy.context)
     figures = _figures(obj)
@@ -134,13 +150,26 @@ def _controls(options: argparse.Namespace) -> dict[str, Any]:
     return {"controls": _CONTROLS[kind], **told} if kind else {}
 
 
+def _set_styles(told: Sequence[str]) -> None:
+    """Let takes be of the styles that --style tells."""
+    for text in told:
+        name, _, pattern = text.partition("=")
+        if not (name and pattern):
+            raise UserError(f"--style {text} tells no name or no pattern, as in tired=*_tired_*")
+        bpy.ops.fragmotion.set_style("EXEC_DEFAULT", style=name, pattern=pattern)
+
+
 def _import(options: argparse.Namespace) -> None:
     """The folder's takes onto the rig, or onto an armature of their own."""
     if options.onto:
         _open(options.onto, options.armature)
     else:
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    bpy.ops.fragmotion.import_mocap(directory=str(options.source.resolve()), onto="ACTIVE" if options.onto else "NEW")
+    bpy.ops.fragmotion.import_mocap(
+        directory=str(options.source.resolve()),
+        onto="ACTIVE" if options.onto else "NEW",
+        style="FOLDER" if options.folder_styles else "NONE",
+    )
 
 
 def _bake(options: argparse.Namespace) -> dict[str, Any]:
@@ -187,7 +216,9 @@ def _bake_apart(options: argparse.Namespace, source: Path) -> tuple[list[dict[st
     with TemporaryDirectory() as folder:
         figures = Path(folder) / "figures.json"
         words = ["bake", str(source.resolve()), "--blend", str((options.into / source.name).resolve())]
-        words += [f"--{name}={value}" for name, value in _given(options, "seconds", "seed", "armature").items()]
+        words += [
+            f"--{name}={value}" for name, value in _given(options, "seconds", "seed", "style", "armature").items()
+        ]
         driver = _given(options, "player") | ({"trace": options.trace.resolve()} if options.trace else {})
         words += [f"--{name}={value}" for name, value in driver.items()] or ["--recordings"]
         code = f"import sys, {__name__} as c; sys.exit(c.run({[*words, '--json', str(figures)]!r}))"
@@ -201,7 +232,7 @@ def _bake_apart(options: argparse.Namespace, source: Path) -> tuple[list[dict[st
 
 def _bake_one(options: argparse.Namespace, path: Path, target: Path) -> list[dict[str, Any]]:
     obj = _open(path, options.armature)
-    given = _given(options, "seconds", "seed")
+    given = _given(options, "seconds", "seed", "style")
     sources: list[dict[str, Any]]
     if options.trace:
         sources = [{"trace_source": "FILE", "trace_file": str(options.trace.resolve())}]
@@ -294,6 +325,7 @@ def _figures(obj: bpy.types.Object) -> dict[str, Any]:
         "percent_of_optimal": figures.quality,
         "controls_performed": figures.performed,
         "controls": figures.controls,
+        **({"styles": [style.name for style in figures.styles]} if figures.styles else {}),
         "recordings": len(obj.fragmotion.takes),
     }
     print(", ".join(f"{name.replace('_', ' ')} {_shown(value)}" for name, value in found.items()), flush=True)
@@ -301,6 +333,8 @@ def _figures(obj: bpy.types.Object) -> dict[str, Any]:
 
 
 def _shown(value: object) -> str:
+    if isinstance(value, list):
+        return " ".join(value)
     return f"{value:.1f}" if isinstance(value, float) else str(value)
 
 

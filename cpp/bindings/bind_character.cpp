@@ -138,10 +138,7 @@ std::vector<std::string> style_names(const Character& c) {
 
 // The character itself in its first style.
 Holder in_style(const Holder& c, int style) {
-  if (style < 0 || style >= c->style_count()) {
-    throw std::invalid_argument("style " + std::to_string(style) + " does not exist; the character has " +
-                                std::to_string(c->style_count()));
-  }
+  check_style(*c, style);
   return style == 0 ? c : std::const_pointer_cast<Character>(c->styles[style - 1]);
 }
 
@@ -204,10 +201,10 @@ void bind_use(py::class_<Character, Holder>& character) {
       .def("percent_of_optimal", &percent, py::arg("trace"), py::arg("policy") = "")
       .def(
           "without",
-          [](const Character& c, const std::vector<int>& excluded) {
-            return std::make_shared<Character>(without_classes(c, excluded));
+          [](const Character& c, const std::vector<int>& excluded, int style) {
+            return std::make_shared<Character>(without_classes(c, excluded, style));
           },
-          py::arg("excluded"), py::call_guard<GilRelease>());
+          py::arg("excluded"), py::arg("style") = 0, py::call_guard<GilRelease>());
 }
 
 }  // namespace

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "arrays.hpp"
 #include "fragmotion/character/character.hpp"
@@ -42,6 +46,29 @@ std::vector<std::string> gaits_named(const ControlSpace& space) {
   std::vector<std::string> names;
   for (const int gait : space.gaits()) names.emplace_back(kGaits[gait].name);
   return names;
+}
+
+using NamedMoves = std::vector<std::tuple<int, std::string, int>>;
+using NamedStyles = std::vector<std::tuple<int, std::string>>;
+
+std::pair<NamedMoves, NamedStyles> to_lists(const Asked& asked) {
+  std::pair<NamedMoves, NamedStyles> lists;
+  for (const Asked::Move& move : asked.moves) lists.first.emplace_back(move.control, move.name, move.held);
+  for (const Asked::Style& style : asked.styles) lists.second.emplace_back(style.control, style.name);
+  return lists;
+}
+
+Asked to_asked(const NamedMoves& moves, const NamedStyles& styles) {
+  Asked asked;
+  for (const auto& [control, name, held] : moves) {
+    check_name(name);
+    asked.moves.push_back({control, name, held});
+  }
+  for (const auto& [control, name] : styles) {
+    check_name(name);
+    asked.styles.push_back({control, name});
+  }
+  return asked;
 }
 
 }  // namespace
@@ -96,12 +123,17 @@ void bind_control(py::module_& m) {
       [](const std::filesystem::path& path) { return to_rows(without_gil([&] { return read_trace(path); })); },
       py::arg("path"));
   m.def(
+      "read_asked",
+      [](const std::filesystem::path& path) { return to_lists(without_gil([&] { return read_asked(path); })); },
+      py::arg("path"));
+  m.def(
       "write_trace",
-      [](const std::filesystem::path& path, const Doubles& trace) {
+      [](const std::filesystem::path& path, const Doubles& trace, const NamedMoves& moves, const NamedStyles& styles) {
         const Trace controls = to_trace(trace);
-        without_gil([&] { write_trace(path, controls); });
+        const Asked asked = to_asked(moves, styles);
+        without_gil([&] { write_trace(path, controls, asked); });
       },
-      py::arg("path"), py::arg("trace"));
+      py::arg("path"), py::arg("trace"), py::arg("moves") = NamedMoves(), py::arg("styles") = NamedStyles());
   m.def(
       "simulate_trace",
       [](const std::string& player, double seconds, std::uint64_t seed, const std::optional<ControlSpace>& space) {

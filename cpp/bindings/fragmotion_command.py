@@ -7,20 +7,26 @@ import argparse
 import json
 import sys
 from collections.abc import Sequence
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
 
 import fragmotion_core as core
 
+_NEUTRAL = "neutral"  # the style of takes that tell none, where others do
+
 _EXAMPLES = """examples:
   fragmotion build walks/ --policy hero.policy
+  fragmotion build walks/ --style tired=*_tired_* --style happy=*_happy_* --policy hero.policy
   fragmotion info hero.policy --json -
   fragmotion play hero.policy --trace path.csv --bvh shot.bvh
+  fragmotion play hero.policy --player walker --style tired --bvh shot.bvh
   fragmotion evaluate hero.policy --player runner --seconds 60
 
 Takes are BVH files, AMC files with their ASF beside them, and folders of such, all of one skeleton. A trace is a
-CSV file: velocity_x,velocity_y (m/s), turn (-1 to 1), jump (0 or 1), 10 rows a second. The exit code is 0 where all
-was done; else it is 1, and the cause is told."""
+CSV file: velocity_x,velocity_y (m/s), turn (-1 to 1), jump (0 or 1), 10 rows a second; columns `move` and `style`
+after these may name the moves that are held and the style. The exit code is 0 where all was done; else it is 1, and the
+cause is told."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -54,12 +60,23 @@ def _parser() -> argparse.ArgumentParser:
     build.add_argument("--no-turn", action="store_true", help="it can be asked for no turns")
     build.add_argument("--no-jump", action="store_true", help="it can be asked for no jumps")
     build.add_argument("--find-controls", action="store_true", help="as many of all these as the takes hold")
+    build.add_argument(
+        "--style",
+        action="append",
+        default=[],
+        metavar="NAME=PATTERN",
+        help="the style of the takes whose name fits, such as tired=*_tired_*; once for each style",
+    )
+    build.add_argument(
+        "--folder-styles", action="store_true", help="each take is of the style that the folder of its file is called"
+    )
     build.add_argument("--unit", type=float, default=0.01, metavar="M", help="metres in one unit of a BVH file (0.01)")
     build.set_defaults(command=_build)
     info = commands.add_parser("info", help="tell what a policy file holds")
     info.set_defaults(command=_info)
     play = commands.add_parser("play", help="write what a character does under a trace as a BVH file")
     play.add_argument("--bvh", type=Path, required=True, metavar="FILE", help="where to write the motion")
+    play.add_argument("--style", metavar="NAME", help="in which it begins (the first one)")
     play.add_argument("--rate", type=float, default=30.0, metavar="HZ", help="frames a second (30)")
     play.set_defaults(command=_play)
     evaluate = commands.add_parser("evaluate", help="measure a character under a trace")
@@ -79,7 +96,9 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _build(options: argparse.Namespace) -> dict[str, Any]:
-    takes = [core.read_bvh(path, options.unit) if _is_bvh(path) else _read_amc(path) for path in _files(options.takes)]
+    paths = _files(options.takes)
+    styles = _styles_of(paths, options)
+    takes = [core.read_bvh(path, options.unit) if _is_bvh(path) else _read_amc(path) for path in paths]
     skeleton = takes[0].skeleton
     clips = [core.Clip.from_take(take, skeleton) for take in takes]
     settings = core.BuildOptions()
@@ -90,9 +109,30 @@ def _build(options: argparse.Namespace) -> dict[str, Any]:
     if options.classes is not None:
         settings.classes = options.classes
     teacher = core.simulate_trace("explorer", 60, options.seed, settings.usual_space)
-    character = core.build(skeleton, clips, [teacher], settings)
+    if any(styles):
+        named = {name: [clip for clip, own in zip(clips, styles) if own == name] for name in sorted(set(styles))}
+        styled = [(name or _NEUTRAL, some) for name, some in named.items()]
+        character = core.build_styles(skeleton, styled, [teacher], settings)
+    else:
+        character = core.build(skeleton, clips, [teacher], settings)
     character.save(options.policy)
     return _described(character)
+
+
+def _styles_of(paths: Sequence[Path], options: argparse.Namespace) -> list[str]:
+    """The style of each take, empty where it is of none: the last that fits of those that are told, else its folder's
+    where that is to tell it."""
+    styles = [path.parent.name if options.folder_styles else "" for path in paths]
+    for text in options.style:
+        name, _, pattern = text.partition("=")
+        fitting = [i for i, path in enumerate(paths) if fnmatchcase(path.stem.lower(), pattern.lower())]
+        if not (name and pattern):
+            raise ValueError(f"--style {text} tells no name or no pattern, as in tired=*_tired_*")
+        if not fitting:
+            raise ValueError(f"--style {text}: no take's name fits; the first is called '{paths[0].stem}'")
+        for i in fitting:
+            styles[i] = name
+    return ["" if style == _NEUTRAL else style for style in styles]
 
 
 def _files(given: Sequence[Path]) -> list[Path]:
@@ -125,6 +165,8 @@ def _described(character: core.Character) -> dict[str, Any]:
         "fragments": len(character.fragment_durations),
         "classes": len(character.class_names),
         "policies": character.policies,
+        **({"styles": character.style_names} if character.style_names else {}),
+        **({"moves": character.move_names} if character.move_names else {}),
         **dict(zip(character.space.gaits, character.space.speeds)),
         "directions": character.space.directions,
         "controls": len(character.space.points),
@@ -133,12 +175,36 @@ def _described(character: core.Character) -> dict[str, Any]:
 
 def _play(options: argparse.Namespace) -> dict[str, Any]:
     character = core.Character.load(options.character)
-    performance = core.Player(character, options.seed).run(_trace(options, character), options.rate)
+    player = core.Player(character, options.seed)
+    begin, moves, styles = _asked(options, character)
+    player.reset(style=begin)
+    trace = _trace(options, character.in_style(begin))
+    performance = player.run(trace, options.rate, moves=moves or None, styles=styles or None)
     clip = core.Clip(
         character.skeleton, options.bvh.stem, performance.rate, performance.root_positions, performance.rotations
     )
     core.write_bvh(core.Take.from_clip(clip, character.skeleton), options.bvh)
     return {"frames": len(performance.path), "rate": performance.rate}
+
+
+def _asked(
+    options: argparse.Namespace, character: core.Character
+) -> tuple[int, list[tuple[int, int, int]], list[tuple[int, int]]]:
+    """The style in which it begins, and the moves and the changes of style of the trace file, by their numbers."""
+    moves, styles = core.read_asked(options.trace) if options.trace else ([], [])
+    names = {"move": character.move_names, "style": character.style_names}
+    changes = [(control, _number_of("style", name, names)) for control, name in styles]
+    chosen = _number_of("style", options.style, names) if options.style else 0
+    begin = changes[0][1] if changes and changes[0][0] == 0 else chosen
+    return begin, [(control, _number_of("move", name, names), held) for control, name, held in moves], changes
+
+
+def _number_of(what: str, name: str, names: dict[str, list[str]]) -> int:
+    """The number of a move or a style; ValueError where the character does not have it."""
+    known = names[what]
+    if name not in known:
+        raise ValueError(f"the character has no {what} '{name}': its {what}s are {', '.join(known) or 'none'}")
+    return known.index(name)
 
 
 def _evaluate(options: argparse.Namespace) -> dict[str, Any]:

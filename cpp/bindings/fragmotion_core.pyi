@@ -338,8 +338,19 @@ def read_trace(path: str | PathLike[str]) -> Doubles:
     """Read a trace [T,4] from CSV (header velocity_x,velocity_y,turn,jump; 10 rows a second), as it was written: what
     asks a policy snaps controls to the points of its ControlSpace. ValueError with FILE:LINE."""
 
-def write_trace(path: str | PathLike[str], trace: ArrayLike) -> None:
-    """Write a trace [T,4] as CSV."""
+def read_asked(path: str | PathLike[str]) -> tuple[list[tuple[int, str, int]], list[tuple[int, str]]]:
+    """What a trace file asks for beside its controls, by names, in its columns `move` (there may be several) and
+    `style`: moves, each with the control before which it is started and for how many it is held, and styles, each with
+    the control before which it is gone over to. ValueError with FILE:LINE."""
+
+def write_trace(
+    path: str | PathLike[str],
+    trace: ArrayLike,
+    moves: Sequence[tuple[int, str, int]] = ...,
+    styles: Sequence[tuple[int, str]] = ...,
+) -> None:
+    """Write a trace [T,4] as CSV, with moves and styles as read_asked() tells them; without any, with the four columns
+    alone. ValueError on what could not be read back."""
 
 def simulate_trace(player: str, seconds: float = 60.0, seed: int = 1, space: ControlSpace | None = None) -> Doubles:
     """A trace [T,4] of a simulated player: a stick with inertia that chases targets. See PLAYERS for the habits."""
@@ -463,10 +474,10 @@ class Character:
     def percent_of_optimal(self, trace: ArrayLike, policy: str = "") -> float:
         """Quality of one of its policies (default: the one that drives) on a trace [T,4], in percent of Optimal's, both
         from Optimal's first class."""
-    def without(self, excluded: Sequence[int]) -> Character:
+    def without(self, excluded: Sequence[int], style: int = 0) -> Character:
         """The character that is never sent to the excluded classes: where a policy's table said one, it says the class
-        of the greatest Eq. 2 and value to come of those left. Other styles stay as they are. ValueError where a class
-        does not exist or none is left."""
+        of the greatest Eq. 2 and value to come of those left. The classes are those of one style; the others stay as
+        they are. ValueError where a class or the style does not exist or none is left."""
     move_names: list[str]
     """The moves, in the order of their numbers."""
     moves: list[Move]
@@ -554,8 +565,9 @@ class Player:
         """Stand at a place, facing `heading` (radians, counter-clockwise from +y), in a style, and draw again from the
         seed: after a reset the same steps show the same poses. ValueError on a style that does not exist."""
     def change_style(self, style: int) -> None:
-        """Go on in another style: at the moment within 0.8 s at which it joins best, but not within a jump, and after a
-        move of the whole body. One that waits is forgotten for it. ValueError on a style that does not exist."""
+        """Go on in another style: at the moment within 0.8 s at which it joins best, but after the landing of a jump,
+        and after a move of the whole body. One that waits is forgotten for it. ValueError on a style that does not
+        exist."""
     playing_style: int
     """The style that plays: classes and fragments are its."""
     waiting_style: int

@@ -138,6 +138,10 @@ def test_a_character_is_measured(addon: ModuleType, hero: Path, tmp_path: Path) 
         (("bake", "{hero}", "--recordings", "--blend", "x.blend"), "has no recordings"),
         (("bake", "{hero}", "--trace", "missing.csv", "--blend", "x.blend"), "missing.csv"),
         (("info", "{hero}", "--armature", "Nobody"), "has no armature 'Nobody'"),
+        (("bake", "{hero}", "--player", "walker", "--style", "sad", "--blend", "x.blend"), "has no style 'sad'"),
+        (("build", "{hero}", "--style", "tired", "--blend", "x.blend"), "--style tired tells no name or no pattern"),
+        (("build", "{hero}", "--style", "tired=no*", "--blend", "x.blend"), "No take's name fits 'no*'"),
+        (("build", "{hero}", "--folder-styles", "--blend", "x.blend"), "--folder-styles asks for a folder of takes"),
     ],
 )
 def test_what_cannot_be_done_is_told(
@@ -176,3 +180,17 @@ def test_controls_are_told_on_the_command_line(
     assert "--controls found and --speeds say two different things" in capsys.readouterr().err
     assert run(addon, *words, "--controls", "paper") == 0
     assert json.loads((tmp_path / "own.json").read_text())["controls"] == 102
+
+
+def test_styles_are_told_by_names_and_by_folders(addon: ModuleType, takes: Path, tmp_path: Path) -> None:
+    for style in ("Tired", "neutral"):
+        (tmp_path / "takes" / style).mkdir(parents=True)
+        for path in takes.glob("*.bvh"):
+            (tmp_path / "takes" / style / f"{path.stem} {style}.bvh").write_bytes(path.read_bytes())
+    built, told = tmp_path / "styled.blend", tmp_path / "told.json"
+    words = ("build", tmp_path / "takes", "--classes", 12, "--blend", built, "--json", told)
+    for way in (("--folder-styles",), ("--style", "Tired=*tired", "--style", "neutral=*neutral")):
+        assert run(addon, *words, *way) == 0
+        assert json.loads(told.read_text())["styles"] == ["neutral", "Tired"]
+    words = ("bake", built, "--player", "walker", "--seconds", 2, "--style", "Tired")
+    assert run(addon, *words, "--blend", tmp_path / "shot.blend") == 0

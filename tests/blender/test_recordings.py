@@ -219,6 +219,7 @@ def test_recordings_go_out_to_csv_and_come_back_to_the_bit(
         ("velocity_x,velocity_y,turn\n0,0,0\n", r"bad\.csv:1: the header is"),
         ("velocity_x,velocity_y,turn,jump\n0,1,0,0\n0,1,0\n", r"bad\.csv:3: expected 4 values"),
         ("velocity_x,velocity_y,turn,jump\n0,1,7,0\n", r"bad\.csv:2: turn is"),
+        ('velocity_x,velocity_y,turn,jump,move\n0,1,0,0,\n0,1,0,0,"wave\n', r"bad\.csv:3: quotes are not closed"),
     ],
 )
 def test_a_malformed_file_among_those_imported_is_named_by_its_line_and_none_is_kept(

@@ -34,6 +34,28 @@ def test_it_is_added_ticked_and_builds_as_in_its_own_file(addon: ModuleType, obj
     assert sit.name == "sit" and sit.loop == pytest.approx((1.5, 2.3), abs=0.02)
 
 
+def test_a_slope_and_stairs_come_with_it_out_of_the_way(addon: ModuleType) -> None:
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    obj = bpy.context.active_object
+    (layer,) = (each for each in bpy.context.view_layer.layer_collection.children if each.name == "Sample Grounds")
+    ground = obj.fragmotion.ground
+    assert layer.exclude and ground.kind == "PLANE" and ground.collection == layer.collection
+    assert {thing.name for thing in bpy.context.view_layer.objects} == {"Fragmotion Sample", "Fragmotion Sample Body"}
+    ground.kind = "COLLECTION"
+    find_ground = addon.ground.meshes.find_ground
+    with pytest.raises(addon.errors.UserError, match="'Sample Grounds' holds no mesh that is visible: tick it"):
+        find_ground(bpy.context, obj)
+    layer.exclude = False
+    bpy.context.view_layer.update()
+    found = find_ground(bpy.context, obj)
+    height, *normal = found(3.0, -10.0, 5.0)
+    assert height == pytest.approx(2 * 0.36397, abs=1e-4) and normal[2] == pytest.approx(0.9397, abs=1e-3)
+    assert found(0.0, 0.0, 5.0)[0] == pytest.approx(0, abs=1e-5), "no level ground before the slope"
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    assert bpy.context.active_object.fragmotion.ground.collection == layer.collection, "there are two of it"
+    assert len(bpy.data.collections) == 1
+
+
 def test_it_can_be_added_twice(addon: ModuleType) -> None:
     for _ in range(2):
         assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}

@@ -26,7 +26,7 @@ PICTURES = {
     "import": ("1 importing", "2 imported", "3 mended"),
     "path": ("1 drawn", "2 followed"),
     "moves": ("1 moves", "2 jumping"),
-    "styles": ("1 takes", "2 coverage", "3 tired", "4 neutral"),
+    "styles": ("1 takes", "2 coverage", "2 classes", "3 tired", "3 inspector", "4 neutral"),
     "ground": ("1 chosen", "2 on the stairs"),
     "windows": (),
 }

@@ -68,6 +68,54 @@ def test_a_trace_drives_as_its_player_does(folder: Path, tmp_path: Path, capsys:
     assert 0 < float(str(by_player["percent_of_optimal"])) <= 100
 
 
+@pytest.fixture(scope="module")
+def styled(folder: Path) -> Path:
+    """A policy file of two styles, built of the same folder."""
+    path = folder / "styled.policy"
+    words = ("--policy", path, "--classes", 12, "--style", "Tired=*_tired*", "--style", "odd=nobody*")
+    assert run("build", folder / "takes", *words) == 1, "a pattern that no name fits"
+    for take in sorted((folder / "takes").glob("*.bvh")):
+        (folder / "takes" / f"{take.stem}_tired.bvh").write_bytes(take.read_bytes())
+    assert run("build", folder / "takes", *words[:-2]) == 0
+    return path
+
+
+def test_a_character_is_built_in_styles(styled: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert (
+        figures_of(capsys, "info", styled)["styles"] == ["neutral", "Tired"] == core.Character.load(styled).style_names
+    )
+
+
+def test_folders_tell_styles(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for style in ("neutral", "proud"):
+        (tmp_path / style).mkdir()
+        for take in (folder / "takes").glob("*.bvh"):
+            (tmp_path / style / take.name).write_bytes(take.read_bytes())
+    words = ("build", tmp_path, "--policy", tmp_path / "x.policy", "--classes", 12, "--folder-styles")
+    assert figures_of(capsys, *words)["styles"] == ["neutral", "proud"]
+
+
+def test_a_trace_plays_its_moves_and_styles(folder: Path, styled: Path, tmp_path: Path) -> None:
+    character = core.Character.load(styled)
+    clip = core.Clip.from_take(core.read_bvh(sorted((folder / "takes").glob("*.bvh"))[0]), character.skeleton)
+    character = character.with_moves([core.Move("go", clip)])
+    character.save(tmp_path / "moving.policy")
+    trace, path = np.tile((0, 1.2, 0, 0), (40, 1)), tmp_path / "trace.csv"
+    core.write_trace(path, trace, [(5, "go", 3)], [(0, "Tired"), (30, "neutral")])
+    assert core.read_asked(path) == ([(5, "go", 3)], [(0, "Tired"), (30, "neutral")])
+    words = ("play", tmp_path / "moving.policy", "--trace", path)
+    assert run(*words, "--bvh", tmp_path / "shot.bvh") == 0
+    player = core.Player(character, 1)
+    player.reset(style=1)
+    expected = player.run(trace, 30, moves=[[5, 0, 3]], styles=[[30, 0]])
+    hips = core.read_bvh(tmp_path / "shot.bvh").world_transforms()[0]
+    bone = character.skeleton.names.index(character.skeleton.roles["hips"])
+    clip = core.Clip(character.skeleton, "x", 30, expected.root_positions, expected.rotations)
+    np.testing.assert_allclose(hips[:, bone:], clip.world_transforms(character.skeleton)[0][:, bone:], atol=1e-4)
+    core.write_trace(path, trace, [(5, "juggle", 3)])
+    assert run(*words, "--bvh", tmp_path / "none.bvh") == 1 and not (tmp_path / "none.bvh").exists()
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -76,6 +124,8 @@ def test_a_trace_drives_as_its_player_does(folder: Path, tmp_path: Path, capsys:
         (("build", "alone.amc", "--policy", "x.policy"), "its skeleton alone.asf is not in the folder"),
         (("play", "{hero}", "--trace", "missing.csv", "--bvh", "x.bvh"), "missing.csv"),
         (("play", "{hero}", "--player", "walker", "--bvh", "no/x.bvh"), "no/x.bvh"),
+        (("build", "{takes}", "--style", "tired", "--policy", "x.policy"), "tells no name or no pattern"),
+        (("play", "{hero}", "--player", "walker", "--style", "sad", "--bvh", "x.bvh"), "its styles are none"),
         (("play", "{hero}", "--player", "walker", "--rate", "0", "--bvh", "x.bvh"), "rate"),
     ],
 )
@@ -91,7 +141,7 @@ def test_what_cannot_be_done_is_told(
     if "alone.amc" in words:
         Path("alone.amc").touch()
     before = sorted(tmp_path.iterdir())
-    assert run(*(word.format(hero=folder / "hero.policy") for word in words)) == 1
+    assert run(*(word.format(hero=folder / "hero.policy", takes=folder / "takes") for word in words)) == 1
     said = capsys.readouterr().err
     assert said.startswith("fragmotion: ") and message in said.replace("\\", "/")
     assert sorted(tmp_path.iterdir()) == before

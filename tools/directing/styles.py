@@ -19,6 +19,7 @@ from tools.shell import Failure
 
 _PRESSES = range(20, 40, 3)  # controls before which a change is asked for, so that it meets every phase of a gait
 _AFTER = 30  # controls that are played after it
+_JUMP = _PRESSES[0] - 1  # the control that jumps, where one does
 _STITCH = 0.2  # s after its beginning, at which a stitch is done most of its way
 _EXAMINED = 1000  # how far the seeds of the players that examine are from those that teach
 
@@ -80,12 +81,14 @@ def _percent(character: core.Character, seed: int) -> float:
 
 
 def _changes(character: core.Character, metrics: core.MotionMetrics, to: int) -> Iterator[Change]:
-    """Changes to a style from each other one, standing, walking, running and turning."""
+    """Changes to a style from each other one, standing, walking, running, turning, and in jumps."""
     for begin in set(range(len(character.style_names))) - {to}:
         space = character.in_style(begin).space
-        for control in ((0, 0, 0, 0), (0, space.walk, 0, 0), (0, space.run, 0, 0), (0, space.walk, 1, 0)):
+        gaits = ((0, 0, 0, 0), (0, space.walk, 0, 0), (0, space.run, 0, 0), (0, space.walk, 1, 0))
+        for control, jumps in ((gait, jumps) for gait in gaits for jumps in (False, space.jumps)):
             for press in _PRESSES:
                 trace = np.tile(np.array(control, float), (press + _AFTER, 1))
+                trace[_JUMP, 3] = jumps
                 player = core.Player(character, seed=press)
                 player.reset(style=begin)
                 yield _measured(character, metrics, player.run(trace, RATE, styles=[[press, to]]), press)

@@ -25,7 +25,7 @@ from ..recordings.recordings import (
     trace_of,
 )
 from ..recordings.styles import AS_EVER, Styled
-from ..recordings.traces import make_trace
+from ..recordings.traces import asked_beside, make_trace
 from ..rig.motion import Motion, resampled
 from ..settings.bake_fields import DRIVING
 
@@ -74,31 +74,40 @@ def prepare(
             return lambda _report: Played(resampled(*shown, rate), "as it was recorded")
     player = _player_for(obj, character, recorded, settings)
     player.stand_on(ground)
-    styled = _styled(obj, character, recording, settings)
     walk = getattr(settings, "walk", None)
     if walk is not None:
-        player.reset(style=styled.begin)
+        player.reset(style=_chosen_style(obj, character, settings))
         return lambda report: _played(player, walk.trace(player, rate), rate, report, ground)
+    moves, styled = _asked(obj, character, recording, settings)
     space = character.in_style(styled.begin).space
     trace = make_trace(settings, space) if recording is None else trace_of(recording)
-    moves = [] if recording is None else numbered_moves(recording, character.move_names)
     place = _place(context, obj, rig, settings) if recorded is None else recorded.start
     player.reset(*place, style=styled.begin)
 
     return lambda report: _played(player, trace, rate, report, ground, moves, styled)
 
 
-def _styled(obj: bpy.types.Object, character: Character, recording: Recording | None, settings: Any) -> Styled:
-    """The styles of the recording, else the one that BakeFields ask for; UserError where that is not there."""
+def _asked(
+    obj: bpy.types.Object, character: Character, recording: Recording | None, settings: Any
+) -> tuple[list[list[int]], Styled]:
+    """The moves and styles of the recording or the trace file; where that tells no style to begin in, it is the one
+    that BakeFields ask for. UserError where one is not there."""
     names = character.style_names
     if recording is not None:
-        return numbered_styles(recording, names)
+        return numbered_moves(recording, character.move_names), numbered_styles(recording, names)
+    chosen = _chosen_style(obj, character, settings)
+    return asked_beside(settings, character.move_names, names, chosen)
+
+
+def _chosen_style(obj: bpy.types.Object, character: Character, settings: Any) -> int:
+    """The style that BakeFields ask for; UserError where that is not there."""
+    names = character.style_names
     if settings.style and settings.style not in names:
         raise UserError(
             f"Armature '{obj.name}' has no style '{settings.style}': its styles are {', '.join(names) or 'none'}. "
             "Choose one of them under Bake, or Build with takes of that style"
         )
-    return Styled(names.index(settings.style) if settings.style else 0)
+    return names.index(settings.style) if settings.style else 0
 
 
 def _played(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import bpy
 import numpy as np
 
+from ..character.classes import name_of
 from ..compat import versions
 from ..errors import UserError
 from ..mocap.actions import BAKED, RATE
@@ -137,17 +138,11 @@ def _mark(
             action.pose_markers.remove(marker)
     changes = np.flatnonzero(np.diff(classes, prepend=-1))
     for index in changes if markers != "NONE" else ():
-        name, frame = _name_of(obj, int(classes[index])), target.first + int(index)
+        name, frame = name_of(obj, 0, int(classes[index])), target.first + int(index)
         if markers == "SCENE":
             scene.timeline_markers.new(name, frame=frame)
         else:
             action.pose_markers.new(name).frame = frame
-
-
-def _name_of(obj: bpy.types.Object, number: int) -> str:
-    """A class as the user calls it; a recording may be of a character of more classes."""
-    rows = obj.fragmotion.classes
-    return str(rows[number].name) if number < len(rows) else f"Class {number}"
 
 
 @contextmanager

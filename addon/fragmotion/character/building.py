@@ -36,7 +36,7 @@ _EXAM_SEED = 7_001
 _EXAMINERS = ("explorer", "runner")
 _FROM_TAKES = ("captured", "mirrored")
 _BUILD_SHARE = 0.95  # of the progress; the exam has the rest
-_cache: dict[tuple[str, tuple[int, ...]], Character] = {}  # by the policy's digest and the classes left out
+_cache: dict[tuple[str, tuple[Any, ...]], Character] = {}  # by the policy's digest and classes.all_excluded()
 
 
 class Built(NamedTuple):
@@ -173,7 +173,8 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
     """Store the character and its figures with the armature."""
     character, figures = _with_listed_moves(obj, built.character), obj.fragmotion.figures
     replace(obj, character)
-    classes.keep_rows(obj.fragmotion.classes, character)
+    words = classes.words_of(obj)
+    classes.keep_rows(obj.fragmotion.classes, character, words)
     figures.captured = sum(origin in _FROM_TAKES for origin in character.fragment_origins)
     figures.fragments = len(character.labels)
     figures.classes, figures.controls = character.table.shape
@@ -183,7 +184,7 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
     for policy, quality in built.qualities[0].items():
         row = figures.policies.add()
         row.name, row.quality = policy, quality
-    _keep_styles(figures, built)
+    _keep_styles(figures, built, words)
     figures.examiner, figures.sources = built.examiner, built.sources
     _keep_coverage(figures, character)
 
@@ -194,13 +195,15 @@ def coverage_by_style(character: Character) -> dict[str, list[Row]]:
     return {name: measure_coverage(styled.coverage_distances, layout_of(styled.space)) for name, styled in styles}
 
 
-def _keep_styles(figures: Any, built: Built) -> None:
+def _keep_styles(figures: Any, built: Built, words: dict[str, tuple[str, bool]]) -> None:
     figures.styles.clear()
     for name, styled, qualities in zip(built.character.style_names, in_styles(built.character), built.qualities):
         row = figures.styles.add()
         row.name, row.fragments, row.classes = name, len(styled.labels), len(styled.table)
         row.quality = next(iter(qualities.values()))
         _keep_coverage(row, styled)
+        if len(figures.styles) > 1:  # the first style's are the armature's own
+            classes.keep_rows(row.rows, styled, words)
 
 
 def replace(obj: bpy.types.Object, character: Character) -> None:
@@ -262,14 +265,16 @@ def has_character(obj: bpy.types.Object) -> bool:
 
 def load(obj: bpy.types.Object) -> Character:
     """The armature's character as it drives: never sent to the classes that are left out. Made once for each choice."""
-    whole, excluded = load_whole(obj), classes.excluded(obj)
+    whole, excluded = load_whole(obj), classes.all_excluded(obj)
     classes.check_rows(obj, whole)
     if not excluded:
         return whole
     key = (next(digest for digest, left in _cache if not left), excluded)
     if key not in _cache:
+        left = whole
         with core_errors(f"Armature '{obj.name}'"):
-            left = whole.without(excluded)
+            for style, numbers in excluded:
+                left = left.without(numbers, style)
         forget()
         _cache[key[0], ()], _cache[key] = whole, left
     return _cache[key]
@@ -296,7 +301,7 @@ def make_player(obj: bpy.types.Object, character: Character, seed: int, policy: 
 
 def load_to_draw(obj: bpy.types.Object) -> Character:
     """As `load`, quick enough for drawing: it takes Build's word for what the policy holds."""
-    character = _cache.get((obj.fragmotion.digest, classes.excluded(obj)))
+    character = _cache.get((obj.fragmotion.digest, classes.all_excluded(obj)))
     if character is None:
         return load(obj)
     classes.check_rows(obj, character)

@@ -59,14 +59,52 @@ class ClassRow(bpy.types.PropertyGroup):
     moment: StringProperty()  # type: ignore[valid-type]
 
 
-def keep_rows(rows: Any, character: Character) -> None:
+def shown_style(figures: Any) -> int:
+    """The number of the style whose classes and controls the panels show."""
+    last = len(figures.styles) - 1
+    return int(max(0, min(figures.active_style, last)))
+
+
+def rows_of(obj: bpy.types.Object, style: int) -> Any:
+    """The classes as they are listed of one of the armature's styles, of which the first is its own."""
+    settings = obj.fragmotion
+    return settings.figures.styles[style].rows if style else settings.classes
+
+
+def shown_rows(obj: bpy.types.Object) -> Any:
+    """The classes of the style that the panels show."""
+    return rows_of(obj, shown_style(obj.fragmotion.figures))
+
+
+def name_of(obj: bpy.types.Object, style: int, number: int) -> str:
+    """A class as the user calls it; one that is not listed, as of a character of more classes, by its number."""
+    rows = rows_of(obj, style)
+    return str(rows[number].name) if number < len(rows) else f"Class {number}"
+
+
+def words_of(obj: bpy.types.Object) -> dict[str, tuple[str, bool]]:
+    """What the user said of the classes that are listed, of all styles: by the fragment which represents one, its name
+    (empty: the suggested one) and whether it is left out."""
+    words = {}
+    for row in (row for style in _styles_of(obj) for row in rows_of(obj, style)):
+        own = row.name if row.name != row.suggested else ""
+        if own or row.excluded:
+            words[row.moment] = own, row.excluded
+    return words
+
+
+def keep_rows(rows: Any, character: Character, words: dict[str, tuple[str, bool]]) -> None:
     """List the character's classes.
 
-    What the user said of a class that was listed before, its name and whether it is left out, goes over to the class
-    that now holds the fragment which represented it, where the new takes still have that fragment.
+    What the user said of classes that were listed before goes over to the class that now holds the fragment which
+    represented it, where the new takes still have that fragment.
     """
     moments = _moments(character)
-    said = _said_of(rows, dict(zip(moments, character.labels.tolist())))
+    holders = dict(zip(moments, character.labels.tolist()))
+    said: dict[int, tuple[str, bool]] = {}
+    for moment, word in words.items():
+        if moment in holders:
+            said.setdefault(holders[moment], word)
     sizes = [0] * len(character.representatives)
     for label in character.labels.tolist():
         sizes[label] += 1
@@ -81,18 +119,31 @@ def keep_rows(rows: Any, character: Character) -> None:
 
 
 def check_rows(obj: bpy.types.Object, character: Character) -> None:
-    """UserError where the classes that are listed cannot be the character's: the .blend is damaged."""
-    listed, known = len(obj.fragmotion.classes), len(character.representatives)
-    if listed != known:
-        raise UserError(
-            f"Armature '{obj.name}' lists {listed} classes, but its policy has {known}: press Build again, or Load the "
-            "policy's file under Policy File"
-        )
+    """UserError where the classes that are listed cannot be the character's: the .blend is damaged. Older files list
+    those of the first style alone."""
+    pairs = [(len(obj.fragmotion.figures.styles), len(character.style_names), "styles")]
+    if pairs[0][0] == pairs[0][1]:
+        for style in _styles_of(obj):
+            listed = len(rows_of(obj, style))
+            if listed or not style:
+                pairs.append((listed, len(character.in_style(style).representatives), "classes"))
+    for listed, known, what in pairs:
+        if listed != known:
+            raise UserError(
+                f"Armature '{obj.name}' lists {listed} {what}, but its policy has {known}: press Build again, or Load "
+                "the policy's file under Policy File"
+            )
 
 
-def excluded(obj: bpy.types.Object) -> tuple[int, ...]:
-    """The numbers of the armature's classes that are left out."""
-    return tuple(number for number, row in enumerate(obj.fragmotion.classes) if row.excluded)
+def excluded(obj: bpy.types.Object, style: int = 0) -> tuple[int, ...]:
+    """The numbers of a style's classes that are left out."""
+    return tuple(number for number, row in enumerate(rows_of(obj, style)) if row.excluded)
+
+
+def all_excluded(obj: bpy.types.Object) -> tuple[tuple[int, tuple[int, ...]], ...]:
+    """The styles of which classes are left out, and which those are."""
+    left_out = ((style, excluded(obj, style)) for style in _styles_of(obj))
+    return tuple((style, numbers) for style, numbers in left_out if numbers)
 
 
 def describe(control: Sequence[float], space: ControlSpace) -> str:
@@ -121,27 +172,20 @@ def sketch(control: Sequence[float], space: ControlSpace) -> str:
 
 
 def driven(obj: bpy.types.Object) -> Session | None:
-    """The drive that moves this armature now, in the first style, whose classes the list has; else None."""
-    drives = session is not None and session.armature == obj.name and session.player.playing_style == 0
-    return session if drives else None
+    """The drive that moves this armature now; else None."""
+    return session if session is not None and session.armature == obj.name else None
 
 
 def force(obj: bpy.types.Object, number: int) -> None:
-    """Let the drive in progress play the class now; UserError where none moves the armature."""
+    """Let the drive in progress play the class of its style now; UserError where none moves the armature."""
     drive = driven(obj)
     if drive is None:
         raise UserError(f"Armature '{obj.name}' is not being driven: start Drive first")
     drive.player.force(number)
 
 
-def _said_of(rows: Any, holders: dict[str, int]) -> dict[int, tuple[str, bool]]:
-    """By new class number: a name that the user gave (or empty), and whether the class was left out."""
-    said: dict[int, tuple[str, bool]] = {}
-    for row in rows:
-        own = row.name if row.name != row.suggested else ""
-        if row.moment in holders and (own or row.excluded):
-            said.setdefault(holders[row.moment], (own, row.excluded))
-    return said
+def _styles_of(obj: bpy.types.Object) -> range:
+    return range(max(len(obj.fragmotion.figures.styles), 1))
 
 
 def _moments(character: Character) -> list[str]:

@@ -40,6 +40,15 @@ _TURNS = (
 _MOST_FUTURE = 9.0  # Eq. 2 of at most 1 a step, discounted by 0.9 from the next step on
 
 
+class Decision(NamedTuple):
+    """Which of a style's classes plays, what is asked for, by the control's index, and whether a drive says so."""
+
+    style: int
+    playing: int
+    control: int
+    live: bool
+
+
 class FragmentShown(NamedTuple):
     """A fragment as the user knows it."""
 
@@ -101,16 +110,18 @@ class InspectorSettings(bpy.types.PropertyGroup):
     )
 
 
-def decision(obj: bpy.types.Object, settings: Any, active_class: int) -> tuple[int, int, bool]:
-    """The class that plays, the control's index, and whether a drive says so."""
+def decision(obj: bpy.types.Object, settings: Any, active_class: int) -> Decision:
+    """What is explained: what the drive plays in the style that it is in, else what is chosen in the panels."""
     drive = classes.driven(obj) if settings.follow else None
     if drive is not None:
-        space = building.load_to_draw(obj).space
-        return drive.player.playing[0], int(space.nearest([list(drive.control)])[0]), True
-    playing = min(active_class, len(obj.fragmotion.classes) - 1)
-    layout = layout_of(building.load_to_draw(obj).space)
+        style = drive.player.playing_style
+        space = building.load_to_draw(obj).in_style(style).space
+        return Decision(style, drive.player.playing[0], int(space.nearest([list(drive.control)])[0]), True)
+    style = classes.shown_style(obj.fragmotion.figures)
+    character = building.load_to_draw(obj).in_style(style)
+    playing, layout = min(active_class, len(character.representatives) - 1), layout_of(character.space)
     parts = (_velocity(layout, settings), int(settings.turn), int(settings.jump))
-    return playing, int(np.ravel_multi_index(parts, layout.shape, mode="clip")), False
+    return Decision(style, playing, int(np.ravel_multi_index(parts, layout.shape, mode="clip")), False)
 
 
 def _velocity(layout: ControlLayout, settings: Any) -> int:
@@ -122,14 +133,15 @@ def _velocity(layout: ControlLayout, settings: Any) -> int:
     return 1 + off.index(min(off)) * layout.directions + direction
 
 
-def explain(obj: bpy.types.Object, playing: int, control: int) -> list[Line]:
-    """The best classes after class `playing` under a control index, and the one that the policy says."""
-    character = building.load_to_draw(obj)
-    inspected, rows = inspect(character), obj.fragmotion.classes
-    chosen, left_out = int(character.table[playing, control]), classes.excluded(obj)
+def explain(obj: bpy.types.Object, what: Decision) -> list[Line]:
+    """The best classes after the one that plays, and the one that the policy says."""
+    style, playing, control, _ = what
+    character = building.load_to_draw(obj).in_style(style)
+    inspected = inspect(character)
+    chosen, left_out = int(character.table[playing, control]), classes.excluded(obj, style)
     allowed = [each for each in inspected.explain(playing, control) if each.next not in left_out]
     lines = allowed[:BEST] + [each for each in allowed[BEST:] if each.next == chosen]
-    _shown[:] = [inspected.line(each, rows[each.next].name, each.next == chosen) for each in lines]
+    _shown[:] = [inspected.line(each, classes.name_of(obj, style, each.next), each.next == chosen) for each in lines]
     return _shown
 
 

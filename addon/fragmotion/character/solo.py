@@ -29,17 +29,17 @@ _POSED = ("location", "rotation_quaternion", "rotation_euler", "rotation_axis_an
 class Solo:
     """Plays a class from where the armature stands until `end`, which puts armature and scene back."""
 
-    def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, number: int) -> None:
+    def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, number: int, style: int = 0) -> None:
         character = building.load_whole(obj)
         context.view_layer.update()
-        self._rig, self._obj, self._number = make_rig(obj), obj, number
+        self._rig, self._obj, self._number, self._style = make_rig(obj), obj, number, style
         building.check_skeleton(obj, character, self._rig)
         place = obj.matrix_world
         self._name, self._data, self._bones = obj.name, obj.data, len(obj.pose.bones)
         self._place = (place.translation.x, place.translation.y, place.to_euler().z + math.pi)
         self._reach = _FURTHEST / character.space.scale
         self._order = [obj.data.bones.find(bone.name) for bone in obj.pose.bones]
-        self._durations = character.fragment_durations
+        self._durations = character.in_style(style).fragment_durations
         self._player = core.Player(character)
         self._begin()
         self._stack = ExitStack()
@@ -78,7 +78,7 @@ class Solo:
             self._stack.close()
 
     def _begin(self) -> None:
-        self._player.reset(*self._place)
+        self._player.reset(*self._place, style=self._style)
         self._next()
 
     def _next(self) -> None:

@@ -215,13 +215,16 @@ class Session:
         styled: Styled = AS_EVER,
     ) -> None:
         """Let a trace [T,4] drive, with moves [M,3] and changes of style, until it ends or another input is touched;
-        from a character frame, in the style in which it begins, if one is given."""
+        from a character frame, if one is given. It begins in its style: changes to it, without a frame."""
         self._replays = start is not None
         if start is not None:
             self._begin(start, styled)
             self._held = set()
             self.readings = Readings(self.actor, RATE)
+        self.styling.want(styled.begin)
         self.inputs.play(trace, moves, styled.changes)
+        if styled.remark:
+            self.inputs.messages.append(f"It plays {styled.remark}")
 
     def _begin(self, start: tuple[float, float, float], styled: Styled) -> None:
         """Stand where a recording begins, in its style."""
@@ -391,8 +394,6 @@ def replay(
     try:
         styled = numbered_styles(recording, driven.styling.names)
         driven.play(trace, begin, numbered_moves(recording, names_of(driven.actor.character)), styled)
-        if styled.remark:
-            driven.inputs.messages.append(f"Replaying '{recording.name}' {styled.remark}")
     except BaseException:
         stop(push=False)
         raise

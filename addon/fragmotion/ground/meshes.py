@@ -95,7 +95,10 @@ def _chosen_collection(settings: Any, own: set[bpy.types.Object]) -> list[bpy.ty
         if each.type in WITH_FACES and each not in own and _is_there(each) and each.visible_get()
     ]
     if not chosen:
-        raise UserError(f"The ground collection '{settings.collection.name}' holds no mesh that is visible: {_HELP}")
+        raise UserError(
+            f"The ground collection '{settings.collection.name}' holds no mesh that is visible: tick it in the "
+            f"outliner, or {_HELP}"
+        )
     return chosen
 
 

@@ -13,7 +13,7 @@ from ..errors import UserError
 from ..operators.base import background
 from ..operators.base.context import active_armature
 from ..operators.character import solo_class
-from ..settings.drawing import draw_wrapped
+from ..settings.drawing import draw_shown_style, draw_wrapped
 from .sidebar import SubPanel
 
 _ROWS = 7
@@ -79,11 +79,15 @@ class FRAGMOTION_PT_classes(_ClassPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, obj = self.layout, active_armature(context)
-        settings, rows = context.window_manager.fragmotion, obj.fragmotion.classes
-        layout.template_list(
-            "FRAGMOTION_UL_classes", "", obj.fragmotion, "classes", settings, "active_class", rows=_ROWS
-        )
-        left_out = len(classes.excluded(obj))
+        settings, figures = context.window_manager.fragmotion, obj.fragmotion.figures
+        draw_shown_style(layout, figures)
+        style = classes.shown_style(figures)
+        rows, left_out = classes.rows_of(obj, style), len(classes.excluded(obj, style))
+        if not rows:
+            draw_wrapped(layout.column(align=True), context, "Build again to list the classes of this style", "INFO")
+            return
+        listed = (figures.styles[style], "rows") if style else (obj.fragmotion, "classes")
+        layout.template_list("FRAGMOTION_UL_classes", "", *listed, settings, "active_class", rows=_ROWS)
         if left_out:
             layout.label(text=f"{left_out} of {len(rows)} left out", icon="HIDE_ON")
         if settings.active_class < len(rows):
@@ -114,17 +118,23 @@ class FRAGMOTION_PT_inspector(_ClassPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout, obj = self.layout, active_armature(context)
         manager = context.window_manager.fragmotion
+        figures = obj.fragmotion.figures
         try:
-            playing, control, live = inspector.decision(obj, manager.inspector, manager.active_class)
-            lines = inspector.explain(obj, playing, control)
+            what = inspector.decision(obj, manager.inspector, manager.active_class)
+            lines = inspector.explain(obj, what)
         except UserError as error:
             draw_wrapped(layout.column(align=True), context, str(error), "ERROR")
             return
         if classes.driven(obj) is not None:
             layout.prop(manager.inspector, "follow")
-        if not live:
-            _draw_control(layout, manager.inspector, kept_layout(obj.fragmotion.figures) or ControlLayout())
-        draw_wrapped(layout.column(align=True), context, f"After '{obj.fragmotion.classes[playing].name}':")
+        if not what.live:
+            draw_shown_style(layout, figures)
+            styled = figures.styles[what.style] if figures.styles else figures
+            _draw_control(layout, manager.inspector, kept_layout(styled) or ControlLayout())
+        elif figures.styles:
+            layout.label(text=f"Style: {figures.styles[what.style].name}", translate=False)
+        name = classes.name_of(obj, what.style, what.playing)
+        draw_wrapped(layout.column(align=True), context, f"After '{name}':")
         _draw_heads(layout)
         for index, line in enumerate(lines):
             _draw_alternative(layout, context, index, line)

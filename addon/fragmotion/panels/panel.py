@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import bpy
 
 from ..character import building
+from ..character.classes import shown_style
 from ..character.control_layout import kept_layout
 from ..character.coverage_picture import draw_pictures
 from ..character.staleness import is_stale
@@ -25,6 +26,7 @@ from ..settings.drawing import (
     draw_coverage,
     draw_figures,
     draw_keeping,
+    draw_shown_style,
     draw_summary,
     draw_training,
     draw_wrapped,
@@ -217,9 +219,9 @@ class FRAGMOTION_PT_coverage(_BuildSubPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         figures = active_armature(context).fragmotion.figures
+        draw_shown_style(self.layout, figures)
         if figures.styles:
-            self.layout.prop(figures, "coverage_style", text="")
-            figures = figures.styles[int(figures.coverage_style)]
+            figures = figures.styles[shown_style(figures)]
         if figures.distances:
             draw_pictures(self.layout, figures.distances, kept_layout(figures), context.region.width)
         draw_coverage(self.layout, figures)

@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
+from ..errors import UserError
 from .styles import StyleChange
 
 
@@ -23,6 +24,20 @@ class Asked(NamedTuple):
     moves: Sequence[StartedMove] = ()
     style: str = ""
     styles: Sequence[StyleChange] = ()
+
+
+def number_moves(
+    moves: Sequence[StartedMove], names: Sequence[str], starter: Callable[[StartedMove], str]
+) -> list[list[int]]:
+    """Moves that were started as Player.run has them [M,3], numbered as in `names`; UserError, which begins with what
+    starts it, where one is not there."""
+    for move in moves:
+        if move.name not in names:
+            raise UserError(
+                f"{starter(move)} starts the move '{move.name}', which the character does not have: add it under "
+                "Moves, with that name"
+            )
+    return [[move.control, list(names).index(move.name), move.held] for move in moves]
 
 
 def joined_asked(first: Asked, length: int, second: Asked) -> Asked:

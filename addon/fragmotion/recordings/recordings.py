@@ -18,7 +18,7 @@ from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty, IntPrope
 
 from ..errors import UserError
 from ..rig.motion import Motion
-from .asked import Asked, StartedMove
+from .asked import Asked, StartedMove, number_moves
 from .styles import StyleChange, Styled, numbered, read_changes, set_styles, trimmed
 
 if TYPE_CHECKING:
@@ -167,14 +167,7 @@ def moves_of(recording: Recording) -> list[StartedMove]:
 def numbered_moves(recording: Recording, names: Sequence[str]) -> list[list[int]]:
     """The moves that were started as Player.run has them [M,3], numbered as in `names`; UserError where one is not
     there."""
-    moves = moves_of(recording)
-    missing = sorted({move.name for move in moves} - set(names))
-    if missing:
-        raise UserError(
-            f"Recording '{recording.name}' starts the move '{missing[0]}', which the character does not have: add it "
-            "under Moves, with that name"
-        )
-    return [[move.control, list(names).index(move.name), move.held] for move in moves]
+    return number_moves(moves_of(recording), names, lambda _: f"Recording '{recording.name}'")
 
 
 def styles_of(recording: Recording) -> list[StyleChange]:
@@ -188,6 +181,11 @@ def styles_of(recording: Recording) -> list[StyleChange]:
 def numbered_styles(recording: Recording, names: Sequence[str]) -> Styled:
     """The recording's styles, numbered as in `names`; UserError where the .blend is damaged."""
     return numbered(recording.style, styles_of(recording), names)
+
+
+def asked_of(recording: Recording) -> Asked:
+    """What it asks for beside its trace; UserError where the .blend is damaged."""
+    return Asked(moves_of(recording), recording.style, styles_of(recording))
 
 
 def asked_between(recording: Recording, first: int, last: int) -> Asked:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The trace that a stage's settings ask for."""
+"""The trace that a stage's settings ask for, and trace files."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,10 +12,14 @@ import bpy
 from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..files import check_regular
+from .asked import Asked, StartedMove, number_moves
 from .recordings import trace_of, trained_on
+from .styles import StyleChange, Styled, numbered
 
 if TYPE_CHECKING:
     from fragmotion_core import ControlSpace, Doubles
+
+_FIRST_LINE = 2  # of a trace file's controls
 
 
 def make_traces(obj: bpy.types.Object, settings: Any, space: ControlSpace) -> list[Doubles]:
@@ -37,10 +42,42 @@ def make_trace(settings: Any, space: ControlSpace | None = None) -> Doubles:
         with core_errors("Simulated player"):
             simulated: Doubles = core.simulate_trace(settings.player, settings.seconds, settings.seed, space)
             return simulated
-    if not settings.trace_file:
-        raise UserError("No trace file is chosen: choose a CSV file, or Simulated as the trace")
-    path = Path(bpy.path.abspath(settings.trace_file))
+    return read_trace_file(_file_of(settings))[0]
+
+
+def asked_beside(
+    settings: Any, move_names: Sequence[str], style_names: Sequence[str], style: int = 0
+) -> tuple[list[list[int]], Styled]:
+    """What the trace of settings as those of make_trace() asks for beside: moves [M,3] and styles, numbered as the
+    character's names are, by default beginning in `style`. UserError where it does not have a move."""
+    if settings.trace_source != "FILE":
+        return [], Styled(style)
+    path = _file_of(settings)
+    _, asked = read_trace_file(path)
+    moves = number_moves(asked.moves, move_names, lambda move: f"'{path}', line {move.control + _FIRST_LINE},")
+    styled = numbered(asked.style, asked.styles, style_names)
+    return moves, styled if asked.style else styled._replace(begin=style)
+
+
+def read_trace_file(path: Path) -> tuple[Doubles, Asked]:
+    """The trace [T,4] of a CSV file, and what it asks for beside; UserError with the line on what is none."""
     check_regular(path)
     with core_errors():
-        trace: Doubles = core.read_trace(path)
-        return trace
+        moves, styles = core.read_asked(path)
+        begin = [name for control, name in styles if control == 0]
+        changes = [StyleChange(*style) for style in styles[len(begin) :]]
+        asked = Asked([StartedMove(*move) for move in moves], "".join(begin), changes)
+        return core.read_trace(path), asked
+
+
+def write_trace_file(path: Path, trace: Doubles, asked: Asked) -> None:
+    """Write what read_trace_file() reads; UserError where that cannot be."""
+    begins = [StyleChange(0, asked.style)] if asked.style else []
+    with core_errors():
+        core.write_trace(path, trace, list(asked.moves), [*begins, *asked.styles])
+
+
+def _file_of(settings: Any) -> Path:
+    if not settings.trace_file:
+        raise UserError("No trace file is chosen: choose a CSV file, or Simulated as the trace")
+    return Path(bpy.path.abspath(settings.trace_file))

@@ -15,7 +15,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from ..character.classes import ClassRow
+from ..character.classes import ClassRow, shown_style
 from ..character.control_layout import ControlLayout
 from ..character.coverage import COLUMNS
 from ..character.moves import MoveRow
@@ -205,6 +205,8 @@ class StyleFigure(_Coverage, bpy.types.PropertyGroup):
     fragments: IntProperty()  # type: ignore[valid-type]
     classes: IntProperty()  # type: ignore[valid-type]
     quality: FloatProperty()  # type: ignore[valid-type]
+    rows: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]
+    """Its classes; the first style's are the armature's."""
 
 
 _listed: list[tuple[str, str, str]] = []  # Blender keeps no reference to an enumeration's texts
@@ -212,13 +214,11 @@ _listed: list[tuple[str, str, str]] = []  # Blender keeps no reference to an enu
 
 def _styles(figures: BuildFigures, _context: bpy.types.Context | None) -> list[tuple[str, str, str]]:
     """The character's styles, as EnumProperty wants them."""
-    _listed[:] = [(str(i), style.name, "Show the coverage of this style") for i, style in enumerate(figures.styles)]
+    _listed[:] = [
+        (str(i), style.name, "Show the classes, the decisions and the coverage of this style")
+        for i, style in enumerate(figures.styles)
+    ]
     return _listed
-
-
-def _shown_style(figures: BuildFigures) -> int:
-    chosen, last = int(figures.active_style), len(figures.styles) - 1
-    return max(0, min(chosen, last))
 
 
 def _show_style(figures: BuildFigures, number: int) -> None:
@@ -238,11 +238,11 @@ class BuildFigures(_Coverage, bpy.types.PropertyGroup):
     sources: StringProperty()  # type: ignore[valid-type]
     policies: CollectionProperty(type=PolicyFigure)  # type: ignore[valid-type]
     styles: CollectionProperty(type=StyleFigure)  # type: ignore[valid-type]
-    coverage_style: EnumProperty(  # type: ignore[valid-type]
+    shown_style: EnumProperty(  # type: ignore[valid-type]
         name="Style",
-        description="The style whose controls are shown",
+        description="The style whose classes, decisions and controls the panels show",
         items=_styles,
-        get=_shown_style,
+        get=shown_style,
         set=_show_style,
     )
     active_style: IntProperty(min=0)  # type: ignore[valid-type]

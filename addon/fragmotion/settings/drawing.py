@@ -143,6 +143,12 @@ def draw_figures(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
     _draw_row(box, "Measured on", figures.examiner.title())
 
 
+def draw_shown_style(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
+    """The style that panels show, where there are any."""
+    if figures.styles:
+        layout.prop(figures, "shown_style", text="")
+
+
 def draw_keeping(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
     """Where the policy is kept."""
     settings = obj.fragmotion

@@ -2,6 +2,7 @@
 #include "fragmotion/build/exclude_classes.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 #include "fragmotion/policy/bridge.hpp"
@@ -47,9 +48,7 @@ void avoid(const std::vector<bool>& allowed, const Character& whole, Policy& pol
   }
 }
 
-}  // namespace
-
-Character without_classes(const Character& character, const std::vector<int>& excluded) {
+Character first_style_without(const Character& character, const std::vector<int>& excluded) {
   const std::vector<bool> allowed = allowed_classes(character.classes.count, excluded);
   Character result = character;
   for (Policy& policy : result.policies) avoid(allowed, character, policy);
@@ -59,6 +58,17 @@ Character without_classes(const Character& character, const std::vector<int>& ex
     std::fill_n(&result.quality.match[static_cast<std::size_t>(k) * controls], controls, 0.0);
   result.bridges = stand_bridges(result.pool.fragments, trajectories(result.pool, 2), result.classes, result.space,
                                  kBridgeDistance, allowed);
+  return result;
+}
+
+}  // namespace
+
+Character without_classes(const Character& character, const std::vector<int>& excluded, int style) {
+  check_style(character, style);
+  if (style == 0) return first_style_without(character, excluded);
+  Character result = character;
+  result.styles[style - 1] =
+      std::make_shared<const Character>(first_style_without(character.in_style(style), excluded));
   return result;
 }
 

@@ -17,6 +17,12 @@ const Policy& Character::policy(const std::string& name) const {
   throw std::invalid_argument("this character has no policy \"" + name + "\"; it has " + listed(names));
 }
 
+void check_style(const Character& character, int style) {
+  if (style >= 0 && style < character.style_count()) return;
+  throw std::invalid_argument("style " + std::to_string(style) + " does not exist; the character has " +
+                              std::to_string(character.style_count()));
+}
+
 void repair_policies(Character& character) {
   std::vector<Control> evident;
   for (const int fragment : character.classes.representatives)

@@ -7,7 +7,13 @@
 
 namespace fragmotion {
 
-/// read_trace() of a text at hand; `file` names it in errors.
-Trace parse_trace(const std::string& text, const std::string& file);
+/// What a trace file holds.
+struct TraceFile {
+  Trace trace;
+  Asked asked;
+};
+
+/// read_trace() and read_asked() of a text at hand; `file` names it in errors.
+TraceFile parse_trace(const std::string& text, const std::string& file);
 
 }  // namespace fragmotion

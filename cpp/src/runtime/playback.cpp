@@ -129,6 +129,13 @@ bool Playback::is_jumping() const {
   return f.evident.jumps() && now_.seconds * clip(now_).rate < landed;
 }
 
+bool Playback::has_landed() const {
+  if (contacts().feet[0].empty()) return !is_jumping();
+  const Fragment& f = fragment();
+  const bool flown = now_.seconds * clip(now_).rate >= f.end - f.first_played();
+  return !f.evident.jumps() || (flown && !is_in_the_air());
+}
+
 std::size_t Playback::frame_of_clip(double seconds) const {
   const PackedClip& source = clip(now_);
   const long at = std::lround(fragment().first_played() + seconds * source.rate);

@@ -67,7 +67,7 @@ void Player::check_step(const Control& control, double seconds) {
 }
 
 void Player::reset(const CharacterFrame& frame, int style) {
-  check_style(style);
+  check_style(*character_, style);
   for (const double value : {frame.position.x(), frame.position.y(), frame.heading})
     require_range("the place and the heading to stand at", value, -kFarthestPlace, kFarthestPlace);
   limit_.reset(frame.heading);

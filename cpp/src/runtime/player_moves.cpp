@@ -54,9 +54,9 @@ void Player::imitate(const Player& other) {
   correction_ = other.correction_;
 }
 
-bool Player::can_begin_move() const {
-  return !playback_.is_jumping() && playback_.seconds() > playback_.faded() - kInstant;
-}
+bool Player::is_stitched() const { return playback_.seconds() > playback_.faded() - kInstant; }
+
+bool Player::can_begin_move() const { return !playback_.is_jumping() && is_stitched(); }
 
 // Whether the moment has come for the move that waits in a track.
 template <typename Cost>
@@ -67,7 +67,7 @@ bool Player::is_due(MoveTrack& track, const Control& control, const Cost& cost) 
     if (extras_->whole_body.plays()) {
       moment.plan(0, control);  // what goes over another begins at once
     } else {
-      plan(moment, control, cost);
+      plan(moment, control, &Player::can_begin_move, cost);
     }
   }
   return moment.until() < kInstant && can_begin_move();

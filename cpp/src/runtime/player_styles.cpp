@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <stdexcept>
 
 #include "runtime/plan_moment.hpp"
 
 namespace fragmotion {
-void Player::check_style(int style) const {
-  if (style >= 0 && style < character_->style_count()) return;
-  throw std::invalid_argument("style " + std::to_string(style) + " does not exist; the character has " +
-                              std::to_string(character_->style_count()));
-}
-
 void Player::change_style(int style) {
-  check_style(style);
+  check_style(*character_, style);
   if (extras_ == nullptr) return;
   extras_->style.waiting = style == playing_style() ? -1 : style;
   extras_->style.moment.await(kStyleWait);
@@ -40,16 +33,19 @@ double Player::distance_to_style(int style, const Control& wanted) const {
   return there.distance_to_class(there.best_class(wanted, playback_), wanted, playback_);
 }
 
+bool Player::can_change_style() const { return playback_.has_landed() && is_stitched(); }
+
 // Begins the style that waits, where its moment has come. Returns as begin_moves().
 double Player::begin_style(const Control& control, double most) {
   const int style = waiting_style();
   if (style < 0 || extras_->whole_body.plays()) return most;
   Moment& moment = extras_->style.moment;
   if (moment.needs_plan(control, styled_character().space)) {
-    plan(moment, control, [&](const Player& p) { return p.distance_to_style(style, p.wanted(control)); });
+    plan(moment, control, &Player::can_change_style,
+         [&](const Player& p) { return p.distance_to_style(style, p.wanted(control)); });
   }
   if (moment.until() > kInstant) return std::min(most, moment.until());
-  if (can_begin_move()) {
+  if (can_change_style()) {
     set_style(style);
     enter_best_class(wanted(control));
   }

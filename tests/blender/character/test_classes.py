@@ -205,10 +205,11 @@ def test_the_inspector_shows_the_best_and_the_chosen(addon: ModuleType, obj: bpy
     core, character = addon.compat.core.core, addon.character.building.load(obj)
     settings = bpy.context.window_manager.fragmotion.inspector
     settings.gait, settings.direction, settings.turn, settings.jump = "run", "0", "2", True
-    playing, control, live = addon.character.inspector.decision(obj, settings, 4)
+    what = addon.character.inspector.decision(obj, settings, 4)
+    _, playing, control, live = what
     assert (playing, live) == (4, False)
     assert character.space.points[control].tolist() == [0, character.space.run, 1, 1]
-    lines = addon.character.inspector.explain(obj, playing, control)
+    lines = addon.character.inspector.explain(obj, what)
     ranked = core.Explainer(character)(playing, control)
     best = [each.next for each in ranked[: addon.character.inspector.BEST]]
     assert [line.number for line in lines[: addon.character.inspector.BEST]] == best
@@ -222,17 +223,18 @@ def test_the_inspector_shows_the_best_and_the_chosen(addon: ModuleType, obj: bpy
 def test_the_inspector_follows_the_drive(addon: ModuleType, obj: bpy.types.Object) -> None:
     settings, session = bpy.context.window_manager.fragmotion.inspector, start_session(addon, obj)
     space = session.player and addon.character.building.load(obj).space
-    expected = (session.player.playing[0], int(space.nearest([session.control])[0]), True)
+    expected = (0, session.player.playing[0], int(space.nearest([session.control])[0]), True)
     assert addon.character.inspector.decision(obj, settings, 0) == expected
     settings.follow = False
-    assert addon.character.inspector.decision(obj, settings, 0)[2] is False
+    assert addon.character.inspector.decision(obj, settings, 0).live is False
 
 
 def test_the_inspector_offers_no_class_that_is_left_out(addon: ModuleType, obj: bpy.types.Object) -> None:
-    first = [line.number for line in addon.character.inspector.explain(obj, 0, 8)][:2]
+    what = addon.character.inspector.Decision(0, 0, 8, False)
+    first = [line.number for line in addon.character.inspector.explain(obj, what)][:2]
     for number in first:
         obj.fragmotion.classes[number].excluded = True
-    lines = addon.character.inspector.explain(obj, 0, 8)
+    lines = addon.character.inspector.explain(obj, what)
     assert not {line.number for line in lines} & set(first) and any(line.chosen for line in lines)
 
 

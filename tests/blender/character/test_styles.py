@@ -120,15 +120,96 @@ def test_each_style_has_its_coverage(addon: ModuleType, obj: bpy.types.Object) -
     assert rows[NEUTRAL].performed > rows[TIRED].performed > 0
 
 
-def test_the_style_whose_coverage_is_shown_is_one_that_there_is(addon: ModuleType, obj: bpy.types.Object) -> None:
+def test_the_style_that_is_shown_is_one_that_there_is(addon: ModuleType, obj: bpy.types.Object) -> None:
     figures = obj.fragmotion.figures
     bpy.context.view_layer.objects.active = making.add_mesh(obj)  # whose panel is the armature's
-    figures.coverage_style = str(TIRED)
-    assert figures.coverage_style == str(TIRED)
+    figures.shown_style = str(TIRED)
+    assert figures.shown_style == str(TIRED)
     figures.styles.remove(TIRED)
-    assert figures.coverage_style == str(PROUD)
+    assert figures.shown_style == str(PROUD)
     figures.styles.clear()
-    assert figures.coverage_style == ""
+    assert figures.shown_style == ""
+
+
+def test_the_classes_of_each_style_are_listed(addon: ModuleType, obj: bpy.types.Object) -> None:
+    classes, building = part(addon, "character.classes"), part(addon, "character.building")
+    for number, styled in enumerate(building.in_styles(building.load(obj))):
+        obj.fragmotion.figures.shown_style = str(number)
+        rows = classes.shown_rows(obj)
+        assert [row.name for row in rows] == styled.class_names
+        assert [row.fragments for row in rows] == np.bincount(styled.labels).tolist()
+
+
+def test_classes_of_a_style_are_named_and_left_out_for_themselves(addon: ModuleType, obj: bpy.types.Object) -> None:
+    classes, building = part(addon, "character.classes"), part(addon, "character.building")
+    whole = building.load(obj)
+    often = int(np.bincount(whole.in_style(TIRED).table.ravel()).argmax())
+    row = classes.rows_of(obj, TIRED)[often]
+    row.name, row.excluded = "trudge", True
+    left = building.load(obj)
+    assert building.load(obj) is left is building.load_to_draw(obj), "it is made again for each call"
+    assert not (left.in_style(TIRED).table == often).any()
+    for style in (NEUTRAL, PROUD):
+        assert (left.in_style(style).table == whole.in_style(style).table).all()
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=30) == {"FINISHED"}
+    named = [row.name for row in classes.rows_of(obj, TIRED) if row.excluded]
+    assert named == ["trudge"] and classes.all_excluded(obj)[0][0] == TIRED
+
+
+def test_a_file_that_lists_the_classes_of_one_style_alone_drives(addon: ModuleType, obj: bpy.types.Object) -> None:
+    inspector, building = part(addon, "character.inspector"), part(addon, "character.building")
+    for style in obj.fragmotion.figures.styles:
+        style.rows.clear()
+    obj.fragmotion.figures.shown_style = str(TIRED)
+    settings = bpy.context.window_manager.fragmotion.inspector
+    assert building.load(obj).style_names == NAMES
+    assert inspector.explain(obj, inspector.decision(obj, settings, 99))[0].name.startswith("Class ")
+    obj.fragmotion.figures.styles.remove(TIRED)
+    with pytest.raises(addon.errors.UserError, match="lists 2 styles, but its policy has 3: press Build again"):
+        building.load(obj)
+
+
+def test_the_inspector_explains_the_style_that_is_shown(addon: ModuleType, obj: bpy.types.Object) -> None:
+    inspector, core = part(addon, "character.inspector"), part(addon, "compat.core").core
+    settings, character = bpy.context.window_manager.fragmotion.inspector, part(addon, "character.building").load(obj)
+    for style in (TIRED, NEUTRAL):
+        obj.fragmotion.figures.shown_style = str(style)
+        what = inspector.decision(obj, settings, 7)
+        styled = character.in_style(style)
+        lines = inspector.explain(obj, what)
+        best = [each.next for each in core.Explainer(styled)(7, what.control)][: inspector.BEST]
+        assert (what.style, what.playing, what.live) == (style, 7, False)
+        assert [line.number for line in lines][: inspector.BEST] == best
+        assert [line.name for line in lines] == [styled.class_names[line.number] for line in lines]
+        assert [line.number for line in lines if line.chosen] == [styled.table[7, what.control]]
+
+
+def test_the_inspector_and_force_are_of_the_style_that_is_driven(
+    addon: ModuleType, session: ModuleType, obj: bpy.types.Object
+) -> None:
+    inspector, classes = part(addon, "character.inspector"), part(addon, "character.classes")
+    settings, driven = bpy.context.window_manager.fragmotion.inspector, driving.start(session, obj)
+    driven.styling.want(TIRED)
+    driving.go_on(driven, 1.5)
+    what = inspector.decision(obj, settings, 0)
+    assert (what.style, what.playing, what.live) == (TIRED, driven.player.playing[0], True)
+    rows = classes.rows_of(obj, TIRED)
+    assert all(line.name == rows[line.number].name for line in inspector.explain(obj, what))
+    assert not bpy.ops.fragmotion.force_class.poll(), "the list is of another style"
+    obj.fragmotion.figures.shown_style = str(TIRED)
+    assert bpy.ops.fragmotion.force_class(number=9) == {"FINISHED"}
+    driving.go_on(driven, 0.3)
+    assert driven.player.playing_style == TIRED and driven.player.playing[0] == 9
+
+
+def test_a_preview_is_of_the_style_that_is_shown(addon: ModuleType, obj: bpy.types.Object) -> None:
+    character = part(addon, "character.building").load(obj)
+    solo = part(addon, "character.solo").Solo(bpy.context, obj, 5, TIRED)
+    members = set(np.flatnonzero(character.in_style(TIRED).labels == 5).tolist())
+    for _ in range(20):
+        solo.step(1 / 8)
+        assert solo.playing[0] == 5 and solo.playing[1] in members
+    solo.end()
 
 
 def test_another_style_of_a_take_makes_the_character_stale(addon: ModuleType, obj: bpy.types.Object) -> None:

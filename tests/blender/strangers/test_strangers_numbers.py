@@ -31,11 +31,11 @@ def test_classes_that_are_not_the_policys_are_said(addon: ModuleType, obj: bpy.t
             character = addon.character.building.load_whole(obj)
             addon.character.building._cache[obj.fragmotion.digest, ()] = character
         with pytest.raises(addon.errors.UserError, match=f"lists {listed} classes, but its policy has 6: press Build"):
-            addon.character.inspector.explain(obj, *addon.character.inspector.decision(obj, inspector, 0)[:2])
+            addon.character.inspector.explain(obj, addon.character.inspector.decision(obj, inspector, 0))
         with pytest.raises(RuntimeError, match="press Build again"):
             bpy.ops.fragmotion.bake(seconds=1)
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=6, seconds=5) == {"FINISHED"}
-    assert addon.character.inspector.explain(obj, *addon.character.inspector.decision(obj, inspector, 0)[:2])
+    assert addon.character.inspector.explain(obj, addon.character.inspector.decision(obj, inspector, 0))
 
 
 def test_a_policy_of_another_tree_of_the_armature_says_so(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "fragmotion/build/exclude_classes.hpp"
 #include "fragmotion/build/styles.hpp"
 #include "fragmotion/character/policy_file.hpp"
@@ -59,6 +61,18 @@ TEST(Styles, OfAFileThatIsCutShortAreRefused) {
 TEST(Styles, StayWhenMovesAndClassesChange) {
   EXPECT_EQ(with_moves(*styled_character(), {}).style_count(), 2);
   EXPECT_EQ(without_classes(*styled_character(), {3}).style_count(), 2);
+}
+
+TEST(Styles, LeaveOutClassesOfTheirOwn) {
+  const Character& tired = styled_character()->in_style(1);
+  const int often = tired.policies[0].next[0];
+  const Character left = without_classes(*styled_character(), {often}, 1);
+  EXPECT_TRUE(bytes_alone(left) == bytes_alone(*styled_character()));
+  EXPECT_TRUE(bytes_alone(left.in_style(1)) == bytes_alone(without_classes(tired, {often})));
+  const std::vector<int>& next = left.in_style(1).policies[0].next;
+  EXPECT_EQ(std::count(next.begin(), next.end(), often), 0);
+  EXPECT_EQ(error_of([] { without_classes(*styled_character(), {0}, 2); }),
+            "style 2 does not exist; the character has 2");
 }
 
 TEST(Styles, AreRefusedWithTheirNameAndTheCause) {

@@ -152,13 +152,13 @@ TEST(ControlName, TellsAllPointsOfAnySpaceApart) {
 }
 
 // Which of the speeds a player asks for, and whether for turns and jumps.
-struct Asked {
+struct AskedControl {
   std::set<int> speeds;
   bool turn = false, jump = false;
 };
 
-Asked asked_by(const std::string& player, const ControlSpace& space) {
-  Asked asked;
+AskedControl asked_by(const std::string& player, const ControlSpace& space) {
+  AskedControl asked;
   for (const Control& control : simulate_trace(player, 300, 1, space)) {
     const int point = space.nearest(control), velocity = space.layout().velocity_of(point);
     EXPECT_EQ(space.distance(control, space.point(point)), 0);
@@ -171,7 +171,7 @@ Asked asked_by(const std::string& player, const ControlSpace& space) {
 
 TEST(SimulateTrace, AsksForAllThatASpaceHas) {
   for (const ControlSpace& space : all_spaces()) {
-    const Asked asked = asked_by("explorer", space);
+    const AskedControl asked = asked_by("explorer", space);
     EXPECT_EQ(static_cast<int>(asked.speeds.size()), space.layout().speeds);
     EXPECT_EQ(asked.turn, space.layout().turn);
     EXPECT_EQ(asked.jump, space.layout().jump);

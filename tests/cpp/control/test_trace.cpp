@@ -44,6 +44,15 @@ bool same(const Control& a, const Control& b) {
   return a.x == b.x && a.y == b.y && a.turn == b.turn && a.jump == b.jump;
 }
 
+std::string told(const Asked& asked) {
+  std::string text;
+  for (const Asked::Move& move : asked.moves)
+    text += std::to_string(move.control) + " " + move.name + " " + std::to_string(move.held) + "; ";
+  text += "| ";
+  for (const Asked::Style& style : asked.styles) text += std::to_string(style.control) + " " + style.name + "; ";
+  return text;
+}
+
 const std::string kHeader = "velocity_x,velocity_y,turn,jump\n";
 
 TEST_F(TraceFile, ReadsBackWhatWasWritten) {
@@ -90,6 +99,7 @@ TEST_F(TraceFile, RefusesMalformedFilesNamingTheLine) {
       {"empty", "", "walk.csv:1: ", "header"},
       {"no header", row + row, "walk.csv:1: ", "velocity_x,velocity_y,turn,jump"},
       {"other header", "x,y,turn,jump\n" + row + row, "walk.csv:1: ", "'x,y,turn,jump'"},
+      {"two styles", "velocity_x,velocity_y,turn,jump,style,style\n", "walk.csv:1: ", "one 'style'"},
       {"longer header", "velocity_x,velocity_y,turn,jump,fire\n" + row + row, "walk.csv:1: ", "fire"},
       {"binary", std::string("\0\x01\xff\n\0", 5), "walk.csv:1: ", "header"},
       {"no rows", kHeader, "walk.csv:1: ", "0 rows"},
@@ -117,6 +127,57 @@ TEST_F(TraceFile, RefusesMalformedFilesNamingTheLine) {
     EXPECT_EQ(error().rfind(c.where, 0), 0u) << error();
     EXPECT_NE(error().find(c.what), std::string::npos) << error();
   }
+}
+
+const std::string kFurther = "velocity_x,velocity_y,turn,jump,move,style\n";
+
+TEST_F(TraceFile, ReadsMovesAndStylesInFurtherColumns) {
+  write(
+      "velocity_x,velocity_y,turn,jump,move,style,move\n"
+      "0,1,0,0,,tired,\n"
+      "0,1,0,0,wave,tired, kick \n"
+      "0,1,0,0,wave,,kick\n"
+      "0,1,0,0,\"a \"\"b\"\", c\",happy,\n"
+      "0,1,0,0,wave,happy,wave\n");
+  EXPECT_EQ(read_trace(path_).size(), 5u);
+  EXPECT_EQ(told(read_asked(path_)), "1 wave 2; 1 kick 2; 3 a \"b\", c 1; 4 wave 1; 4 wave 1; | 0 tired; 3 happy; ");
+}
+
+TEST_F(TraceFile, ReadsBackMovesAndStylesAsTheyWereWritten) {
+  const Trace trace(20, {0, 1, 0, 0});
+  const Asked asked{{{0, "wave", 3}, {2, "kick, \"low\"", 5}, {3, "wave", 4}, {7, " sit\t", 13}, {7, "sit", 1}},
+                    {{0, "tired"}, {4, "\"proud\""}, {19, "tired"}}};
+  write_trace(path_, trace, asked);
+  EXPECT_EQ(read_trace(path_).size(), trace.size());
+  EXPECT_EQ(told(read_asked(path_)), told(asked));
+}
+
+TEST_F(TraceFile, HoldsAMoveToTheEndAtMost) {
+  write_trace(path_, Trace(4, {0, 1, 0, 0}), {{{2, "wave", 1000000}}, {}});
+  EXPECT_EQ(told(read_asked(path_)), "2 wave 2; | ");
+}
+
+TEST_F(TraceFile, TakesNamesThatAreNotUtf8ForLatin1) {
+  write(kFurther + "0,1,0,0,gr\xFC\xDF,\n0,1,0,0,,\n");
+  EXPECT_EQ(told(read_asked(path_)), "0 gr\u00FC\u00DF 1; | ");
+}
+
+TEST_F(TraceFile, RefusesMalformedMovesNamingTheLine) {
+  const std::string row = "0,1,0,0,,\n";
+  for (const char* bad : {"0,1,0,0,\"wave,\n", "0,1,0,0,\"wave\" on,\n", "0,1,0,0,wa\"v\"e,\n", "0,1,0,0,\"wave\n\",\n",
+                          "0,1,0,0,wave\n", "0,1,0,0,wave,,\n"}) {
+    write(kFurther + row + bad + row);
+    EXPECT_EQ(error().rfind("walk.csv:3: ", 0), 0u) << bad << error();
+  }
+}
+
+TEST_F(TraceFile, WritesNoMoveThatCannotBeReadBack) {
+  const Trace trace(3, {0, 1, 0, 0});
+  for (const Asked& asked : {Asked{{{3, "wave", 1}}, {}}, Asked{{{-1, "wave", 1}}, {}}, Asked{{{0, "", 1}}, {}},
+                             Asked{{{0, "a\nb", 1}}, {}}, Asked{{}, {{3, "tired"}}}, Asked{{}, {{0, ""}}}}) {
+    EXPECT_THROW(write_trace(path_, trace, asked), std::invalid_argument);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
 TEST_F(TraceFile, TakesLittleMemoryForManyCommasAndEmptyLines) {

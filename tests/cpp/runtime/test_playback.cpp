@@ -88,5 +88,24 @@ TEST(Playback, IsMovedAndTurnedAboutWhereTheCharacterStands) {
   EXPECT_NEAR(stage.playback.frame().heading, kPi / 2 + 0.05, kNear);
 }
 
+TEST(Playback, HasLandedFromAJumpAfterItsFlightAndBeforeItIsHalfUp) {
+  Stage stage;
+  int jumps = 0, sooner = 0;
+  for (int fragment = 0; fragment < static_cast<int>(stage.character->pool.fragments.size()); ++fragment) {
+    stage.playback.reset(fragment, {});
+    const bool jump = stage.playback.evident().jumps();
+    jumps += jump;
+    EXPECT_EQ(stage.playback.has_landed(), !jump);
+    for (; stage.playback.left() > kNear; stage.playback.advance(0.01)) {
+      const bool landed = stage.playback.has_landed();
+      EXPECT_TRUE(landed || jump);
+      EXPECT_FALSE(landed && stage.playback.is_in_the_air());
+      sooner += landed && stage.playback.is_jumping();
+    }
+  }
+  EXPECT_GT(jumps, 0);
+  EXPECT_GT(sooner, 0);
+}
+
 }  // namespace
 }  // namespace fragmotion

@@ -107,6 +107,26 @@ TEST(PlayerStyles, OfAPressThatIsTakenBackAreForgotten) {
   EXPECT_EQ(player.rotations(), other.rotations());
 }
 
+TEST(PlayerStyles, BeginAfterTheLandingOfAJump) {
+  for (double before = 0; before < 0.5; before += 0.05) {
+    Player player(styled_character());
+    settle(player, kStand);
+    const auto jumps = [&] { return gait_character()->pool.fragments[player.playing_fragment()].evident.jumps(); };
+    for (int f = 0; f < 120 && !jumps(); ++f) player.step({0, 0, 0, 1}, kStep);
+    settle(player, kStand, before);
+    ASSERT_TRUE(jumps());
+    player.change_style(kTired);
+    while (player.playing_style() == kNormal) {
+      const auto feet = player.standing_feet();
+      const bool stands = feet[0] || feet[1];
+      player.step(kStand, kStep);
+      EXPECT_TRUE(stands || player.playing_style() == kNormal) << before;
+    }
+    settle(player, kStand, 0.3);
+    EXPECT_EQ(player.playing_style(), kTired);
+  }
+}
+
 TEST(PlayerStyles, WaitForTheEndOfAMoveOfTheWholeBody) {
   Player player(styled_character());
   settle(player, kStand);

@@ -16,9 +16,9 @@ from ..base.context import active_armature
 def poll_class(cls: Any, context: bpy.types.Context) -> bool:
     """Whether a class is chosen in the panel's list; says why not."""
     obj = active_armature(context)
-    if obj is None or not obj.fragmotion.classes:
+    if obj is None or not classes.shown_rows(obj):
         cls.poll_message_set("No armature with a character is active: press Build first")
-    elif context.window_manager.fragmotion.active_class >= len(obj.fragmotion.classes):
+    elif context.window_manager.fragmotion.active_class >= len(classes.shown_rows(obj)):
         cls.poll_message_set("No class is chosen in the list")
     else:
         return True
@@ -44,15 +44,18 @@ class FRAGMOTION_OT_force_class(bpy.types.Operator):
         if not poll_class(cls, context):
             return False
         obj = active_armature(context)
-        if classes.driven(obj) is None:
+        drive, shown = classes.driven(obj), classes.shown_style(obj.fragmotion.figures)
+        if drive is None:
             cls.poll_message_set(f"Armature '{obj.name}' is not being driven: start Drive first")
-        return classes.driven(obj) is not None
+        elif drive.player.playing_style != shown:
+            cls.poll_message_set("The list shows the classes of another style than plays: choose that style above it")
+        return drive is not None and drive.player.playing_style == shown
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
         number = self.number if self.number >= 0 else context.window_manager.fragmotion.active_class
-        if number >= len(obj.fragmotion.classes):
+        if number >= len(classes.shown_rows(obj)):
             raise UserError(f"Armature '{obj.name}' has no class {number}")
         classes.force(obj, number)
         return {"FINISHED"}

@@ -52,7 +52,8 @@ class FRAGMOTION_OT_solo_class(bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         global current, _timer
         number = context.window_manager.fragmotion.active_class
-        current = Solo(context, active_armature(context), number)
+        obj = active_armature(context)
+        current = Solo(context, obj, number, classes.shown_style(obj.fragmotion.figures))
         _timer = context.window_manager.event_timer_add(1 / _RATE, window=context.window)
         self._before = time.perf_counter()
         context.window_manager.modal_handler_add(self)

@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
+from ...character.moves import names_of
 from ...control_rig.binding import follows, rig_of
 from ...drive import session
 from ...drive.hud import views
@@ -18,7 +19,7 @@ from ...drive.input.pads import Pads
 from ...drive.input.sdl import SdlMissing
 from ...errors import UserError, core_errors, reported
 from ...paths.drawing import ground_under
-from ...recordings.traces import make_trace
+from ...recordings.traces import asked_beside, make_trace
 from ...rig.external_motion import external_motion
 from ...settings import preferences
 from ..base.background import poll_idle
@@ -356,7 +357,11 @@ class FRAGMOTION_OT_play_trace(WhileDriving, bpy.types.Operator):
     @reported
     def execute(self, _context: bpy.types.Context) -> set[str]:
         driven = driven_session()
-        driven.play(make_trace(driven.settings, driven.actor.space))
+        trace = make_trace(driven.settings, driven.actor.space)
+        moves, styled = asked_beside(
+            driven.settings, names_of(driven.actor.character), driven.styling.names, driven.actor.style
+        )
+        driven.play(trace, moves=moves, styled=styled)
         return {"FINISHED"}
 
 

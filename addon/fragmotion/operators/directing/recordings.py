@@ -11,19 +11,20 @@ from bpy.props import CollectionProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ...bake.performing import measure_quality, origin_frame
-from ...compat.core import core
-from ...errors import UserError, core_errors, reported
-from ...files import check_regular
+from ...errors import UserError, reported
 from ...recordings.curves import remove_curves, renew_curves
 from ...recordings.recordings import (
     TRACE_RATE,
     active_recording,
     add_recording,
+    asked_of,
     duplicate_recording,
     remove_recording,
+    set_asked,
     trace_of,
     trim_recording,
 )
+from ...recordings.traces import read_trace_file, write_trace_file
 from ..base.context import active_armature, poll_armature
 from ..base.saving import Saving
 
@@ -111,10 +112,14 @@ class FRAGMOTION_OT_trim_recording(OnRecording, bpy.types.Operator):
 
 
 class FRAGMOTION_OT_export_recording(OnRecording, Saving, bpy.types.Operator):
-    """Write the selected recording's controls to a CSV file: velocity_x,velocity_y (m/s),turn,jump; 10 rows a second"""
+    """Write the selected recording to a CSV file."""
 
     bl_idname = "fragmotion.export_recording"
     bl_label = "Export Recording"
+    bl_description = (
+        "Write the selected recording to a CSV file: velocity_x,velocity_y (m/s),turn,jump and, where it has any, its "
+        "moves and styles; 10 rows a second"
+    )
     bl_options: ClassVar[set[str]] = {"REGISTER"}
 
     filename_ext = EXTENSION
@@ -130,8 +135,7 @@ class FRAGMOTION_OT_export_recording(OnRecording, Saving, bpy.types.Operator):
         trace = trace_of(recording)
         if len(trace) < _FEWEST_ROWS:
             raise UserError(f"Recording '{recording.name}' holds a single control: record a longer one to export")
-        with core_errors():
-            core.write_trace(path, trace)
+        write_trace_file(path, trace, asked_of(recording))
         self.report({"INFO"}, f"Saved recording '{recording.name}' ({recording.seconds:.1f} s) to '{path}'")
         return {"FINISHED"}
 
@@ -143,7 +147,8 @@ class FRAGMOTION_OT_import_recordings(ImportHelper, bpy.types.Operator):
     bl_label = "Import Recordings"
     bl_description = (
         "Read recordings from CSV files with the header velocity_x,velocity_y,turn,jump: velocity to the right and "
-        "forward in m/s, turn from -1 (right) to 1 (left; more to face about), jump 0 or 1; 10 rows a second"
+        "forward in m/s, turn from -1 (right) to 1 (left; more to face about), jump 0 or 1; 10 rows a second. Columns "
+        "'move' and 'style' after these may name the moves that are held and the style"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
@@ -163,15 +168,13 @@ class FRAGMOTION_OT_import_recordings(ImportHelper, bpy.types.Operator):
         obj = active_armature(context)
         traces = {}
         for path in self._paths():
-            check_regular(path)
-            with core_errors():
-                traces[path] = core.read_trace(path)
-        for path, trace in traces.items():
+            traces[path] = read_trace_file(path)
+        for path, (trace, asked) in traces.items():
             recording = add_recording(obj, trace, name=path.stem, start=origin_frame(obj))
+            set_asked(recording, asked)
             recording.quality = measure_quality(obj, recording)
-        self.report(
-            {"INFO"}, f"Imported {len(traces)} recordings ({sum(map(len, traces.values())) / TRACE_RATE:.1f} s)"
-        )
+        seconds = sum(len(trace) for trace, _ in traces.values()) / TRACE_RATE
+        self.report({"INFO"}, f"Imported {len(traces)} recordings ({seconds:.1f} s)")
         return {"FINISHED"}
 
     def _paths(self) -> list[Path]:

@@ -62,6 +62,9 @@ struct Character {
 /// The most styles of a character.
 constexpr int kMostStyles = 64;
 
+/// Throws std::invalid_argument on a style that the character does not have.
+void check_style(const Character& character, int style);
+
 /// repair_policy() of all its policies.
 void repair_policies(Character& character);
 

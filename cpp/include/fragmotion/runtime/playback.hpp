@@ -49,6 +49,8 @@ class Playback {
   const Contacts& contacts() const { return styled(now_).contacts[fragment().clip]; }
   /// Whether it is in a jump that cannot be left: until it has landed and is half up again.
   bool is_jumping() const;
+  /// Whether it is in no jump, or has landed from it; without contacts, when it could be left.
+  bool has_landed() const;
   /// Whether it jumps and touches no ground now.
   bool is_in_the_air() const;
   /// The frame of the clip that is nearest to now.

@@ -63,9 +63,9 @@ class Player {
   /// std::invalid_argument unless the control is finite and `seconds` is 0 .. 3600.
   void step(const Control& control, double seconds);
 
-  /// Goes on in another style: at the moment within kStyleWait at which it joins best, but not within a jump, and after
-  /// a move of the whole body. One that waits already is forgotten. Classes and fragments are that style's from then
-  /// on. Throws std::invalid_argument on a style that does not exist.
+  /// Goes on in another style: at the moment within kStyleWait at which it joins best, but after the landing of a jump
+  /// and the end of a move of the whole body. One that waits already is forgotten. Classes and fragments are that
+  /// style's from then on. Throws std::invalid_argument on a style that does not exist.
   void change_style(int style);
   int playing_style() const { return extras_ == nullptr ? 0 : extras_->style.playing; }
   /// Which waits for its moment, or -1.
@@ -141,7 +141,6 @@ class Player {
   static constexpr double kFinest = 1 / 60.0;  // s for which a command is the same at most
 
   void make_extras(const PlayerOptions& options);
-  void check_style(int style) const;
   void set_style(int style);
   double begin_style(const Control& control, double most);
   Control wanted(const Control& control) const;
@@ -158,11 +157,13 @@ class Player {
   double advance_by_move(double most);
   double begin_moves(const Control& control, double most);
   template <typename Cost>
-  void plan(Moment& moment, const Control& control, const Cost& cost);
+  void plan(Moment& moment, const Control& control, bool (Player::*can)() const, const Cost& cost);
   template <typename Cost>
   bool is_due(MoveTrack& track, const Control& control, const Cost& cost);
   void imitate(const Player& other);
+  bool is_stitched() const;
   bool can_begin_move() const;
+  bool can_change_style() const;
   bool continue_move(const Control& control);
   void resume(const Control& control);
   void enter_best_class(const Control& wanted);
