@@ -70,7 +70,6 @@ def steps() -> Iterator[None]:
     """The whole session."""
     building, classes = window.module("character.building"), window.module("character.classes")
     solo = window.module("operators.character.solo_class")
-    bpy.context.preferences.system.viewport_aa = "OFF"  # drawn by software, it takes most of the time
     bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE), load_ui=False)
     yield
     obj = bpy.data.objects[making.ARMATURE]

@@ -177,7 +177,6 @@ def session_of_tests() -> Iterator[None]:
     """The whole of it."""
     clock = Clock()
     button.time, session._HICCUP = clock, 0.5
-    bpy.context.preferences.system.viewport_aa = "OFF"  # drawn by software, it takes most of the time
     obj = build_character(Path(window.FOLDER) / "takes")
     yield from window.open_tab()
     yield from measure_panels("at rest")

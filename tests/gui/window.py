@@ -217,5 +217,6 @@ def run(session: Iterator[None]) -> None:
         return TICK
 
     bpy.context.preferences.view.show_splash = False
+    bpy.context.preferences.system.viewport_aa = "OFF"  # drawn by software, it takes most of the time
     bpy.utils.register_class(TEST_OT_count_timers)
     bpy.app.timers.register(tick, first_interval=1.0, persistent=True)

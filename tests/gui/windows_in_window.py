@@ -103,7 +103,6 @@ def assert_nothing_is_left(before: list[Any]) -> Iterator[None]:
 
 def session_of_tests() -> Iterator[None]:
     """The whole of it."""
-    bpy.context.preferences.system.viewport_aa = "OFF"
     bpy.ops.wm.read_homefile(use_factory_startup=True, load_ui=False)
     yield
     for part in (lose_the_view, hear_both_windows, lose_a_window, undo_while_recording, delete_the_armature):
