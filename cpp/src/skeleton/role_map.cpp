@@ -29,8 +29,13 @@ double agreed(double confidence) { return 1 - (1 - confidence) / 2; }
 
 /// What names tell, made surer by the shape where it agrees; else what the shape tells.
 Limb merged(const Limb& named, const Limb& shaped, const Limb& shaped_other) {
-  if (named.bones[Limb::kEnd] < 0) return shaped;
+  if (named.bones[Limb::kUpper] < 0 && named.bones[Limb::kEnd] < 0) return shaped;
   Limb limb = named;
+  if (limb.bones[Limb::kEnd] < 0 && limb.bones[Limb::kLower] == shaped.bones[Limb::kLower]) {
+    for (const int part : {Limb::kEnd, Limb::kTip}) {
+      limb.bones[part] = shaped.bones[part], limb.confidence[part] = shaped.confidence[part];
+    }
+  }
   const bool other_side = shaped_other.whole() && named.bones[Limb::kEnd] == shaped_other.bones[Limb::kEnd];
   for (std::size_t i = 0; i < limb.bones.size(); ++i) {
     if (other_side) limb.confidence[i] = std::min(limb.confidence[i], kTold);
@@ -66,6 +71,16 @@ Body uncontradicted(const BodyTree& tree, Body shaped) {
   return shaped;
 }
 
+/// Whether the names say left where feet and knees say right, of both legs and of what is told of the arms.
+bool is_mirrored(const Body& named, const Body& shaped) {
+  const auto ends = [](const std::array<Limb, 2>& limbs, int side) { return limbs[side].bones[Limb::kEnd]; };
+  for (int side = 0; side < 2; ++side) {
+    if (ends(named.legs, side) < 0 || ends(named.legs, side) != ends(shaped.legs, 1 - side)) return false;
+    if (ends(shaped.arms, side) >= 0 && ends(shaped.arms, side) != ends(named.arms, 1 - side)) return false;
+  }
+  return true;
+}
+
 Body merged(const Body& named, const Body& shaped) {
   Body body = named;
   merge_bone(shaped.hips, shaped.hips_confidence, body.hips, body.hips_confidence);
@@ -95,7 +110,8 @@ void forget_shins_of_beasts(const Skeleton& skeleton, const BodyTree& tree, Body
   rest_pose(skeleton, heads, rotations);
   for (Limb& leg : body.legs) {
     int& shin = leg.bones[Limb::kLower];
-    if (shin >= 0 && has_joint_between(heads, tree, shin, leg.bones[Limb::kEnd])) shin = -1;
+    if (shin >= 0 && leg.bones[Limb::kEnd] >= 0 && has_joint_between(heads, tree, shin, leg.bones[Limb::kEnd]))
+      shin = -1;
   }
 }
 
@@ -308,9 +324,14 @@ double RoleMap::confidence(Role role, Side side) const {
 
 RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion) {
   BodyTree tree(skeleton);
-  const std::optional<Body> named = named_body(tree);
+  std::optional<Body> named = named_body(tree);
   if (!named) tree.forget_names();
-  Body body = merged(named.value_or(Body{}), uncontradicted(tree, shaped_body(skeleton, tree, motion)));
+  const Body shaped = shaped_body(skeleton, tree, motion);
+  if (named && is_mirrored(*named, shaped)) {
+    tree.swap_sides();
+    named = named_body(tree);
+  }
+  Body body = merged(named.value_or(Body{}), uncontradicted(tree, shaped));
   forget_shins_of_beasts(skeleton, tree, body);
   RoleMap map = MapMaker(tree, body).make();
   find_twists(skeleton, tree, map);
