@@ -335,7 +335,7 @@ def test_controls_that_a_file_kept_beside_the_body_are_no_limbs() -> None:
         ball, above = bones.heads[f"ball_{side}"], "root"
         for part, offset in (("toe roll", -0.3), ("heel roll", 0.3), ("foot roll", -0.2), ("target", 0.2)):
             bones.parents[f"{part} {side}"], above = above, f"{part} {side}"
-            bones.heads[above], bones.ends[above] = ball + [0, offset, 0], np.array([0, 0, 0.1])
+            bones.heads[above], bones.ends[above] = ball + np.array([0, offset, 0]), np.array([0, 0, 0.1])
     told = unnamed(bones)
     assert {role: bones.roles.get(role) for role in told} == told
     assert told["hips"] == "pelvis"
