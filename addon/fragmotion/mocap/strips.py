@@ -22,7 +22,7 @@ _SAME = 1e-3  # frames
 
 
 def strips_of(obj: bpy.types.Object) -> list[bpy.types.NlaStrip]:
-    """The armature's strips of Actions, but muted ones; of strips in a meta strip and transitions there are no takes."""
+    """The armature's strips of Actions, but muted ones, such as are in meta strips, and transitions."""
     data = obj.animation_data
     tracks = [track for track in data.nla_tracks if not track.mute] if data is not None else []
     return [
@@ -69,4 +69,5 @@ def action_frames(strip: bpy.types.NlaStrip, frames: Doubles) -> Doubles:
     ends = np.abs(frames - strip.frame_end) < _SAME
     if abs(strip.repeat - round(strip.repeat)) < _SAME:  # the last frame is no new beginning
         run[ends] = length
-    return last - run if strip.use_reverse else first + run
+    shown: Doubles = last - run if strip.use_reverse else first + run
+    return shown
