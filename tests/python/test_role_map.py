@@ -279,6 +279,17 @@ def test_the_bone_that_carries_spine_and_legs_is_the_hips_whatever_is_called_pel
     assert (roles["hips"], roles["spine_1"], roles["spine_2"]) == ("Body", "Hips", "Spine")
 
 
+def test_arms_on_the_hips_tell_no_spine_from_a_neck() -> None:
+    bones = bones_of(humanoid("mixamo"))
+    for side in ("Left", "Right"):
+        bones.parents[f"{side}Shoulder"] = "Hips"
+    named_otherwise = {"Spine": "lower", "Spine1": "middle", "Spine2": "upper"}
+    names = {bone: named_otherwise.get(bone, bone) for bone in ordered(bones, np.random.default_rng(1))}
+    told = body_roles({role: bone for role, (bone, _) in skeleton_of(bones, names).role_map().items()})
+    assert told["neck_1"] == "Neck" and told["left_lower_arm"] == "LeftForeArm"
+    assert not {"lower", "middle", "upper"} & set(told.values())
+
+
 def test_numbers_alone_tell_no_joint_of_a_limb_but_its_shape_does() -> None:
     skeleton = humanoid("mixamo")
     renamed = {}

@@ -163,14 +163,15 @@ class MapMaker {
       if (tree_.in_body[b]) path.insert(path.begin(), b);
     }
     const bool head_named = body_.head >= 0 && tree_.says(body_.head, Role::kHead) > 0;
+    const bool chest = arms >= 0 && arms != body_.hips;  // arms on the hips tell no spine from a neck
     bool neck = false;
     int spines = 0, necks = 0;
     for (const int b : path) {
       const double spine_said = tree_.says(b, Role::kSpine), neck_said = tree_.says(b, Role::kNeck);
-      const bool beyond_arms = arms >= 0 && b != arms && tree_.is_below(b, arms);
+      const bool beyond_arms = chest && b != arms && tree_.is_below(b, arms);
       neck = neck || neck_said > 0 || (beyond_arms && (spine_said <= 0 || !head_named));
       const bool said = (neck ? neck_said : spine_said) > 0;
-      const double confidence = said ? kNamed : arms >= 0 ? kBetween : 0;
+      const double confidence = said ? kNamed : chest ? kBetween : 0;
       add(neck ? Role::kNeck : Role::kSpine, Side::kNone, b, confidence, neck ? necks++ : spines++);
     }
     add(Role::kHead, Side::kNone, body_.head, body_.head_confidence);
