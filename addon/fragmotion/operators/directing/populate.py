@@ -32,8 +32,8 @@ class FRAGMOTION_OT_populate(PopulateFields, Baking, bpy.types.Operator):
         obj = active_armature(context)
         if obj is not None and rig_of(obj) != obj:
             cls.poll_message_set(
-                f"'{rig_of(obj).name}' is a control rig, and only plain armatures can be copied: press Bake to Controls, "
-                "and duplicate the rig with its meshes (Shift D); each copy plays what Action you choose for it"
+                f"'{rig_of(obj).name}' is a control rig, and only plain armatures can be copied: press Bake to "
+                "Controls, and duplicate the rig with its meshes (Shift D); each copy plays what Action you give it"
             )
             return False
         return bool(super().poll(context))
