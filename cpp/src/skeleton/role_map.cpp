@@ -71,12 +71,14 @@ Body uncontradicted(const BodyTree& tree, Body shaped) {
   return shaped;
 }
 
-/// Whether the names say left where feet and knees say right, of both legs and of what is told of the arms.
+/// Whether the names say left where feet and knees say right, of both arms and both legs of a man.
 bool is_mirrored(const Body& named, const Body& shaped) {
-  const auto ends = [](const std::array<Limb, 2>& limbs, int side) { return limbs[side].bones[Limb::kEnd]; };
-  for (int side = 0; side < 2; ++side) {
-    if (ends(named.legs, side) < 0 || ends(named.legs, side) != ends(shaped.legs, 1 - side)) return false;
-    if (ends(shaped.arms, side) >= 0 && ends(shaped.arms, side) != ends(named.arms, 1 - side)) return false;
+  const auto crossed = [](const std::array<Limb, 2>& names, const std::array<Limb, 2>& shapes, int side) {
+    const int end = names[side].bones[Limb::kEnd];
+    return end >= 0 && end == shapes[1 - side].bones[Limb::kEnd] && names[side].bones[Limb::kLower] >= 0;
+  };
+  for (const int side : {0, 1}) {
+    if (!crossed(named.legs, shaped.legs, side) || !crossed(named.arms, shaped.arms, side)) return false;
   }
   return true;
 }
@@ -328,6 +330,7 @@ RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion) {
   std::optional<Body> named = named_body(tree);
   if (!named) tree.forget_names();
   const Body shaped = shaped_body(skeleton, tree, motion);
+  if (named) forget_shins_of_beasts(skeleton, tree, *named);
   if (named && is_mirrored(*named, shaped)) {
     tree.swap_sides();
     named = named_body(tree);

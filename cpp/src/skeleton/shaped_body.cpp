@@ -31,6 +31,7 @@ constexpr double kCopied = 1e-3;                       // of a bone's length tha
 constexpr double kNarrow = 0.25;    // of the way from arm to arm over the collars, that collars are apart at most
 constexpr double kBroadest = 0.36;  // the same, where they also lead apart and the arms do less
 constexpr double kApart = 0.5, kLessApart = 0.3;  // cosines
+constexpr double kShortArm = 0.75;                // of an upper arm's length, that a lower arm has at least
 constexpr double kLonger = 1.3;  // times as long as a collar an upper arm is, where only the rest pose tells
 constexpr double kSteep = 0.85, kSlanting = 0.8;  // of a bone's length that it leads down
 constexpr double kSure = 1.5;                     // votes more for one way to take the pairs than for the other
@@ -449,6 +450,8 @@ class ShapeFinder {
     const int bones = static_cast<int>(chain.size());
     const double most = kSplit * std::min(way(chain, upper, lower), way(chain, lower, end));
     const bool hand = branches(chain[end]);  // whose lower arm and elbow are told, so what is before is a shoulder
+    const bool in_parts = arm && !moves_ && !hand && way(chain, lower, end) < kShortArm * way(chain, upper, lower);
+    if (in_parts) return {};  // or so it may be: motion would tell
     const bool shoulder = (hand && moves_) || (collared && upper == 1);
     const bool foot =
         !arm && end + 1 < bones && (is_foot({rest_.data()}, chain, lower, end) || is_foot(poses_, chain, lower, end));
