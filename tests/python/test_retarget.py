@@ -8,7 +8,20 @@ from typing import NamedTuple
 import fragmotion_core as core
 import numpy as np
 import pytest
-from bodies import FAMILIES, about, angles, humanoid, inverse, map_of, posed, random_rolls, remade, times, turned
+from bodies import (
+    FAMILIES,
+    about,
+    angles,
+    humanoid,
+    inverse,
+    map_of,
+    posed,
+    random_rolls,
+    remade,
+    rest_rotations,
+    times,
+    turned,
+)
 from conftest import BANDAI, CMU, Array, make_skeleton, walking_clips
 
 MILLIMETRE = 1e-3
@@ -248,3 +261,16 @@ def test_a_body_without_arms_is_driven(source: Source) -> None:
     assert target.roles == roles
     for result in core.Retarget(source.body, target).apply_all(source.clips):
         assert result.foot_skate_ratio <= 1.1
+
+
+def test_feet_without_toes_stand_whatever_end_an_importer_gave_them(source: Source) -> None:
+    skeleton = humanoid("mixamo")
+    roles = {role: bone for role, bone in core.Body(skeleton).roles.items() if "toe" not in role}
+    world, tips = rest_rotations(skeleton), np.array(skeleton.tips)
+    for side in ("left", "right"):
+        foot = skeleton.names.index(roles[f"{side}_foot"])
+        tips[foot] = turned(inverse(world[foot]), np.array([0, 0, 0.4]))
+    up = core.Skeleton(skeleton.names, skeleton.parents, skeleton.rest_rotations, skeleton.offsets, tips)
+    for result in core.Retarget(source.body, core.Body(up, roles=roles)).apply_all(source.clips):
+        assert result.contact_error <= 0.01, result.clip.name
+        assert result.foot_skate_ratio <= 1.1, result.clip.name

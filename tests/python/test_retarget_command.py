@@ -4,6 +4,9 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +14,7 @@ import pytest
 from conftest import BANDAI, CMU, NAMES, walking_arrays
 from evaluated import write_bvh
 
+from tools.paths import TOP
 from tools.retarget.__main__ import main
 
 FIGURES = {"foot_skate_ratio", "contact_error_m", "knee_beyond_degrees"}
@@ -57,6 +61,31 @@ def test_the_character_has_its_figures(result: dict[str, Any]) -> None:
     assert set(character) == {"fragments", "percent_of_optimal", "velocity_error", "foot_skate_ratio"}
     assert character["fragments"] > 20
     assert 0 < character["percent_of_optimal"] <= 100
+
+
+WRITERS = {
+    ".vrm": "bpy.ops.export_scene.gltf(filepath=out + '.glb'); os.rename(out + '.glb', out)",  # a GLB of another name
+    ".usdc": "bpy.ops.wm.usd_export(filepath=out)",
+    ".fbx": "bpy.ops.export_scene.fbx(filepath=out, bake_anim=False)",
+}
+
+
+@pytest.mark.parametrize("ending", WRITERS)
+def test_rigs_of_the_formats_that_blender_reads_are_targets(ending: str, tmp_path: Path) -> None:
+    """In processes of their own: bpy is no neighbour for other tests."""
+    take, sample, rig = CMU / "02_04.amc", TOP / "sample_rigs" / "fragmotion_sample.blend", tmp_path / f"rig{ending}"
+    if find_spec("bpy") is None or not take.exists():
+        pytest.skip("no module bpy, or no motion capture beside the project")
+    opened = (
+        f"import bpy, os; bpy.ops.wm.open_mainfile(filepath={str(sample)!r}); out = {str(rig)!r}; {WRITERS[ending]}"
+    )
+    subprocess.run([sys.executable, "-c", opened], cwd=TOP, capture_output=True, check=True)
+    command = [sys.executable, "-m", "tools.retarget", take, "--onto", rig, "--json", tmp_path / "saved.json"]
+    answer = subprocess.run(command, cwd=TOP, capture_output=True, text=True)
+    assert answer.returncode == 0, answer.stderr
+    found = json.loads((tmp_path / "saved.json").read_text())
+    assert found["takes"][0]["contact_error_m"] <= 0.01
+    assert {"hips", "left_hand", "right_foot"} <= set(found["roles"])
 
 
 def refusal(capsys: pytest.CaptureFixture[str], *arguments: str | Path) -> str:

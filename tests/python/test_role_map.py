@@ -118,8 +118,21 @@ def insert(bones: Bones, bone: str, part: str, along: float) -> None:
     bones.ends[part] = (1 - along) * bones.ends[bone]
 
 
+def split_spine(bones: Bones, number: int) -> None:
+    """Another bone amid one of the spine's, which counts among them."""
+    spine = [bones.roles.pop(f"spine_{i + 1}") for i in range(sum(role.startswith("spine") for role in bones.roles))]
+    below, above, part = spine[number], spine[number + 1], f"spine part {len(bones.parents)}"
+    bones.parents[part], bones.parents[above] = below, part
+    bones.heads[part] = (bones.heads[below] + bones.heads[above]) / 2
+    bones.ends[part] = bones.ends[below] = bones.ends[below] / 2
+    spine.insert(number + 1, part)
+    bones.roles.update({f"spine_{i + 1}": bone for i, bone in enumerate(spine)})
+
+
 def varied(bones: Bones, random: np.random.Generator) -> None:
-    """Bones above it, and parts in its limbs, or none."""
+    """Bones above it, and parts in its spine and limbs, or none."""
+    for _ in range(random.integers(3)):
+        split_spine(bones, int(random.integers(sum(role.startswith("spine") for role in bones.roles) - 1)))
     root = next(name for name, parent in bones.parents.items() if not parent)
     for number in range(random.integers(3)):
         above = f"above {number}"
@@ -211,3 +224,129 @@ def test_the_shape_tells_no_arm_whose_names_say_the_other_side(left: str, right:
     arms = {f"{side}{part}": f"{name}Fin{part[0]}" for side, name in (("Left", left), ("Right", right)) for part in ARM}
     skeleton = remade(humanoid("mixamo"), rename=lambda name: arms.get(name, name))
     assert ("left_lower_arm" in skeleton.role_map()) == told
+
+
+def named(bones: Bones) -> dict[str, str]:
+    """What the roles are taken for where the bones have their names."""
+    names = {bone: bone for bone in ordered(bones, np.random.default_rng(1))}
+    return {role: bone for role, (bone, _) in skeleton_of(bones, names).role_map().items()}
+
+
+def unnamed(bones: Bones) -> dict[str, str]:
+    """What the roles are taken for where the names say nothing, and the body moves."""
+    names = dict(zip(ordered(bones, np.random.default_rng(1)), NAMELESS))
+    back, heads = {new: old for old, new in names.items()}, np.array([bones.heads[bone][1:] for bone in names])
+    told = skeleton_of(bones, names).role_map(heads.swapaxes(0, 1))
+    return {role: back[bone] for role, (bone, _) in told.items()}
+
+
+def body_roles(roles: dict[str, str]) -> dict[str, str]:
+    """Those that are no fingers'."""
+    return {role: bone for role, bone in roles.items() if not role[-1].isdigit() or role[:5] in {"spine", "neck_"}}
+
+
+@pytest.mark.parametrize("family", sorted(FAMILIES))
+def test_names_that_say_left_of_what_is_right_are_seen_through(family: str) -> None:
+    left, right = FAMILIES[family]["sides"]
+    skeleton = humanoid(family)
+    pairs = {}
+    for key in ("arm", "leg", "fingers"):
+        for name in FAMILIES[family][key]:
+            for number in "123":
+                sided = [name.replace("@", side).replace("#", number) for side in (left, right)]
+                pairs.update(zip(sided, reversed(sided)))
+    mirrored = remade(skeleton, rename=lambda name: pairs.get(name, name))
+    truth = {role: pairs.get(bone, bone) for role, (bone, _) in skeleton.role_map().items()}
+    assert {role: bone for role, (bone, _) in mirrored.role_map().items()} == truth
+
+
+def test_feet_that_controls_carry_leave_the_rest_of_the_body_told() -> None:
+    bones = bones_of(humanoid("mixamo"))
+    for side in ("Left", "Right"):
+        bones.parents[f"{side}Foot"] = "Hips"
+    truth = {role: bone for role, bone in bones.roles.items() if "foot" not in role and "toe" not in role}
+    assert body_roles(named(bones)) == truth
+
+
+def test_the_bone_that_carries_spine_and_legs_is_the_hips_whatever_is_called_pelvis() -> None:
+    bones = bones_of(humanoid("mixamo"))
+    bones.parents["Hips"], bones.parents["Body"] = "Body", ""
+    bones.heads["Body"], bones.ends["Body"] = bones.heads["Hips"], bones.ends["Hips"]
+    for side in ("Left", "Right"):
+        bones.parents[f"{side}UpLeg"] = "Body"
+    bones.heads["RightLeg"] = bones.heads["RightLeg"] + [0, 0, 0.1]  # the shape tells nothing
+    roles = named(bones)
+    assert (roles["hips"], roles["spine_1"], roles["spine_2"]) == ("Body", "Hips", "Spine")
+
+
+def test_arms_on_the_hips_tell_no_spine_from_a_neck() -> None:
+    bones = bones_of(humanoid("mixamo"))
+    for side in ("Left", "Right"):
+        bones.parents[f"{side}Shoulder"] = "Hips"
+    named_otherwise = {"Spine": "lower", "Spine1": "middle", "Spine2": "upper"}
+    names = {bone: named_otherwise.get(bone, bone) for bone in ordered(bones, np.random.default_rng(1))}
+    told = body_roles({role: bone for role, (bone, _) in skeleton_of(bones, names).role_map().items()})
+    assert told["neck_1"] == "Neck" and told["left_lower_arm"] == "LeftForeArm"
+    assert not {"lower", "middle", "upper"} & set(told.values())
+
+
+def test_numbers_alone_tell_no_joint_of_a_limb_but_its_shape_does() -> None:
+    skeleton = humanoid("mixamo")
+    renamed = {}
+    for side in ("Left", "Right"):
+        renamed.update({f"{side}{part}": f"arm_joint_{side[0]}_{i}" for i, part in enumerate(ARM)})
+        leg = ("UpLeg", "Leg", "Foot", "ToeBase")
+        renamed.update({f"{side}{part}": f"leg_joint_{side[0]}_{i}" for i, part in enumerate(leg)})
+    roles = {role: bone for role, (bone, _) in skeleton.role_map().items()}
+    told = remade(skeleton, rename=lambda name: renamed.get(name, name)).role_map()
+    assert {role: told[role][0] for role in body_roles(roles)} == {
+        role: renamed.get(bone, bone) for role, bone in body_roles(roles).items()
+    }
+
+
+def test_layers_of_a_rig_are_told_apart_with_numbers_of_nodes_behind_all_names() -> None:
+    bones = bones_of(humanoid("rigify"))
+    names = {bone: f"DEF-{bone}" for bone in ordered(bones, np.random.default_rng(1))}
+    truth = dict(bones.roles)
+    for bone, above in (("torso", ""), ("ORG-spine", "torso")):
+        bones.parents[bone], bones.heads[bone], bones.ends[bone] = above, bones.heads["spine"], bones.ends["spine"]
+    bones.parents.update({"spine": "torso", "thigh.L": "ORG-spine", "thigh.R": "ORG-spine"})
+    names = {
+        bone: f"{name}_{number:02}"
+        for number, (bone, name) in enumerate(
+            {"torso": "torso", "spine": "DEF-spine", "ORG-spine": "ORG-spine", **names}.items()
+        )
+    }
+    told = {role: bone for role, (bone, _) in skeleton_of(bones, names).role_map().items()}
+    assert body_roles(told) == {"root": names["torso"], **{role: names[bone] for role, bone in truth.items()}}
+
+
+def test_collar_bones_as_long_as_arms_are_known_by_where_they_begin() -> None:
+    bones = bones_of(humanoid("mixamo"))
+    for side, sign in (("Left", 1), ("Right", -1)):
+        bones.heads[f"{side}Shoulder"] = bones.heads["Neck"] - [0, 0, 0.03]
+        for bone in bones.heads:
+            if bone.startswith(side) and bone[len(side) :] not in {"Shoulder", "UpLeg", "Leg", "Foot", "ToeBase"}:
+                bones.heads[bone] = bones.heads[bone] + [0.1 * sign, 0, 0]
+    truth = {role: bone for role, bone in bones.roles.items() if "arm" in role or "shoulder" in role}
+    told = unnamed(bones)
+    assert {role: told.get(role) for role in truth} == truth
+
+
+def test_feet_as_long_as_thighs_are_known_by_where_they_lead() -> None:
+    bones = bones_of(humanoid("mixamo"))
+    for side in ("Left", "Right"):
+        bones.heads[f"{side}ToeBase"] = bones.heads[f"{side}ToeBase"] + [0, -0.3, 0]
+    assert unnamed(bones)["left_foot"] == "LeftFoot"
+
+
+def test_controls_that_a_file_kept_beside_the_body_are_no_limbs() -> None:
+    bones = bones_of(humanoid("unreal"))
+    for side in ("l", "r"):
+        ball, above = bones.heads[f"ball_{side}"], "root"
+        for part, offset in (("toe roll", -0.3), ("heel roll", 0.3), ("foot roll", -0.2), ("target", 0.2)):
+            bones.parents[f"{part} {side}"], above = above, f"{part} {side}"
+            bones.heads[above], bones.ends[above] = ball + np.array([0, offset, 0]), np.array([0, 0, 0.1])
+    told = unnamed(bones)
+    assert {role: bones.roles.get(role) for role in told} == told
+    assert told["hips"] == "pelvis"

@@ -10,7 +10,7 @@ from tools.evaluate.inputs import find_takes
 from tools.shell import Failure
 
 SKELETONS = (".bvh", ".asf")
-RIGS = (".blend", ".glb", ".gltf", ".vrm", ".fbx")
+RIGS = (".blend", ".glb", ".gltf", ".vrm", ".fbx", ".usd", ".usda", ".usdc", ".usdz")
 """What Blender reads."""
 
 

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-import shutil
-import tempfile
 from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -50,26 +48,14 @@ def open_rig(path: Path, armature: str | None) -> OpenRig:
 
 
 def _import(path: Path) -> Any:
+    """A file of a format that the add-on's importer reads, too."""
     bpy: Any = import_module("bpy")
     bpy.ops.wm.read_factory_settings(use_empty=True)
     try:
-        if path.suffix.lower() == ".fbx":
-            bpy.ops.import_scene.fbx(filepath=str(path))
-        else:
-            _import_gltf(bpy, path)
-    except (RuntimeError, ValueError, KeyError, OSError) as error:
-        raise Failure(f"{path}: Blender cannot import it: {' '.join(str(error).split())}") from error
+        addon("mocap.by_blender").import_all(path)
+    except addon("errors").UserError as error:
+        raise Failure(str(error)) from error
     return bpy
-
-
-def _import_gltf(bpy: Any, path: Path) -> None:
-    """A VRM is a GLB of another name."""
-    if path.suffix.lower() != ".vrm":
-        bpy.ops.import_scene.gltf(filepath=str(path))
-        return
-    with tempfile.TemporaryDirectory() as folder:
-        copy = shutil.copy(path, Path(folder) / f"{path.stem}.glb")
-        bpy.ops.import_scene.gltf(filepath=str(copy))
 
 
 def save_minute(opened: OpenRig, character: core.Character, seed: int, path: Path) -> None:

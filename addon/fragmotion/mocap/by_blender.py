@@ -5,11 +5,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import bpy
 import numpy as np
@@ -25,6 +25,9 @@ from .scratch import nothing_left
 
 if TYPE_CHECKING:
     from fragmotion_core import Clip, Rig, Skeleton, Take
+
+
+_Read = TypeVar("_Read")
 
 
 class _Importer(NamedTuple):
@@ -56,13 +59,27 @@ class NoTakes(UserError):
 def read_takes(context: bpy.types.Context, path: Path, character: str) -> list[Take]:
     """Each Action of each armature in a file, or of the one named `character` where there are several. Needs a scratch
     scene; nothing else stays in the .blend. NoTakes where no armature is animated; UserError on what cannot be read."""
+
+    def read(importer: _Importer) -> list[Take]:
+        with nothing_left():
+            return _read_by(context, importer, path, character)
+
+    return _first_success(path, read)
+
+
+def import_all(path: Path) -> None:
+    """Bring all that is in a file into the scene; UserError on what cannot be read."""
+    _first_success(path, lambda importer: _run(importer, path))
+
+
+def _first_success(path: Path, read: Callable[[_Importer], _Read]) -> _Read:
+    """What the first importer gives that reads the file; where none does, what the first had against it."""
     check_regular(path)
     _check_archive(path)
     refusals: list[UserError] = []
     for importer in _available(path):
         try:
-            with nothing_left():
-                return _read_by(context, importer, path, character)
+            return read(importer)
         except UserError as error:
             refusals.append(error)
     if not refusals:

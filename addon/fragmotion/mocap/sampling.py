@@ -39,13 +39,21 @@ def sample(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.
 
     A channel without keys or muted rests; the file is as before.
     """
-    curves = _playing_curves(obj, action)
+    rate, times = frame_times(context.scene, action, _checked_curves(obj, action))
+    return sample_at(context, obj, action, rig, rate, times)
+
+
+def sample_at(
+    context: bpy.types.Context,
+    obj: bpy.types.Object,
+    action: bpy.types.Action,
+    rig: Rig,
+    rate: float,
+    times: Doubles,
+) -> Clip:
+    """The Action at any of its frames, as a clip of so many samples a second; SinglePose where there is one alone."""
+    curves = _checked_curves(obj, action)
     place = f"Action '{action.name}'"
-    if not any(name in obj.data.bones for name in animated_bones(action, obj)):
-        raise UserError(f"{place} animates no bone of armature '{obj.name}': it belongs to another rig")
-    if not curves:
-        raise UserError(f"{place}: all of its channels are muted: unmute them, or untick it")
-    rate, times = frame_times(context.scene, action, curves)
     if len(times) < _FEWEST_FRAMES:
         raise SinglePose(f"{place} holds a single pose (frame {times[0]:g}), no motion to learn from: untick it")
     with core_errors(place):
@@ -94,6 +102,16 @@ def frame_times(scene: bpy.types.Scene, action: bpy.types.Action, curves: Curves
 def sample_times(scene: bpy.types.Scene, obj: bpy.types.Object, action: bpy.types.Action) -> Doubles:
     """The scene frames of the samples that `sample` makes."""
     return frame_times(scene, action, _playing_curves(obj, action))[1]
+
+
+def _checked_curves(obj: bpy.types.Object, action: bpy.types.Action) -> Curves:
+    """What the Action plays on the armature; UserError where that is nothing."""
+    if not any(name in obj.data.bones for name in animated_bones(action, obj)):
+        raise UserError(f"Action '{action.name}' animates no bone of armature '{obj.name}': it belongs to another rig")
+    curves = _playing_curves(obj, action)
+    if not curves:
+        raise UserError(f"Action '{action.name}': all of its channels are muted: unmute them, or untick it")
+    return curves
 
 
 def _playing_curves(obj: bpy.types.Object, action: bpy.types.Action) -> Curves:

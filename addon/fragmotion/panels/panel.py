@@ -128,6 +128,8 @@ class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
             draw_wrapped(layout.column(align=True), context, f"No Actions for '{obj.name}'", "INFO")
             return
         _draw_takes(layout, context, obj, len(actions))
+        if obj.animation_data is not None and obj.animation_data.nla_tracks:
+            layout.operator("fragmotion.take_strips", icon="NLA")
 
 
 def _draw_takes(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object, count: int) -> None:

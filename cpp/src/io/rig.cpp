@@ -15,6 +15,7 @@ namespace fragmotion {
 
 namespace {
 
+constexpr double kOverlong = 3;  // times as long as the way to the next bone: no lengths of this body
 constexpr double kRigid = 1e-3;  // Blender's matrices are floats; anything worse is no rigid transform
 
 std::size_t offset_of(int frame, int bones, int bone) { return static_cast<std::size_t>(frame) * bones + bone; }
@@ -44,6 +45,33 @@ void check_bones(const Armature& armature) {
   }
 }
 
+/// By how much bones are too long: the median over those with one child, of their lengths in ways to the child.
+double overlength(const Armature& armature) {
+  const auto head = [&](std::size_t b) -> Vector3 { return RowMajor(&armature.rest[16 * b]).topRightCorner<3, 1>(); };
+  std::vector<int> children(armature.names.size(), 0);
+  for (const int parent : armature.parents) {
+    if (parent >= 0) ++children[parent];
+  }
+  std::vector<double> ratios;
+  for (std::size_t b = 0; b < armature.names.size(); ++b) {
+    const int parent = armature.parents[b];
+    if (parent < 0 || children[parent] != 1) continue;
+    const double way = (head(b) - head(parent)).norm();
+    if (way > 0) ratios.push_back(armature.lengths[parent] / way);
+  }
+  if (ratios.empty()) return 1;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
+}
+
+/// Blender's importer of glTF makes all bones a hundred times too long where the file's armature is scaled by 0.01.
+void shorten_bones(Armature& armature) {
+  const double times = overlength(armature);
+  if (!(times > kOverlong)) return;
+  for (double& length : armature.lengths) length /= times;
+}
+
 Armature checked(Armature armature) {
   const std::size_t bones = armature.names.size();
   if (bones == 0) fail("armature", "has no bones");
@@ -56,6 +84,7 @@ Armature checked(Armature armature) {
   check_size(armature.inherit_rotation.size(), bones, "inherit_rotation flags");
   check_size(armature.local_location.size(), bones, "local_location flags");
   check_bones(armature);
+  shorten_bones(armature);
   return armature;
 }
 

@@ -18,6 +18,7 @@ constexpr double kShort = 1e-3;       // of a 1.8 m character: m that a bone of 
 constexpr double kNoDirection = 0.3;  // of a foot's length: one that points up or down further has no direction
 constexpr double kInstep = 0.4;       // rad: how far most feet point down from the ankle to the ball
 constexpr double kFoot = 0.33, kLongFoot = 0.6;  // of a shin's length, from the ankle to the ball: usual, and unlikely
+constexpr double kBackUp = 0.5;                  // cosine of a foot to the way from it up the shin
 constexpr double kGround = 0.08;                 // m of a 1.8 m character: joints of feet are no higher over the ground
 
 std::string label_of(Role role, Side side) {
@@ -81,14 +82,22 @@ Skeleton with_roles(Skeleton skeleton, const RoleMap& map) {
   return skeleton;
 }
 
-// Importers that know no bones' ends make feet without toes of any length.
+// Importers that know no bones' ends make feet without toes of any length, and such as point back up the leg, which are
+// to point ahead.
 Skeleton with_short_feet(Skeleton skeleton, const RoleMap& map) {
   const PosedBones rest = rest_posture(skeleton);
+  const Vector3 left =
+      rest.heads[map.bone(Role::kThigh, Side::kLeft)] - rest.heads[map.bone(Role::kThigh, Side::kRight)];
   for (const Side side : kSides) {
     const int foot = map.bone(Role::kFoot, side);
+    if (map.bone(Role::kToe, side) >= 0) continue;
+    const Vector3 up = rest.heads[map.bone(Role::kShin, side)] - rest.heads[foot];
+    const Vector3 ahead = left.cross(up).normalized();
     Vector3& tip = skeleton.tips[foot];
-    const double shin = (rest.heads[foot] - rest.heads[map.bone(Role::kShin, side)]).norm();
-    if (map.bone(Role::kToe, side) < 0 && tip.norm() > kLongFoot * shin) tip *= kFoot * shin / tip.norm();
+    if ((rest.rotations[foot] * tip).dot(up) > kBackUp * tip.norm() * up.norm())
+      tip = rest.rotations[foot].conjugate() * ahead * kFoot * up.norm();
+    else if (tip.norm() > kLongFoot * up.norm())
+      tip *= kFoot * up.norm() / tip.norm();
   }
   return skeleton;
 }

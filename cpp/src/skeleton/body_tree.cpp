@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 
 namespace fragmotion {
 namespace {
@@ -11,6 +13,29 @@ namespace {
 constexpr int kFewest = 8;  // bones of a layer
 
 enum class Layer { kControl, kDeform, kOriginal, kMechanism };
+
+constexpr double kNumbered = 0.9;  // of the bones, whose numbers an exporter has added
+constexpr int kAlikeJoints = 3;    // of a limb that differ in their numbers alone
+
+using Names = std::vector<std::string>;
+
+/// Where "_" and the number begin that a name ends with; its length where it has none.
+std::size_t end_of_name(const std::string& name) {
+  const std::size_t last = name.find_last_not_of("0123456789");
+  return last != std::string::npos && last + 1 < name.size() && name[last] == '_' ? last : name.size();
+}
+
+/// The names without the numbers of nodes that exporters add, no two alike: "LeftArm_012", "Hips_02".
+Names without_node_numbers(const Names& names) {
+  std::set<std::string> numbers;
+  Names shorter;
+  for (const std::string& name : names) {
+    const std::size_t end = end_of_name(name);
+    if (end < name.size()) numbers.insert(name.substr(end));
+    shorter.push_back(name.substr(0, end));
+  }
+  return static_cast<double>(numbers.size()) >= kNumbered * static_cast<double>(names.size()) ? shorter : names;
+}
 
 Layer layer_of(const std::string& name) {
   if (name.rfind("DEF-", 0) == 0) return Layer::kDeform;
@@ -22,29 +47,29 @@ Layer layer_of(const std::string& name) {
 std::string without_layer(const std::string& name) { return layer_of(name) == Layer::kControl ? name : name.substr(4); }
 
 /// The layer that moves the mesh, else the one that the others were made of; all bones of a plain skeleton.
-std::vector<bool> body_layer(const Skeleton& skeleton) {
+std::vector<bool> body_layer(const Names& names) {
   std::map<Layer, int> count;
-  for (const std::string& name : skeleton.names) ++count[layer_of(name)];
-  std::vector<bool> in(skeleton.size(), true);
+  for (const std::string& name : names) ++count[layer_of(name)];
+  std::vector<bool> in(names.size(), true);
   for (const Layer layer : {Layer::kDeform, Layer::kOriginal}) {
     if (count[layer] < kFewest) continue;
-    for (int b = 0; b < skeleton.size(); ++b) in[b] = layer_of(skeleton.names[b]) == layer;
+    for (std::size_t b = 0; b < names.size(); ++b) in[b] = layer_of(names[b]) == layer;
     break;
   }
   return in;
 }
 
 /// The next bone of the layer above; what stands between may belong to another layer's bone of the same name.
-std::vector<int> layer_parents(const Skeleton& skeleton, const std::vector<bool>& in) {
+std::vector<int> layer_parents(const Skeleton& skeleton, const Names& names, const std::vector<bool>& in) {
   std::map<std::string, int> by_name;
   for (int b = 0; b < skeleton.size(); ++b) {
-    if (in[b]) by_name.emplace(without_layer(skeleton.names[b]), b);
+    if (in[b]) by_name.emplace(without_layer(names[b]), b);
   }
   std::vector<int> standing(skeleton.size());  // the layer's bone that each bone is or serves, or that is above
   std::vector<int> parents(skeleton.size(), -1);
   for (int b = 0; b < skeleton.size(); ++b) {
     const int above = skeleton.parents[b] < 0 ? -1 : standing[skeleton.parents[b]];
-    const auto same = by_name.find(without_layer(skeleton.names[b]));
+    const auto same = by_name.find(without_layer(names[b]));
     standing[b] = in[b] ? b : same != by_name.end() && same->second < b ? same->second : above;
     if (in[b]) parents[b] = above;
   }
@@ -53,15 +78,16 @@ std::vector<int> layer_parents(const Skeleton& skeleton, const std::vector<bool>
 
 }  // namespace
 
-BodyTree::BodyTree(const Skeleton& skeleton)
-    : names(read_names(skeleton)),
-      in_layer(body_layer(skeleton)),
-      in_body(in_layer),
-      parents(layer_parents(skeleton, in_layer)) {
+BodyTree::BodyTree(const Skeleton& skeleton) {
+  const Names plain = without_node_numbers(skeleton.names);
+  names = read_names(plain);
+  in_layer = in_body = body_layer(plain);
+  parents = layer_parents(skeleton, plain, in_layer);
   depth.assign(size(), 0);
   holds.assign(size(), {});
   twist.assign(size(), false);
   for (const BoneName& name : names) said.push_back(fragmotion::says(name));
+  silence_numbered_limbs();
   for (int b = 0; b < size(); ++b) {
     depth[b] = parents[b] < 0 ? 0 : depth[parents[b]] + 1;
     twist[b] = in_body[b] && says_twist(names[b]);
@@ -79,6 +105,33 @@ void BodyTree::forget_names() {
   said.assign(names.size(), {});
   in_body = in_layer;
   twist.assign(size(), false);
+}
+
+void BodyTree::swap_sides() {
+  for (BoneName& name : names) {
+    if (name.side != Side::kNone) name.side = name.side == Side::kLeft ? Side::kRight : Side::kLeft;
+  }
+  for (std::array<bool, 2>& held : holds) std::swap(held[0], held[1]);
+}
+
+/// "leg_joint_L_1", "leg_joint_L_2", "leg_joint_L_3" say of which limb they are, not which of its bones.
+void BodyTree::silence_numbered_limbs() {
+  constexpr std::array<Role, 5> kArm{Role::kShoulder, Role::kUpperArm, Role::kLowerArm, Role::kHand, Role::kFinger};
+  constexpr std::array<Role, 4> kLeg{Role::kThigh, Role::kShin, Role::kFoot, Role::kToe};
+  const auto silence = [&](int bone, const auto& roles) {
+    for (const Role role : roles) said[bone][static_cast<int>(role)] = 0;
+  };
+  for (int b = 0; b < size(); ++b) {
+    std::vector<int> chain{b};
+    for (int p = parents[b]; p >= 0 && names[p].words == names[b].words; p = parents[p]) chain.push_back(p);
+    if (static_cast<int>(chain.size()) < kAlikeJoints) continue;
+    const bool arm = says(b, Role::kUpperArm) > 0 && says(b, Role::kLowerArm) > 0;
+    const bool leg = says(b, Role::kThigh) > 0 && says(b, Role::kShin) > 0;
+    for (const int bone : chain) {
+      if (arm) silence(bone, kArm);
+      if (leg) silence(bone, kLeg);
+    }
+  }
 }
 
 bool BodyTree::is_below(int bone, int ancestor) const {

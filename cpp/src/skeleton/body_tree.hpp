@@ -17,6 +17,9 @@ struct BodyTree {
   /// What remains where names lie.
   void forget_names();
 
+  /// Where names say left of what is right, and right of what is left.
+  void swap_sides();
+
   int size() const { return static_cast<int>(names.size()); }
   bool is_below(int bone, int ancestor) const;
   /// The lowest bone that both are below or are; -1 where there is none.
@@ -32,6 +35,9 @@ struct BodyTree {
   std::vector<int> parents;                ///< Among the bones of the layer, -1 above.
   std::vector<int> depth;                  ///< Bones of the layer above.
   std::vector<std::array<bool, 2>> holds;  ///< Whether it, or a bone below it, is named of the left, of the right.
+
+ private:
+  void silence_numbered_limbs();
 };
 
 /// A limb from the trunk outward; -1 where a bone is not told.

@@ -165,12 +165,14 @@ int extra_unseparated(const BoneName& name, std::string_view keyword) {
 
 }  // namespace
 
-std::vector<BoneName> read_names(const Skeleton& skeleton) {
+std::vector<BoneName> read_names(const std::vector<std::string>& bone_names) {
   BonesByName bones;
-  for (int bone = 0; bone < skeleton.size(); ++bone) bones.emplace(lower_case(skeleton.names[bone]), bone);
+  for (std::size_t bone = 0; bone < bone_names.size(); ++bone) {
+    bones.emplace(lower_case(bone_names[bone]), static_cast<int>(bone));
+  }
   std::vector<BoneName> names;
-  names.reserve(skeleton.names.size());
-  for (const std::string& name : skeleton.names) names.push_back(read_name(name, bones));
+  names.reserve(bone_names.size());
+  for (const std::string& name : bone_names) names.push_back(read_name(name, bones));
   return names;
 }
 

@@ -20,7 +20,7 @@ struct BoneName {
 };
 
 /// The names of all bones. ASCII letters alone have capitals: the locale must not change what a name means.
-std::vector<BoneName> read_names(const Skeleton& skeleton);
+std::vector<BoneName> read_names(const std::vector<std::string>& bone_names);
 
 bool has_any_word(const BoneName& name, std::initializer_list<std::string_view> words);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "skeleton/body_tree.hpp"
@@ -33,8 +34,8 @@ class LimbFinder {
     for (int end = 0; end < tree_.size(); ++end) {
       const double score = fits(end, roles_.end);
       if (score > 0) try_end(end, score);
+      try_without_end(end);
     }
-    if (best_.bones[Limb::kEnd] < 0) return best_;
     drop_claimed_by_others(Limb::kUpper, roles_.upper);
     drop_claimed_by_others(Limb::kLower, roles_.lower);
     find_first();
@@ -106,11 +107,23 @@ class LimbFinder {
     }
   }
 
+  /// Hands and feet that controls carry hang elsewhere.
+  void try_without_end(int lower) {
+    const double lower_score = fits(lower, roles_.lower);
+    if (lower_score <= 0) return;
+    for (const int upper : above(lower)) {
+      const double upper_score = fits(upper, roles_.upper);
+      if (upper_score <= 0) continue;
+      take(lower_score + upper_score - kMissing - skipped(upper, lower), {-1, upper, lower, -1, -1},
+           {0, upper_score, lower_score, 0, 0});
+    }
+  }
+
   void take(double score, const std::array<int, 5>& bones, const std::array<double, 5>& scores) {
     for (const int bone : bones) {
       if (bone >= 0) score -= kDeeper * tree_.depth[bone];
     }
-    if (best_.bones[Limb::kEnd] >= 0 && score <= best_score_) return;
+    if (score <= best_score_) return;
     best_score_ = score;
     best_.bones = bones;
     for (std::size_t i = 0; i < bones.size(); ++i) best_.confidence[i] = bones[i] < 0 ? 0 : confidence_of(scores[i]);
@@ -142,7 +155,7 @@ class LimbFinder {
   }
 
   void find_tip() {
-    if (roles_.tip == Role::kFinger) return;
+    if (roles_.tip == Role::kFinger || best_.bones[Limb::kEnd] < 0) return;
     double most = 0;
     for (int b = best_.bones[Limb::kEnd] + 1; b < tree_.size(); ++b) {
       const double score = fits(b, roles_.tip);
@@ -158,7 +171,7 @@ class LimbFinder {
   LimbRoles roles_;
   bool joint_named_;
   Limb best_;
-  double best_score_ = 0;
+  double best_score_ = -std::numeric_limits<double>::infinity();
 };
 
 int best_unsided(const BodyTree& tree, Role role, double& score) {
@@ -197,7 +210,11 @@ void find_hips(const BodyTree& tree, Body& body) {
   } else if (named >= 0 && score >= 2) {  // told only where a leg hangs on them
     const bool carries = std::any_of(body.legs.begin(), body.legs.end(),
                                      [&](const Limb& leg) { return tree.is_below(leg.bones[Limb::kEnd], named); });
-    if (carries) body.hips = named, body.hips_confidence = 0.6;
+    if (carries) {
+      body.hips = named, body.hips_confidence = 0.6;
+    } else if (carrier >= 0 && tree.parents[named] == carrier) {  // a pelvis beside the legs is a part of the spine
+      body.hips = carrier, body.hips_confidence = 0.8;
+    }
   } else {
     body.hips = carrier >= 0 ? carrier : named;
     body.hips_confidence = carrier >= 0 ? 0.85 : 0.6;

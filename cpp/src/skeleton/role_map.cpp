@@ -29,8 +29,13 @@ double agreed(double confidence) { return 1 - (1 - confidence) / 2; }
 
 /// What names tell, made surer by the shape where it agrees; else what the shape tells.
 Limb merged(const Limb& named, const Limb& shaped, const Limb& shaped_other) {
-  if (named.bones[Limb::kEnd] < 0) return shaped;
+  if (named.bones[Limb::kUpper] < 0 && named.bones[Limb::kEnd] < 0) return shaped;
   Limb limb = named;
+  if (limb.bones[Limb::kEnd] < 0 && limb.bones[Limb::kLower] == shaped.bones[Limb::kLower]) {
+    for (const int part : {Limb::kEnd, Limb::kTip}) {
+      limb.bones[part] = shaped.bones[part], limb.confidence[part] = shaped.confidence[part];
+    }
+  }
   const bool other_side = shaped_other.whole() && named.bones[Limb::kEnd] == shaped_other.bones[Limb::kEnd];
   for (std::size_t i = 0; i < limb.bones.size(); ++i) {
     if (other_side) limb.confidence[i] = std::min(limb.confidence[i], kTold);
@@ -66,6 +71,18 @@ Body uncontradicted(const BodyTree& tree, Body shaped) {
   return shaped;
 }
 
+/// Whether the names say left where feet and knees say right, of both arms and both legs of a man.
+bool is_mirrored(const Body& named, const Body& shaped) {
+  const auto crossed = [](const std::array<Limb, 2>& names, const std::array<Limb, 2>& shapes, int side) {
+    const int end = names[side].bones[Limb::kEnd];
+    return end >= 0 && end == shapes[1 - side].bones[Limb::kEnd] && names[side].bones[Limb::kLower] >= 0;
+  };
+  for (const int side : {0, 1}) {
+    if (!crossed(named.legs, shaped.legs, side) || !crossed(named.arms, shaped.arms, side)) return false;
+  }
+  return true;
+}
+
 Body merged(const Body& named, const Body& shaped) {
   Body body = named;
   merge_bone(shaped.hips, shaped.hips_confidence, body.hips, body.hips_confidence);
@@ -95,7 +112,8 @@ void forget_shins_of_beasts(const Skeleton& skeleton, const BodyTree& tree, Body
   rest_pose(skeleton, heads, rotations);
   for (Limb& leg : body.legs) {
     int& shin = leg.bones[Limb::kLower];
-    if (shin >= 0 && has_joint_between(heads, tree, shin, leg.bones[Limb::kEnd])) shin = -1;
+    if (shin >= 0 && leg.bones[Limb::kEnd] >= 0 && has_joint_between(heads, tree, shin, leg.bones[Limb::kEnd]))
+      shin = -1;
   }
 }
 
@@ -147,14 +165,15 @@ class MapMaker {
       if (tree_.in_body[b]) path.insert(path.begin(), b);
     }
     const bool head_named = body_.head >= 0 && tree_.says(body_.head, Role::kHead) > 0;
+    const bool chest = arms >= 0 && arms != body_.hips;  // arms on the hips tell no spine from a neck
     bool neck = false;
     int spines = 0, necks = 0;
     for (const int b : path) {
       const double spine_said = tree_.says(b, Role::kSpine), neck_said = tree_.says(b, Role::kNeck);
-      const bool beyond_arms = arms >= 0 && b != arms && tree_.is_below(b, arms);
+      const bool beyond_arms = chest && b != arms && tree_.is_below(b, arms);
       neck = neck || neck_said > 0 || (beyond_arms && (spine_said <= 0 || !head_named));
       const bool said = (neck ? neck_said : spine_said) > 0;
-      const double confidence = said ? kNamed : arms >= 0 ? kBetween : 0;
+      const double confidence = said ? kNamed : chest ? kBetween : 0;
       add(neck ? Role::kNeck : Role::kSpine, Side::kNone, b, confidence, neck ? necks++ : spines++);
     }
     add(Role::kHead, Side::kNone, body_.head, body_.head_confidence);
@@ -308,9 +327,15 @@ double RoleMap::confidence(Role role, Side side) const {
 
 RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion) {
   BodyTree tree(skeleton);
-  const std::optional<Body> named = named_body(tree);
+  std::optional<Body> named = named_body(tree);
   if (!named) tree.forget_names();
-  Body body = merged(named.value_or(Body{}), uncontradicted(tree, shaped_body(skeleton, tree, motion)));
+  const Body shaped = shaped_body(skeleton, tree, motion);
+  if (named) forget_shins_of_beasts(skeleton, tree, *named);
+  if (named && is_mirrored(*named, shaped)) {
+    tree.swap_sides();
+    named = named_body(tree);
+  }
+  Body body = merged(named.value_or(Body{}), uncontradicted(tree, shaped));
   forget_shins_of_beasts(skeleton, tree, body);
   RoleMap map = MapMaker(tree, body).make();
   find_twists(skeleton, tree, map);

@@ -41,7 +41,7 @@ Roles find_roles(const Skeleton& skeleton) {
 }
 
 std::vector<int> mirror_bones(const Skeleton& skeleton) {
-  const std::vector<BoneName> names = read_names(skeleton);
+  const std::vector<BoneName> names = read_names(skeleton.names);
   std::vector<int> mirror(names.size());
   for (int bone = 0; bone < skeleton.size(); ++bone) {
     const int other = names[bone].counterpart;
@@ -53,7 +53,7 @@ std::vector<int> mirror_bones(const Skeleton& skeleton) {
 
 std::vector<int> measured_bones(const Skeleton& skeleton) {
   const Roles& roles = skeleton.roles;
-  const std::vector<BoneName> names = read_names(skeleton);
+  const std::vector<BoneName> names = read_names(skeleton.names);
   const auto is_beyond = [&](int bone, int end) { return end >= 0 && bone != end && skeleton.is_below(bone, end); };
   const int hips = std::max(roles.hips, 0);
   std::vector<int> bones{hips};  // whatever the roles are, Dis sums over something

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -12,6 +13,7 @@ namespace {
 
 // Lengths are shares of the longest way from a leaf to another one.
 constexpr double kLimb = 0.2;       // a limb at least
+constexpr double kLongest = 0.6;    // of the way along its bones, from a limb's beginning to its end
 constexpr double kAlike = 0.05;     // of a limb's length: bones of a pair differ by less
 constexpr double kHand = 0.3;       // of a limb's length that hands and feet reach at most
 constexpr double kBroad = 0.25;     // of the trunk's length that shoulders are apart at least
@@ -26,13 +28,21 @@ constexpr double kSplit = 0.8;      // a third bone of a limb that is as long as
 constexpr double kPart = 0.75;      // times as long at least a bone becomes by a part
 constexpr double kHeadAbove = 0.16, kHeadUnder = 0.5;  // of the trunk's length that a head begins above the shoulders
 constexpr double kCopied = 1e-3;                       // of a bone's length that a copy of it differs by
-constexpr double kSure = 1.5;                          // votes more for one way to take the pairs than for the other
+constexpr double kNarrow = 0.25;    // of the way from arm to arm over the collars, that collars are apart at most
+constexpr double kBroadest = 0.36;  // the same, where they also lead apart and the arms do less
+constexpr double kApart = 0.5, kLessApart = 0.3;  // cosines
+constexpr double kShortArm = 0.75;                // of an upper arm's length, that a lower arm has at least
+constexpr double kLonger = 1.3;  // times as long as a collar an upper arm is, where only the rest pose tells
+constexpr double kSteep = 0.85, kSlanting = 0.8;  // of a bone's length that it leads down
+constexpr double kSure = 1.5;                     // votes more for one way to take the pairs than for the other
 constexpr int kMostPoses = 200;
-constexpr int kFingers = 3;  // at least on a hand
+constexpr int kFingers = 3;             // at least on a hand
+constexpr std::size_t kLimbJoints = 3;  // of a limb at least: where its upper and lower bone and its end begin
 
 constexpr double kNoTrunk = 1e-12;
 
 using Chain = std::vector<int>;
+using Poses = std::vector<const Vector3*>;
 using Joints = std::array<int, 3>;  // of a limb's chain: where its upper and lower bone and its end begin
 
 /// Two limbs that are alike, and the bone that they hang on.
@@ -139,12 +149,23 @@ class ShapeFinder {
     return true;
   }
 
+  // Whether it has the joints of a limb, and is ever stretched: what controls a foot is folded up.
+  bool may_be_limb(const Chain& chain) const {
+    if (chain.size() < kLimbJoints) return false;
+    const double farthest = kLongest * reach_[chain.front()];
+    const auto is_stretched = [&](const Vector3* heads) {
+      return (heads[chain.back()] - heads[chain.front()]).norm() > farthest;
+    };
+    return is_stretched(rest_.data()) || std::any_of(poses_.begin(), poses_.end(), is_stretched);
+  }
+
   std::vector<Pair> find_pairs() const {
     std::vector<Pair> pairs;
     for (int node = 0; node < skeleton_.size(); ++node) {
       std::vector<Chain> limbs;
       for (const int child : children_[node]) {
-        if (length(child) + reach_[child] >= kLimb * size_) limbs.push_back(chain_from(child));
+        if (length(child) + reach_[child] < kLimb * size_) continue;
+        if (Chain chain = chain_from(child); may_be_limb(chain)) limbs.push_back(std::move(chain));
       }
       std::optional<Pair> pair;
       int found = 0;
@@ -222,8 +243,21 @@ class ShapeFinder {
     votes += !middle(b, a.node).empty() - !middle(a, b.node).empty();
     votes += is_below(b.node, a.node) ? 0.5 : -0.5;
     const double feet = lowest(a) - lowest(b);
-    if (under(a) > kUpright || under(b) > kUpright) votes += feet < 0 ? 1.5 : -1.5;
+    if (under(a) > kUpright || under(b) > kUpright || stands(a.node, b.node)) votes += feet < 0 ? 1.5 : -1.5;
     return votes;
+  }
+
+  // Whether the way between two bones is steep on the mean over all poses.
+  bool stands(int a, int b) const { return a != b && std::abs(descent(poses_, a, b)) > kUpright; }
+
+  // How far down it is from one bone to another on the mean over poses, in lengths of the way.
+  static double descent(const Poses& poses, int from, int to) {
+    double down = 0;
+    for (const Vector3* heads : poses) {
+      const Vector3 way = heads[to] - heads[from];
+      down -= way.z() / std::max(way.norm(), kNoTrunk);
+    }
+    return down / static_cast<double>(poses.size());
   }
 
   double lowest(const Pair& pair) const {
@@ -265,10 +299,10 @@ class ShapeFinder {
 
   // How far a bone begins above the shoulders, in lengths of the trunk: the mean over all poses but those that are none
   // of a body, as rest poses of files may be; 0 where there is no other.
-  double above_shoulders(const Body& body, int bone) const {
+  double above_shoulders(const Body& body, const Poses& poses, int bone) const {
     double above = 0;
     int told = 0;
-    for (const Vector3* heads : poses_) {
+    for (const Vector3* heads : poses) {
       const Vector3 shoulders = between(body.arms, heads), trunk = shoulders - between(body.legs, heads);
       if (across(body.arms, heads).norm() < kBroad * trunk.norm()) continue;
       above += (heads[bone] - shoulders).dot(trunk) / std::max(trunk.squaredNorm(), kNoTrunk);
@@ -283,11 +317,21 @@ class ShapeFinder {
     return i > 1 && i + 1 == chain.size() && std::abs(length - before) < kCopied * length;
   }
 
-  // The bones of a neck and beyond that begin where a head does.
+  // The bones of a neck and beyond that begin where a head does: at rest and in the motion, where both tell.
   Chain possible_heads(const Body& body, const Chain& chain) const {
+    const Chain rest = possible_heads(body, {rest_.data()}, chain);
+    const Chain motion = possible_heads(body, poses_, chain);
+    if (rest.empty() || motion.empty()) return rest.empty() ? motion : rest;
+    Chain both;
+    std::copy_if(rest.begin(), rest.end(), std::back_inserter(both),
+                 [&](int bone) { return std::find(motion.begin(), motion.end(), bone) != motion.end(); });
+    return both;
+  }
+
+  Chain possible_heads(const Body& body, const Poses& poses, const Chain& chain) const {
     Chain possible;
     for (std::size_t i = 0; i < chain.size(); ++i) {
-      const double above = above_shoulders(body, chain[i]);
+      const double above = above_shoulders(body, poses, chain[i]);
       if (above < kHeadAbove || above > kHeadUnder) continue;
       if (possible.empty() && may_be_mark(chain, i)) possible.push_back(chain[i - 1]);
       possible.push_back(chain[i]);
@@ -335,8 +379,31 @@ class ShapeFinder {
   }
 
   std::array<Limb, 2> limbs(const Pair& pair, bool arm) const {
-    const Joints found = joints(pair.chains[0], parts(pair));
-    return {limb(pair.chains[0], found, arm), limb(pair.chains[1], found, arm)};
+    const bool collared = arm && begins_with_collars(pair);
+    const Joints found = joints(pair.chains[0], parts(pair), collared ? 1 : 0);
+    return {limb(pair.chains[0], found, arm, collared), limb(pair.chains[1], found, arm, collared)};
+  }
+
+  // Collar bones begin beside each other and lead apart; upper arms begin at both sides, and hang.
+  bool begins_with_collars(const Pair& pair) const {
+    const auto& [left, right] = pair.chains;
+    const double between = (rest_[left[0]] - rest_[right[0]]).norm();
+    const double across = between + length(left[1]) + length(right[1]);
+    if (between < kNarrow * across) return true;
+    if (between > kBroadest * across || (!moves_ && length(left[2]) < kLonger * length(left[1]))) return false;
+    const double first = same_way(pair, 0);
+    return first < -kApart && same_way(pair, 1) > first + kLessApart;
+  }
+
+  // The cosine between the left and the right bone of a pair, the mean over all poses.
+  double same_way(const Pair& pair, std::size_t i) const {
+    const auto& [left, right] = pair.chains;
+    double cosines = 0;
+    for (const Vector3* heads : poses_) {
+      const Vector3 a = heads[left[i + 1]] - heads[left[i]], b = heads[right[i + 1]] - heads[right[i]];
+      cosines += a.normalized().dot(b.normalized());
+    }
+    return cosines / static_cast<double>(poses_.size());
   }
 
   double way(const Chain& chain, int from, int to) const { return (rest_[chain[to]] - rest_[chain[from]]).norm(); }
@@ -351,11 +418,11 @@ class ShapeFinder {
 
   // Where the two longest bones that follow each other begin and end. Such a bone may have parts; but a wrist that is
   // held still is no part of a lower arm, and adds less to its length than a part does.
-  Joints joints(const Chain& chain, const std::vector<bool>& part) const {
+  Joints joints(const Chain& chain, const std::vector<bool>& part, int first) const {
     const int bones = static_cast<int>(part.size());
     Joints best{-1, -1, -1};
     double most = 0;
-    for (int upper = 0; upper + 2 < bones; ++upper) {
+    for (int upper = first; upper + 2 < bones; ++upper) {
       for (int lower = upper + 1; lower + 1 < bones && !part[upper]; ++lower) {
         if (branches(chain[lower])) break;
         for (int end = lower + 1; end < bones && !part[lower]; ++end) {
@@ -370,15 +437,26 @@ class ShapeFinder {
     return best;
   }
 
-  Limb limb(const Chain& chain, const Joints& joints, bool arm) const {
+  // Whether a bone leads ahead that a steep one leads down to.
+  static bool is_foot(const Poses& poses, const Chain& chain, int shin, int foot) {
+    return descent(poses, chain[shin], chain[foot]) > kSteep &&
+           descent(poses, chain[foot], chain[foot + 1]) < kSlanting;
+  }
+
+  Limb limb(const Chain& chain, const Joints& joints, bool arm, bool collared) const {
     const auto [upper, lower, end] = joints;
     if (upper < 0) return {};
     if (arm && upper == 0 && lower > 1) return {};  // a shoulder against which the arm is held still looks like a part
     const int bones = static_cast<int>(chain.size());
     const double most = kSplit * std::min(way(chain, upper, lower), way(chain, lower, end));
     const bool hand = branches(chain[end]);  // whose lower arm and elbow are told, so what is before is a shoulder
-    if (upper > 0 && way(chain, upper - 1, upper) > most && !(hand && moves_)) return {};
-    if (end + 1 < bones && way(chain, end, end + 1) > most && !hand) return {};
+    const bool in_parts = arm && !moves_ && !hand && way(chain, lower, end) < kShortArm * way(chain, upper, lower);
+    if (in_parts) return {};  // or so it may be: motion would tell
+    const bool shoulder = (hand && moves_) || (collared && upper == 1);
+    const bool foot =
+        !arm && end + 1 < bones && (is_foot({rest_.data()}, chain, lower, end) || is_foot(poses_, chain, lower, end));
+    if (upper > 0 && way(chain, upper - 1, upper) > most && !shoulder) return {};
+    if (end + 1 < bones && way(chain, end, end + 1) > most && !hand && !foot) return {};
     Limb limb;
     const auto set = [&](int part, int i, double confidence) {
       limb.bones[part] = chain[i];
@@ -427,7 +505,7 @@ class ShapeFinder {
   const BodyTree& tree_;
   std::vector<Vector3> rest_;
   std::vector<Quaternion> rotations_;
-  std::vector<const Vector3*> poses_;
+  Poses poses_;
   bool moves_ = false;
   std::vector<int> parents_;
   std::vector<std::vector<int>> children_;

@@ -112,7 +112,11 @@ def test_there_must_be_something_to_bake() -> None:
 def test_a_control_rig_makes_no_crowd() -> None:
     rig = layouts.add_layout()
     assert bpy.ops.fragmotion.bind_rig() == {"FINISHED"}
-    refuses(bpy.ops.fragmotion.populate, rig, "'Hero' is a control rig: only plain armatures")
+    refuses(
+        bpy.ops.fragmotion.populate,
+        rig,
+        "'Hero' is a control rig, and only plain armatures can be copied: press Bake to Controls",
+    )
 
 
 def test_a_rig_whose_motion_skeleton_was_deleted_can_be_unbound(addon: ModuleType) -> None:

@@ -140,6 +140,17 @@ TEST(Rig, RestsWhereTheArmatureDoesInMetres) {
   }
 }
 
+TEST(Rig, ShortensBonesThatAnImporterMadeFarTooLong) {
+  Armature armature = random_armature(2);
+  const Rig rig(armature);
+  for (double& length : armature.lengths) length *= 1000;
+  const Rig overlong(armature);
+  for (int b = 0; b < rig.skeleton().size(); ++b) {
+    EXPECT_LT(overlong.skeleton().tips[b].norm(), 30 * rig.skeleton().tips[b].norm());
+    EXPECT_EQ(overlong.skeleton().offsets[b], rig.skeleton().offsets[b]);
+  }
+}
+
 TEST(Rig, TakesGivenRolesBeforeNames) {
   Armature armature = random_armature(3);
   armature.roles = {{"hips", "body"}, {"head", "spine"}};

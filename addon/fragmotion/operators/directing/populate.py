@@ -31,7 +31,10 @@ class FRAGMOTION_OT_populate(PopulateFields, Baking, bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         obj = active_armature(context)
         if obj is not None and rig_of(obj) != obj:
-            cls.poll_message_set(f"'{rig_of(obj).name}' is a control rig: only plain armatures can be copied")
+            cls.poll_message_set(
+                f"'{rig_of(obj).name}' is a control rig, and only plain armatures can be copied: press Bake to "
+                "Controls, and duplicate the rig with its meshes (Shift D); each copy plays what Action you give it"
+            )
             return False
         return bool(super().poll(context))
 

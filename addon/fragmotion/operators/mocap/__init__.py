@@ -11,6 +11,7 @@ from .mend_finding import FRAGMOTION_OT_mend_finding
 from .play_take import FRAGMOTION_OT_play_take
 from .retarget_actions import FRAGMOTION_OT_retarget_actions
 from .set_style import FRAGMOTION_OT_set_style
+from .take_strips import FRAGMOTION_OT_take_strips
 from .tick_actions import FRAGMOTION_OT_tick_actions
 
 __all__ = ["CLASSES", "DROP_HANDLERS"]
@@ -25,6 +26,7 @@ CLASSES = (
     FRAGMOTION_OT_mend_finding,
     FRAGMOTION_OT_play_take,
     FRAGMOTION_OT_retarget_actions,
+    FRAGMOTION_OT_take_strips,
     FRAGMOTION_OT_tick_actions,
     FRAGMOTION_OT_set_style,
 )

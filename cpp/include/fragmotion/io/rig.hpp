@@ -14,7 +14,7 @@ struct Armature {
   std::vector<std::string> names;
   std::vector<int> parents;            ///< Parents before children; -1 where a bone has none, which several may.
   std::vector<double> rest;            ///< [bones, 4, 4]: rest matrices in the armature's space, y along the bone
-  std::vector<double> lengths;         ///< [bones]: along y, in the armature's units
+  std::vector<double> lengths;         ///< [bones]: along y, in the armature's units; far too long: shortened
   std::vector<double> world;           ///< [4, 4]: the object's matrix; its scale makes metres of the armature's units
   std::vector<bool> inherit_rotation;  ///< [bones], or empty: all true
   std::vector<bool> local_location;    ///< [bones], or empty: all true
