@@ -12,6 +12,7 @@ namespace {
 constexpr double kJoinsWell = 1.3;                // times the Dis of the fragment that joins best, and
 constexpr double kJoinsNear = 0.3 / kTunedReach;  // m a metre of reach more
 constexpr double kAsWell = 0.5;                   // of the way from the least error to the representative's
+constexpr double kUnsteady = 2;                   // ControlDis a m/s by which a fragment gets faster or slower
 constexpr double kOutOfTurn = 2 / kTunedReach;    // m a metre of reach that a step out of turn costs
 constexpr double kLook = kEntry / 2;              // s between the moments at which a fragment may be left early
 
@@ -49,15 +50,17 @@ void FragmentSelector::extrapolate(const Playback& playback) const {
   extrapolate(pose_tips(playback, playback.seconds(), now), before, now);
 }
 
-// Finds the members that perform the control nearly as well as any of them does. Where the representative jumps, or
-// does not, as is wanted, they do so too.
+// Finds the members that perform the control nearly as well as any of them does, and as steadily: a control that
+// changes comes here step by step (CommandLimit), and one that is held is limped through by fragments that brake. Where
+// the representative jumps, or does not, as is wanted, they do so too.
 void FragmentSelector::find_candidates(int next_class, const Control& control) const {
   const Character& c = *style_->character;
   const auto matches = [&](int fragment) { return matches_jump(c.pool.fragments[fragment].evident, control); };
   const int representative = c.classes.representatives[next_class];
   const auto error = [&](int fragment) {
     if (matches(representative) && !matches(fragment)) return std::numeric_limits<double>::infinity();
-    return c.space.distance(c.pool.fragments[fragment].evident, control);
+    const double off = c.space.distance(c.pool.fragments[fragment].evident, control);
+    return off + kUnsteady * style_->velocity_changes[fragment];
   };
   double best = error(representative);
   const double usual = best;

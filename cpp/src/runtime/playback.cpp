@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fragmotion/fragments/hips_velocity.hpp"
 #include "fragmotion/motion/pose.hpp"
 
 namespace fragmotion {
@@ -23,9 +24,15 @@ Playback::Playback(const Character& character, Workspace& workspace, Stitching s
 void Playback::reset(int fragment, const CharacterFrame& frame) {
   faded_ = 0;
   inertialization_.clear();
-  now_ = place(style_, fragment, frame);
+  play(place(style_, fragment, frame));
   steps_ = {standing_feet(0), -1, 0};
   show();
+}
+
+void Playback::play(const Placed& placed) {
+  now_ = placed;
+  const Vector2 velocity = hips_velocity(clip(now_), fragment());
+  evident_of_hips_ = {velocity.x(), velocity.y(), evident().turn, evident().jump};
 }
 
 Playback::Placed Playback::place(int style, int number, const CharacterFrame& frame) const {
@@ -65,7 +72,7 @@ Vector2 Playback::start_move(int part) { return start(place(0, part, frame_)); }
 
 Vector2 Playback::start(const Placed& next) {
   before_ = now_;
-  now_ = next;
+  play(next);
   const bool inertializes = stitching_ == Stitching::inertialize;
   const Vector2 faster = inertializes && stitch_ > 0 ? begin_stitch(before_) : Vector2::Zero();
   faded_ = inertializes ? 0 : std::min(stitch_, left());

@@ -69,9 +69,9 @@ void PoseCorrection::adjust_tempo(const Control& control, const Control& evident
 }
 
 void PoseCorrection::adjust_root(const Control& control, double seconds, Playback& playback) {
-  adjust_tempo(control, playback.evident(), seconds);
+  adjust_tempo(control, playback.evident_of_hips(), seconds);
   const auto part = [&](double time) { return 1 - std::exp(-seconds / time); };
-  const Vector2 change = part(kAdjusting) * (velocity_to_add(control, playback.evident()) - velocity_);
+  const Vector2 change = part(kAdjusting) * (velocity_to_add(control, playback.evident_of_hips()) - velocity_);
   if (!playback.is_in_the_air()) velocity_ += clamp_length(change, acceleration_ * seconds);
   turn_rate_ += part(kTurning) * (turn_to_add(control, playback, seconds) - turn_rate_);
   playback.move(velocity_, turn_rate_, seconds);
@@ -90,7 +90,7 @@ void PoseCorrection::correct(const Playback& playback, const Vector2& accelerati
   const Skeleton& skeleton = workspace_->kinematics.skeleton();
   breathing_.apply(skeleton, workspace_->shown, !playback.plays_move() && stands(playback.evident()), seconds);
   lean_.apply(skeleton, workspace_->shown, acceleration, seconds);
-  edit_steps(playback.evident(), seconds);
+  edit_steps(playback.evident_of_hips(), seconds);
   if (lock_feet_) lock_feet(playback, seconds);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fragmotion/fragments/entry_poses.hpp"
+#include "fragmotion/fragments/hips_velocity.hpp"
 
 namespace fragmotion {
 namespace {
@@ -36,7 +37,7 @@ Workspace::Workspace(const Character& character)
   std::size_t most = 0;
   for (int style = 0; style < character.style_count(); ++style) {
     const Character& c = character.in_style(style);
-    styles.push_back({&c, c.classes.members(), entry_steps(c)});
+    styles.push_back({&c, c.classes.members(), entry_steps(c), velocity_changes(c.pool)});
     most = std::max(most, c.pool.fragments.size());
   }
   candidates.reserve(most);

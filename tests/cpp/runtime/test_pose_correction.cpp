@@ -28,7 +28,7 @@ std::pair<Vector2, double> adjusted(double adjustment, const Control& beyond) {
   PoseCorrection correction(*character, workspace, adjustment, kAcceleration, true);
   playback.reset(forward_fragment(*character), {});
   correction.reset(0);
-  const Control& ev = playback.evident();
+  const Control& ev = playback.evident_of_hips();
   const Control control{ev.x + beyond.x, ev.y + beyond.y, ev.turn + beyond.turn, 0};
   for (int i = 0; i < 30; ++i) {
     correction.adjust_root(control, 1.0 / 60, playback);
@@ -61,7 +61,7 @@ TEST(PoseCorrection, LetsGoOfAVelocityNoFasterThanABodyCan) {
   playback.reset(character->classes.representatives[0], {});
   correction.reset(0);
   correction.keep_velocity({0, 2});
-  const Control& ev = playback.evident();
+  const Control& ev = playback.evident_of_hips();
   double before = 2;
   for (int i = 0; i < 60; ++i) {
     const double from = playback.frame().position.y();
@@ -79,7 +79,7 @@ TEST(PoseCorrection, StepsSlowerWhereLessIsAskedForAndNeverFaster) {
   Workspace workspace(*character);
   Playback playback(*character, workspace, Stitching::inertialize, 0.2);
   playback.reset(forward_fragment(*character), {});
-  const Control& ev = playback.evident();
+  const Control& ev = playback.evident_of_hips();
   const auto tempo = [&](double adjustment, double share) {
     PoseCorrection correction(*character, workspace, adjustment, kAcceleration, true);
     correction.reset(0);

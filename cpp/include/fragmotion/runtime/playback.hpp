@@ -44,6 +44,8 @@ class Playback {
   /// What plays.
   const Fragment& fragment() const { return fragment(now_); }
   const Control& evident() const { return fragment().evident; }
+  /// evident(), but with hips_velocity().
+  const Control& evident_of_hips() const { return evident_of_hips_; }
   bool plays_move() const { return now_.number >= static_cast<int>(styled(now_).pool.fragments.size()); }
   /// Of the clip that plays.
   const Contacts& contacts() const { return styled(now_).contacts[fragment().clip]; }
@@ -89,6 +91,7 @@ class Playback {
   const PackedClip& clip(const Placed& placed) const { return styled(placed).pool.clips[fragment(placed).clip]; }
   Placed place(int style, int number, const CharacterFrame& frame) const;
   Vector2 start(const Placed& next);
+  void play(const Placed& placed);
   void sample(const Placed& placed, WorldPose& pose) const;
   void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
   Vector2 begin_stitch(const Placed& old);
@@ -101,6 +104,7 @@ class Playback {
   int style_ = 0;
   double stitch_;
   Placed now_, before_;
+  Control evident_of_hips_;
   double faded_ = 0;
   StepSequence steps_;
   Inertialization inertialization_;

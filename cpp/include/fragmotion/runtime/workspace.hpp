@@ -18,6 +18,7 @@ struct FragmentLists {
   const Character* character;             ///< In that style.
   std::vector<std::vector<int>> members;  ///< Classes::members()
   std::vector<EntrySteps> entry_steps;    ///< entry_steps()
+  std::vector<double> velocity_changes;   ///< velocity_changes()
 };
 
 /// What players of one character that step in turn share: what never changes, and room to work in.

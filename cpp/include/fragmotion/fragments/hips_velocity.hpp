@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "fragmotion/fragments/fragment.hpp"
+
+namespace fragmotion {
+
+/// At which the hips go over the ground in a fragment, m/s in the character frame halfway: the way that a character
+/// takes. Its evident velocity is that of the centre of mass, which in a part of a step is another.
+Vector2 hips_velocity(const PackedClip& clip, const Fragment& fragment);
+
+/// How much the velocity of the hips changes within each fragment, from its first tenth of a second to its last, m/s of
+/// a 1.8 m character: much where it starts, brakes or turns, though its mean be that of a steady one.
+std::vector<double> velocity_changes(const PackedPool& pool);
+
+}  // namespace fragmotion

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fragmotion/fragments/hips_velocity.hpp"
+#include "fragmotion/fragments/packed_pool.hpp"
+#include "walker.hpp"
+
+namespace fragmotion {
+namespace {
+
+// The frames `begin` .. `end` of a take as the only fragment.
+PackedPool one_fragment(Clip clip, int begin, int end) {
+  Fragment fragment;
+  fragment.begin = begin;
+  fragment.end = end;
+  return pack(FragmentPool{humanoid(), {std::move(clip)}, {fragment}});
+}
+
+// A take that gets slower from frame to frame, from 3 m/s by 2 m/s a second.
+Clip braking_clip() {
+  Gait gait;
+  gait.seconds = 1;
+  Clip clip = gait_clip(gait);
+  for (int f = 0; f < clip.frames; ++f) {
+    const double t = f / clip.rate;
+    clip.root_positions[3 * static_cast<std::size_t>(f) + 1] = -(3 * t - t * t);
+  }
+  return make_clip(humanoid(), std::move(clip));
+}
+
+TEST(HipsVelocity, IsThatOfTheWayInTheCharacterFrameHalfway) {
+  for (const double heading : {0.0, 1.0, -2.5}) {
+    Gait gait;
+    gait.x = 0.3;
+    gait.heading = heading;
+    const PackedPool pool = one_fragment(gait_clip(gait), 10, 40);
+    const Vector2 velocity = hips_velocity(pool.clips[0], pool.fragments[0]);
+    EXPECT_NEAR(velocity.x(), 0.3, 0.02);
+    EXPECT_NEAR(velocity.y(), 1.2, 0.02);
+  }
+}
+
+TEST(HipsVelocity, ChangesNoMoreThanAStepDoesWhereItIsSteadyAndByAllThatIsBraked) {
+  const double scale = standard_scale(humanoid());
+  EXPECT_LT(velocity_changes(one_fragment(gait_clip({}), 10, 40))[0], 0.1);
+  EXPECT_NEAR(velocity_changes(one_fragment(braking_clip(), 0, 27))[0], 2 * 0.8 * scale, 0.1);
+  EXPECT_NEAR(velocity_changes(one_fragment(braking_clip(), 10, 12))[0], 0, 0.1);  // too short to tell
+}
+
+}  // namespace
+}  // namespace fragmotion
