@@ -100,9 +100,13 @@ def install_into(folder: Path, version: str, *requirements: str | Path) -> None:
 
 
 def install_for_windows(folder: Path, version: str, requirements: Iterable[str]) -> None:
-    """Install Windows' wheels for a Python into a folder."""
+    """Install Windows' wheels for a Python into a folder, by this machine's of that version: pip compares its own with
+    what packages require."""
     options = ("--platform", "win_amd64", "--python-version", version, "--only-binary", ":all:", "--upgrade")
-    run([environment_python(HOST), *_PIP, "install", "--target", folder, *options, *requirements], "pip-windows")
+    run(
+        [environment_python(version), *_PIP, "install", "--target", folder, *options, *requirements],
+        f"pip-windows-{version}",
+    )
 
 
 @contextmanager

@@ -9,7 +9,7 @@ import shlex
 import subprocess
 import time
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +22,15 @@ from tools.platforms import LINUX, TESTED_PLATFORMS, WINDOWS, Platform
 from tools.shell import Failure, run, say
 
 _BLENDER_TESTS = TOP / "tests" / "blender"
+# Install, register, import, build, drive, bake: whether the add-on runs, where Windows' 4.5 runs all of its tests.
+_SHORT = (
+    "blender/test_register.py",
+    "blender/test_extension_life.py",
+    "blender/test_sample.py",
+    "blender/mocap/test_importing.py",
+    "blender/drive/test_drive.py",
+    "blender/bake/test_baking.py",
+)
 _THREADED_TESTS = "Thread|ParallelFor|Crowd"
 # Whole characters made again and again for their figures, an hour's takes: what these call, others call as well.
 _NOT_SANITIZED = (
@@ -152,7 +161,7 @@ def blender_52(expression: str | None) -> Counts:
 
 def blender_debian(expression: str | None) -> Counts:
     """The add-on's tests in Debian's Blender (3.4.1 on Debian 12, 4.3 on 13), with pytest inside it."""
-    arguments = [machine.PYTEST_FOLDER, *_pytest_arguments("blender-debian", _BLENDER_TESTS, expression)]
+    arguments = [machine.PYTEST_FOLDER, *_pytest_arguments("blender-debian", expression, _BLENDER_TESTS)]
     command = blender.background_command(_BLENDER_TESTS / "run_in_blender.py", *arguments)
     return _counted(command, "blender-debian", _debian("blender-debian"), expression)
 
@@ -161,7 +170,7 @@ def windows_python(expression: str | None) -> Counts:
     """The binding's tests in Windows' Python, by Wine, and whether its core makes what Linux's makes."""
     core = compiling.unpacked_core(packages.wheels_for(WINDOWS)[BPY_PYTHON], WINDOWS)
     path = windows.path(core)
-    return _windows("windows", "python", {"PYTHONPATH": path}, expression) + _same_bits(path, expression)
+    return _windows("windows", BPY_PYTHON, ["python"], {"PYTHONPATH": path}, expression) + _same_bits(path, expression)
 
 
 def _same_bits(windows_path: str, expression: str | None) -> Counts:
@@ -169,22 +178,33 @@ def _same_bits(windows_path: str, expression: str | None) -> Counts:
     environment = {
         **windows.environment(),
         "PYTHONPATH": os.pathsep.join((str(core), str(TOP / "tests" / "python"))),
-        "FRAGMOTION_WINDOWS_PYTHON": shlex.join(str(word) for word in windows.python_command()),
+        "FRAGMOTION_WINDOWS_PYTHON": shlex.join(str(word) for word in windows.python_command(BPY_PYTHON)),
         "FRAGMOTION_WINDOWS_PATH": windows_path,
     }
     return _pytest("windows-bits", BPY_PYTHON, TOP / "tests" / "windows", environment, expression)
 
 
-def windows_blender(expression: str | None) -> Counts:
+def windows_45(expression: str | None) -> Counts:
     """The add-on's tests in Windows' Blender 4.5, by Wine."""
-    folders = {name: windows.path(folder) for name, folder in blender.sandbox("windows-4.5").items()}
+    return _windows_blender("windows-4.5", "3.11", ["blender"], expression)
+
+
+def windows_52(expression: str | None) -> Counts:
+    """Some of the add-on's tests in Windows' Blender 5.2, by Wine."""
+    return _windows_blender("windows-5.2", "3.13", _SHORT, expression)
+
+
+def _windows_blender(stage: str, version: str, tests: Sequence[str], expression: str | None) -> Counts:
+    folders = {name: windows.path(folder) for name, folder in blender.sandbox(stage).items()}
     addon = windows.path(packages.extension_path(WINDOWS))
-    return _windows("windows-4.5", "blender", {**folders, "FRAGMOTION_ADDON_ZIP": addon}, expression)
+    return _windows(stage, version, tests, {**folders, "FRAGMOTION_ADDON_ZIP": addon}, expression)
 
 
-def _windows(stage: str, tests: str, environment: Mapping[str, str], expression: str | None) -> Counts:
-    arguments = _pytest_arguments(stage, TOP / "tests" / tests, expression)
-    command = [*windows.python_command(), "-m", "pytest", *arguments]
+def _windows(
+    stage: str, version: str, tests: Sequence[str], environment: Mapping[str, str], expression: str | None
+) -> Counts:
+    folders = [TOP / "tests" / name for name in tests]
+    command = [*windows.python_command(version), "-m", "pytest", *_pytest_arguments(stage, expression, *folders)]
     return _counted(command, stage, {**windows.environment(), **environment}, expression)
 
 
@@ -194,7 +214,7 @@ def gui(expression: str | None) -> Counts:
         raise Skipped("tests/gui holds no test yet")
     environment = {**_debian("gui"), "LIBGL_ALWAYS_SOFTWARE": "1"}
     screen = ("xvfb-run", "--auto-servernum", "--server-args", "-screen 0 1600x900x24")
-    arguments = _pytest_arguments("gui", TOP / "tests" / "gui", expression)
+    arguments = _pytest_arguments("gui", expression, TOP / "tests" / "gui")
     command = [*screen, environments.environment_python(HOST), "-m", "pytest", *arguments]
     return _counted(command, "gui", environment, expression)
 
@@ -242,13 +262,13 @@ def _debian(sandbox: str) -> dict[str, str]:
 
 
 def _pytest(stage: str, version: str, folder: Path, environment: Mapping[str, str], expression: str | None) -> Counts:
-    command = [environments.environment_python(version), "-m", "pytest", *_pytest_arguments(stage, folder, expression)]
+    command = [environments.environment_python(version), "-m", "pytest", *_pytest_arguments(stage, expression, folder)]
     return _counted(command, stage, environment, expression)
 
 
-def _pytest_arguments(stage: str, folder: Path, expression: str | None) -> list[str | Path]:
+def _pytest_arguments(stage: str, expression: str | None, *tests: Path) -> list[str | Path]:
     selection = ["-k", expression] if expression else []
-    return ["-q", f"--junitxml={_fresh_report(stage)}", *selection, folder]
+    return ["-q", f"--junitxml={_fresh_report(stage)}", *selection, *tests]
 
 
 def _fresh_report(stage: str) -> Path:
