@@ -136,7 +136,11 @@ def packages_of(platforms: tuple[Platform, ...], expression: str | None = None) 
     """Build the zips of platforms, and look into them."""
     for platform in platforms:
         _say_packages(platform)
-    environment = {"PYTHONPATH": str(TOP), "FRAGMOTION_PLATFORMS": " ".join(platform.name for platform in platforms)}
+    environment = {
+        "PYTHONPATH": str(TOP),
+        "FRAGMOTION_PLATFORMS": " ".join(platform.name for platform in platforms),
+        "FRAGMOTION_MORE_PYTHONS": " ".join(platforms[0].more_pythons),
+    }
     return _pytest("package", HOST, TOP / "tests" / "packages", environment, expression)
 
 
