@@ -22,6 +22,7 @@ from tools.platforms import LINUX, TESTED_PLATFORMS, WINDOWS, Platform
 from tools.shell import Failure, run, say
 
 _BLENDER_TESTS = TOP / "tests" / "blender"
+_NOT_MEASURED = ("-m", "not measures")  # of pytest; the marker is in pyproject.toml
 # Install, register, import, build, drive, bake: whether the add-on runs, where Windows' 4.5 runs all of its tests.
 _SHORT = (
     "blender/test_register.py",
@@ -154,18 +155,21 @@ def _say_packages(platform: Platform) -> None:
 
 
 def blender_45(expression: str | None) -> Counts:
-    """The add-on's tests in Blender 4.5 LTS, a Python 3.11 module."""
+    """The add-on's tests in Blender 4.5 LTS, a Python 3.11 module; the others leave out what is measured here."""
     return _pytest("blender-4.5", "3.11", _BLENDER_TESTS, _extension("blender-4.5"), expression)
 
 
 def blender_52(expression: str | None) -> Counts:
     """The add-on's tests in Blender 5.2 LTS, a Python 3.13 module."""
-    return _pytest("blender-5.2", "3.13", _BLENDER_TESTS, _extension("blender-5.2"), expression)
+    return _pytest("blender-5.2", "3.13", _BLENDER_TESTS, _extension("blender-5.2"), expression, _NOT_MEASURED)
 
 
 def blender_debian(expression: str | None) -> Counts:
     """The add-on's tests in Debian's Blender (3.4.1 on Debian 12, 4.3 on 13), with pytest inside it."""
-    arguments = [machine.PYTEST_FOLDER, *_pytest_arguments("blender-debian", expression, _BLENDER_TESTS)]
+    arguments = [
+        machine.PYTEST_FOLDER,
+        *_pytest_arguments("blender-debian", expression, _BLENDER_TESTS, *_NOT_MEASURED),
+    ]
     command = blender.background_command(_BLENDER_TESTS / "run_in_blender.py", *arguments)
     return _counted(command, "blender-debian", _debian("blender-debian"), expression)
 
@@ -208,7 +212,12 @@ def _windows(
     stage: str, version: str, tests: Sequence[str], environment: Mapping[str, str], expression: str | None
 ) -> Counts:
     folders = [TOP / "tests" / name for name in tests]
-    command = [*windows.python_command(version), "-m", "pytest", *_pytest_arguments(stage, expression, *folders)]
+    command = [
+        *windows.python_command(version),
+        "-m",
+        "pytest",
+        *_pytest_arguments(stage, expression, *_NOT_MEASURED, *folders),
+    ]
     return _counted(command, stage, {**windows.environment(), **environment}, expression)
 
 
@@ -265,12 +274,20 @@ def _debian(sandbox: str) -> dict[str, str]:
     return {**blender.debian_environment(sandbox), "FRAGMOTION_ADDON_ZIP": str(packages.debian_zip())}
 
 
-def _pytest(stage: str, version: str, folder: Path, environment: Mapping[str, str], expression: str | None) -> Counts:
-    command = [environments.environment_python(version), "-m", "pytest", *_pytest_arguments(stage, expression, folder)]
+def _pytest(
+    stage: str,
+    version: str,
+    folder: Path,
+    environment: Mapping[str, str],
+    expression: str | None,
+    options: Sequence[str] = (),
+) -> Counts:
+    arguments = _pytest_arguments(stage, expression, *options, folder)
+    command = [environments.environment_python(version), "-m", "pytest", *arguments]
     return _counted(command, stage, environment, expression)
 
 
-def _pytest_arguments(stage: str, expression: str | None, *tests: Path) -> list[str | Path]:
+def _pytest_arguments(stage: str, expression: str | None, *tests: str | Path) -> list[str | Path]:
     selection = ["-k", expression] if expression else []
     return ["-q", f"--junitxml={_fresh_report(stage)}", *selection, *tests]
 
