@@ -6,14 +6,15 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 
-from tools import benchmarks, demo, evaluating, fuzzing, machine, stages, testing
+from tools import benchmarks, demo, evaluating, fuzzing, machine, maven, stages, testing
 from tools.beside import inputs as beside_inputs
 from tools.directing import inputs as directing_inputs
 from tools.doctor import inputs as doctor_inputs
 from tools.evaluate import inputs
-from tools.platforms import PLATFORMS, named
+from tools.platforms import PLATFORMS
 from tools.retarget import inputs as retarget_inputs
 from tools.shell import Failure
 
@@ -50,12 +51,19 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
         choices=[platform.name for platform in PLATFORMS],
         help=f"only for one of {', '.join(platform.name for platform in PLATFORMS)}",
     )
+    package.add_argument(
+        "--python",
+        metavar="VERSION",
+        choices=list(maven.VERSIONS),
+        help="with a core for this Python in the extension, too: 3.14 for Debian's own Blender 5.2",
+    )
     return parser.parse_args(arguments)
 
 
-def package(name: str | None) -> int:
+def package(name: str | None, python: str | None) -> int:
     """Build the zips of one platform or of all, say where they are, and look into them."""
-    platforms = (named(name),) if name else PLATFORMS
+    more = (python,) if python else ()
+    platforms = tuple(replace(platform, more_pythons=more) for platform in PLATFORMS if name in (None, platform.name))
     machine.set_up(machine.package_needs(platforms))
     return 1 if stages.packages_of(platforms).failed else 0
 
@@ -75,7 +83,7 @@ def main(arguments: list[str]) -> int:
             return benchmarks.run_benchmarks(options.json)
         if options.command in evaluating.COMMANDS:
             return evaluating.COMMANDS[options.command](options, arguments[1:])
-        return package(options.platform)
+        return package(options.platform, options.python)
     except Failure as failure:
         print(f"dev.py: {failure}", file=sys.stderr)
         return 1

@@ -8,7 +8,7 @@ import shutil
 import subprocess
 from collections.abc import Iterable
 
-from tools.shell import Failure, run, say
+from tools.shell import Failure, run, step
 
 _OPTIONS = ("-y", "--no-install-recommends", "-o", "DPkg::Lock::Timeout=300", "-o", "Acquire::Retries=3")
 
@@ -39,10 +39,10 @@ def install(packages: Iterable[str], log: str) -> None:
     absent = missing(packages)
     if not absent:
         return
-    say(f"set-up: Debian packages {' '.join(absent)}")
     prefix = [*(_root_prefix() or ()), "env", "DEBIAN_FRONTEND=noninteractive", "apt-get"]
-    run([*prefix, "update", "-o", "Acquire::Retries=3"], f"{log}-update")
-    run([*prefix, "install", *_OPTIONS, *absent], log)
+    with step(f"{len(absent)} Debian packages", " ".join(absent)):
+        run([*prefix, "update", "-o", "Acquire::Retries=3"], f"{log}-update")
+        run([*prefix, "install", *_OPTIONS, *absent], log)
 
 
 def _root_prefix() -> list[str] | None:

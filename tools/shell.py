@@ -4,17 +4,23 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import signal
 import subprocess
+import sys
 import threading
-from collections.abc import Mapping, Sequence
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TextIO
 
 from tools.paths import LOGS, TOP
 
 TAIL_LINES = 60
+_STEPS_EVERY = 20.0  # s, where lines are not written over
 
 
 class Failure(Exception):
@@ -26,14 +32,41 @@ def say(text: str) -> None:
     print(text, flush=True)
 
 
+@contextmanager
+def step(name: str, contents: str = "") -> Iterator[None]:
+    """Say which step of the set-up begins, and how long it took."""
+    say(f"set-up: {name} {contents}".rstrip())
+    start = time.monotonic()
+    yield
+    say(f"set-up: {name}: done in {time.monotonic() - start:.0f} s")
+
+
+def steps_of(label: str) -> Callable[[str], None]:
+    """A hearer for `run` that says how far ninja is: written over on a terminal, now and then elsewhere."""
+    due = time.monotonic() + _STEPS_EVERY
+
+    def hear(line: str) -> None:
+        nonlocal due
+        step = re.match(r"\[\d+/\d+\]", line)
+        if step and sys.stdout.isatty():
+            print(f"{label}: {step[0]}", end="\r", flush=True)
+        elif step and time.monotonic() >= due:
+            say(f"{label}: {step[0]}")
+            due = time.monotonic() + _STEPS_EVERY
+
+    return hear
+
+
 def run(
     command: Sequence[str | Path],
     log: str,
     environment: Mapping[str, str] | None = None,
     echo: bool = False,
     timeout: float = 1800.0,
+    hear: Callable[[str], None] | None = None,
 ) -> None:
-    """Run a program from the top folder with its output in build/logs/LOG.log, and with `echo` on the terminal.
+    """Run a program from the top folder with its output in build/logs/LOG.log, and with `echo` on the terminal; `hear`
+    is told each line.
 
     Raises Failure with the command and the log's end when it fails or takes more than `timeout` seconds.
     """
@@ -43,14 +76,22 @@ def run(
     with path.open("w") as file:
         file.write(f"$ {shlex.join(words)}\n")
         file.flush()
-        code = _run_logged(words, file, {**os.environ, **(environment or {})}, f"{log}: " if echo else None, timeout)
+        if echo:
+            hear = partial(print, f"{log}: ", end="", sep="", flush=True)
+        code = _run_logged(words, file, {**os.environ, **(environment or {})}, hear, timeout)
     if code != 0:
         cause = f"was stopped after {timeout:.0f} s" if code == -signal.SIGKILL else f"failed with exit code {code}"
         tail = "" if echo else _tail(path)
         raise Failure(f"this {cause} (log: {path}):\n  {shlex.join(words)}{tail}")
 
 
-def _run_logged(words: list[str], file: TextIO, environment: dict[str, str], echo: str | None, timeout: float) -> int:
+def _run_logged(
+    words: list[str],
+    file: TextIO,
+    environment: dict[str, str],
+    hear: Callable[[str], None] | None,
+    timeout: float,
+) -> int:
     try:
         process = subprocess.Popen(
             words,
@@ -71,8 +112,8 @@ def _run_logged(words: list[str], file: TextIO, environment: dict[str, str], ech
         assert process.stdout
         for line in process.stdout:
             file.write(line)
-            if echo is not None:
-                print(f"{echo}{line}", end="", flush=True)
+            if hear:
+                hear(line)
         return process.wait()
     finally:
         timer.cancel()

@@ -9,7 +9,7 @@ import shlex
 import subprocess
 import time
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +22,16 @@ from tools.platforms import LINUX, TESTED_PLATFORMS, WINDOWS, Platform
 from tools.shell import Failure, run, say
 
 _BLENDER_TESTS = TOP / "tests" / "blender"
+_NOT_MEASURED = ("-m", "not measures")  # of pytest; the marker is in pyproject.toml
+# Install, register, import, build, drive, bake: whether the add-on runs, where Windows' 4.5 runs all of its tests.
+_SHORT = (
+    "blender/test_register.py",
+    "blender/test_extension_life.py",
+    "blender/test_sample.py",
+    "blender/mocap/test_importing.py",
+    "blender/drive/test_drive.py",
+    "blender/bake/test_baking.py",
+)
 _THREADED_TESTS = "Thread|ParallelFor|Crowd"
 # Whole characters made again and again for their figures, an hour's takes: what these call, others call as well.
 _NOT_SANITIZED = (
@@ -153,7 +163,11 @@ def packages_of(platforms: tuple[Platform, ...], expression: str | None = None) 
     """Build the zips of platforms, and look into them."""
     for platform in platforms:
         _say_packages(platform)
-    environment = {"PYTHONPATH": str(TOP), "FRAGMOTION_PLATFORMS": " ".join(platform.name for platform in platforms)}
+    environment = {
+        "PYTHONPATH": str(TOP),
+        "FRAGMOTION_PLATFORMS": " ".join(platform.name for platform in platforms),
+        "FRAGMOTION_MORE_PYTHONS": " ".join(platforms[0].more_pythons),
+    }
     return _pytest("package", HOST, TOP / "tests" / "packages", environment, expression)
 
 
@@ -167,18 +181,21 @@ def _say_packages(platform: Platform) -> None:
 
 
 def blender_45(expression: str | None) -> Counts:
-    """The add-on's tests in Blender 4.5 LTS, a Python 3.11 module."""
+    """The add-on's tests in Blender 4.5 LTS, a Python 3.11 module; the others leave out what is measured here."""
     return _pytest("blender-4.5", "3.11", _BLENDER_TESTS, _extension("blender-4.5"), expression)
 
 
 def blender_52(expression: str | None) -> Counts:
     """The add-on's tests in Blender 5.2 LTS, a Python 3.13 module."""
-    return _pytest("blender-5.2", "3.13", _BLENDER_TESTS, _extension("blender-5.2"), expression)
+    return _pytest("blender-5.2", "3.13", _BLENDER_TESTS, _extension("blender-5.2"), expression, _NOT_MEASURED)
 
 
 def blender_debian(expression: str | None) -> Counts:
     """The add-on's tests in Debian's Blender (3.4.1 on Debian 12, 4.3 on 13), with pytest inside it."""
-    arguments = [machine.PYTEST_FOLDER, *_pytest_arguments("blender-debian", _BLENDER_TESTS, expression)]
+    arguments = [
+        machine.PYTEST_FOLDER,
+        *_pytest_arguments("blender-debian", expression, _BLENDER_TESTS, *_NOT_MEASURED),
+    ]
     command = blender.background_command(_BLENDER_TESTS / "run_in_blender.py", *arguments)
     return _counted(command, "blender-debian", _debian("blender-debian"), expression)
 
@@ -187,7 +204,7 @@ def windows_python(expression: str | None) -> Counts:
     """The binding's tests in Windows' Python, by Wine, and whether its core makes what Linux's makes."""
     core = compiling.unpacked_core(packages.wheels_for(WINDOWS)[BPY_PYTHON], WINDOWS)
     path = windows.path(core)
-    return _windows("windows", "python", {"PYTHONPATH": path}, expression) + _same_bits(path, expression)
+    return _windows("windows", BPY_PYTHON, ["python"], {"PYTHONPATH": path}, expression) + _same_bits(path, expression)
 
 
 def _same_bits(windows_path: str, expression: str | None) -> Counts:
@@ -195,22 +212,38 @@ def _same_bits(windows_path: str, expression: str | None) -> Counts:
     environment = {
         **windows.environment(),
         "PYTHONPATH": os.pathsep.join((str(core), str(TOP / "tests" / "python"))),
-        "FRAGMOTION_WINDOWS_PYTHON": shlex.join(str(word) for word in windows.python_command()),
+        "FRAGMOTION_WINDOWS_PYTHON": shlex.join(str(word) for word in windows.python_command(BPY_PYTHON)),
         "FRAGMOTION_WINDOWS_PATH": windows_path,
     }
     return _pytest("windows-bits", BPY_PYTHON, TOP / "tests" / "windows", environment, expression)
 
 
-def windows_blender(expression: str | None) -> Counts:
+def windows_45(expression: str | None) -> Counts:
     """The add-on's tests in Windows' Blender 4.5, by Wine."""
-    folders = {name: windows.path(folder) for name, folder in blender.sandbox("windows-4.5").items()}
+    return _windows_blender("windows-4.5", "3.11", ["blender"], expression)
+
+
+def windows_52(expression: str | None) -> Counts:
+    """Some of the add-on's tests in Windows' Blender 5.2, by Wine."""
+    return _windows_blender("windows-5.2", "3.13", _SHORT, expression)
+
+
+def _windows_blender(stage: str, version: str, tests: Sequence[str], expression: str | None) -> Counts:
+    folders = {name: windows.path(folder) for name, folder in blender.sandbox(stage).items()}
     addon = windows.path(packages.extension_path(WINDOWS))
-    return _windows("windows-4.5", "blender", {**folders, "FRAGMOTION_ADDON_ZIP": addon}, expression)
+    return _windows(stage, version, tests, {**folders, "FRAGMOTION_ADDON_ZIP": addon}, expression)
 
 
-def _windows(stage: str, tests: str, environment: Mapping[str, str], expression: str | None) -> Counts:
-    arguments = _pytest_arguments(stage, TOP / "tests" / tests, expression)
-    command = [*windows.python_command(), "-m", "pytest", *arguments]
+def _windows(
+    stage: str, version: str, tests: Sequence[str], environment: Mapping[str, str], expression: str | None
+) -> Counts:
+    folders = [TOP / "tests" / name for name in tests]
+    command = [
+        *windows.python_command(version),
+        "-m",
+        "pytest",
+        *_pytest_arguments(stage, expression, *_NOT_MEASURED, *folders),
+    ]
     return _counted(command, stage, {**windows.environment(), **environment}, expression)
 
 
@@ -220,7 +253,7 @@ def gui(expression: str | None) -> Counts:
         raise Skipped("tests/gui holds no test yet")
     environment = {**_debian("gui"), "LIBGL_ALWAYS_SOFTWARE": "1"}
     screen = ("xvfb-run", "--auto-servernum", "--server-args", "-screen 0 1600x900x24")
-    arguments = _pytest_arguments("gui", TOP / "tests" / "gui", expression)
+    arguments = _pytest_arguments("gui", expression, TOP / "tests" / "gui")
     command = [*screen, environments.environment_python(HOST), "-m", "pytest", *arguments]
     return _counted(command, "gui", environment, expression)
 
@@ -267,14 +300,22 @@ def _debian(sandbox: str) -> dict[str, str]:
     return {**blender.debian_environment(sandbox), "FRAGMOTION_ADDON_ZIP": str(packages.debian_zip())}
 
 
-def _pytest(stage: str, version: str, folder: Path, environment: Mapping[str, str], expression: str | None) -> Counts:
-    command = [environments.environment_python(version), "-m", "pytest", *_pytest_arguments(stage, folder, expression)]
+def _pytest(
+    stage: str,
+    version: str,
+    folder: Path,
+    environment: Mapping[str, str],
+    expression: str | None,
+    options: Sequence[str] = (),
+) -> Counts:
+    arguments = _pytest_arguments(stage, expression, *options, folder)
+    command = [environments.environment_python(version), "-m", "pytest", *arguments]
     return _counted(command, stage, environment, expression)
 
 
-def _pytest_arguments(stage: str, folder: Path, expression: str | None) -> list[str | Path]:
+def _pytest_arguments(stage: str, expression: str | None, *tests: str | Path) -> list[str | Path]:
     selection = ["-k", expression] if expression else []
-    return ["-q", f"--junitxml={_fresh_report(stage)}", *selection, folder]
+    return ["-q", f"--junitxml={_fresh_report(stage)}", *selection, *tests]
 
 
 def _fresh_report(stage: str) -> Path:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Windows on this machine: its Python, with Blender's module for it, run by Wine."""
+"""Windows on this machine: its Pythons, with Blender's module for each, run by Wine."""
 
 from __future__ import annotations
 
@@ -7,47 +7,57 @@ import shutil
 from pathlib import Path
 
 from tools import environments, maven
-from tools.environments import BPY_PYTHON
-from tools.paths import BUILD
+from tools.paths import BUILD, TOP
 from tools.shell import Failure, run
 
 PACKAGES = (*maven.PACKAGES, "wine64")
 """The Debian packages that it takes."""
 
 _FOLDER = BUILD / "windows"
-_PYTHON = _FOLDER / "python"
-# bpy's metadata names neither cattrs nor which NumPy it was built for; pip takes this machine for the one that runs it,
-# where pytest needs no colorama.
-_REQUIREMENTS = (
-    "bpy==4.5.*",
-    "cattrs",
-    "colorama",
-    "matplotlib",
-    "numpy<2",
-    "pytest",
-    "requests",
-    "scikit-learn",
-    "scipy",
-)
+# The metadata of bpy 4.5 names neither cattrs nor which NumPy it was built for; pip takes this machine for the one that
+# runs it, where pytest needs no colorama.
+_REQUIREMENTS = {
+    "3.11": (
+        "bpy==4.5.*",
+        "cattrs",
+        "colorama",
+        "matplotlib",
+        "numpy<2",
+        "pytest",
+        "requests",
+        "scikit-learn",
+        "scipy",
+    ),
+    "3.13": ("bpy==5.2.*", "colorama", "pytest"),
+}
+_START = TOP / "tests" / "windows" / "wine"  # what these Pythons read when they start
 _LOADERS = ("/usr/lib/wine/wine64", "/usr/lib/wine/wine")  # Debian 12's, 13's: both off the PATH
 
 
-def ensure() -> None:
-    """Put Windows' Python into build/windows, with bpy and what the tests need."""
-    label = f"Windows' Python {BPY_PYTHON} with {' '.join(_REQUIREMENTS)}"
-    with environments.filled(_FOLDER, _REQUIREMENTS, label) as is_needed:
+def ensure(version: str) -> None:
+    """Put Windows' Python of a version ("3.11") into build/windows, with bpy and what the tests need; this machine's
+    environment of that version is there."""
+    folder, requirements = _FOLDER / version, _REQUIREMENTS[version]
+    label = f"Windows' Python {version} with {' '.join(requirements)}"
+    with environments.filled(folder, requirements, label) as is_needed:
         if is_needed:
-            maven.ensure_windows_python(BPY_PYTHON, _PYTHON)
-            environments.install_for_windows(_PYTHON / "lib" / "site-packages", BPY_PYTHON, _REQUIREMENTS)
-            run([*python_command(), "-c", "import bpy"], "wine", environment())
+            packages = _python(version) / "lib" / "site-packages"
+            maven.ensure_windows_python(version, _python(version))
+            environments.install_for_windows(packages, version, requirements)
+            (packages / "wine.pth").write_text(f"{path(_START)}\n")
+            run([*python_command(version), "-c", "import bpy"], f"wine-{version}", environment())
 
 
-def python_command() -> list[str | Path]:
-    """What runs Windows' Python; to be followed by its arguments, and run in `environment()`."""
+def _python(version: str) -> Path:
+    return _FOLDER / version / "python"
+
+
+def python_command(version: str) -> list[str | Path]:
+    """What runs Windows' Python of a version; to be followed by its arguments, and run in `environment()`."""
     loader = next((path for path in _LOADERS if Path(path).exists()), None) or shutil.which("wine")
     if not loader:
         raise Failure("wine64 is installed, but none of its programs is where Debian puts them")
-    return [loader, _PYTHON / "python.exe"]
+    return [loader, _python(version) / "python.exe"]
 
 
 def environment() -> dict[str, str]:

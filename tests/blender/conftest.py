@@ -30,9 +30,10 @@ def addon() -> Iterator[ModuleType]:
 
 
 @pytest.fixture(autouse=True)
-def empty_file(addon: ModuleType) -> None:
-    """Each test starts from an empty file, with the add-on enabled."""
-    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+def empty_file(addon: ModuleType, request: pytest.FixtureRequest) -> None:
+    """Each test starts from an empty file, or from the built armature's, with the add-on enabled."""
+    if "built" not in request.fixturenames:
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
 
 
 @pytest.fixture(scope="session")

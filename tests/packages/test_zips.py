@@ -13,6 +13,7 @@ import re
 import shutil
 import zipfile
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -24,7 +25,7 @@ from packaging.tags import Tag
 from packaging.utils import parse_wheel_filename
 
 from tools import cross, packages
-from tools.platforms import EXTENSION_PYTHONS, LEGACY_PYTHONS, Platform, named
+from tools.platforms import LEGACY_PYTHONS, Platform, named
 
 MEGABYTES_WITHOUT_SDL = 10
 OLDEST_GLIBC = (2, 28)
@@ -47,7 +48,8 @@ PROCESSORS = {
 # What zig's linkers cannot hide: exceptions of pybind11 on Windows and Macs, new and delete on Macs.
 SHOWN = {"Linux": "$", "Windows": r"Z\w*8pybind11", "Darwin": r"_Z\w*8pybind11|_Z(nw|na|dl|da)|__dso_handle|_mh_"}
 
-MADE = [named(name) for name in os.environ["FRAGMOTION_PLATFORMS"].split()]
+MORE_PYTHONS = tuple(os.environ["FRAGMOTION_MORE_PYTHONS"].split())
+MADE = [replace(named(name), more_pythons=MORE_PYTHONS) for name in os.environ["FRAGMOTION_PLATFORMS"].split()]
 
 platforms = pytest.mark.parametrize("platform", MADE, ids=lambda platform: platform.name)
 with_legacy = pytest.mark.parametrize("platform", [p for p in MADE if p.legacy], ids=lambda p: p.name)
@@ -92,11 +94,11 @@ def minor_of(module: str) -> str:
 
 @platforms
 def test_a_platform_has_its_pythons(platform: Platform) -> None:
-    assert packages.pythons_inside(packages.extension_path(platform)) == list(EXTENSION_PYTHONS)
+    assert packages.pythons_inside(packages.extension_path(platform)) == list(platform.extension_pythons)
     if platform.legacy:
         assert packages.pythons_inside(packages.legacy_path(platform)) == list(LEGACY_PYTHONS)
     modules = [minor for minor, _ in modules_of(platform)]
-    assert len(modules) == len(EXTENSION_PYTHONS) + (len(LEGACY_PYTHONS) if platform.legacy else 0)
+    assert len(modules) == len(platform.extension_pythons) + (len(LEGACY_PYTHONS) if platform.legacy else 0)
 
 
 @platforms
@@ -122,7 +124,7 @@ def test_wheels_are_for_that_platform(platform: Platform) -> None:
             assert tag.platform == "any" or any(fnmatch.fnmatch(tag.platform, system) for system in systems), name
         if project == "fragmotion-core":
             cores |= tags
-    expected = [python.replace(".", "") for python in EXTENSION_PYTHONS]
+    expected = [python.replace(".", "") for python in platform.extension_pythons]
     assert cores == {Tag(f"cp{digits}", f"cp{digits}", platform.wheel_tag) for digits in expected}
 
 

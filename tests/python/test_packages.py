@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What `dev.py package` says of the zips."""
+"""What `dev.py package` says of the zips, and while it makes them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tools import environments, machine, packages, platforms, wheels
+from tools import environments, machine, packages, platforms, shell, wheels
 from tools.shell import Failure
 
 
@@ -67,3 +67,15 @@ def test_needs_are_joined_without_repeats() -> None:
     assert len(both.packages) == len(set(both.packages))
     assert any(requirement.startswith("ziglang==") for requirement in both.requirements[environments.HOST])
     assert "bpy==4.5.*" in both.requirements["3.11"]
+
+
+@pytest.mark.parametrize(("is_terminal", "end"), [(True, "\r"), (False, "\n")])
+def test_how_far_ninja_is_is_told(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], is_terminal: bool, end: str
+) -> None:
+    monkeypatch.setattr(shell, "_STEPS_EVERY", 0.0)
+    monkeypatch.setattr("sys.stdout.isatty", lambda: is_terminal)
+    hear = shell.steps_of("build: linux-x64")
+    hear("[3/57] Building CXX object here.o\n")
+    hear("here.cpp: a warning\n")
+    assert capsys.readouterr().out == f"build: linux-x64: [3/57]{end}"

@@ -22,7 +22,7 @@ void append_row(const std::vector<double>& from, std::size_t row, std::size_t wi
 
 Patient::Patient(Take take) : take_(std::move(take)), sources_(take_.frames) {
   std::iota(sources_.begin(), sources_.end(), 0);
-  roles_ = find_role_map(take_.skeleton);
+  roles_ = find_role_map(take_.skeleton, nullptr, Sides::of_the_names);
   find_parts();
   look();
 }

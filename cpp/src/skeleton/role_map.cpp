@@ -325,13 +325,13 @@ double RoleMap::confidence(Role role, Side side) const {
   return least;
 }
 
-RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion) {
+RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion, Sides sides) {
   BodyTree tree(skeleton);
   std::optional<Body> named = named_body(tree);
   if (!named) tree.forget_names();
   const Body shaped = shaped_body(skeleton, tree, motion);
   if (named) forget_shins_of_beasts(skeleton, tree, *named);
-  if (named && is_mirrored(*named, shaped)) {
+  if (named && sides == Sides::of_the_body && is_mirrored(*named, shaped)) {
     tree.swap_sides();
     named = named_body(tree);
   }

@@ -71,11 +71,15 @@ def test_the_parts_of_rigifys_body_are_told_right(addon: ModuleType, rigify: bpy
     }
 
 
-def test_the_motion_skeleton_is_plain_bones_through_the_same_joints(addon: ModuleType, rig: bpy.types.Object) -> None:
+def test_the_motion_skeleton_is_where_its_rig_is(addon: ModuleType) -> None:
+    rig = layouts.add_layout()
     rig.matrix_world = ((0, -2, 0, 3), (2, 0, 0, -1), (0, 0, 2, 0.5), (0, 0, 0, 1))
     bpy.context.view_layer.update()
-    motion = bind(addon, rig)
-    np.testing.assert_allclose(motion.matrix_world, rig.matrix_world, atol=1e-6)
+    np.testing.assert_allclose(bind(addon, rig).matrix_world, rig.matrix_world, atol=1e-6)
+
+
+def test_the_motion_skeleton_is_plain_bones_through_the_same_joints(addon: ModuleType, bound: bpy.types.Object) -> None:
+    rig, motion = bound, addon.control_rig.binding.motion_of(bound)
     assert not any(bone.constraints for bone in motion.pose.bones)
     assert motion.hide_get() and bpy.context.view_layer.objects.active == rig
     roles = addon.rig.rigs.make_rig(motion).skeleton.role_map()
@@ -87,9 +91,9 @@ def test_the_motion_skeleton_is_plain_bones_through_the_same_joints(addon: Modul
     assert knees.length < 1e-6
 
 
-@pytest.mark.parametrize("rig", ["rigify", "FK"], indirect=True)
-def test_the_rig_follows_any_pose_and_its_keys_show_the_same(addon: ModuleType, rig: bpy.types.Object) -> None:
-    motion = bind(addon, rig)
+@pytest.mark.parametrize("bound", ["rigify", "FK"], indirect=True)
+def test_the_rig_follows_any_pose_and_its_keys_show_the_same(addon: ModuleType, bound: bpy.types.Object) -> None:
+    rig, motion = bound, addon.control_rig.binding.motion_of(bound)
     rig.location, rig.rotation_euler.z = (1, 2, 0), 0.6
     making.add_action(motion, FRAMES, name="waves")
     live = assert_follows(addon, rig, range(1, FRAMES + 1))
@@ -117,9 +121,9 @@ def test_a_rig_of_another_unit_follows(addon: ModuleType, size: float) -> None:
 
 @pytest.mark.skipif(not WALK.exists(), reason="no motion capture here")
 def test_takes_build_and_bake_work_with_the_rig_selected(
-    addon: ModuleType, rig: bpy.types.Object, tmp_path: Path
+    addon: ModuleType, bound: bpy.types.Object, tmp_path: Path
 ) -> None:
-    motion = bind(addon, rig)
+    rig, motion = bound, addon.control_rig.binding.motion_of(bound)
     for path in WALK.parent.glob("dataset-1_walk_normal_00[12].bvh"):
         (tmp_path / path.name).write_bytes(path.read_bytes())
     assert bpy.ops.fragmotion.import_mocap(directory=str(tmp_path), onto="ACTIVE") == {"FINISHED"}

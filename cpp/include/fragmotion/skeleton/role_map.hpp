@@ -65,10 +65,16 @@ struct ObservedPoses {
   std::vector<Vector3> heads;  ///< [poses, bones]
 };
 
+/// Whose left and right is told where names say left of all limbs that feet and knees say are right: a rig is named the
+/// wrong way round, or a file is mirrored.
+enum class Sides { of_the_body, of_the_names };
+
 /// The roles that names tell, and where they say nothing the shape: pairs of limbs that are alike, the lengths of their
 /// bones, what is lowest, where the feet point; by `motion` too, where given: which joints bend, to where knees do,
-/// which way is up. Names that contradict the hierarchy tell nothing, nor does the shape what names contradict.
-RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion = nullptr);
+/// which way is up. Names that contradict the hierarchy tell nothing, nor does the shape what names contradict, but for
+/// left and right, where `sides` are the body's.
+RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion = nullptr,
+                      Sides sides = Sides::of_the_body);
 
 /// The bones of a map that the method needs; -1 where it has none.
 Roles roles_of(const RoleMap& map);
