@@ -12,7 +12,9 @@ namespace {
 constexpr double kJoinsWell = 1.3;                // times the Dis of the fragment that joins best, and
 constexpr double kJoinsNear = 0.3 / kTunedReach;  // m a metre of reach more
 constexpr double kAsWell = 0.5;                   // of the way from the least error to the representative's
+constexpr double kNearly = 0.4;                   // ControlDis more than the least error, which the root makes up for
 constexpr double kUnsteady = 2;                   // ControlDis a m/s by which a fragment gets faster or slower
+constexpr double kStep = 0.4, kHurried = 3;       // s, and ControlDis for all of it that a fragment lacks
 constexpr double kOutOfTurn = 2 / kTunedReach;    // m a metre of reach that a step out of turn costs
 constexpr double kLook = kEntry / 2;              // s between the moments at which a fragment may be left early
 
@@ -50,9 +52,9 @@ void FragmentSelector::extrapolate(const Playback& playback) const {
   extrapolate(pose_tips(playback, playback.seconds(), now), before, now);
 }
 
-// Finds the members that perform the control nearly as well as any of them does, and as steadily: a control that
-// changes comes here step by step (CommandLimit), and one that is held is limped through by fragments that brake. Where
-// the representative jumps, or does not, as is wanted, they do so too.
+// Finds the members that perform the control nearly as well as any of them does. A control that changes comes here step
+// by step (CommandLimit), so that fragments which get faster or slower limp through one that is held; and parts of a
+// step bring a stitch the more. Where the representative jumps, or does not, as is wanted, they do so too.
 void FragmentSelector::find_candidates(int next_class, const Control& control) const {
   const Character& c = *style_->character;
   const auto matches = [&](int fragment) { return matches_jump(c.pool.fragments[fragment].evident, control); };
@@ -60,12 +62,13 @@ void FragmentSelector::find_candidates(int next_class, const Control& control) c
   const auto error = [&](int fragment) {
     if (matches(representative) && !matches(fragment)) return std::numeric_limits<double>::infinity();
     const double off = c.space.distance(c.pool.fragments[fragment].evident, control);
-    return off + kUnsteady * style_->velocity_changes[fragment];
+    const double lacks = std::max(0.0, 1 - c.pool.seconds(c.pool.fragments[fragment]) / kStep);
+    return off + kUnsteady * style_->velocity_changes[fragment] + kHurried * lacks;
   };
   double best = error(representative);
   const double usual = best;
   for (const int fragment : style_->members[next_class]) best = std::min(best, error(fragment));
-  const double allowed = best + kAsWell * (usual - best);
+  const double allowed = best + std::max(kAsWell * (usual - best), kNearly);
   workspace_->candidates.clear();
   for (const int fragment : style_->members[next_class]) {
     if (error(fragment) > allowed) continue;
