@@ -20,7 +20,7 @@ sys.path.insert(0, str(DOCS.parent))
 
 from tools import machine, packages  # noqa: E402
 from tools.compiling import installed_core  # noqa: E402
-from tools.environments import HOST, environment_python  # noqa: E402
+from tools.environments import BPY_PYTHON, environment_python  # noqa: E402
 from tools.paths import BUILD, TOP  # noqa: E402
 from tools.shell import Failure  # noqa: E402
 
@@ -34,13 +34,13 @@ def main(arguments: list[str]) -> int:
     options = parser.parse_args(arguments)
     takes, folder = (options.takes.resolve(), BUILD / "motion") if options.takes else (SAMPLE, DOCS / "motion")
     try:
-        machine.set_up(machine.EVALUATE_BLEND)
-        core = installed_core(HOST, packages.wheel(HOST))
+        machine.set_up(machine.measuring_needs(BPY_PYTHON) | machine.BLENDER_45)
+        core = installed_core(BPY_PYTHON, packages.wheel(BPY_PYTHON))
     except Failure as failure:
         print(failure, file=sys.stderr)
         return 1
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(core), str(TOP)))}
-    command = [str(environment_python(HOST)), "-m", "tools.motion_pictures", str(takes), str(folder)]
+    command = [str(environment_python(BPY_PYTHON)), "-m", "tools.motion_pictures", str(takes), str(folder)]
     return subprocess.run(command, env=environment, cwd=TOP, check=False).returncode
 
 
