@@ -75,9 +75,9 @@ def test_the_inspector_asks_for_the_nearest_control_there_is(addon: ModuleType) 
     settings = bpy.context.window_manager.fragmotion.inspector
     for gait, direction, velocity in (("stand", "4", 0), ("sprint", "0", 1), ("stroll", "4", 2), ("walk", "13", 4)):
         settings.gait, settings.direction, settings.turn, settings.jump = gait, direction, "2", True
-        _, control, _ = inspector.decision(obj, settings, 0)
-        assert control == velocity < len(space.points)
-        assert inspector.explain(obj, 0, control)
+        decision = inspector.decision(obj, settings, 0)
+        assert decision.control == velocity < len(space.points)
+        assert inspector.explain(obj, decision)
 
 
 def test_a_picture_has_a_dot_for_each_velocity(addon: ModuleType) -> None:
