@@ -13,8 +13,8 @@ struct Exit {
   double cost = 0;      ///< Of the stitch and of waiting, m a metre of tip_reach().
 };
 
-/// Chooses the member of a class that is played: at random (Sec. 3.1) among those that perform the control nearly as well
-/// and as steadily as any does and join on well. Allocates nothing once it is made.
+/// Chooses the member of a class that is played: at random (Sec. 3.1) among those that perform the control nearly as
+/// well and as steadily as any does and join on well. Allocates nothing once it is made.
 class FragmentSelector {
  public:
   /// Chooses from the first style. The workspace and its character must outlive it.
