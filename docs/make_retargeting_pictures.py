@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Make the picture of docs/retargeting.md: Rigify's human, which follows a take. In any Blender, without a screen:
+"""Make the pictures of docs/retargeting.md: Rigify's human, which follows a take, or a character of an FBX file, which
+does what it does. In any Blender, without a screen:
 
 blender --background --factory-startup --python-exit-code 1 --python docs/make_retargeting_pictures.py \
-    -- build/packages/LEGACY.zip TAKE.bvh|TAKE.amc [FIRST LAST]
+    -- build/packages/LEGACY.zip TAKE.bvh|TAKE.amc [FIRST LAST [CHARACTER.fbx NAME]]
 
-The picture in docs is of CMU's take 02_01, a walk.
+The pictures in docs are of CMU's take 02_01, a walk, the second with Mixamo's X Bot.
 """
 
 from __future__ import annotations
@@ -39,32 +40,56 @@ OVER = 0.12  # of its length, how far a part reaches beyond its joints
 
 
 def main() -> None:
-    """Generate the rig, let it follow the take, and draw what its controls' keys show."""
-    package, take, *span = sys.argv[sys.argv.index("--") + 1 :]
+    """Let the character do what the take does, and draw it."""
+    package, take, *more = sys.argv[sys.argv.index("--") + 1 :]
     addon = import_module(making.install(package))
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    rig = rigify_human()
-    making.activate(rig)
     bpy.context.scene.render.fps = 30
-    add_body(rig, addon.control_rig.joints.find_joints(rig))
     path = Path(take).resolve()
-    done = (
-        bpy.ops.fragmotion.bind_rig(),
-        bpy.ops.fragmotion.import_mocap(directory=str(path.parent), files=[{"name": path.name}], onto="ACTIVE"),
-        bpy.ops.fragmotion.bake_to_controls("EXEC_DEFAULT"),
-    )
-    assert set().union(*done) == {"FINISHED"}
-    action = rig.animation_data.action
+    span, character = more[:2], more[2:]
+    if character:
+        obj, action = performed(path, character[0])
+    else:
+        obj, action = followed(addon, path)
+    name = character[1] if character else "rigify"
     frames = (float(span[0]), float(span[1])) if span else tuple(action.frame_range)
-    action.name = f"{path.stem} on Rigify's human"
-    target = DOCS / "retargeting" / "rigify.jpg"
+    target = DOCS / "retargeting" / f"{name}.jpg"
     target.parent.mkdir(exist_ok=True)
     with TemporaryDirectory() as folder:
         picture = render_filmstrip(
-            rig, action, str(Path(folder) / "strip.png"), MOMENTS, frame_range=frames, birdseye=False
+            obj, action, str(Path(folder) / "strip.png"), MOMENTS, frame_range=frames, birdseye=False
         )
         save_jpeg(Path(picture), target)
     print(f"{target}: {target.stat().st_size / 1000:.0f} kB")
+
+
+def followed(addon: Any, take: Path) -> tuple[bpy.types.Object, bpy.types.Action]:
+    """Rigify's human with the keys of its controls for a take."""
+    rig = rigify_human()
+    making.activate(rig)
+    add_body(rig, addon.control_rig.joints.find_joints(rig))
+    assert bpy.ops.fragmotion.bind_rig() == {"FINISHED"}
+    import_take(take)
+    assert bpy.ops.fragmotion.bake_to_controls("EXEC_DEFAULT") == {"FINISHED"}
+    action = rig.animation_data.action
+    action.name = f"{take.stem} on Rigify's human"
+    return rig, action
+
+
+def performed(take: Path, character: str) -> tuple[bpy.types.Object, bpy.types.Action]:
+    """A file's character with the Action that the take became on it."""
+    bpy.ops.import_scene.fbx(filepath=str(Path(character).resolve()))
+    obj = next(obj for obj in bpy.data.objects if obj.type == "ARMATURE")
+    making.activate(obj)
+    return obj, import_take(take)
+
+
+def import_take(take: Path) -> bpy.types.Action:
+    """The take on the active armature."""
+    before = set(bpy.data.actions)
+    files = [{"name": take.name}]
+    assert bpy.ops.fragmotion.import_mocap(directory=str(take.parent), files=files, onto="ACTIVE") == {"FINISHED"}
+    return next(action for action in bpy.data.actions if action not in before)
 
 
 def rigify_human() -> bpy.types.Object:
