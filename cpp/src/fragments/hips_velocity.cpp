@@ -9,7 +9,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kEnd = 0.1;  // s
+constexpr double kEnd = 0.1;      // s
+constexpr double kAround = 0.35;  // s: most of a step
+constexpr int kMoments = 8;
 
 Vector2 velocity_between(const PackedClip& clip, double begin, double end) {
   const CharacterFrame from = frame_at(clip, begin), to = frame_at(clip, end);
@@ -21,6 +23,19 @@ Vector2 velocity_between(const PackedClip& clip, double begin, double end) {
 
 Vector2 hips_velocity(const PackedClip& clip, const Fragment& fragment) {
   return velocity_between(clip, fragment.begin, fragment.end);
+}
+
+Vector2 hips_velocity_around(const PackedClip& clip, double frame) {
+  const double half = kAround * clip.rate / 2, last = clip.frames - 1;
+  return velocity_between(clip, std::clamp(frame - half, 0.0, last), std::clamp(frame + half, 0.0, last));
+}
+
+Vector2 mean_velocity_around(const PackedClip& clip, const Fragment& fragment) {
+  Vector2 sum = Vector2::Zero();
+  for (int moment = 0; moment < kMoments; ++moment) {
+    sum += hips_velocity_around(clip, fragment.begin + (moment + 0.5) / kMoments * (fragment.end - fragment.begin));
+  }
+  return sum / kMoments;
 }
 
 std::vector<double> velocity_changes(const PackedPool& pool) {

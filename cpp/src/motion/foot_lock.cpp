@@ -13,12 +13,14 @@ namespace {
 // Lengths are those of a character of 1.8 m.
 constexpr double kTooFar = 0.3;       // m from its motion at which a foot is let go
 constexpr double kLanding = 0.06;     // m over the floor within which a foot is planted
-constexpr double kStrained = 0.05;    // m that the hips would have to sink for a foot: from there it steps on
+constexpr double kStrained = 0.1;     // m that the hips would have to sink for a foot: from there it steps on
 constexpr double kRelease = 0.3;      // s in which a foot that is let go gets back to its motion, most of the way
 constexpr double kHaste = 3.5;        // (1 + kHaste) exp(-kHaste) of the way is left then
 constexpr double kForgets = 4;        // times that, until nothing is seen of it
 constexpr double kSettle = 0.03;      // s: time constant of a foot that comes to rest
 constexpr double kSoftGround = 0.06;  // m: a foot sinks in at most half of that
+constexpr double kHovers = 0.015;     // m over the floor from where a planted foot is lowered,
+constexpr double kLowering = 0.05;    // s: time constant of that
 constexpr double kPatience = 0.3;     // s that both feet stand before one steps to where its motion has it
 constexpr double kAstray = 0.07;      // m from its motion at least, for a foot to step there rather than slide
 constexpr double kStepHeight = 0.04;  // m
@@ -90,6 +92,13 @@ double FootLock::step_height(const Foot& foot) const {
   return 4 * phase * (1 - phase) * kStepHeight / body_->scale;
 }
 
+// How far a foot is lowered: where the hips are too high for what plays, its motion would let a planted one hover.
+double FootLock::lowered(Foot& foot, double over, double seconds) const {
+  const double hovers = foot.locked ? std::max(0.0, over - kHovers / body_->scale) : 0;
+  foot.lowered += (1 - std::exp(-seconds / kLowering)) * (hovers - foot.lowered);
+  return std::min(foot.lowered, std::max(0.0, over));
+}
+
 void FootLock::release(Foot& foot, const Vector2& held) const {
   foot.locked = false;
   foot.steps = held.norm() * body_->scale > kAstray;
@@ -147,9 +156,10 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     const Vector2 place = ball(skeleton, legs[side], posed).head<2>();
     const Vector2 edited = longer * (place - pose.root.head<2>()) + shift;
     const Vector2 held = away(feet_[side], place + edited, stands, seconds), by = edited + held;
-    const double lift = lifted(-over * scale) / scale + step_height(feet_[side]);
+    const double lift =
+        lifted(-over * scale) / scale + step_height(feet_[side]) - lowered(feet_[side], over, seconds);
     ankles[side] = posed.heads[legs[side].foot] + Vector3{by.x(), by.y(), lift};
-    if (by.isZero(1e-9) && over >= 0) continue;
+    if (by.isZero(1e-9) && lift == 0) continue;
     const double strain = sinking(legs[side], posed, ankles[side]);
     if (feet_[side].locked && strain * scale > kStrained) release(feet_[side], held);
     sink = std::max(sink, std::min(kDeepest / scale, strain));

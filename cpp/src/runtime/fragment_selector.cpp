@@ -9,12 +9,12 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kJoinsWell = 1.3;                // times the Dis of the fragment that joins best, and
-constexpr double kJoinsNear = 0.3 / kTunedReach;  // m a metre of reach more
-constexpr double kAsWell = 0.5;                   // of the way from the least error to the representative's
-constexpr double kNearly = 0.4;                   // ControlDis more than the least error, which the root makes up for
+constexpr double kJoinsWell = 1.1;                // times the Dis of the fragment that joins best, and
+constexpr double kJoinsNear = 0.1 / kTunedReach;  // m a metre of reach more
+constexpr float kAsWell = 0.5F;                   // of the way from the least error to the representative's
+constexpr float kNearly = 0.8F;                   // ControlDis more than the least error, which the root makes up for
 constexpr double kUnsteady = 2;                   // ControlDis a m/s by which a fragment gets faster or slower
-constexpr double kStep = 0.4, kHurried = 3;       // s, and ControlDis for all of it that a fragment lacks
+constexpr double kStep = 0.4, kHurried = 2;       // s, and ControlDis for all of it that a fragment lacks
 constexpr double kOutOfTurn = 2 / kTunedReach;    // m a metre of reach that a step out of turn costs
 constexpr double kLook = kEntry / 2;              // s between the moments at which a fragment may be left early
 
@@ -61,19 +61,21 @@ void FragmentSelector::find_candidates(int next_class, const Control& control) c
   const int representative = c.classes.representatives[next_class];
   const auto error = [&](int fragment) {
     if (matches(representative) && !matches(fragment)) return std::numeric_limits<double>::infinity();
-    const double off = c.space.distance(c.pool.fragments[fragment].evident, control);
+    const double distance = c.space.distance(c.pool.fragments[fragment].evident, control);
     const double lacks = std::max(0.0, 1 - c.pool.seconds(c.pool.fragments[fragment]) / kStep);
-    return off + kUnsteady * style_->velocity_changes[fragment] + kHurried * lacks;
+    return distance + kUnsteady * style_->velocity_changes[fragment] + kHurried * lacks;
   };
-  double best = error(representative);
-  const double usual = best;
-  for (const int fragment : style_->members[next_class]) best = std::min(best, error(fragment));
-  const double allowed = best + std::max(kAsWell * (usual - best), kNearly);
-  workspace_->candidates.clear();
+  std::vector<std::pair<float, int>>& candidates = workspace_->candidates;
+  candidates.clear();
+  const auto usual = static_cast<float>(error(representative));
+  float best = usual;
   for (const int fragment : style_->members[next_class]) {
-    if (error(fragment) > allowed) continue;
-    workspace_->candidates.emplace_back(0.0F, fragment);
+    candidates.emplace_back(static_cast<float>(error(fragment)), fragment);
+    best = std::min(best, candidates.back().first);
   }
+  const float allowed = best + std::max(kAsWell * (usual - best), kNearly);
+  const auto off = [&](const auto& candidate) { return candidate.first > allowed; };
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), off), candidates.end());
 }
 
 // How far the beginnings of the candidates are from how what plays would go on, and more for feet out of turn; tells

@@ -33,6 +33,7 @@ void Playback::play(const Placed& placed) {
   now_ = placed;
   const Vector2 velocity = hips_velocity(clip(now_), fragment());
   evident_of_hips_ = {velocity.x(), velocity.y(), evident().turn, evident().jump};
+  beside_ends_ = velocity - mean_velocity_around(clip(now_), fragment());
 }
 
 Playback::Placed Playback::place(int style, int number, const CharacterFrame& frame) const {
@@ -171,6 +172,11 @@ bool Playback::is_in_the_air() const {
 double Playback::left() const {
   const Fragment& f = fragment();
   return (f.last_played() - f.first_played()) / clip(now_).rate - now_.seconds;
+}
+
+Vector2 Playback::velocity_of_hips() const {
+  const PackedClip& source = clip(now_);
+  return hips_velocity_around(source, fragment().first_played() + now_.seconds * source.rate) + beside_ends_;
 }
 
 Vector2 Playback::velocity() const {

@@ -15,7 +15,8 @@ namespace fragmotion {
 namespace {
 
 constexpr double kLongest = 3600;  // s that a step may last
-constexpr double kLaziest = 2.5;   // m/s^2 of a 1.8 m character, at a responsiveness of 0
+constexpr double kLaziest = 2.4;   // m/s^2 of a 1.8 m character, at a responsiveness of 0
+constexpr double kMiddle = 0.2;    // s from now to that of a fragment that begins soon
 
 double within_one(double value, const char* name) {
   if (value >= 0 && value <= 1) return value;
@@ -171,13 +172,13 @@ double Player::advance(const Control& control, double most) {
 
 double Player::advance_by_policy(const Control& control, double most) {
   const double heading = frame().heading;
-  const Control asked = limit_.after(control, heading, most);
-  if (director_.is_due(asked, playback_, selector_)) go_on(asked);
+  const Control soon = limit_.after(control, heading, most + kMiddle);
+  if (director_.is_due(soon, playback_, selector_)) go_on(soon);
   const double tempo = correction_.tempo(), played = director_.until_due(playback_, most * tempo),
                part = played / tempo;
   acceleration_ = playback_.is_in_the_air() ? Vector2::Zero() : limit_.advance(control, heading, part);
   playback_.advance(played);
-  correction_.adjust_root(asked, part, playback_);
+  correction_.adjust_root(limit_.after(control, heading, PoseCorrection::kLag), part, playback_);
   return part;
 }
 

@@ -9,13 +9,12 @@ namespace {
 
 constexpr double kMostAdjusted = 0.6;  // of a fragment's speed,
 constexpr double kMostTurned = 1;      // and of the turn rate, for the heading
-constexpr double kAdjusting = 0.05;    // s: time constant of the velocity's adjustment,
-constexpr double kTurning = 0.1;       // and of the turn rate's
+constexpr double kTurning = 0.05;      // s: time constant of the turn rate's adjustment
 constexpr double kSlowest = 0.75;      // of the tempo
 constexpr double kPacing = 0.15;       // s: time constant of the tempo's,
-constexpr double kSetOff = 0.5;        // of what balances it that the feet are set off for a body's acceleration
-constexpr double kStriding = 0.2;      // s: time constant of the steps'
-constexpr double kHeading = 0.15;      // s in which the heading gets to where it is led,
+constexpr double kSetOff = 0.25;       // of what balances it that the feet are set off for a body's acceleration
+constexpr double kStriding = 0.3;      // s: time constant of the steps'
+constexpr double kHeading = 0.12;      // s in which the heading gets to where it is led,
 constexpr double kLeash = 0.5;         // rad by which it is led at most
 constexpr double kStill = 0.2;         // m/s of a 1.8 m character, and of the turn rate, below which it stands
 
@@ -43,10 +42,10 @@ void PoseCorrection::reset(double heading) {
   lean_.reset();
 }
 
-// The velocity that the fragment lacks, as far as its strides can be changed.
-Vector2 PoseCorrection::velocity_to_add(const Control& control, const Control& evident) const {
-  const Vector2 lacks{control.x - tempo_ * evident.x, control.y - tempo_ * evident.y};
-  return root_adjustment_ * clamp_length(lacks, kMostAdjusted * evident.speed());
+// The velocity that the fragment lacks now, as far as its strides can be changed.
+Vector2 PoseCorrection::velocity_to_add(const Control& control, const Vector2& velocity) const {
+  const Vector2 lacks = Vector2{control.x, control.y} - tempo_ * velocity;
+  return root_adjustment_ * clamp_length(lacks, kMostAdjusted * velocity.norm());
 }
 
 // The turn rate that the fragment lacks, and what brings back the heading that it has lost.
@@ -71,7 +70,7 @@ void PoseCorrection::adjust_tempo(const Control& control, const Control& evident
 void PoseCorrection::adjust_root(const Control& control, double seconds, Playback& playback) {
   adjust_tempo(control, playback.evident_of_hips(), seconds);
   const auto part = [&](double time) { return 1 - std::exp(-seconds / time); };
-  const Vector2 change = part(kAdjusting) * (velocity_to_add(control, playback.evident_of_hips()) - velocity_);
+  const Vector2 change = part(kLag) * (velocity_to_add(control, playback.velocity_of_hips()) - velocity_);
   if (!playback.is_in_the_air()) velocity_ += clamp_length(change, acceleration_ * seconds);
   turn_rate_ += part(kTurning) * (turn_to_add(control, playback, seconds) - turn_rate_);
   playback.move(velocity_, turn_rate_, seconds);
@@ -80,7 +79,7 @@ void PoseCorrection::adjust_root(const Control& control, double seconds, Playbac
 void PoseCorrection::leave_root(double seconds, Playback& playback) {
   const auto part = [&](double time) { return 1 - std::exp(-seconds / time); };
   tempo_ += part(kPacing) * (1 - tempo_);
-  velocity_ -= clamp_length(part(kAdjusting) * velocity_, acceleration_ * seconds);
+  velocity_ -= clamp_length(part(kLag) * velocity_, acceleration_ * seconds);
   turn_rate_ -= part(kTurning) * turn_rate_;
   playback.move(velocity_, turn_rate_, seconds);
   led_ = playback.frame().heading;

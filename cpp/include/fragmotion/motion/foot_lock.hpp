@@ -65,6 +65,7 @@ class FootLock {
     Vector2 place = Vector2::Zero(), drift = Vector2::Zero();  // of the lock; the drift comes to rest
     Vector2 offset = Vector2::Zero(), offset_speed = Vector2::Zero();  // from the motion, when it was let go
     double free = 0;                                                   // s since then
+    double lowered = 0;                                                // m
   };
 
   double height(int side, const FootHeights& floor) const;
@@ -72,6 +73,7 @@ class FootLock {
   void lock(Foot& foot, const Vector2& shown, double seconds) const;
   void settle(double seconds);
   double step_height(const Foot& foot) const;
+  double lowered(Foot& foot, double over, double seconds) const;
   void release(Foot& foot, const Vector2& held) const;
 
   std::shared_ptr<Body> body_;

@@ -46,6 +46,9 @@ class Playback {
   const Control& evident() const { return fragment().evident; }
   /// evident(), but with hips_velocity().
   const Control& evident_of_hips() const { return evident_of_hips_; }
+  /// At which the hips go over the ground now, m/s in the character frame, without most of the sway of a step: over the
+  /// fragment, that of evident_of_hips().
+  Vector2 velocity_of_hips() const;
   bool plays_move() const { return now_.number >= static_cast<int>(styled(now_).pool.fragments.size()); }
   /// Of the clip that plays.
   const Contacts& contacts() const { return styled(now_).contacts[fragment().clip]; }
@@ -105,6 +108,7 @@ class Playback {
   double stitch_;
   Placed now_, before_;
   Control evident_of_hips_;
+  Vector2 beside_ends_ = Vector2::Zero();  // evident_of_hips_ without mean_velocity_around()
   double faded_ = 0;
   StepSequence steps_;
   Inertialization inertialization_;

@@ -13,6 +13,9 @@ namespace fragmotion {
 /// Allocates nothing once it is made.
 class PoseCorrection {
  public:
+  /// By which the adjustment of the velocity lags behind what it is told, s.
+  static constexpr double kLag = 0.03;
+
   /// `root_adjustment` and `lock_feet` as in PlayerOptions; `acceleration` of a body at most, m/s^2. Character and
   /// workspace must outlive it.
   PoseCorrection(const Character& character, Workspace& workspace, double root_adjustment, double acceleration,
@@ -45,7 +48,7 @@ class PoseCorrection {
 
  private:
   void adjust_tempo(const Control& control, const Control& evident, double seconds);
-  Vector2 velocity_to_add(const Control& control, const Control& evident) const;
+  Vector2 velocity_to_add(const Control& control, const Vector2& velocity) const;
   double turn_to_add(const Control& control, const Playback& playback, double seconds);
   void edit_steps(const Control& evident, double seconds);
   bool stands(const Control& evident) const;
