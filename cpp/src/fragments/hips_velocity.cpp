@@ -26,8 +26,8 @@ Vector2 hips_velocity(const PackedClip& clip, const Fragment& fragment) {
 }
 
 Vector2 hips_velocity_around(const PackedClip& clip, double frame) {
-  const double half = kAround * clip.rate / 2, last = clip.frames - 1;
-  return velocity_between(clip, std::clamp(frame - half, 0.0, last), std::clamp(frame + half, 0.0, last));
+  const double half = kAround * clip.rate / 2, last = clip.frames - 1, middle = std::clamp(frame, 0.0, last);
+  return velocity_between(clip, std::max(0.0, middle - half), std::min(last, middle + half));
 }
 
 Vector2 mean_velocity_around(const PackedClip& clip, const Fragment& fragment) {

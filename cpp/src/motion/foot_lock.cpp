@@ -156,8 +156,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     const Vector2 place = ball(skeleton, legs[side], posed).head<2>();
     const Vector2 edited = longer * (place - pose.root.head<2>()) + shift;
     const Vector2 held = away(feet_[side], place + edited, stands, seconds), by = edited + held;
-    const double lift =
-        lifted(-over * scale) / scale + step_height(feet_[side]) - lowered(feet_[side], over, seconds);
+    const double lift = lifted(-over * scale) / scale + step_height(feet_[side]) - lowered(feet_[side], over, seconds);
     ankles[side] = posed.heads[legs[side].foot] + Vector3{by.x(), by.y(), lift};
     if (by.isZero(1e-9) && lift == 0) continue;
     const double strain = sinking(legs[side], posed, ankles[side]);

@@ -7,11 +7,11 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSame = 1e-6;               // ControlDis between controls that differ by rounding alone
-constexpr double kChange = 1;                // ControlDis between controls that is "a lot"
-constexpr double kHaste = 5 / kTunedReach;   // m a metre of reach that a second of waiting costs by default
-constexpr double kSkips = 1 / kTunedReach;   // m a metre of reach less that skipping a class must cost
-constexpr double kWorthIt = 0.05;            // s that must be left of a fragment for leaving it early
+constexpr double kSame = 1e-6;              // ControlDis between controls that differ by rounding alone
+constexpr double kChange = 1;               // ControlDis between controls that is "a lot"
+constexpr double kHaste = 5 / kTunedReach;  // m a metre of reach that a second of waiting costs by default
+constexpr double kSkips = 1 / kTunedReach;  // m a metre of reach less that skipping a class must cost
+constexpr double kWorthIt = 0.05;           // s that must be left of a fragment for leaving it early
 
 }  // namespace
 

@@ -336,7 +336,7 @@ TEST(Build, TakesASkeletonOfOneBone) {
   EXPECT_EQ(c->classes.count, 3);
   Player player(c);
   for (int i = 0; i < 60; ++i) player.step({0, 1, 0, 0}, 1.0 / 30);
-  EXPECT_GT(player.root_position().head<2>().norm(), 0.8);  // it slides, soon at 1 m/s
+  EXPECT_GT(player.root_position().head<2>().norm(), 0.7);  // it slides at 1 m/s once it does
 }
 
 // Plays a character that has no legs to lock, with and without the lock; returns the frames that differ.

@@ -122,6 +122,26 @@ TEST(FootLock, StepsOnWithAFootThatTheLegCannotReachRatherThanLungeOrDragIt) {
   EXPECT_GT(highest, 0.03);
 }
 
+// How high over the floor a foot ends that plays a little over it, planted or not.
+double ends_at(double height, bool planted) {
+  Carried body;
+  body.speed = 0;
+  body.on_floor = true;
+  const double floor = find_contacts(body.kinematics, body.clip).floors[0].ball;
+  body.clip.root_positions[2] += height;
+  Vector3 shown;
+  for (int f = 0; f < 60; ++f) shown = body.shown(f, planted);
+  return shown.z() - floor;
+}
+
+TEST(FootLock, LowersAPlantedFootThatHoversAndLeavesOneThatSwings) {
+  for (const double height : {0.03, 0.05}) {
+    EXPECT_LT(ends_at(height, true), 0.022) << height;
+    EXPECT_GT(ends_at(height, true), 0.005) << height;
+    EXPECT_GT(ends_at(height, false), height - 0.01) << height;
+  }
+}
+
 TEST(FootLock, StepsOutOfAStrideThatItStandsIn) {
   Carried body;
   Contacts both;
