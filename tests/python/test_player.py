@@ -64,7 +64,8 @@ def test_options_are_given_together_or_one_by_one(character: core.Character) -> 
 
 
 def test_player_tells_eq_2_of_what_plays(character: core.Character) -> None:
-    player, before, playing = core.Player(character, seed=3), 0, -1
+    player = core.Player(character, seed=3)
+    playing = player.playing[0]
     asked = [0.0, 1.2, 0.0, 0.0]
     point = int(character.space.nearest([asked])[0])
     for _ in range(240):
@@ -73,8 +74,7 @@ def test_player_tells_eq_2_of_what_plays(character: core.Character) -> None:
         if player.entered == entered:
             assert left - 1 / 60 - 1e-9 <= player.seconds_left < left, "at most as fast as captured"
         else:
-            before = player.playing[0] if playing < 0 else playing
-            wanted = character.smoothness[before, player.playing[0]] * character.match[player.playing[0], point]
+            wanted = character.smoothness[playing, player.playing[0]] * character.match[player.playing[0], point]
             assert player.quality(asked) == pytest.approx(wanted, rel=1e-12)
         playing = player.playing[0]
         assert 0 <= player.seconds_left <= character.fragment_durations[player.playing[1]]
