@@ -139,8 +139,8 @@ class FeelSettings(bpy.types.PropertyGroup):
     # PlayerOptions' responsiveness and root_adjustment, under the names that saved files have.
     promptness: factor_field(  # type: ignore[valid-type]
         "Responsiveness",
-        "How soon the character follows the stick: in the middle it speeds up and brakes as a body does, by nearly "
-        "5 metres a second in a second; at 0 half as fast; at 1 at once, as if it weighed nothing, and its feet may slide",
+        "How soon the character follows the stick: in the middle it speeds up and brakes as a body does, by nearly 5 "
+        "metres a second in a second; at 0 half as fast; at 1 at once, as if it weighed nothing, and feet may slide",
         0.5,
     )
     pull: factor_field(  # type: ignore[valid-type]

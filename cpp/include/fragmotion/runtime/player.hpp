@@ -30,8 +30,8 @@ struct PlayerOptions {
   /// fragment's speed and the whole turn rate.
   double root_adjustment = 1;
   /// How soon a change of the control is followed, 0 .. 1. The velocity changes by 2.4 m/s^2 (of a 1.8 m character) at
-  /// 0, by 4.8 at the default, which is what a body does, and at once at 1; and a fragment is left at 0 at the moment of
-  /// it from which the next one is joined best, at 1 at once.
+  /// 0, by 4.8 at the default, which is what a body does, and at once at 1; and a fragment is left at 0 at the moment
+  /// of it from which the next one is joined best, at 1 at once.
   double responsiveness = 0.5;
 };
 
