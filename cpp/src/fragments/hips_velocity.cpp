@@ -9,8 +9,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kEnd = 0.1;      // s
-constexpr double kAround = 0.35;  // s: most of a step
+constexpr double kEnd = 0.1;     // s
+constexpr double kAround = 0.4;  // s: most of a step
 constexpr int kMoments = 8;
 
 Vector2 velocity_between(const PackedClip& clip, double begin, double end) {

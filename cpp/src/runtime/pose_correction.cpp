@@ -33,6 +33,7 @@ PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace,
 
 void PoseCorrection::reset(double heading) {
   velocity_ = Vector2::Zero();
+  begins_ = true;
   turn_rate_ = 0;
   tempo_ = 1;
   led_ = heading;
@@ -69,11 +70,21 @@ void PoseCorrection::adjust_tempo(const Control& control, const Control& evident
 
 void PoseCorrection::adjust_root(const Control& control, double seconds, Playback& playback) {
   adjust_tempo(control, playback.evident_of_hips(), seconds);
+  adjust_velocity(control, seconds, playback);
   const auto part = [&](double time) { return 1 - std::exp(-seconds / time); };
-  const Vector2 change = part(kLag) * (velocity_to_add(control, playback.velocity_of_hips()) - velocity_);
-  if (!playback.is_in_the_air()) velocity_ += clamp_length(change, acceleration_ * seconds);
   turn_rate_ += part(kTurning) * (turn_to_add(control, playback, seconds) - turn_rate_);
   playback.move(velocity_, turn_rate_, seconds);
+}
+
+// What plays and what is added to it together get no faster from their velocity than a body can.
+void PoseCorrection::adjust_velocity(const Control& control, double seconds, const Playback& playback) {
+  const Vector2 hips = playback.velocity_of_hips(), played = tempo_ * hips,
+                faster = (begins_ ? 0 : root_adjustment_) * (played - played_);
+  played_ = played;
+  begins_ = false;
+  if (playback.is_in_the_air()) return;
+  const Vector2 change = (1 - std::exp(-seconds / kLag)) * (velocity_to_add(control, hips) - velocity_);
+  velocity_ += clamp_length(change + faster, acceleration_ * seconds) - faster;
 }
 
 void PoseCorrection::leave_root(double seconds, Playback& playback) {

@@ -55,7 +55,7 @@ TEST(HipsVelocity, IsOverAFragmentThatOfTheFragmentAndAtATakesEndThatOfWhatIsLef
   const PackedPool pool = one_fragment(braking_clip(), 6, 24);
   const PackedClip& clip = pool.clips[0];
   EXPECT_LT((mean_velocity_around(clip, pool.fragments[0]) - hips_velocity(clip, pool.fragments[0])).norm(), 0.02);
-  EXPECT_NEAR(hips_velocity_around(clip, 0).y(), 2 * 0.175 / 2 - 3, 0.02);
+  EXPECT_NEAR(hips_velocity_around(clip, 0).y(), 2 * 0.2 / 2 - 3, 0.02);
   EXPECT_TRUE(hips_velocity_around(clip, clip.frames + 100.0).allFinite());
 }
 

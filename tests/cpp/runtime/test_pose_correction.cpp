@@ -74,6 +74,31 @@ TEST(PoseCorrection, LetsGoOfAVelocityNoFasterThanABodyCan) {
   EXPECT_NEAR(before, 0, 0.01);
 }
 
+// Whatever is asked, and however the hips of the fragment sway.
+TEST(PoseCorrection, AcceleratesWithWhatPlaysNoFasterThanABodyCan) {
+  constexpr double kLeast = 0.5;  // m/s^2
+  const auto character = gait_character();
+  Workspace workspace(*character);
+  Playback playback(*character, workspace, Stitching::inertialize, 0.2);
+  PoseCorrection correction(*character, workspace, 1, kLeast, true);
+  double greatest = 0;
+  for (const double asked : {0.3, 1.2, 3.0}) {
+    playback.reset(forward_fragment(*character), {});
+    correction.reset(0);
+    correction.adjust_root({0, asked, 0, 0}, 0.01, playback);
+    Vector2 before = correction.velocity() + correction.tempo() * playback.velocity_of_hips();
+    while (playback.left() > 0.01) {
+      playback.advance(0.01);
+      correction.adjust_root({0, asked, 0, 0}, 0.01, playback);
+      const Vector2 now = correction.velocity() + correction.tempo() * playback.velocity_of_hips();
+      EXPECT_LE((now - before).norm(), 0.01 * kLeast + 1e-9);
+      greatest = std::max(greatest, (now - before).norm());
+      before = now;
+    }
+  }
+  EXPECT_GT(greatest, 0.009 * kLeast);
+}
+
 TEST(PoseCorrection, StepsSlowerWhereLessIsAskedForAndNeverFaster) {
   const auto character = gait_character();
   Workspace workspace(*character);

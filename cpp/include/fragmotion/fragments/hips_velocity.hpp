@@ -11,8 +11,8 @@ namespace fragmotion {
 /// takes. Its evident velocity is that of the centre of mass, which in a part of a step is another.
 Vector2 hips_velocity(const PackedClip& clip, const Fragment& fragment);
 
-/// The same over the third of a second around a frame of a clip, as far as the clip has it: how a body gets faster or
-/// slower, without most of the sway of its steps.
+/// The same over the 0.4 s around a frame of a clip, as far as the clip has them: how a body gets faster or slower,
+/// without most of the sway of its steps.
 Vector2 hips_velocity_around(const PackedClip& clip, double frame);
 
 /// The mean of that over a fragment's time. It is hips_velocity() but for what is around its ends.
