@@ -18,6 +18,9 @@ constexpr double kHeading = 0.12;      // s in which the heading gets to where i
 constexpr double kLeash = 0.5;         // rad by which it is led at most
 constexpr double kStill = 0.2;         // m/s of a 1.8 m character, and of the turn rate, below which it stands
 
+// The part of the way that a first-order filter goes in a time, s, with this time constant.
+double filtered(double seconds, double constant) { return 1 - std::exp(-seconds / constant); }
+
 }  // namespace
 
 PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace, double root_adjustment,
@@ -65,14 +68,13 @@ void PoseCorrection::adjust_tempo(const Control& control, const Control& evident
   const bool goes = evident.speed() > least && control.speed() > least && !evident.jumps();
   const double faster = goes ? std::sqrt(control.speed() / evident.speed()) : 1,
                wanted = 1 + root_adjustment_ * (std::clamp(faster, kSlowest, 1.0) - 1);
-  tempo_ += (1 - std::exp(-seconds / kPacing)) * (wanted - tempo_);
+  tempo_ += filtered(seconds, kPacing) * (wanted - tempo_);
 }
 
 void PoseCorrection::adjust_root(const Control& control, double seconds, Playback& playback) {
   adjust_tempo(control, playback.evident_of_hips(), seconds);
   adjust_velocity(control, seconds, playback);
-  const auto part = [&](double time) { return 1 - std::exp(-seconds / time); };
-  turn_rate_ += part(kTurning) * (turn_to_add(control, playback, seconds) - turn_rate_);
+  turn_rate_ += filtered(seconds, kTurning) * (turn_to_add(control, playback, seconds) - turn_rate_);
   playback.move(velocity_, turn_rate_, seconds);
 }
 
@@ -83,15 +85,14 @@ void PoseCorrection::adjust_velocity(const Control& control, double seconds, con
   played_ = played;
   begins_ = false;
   if (playback.is_in_the_air()) return;
-  const Vector2 change = (1 - std::exp(-seconds / kLag)) * (velocity_to_add(control, hips) - velocity_);
+  const Vector2 change = filtered(seconds, kLag) * (velocity_to_add(control, hips) - velocity_);
   velocity_ += clamp_length(change + faster, acceleration_ * seconds) - faster;
 }
 
 void PoseCorrection::leave_root(double seconds, Playback& playback) {
-  const auto part = [&](double time) { return 1 - std::exp(-seconds / time); };
-  tempo_ += part(kPacing) * (1 - tempo_);
-  velocity_ -= clamp_length(part(kLag) * velocity_, acceleration_ * seconds);
-  turn_rate_ -= part(kTurning) * turn_rate_;
+  tempo_ += filtered(seconds, kPacing) * (1 - tempo_);
+  velocity_ -= clamp_length(filtered(seconds, kLag) * velocity_, acceleration_ * seconds);
+  turn_rate_ -= filtered(seconds, kTurning) * turn_rate_;
   playback.move(velocity_, turn_rate_, seconds);
   led_ = playback.frame().heading;
 }
@@ -112,9 +113,9 @@ void PoseCorrection::edit_steps(const Control& evident, double seconds) {
   const bool goes = evident.speed() * space_->scale() > kMoving;
   const Matrix2 wanted =
       goes ? Matrix2{velocity_ * velocity.transpose() / (tempo_ * velocity.squaredNorm())} : Matrix2{Matrix2::Zero()};
-  steps_.stride += (1 - std::exp(-seconds / kStriding)) * (wanted - steps_.stride);
+  steps_.stride += filtered(seconds, kStriding) * (wanted - steps_.stride);
   const Vector2 behind = -kSetOff * workspace_->shown.root.z() / kGravity * lean_.acceleration();
-  steps_.shift += (1 - std::exp(-seconds / kStriding)) * (behind - steps_.shift);
+  steps_.shift += filtered(seconds, kStriding) * (behind - steps_.shift);
 }
 
 bool PoseCorrection::stands(const Control& evident) const {

@@ -106,7 +106,7 @@ TEST(FragmentSelector, LeavesAFragmentAtTheSameMomentWhereTheSameLimbsAreOfMoreB
       waited_of_split += other;
     }
   }
-  EXPECT_GT(same, 0.95 * exits);
+  EXPECT_GT(same, 0.96 * exits);
   EXPECT_GT(waited / exits, 0.005);
   EXPECT_NEAR(waited_of_split / waited, 1, 0.2);
 }

@@ -23,8 +23,8 @@ struct StepEdit {
 /// Keeps planted feet where they are: the ball of a foot that is planted comes to rest and stays there, the leg follows
 /// (leg.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion smoothly, with
 /// a step where that is far; the hips sink where a leg would be a little too short, and the foot steps on where it
-/// would be much too short. A body that has stood for a while in the middle of a stride steps out of it. Does nothing
-/// to a skeleton without legs. Allocates nothing once it is made.
+/// would be much too short. A planted foot that hovers is lowered to the floor. A body that has stood for a while in
+/// the middle of a stride steps out of it. Does nothing to a skeleton without legs. Allocates nothing once it is made.
 class FootLock {
  public:
   /// What the foot locks of one body share that are applied in turn: what never changes, and room to work in.
@@ -65,7 +65,7 @@ class FootLock {
     Vector2 place = Vector2::Zero(), drift = Vector2::Zero();  // of the lock; the drift comes to rest
     Vector2 offset = Vector2::Zero(), offset_speed = Vector2::Zero();  // from the motion, when it was let go
     double free = 0;                                                   // s since then
-    double lowered = 0;                                                // m
+    double lowered = 0;                                                // m, while it is planted and would hover
   };
 
   double height(int side, const FootHeights& floor) const;

@@ -25,7 +25,10 @@ class PoseCorrection {
   /// Controls are asked of this style from now on.
   void change_style(const Character& style) { space_ = &style.space; }
   /// Lets the root keep the velocity by which it was faster than what begins to play, m/s in the character frame.
-  void keep_velocity(const Vector2& faster) { velocity_ += faster, begins_ = true; }
+  void keep_velocity(const Vector2& faster) {
+    velocity_ += faster;
+    begins_ = true;
+  }
   /// How much faster than captured what plays is to be played, at most 1: where the control is slower than the
   /// fragment, its steps make up for half of that by following each other later, and for the rest by being shorter.
   double tempo() const { return tempo_; }
@@ -59,8 +62,8 @@ class PoseCorrection {
   Workspace* workspace_;
   double root_adjustment_, acceleration_;
   Vector2 velocity_ = Vector2::Zero();  // of the adjustment, m/s, in the character frame
-  Vector2 played_ = Vector2::Zero();    // m/s, at which what plays went last,
-  bool begins_ = true;                  // unless it has just begun
+  Vector2 played_ = Vector2::Zero();    // m/s, at which the hips of what plays went last,
+  bool begins_ = true;                  // but for when it has just begun
   double turn_rate_ = 0;                // of the adjustment, rad/s
   double tempo_ = 1;
   double led_ = 0;  // the heading that the controls lead to, rad
