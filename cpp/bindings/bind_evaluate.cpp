@@ -132,8 +132,10 @@ void bind_speeds(py::module_& m) {
       .def_readonly("commanded", &SpeedRipple::commanded)
       .def_readonly("speed", &SpeedRipple::speed)
       .def_readonly("ripple", &SpeedRipple::ripple)
+      .def_readonly("bob", &SpeedRipple::bob)
       .def_readonly("takes_speed", &SpeedRipple::takes_speed)
-      .def_readonly("takes_ripple", &SpeedRipple::takes_ripple);
+      .def_readonly("takes_ripple", &SpeedRipple::takes_ripple)
+      .def_readonly("takes_bob", &SpeedRipple::takes_bob);
   define_with_options(m, "speed_ripples", [](const SharedCharacter& character, const PlayerOptions& options) {
     return without_gil([&] { return speed_ripples(character, options); });
   });

@@ -897,7 +897,7 @@ def about_face_times(
 ) -> Doubles: ...
 
 class SpeedRipple:
-    """How evenly a character goes at a commanded speed, m/s of a 1.8 m character; NaN where the takes do not go
+    """How evenly a character goes at a commanded speed, m and m/s of a 1.8 m character; NaN where the takes do not go
     steadily."""
 
     commanded: float
@@ -905,10 +905,14 @@ class SpeedRipple:
     """Mean of the centre of mass along the ground."""
     ripple: float
     """Standard deviation of its speed over 0.1 s within a second, mean over all seconds."""
+    bob: float
+    """Standard deviation of the hips' height within a second, mean over all seconds."""
     takes_speed: float
     """Of the takes' steady seconds, the speed nearest to the command."""
     takes_ripple: float
-    """Of the takes' steady seconds within 0.1 m/s of that."""
+    """Of the takes' steady seconds within 0.1 m/s of that,"""
+    takes_bob: float
+    """likewise."""
 
 @overload
 def speed_ripples(character: Character, options: PlayerOptions) -> list[SpeedRipple]:

@@ -186,9 +186,13 @@ def test_trials_are_the_players(run: Run, built: core.Character) -> None:
     for i, row in enumerate(figures["speed_ripple"]):
         assert row["mean"] * row["speed"] == pytest.approx(np.mean([some[i].speed for some in rows]))
         assert row["ripple"] == pytest.approx(np.mean([some[i].ripple for some in rows]))
+        assert row["bob"] == pytest.approx(np.mean([some[i].bob for some in rows]))
+        assert row["takes_bob"] == rows[0][i].takes_bob
         assert row["takes_ripple"] == rows[0][i].takes_ripple and row["takes_speed"] == rows[0][i].takes_speed
     ratios = [row["ripple"] / row["takes_ripple"] for row in figures["speed_ripple"] if row["takes_ripple"] > 0]
     assert figures["speed_ripple_ratio"] == (pytest.approx(np.mean(ratios)) if ratios else None)
+    bobs = [row["bob"] / row["takes_bob"] for row in figures["speed_ripple"] if row["takes_bob"] > 0]
+    assert figures["bob_ratio"] == (pytest.approx(np.mean(bobs)) if bobs else None)
     pushes = [core.change_pushes(built, seed, policy="greedy") for seed in seeds]
     assert set(figures["acceleration_by_change"]) == {"start", "stop", "reverse", "turn", "gait"}
     for kind, found in figures["acceleration_by_change"].items():

@@ -164,6 +164,7 @@ _WEIGHT: tuple[tuple[str, Callable[[Result], str]], ...] = (
     ("same foot, %", lambda r: number(_percent(r["same_foot"]))),
     ("quick steps, %", lambda r: number(_percent(r["quick_steps"]))),
     ("speed ripple, x takes'", lambda r: number(r.get("speed_ripple_ratio"), 2)),
+    ("hips' bob, x takes'", lambda r: number(r.get("bob_ratio"), 2)),
     ("about-face, s", lambda r: number(r.get("about_face_s"), 2)),
 )
 
@@ -218,11 +219,21 @@ def speeds_table(result: Result) -> Table:
             number(100 * row["mean"]),
             number(row["ripple"], 3),
             number(row["takes_ripple"], 3),
+            number(100 * row["bob"]),
+            number(_percent(row["takes_bob"])),
             number(row["takes_speed"], 2),
         ]
         for row in result["controllers"][result["default"]]["run_time"]["speed_ripple"]
     ]
-    header = ["commanded, m/s", "reached, %", "ripple, m/s", "takes' ripple, m/s", "at their speed, m/s"]
+    header = [
+        "commanded, m/s",
+        "reached, %",
+        "ripple, m/s",
+        "takes' ripple, m/s",
+        "bob, cm",
+        "takes' bob, cm",
+        "at their speed, m/s",
+    ]
     return Table("Speeds at commands held", header, rows)
 
 

@@ -26,7 +26,7 @@ SEEN = (
 )
 """What takes have, too."""
 RATIOS = ("jump_dip_ratio", "landing_dip_ratio")
-TRIALS = ("speed_ripple_ratio", "speed_ripple", "acceleration_by_change", "about_face_s")
+TRIALS = ("speed_ripple_ratio", "bob_ratio", "speed_ripple", "acceleration_by_change", "about_face_s")
 """What a player is put to the test for."""
 
 
@@ -67,6 +67,7 @@ def trials(character: core.Character, seeds: Iterable[int], **options: Any) -> d
     speeds = _speeds([core.speed_ripples(character, seed, **options) for seed in every])
     return {
         "speed_ripple_ratio": _mean(ratio(row["ripple"], row["takes_ripple"]) for row in speeds),
+        "bob_ratio": _mean(ratio(row["bob"], row["takes_bob"]) for row in speeds),
         "speed_ripple": speeds,
         "acceleration_by_change": _changes([core.change_pushes(character, seed, **options) for seed in every]),
         "about_face_s": statistics.fmean(
@@ -83,6 +84,8 @@ def _speeds(players: Sequence[Sequence[core.SpeedRipple]]) -> list[Figures]:
             "mean": statistics.fmean(row.speed for row in rows) / rows[0].commanded,
             "ripple": statistics.fmean(row.ripple for row in rows),
             "takes_ripple": _number(rows[0].takes_ripple),
+            "bob": statistics.fmean(row.bob for row in rows),
+            "takes_bob": _number(rows[0].takes_bob),
             "takes_speed": _number(rows[0].takes_speed),
         }
         for rows in zip(*players)

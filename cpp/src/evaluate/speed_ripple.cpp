@@ -23,6 +23,21 @@ Vector2 velocity(const BodyTrack& track, int begin, int end) {
   return (track.center[end] - track.center[begin]).head<2>() * track.rate / (end - begin);
 }
 
+double standard_deviation(double sum, double squares, double count) {
+  return std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count)));
+}
+
+// Of the hips' height.
+double bob(const BodyTrack& track, int begin, int end) {
+  double sum = 0, squares = 0;
+  for (int f = begin; f <= end; ++f) {
+    const double height = track.hips[f].z();
+    sum += height;
+    squares += height * height;
+  }
+  return standard_deviation(sum, squares, end - begin + 1);
+}
+
 Going going(const BodyTrack& track, int begin) {
   const int end = begin + track.frames_in(kLong), half = track.frames_in(kSmooth / 2);
   const Vector2 mean = velocity(track, begin, end), way = mean.normalized();
@@ -33,7 +48,7 @@ Going going(const BodyTrack& track, int begin) {
     squares += speed * speed;
     ++count;
   }
-  return {mean.norm(), std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count)))};
+  return {mean.norm(), standard_deviation(sum, squares, count), bob(track, begin, end)};
 }
 
 bool is_steady(const BodyTrack& track, int begin) {
@@ -47,18 +62,20 @@ bool is_steady(const BodyTrack& track, int begin) {
 }
 
 void compare(SpeedRipple& row, const std::vector<Going>& takes) {
-  row.takes_speed = row.takes_ripple = std::numeric_limits<double>::quiet_NaN();
+  row.takes_speed = row.takes_ripple = row.takes_bob = std::numeric_limits<double>::quiet_NaN();
   if (takes.empty()) return;
   row.takes_speed = std::min_element(takes.begin(), takes.end(), [&](const Going& a, const Going& b) {
                       return std::abs(a.speed - row.commanded) < std::abs(b.speed - row.commanded);
                     })->speed;
-  double sum = 0, count = 0;
+  double ripple = 0, bob = 0, count = 0;
   for (const Going& going : takes) {
     if (std::abs(going.speed - row.takes_speed) > kNear) continue;
-    sum += going.ripple;
+    ripple += going.ripple;
+    bob += going.bob;
     ++count;
   }
-  row.takes_ripple = sum / count;
+  row.takes_ripple = ripple / count;
+  row.takes_bob = bob / count;
 }
 
 }  // namespace
@@ -98,6 +115,7 @@ std::vector<SpeedRipple> speed_ripples(const std::shared_ptr<const Character>& c
     for (const Going& going : played) {
       row.speed += going.speed / static_cast<double>(played.size());
       row.ripple += going.ripple / static_cast<double>(played.size());
+      row.bob += going.bob / static_cast<double>(played.size());
     }
     compare(row, takes);
     rows.push_back(row);

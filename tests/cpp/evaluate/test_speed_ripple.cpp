@@ -9,17 +9,19 @@
 namespace fragmotion {
 namespace {
 
-TEST(Goings, TellTheSpeedAndItsStandardDeviation) {
-  // Speed 1.5 + 0.3 sin(2 pi t / 0.25) m/s: four ripples a second, which a mean over 0.1 s makes smaller.
+TEST(Goings, TellTheSpeedAndTheStandardDeviationsOfItAndOfTheHipsHeight) {
+  // A bob of 0.04 m / sqrt(2), and speed 1.5 + 0.3 sin(2 pi t / 0.25) m/s: four ripples a second, which a mean over 0.1
+  // s makes smaller.
   const double w = 2 * kPi / 0.25, smoothed = std::sin(w * 0.05) / (w * 0.05);
   BodyTrack track = standing_track(4);
-  move(track, true, [&](double t) { return Vector3(0, 1.5 * t - 0.3 / w * std::cos(w * t), 0); });
+  move(track, true, [&](double t) { return Vector3(0, 1.5 * t - 0.3 / w * std::cos(w * t), 0.04 * std::sin(w * t)); });
   const std::vector<Going> found = goings(track);
   ASSERT_EQ(found.size(), 241u - 60u);
   EXPECT_EQ(goings(track, 100).size(), 81u);
   for (const Going& going : found) {
     EXPECT_NEAR(going.speed, 1.5, 1e-9);
     EXPECT_NEAR(going.ripple, 0.3 * smoothed / std::sqrt(2), 0.015);
+    EXPECT_NEAR(going.bob, 0.04 / std::sqrt(2), 0.001);
   }
 }
 
@@ -55,14 +57,17 @@ TEST(SpeedRipples, AreOfASpeedEachBesideTheTakes) {
     EXPECT_NEAR(row.commanded, 0.5 * static_cast<double>(i + 1), 1e-9);
     EXPECT_GT(row.speed, 0);
     EXPECT_GE(row.ripple, 0);
-    double sum = 0, count = 0;
+    EXPECT_GT(row.bob, 0);
+    double ripple = 0, bob = 0, count = 0;
     for (const Going& going : takes) {
       EXPECT_GE(std::abs(going.speed - row.commanded), std::abs(row.takes_speed - row.commanded) - 1e-12);
       if (std::abs(going.speed - row.takes_speed) > 0.1) continue;
-      sum += going.ripple;
+      ripple += going.ripple;
+      bob += going.bob;
       ++count;
     }
-    EXPECT_NEAR(row.takes_ripple, sum / count, 1e-9);
+    EXPECT_NEAR(row.takes_ripple, ripple / count, 1e-9);
+    EXPECT_NEAR(row.takes_bob, bob / count, 1e-9);
   }
   EXPECT_NEAR(rows[1].speed, 1, 0.15);
 }
@@ -70,7 +75,7 @@ TEST(SpeedRipples, AreOfASpeedEachBesideTheTakes) {
 TEST(SpeedRipples, HaveNothingToCompareWhereNoTakeGoes) {
   const auto stands = std::make_shared<const Character>(tiny_character());
   for (const SpeedRipple& row : speed_ripples(stands)) {
-    EXPECT_TRUE(std::isnan(row.takes_ripple));
+    EXPECT_TRUE(std::isnan(row.takes_ripple) && std::isnan(row.takes_bob));
     EXPECT_FALSE(std::isnan(row.ripple));
   }
 }

@@ -13,6 +13,7 @@ namespace fragmotion {
 struct Going {
   double speed = 0;   ///< Of the centre of mass along the ground, mean.
   double ripple = 0;  ///< Standard deviation of its speed over 0.1 s in the mean direction.
+  double bob = 0;     ///< Standard deviation of the hips' height, m.
 };
 
 /// Of each second that begins at `first` or a later frame; none where the track is shorter.
@@ -22,13 +23,15 @@ std::vector<Going> goings(const BodyTrack& track, int first = 0);
 /// the half seconds around its beginning and its end differ by at most a tenth of its speed.
 std::vector<Going> steady_goings(const BodyTrack& track);
 
-/// How evenly a character goes at a speed, m/s of a 1.8 m character; NaN where the takes do not go steadily.
+/// How evenly a character goes at a speed, m and m/s of a 1.8 m character; NaN where the takes do not go steadily.
 struct SpeedRipple {
   double commanded = 0;
   double speed = 0;         ///< Mean, reached.
-  double ripple = 0;        ///< Mean of Going::ripple.
+  double ripple = 0;        ///< Means of Going::ripple
+  double bob = 0;           ///< and Going::bob.
   double takes_speed = 0;   ///< Of the captured takes' steady seconds, the one nearest to the command,
-  double takes_ripple = 0;  ///< and the mean of Going::ripple of all that are within 0.1 m/s of it.
+  double takes_ripple = 0;  ///< and the means of all that are within 0.1 m/s of it.
+  double takes_bob = 0;
 };
 
 /// For forward commands of 0.5, 1, 1.5 ... 3 m/s of a 1.8 m character, each held for 11 s, of which the first three do
