@@ -7,10 +7,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLanding = 0.06;      // m over the floor, of a 1.8 m character, within which a foot stands
-constexpr double kSoonest = 0.02;      // s in which a foot that is higher comes down at least
-constexpr double kLatest = 0.8;        // s that are looked ahead
-constexpr double kLetsGo = 3.5 / 0.3;  // 1/s: how a foot that was held gets back to its motion (foot_lock.cpp)
+constexpr double kLanding = 0.06;  // m over the floor, of a 1.8 m character, within which a foot stands
+constexpr double kSoonest = 0.02;  // s in which a foot that is higher comes down at least
+constexpr double kLatest = 0.8;    // s that are looked ahead
 
 // What a body's feet do next.
 class LookAhead {
@@ -23,7 +22,7 @@ class LookAhead {
     foot.floor = workspace_.floors[side];
     foot.now = sole(workspace_.shown, side);
     const bool low = foot.now.height() * workspace_.body->scale < kLanding;
-    foot.stands = playback_.contacts().feet[side][playback_.frame_of_clip()] && correction_.plants(side, low);
+    foot.stands = correction_.plants(side, playback_.contacts().feet[side][playback_.frame_of_clip()] && low);
     if (foot.stands) {
       foot.way.back() = foot.now.moved(correction_.coming_to_rest(side));
     } else {
@@ -52,7 +51,8 @@ class LookAhead {
     const Vector2 held = (foot.now.ball - later(side, 0).ball).head<2>();
     for (std::size_t i = 0; i < FootAhead::kPoints; ++i) {
       const double seconds = foot.due * static_cast<double>(i + 1) / FootAhead::kPoints;
-      foot.way[i] = later(side, seconds).moved((1 + kLetsGo * seconds) * std::exp(-kLetsGo * seconds) * held);
+      const double returned = FootLock::kReturns * seconds;
+      foot.way[i] = later(side, seconds).moved((1 + returned) * std::exp(-returned) * held);
     }
     const PosedBones& posed = workspace_.body->posed;
     const Leg& leg = workspace_.body->legs[side];

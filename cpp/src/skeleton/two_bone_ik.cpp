@@ -156,10 +156,14 @@ Vector3 ball(const Skeleton& skeleton, int foot, int toe, const PosedBones& pose
   return posed.heads[foot] + posed.rotations[foot] * skeleton.tips[foot];
 }
 
-double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle) {
+double longest(const Leg& leg, const PosedBones& posed) {
   const Vector3 &hip = posed.heads[leg.thigh], &knee = posed.heads[leg.knee], &foot = posed.heads[leg.foot];
-  const double length = kStretched * ((knee - hip).norm() + (foot - knee).norm());
-  const Vector3 way = ankle - hip;
+  return kStretched * ((knee - hip).norm() + (foot - knee).norm());
+}
+
+double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle) {
+  const double length = longest(leg, posed);
+  const Vector3 way = ankle - posed.heads[leg.thigh];
   const double square = length * length - way.head<2>().squaredNorm();
   if (square <= 0) return std::numeric_limits<double>::infinity();
   return std::max(0.0, -way.z() - std::sqrt(square));

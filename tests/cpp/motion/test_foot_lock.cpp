@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60;
 
-// A frame with the left foot on the ground or not, at whatever height.
-Contacts standing(bool left) {
+// A frame with feet on the ground or not, at whatever height.
+Contacts standing(bool left, bool right = false) {
   Contacts contacts;
-  contacts.feet = {std::vector<bool>{left}, std::vector<bool>{false}};
+  contacts.feet = {std::vector<bool>{left}, std::vector<bool>{right}};
   contacts.floors.fill({1, 1});
   return contacts;
 }
@@ -28,17 +28,19 @@ struct Carried {
   double speed = 0.3;     // m/s
   bool on_floor = false;  // its feet stand where they are lowest in the clip, not at whatever height
 
-  Vector3 shown(int frame, bool planted) {
+  // The world after a frame's pose went through the lock.
+  PosedBones posed(int frame, Contacts contacts) {
     WorldPose pose{load_vector(clip.root_positions.data()), clip.headings[0], {}};
     pose.root.y() += speed * frame * kFrame;
     pose.rotations.assign(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
-    Contacts contacts = standing(planted);
     if (on_floor) contacts.floors = find_contacts(kinematics, clip).floors;
     lock.apply(pose, contacts, 0, frame == 0 ? 0 : kFrame);
     PosedBones posed(skeleton.size());
     kinematics.world(pose.root, pose.rotations.data(), posed.heads.data(), posed.rotations.data());
-    return ball(skeleton, legs[0], posed);
+    return posed;
   }
+
+  Vector3 shown(int frame, bool planted) { return ball(skeleton, legs[0], posed(frame, standing(planted))); }
 };
 
 TEST(FootLock, KeepsAPlantedFootWhereItIs) {
@@ -82,7 +84,7 @@ TEST(FootLock, LetsGoSmoothlyAndStepsBackToTheMotion) {
     if (f > 30 + 0.3 / kFrame + 1) {
       EXPECT_LT((now - moved).head<2>().norm(), 0.03) << f;
     }
-    if (f > 30 + 1.2 / kFrame + 1) {
+    if (f > 30 + 1.32 / kFrame + 1) {
       EXPECT_LT((now - moved).norm(), 1e-9) << f;
     }
     before = now;
@@ -98,6 +100,79 @@ TEST(FootLock, LetsAFootGoThatIsTooFarBehind) {
   free.speed = 2;
   free.shown(0, false);
   EXPECT_LT((body.shown(30, true) - free.shown(30, false)).head<2>().norm(), 0.4);
+}
+
+// For how many frames a body that goes on keeps its left foot.
+int kept_frames(bool right) {
+  Carried body;
+  body.speed = 1.5;
+  int frame = 0;
+  do body.posed(frame++, standing(true, right));
+  while (body.lock.locked(0) && frame < 60);
+  return frame;
+}
+
+TEST(FootLock, KeepsTheOnlyFootThatStandsForLonger) {
+  EXPECT_GT(kept_frames(false), kept_frames(true));
+  EXPECT_LT(kept_frames(false), 0.5 / 1.5 / kFrame + 4);
+}
+
+TEST(FootLock, KeepsAFootUntilTheOtherOneIsDownWhoseTurnItIs) {
+  Carried body;
+  body.shown(0, true);
+  Contacts swapped = standing(false, true);
+  swapped.floors[1] = {-1, -1};  // the right foot is far over it
+  for (int f = 1; f < 10; ++f) {
+    body.posed(f, swapped);
+    EXPECT_TRUE(body.lock.locked(0)) << f;
+    EXPECT_FALSE(body.lock.locked(1)) << f;
+  }
+  for (int f = 10; f < 12; ++f) body.posed(f, standing(false, true));
+  EXPECT_FALSE(body.lock.locked(0));
+  EXPECT_TRUE(body.lock.locked(1));
+}
+
+// Gives the feet toes, which lie flat.
+void add_toes(Carried& body) {
+  Skeleton& s = body.skeleton;
+  for (int* toe : {&s.roles.left_toe, &s.roles.right_toe}) {
+    const bool left = toe == &s.roles.left_toe;
+    const int foot = left ? s.roles.left_foot : s.roles.right_foot;
+    *toe = s.size();
+    s.names.emplace_back(left ? "toe.L" : "toe.R");
+    s.parents.push_back(foot);
+    s.rest_rotations.push_back(Quaternion::Identity());
+    s.offsets.push_back(s.tips[foot]);
+    s.tips.emplace_back(0, -0.06, 0);
+    body.clip.rotations.insert(body.clip.rotations.begin() + std::ptrdiff_t{4} * (s.size() - 1), {1, 0, 0, 0});
+  }
+  body.clip.rotations.resize(std::size_t{4} * s.size());
+  body.clip.frames = 1;
+  body.kinematics = Kinematics(s);
+  body.legs = find_legs(body.kinematics, {body.clip});
+  body.lock = FootLock(body.kinematics, body.legs);
+}
+
+TEST(FootLock, RaisesTheHeelOfAFootThatIsLeftBehindRatherThanSink) {
+  Carried body;
+  body.on_floor = true;
+  add_toes(body);
+  const Leg& leg = body.legs[0];
+  const PosedBones first = body.posed(0, standing(true));
+  const Vector3 place = ball(body.skeleton, leg, first);
+  const auto pitch = [&](const PosedBones& now) {
+    return (now.heads[leg.foot] - ball(body.skeleton, leg, now)).normalized().z();
+  };
+  body.speed = 0.6;
+  PosedBones last = first;
+  for (int f = 1; f <= 27; ++f) last = body.posed(f, standing(true));
+  ASSERT_TRUE(body.lock.locked(0));
+  EXPECT_LT((ball(body.skeleton, leg, last) - place).norm(), 0.01);
+  EXPECT_GT(pitch(last), pitch(first) + 0.07);
+  EXPECT_LT(last.rotations[leg.toe].angularDistance(first.rotations[leg.toe]), 1e-6);
+  EXPECT_GT(last.heads[body.skeleton.roles.hips].z(), first.heads[body.skeleton.roles.hips].z() - 0.03);
+  for (int f = 28; f < 90; ++f) last = body.posed(f, standing(false));
+  EXPECT_NEAR(pitch(last), pitch(first), 1e-3);
 }
 
 TEST(FootLock, StepsOnWithAFootThatTheLegCannotReachRatherThanLungeOrDragIt) {

@@ -22,11 +22,16 @@ struct StepEdit {
 
 /// Keeps planted feet where they are: the ball of a foot that is planted comes to rest and stays there, the leg follows
 /// (leg.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion smoothly, with
-/// a step where that is far; the hips sink where a leg would be a little too short, and the foot steps on where it
-/// would be much too short. A planted foot that hovers is lowered to the floor. A body that has stood for a while in
-/// the middle of a stride steps out of it. Does nothing to a skeleton without legs. Allocates nothing once it is made.
+/// a step where that is far; but the only foot that stands is kept for longer, and until the other one has come down
+/// whose turn it is. Where a leg would be a little too short, the heel of a foot that is left behind rises and the hips
+/// sink; where it would be much too short, the foot steps on. A planted foot that hovers is lowered to the floor. A
+/// body that has stood for a while in the middle of a stride steps out of it. Does nothing to a skeleton without legs.
+/// Allocates nothing once it is made.
 class FootLock {
  public:
+  /// How a foot that is let go gets back to its motion: critically damped, 1/s.
+  static constexpr double kReturns = 3.5 / 0.33;
+
   /// What the foot locks of one body share that are applied in turn: what never changes, and room to work in.
   struct Body {
     Body(const Kinematics& kinematics, const Legs& legs);
@@ -66,6 +71,7 @@ class FootLock {
     Vector2 offset = Vector2::Zero(), offset_speed = Vector2::Zero();  // from the motion, when it was let go
     double free = 0;                                                   // s since then
     double lowered = 0;                                                // m, while it is planted and would hover
+    double raised = 0;  // rad, its heel, while the leg would be too short
   };
 
   double height(int side, const FootHeights& floor) const;
@@ -74,6 +80,7 @@ class FootLock {
   void settle(double seconds);
   double step_height(const Foot& foot) const;
   double lowered(Foot& foot, double over, double seconds) const;
+  void raise_heel(int side, const Vector3& ball, double seconds, Vector3& ankle, double* rotations);
   void release(Foot& foot, const Vector2& held) const;
 
   std::shared_ptr<Body> body_;

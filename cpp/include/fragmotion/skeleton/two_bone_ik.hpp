@@ -38,6 +38,9 @@ inline Vector3 ball(const Skeleton& skeleton, const Leg& leg, const PosedBones& 
   return ball(skeleton, leg.foot, leg.toe, posed);
 }
 
+/// How far from the thigh's head a foot may be, m.
+double longest(const Leg& leg, const PosedBones& posed);
+
 /// How far the hips must sink for the leg to reach `ankle`, m: 0 where it does, infinite where no sinking helps.
 double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle);
 
