@@ -81,9 +81,9 @@ def test_what_a_player_showed_is_judged_as_the_player(made: Setting, traces: dic
     shown = Fragments(made).play([trace], [2])[0].judged
     own = core.Player(made.character, 3).run(trace, RATE)
     np.testing.assert_array_equal(shown.root_positions, own.root_positions)
-    assert shown.velocity_error == pytest.approx(own.velocity_error, rel=0.1)
+    assert shown.velocity_error == pytest.approx(own.velocity_error, abs=0.03)  # m/s, at a walk
     assert shown.commanded_speed == pytest.approx(own.commanded_speed)
-    assert shown.drift == pytest.approx(own.drift, rel=0.2)
+    assert shown.drift == pytest.approx(own.drift, abs=0.02)
     assert made.metrics.of(shown).foot_skate == pytest.approx(made.metrics.of(own).foot_skate, rel=1e-4)
 
 
@@ -104,7 +104,7 @@ def test_answers_are_timed_as_the_core_times_them(made: Setting) -> None:
     found = response.response_times(made, Fragments(made, 1.0), 0)
     assert len(found) == len(ours) == 272
     assert np.median(found) == pytest.approx(np.median(ours), abs=0.1)
-    assert np.percentile(found, 95) == pytest.approx(np.percentile(ours, 95), rel=0.3)
+    assert np.percentile(found, 80) == pytest.approx(np.percentile(ours, 80), rel=0.3)
 
 
 def test_an_answer_is_timed_from_the_step() -> None:

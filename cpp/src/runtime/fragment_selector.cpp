@@ -9,14 +9,14 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kJoinsWell = 1.1;                // times the Dis of the fragment that joins best, and
-constexpr double kJoinsNear = 0.1 / kTunedReach;  // m a metre of reach more
-constexpr float kAsWell = 0.5F;                   // of the way from the least error to the representative's
-constexpr float kNearly = 0.8F;                   // ControlDis more than the least error, which the root makes up for
-constexpr double kUnsteady = 2;                   // ControlDis a m/s by which a fragment gets faster or slower
-constexpr double kStep = 0.4, kHurried = 2;       // s, and ControlDis for all of it that a fragment lacks
-constexpr double kOutOfTurn = 2 / kTunedReach;    // m a metre of reach that a step out of turn costs
-constexpr double kLook = kEntry / 2;              // s between the moments at which a fragment may be left early
+constexpr double kJoinsWell = 1.1;                 // times the Dis of the fragment that joins best, and
+constexpr double kJoinsNear = 0.15 / kTunedReach;  // m a metre of reach more
+constexpr float kAsWell = 0.5F;                    // of the way from the least error to the representative's
+constexpr float kNearly = 0.8F;                    // ControlDis more than the least error, which the root makes up for
+constexpr double kUnsteady = 5;                    // ControlDis a m/s by which a fragment gets faster or slower
+constexpr double kStep = 0.4, kHurried = 2;        // s, and ControlDis for all of it that a fragment lacks
+constexpr double kOutOfTurn = 2 / kTunedReach;     // m a metre of reach that a step out of turn costs
+constexpr double kLook = kEntry / 2;               // s between the moments at which a fragment may be left early
 
 }  // namespace
 

@@ -7,16 +7,16 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kMostAdjusted = 0.6;  // of a fragment's speed,
-constexpr double kMostTurned = 1;      // and of the turn rate, for the heading
-constexpr double kTurning = 0.05;      // s: time constant of the turn rate's adjustment
-constexpr double kSlowest = 0.75;      // of the tempo
-constexpr double kPacing = 0.15;       // s: time constant of the tempo's,
-constexpr double kSetOff = 0.25;       // of what balances it that the feet are set off for a body's acceleration
-constexpr double kStriding = 0.3;      // s: time constant of the steps'
-constexpr double kHeading = 0.12;      // s in which the heading gets to where it is led,
-constexpr double kLeash = 0.5;         // rad by which it is led at most
-constexpr double kStill = 0.2;         // m/s of a 1.8 m character, and of the turn rate, below which it stands
+constexpr double kMostAdjusted = 0.6;              // of a fragment's speed,
+constexpr double kMostTurned = 1;                  // and of the turn rate, for the heading
+constexpr double kTurning = 0.05;                  // s: time constant of the turn rate's adjustment
+constexpr double kSlowest = 0.75, kFastest = 1.2;  // of the tempo
+constexpr double kPacing = 0.15;                   // s: time constant of the tempo's,
+constexpr double kSetOff = 0.15;   // of what balances it that the feet are set off for a body's acceleration
+constexpr double kStriding = 0.3;  // s: time constant of the steps'
+constexpr double kHeading = 0.12;  // s in which the heading gets to where it is led,
+constexpr double kLeash = 0.5;     // rad by which it is led at most
+constexpr double kStill = 0.2;     // m/s of a 1.8 m character, and of the turn rate, below which it stands
 
 // The part of the way that a first-order filter goes in a time, s, with this time constant.
 double filtered(double seconds, double constant) { return 1 - std::exp(-seconds / constant); }
@@ -67,7 +67,7 @@ void PoseCorrection::adjust_tempo(const Control& control, const Control& evident
   const double least = kMoving / space_->scale();
   const bool goes = evident.speed() > least && control.speed() > least && !evident.jumps();
   const double faster = goes ? std::sqrt(control.speed() / evident.speed()) : 1,
-               wanted = 1 + root_adjustment_ * (std::clamp(faster, kSlowest, 1.0) - 1);
+               wanted = 1 + root_adjustment_ * (std::clamp(faster, kSlowest, kFastest) - 1);
   tempo_ += filtered(seconds, kPacing) * (wanted - tempo_);
 }
 

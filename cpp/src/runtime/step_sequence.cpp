@@ -7,7 +7,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kQuick = 0.2;  // s
+constexpr double kQuick = 0.25;  // s
+constexpr float kLands = 0.1F;   // s until a foot is down that a fragment begins with, and that is still in the air
 
 float until_strike(const std::vector<bool>& stands, int first, double rate) {
   for (int f = first + 1; f < static_cast<int>(stands.size()); ++f) {
@@ -48,7 +49,7 @@ int steps_out_of_turn(const StepSequence& steps, const EntrySteps& entry) {
   if (steps.last < 0) return 0;
   std::array<float, 2> strikes = entry.strikes;
   for (int side = 0; side < 2; ++side) {
-    if (entry.stands[side] && !steps.stands[side]) strikes[side] = 0;
+    if (entry.stands[side] && !steps.stands[side]) strikes[side] = kLands;
   }
   const float same = strikes[steps.last], other = strikes[1 - steps.last];
   const bool first_is_wrong = same < other || steps.since + other < kQuick;

@@ -40,6 +40,13 @@ TEST(StepSequence, CountsTheSameFootAndQuickSteps) {
   EXPECT_EQ(steps_out_of_turn(right_foot_stands(0.3), {{false, true}, {0.2F, 0.1F}}), 2) << "again, and then quickly";
 }
 
+TEST(StepSequence, GivesAFootTimeToComeDownThatAFragmentBeginsWith) {
+  EXPECT_EQ(steps_out_of_turn(right_foot_stands(0.1), {{true, false}, {1.0F, 0.5F}}), 1)
+      << "too soon after the right one";
+  EXPECT_EQ(steps_out_of_turn(right_foot_stands(0.2), {{true, false}, {1.0F, 0.5F}}), 0);
+  EXPECT_EQ(steps_out_of_turn(right_foot_stands(0.3), {{true, false}, {1.0F, 0.3F}}), 1) << "the right one soon after";
+}
+
 TEST(StepSequence, KnowsNothingOfABodyThatHasTakenNoStepOrHasNoFeet) {
   EXPECT_EQ(steps_out_of_turn({}, {{true, false}, {0.1F, 0.1F}}), 0);
   EXPECT_EQ(steps_out_of_turn(right_foot_stands(0.3), {{}, {kNever, kNever}}), 0);

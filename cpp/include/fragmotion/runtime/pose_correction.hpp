@@ -29,15 +29,16 @@ class PoseCorrection {
     velocity_ += faster;
     begins_ = true;
   }
-  /// How much faster than captured what plays is to be played, at most 1: where the control is slower than the
-  /// fragment, its steps make up for half of that by following each other later, and for the rest by being shorter.
+  /// How much faster than captured what plays is to be played, 0.75 to 1.2: where the control is slower or faster than
+  /// the fragment, its steps make up for half of that by following each other later or sooner, and for the rest by
+  /// being shorter or longer.
   double tempo() const { return tempo_; }
   /// Of the root beyond what plays: m/s in the character frame, and rad/s.
   const Vector2& velocity() const { return velocity_; }
   double turn_rate() const { return turn_rate_; }
   const StepEdit& steps() const { return steps_; }
-  /// Whether a foot that is to stand does: it is held where it is, or, where feet are not held, it is low.
-  bool plants(int side, bool low) const { return lock_feet_ ? foot_lock_.locked(side) : low; }
+  /// Whether a foot stands: it is held where it is, or, where feet are not held, it is to stand and is low.
+  bool plants(int side, bool stands) const { return lock_feet_ ? foot_lock_.locked(side) : stands; }
   /// Of a foot that is held, as FootLock has it.
   Vector2 coming_to_rest(int side) const { return lock_feet_ ? foot_lock_.coming_to_rest(side) : Vector2::Zero(); }
   double stepping(int side) const { return lock_feet_ ? foot_lock_.stepping(side) : 0; }

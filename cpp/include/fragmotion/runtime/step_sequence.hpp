@@ -33,7 +33,7 @@ std::vector<EntrySteps> entry_steps(const Character& character);
 std::array<bool, 2> standing_feet(const Contacts& contacts, std::size_t frame);
 
 /// How many feet come down out of turn where a fragment is entered after these steps: the foot that came down last,
-/// or one less than 0.2 s after the other. 0 to 2.
+/// or one less than 0.25 s after the other. 0 to 2.
 int steps_out_of_turn(const StepSequence& steps, const EntrySteps& entry);
 
 }  // namespace fragmotion
