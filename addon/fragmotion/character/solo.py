@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from contextlib import ExitStack, nullcontext, suppress
+from itertools import count
 from typing import TYPE_CHECKING
 
 import bpy
@@ -40,7 +41,7 @@ class Solo:
         self._reach = _FURTHEST / character.space.scale
         self._order = [obj.data.bones.find(bone.name) for bone in obj.pose.bones]
         self._durations = character.in_style(style).fragment_durations
-        self._player = core.Player(character)
+        self._character, self._seeds = character, count(1)
         self._begin()
         self._stack = ExitStack()
         self._stack.enter_context(posing.playing(context, obj, None))
@@ -78,6 +79,8 @@ class Solo:
             self._stack.close()
 
     def _begin(self) -> None:
+        """Begin again where the armature stood, with other fragments than before: a reset player draws the same."""
+        self._player = core.Player(self._character, seed=next(self._seeds))
         self._player.reset(*self._place, style=self._style)
         self._next()
 

@@ -166,7 +166,7 @@ def test_the_preview_plays_the_class_alone_and_puts_everything_back(addon: Modul
     place = obj.matrix_world.copy()
     solo = addon.character.solo.Solo(bpy.context, obj, number)
     seen, poses = set(), []
-    for _ in range(100 * len(members)):
+    for _ in range(40 * len(members)):
         solo.step(1 / 8)
         assert solo.playing[0] == number
         seen.add(solo.playing[1])
