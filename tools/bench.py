@@ -132,7 +132,9 @@ def timed(work: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def _trajectories(data: Arrays) -> tuple[float, str]:
-    seconds, (whole, first, last) = timed(lambda: reference.trajectories(_body(data), _motion(data), data["ranges"]))
+    seconds, (whole, first, last) = timed(
+        lambda: reference.trajectories(_body(data), _motion(data), data["ranges"], data["played"])
+    )
     ours = np.moveaxis(data["trajectories"], 1, 2)[:, : whole.shape[1]]
     data.update(whole=whole, first=first, last=last)
     return seconds, f"largest difference {np.abs(whole - ours).max() * 1e3:.4f} mm"

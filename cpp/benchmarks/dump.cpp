@@ -71,7 +71,7 @@ void dump_skeleton(const Skeleton& skeleton, const Writer& write) {
 // The clips behind one another; a fragment's range is in frames of the whole.
 void dump_motion(const PackedPool& pool, const Writer& write) {
   std::vector<double> roots, rotations, headings, evident;
-  std::vector<int> starts, ranges;
+  std::vector<int> starts, ranges, played;
   for (const PackedClip& packed : pool.clips) {
     const Clip clip = unpack(packed);
     starts.push_back(static_cast<int>(headings.size()));
@@ -80,7 +80,9 @@ void dump_motion(const PackedPool& pool, const Writer& write) {
     headings.insert(headings.end(), clip.headings.begin(), clip.headings.end());
   }
   for (const Fragment& fragment : pool.fragments) {
-    ranges.insert(ranges.end(), {starts[fragment.clip] + fragment.begin, starts[fragment.clip] + fragment.end});
+    const int start = starts[fragment.clip];
+    ranges.insert(ranges.end(), {start + fragment.begin, start + fragment.end});
+    played.insert(played.end(), {start + fragment.first_played(), start + fragment.last_played()});
     append(evident, fragment.evident);
   }
   const std::size_t frames = headings.size(), bones = pool.skeleton.names.size(), count = pool.fragments.size();
@@ -88,6 +90,7 @@ void dump_motion(const PackedPool& pool, const Writer& write) {
   write("rotations", rotations, {frames, bones, 4});
   write("headings", headings);
   write("ranges", ranges, {count, 2});
+  write("played", played, {count, 2});
   write("evident", evident, {count, 4});
 }
 

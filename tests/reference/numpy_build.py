@@ -114,22 +114,23 @@ def seen_from(points: Floats, places: Floats, headings: Floats) -> Floats:
 # Fragments (Sec. 3.1).
 
 
-def trajectories(body: Body, motion: Motion, ranges: Ints, poses: int = 16) -> tuple[Floats, Floats, Floats]:
+def trajectories(
+    body: Body, motion: Motion, ranges: Ints, played: Ints, poses: int = 16
+) -> tuple[Floats, Floats, Floats]:
     """Fragments [N,2] (first and last frame) as points: [N,poses*K,3] in the character frame of the first pose, and the
-    first and the last pose [N,K,3] each in its own; metres of a 1.8 m character."""
+    first and the last pose that are played [N,K,3] each in its own; metres of a 1.8 m character."""
     phases = np.arange(poses) / (poses - 1)
     frames = ranges[:, :1] + (ranges[:, 1:] - ranges[:, :1]) * phases
-    roots, rotations, headings = sample(motion, frames.ravel())
-    tips = bone_tips(body, roots, rotations)[:, body.measured] * body.scale
-    places = roots[:, :2] * body.scale
-    by_fragment = tips.reshape(len(ranges), -1, 3)
-    first = np.arange(0, len(tips), poses)
-    last = first + poses - 1
-    return (
-        seen_from(by_fragment, places[first], headings[first]),
-        seen_from(tips[first], places[first], headings[first]),
-        seen_from(tips[last], places[last], headings[last]),
-    )
+    tips, places, headings = _tips(body, motion, frames.ravel())
+    begin = np.arange(0, len(tips), poses)
+    ends = [seen_from(*_tips(body, motion, at)) for at in played.T]
+    return seen_from(tips.reshape(len(ranges), -1, 3), places[begin], headings[begin]), ends[0], ends[1]
+
+
+def _tips(body: Body, motion: Motion, frames: Floats) -> tuple[Floats, Floats, Floats]:
+    """Of poses [F]: the tips of the measured bones [F,K,3], and where the body stands [F,2] and faces [F]."""
+    roots, rotations, headings = sample(motion, frames)
+    return bone_tips(body, roots, rotations)[:, body.measured] * body.scale, roots[:, :2] * body.scale, headings
 
 
 def distances(points: Floats, others: Floats) -> Floats:
