@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/filtered.hpp"
 #include "base/turn_between.hpp"
 
 namespace fragmotion {
@@ -36,11 +37,6 @@ Quaternion turned_by(const Vector2& slope) {
 double missing(double length, const Vector3& hip, const Vector3& ankle) {
   const double most = kReached * length, aside = std::min((ankle - hip).head<2>().norm(), kReached * most);
   return hip.z() - ankle.z() - std::sqrt(most * most - aside * aside);
-}
-
-double length_of(const Leg& leg, const PosedBones& posed) {
-  return (posed.heads[leg.knee] - posed.heads[leg.thigh]).norm() +
-         (posed.heads[leg.foot] - posed.heads[leg.knee]).norm();
 }
 
 // At least 0, without a kink.
@@ -90,7 +86,7 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
   for (Vector3& head : posed.heads) head.z() -= hips_.sunk();
   for (int side = 0; side < 2; ++side) {
     raise_heel(side, feet[side], ankles[side]);
-    const double length = length_of(legs[side], posed);
+    const double length = leg_length(legs[side], posed);
     reach(kinematics.skeleton(), legs[side], posed, ankles[side], Reach{0.2 * length, kStretched * length},
           pose.rotations.data());
     turn_foot(side, pose.rotations.data());
@@ -131,7 +127,7 @@ void GroundFollower::follow_hips(WorldPose& pose, double seconds, const GroundPr
   const std::optional<GroundPoint> under = probe.at(pose.root.head<2>());
   if (!under) missed_ += seconds;
   const double wanted = under ? under->height : level_;
-  level_ += (fresh_ ? 1 : 1 - std::exp(-seconds / kHips)) * (wanted - level_);
+  level_ += (fresh_ ? 1 : filtered(seconds, kHips)) * (wanted - level_);
   fresh_ = false;
   pose.root.z() += level_;
 }
@@ -154,7 +150,7 @@ void GroundFollower::sink(const FeetAhead& feet, const std::array<Vector3, 2>& a
   double now = 0, soon = 0, due = kForesight;
   for (int side = 0; side < 2; ++side) {
     const Leg& leg = body_->legs[side];
-    const double length = length_of(leg, body_->posed),
+    const double length = leg_length(leg, body_->posed),
                  lacks = missing(length, body_->posed.heads[leg.thigh], ankles[side]);
     now = std::max(now, feet_[side].burden() * softly_positive(lacks, soft));
     if (feet[side].stands || feet[side].due > due) continue;
@@ -175,7 +171,7 @@ void GroundFollower::raise_heel(int side, const FootAhead& foot, Vector3& ankle)
   const PosedBones& posed = body_->posed;
   heels_[side] = Quaternion::Identity();
   const double flat = std::clamp((foot.now.heel.z() - foot.now.ball.z()) * body_->scale / kToesUp + 1, 0.0, 1.0),
-               reached = kReached * length_of(leg, posed);
+               reached = kReached * leg_length(leg, posed);
   const Vector3 from_ball = turns_[side] * (posed.heads[leg.foot] - ball(body_->kinematics.skeleton(), leg, posed)),
                 ball = ankle - from_ball, axis = from_ball.cross(Vector3::UnitZ()).normalized();
   const double upright = kMostUpright - std::atan2(from_ball.z(), from_ball.head<2>().norm()),

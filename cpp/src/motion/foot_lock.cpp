@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/filtered.hpp"
 #include "fragmotion/motion/pose.hpp"
 
 namespace fragmotion {
@@ -15,8 +16,7 @@ constexpr double kTooFar = 0.3;       // m from its motion at which a foot is le
 constexpr double kTooFarAlone = 0.5;  // and at which the only one that stands is
 constexpr double kLanding = 0.06;     // m over the floor within which a foot is planted
 constexpr double kStrained = 0.1;     // m that the hips would have to sink for a foot: from there it steps on
-constexpr double kRelease = 0.33;     // s in which a foot that is let go gets back to its motion, most of the way
-constexpr double kForgets = 4;        // times that, until nothing is seen of it
+constexpr double kForgets = 4;        // times kRelease, until nothing is seen of a foot that was let go
 constexpr double kSettle = 0.02;      // s: time constant of a foot that comes to rest
 constexpr double kSoftGround = 0.06;  // m: a foot sinks in at most half of that
 constexpr double kHovers = 0.015;     // m over the floor from where a planted foot is lowered,
@@ -107,7 +107,7 @@ double FootLock::step_height(const Foot& foot) const {
 // How far a foot is lowered: where the hips are too high for what plays, its motion would let a planted one hover.
 double FootLock::lowered(Foot& foot, double over, double seconds) const {
   const double hovers = foot.locked ? std::max(0.0, over - kHovers / body_->scale) : 0;
-  foot.lowered += (1 - std::exp(-seconds / kLowering)) * (hovers - foot.lowered);
+  foot.lowered += filtered(seconds, kLowering) * (hovers - foot.lowered);
   return std::min(foot.lowered, std::max(0.0, over));
 }
 
@@ -119,7 +119,7 @@ void FootLock::raise_heel(int side, const Vector3& ball, double seconds, Vector3
   const Vector3 from_ball = ankle - ball, axis = from_ball.cross(Vector3::UnitZ()).normalized();
   const double lacks =
       foot.locked ? turn_to_reach(posed.heads[leg.thigh] - ball, from_ball, axis, longest(leg, posed)) : 0;
-  foot.raised += (1 - std::exp(-seconds / kRaising)) * (std::min(lacks, kHighest) - foot.raised);
+  foot.raised += filtered(seconds, kRaising) * (std::min(lacks, kHighest) - foot.raised);
   if (foot.raised < kLevel) return;
   const Quaternion turn{Eigen::AngleAxisd(foot.raised, axis)};
   ankle = ball + turn * from_ball;
@@ -200,7 +200,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     sink = std::max(sink, std::min(kDeepest / scale, strain));
   }
   fresh_ = false;
-  sunk_ += (sink - sunk_) * (1 - std::exp(-seconds / kSinking));
+  sunk_ += (sink - sunk_) * filtered(seconds, kSinking);
   pose.root.z() -= sunk_;
   for (Vector3& head : posed.heads) head.z() -= sunk_;
   for (int side = 0; side < 2; ++side) {

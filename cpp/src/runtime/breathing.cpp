@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "base/filtered.hpp"
+
 namespace fragmotion {
 namespace {
 
@@ -20,7 +22,7 @@ void Breathing::reset() { time_ = depth_ = 0; }
 
 void Breathing::apply(const Skeleton& skeleton, WorldPose& pose, bool stands, double seconds) {
   if (trunk_.chest < 0) return;
-  depth_ += ((stands ? 1 : 0) - depth_) * (1 - std::exp(-seconds / kDeepens));
+  depth_ += ((stands ? 1 : 0) - depth_) * filtered(seconds, kDeepens);
   if (depth_ < kUnseen) return reset();
   time_ = std::fmod(time_ + seconds, kBreath);
   const double angle = -depth_ * kAngle * 0.5 * (1 - std::cos(2 * kPi * time_ / kBreath));

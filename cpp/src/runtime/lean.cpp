@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "base/filtered.hpp"
+
 namespace fragmotion {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr double kMost = 6,
 
 void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, double seconds) {
   const Vector2 wanted = clamp_length(scale_ * acceleration, kMost);
-  acceleration_ += (1 - std::exp(-seconds / kFollows)) * (wanted - acceleration_);
+  acceleration_ += filtered(seconds, kFollows) * (wanted - acceleration_);
   const double strength = acceleration_.norm();
   if (strength < kLeast || trunk_.base < 0) return;
   const double angle = kShare * std::atan(strength / kGravity);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/filtered.hpp"
+
 namespace fragmotion {
 namespace {
 
@@ -17,9 +19,6 @@ constexpr double kStriding = 0.3;  // s: time constant of the steps'
 constexpr double kHeading = 0.12;  // s in which the heading gets to where it is led,
 constexpr double kLeash = 0.5;     // rad by which it is led at most
 constexpr double kStill = 0.2;     // m/s of a 1.8 m character, and of the turn rate, below which it stands
-
-// The part of the way that a first-order filter goes in a time, s, with this time constant.
-double filtered(double seconds, double constant) { return 1 - std::exp(-seconds / constant); }
 
 }  // namespace
 

@@ -156,10 +156,12 @@ Vector3 ball(const Skeleton& skeleton, int foot, int toe, const PosedBones& pose
   return posed.heads[foot] + posed.rotations[foot] * skeleton.tips[foot];
 }
 
-double longest(const Leg& leg, const PosedBones& posed) {
-  const Vector3 &hip = posed.heads[leg.thigh], &knee = posed.heads[leg.knee], &foot = posed.heads[leg.foot];
-  return kStretched * ((knee - hip).norm() + (foot - knee).norm());
+double leg_length(const Leg& leg, const PosedBones& posed) {
+  const Vector3& knee = posed.heads[leg.knee];
+  return (knee - posed.heads[leg.thigh]).norm() + (posed.heads[leg.foot] - knee).norm();
 }
+
+double longest(const Leg& leg, const PosedBones& posed) { return kStretched * leg_length(leg, posed); }
 
 double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle) {
   const double length = longest(leg, posed);

@@ -29,8 +29,8 @@ struct StepEdit {
 /// Allocates nothing once it is made.
 class FootLock {
  public:
-  /// How a foot that is let go gets back to its motion: critically damped, 1/s.
-  static constexpr double kReturns = 3.5 / 0.33;
+  /// s in which a foot that is let go gets back to its motion, most of the way; it is critically damped, 1/s.
+  static constexpr double kRelease = 0.33, kReturns = 3.5 / kRelease;
 
   /// What the foot locks of one body share that are applied in turn: what never changes, and room to work in.
   struct Body {

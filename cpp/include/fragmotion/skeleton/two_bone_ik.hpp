@@ -38,7 +38,8 @@ inline Vector3 ball(const Skeleton& skeleton, const Leg& leg, const PosedBones& 
   return ball(skeleton, leg.foot, leg.toe, posed);
 }
 
-/// How far from the thigh's head a foot may be, m.
+/// From the thigh's head over the knee to the foot's, m; and as much of it as the leg reaches.
+double leg_length(const Leg& leg, const PosedBones& posed);
 double longest(const Leg& leg, const PosedBones& posed);
 
 /// How far the hips must sink for the leg to reach `ankle`, m: 0 where it does, infinite where no sinking helps.

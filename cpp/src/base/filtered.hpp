@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+namespace fragmotion {
+
+/// The part of the way that a first-order filter goes in a time, s, with this time constant.
+inline double filtered(double seconds, double constant) { return 1 - std::exp(-seconds / constant); }
+
+}  // namespace fragmotion
