@@ -7,12 +7,10 @@
 #include <sstream>
 
 #include "fragmotion/base/utf8.hpp"
+#include "fragmotion/control/control.hpp"
 
 namespace fragmotion::bindings {
 namespace {
-
-// Of each of a control's numbers: nothing is faster than a million m/s, and the squares of such are numbers still.
-constexpr double kMostControl = 1e6;
 
 Control checked_control(const double* row, const std::string& label) {
   for (int k = 0; k < 4; ++k) {

@@ -89,6 +89,7 @@ void bind_tables(py::class_<Character, Holder>& character) {
       .def_property_readonly("table", viewed<int>(table, 1))
       .def_property_readonly("bridges", viewed<int>(bridges, 1))
       .def_property_readonly("class_names", &class_names)
+      .def_property_readonly("unanswered", &unanswered_controls)
       .def_property_readonly("coverage_counts",
                              [](const Character& c) { return to_array(c.coverage.counts, {c.space.size()}); })
       .def_property_readonly("coverage_distances",

@@ -89,10 +89,17 @@ def _parser() -> argparse.ArgumentParser:
         driver.add_argument("--player", choices=core.PLAYERS, help="a simulated player")
         command.add_argument("--seconds", type=float, default=20.0, metavar="S", help="how long that one plays (20)")
     for command in (build, play, evaluate):
-        command.add_argument("--seed", type=int, default=1, metavar="N", help="draws what is left to chance (1)")
+        command.add_argument("--seed", type=_seed, default=1, metavar="N", help="draws what is left to chance (1)")
     for command in (build, info, play, evaluate):
         command.add_argument("--json", metavar="FILE", help="save the figures there; - prints them")
     return parser
+
+
+def _seed(text: str) -> int:
+    """What is left to chance is drawn from a number of 64 bits."""
+    if text.isdecimal() and int(text) < 2**64:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"'{text}' is no seed: it must be a whole number from 0 to {2**64 - 1}")
 
 
 def _build(options: argparse.Namespace) -> dict[str, Any]:
@@ -170,6 +177,7 @@ def _described(character: core.Character) -> dict[str, Any]:
         **dict(zip(character.space.gaits, character.space.speeds)),
         "directions": character.space.directions,
         "controls": len(character.space.points),
+        **({"unanswered": character.unanswered} if character.unanswered else {}),
     }
 
 

@@ -451,6 +451,8 @@ class Character:
     """[n,n]: 1/(1 + Dis(last pose of Q, first pose of Q')), the first factor of Eq. 2."""
     match: Doubles
     """[n,controls]: 1/(1 + ControlDis(Ev(Q'), c)), the second factor of Eq. 2."""
+    unanswered: list[str]
+    """What can be asked for by the stick alone, as "run back", and no class does: the nearest that one does is done."""
     table: Ints
     """[n,controls]: the policy that drives, class x control -> next class."""
     bridges: Ints

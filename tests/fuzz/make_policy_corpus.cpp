@@ -4,8 +4,8 @@
 #include <fstream>
 
 #include "fragmotion/build/build.hpp"
+#include "made_styles.hpp"
 #include "policies.hpp"
-#include "small_character.hpp"
 
 namespace fragmotion {
 namespace {
@@ -23,6 +23,12 @@ Character walking_character() {
   return build(humanoid(), {gait_clip(stand, "stand"), gait_clip(walk, "walk")}, {{{}, {}}}, options);
 }
 
+/// With a move of the whole body and a looping one of the upper body.
+Character character_with_moves() {
+  return with_moves(walking_character(), {{"lunge", lunge_clip(0.6, 0.8, 0.6), false, 0.1, {}},
+                                          {"wave", wave_clip(1), true, 0.1, {0.3, 0.7}}});
+}
+
 void write(const std::filesystem::path& path, const std::string& bytes) {
   std::filesystem::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << bytes;
@@ -32,6 +38,10 @@ void write_corpus(const std::filesystem::path& folder) {
   const std::string tiny = to_bytes(tiny_character());
   write(folder / "forged_policy" / "tiny", core_of(tiny));
   write(folder / "forged_policy" / "walking", core_of(to_bytes(walking_character())));
+  const auto walking = std::make_shared<const Character>(walking_character()),
+             moving = std::make_shared<const Character>(character_with_moves());
+  write(folder / "forged_policy" / "moves", core_of(to_bytes(*moving)));
+  write(folder / "forged_policy" / "styles", core_of(to_bytes(with_styles({{"own", moving}, {"other", walking}}))));
   write(folder / "policy" / "header", tiny.substr(0, kHeaderBytes));
   write(folder / "policy" / "cut", tiny.substr(0, 400));
   write(folder / "policy" / "empty", file_with_core(""));

@@ -10,6 +10,7 @@
 #include <fstream>
 #else
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #endif
@@ -23,8 +24,10 @@ std::error_code system_error() {
 
 #ifdef _WIN32
 
+struct NewFile {};
+
 std::error_code write_new(const std::filesystem::path& path, const std::string& bytes,
-                          const std::filesystem::file_status& /*old*/) {
+                          const std::filesystem::file_status& /*old*/, NewFile& /*held*/) {
   errno = 0;
   std::ofstream file(path, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -34,7 +37,26 @@ std::error_code write_new(const std::filesystem::path& path, const std::string& 
 
 void settle_folder(const std::filesystem::path& /*folder*/) {}
 
+// Fails where a process has it open.
+void remove_unheld(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::symlink_status(path, ignored).type() != std::filesystem::file_type::regular) return;
+  std::filesystem::remove(path, ignored);
+}
+
 #else
+
+// Open and locked, so that no other process takes it for one that was left over.
+struct NewFile {
+  int file;
+
+  explicit NewFile(int opened = -1) : file(opened) {}
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+  ~NewFile() {
+    if (file >= 0) close(file);
+  }
+};
 
 std::error_code write_all(int file, const std::string& bytes) {
   for (std::size_t at = 0; at < bytes.size();) {
@@ -45,16 +67,24 @@ std::error_code write_all(int file, const std::string& bytes) {
   return fsync(file) == 0 ? std::error_code() : system_error();
 }
 
-// Writes a file that must not be there yet, onto the disk, for nobody else to read than the old one was.
+// Writes a file that must not be there yet, onto the disk, for nobody else to read than the old one was. A file system
+// that knows no locks keeps what is left over.
 std::error_code write_new(const std::filesystem::path& path, const std::string& bytes,
-                          const std::filesystem::file_status& old) {
+                          const std::filesystem::file_status& old, NewFile& held) {
   const bool replaces = old.type() == std::filesystem::file_type::regular;
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, replaces ? 0600 : 0666);
-  if (file < 0) return system_error();
+  held.file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, replaces ? 0600 : 0666);
+  if (held.file < 0) return system_error();
+  flock(held.file, LOCK_EX);
   const auto mode = static_cast<mode_t>(old.permissions() & std::filesystem::perms::all);
-  std::error_code error = replaces && fchmod(file, mode) != 0 ? system_error() : write_all(file, bytes);
-  if (close(file) != 0 && !error) error = system_error();
-  return error;
+  return replaces && fchmod(held.file, mode) != 0 ? system_error() : write_all(held.file, bytes);
+}
+
+// An empty one may be another's that is not locked yet.
+void remove_unheld(const std::filesystem::path& path) {
+  const NewFile held(open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  struct stat status {};
+  if (held.file < 0 || flock(held.file, LOCK_EX | LOCK_NB) != 0 || fstat(held.file, &status) != 0) return;
+  if (S_ISREG(status.st_mode) && status.st_size > 0) unlink(path.c_str());
 }
 
 // Brings the names in a folder onto the disk. Not every file system can; the file is whole all the same.
@@ -83,23 +113,42 @@ const char* in_the_way(std::filesystem::file_type type) {
   }
 }
 
+constexpr char kBegin[] = ".fragmotion-", kDigits[] = "0123456789abcdef", kEnd[] = ".part";
+constexpr std::size_t kRandomDigits = 16;
+
 std::filesystem::path new_name() {
-  static constexpr char kDigits[] = "0123456789abcdef";
   std::random_device random;
-  std::string name = ".fragmotion-";
-  for (int i = 0; i < 16; ++i) name += kDigits[random() % 16];
-  return name + ".part";
+  std::string name = kBegin;
+  for (std::size_t i = 0; i < kRandomDigits; ++i) name += kDigits[random() % 16];
+  return name + kEnd;
+}
+
+bool is_new_name(const std::string& name) {
+  const std::size_t begin = sizeof kBegin - 1, end = begin + kRandomDigits;
+  return name.compare(0, begin, kBegin) == 0 && name.size() > end && name.substr(end) == kEnd &&
+         name.find_first_not_of(kDigits, begin) == end;
+}
+
+// Removes what programs that were killed as they wrote left in a folder.
+void remove_left_over(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::directory_iterator file(folder, error);
+  for (; !error && file != std::filesystem::directory_iterator(); file.increment(error)) {
+    if (is_new_name(file->path().filename().u8string())) remove_unheld(file->path());
+  }
 }
 
 // Writes the bytes to a new file and puts it in the place of the old one.
 std::error_code replace(const std::filesystem::path& path, const std::string& bytes,
                         const std::filesystem::file_status& old) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".", fresh = folder / new_name();
-  std::error_code error = write_new(fresh, bytes, old), ignored;
+  NewFile held;
+  std::error_code error = write_new(fresh, bytes, old, held), ignored;
   if (error == std::errc::file_exists) return error;
   if (!error) std::filesystem::rename(fresh, path, error);
   if (error) std::filesystem::remove(fresh, ignored);
   if (!error) settle_folder(folder);
+  if (!error) remove_left_over(folder);
   return error;
 }
 

@@ -4,9 +4,15 @@
 #include <stdexcept>
 
 #include "base/listed.hpp"
+#include "fragmotion/policy/answer.hpp"
 #include "fragmotion/policy/repair.hpp"
 
 namespace fragmotion {
+namespace {
+
+constexpr int kRounds = 16;  // of repairs: classes that an answer leads to may repair what lacked them; two are usual
+
+}  // namespace
 
 const Policy& Character::policy(const std::string& name) const {
   std::vector<std::string> names;
@@ -23,11 +29,23 @@ void check_style(const Character& character, int style) {
                               std::to_string(character.style_count()));
 }
 
-void repair_policies(Character& character) {
+std::vector<Control> evident_of_classes(const Character& character) {
   std::vector<Control> evident;
   for (const int fragment : character.classes.representatives)
     evident.push_back(character.pool.fragments[fragment].evident);
-  for (Policy& policy : character.policies) repair_policy(policy, character.quality, character.space, evident);
+  return evident;
+}
+
+void repair_policies(Character& character) {
+  const std::vector<Control> evident = evident_of_classes(character);
+  for (Policy& policy : character.policies) {
+    std::vector<int> before;
+    for (int round = 0; round < kRounds && policy.next != before; ++round) {
+      before = policy.next;
+      repair_policy(policy, character.quality, character.space, evident);
+      answer_motion(policy, character.quality, character.space, evident, character.bridges);
+    }
+  }
 }
 
 }  // namespace fragmotion

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <type_traits>
@@ -25,6 +26,7 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "policy files are littl
 
 constexpr char kMagic[9] = "FRAGMOTN";
 constexpr std::uint32_t kVersion = 3;
+constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
 // Memory of the entry poses, which a player needs beside the file: a file takes at most 20 times its size, beyond 50
 // MB.
@@ -66,7 +68,7 @@ class Writer {
     return wanted;
   }
   template <typename T, typename Each>
-  void list(std::vector<T>& values, std::size_t /*least*/, const Each& each) {
+  void list(std::vector<T>& values, std::size_t /*least*/, const Each& each, std::size_t /*most*/ = 0) {
     number<std::uint64_t>(values.size());
     for (T& value : values) each(value);
   }
@@ -93,10 +95,13 @@ class Reader {
     number<std::uint32_t>(size);
     value = as_utf8(std::string(take(size), size));
   }
-  // `least`: bytes that an element takes at the least, so that a count that cannot be is refused before it is believed.
+  // `least`: bytes that an element takes at the least, and `most`: elements that there may be, so that a count that
+  // cannot be is refused before it is believed.
   template <typename T, typename Each>
-  void list(std::vector<T>& values, std::size_t least, const Each& each) {
-    values.resize(count(least));
+  void list(std::vector<T>& values, std::size_t least, const Each& each, std::size_t most = kAnyNumber) {
+    const std::size_t announced = count(least);
+    if (announced > most) throw std::invalid_argument("it announces more than there can be");
+    values.resize(announced);
     for (T& value : values) each(value);
   }
   bool section(const std::string& name, bool /*wanted*/) {
@@ -223,14 +228,15 @@ void exchange_space(Archive& a, ControlSpace& space) {
 
 template <typename Archive>
 void exchange_moves(Archive& a, std::vector<Move>& moves) {
-  a.list(moves, 25, [&](auto& move) {
+  const auto exchange_move = [&](auto& move) {
     a.text(move.name);
     a.template number<std::int32_t>(move.clip);
     a.template number<std::uint8_t>(move.upper_body);
     a.template number<double>(move.wait);
     a.template number<std::int32_t>(move.loop_begin);
     a.template number<std::int32_t>(move.loop_end);
-  });
+  };
+  a.list(moves, 25, exchange_move, kMostMoves);
 }
 
 // All of a style but its skeleton.
@@ -258,17 +264,33 @@ void exchange_style(Archive& a, Character& c) {
   for (Leg& leg : c.legs) exchange_vector(a, leg.hinge);  // the bones are found anew by their roles
 }
 
+// One of `copies`, made only where the file has poses of as many bones, which are its share of the memory.
+void give_skeleton(const Skeleton& skeleton, std::size_t copies, PackedPool& pool) {
+  std::size_t names = 0;
+  for (const std::string& name : skeleton.names) names += name.size();
+  if (names > kRoom / copies) throw std::invalid_argument("its bones' names are too long for so many styles");
+  const std::size_t rotations = pool.clips.empty() ? 0 : pool.clips[0].grid->usual.size();
+  for (const std::size_t bones : {skeleton.names.size(), skeleton.parents.size(), skeleton.rest_rotations.size(),
+                                  skeleton.offsets.size(), skeleton.tips.size()}) {
+    if (rotations < 4 * bones) throw std::invalid_argument("its styles do not fit together");
+  }
+  pool.skeleton = skeleton;
+}
+
 // What the other styles are of a character that has its skeleton.
 template <typename Archive>
 void exchange_styles(Archive& a, Character& c) {
   a.text(c.style);
-  a.list(c.styles, 200, [&](auto& style) {
-    const auto other = Archive::kReads ? std::make_shared<Character>() : std::const_pointer_cast<Character>(style);
-    if (Archive::kReads) other->pool.skeleton = c.pool.skeleton;
-    a.text(other->style);
-    exchange_style(a, *other);
-    style = other;
-  });
+  a.list(
+      c.styles, 200,
+      [&](auto& style) {
+        const auto other = Archive::kReads ? std::make_shared<Character>() : std::const_pointer_cast<Character>(style);
+        a.text(other->style);
+        exchange_style(a, *other);
+        if (Archive::kReads) give_skeleton(c.pool.skeleton, c.styles.size(), other->pool);
+        style = other;
+      },
+      kMostStyles - 1);
 }
 
 template <typename Archive>

@@ -138,10 +138,10 @@ const std::vector<std::string>& simulated_players() {
 }
 
 Trace simulate_trace(const std::string& player, double seconds, std::uint64_t seed, const ControlSpace& space) {
-  constexpr double kLongest = 1e6;  // s; a trace of eleven days
+  constexpr double kLongest = 86400;  // s, a day
   const Habits& habits = find_habits(player);
   if (!(seconds * kTraceRate >= 1.5 && seconds <= kLongest))
-    throw std::invalid_argument("a trace of " + std::to_string(seconds) + " s, expected 0.2 to 1000000");
+    throw std::invalid_argument("a trace of " + std::to_string(seconds) + " s, expected 0.2 to 86400");
   PlayerSimulation simulation(habits, seed, space);
   Trace trace(std::lround(seconds * kTraceRate));
   for (Control& control : trace) control = simulation.next();

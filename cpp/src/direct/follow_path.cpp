@@ -120,7 +120,8 @@ PathWalk follow_path(Player& player, const CharacterFrame& start, const Path& pa
     const double late = walk.arrived ? walk.seconds - options.arrive : 0;
     if (best.trace.empty() || badness(walk) < badness(best)) best = std::move(walk);
     const double enough = ++tries < kUsualTries ? kGoodEnough : 1;
-    if (options.end != PathEnd::stand || badness(best) < enough) break;
+    const bool cannot_arrive = soonest > seconds;
+    if (options.end != PathEnd::stand || badness(best) < enough || cannot_arrive) break;
     if (soonest < options.arrive) tried.arrive = std::max(options.arrive - late / 2, kShortest);
   }
   best.asked_speed = plan.asked_speed();

@@ -5,13 +5,23 @@
 #include <cmath>
 #include <limits>
 
+#include "base/ranges.hpp"
+
 namespace fragmotion {
 namespace {
 
 const double kSteepest = std::tan(35 * kPi / 180);               // that a foot is turned
+constexpr double kLeastNormal = 1e-100;                          // length of one
 constexpr double kEdge = 0.05;                                   // m that ground is beside a plane, at an edge
 constexpr double kBeyond = 0.04;                                 // m beyond the ends of a sole that are to be free
 constexpr double kOver = 0.15, kRatherOver = 0.1, kNear = 0.05;  // m that a sole is better moved
+
+// Squares of a normal's length are numbers that it can be divided by, and heights are still told apart.
+bool is_ground(const GroundPoint& point) {
+  const double length = point.normal.cwiseAbs().maxCoeff();
+  return std::abs(point.height) <= kFarthestPlace && point.normal.allFinite() && length >= kLeastNormal &&
+         length <= 1 / kLeastNormal;
+}
 
 // How much ground of this normal rises along x and y.
 Vector2 slope_of(const Vector3& normal) {
@@ -25,8 +35,7 @@ Vector2 slope_of(const Vector3& normal) {
 
 std::optional<GroundPoint> GroundProbe::at(const Vector2& place) const {
   std::optional<GroundPoint> point = (*ground_)({place.x(), place.y(), above_});
-  if (!point || !std::isfinite(point->height) || !point->normal.allFinite()) return std::nullopt;
-  return point;
+  return point && is_ground(*point) ? point : std::nullopt;
 }
 
 std::optional<Footing> GroundProbe::under(const Sole& sole) const {

@@ -107,7 +107,8 @@ Leg leg_of(const Skeleton& skeleton, const RoleMap& map, Side side) {
   leg.thigh = map.bone(Role::kThigh, side);
   leg.knee = map.bone(Role::kShin, side);
   leg.foot = map.bone(Role::kFoot, side);
-  leg.toe = map.bone(Role::kToe, side);
+  const int toe = map.bone(Role::kToe, side);
+  leg.toe = toe != leg.foot && skeleton.is_below(toe, leg.foot) ? toe : -1;
   leg.above_foot = skeleton.parents[leg.foot];
   return leg;
 }

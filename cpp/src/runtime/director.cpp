@@ -93,7 +93,7 @@ int Director::next_class(const Control& control) {
     if (bridge >= 0) return waiting_ = next, bridge;
   }
   jump_latched_ = false;
-  decided_for_.jump = control.jump;
+  decided_for_.jump = 0;
   return next;
 }
 
@@ -139,7 +139,7 @@ int Director::decide(const Control& control, const Playback& playback) {
 void Director::resume(int next_class, const Control& control) {
   previous_ = std::exchange(class_, next_class);
   decided_for_ = wanted(control);
-  decided_for_.jump = control.jump;
+  decided_for_.jump = 0;
   waiting_ = -1;
   plays_forced_ = jump_latched_ = false;
   exit_ = {};

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fragmotion/fragments/entry_poses.hpp"
+#include "fragmotion/policy/answer.hpp"
 
 namespace fragmotion {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 constexpr double kJoinsWell = 1.1;                 // times the Dis of the fragment that joins best, and
 constexpr double kJoinsNear = 0.15 / kTunedReach;  // m a metre of reach more
 constexpr float kAsWell = 0.5F;                    // of the way from the least error to the representative's
-constexpr float kNearly = 0.8F;                    // ControlDis more than the least error, which the root makes up for
 constexpr double kUnsteady = 5;                    // ControlDis a m/s by which a fragment gets faster or slower
 constexpr double kStep = 0.4, kHurried = 2;        // s, and ControlDis for all of it that a fragment lacks
 constexpr double kOutOfTurn = 2 / kTunedReach;     // m a metre of reach that a step out of turn costs
@@ -52,25 +52,32 @@ void FragmentSelector::extrapolate(const Playback& playback) const {
   extrapolate(pose_tips(playback, playback.seconds(), now), before, now);
 }
 
-// Finds the members that perform the control nearly as well as any of them does. A control that changes comes here step
-// by step (CommandLimit), so that fragments which get faster or slower limp through one that is held; and parts of a
-// step bring a stitch the more. Where the representative jumps, or does not, as is wanted, they do so too.
+float FragmentSelector::error(int fragment, const Control& control) const {
+  const Character& c = *style_->character;
+  const Fragment& f = c.pool.fragments[fragment];
+  const double distance = c.space.distance(f.evident, control), lacks = std::max(0.0, 1 - c.pool.seconds(f) / kStep);
+  return static_cast<float>(distance + kUnsteady * style_->velocity_changes[fragment] + kHurried * lacks);
+}
+
+// Finds the members that perform the control nearly as well as any of them does. Where the representative jumps, or
+// does not, as is wanted, or answers a control that asks for motion, they do so too.
 void FragmentSelector::find_candidates(int next_class, const Control& control) const {
   const Character& c = *style_->character;
-  const auto matches = [&](int fragment) { return matches_jump(c.pool.fragments[fragment].evident, control); };
   const int representative = c.classes.representatives[next_class];
-  const auto error = [&](int fragment) {
-    if (matches(representative) && !matches(fragment)) return std::numeric_limits<double>::infinity();
-    const double distance = c.space.distance(c.pool.fragments[fragment].evident, control);
-    const double lacks = std::max(0.0, 1 - c.pool.seconds(c.pool.fragments[fragment]) / kStep);
-    return distance + kUnsteady * style_->velocity_changes[fragment] + kHurried * lacks;
+  const Control& usually = c.pool.fragments[representative].evident;
+  const bool matches = matches_jump(usually, control),
+             goes = control.speed() * c.space.scale() > kMoving && answers(usually, control);
+  const auto error_of = [&](int fragment) {
+    const Control& evident = c.pool.fragments[fragment].evident;
+    const bool other = (matches && !matches_jump(evident, control)) || (goes && !answers(evident, control));
+    return other ? std::numeric_limits<float>::infinity() : error(fragment, control);
   };
   std::vector<std::pair<float, int>>& candidates = workspace_->candidates;
   candidates.clear();
-  const auto usual = static_cast<float>(error(representative));
+  const float usual = error_of(representative);
   float best = usual;
   for (const int fragment : style_->members[next_class]) {
-    candidates.emplace_back(static_cast<float>(error(fragment)), fragment);
+    candidates.emplace_back(error_of(fragment), fragment);
     best = std::min(best, candidates.back().first);
   }
   const float allowed = best + std::max(kAsWell * (usual - best), kNearly);

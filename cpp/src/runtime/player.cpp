@@ -14,9 +14,10 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLongest = 3600;  // s that a step may last
-constexpr double kLaziest = 2.4;   // m/s^2 of a 1.8 m character, at a responsiveness of 0
-constexpr double kMiddle = 0.2;    // s from now to that of a fragment that begins soon
+constexpr double kLongest = 3600;   // s that a step may last
+constexpr double kRounding = 1e-9;  // of a step: less that is left of it is what sums of its parts are off
+constexpr double kLaziest = 2.4;    // m/s^2 of a 1.8 m character, at a responsiveness of 0
+constexpr double kMiddle = 0.2;     // s from now to that of a fragment that begins soon
 
 double within_one(double value, const char* name) {
   if (value >= 0 && value <= 1) return value;
@@ -63,6 +64,7 @@ void Player::prefetch() const {
 void Player::check_step(const Control& control, double seconds) {
   for (const double value : {control.x, control.y, control.turn, control.jump}) {
     if (!std::isfinite(value)) throw std::invalid_argument("the control holds what is not a number");
+    if (std::abs(value) > kMostControl) throw std::invalid_argument("the control holds a number beyond a million");
   }
   if (!(seconds >= 0 && seconds <= kLongest)) throw std::invalid_argument("a step must last 0 s to an hour");
 }
@@ -127,6 +129,9 @@ double Player::ground_level() const { return follower_ != nullptr ? follower_->l
 double Player::ground_missed() const { return follower_ != nullptr ? follower_->missed() : 0; }
 
 double Player::quality(int control) const {
+  if (control < 0 || control >= styled_character().space.size()) {
+    throw std::invalid_argument("control " + std::to_string(control) + " does not exist");
+  }
   return styled_character().quality(director_.previous_class(), director_.playing_class(), control);
 }
 
@@ -139,7 +144,7 @@ std::array<std::optional<Vector3>, 2> Player::standing_feet() const {
   kinematics.world(root_, rotations().data(), posed.heads.data(), posed.rotations.data());
   std::array<std::optional<Vector3>, 2> soles;
   for (int side = 0; side < 2; ++side) {
-    if (!stands[side]) continue;
+    if (!stands[side] || feet[side] < 0) continue;
     const Vector3 heel = posed.heads[feet[side]], front = ball(kinematics.skeleton(), feet[side], toes[side], posed),
                   middle = (heel + front) / 2;
     soles[side] = Vector3{middle.x(), middle.y(), std::min(heel.z(), front.z())};
@@ -152,7 +157,7 @@ void Player::step(const Control& given, double seconds) {
   const Control control = styled_character().space.admitted(given);
   director_.observe(control);
   if (seconds == 0) playback_.show();
-  for (double rest = seconds; rest > 0;) rest -= advance(control, std::min(rest, kFinest));
+  for (double rest = seconds; rest > kRounding * seconds;) rest -= advance(control, std::min(rest, kFinest));
   if (extras_ != nullptr) extras_->upper_body.lay(workspace_->shown);
   correct(seconds);
 }

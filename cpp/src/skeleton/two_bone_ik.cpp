@@ -114,7 +114,8 @@ void bend(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, con
   store(leg.foot, thigh * (bend * above(leg.foot)), posed.rotations[leg.foot]);
 }
 
-// The leg from a thigh to a foot that has a knee between them; none where the thigh carries the body or both legs.
+// The leg from a thigh to a foot that has a knee between them; none where the thigh carries the body or both legs. What
+// does not hang from the foot is no toe of it.
 Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe, int other_foot) {
   const int hips = skeleton.roles.hips;
   const bool hangs = thigh != hips && skeleton.is_below(thigh, hips) && skeleton.is_below(foot, thigh);
@@ -122,7 +123,8 @@ Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe, int other_foo
   std::vector<Vector3> heads;
   std::vector<Quaternion> rotations;
   rest_pose(skeleton, heads, rotations);
-  Leg leg{thigh, -1, foot, toe, skeleton.parents[foot]};
+  const bool has_toe = toe != foot && skeleton.is_below(toe, foot);
+  Leg leg{thigh, -1, foot, has_toe ? toe : -1, skeleton.parents[foot]};
   double most = kShortest / standard_scale(skeleton);
   for (int b = leg.above_foot; b != thigh; b = skeleton.parents[b]) {
     const double shorter = std::min((heads[b] - heads[thigh]).norm(), (heads[foot] - heads[b]).norm());

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "base/turn_between.hpp"
 #include "fragmotion/base/random.hpp"
@@ -32,6 +33,14 @@ TEST(TurnBetween, IsExactHoweverNearlyOppositeTheyAre) {
     EXPECT_LT((turn * from - to).norm(), 1e-9) << off;
     EXPECT_NEAR(turn.angularDistance(Quaternion::Identity()), kPi, 2 * off + 1e-6);
   }
+}
+
+TEST(TurnBetween, IsTheSameHoweverLongTheDirectionsAre) {
+  const Vector3 from{1, 2, -3}, to{-2, 0.5, 1};
+  EXPECT_TRUE(turn_between(1e300 * from, 1e300 * to).isApprox(turn_between(from, to), 1e-12));
+  EXPECT_TRUE((turn_between(1e300 * from, -1e300 * from) * from).isApprox(-from, 1e-6));
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(turn_between({infinite, 0, 0}, to).isApprox(Quaternion::Identity()));
 }
 
 TEST(TurnBetween, IsNoneOfNoDirection) {

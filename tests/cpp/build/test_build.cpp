@@ -472,5 +472,19 @@ TEST(Snap, FindsTheNearestPointOfEveryControl) {
   for (std::size_t i = 0; i < trace.size(); ++i) EXPECT_EQ(indices[i], space.nearest(trace[i]));
 }
 
+// A policy file is repaired when it is read, and is to be what was saved.
+TEST(Build, RepairsItsTablesForGood) {
+  for (const int classes : {8, 12, 20, 33}) {
+    BuildOptions options;
+    options.classes = classes;
+    Character c = build(humanoid(), gait_takes(), {simulate_trace("explorer", 5, classes, ControlSpace())}, options);
+    const std::vector<Policy> before = c.policies;
+    repair_policies(c);
+    for (std::size_t p = 0; p < before.size(); ++p) {
+      EXPECT_EQ(c.policies[p].next, before[p].next) << before[p].name << " of " << classes << " classes";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fragmotion

@@ -19,8 +19,8 @@
 namespace fragmotion {
 namespace {
 
-// Reads the bytes and, if they are accepted, plays two seconds of finite poses. Anything but std::invalid_argument
-// escapes.
+// Reads the bytes and, if they are accepted, plays two seconds of finite poses, one of them uphill. Anything but
+// std::invalid_argument escapes.
 bool accepts(const std::string& bytes) {
   std::shared_ptr<const Character> character;
   try {
@@ -31,8 +31,10 @@ bool accepts(const std::string& bytes) {
   Player player(character);
   Random random(1);
   for (int i = 0; i < 60; ++i) {
+    if (i == 30) player.stand_on([](const Vector3& from) { return GroundPoint{0.2 * from.y(), {0, -0.2, 1}}; });
     player.step(character->space.point(random.below(kPaperPoints)), 1.0 / 30);
     bool finite = player.root_position().allFinite() && std::isfinite(player.frame().heading);
+    for (const auto& foot : player.standing_feet()) finite = finite && (!foot || foot->allFinite());
     for (const double value : player.rotations()) finite = finite && std::isfinite(value);
     EXPECT_TRUE(finite) << "step " << i;
     if (!finite) break;
@@ -194,6 +196,31 @@ TEST(PolicyFile, TakesNoMemoryOutOfProportionToItsSize) {
   EXPECT_NE(error.find("20000 fragments of 2000 bones would take 960 MB of memory"), std::string::npos) << error;
   EXPECT_LT(largest_allocation, 10 * bytes.size());
   EXPECT_NE(error_of([&] { to_bytes(huge); }).find("960 MB"), std::string::npos);
+}
+
+// A character of 4,000 bones in styles that hold next to nothing, as poses of one bone.
+std::string hollow_styles(int count, const std::string& name) {
+  Character c = same_fragments(4000, 1);
+  c.pool.skeleton.names[0] = name;
+  const auto style = std::make_shared<Character>(same_fragments(1, 1));
+  c.style = style->style = "same";
+  style->control_model.clear();
+  style->quality.match.clear();
+  style->policies.clear();
+  c.styles.assign(count, style);
+  return unchecked_bytes(c);
+}
+
+TEST(PolicyFile, TakesNoMemoryForStylesThatItOnlyAnnounces) {
+  for (const int count : {kMostStyles - 1, 1000}) {
+    for (const std::size_t letters : {5, 2000000}) {
+      SCOPED_TRACE(std::to_string(count) + " styles, " + std::to_string(letters) + " letters");
+      const std::string bytes = hollow_styles(count, std::string(letters, 'b'));
+      allocated_bytes = 0;
+      EXPECT_EQ(error_of([&] { from_bytes(bytes, "forged"); }).find("forged is refused: "), 0U);
+      EXPECT_LT(allocated_bytes, 20 * bytes.size());
+    }
+  }
 }
 
 // Numbers that files of strangers may hold.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -251,6 +252,13 @@ TEST_P(SimulatedPlayer, StaysOnThePointsOfTheSpace) {
   const Trace trace = simulate_trace(GetParam(), 60, 1, space);
   EXPECT_EQ(trace.size(), 600u);
   for (const Control& control : trace) EXPECT_TRUE(same(control, space.point(space.nearest(control))));
+}
+
+TEST_P(SimulatedPlayer, PlaysForADayAtMost) {
+  const ControlSpace space;
+  for (const double seconds : {86400.1, 1e6, 1e300, std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(simulate_trace(GetParam(), seconds, 1, space), std::invalid_argument);
+  }
 }
 
 TEST_P(SimulatedPlayer, RepeatsWithTheSeedOnly) {

@@ -79,6 +79,19 @@ TEST(FollowPath, TellsWhatIsAskedTooMuch) {
   EXPECT_THROW(follow_path(player, {}, kBend, {}, 60, 0), std::invalid_argument);
 }
 
+// Nothing that is tried again would get there.
+TEST(FollowPath, IsTriedOnceWhereItCannotArriveInTime) {
+  FollowOptions options;
+  options.speed = 1e-300;
+  Player player(gait_character());
+  int begun = 0;
+  const PathWalk walk = follow_path(player, {}, Path({{0, 0}, {0, 50}}), options, 60, 60,
+                                    [&](double fraction, const std::string&) { return begun += fraction == 0, true; });
+  EXPECT_FALSE(walk.arrived);
+  const int reports = 60 * 60 / 256;
+  EXPECT_LE(begun, reports);
+}
+
 TEST(FollowPath, CanBeCancelled) {
   Player player(gait_character());
   EXPECT_THROW(

@@ -109,7 +109,9 @@ TEST(GroundFollower, TellsHowLongThereWasNoGroundAndKeepsItsHeight) {
 
 TEST(GroundFollower, TakesNoNumbersThatAreNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const GroundPoint& broken : {GroundPoint{nan, Vector3::UnitZ()}, GroundPoint{0, {0, nan, 1}}}) {
+  for (const GroundPoint& broken :
+       {GroundPoint{nan, Vector3::UnitZ()}, GroundPoint{0, {0, nan, 1}}, GroundPoint{1e300, Vector3::UnitZ()},
+        GroundPoint{-1e300, Vector3::UnitZ()}, GroundPoint{0, Vector3::Zero()}, GroundPoint{0, {0, 1e300, 1e300}}}) {
     const Shown on = play([broken](const Vector3&) { return broken; });
     EXPECT_NEAR(on.missed, 30, 0.1);
     for (const Vector3& root : on.roots) ASSERT_TRUE(root.allFinite());

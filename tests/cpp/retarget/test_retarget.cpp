@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fragmotion/retarget/retarget.hpp"
+#include "humanoids.hpp"
 #include "mocap_files.hpp"
 #include "walker.hpp"
 
@@ -294,6 +295,16 @@ TEST(Body, SaysWhatHangsWrong) {
   }
   EXPECT_NE(error_of([&] { make_body(skeleton, map); }).find("left_shin 'shin.R' does not hang on left_thigh"),
             std::string::npos);
+}
+
+TEST(Body, HasNoToeThatDoesNotHangFromItsFoot) {
+  Skeleton skeleton = make_skeleton(Humanoid(families()[2]).skeleton);
+  RoleMap map = find_role_map(skeleton);
+  ASSERT_GE(make_body(skeleton, map).legs[0].toe, 0);
+  for (RoleBone& bone : map.bones) {
+    if (bone.role == Role::kToe) bone.bone = bone.side == Side::kLeft ? 0 : skeleton.roles.left_foot;
+  }
+  for (const Leg& leg : make_body(skeleton, map).legs) EXPECT_EQ(leg.toe, -1);
 }
 
 TEST(Body, OneBoneIsNone) {

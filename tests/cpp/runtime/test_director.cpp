@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fragmotion/runtime/player.hpp"
 #include "small_character.hpp"
@@ -65,6 +66,19 @@ TEST(Player, StandsBetweenActsThatDoNotFitAndThenDoesWhatWasAskedFor) {
   Player player(Acts().character, at_once());
   EXPECT_EQ(acts_of(player, {{kForward, 0.7}, {kBack, 1.5}}),
             (std::vector<int>{Acts::forward, Acts::stand, Acts::back}));
+}
+
+// The jump was done when it was pressed for, and what is asked for since then is the same.
+TEST(Player, PlaysFragmentsToTheirEndsWhileAJumpIsHeld) {
+  Player player(Acts().character, at_once());
+  settle(player, kTap, 4);
+  int entered = player.entered();
+  double left = player.seconds_left();
+  for (int f = 0; f < std::lround(3 / kStep); ++f, left = player.seconds_left()) {
+    player.step(kTap, kStep);
+    const bool begins = std::exchange(entered, player.entered()) != player.entered();
+    EXPECT_TRUE(!begins || left < 2 * kStep) << left << " s were left";
+  }
 }
 
 TEST(Player, AsksAgainAfterStandingWhereTheControlHasChanged) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "fragmotion/fragments/hips_velocity.hpp"
 #include "fragmotion/runtime/fragment_selector.hpp"
 #include "small_character.hpp"
 #include "split_bones.hpp"
@@ -29,12 +28,6 @@ struct Choice {
 TEST(FragmentSelector, ChoosesMembersThatPerformTheControlNearlyAsWellAndSteadilyAsTheRepresentative) {
   Choice choice(3);
   const Character& c = *choice.character;
-  const std::vector<double> changes = velocity_changes(c.pool);
-  const auto error = [&](int fragment, const Control& control) {
-    const Fragment& f = c.pool.fragments[fragment];
-    return c.space.distance(f.evident, control) + 2 * changes[fragment] +
-           2 * std::max(0.0, 1 - c.pool.seconds(f) / 0.4);
-  };
   for (int k = 0; k < c.classes.count; ++k) {
     for (int point = 0; point < kPaperPoints; point += 7) {
       const Control control = c.space.point(point);
@@ -42,7 +35,8 @@ TEST(FragmentSelector, ChoosesMembersThatPerformTheControlNearlyAsWellAndSteadil
       EXPECT_EQ(c.classes.labels[chosen], k);
       const int representative = c.classes.representatives[k];
       const Control &its = c.pool.fragments[chosen].evident, &usual = c.pool.fragments[representative].evident;
-      EXPECT_LE(error(chosen, control), error(representative, control) + 0.8 + 1e-5);
+      EXPECT_LE(choice.selector.error(chosen, control),
+                choice.selector.error(representative, control) + FragmentSelector::kNearly);
       if (matches_jump(usual, control)) EXPECT_TRUE(matches_jump(its, control));
     }
   }

@@ -372,5 +372,35 @@ TEST(Player, PlaysWithoutStitching) {
   EXPECT_TRUE(player.root_position().allFinite());
 }
 
+TEST(Player, RefusesWhatIsNoStepAndNoControl) {
+  Player player(gait_character());
+  for (const double much : {1.8e308, -1.1e6, std::numeric_limits<double>::infinity()}) {
+    EXPECT_NE(error_of([&] { player.step({0, much, 0, 0}, kStep); }), "no error");
+    EXPECT_NE(error_of([&] { player.step({0, 0, much, 0}, kStep); }), "no error");
+    EXPECT_NE(error_of([&] { player.step(kForward, much); }), "no error");
+  }
+  for (const int control : {-1, kPaperPoints}) {
+    EXPECT_EQ(error_of([&] { player.quality(control); }), "control " + std::to_string(control) + " does not exist");
+  }
+}
+
+// Feet are locked and the heel rises, by legs whose toe is said to be the body's first bone.
+TEST(Player, WalksOnLegsWhoseToeIsNoneOfTheirs) {
+  Skeleton skeleton = humanoid();
+  skeleton.roles.left_toe = skeleton.roles.right_toe = 0;
+  BuildOptions options;
+  options.classes = 10;
+  options.policies = {"greedy"};
+  const auto character = std::make_shared<const Character>(
+      build(make_skeleton(skeleton), gait_takes(), {simulate_trace("walker", 10, 1, ControlSpace())}, options));
+  Player player(character);
+  player.stand_on([](const Vector3& from) { return GroundPoint{0.2 * from.y(), {0, -0.2, 1}}; });
+  for (int f = 0; f < 240; ++f) {
+    player.step({0, f < 120 ? 3.3 : -1.2, 0, 0}, kStep);
+    for (const double value : player.rotations()) ASSERT_TRUE(std::isfinite(value)) << f;
+    for (const auto& foot : player.standing_feet()) ASSERT_TRUE(!foot || foot->allFinite());
+  }
+}
+
 }  // namespace
 }  // namespace fragmotion

@@ -50,6 +50,18 @@ TEST(Leg, IsNoneWithoutAThighOfItsOwnBelowTheHipsAndAJointAboveTheFoot) {
   }
 }
 
+TEST(Leg, HasNoToeThatDoesNotHangFromItsFoot) {
+  const Skeleton whole = humanoid();
+  for (const int bone : {0, whole.roles.left_foot, whole.roles.left_thigh, whole.roles.right_toe, whole.roles.head}) {
+    Skeleton skeleton = whole;
+    skeleton.roles.left_toe = bone;
+    const Legs legs = resting_legs(skeleton);
+    ASSERT_TRUE(legs[0].exists());
+    EXPECT_EQ(legs[0].toe, -1) << bone;
+    EXPECT_EQ(legs[1].toe, whole.roles.right_toe);
+  }
+}
+
 TEST(Leg, HasABoneThatCarriesBothLegsForNoThigh) {
   Skeleton skeleton = humanoid();
   const int carrier = skeleton.size();

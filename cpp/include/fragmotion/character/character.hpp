@@ -65,7 +65,10 @@ constexpr int kMostStyles = 64;
 /// Throws std::invalid_argument on a style that the character does not have.
 void check_style(const Character& character, int style);
 
-/// repair_policy() of all its policies.
+/// What the representative of each class is evident of.
+std::vector<Control> evident_of_classes(const Character& character);
+
+/// repair_policy() and answer_motion() of all its policies; what is repaired stays as it is.
 void repair_policies(Character& character);
 
 }  // namespace fragmotion

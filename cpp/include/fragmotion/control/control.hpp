@@ -15,6 +15,10 @@ constexpr double kMoving = 0.3;
 /// Turn rates of a space that are asked for at most: what ControlSpace::quickest_turn() is at most.
 constexpr double kMostTurn = 6;
 
+/// Of each number of a control that is asked for: nothing is faster than a million m/s, and the squares of such are
+/// numbers still.
+constexpr double kMostControl = 1e6;
+
 /// What the user asks for, or what a fragment visibly does (Sec. 3.2), in the character frame.
 struct Control {
   double x = 0;     ///< Velocity to the right, m/s.

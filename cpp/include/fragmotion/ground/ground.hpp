@@ -15,7 +15,7 @@ struct GroundPoint {
 };
 
 /// The ground as a character asks for it, some fifty times a step: the first that a ray downward from a place meets, or
-/// none. What is not finite counts as none.
+/// none. What is not finite, a height beyond a million km and a normal without length (1e-100 to 1e100) count as none.
 using Ground = std::function<std::optional<GroundPoint>(const Vector3& from)>;
 
 }  // namespace fragmotion

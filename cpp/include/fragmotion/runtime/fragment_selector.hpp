@@ -17,6 +17,8 @@ struct Exit {
 /// well and as steadily as any does and join on well. Allocates nothing once it is made.
 class FragmentSelector {
  public:
+  static constexpr float kNearly = 0.8F;  ///< error() more than the least, which the root makes up for.
+
   /// Chooses from the first style. The workspace and its character must outlive it.
   FragmentSelector(Workspace& workspace, std::uint64_t seed);
 
@@ -30,6 +32,11 @@ class FragmentSelector {
   int choose(int next_class, const Control& control, const Playback& playback);
   /// Any member.
   int choose_any(int next_class);
+
+  /// How far a fragment is from performing a control: its ControlDis, and more the less steady and the shorter it is. A
+  /// control that changes comes here step by step (CommandLimit), so that fragments which get faster or slower limp
+  /// through one that is held; and parts of a step bring a stitch the more.
+  float error(int fragment, const Control& control) const;
 
   /// The class to enter, in the shown pose, after what was no fragment: of the greatest Eq. 2 for the control.
   int best_class(const Control& control, const Playback& playback) const;

@@ -60,7 +60,7 @@ class Player {
   void reseed(std::uint64_t seed) { selector_.reseed(seed); }
 
   /// Plays on for `seconds` under a control, which need not be a point of its space. Allocates nothing. Throws
-  /// std::invalid_argument unless the control is finite and `seconds` is 0 .. 3600.
+  /// std::invalid_argument unless each number of the control is within kMostControl and `seconds` is 0 .. 3600.
   void step(const Control& control, double seconds);
 
   /// Goes on in another style: at the moment within kStyleWait at which it joins best, but after the landing of a jump
@@ -105,7 +105,7 @@ class Player {
   int playing_fragment() const { return fragment_; }
   /// Fragments, and parts of whole-body moves, begun since it was made.
   int entered() const { return entered_; }
-  /// Eq. 2 for the transition that led here and the control.
+  /// Eq. 2 for the transition that led here and the control. Throws std::invalid_argument on one that does not exist.
   double quality(int control) const;
   /// Until the fragment's end, s.
   double seconds_left() const { return playback_.left(); }

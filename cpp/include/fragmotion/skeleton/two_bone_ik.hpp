@@ -9,7 +9,7 @@
 namespace fragmotion {
 
 /// A leg by its roles: any chain of bones below the hips, from a thigh of its own to a foot, with a joint between them.
-/// `knee` is -1 where there is none.
+/// `knee` is -1 where there is none, `toe` where none hangs from the foot.
 struct Leg {
   int thigh = -1, knee = -1, foot = -1, toe = -1;
   int above_foot = -1;               ///< The foot's parent.
