@@ -9,9 +9,8 @@ from . import command_line, operators
 from .character import building, coverage_picture, inspector, staleness, storing
 from .drive import handlers, session
 from .mocap import actions
+from .operators import endings
 from .operators.base import background
-from .operators.character import solo_class
-from .operators.mocap import play_take
 from .panels import menus, panel
 from .settings import keymaps, mending, preferences, properties
 
@@ -29,17 +28,15 @@ def register() -> None:
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
     properties.register()
-    for part in (mending, staleness, storing, keymaps, menus, handlers, command_line):
+    for part in (mending, staleness, storing, keymaps, menus, handlers, endings, command_line):
         part.register()
 
 
 def unregister() -> None:
     """Remove all that `register` added; a build or a drive that runs is stopped."""
     background.stop()
-    solo_class.stop()
-    play_take.stop()
     session.unregister()
-    for part in (command_line, handlers, menus, keymaps, storing, staleness, mending):
+    for part in (command_line, endings, handlers, menus, keymaps, storing, staleness, mending):
         part.unregister()
     properties.unregister()
     for cls in reversed(_CLASSES):

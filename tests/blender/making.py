@@ -99,6 +99,9 @@ GAITS = (  # velocity forward and to the left, turn rate to the left
     (0, 0, -TURN),
 )
 
+OTHER_JSON = ("null", "true", "1e999", '""', '"text"', "{}", '{"a": 1}', '["abc"]', '[{"a": 1}]', "[null]", "[" * 9000)
+"""Text that is JSON, or begins like it, and no list of rows."""
+
 
 def install(package: str) -> str:
     """Install and enable the add-on's zip with Blender's own operators, and return the name of its module."""

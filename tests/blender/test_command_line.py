@@ -90,6 +90,7 @@ def test_every_recording_is_baked(addon: ModuleType, hero: Path, tmp_path: Path)
     assert len(set(names)) == 3 and set(names) <= set(bpy.data.actions.keys())
 
 
+@pytest.mark.thorough
 def test_several_files_are_baked_into_a_folder(addon: ModuleType, hero: Path, tmp_path: Path) -> None:
     """In Blenders of their own, where this is no module of Python's."""
     copies = [tmp_path / f"{name}.blend" for name in ("first", "second")]
@@ -104,6 +105,7 @@ def test_several_files_are_baked_into_a_folder(addon: ModuleType, hero: Path, tm
         assert tuple(bpy.data.actions[row["action"]].frame_range) == (row["first"], row["last"])
 
 
+@pytest.mark.thorough
 def test_the_file_that_cannot_be_baked_is_named(
     addon: ModuleType, hero: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -269,3 +269,15 @@ def test_the_buttons_of_recordings_say_why_they_are_grey() -> None:
         with pytest.raises(RuntimeError, match="'Rig' has no recordings: record or import one"):
             getattr(bpy.ops.fragmotion, name)()
     assert bpy.ops.fragmotion.import_recordings.poll()
+
+
+@pytest.mark.parametrize(
+    "text", ["{}", '{"a": 1}', '""', '"ab"', "5", "null", "[5]", "[{}]", '["ab", "abc"]', "[" * 100_000]
+)
+def test_json_of_another_shape_is_damage(addon: ModuleType, text: str) -> None:
+    recordings = addon.recordings.recordings
+    recording = recordings.add_recording(making.add_armature(), np.zeros((9, 4)))
+    recording.moves = recording.styles = text
+    for read in (recordings.moves_of, recordings.styles_of):
+        with pytest.raises(addon.errors.UserError, match="is damaged"):
+            read(recording)

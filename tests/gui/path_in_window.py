@@ -51,7 +51,7 @@ def walk_to_a_click() -> Iterator[None]:
     driven.settings.follow = False
     area = window.view()["area"]
     region = window.view()["region"]
-    place = ground(area, x - region.x, y - region.y)
+    place = ground(area, x - region.x, y - region.y, None)
     yield from window.click(x, y)
     yield from window.until(lambda: driven.inputs.label == "Click on the ground", "the click", 50)
     yield from window.until(lambda: driven.inputs.target.intent().control is None, "the arrival", 400)

@@ -108,9 +108,9 @@ def _before_saving(path: object, *_: object) -> None:
         try:
             _save.before[obj.name] = _kept(obj)
             _settle(obj, _save)
-        except (OSError, UnicodeDecodeError, UserError) as error:
-            troubles[obj.name] = str(error)
-            print(f"Fragmotion: the policy of armature '{obj.name}' stays where it is: {error}")
+        except Exception as error:  # whatever it is, the file is to be saved
+            troubles[obj.name] = _sentence(error)
+            print(f"Fragmotion: the policy of armature '{obj.name}' stays where it is: {troubles[obj.name]}")
 
 
 @persistent  # type: ignore[untyped-decorator]
@@ -120,6 +120,13 @@ def _after_saving(*_: object) -> None:
     save, _save = _save, None
     if save is None:
         return
+    try:
+        _settle_saved(save)
+    except Exception as error:  # the file is saved: its handlers are not to end Blender
+        print(f"Fragmotion: the policy files beside '{save.target}' stay as they are: {_sentence(error)}")
+
+
+def _settle_saved(save: _Save) -> None:
     blend = _open_file()
     if save.target == blend and _stamp(blend) != save.stamp:
         with suppress(OSError, UnicodeDecodeError):  # files that stay do no harm
@@ -146,6 +153,12 @@ def _forget(*_: object) -> None:
     """Another file is open, which no undo leaves."""
     _sound.clear()
     _held.clear()
+
+
+def _sentence(error: Exception) -> str:
+    if isinstance(error, MemoryError):
+        return "there is not enough memory for it: close other files or programs, and save again"
+    return str(error) or f"an unexpected error came up ({type(error).__name__})"
 
 
 def _local_objects() -> Iterator[Any]:
@@ -290,8 +303,8 @@ def _follow(save: _Save, blend: Path) -> None:
             if obj.fragmotion.policy_file == f"//{name}":
                 _held[_digest(data)] = data
                 _put(blend.with_name(name), data, save)
-        except (OSError, UserError) as error:
-            troubles[obj.name] = str(error)
+        except Exception as error:  # the others are to come all the same
+            troubles[obj.name] = _sentence(error)
 
 
 def _let_go(save: _Save) -> None:

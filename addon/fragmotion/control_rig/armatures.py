@@ -10,6 +10,7 @@ from typing import NamedTuple
 import bpy
 from mathutils import Vector
 
+from ..made import mark
 from ..rig.selection import select
 
 
@@ -50,6 +51,8 @@ def make_armature(
 ) -> bpy.types.Object:
     """An armature of these bones where another object is, in the collection; inside `out_of_modes`."""
     obj = bpy.data.objects.new(name, bpy.data.armatures.new(name))
+    for made in (obj, obj.data):
+        mark(made)
     collection.objects.link(obj)
     obj.matrix_world = beside.matrix_world
     context.view_layer.objects.active = obj
@@ -63,11 +66,3 @@ def make_armature(
     finally:
         bpy.ops.object.mode_set(mode="OBJECT")
     return obj
-
-
-def remove_armature(obj: bpy.types.Object) -> None:
-    """Take an armature object and its bones away."""
-    armature = obj.data
-    bpy.data.objects.remove(obj)
-    if armature.users == 0:
-        bpy.data.armatures.remove(armature)

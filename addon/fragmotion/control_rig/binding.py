@@ -5,15 +5,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from ..compat import versions
 from ..errors import UserError
+from ..made import mark, remove_collection, remove_object
 from ..rig.bodies import set_roles
 from ..rig.posing import check_free, playing
-from .armatures import out_of_modes, remove_armature
+from .armatures import out_of_modes
 from .controls import Advance, Controls, find_controls
 from .following import (
     bone_name,
@@ -137,19 +139,20 @@ def unbind(context: bpy.types.Context, obj: bpy.types.Object) -> None:
         if read_switch(obj, switch) is not None:
             set_switch(obj, switch, former.value)
     _give_back_animation(obj, settings)
-    made = [other for other in (motion_of(obj), settings.anchors) if other is not None and _is_made_for(other, obj)]
+    made = [other for other in dict.fromkeys((motion_of(obj), settings.anchors)) if _is_made_for(other, obj)]
     collections = {collection for other in made for collection in other.users_collection}
     for other in made:
-        remove_armature(other)
+        remove_object(other)
     for collection in collections:
-        if not collection.all_objects and not collection.children:
-            bpy.data.collections.remove(collection)
+        remove_collection(collection)
     obj.fragmotion.property_unset("control_rig")
     context.view_layer.update()
 
 
-def _is_made_for(other: bpy.types.Object, obj: bpy.types.Object) -> bool:
+def _is_made_for(other: Any, obj: bpy.types.Object) -> bool:
     """Whether an armature was made for this rig, and not for one that it is a copy of."""
+    if other is None or other == obj or other.library is not None:
+        return False
     return bool(other.type == "ARMATURE" and other.fragmotion.control_rig.rig == obj)
 
 
@@ -182,6 +185,7 @@ def _build(
     """Make what the rig follows, and let it; the parts of the trunk that do not all the same."""
     settings = obj.fragmotion.control_rig
     collection = bpy.data.collections.new(f"{obj.name} Motion")
+    mark(collection)
     context.scene.collection.children.link(collection)
     motion = settings.motion = make_motion_skeleton(context, obj, collection, controls, joints)
     motion.fragmotion.control_rig.rig = obj

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -23,6 +24,7 @@ from ..recordings.recordings import (
     TRACE_RATE,
     Recording,
     add_recording,
+    asked_of,
     numbered_moves,
     numbered_styles,
     trace_of,
@@ -30,8 +32,8 @@ from ..recordings.recordings import (
 from ..recordings.styles import AS_EVER, Styled
 from ..settings import preferences
 from .acting.actor import Actor
-from .acting.punch import Punch
-from .acting.recorder import Recorder
+from .acting.punch import Own, Punch, style_before
+from .acting.recorder import Recorder, Taken
 from .acting.styling import Styling
 from .follow import FollowCamera
 from .hud import overlays, views
@@ -70,6 +72,8 @@ class Session:
         self.seed = self.settings.seed if seed < 0 else seed
         ground = find_ground(context, obj)
         self.actor = Actor(context, obj, self.seed, policy, ground)
+        self.ground = ground if self.actor.character is not None else None
+        """What it stands on; None: the plane."""
         self._data, self._bones = obj.data, len(obj.pose.bones)
         self.views, self._follow = views.Views(context.area), FollowCamera()
         self._state = SceneState(context, obj)
@@ -89,10 +93,16 @@ class Session:
         """Those whose keys it hears, by their addresses."""
         self.inputs = Inputs(keys, RATE, triggers_of(obj, self.actor.character))
         self._held: set[int] = set()
+        self._own_held: set[int] = set()  # those that a recording holds that is recorded over
         self._missed = False
         if ground is not None and ground.remark:
             self.inputs.messages.append(ground.remark)
-        suspended_state.put_aside(obj)
+        try:
+            suspended_state.put_aside(obj)
+        except BaseException:
+            self.inputs.close()
+            self.give_back()
+            raise
 
     @property
     def armature(self) -> str:
@@ -144,16 +154,17 @@ class Session:
 
     def _step(self) -> tuple[Doubles, Doubles]:
         control = self._control()
-        self._hold_moves()
-        self.styling.tell(self.recording)
+        self._ask_beside(self.inputs.moves())
         pose = self.actor.step(control, 1 / RATE)
         if self.recording is not None:
             self.recording.add(pose)
         self.inputs.trace.advance()
         self.readings.step(control)
         self._steps += 1
-        if self.punch is not None and self.punch.over and self._keep_punch():
-            bpy.ops.ed.undo_push(message="Record Over")
+        if self.punch is not None:
+            self.punch.advance()
+            if self.punch.over and self._keep_punch():
+                bpy.ops.ed.undo_push(message="Record Over")
         return pose
 
     def _tell_missed(self) -> None:
@@ -163,16 +174,23 @@ class Session:
             self.inputs.messages.append("There is no ground under its feet: it goes on at the height that it had")
 
     def _control(self) -> Control:
-        self.inputs.target.steer(self.actor.frame, 1 / RATE)
+        self.inputs.target.steer(self.actor.space, self.actor.frame, 1 / RATE)
         by_view = self.settings.relative == "VIEW"
         view = view_heading(self.views.rotation()) if by_view else None
         style = self.inputs.trace.style()
         if style is not None:
             self.styling.want(style)
         control = self._steering().control(self.inputs.intent(), self.actor.frame[2], view)
+        if self.punch is not None and not self.punch.takes:
+            return self.punch.control
+        return control if self._taken is None else self._taken.hold(control)
+
+    @property
+    def _taken(self) -> Taken | None:
+        """What keeps what the user does in the next step."""
         if self.punch is not None:
-            control = self.punch.hold(control)
-        return control if self.recording is None else self.recording.hold(control)
+            return self.punch.taken if self.punch.takes else None
+        return self.recording
 
     def _steering(self) -> Steering:
         """How the stick steers in the style that plays."""
@@ -181,16 +199,25 @@ class Session:
             self._steerings[actor.style] = Steering(space, actor.turns_well(space.walk), actor.turns_well(space.run))
         return self._steerings[actor.style]
 
-    def _hold_moves(self) -> None:
-        """Start the moves that are held since this step, and let go of those that are not any more."""
-        held = self.inputs.moves()
-        if self.recording is not None:
-            held = self.recording.hold_moves(held)
-        for move in self._held - held:
+    def _ask_beside(self, held: set[int]) -> None:
+        """Tell the player what the next step asks for beside its control, where the user holds these moves: first what
+        a recording does that is recorded over."""
+        taken, punch = self._taken, self.punch
+        if punch is not None:
+            self._own_held = self._hold_moves(self._own_held, punch.moves)
+        if punch is not None and not punch.takes:
+            held = set()
+            self.styling.want(punch.style)
+        self._held = self._hold_moves(self._held, held if taken is None else taken.hold_moves(held))
+        self.styling.tell(taken)
+
+    def _hold_moves(self, before: set[int], held: set[int]) -> set[int]:
+        """Let go of the moves that are not held any more, and start those that are held since this step."""
+        for move in sorted(before - held):
             self.player.release_move(move)
-        for move in sorted(held - self._held):
+        for move in sorted(held - before):
             self.player.start_move(move)
-        self._held = held
+        return held
 
     @property
     def move(self) -> str:
@@ -235,31 +262,35 @@ class Session:
         """Let a recording drive from the character frame and the style in which it begins, from shortly before the
         stretch on which the stick takes over."""
         self._begin(start, styled)
+        self.punch = punch
         for _ in range(max(punch.first * RATE // TRACE_RATE - _LEAD * RATE, 0)):
-            self.actor.step(punch.hold(Control()), 1 / RATE)
-        self.readings, self.punch = Readings(self.actor, RATE), punch
+            self._ask_beside(set())
+            self.actor.step(punch.control, 1 / RATE)
+            punch.advance()
+        self.readings = Readings(self.actor, RATE)
 
     def _keep_punch(self) -> bool:
         """Give the recording what was recorded over it, once; whether there was anything. It goes on playing where it
         was recorded as it is."""
         punch, self.punch = self.punch, None
-        recording = self.obj.fragmotion.takes.get(punch.name) if punch is not None else None
+        recording = self.obj.fragmotion.takes.get(punch.own.name) if punch is not None else None
         if punch is None or recording is None or not punch.begun:
             return False
         try:
-            play_again(self.obj, recording, punch.trace, punch.first)
+            play_again(self.obj, recording, punch.trace, punch.first, punch.asked)
         except UserError as error:
             self.inputs.messages.append(str(error))
             return False
         renew_curves(self.obj, recording)
-        self.inputs.play(punch.rest)
+        self._held, self._own_held = self._hold_moves(self._held, set()) | self._own_held, set()
+        self.inputs.spend_moves()
+        self.inputs.play(*punch.rest)
         self.inputs.messages.append(f"Recorded over '{recording.name}' from {punch.first / TRACE_RATE:.1f} s on")
         return True
 
     def walk_to(self, place: tuple[float, float], runs: bool = False) -> None:
         """Let the character go to a place on the ground, until it is there or another input is touched."""
-        space = self.actor.space
-        self.inputs.walk(space, self.actor.frame, place, space.run if runs else space.walk)
+        self.inputs.walk(self.actor.space, self.actor.frame, place, runs)
 
     @property
     def playing(self) -> str:
@@ -273,7 +304,9 @@ class Session:
 
         Where the character stands still it begins as its replay will, so that the replay shows the same.
         """
-        if self.recording is None:
+        if self.punch is not None:
+            self.inputs.messages.append("A recording is recorded over already: that is kept by itself when it ends")
+        elif self.recording is None:
             if math.hypot(*self.readings.velocity) < _STILL and not any(self.control):
                 self.actor.start_afresh()
                 self._held = set()
@@ -352,32 +385,40 @@ class Session:
     def close(self) -> bool:
         """Let go of the inputs and give everything back; whether a recording was kept that no undo step holds yet.
 
-        What was deleted meanwhile stays deleted.
+        What was deleted meanwhile stays deleted. All is given back whatever fails of it.
         """
-        self.inputs.close()
-        self._follow.release(views.all_views())
-        try:
+        with ExitStack() as closing:  # the last is done first
+            closing.callback(self.give_back)
+            closing.callback(self._state.restore)  # the frame, where it changes: Blender poses the armature anew
+            closing.callback(lambda: self._follow.release(views.all_views()))
+            closing.callback(self.inputs.close)
             kept = is_alive(self.obj) and self._keep_recording()
             return (is_alive(self.obj) and self._keep_punch()) or kept
-        finally:
-            try:
-                self._state.restore()  # first the frame: Blender poses the armature anew where it changes
-            finally:
-                self.give_back()
 
 
 def _running(mean: float, value: float) -> float:
     return value if mean == 0 else mean + _SMOOTH * (value - mean)
 
 
-def start(context: bpy.types.Context, obj: bpy.types.Object, seed: int = -1, policy: str = "") -> Session:
-    """Begin a drive, by default with the panel's seed and the policy that drives; the one that is under way ends."""
+@contextmanager
+def _opened(context: bpy.types.Context, obj: bpy.types.Object, seed: int, policy: str) -> Iterator[Session]:
+    """A drive that goes on after the block, in place of the one that is under way; on any error there it ends."""
     global current
     stop()
     current = Session(context, obj, seed, policy)
-    classes.session = current if current.actor.character else None
-    overlays.add(current.shown, current.views)
-    return current
+    try:
+        classes.session = current if current.actor.character else None
+        overlays.add(current.shown, current.views)
+        yield current
+    except BaseException:
+        stop(push=False)
+        raise
+
+
+def start(context: bpy.types.Context, obj: bpy.types.Object, seed: int = -1, policy: str = "") -> Session:
+    """Begin a drive, by default with the panel's seed and the policy that drives; the one that is under way ends."""
+    with _opened(context, obj, seed, policy) as driven:
+        return driven
 
 
 def replay(
@@ -390,14 +431,10 @@ def replay(
     trace, begin = trace_of(recording), tuple(recording.start)
     known = load(obj).policies if has_character(obj) else []
     chosen = policy or (recording.policy if recording.policy in known else "")
-    driven = start(context, obj, recording.seed if seed < 0 else seed, chosen)
-    try:
+    with _opened(context, obj, recording.seed if seed < 0 else seed, chosen) as driven:
         styled = numbered_styles(recording, driven.styling.names)
         driven.play(trace, begin, numbered_moves(recording, names_of(driven.actor.character)), styled)
-    except BaseException:
-        stop(push=False)
-        raise
-    return driven
+        return driven
 
 
 def record_over(
@@ -413,10 +450,14 @@ def record_over(
             f"{begin:.1f} s to {end:.1f} s. Move the playhead onto it"
         )
     known = load(obj).policies if has_character(obj) else []
-    driven = start(context, obj, recording.seed, recording.policy if recording.policy in known else "")
-    styled = numbered_styles(recording, driven.styling.names)
-    driven.play_over(Punch(recording.name, trace, first, last, RATE), start_frame, styled)
-    return driven
+    chosen = recording.policy if recording.policy in known else ""
+    with _opened(context, obj, recording.seed, chosen) as driven:
+        character, asked = driven.actor.character, asked_of(recording)
+        styled = numbered_styles(recording, driven.styling.names)
+        own = Own(recording.name, trace, asked, numbered_moves(recording, names_of(character)), styled)
+        taken = Taken(character, style_before(styled, first), RATE)
+        driven.play_over(Punch(own, first, last, RATE, taken), start_frame, styled)
+        return driven
 
 
 def wake(window: bpy.types.Window, seconds: float) -> bpy.types.Timer:
@@ -426,7 +467,7 @@ def wake(window: bpy.types.Window, seconds: float) -> bpy.types.Timer:
     return timer
 
 
-def rest(timer: bpy.types.Timer) -> None:
+def rest(timer: bpy.types.Timer | None) -> None:
     """Send no more of them."""
     if timer in _timers:
         _timers.remove(timer)
@@ -443,8 +484,11 @@ def stop(push: bool = True) -> None:
     classes.session = None
     if session is None:
         return
-    overlays.remove()
-    if session.close() and push:
+    try:
+        overlays.remove()
+    finally:
+        kept = session.close()
+    if kept and push:
         bpy.ops.ed.undo_push(message="Record")
     views.tag_redraw()
     views.tag_redraw("UI")

@@ -4,14 +4,12 @@
 from __future__ import annotations
 
 import bpy
-import numpy as np
 
-from ..compat.data_blocks import is_alive
 from ..errors import core_errors
 from ..mocap.sampling import sample
 from ..rig.posing import check_free
 from ..rig.rigs import carriers, make_rig
-from .state import suspended_state
+from .state.borrowed import Borrowed
 
 current: TakeShown | None = None
 """The take that is shown now; the panel and other operators ask for it."""
@@ -26,16 +24,14 @@ class TakeShown:
     def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action) -> None:
         check_free(obj)
         context.view_layer.update()
-        self._obj, self._rig = obj, make_rig(obj)
+        self._rig = make_rig(obj)
         carriers(obj, self._rig)
         clip = sample(context, obj, action, self._rig)
         self._rate, self._roots, self._rotations = clip.rate, clip.root_positions, clip.rotations
         self.armature, self.name = str(obj.name), str(action.name)
-        self._data, self._bones = obj.data, len(obj.pose.bones)
-        self._order = [obj.data.bones.find(bone.name) for bone in obj.pose.bones]
         self.elapsed = 0.0
         """Seconds from the take's beginning to what is shown."""
-        suspended_state.put_aside(obj)
+        self._shown_on = Borrowed(obj)
         try:
             self.step(0.0)
         except BaseException:
@@ -53,23 +49,15 @@ class TakeShown:
         frame = min(int(self.elapsed * self._rate), len(self._roots) - 1)
         with core_errors(f"Take '{self.name}'"):
             locations, turns = self._rig.channels(self._roots[frame][None], self._rotations[frame][None])
-        bones = self._obj.pose.bones
-        bones.foreach_set("location", locations[0, self._order].astype(np.float32).ravel())
-        bones.foreach_set("rotation_quaternion", turns[0, self._order].astype(np.float32).ravel())
-        self._obj.update_tag()
+        self._shown_on.pose(locations[0], turns[0])
 
     def trouble(self) -> str:
         """Why it cannot play on, empty where it can."""
-        if not is_alive(self._obj):
-            return f"Armature '{self.armature}' was deleted"
-        if self._obj.data != self._data or len(self._obj.pose.bones) != self._bones:
-            return f"The bones of armature '{self.armature}' were changed"
-        return "" if suspended_state.NOTE in self._obj else "Undo has given the armature back"
+        return self._shown_on.trouble()
 
     def end(self) -> None:
         """Give the armature back as it was; one that was deleted stays deleted."""
-        if is_alive(self._obj) and suspended_state.NOTE in self._obj:
-            suspended_state.give_back(self._obj)
+        self._shown_on.give_back()
 
 
 def show(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action) -> None:

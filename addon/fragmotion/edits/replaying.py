@@ -13,10 +13,13 @@ from ..character.building import has_character, load, make_player
 from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..ground.meshes import find_ground
+from ..recordings.asked import Asked
 from ..recordings.recordings import (
     POSE_RATE,
     TRACE_RATE,
     Recording,
+    asked_of,
+    set_asked,
     set_shown,
     set_trace,
     shown_of,
@@ -64,13 +67,21 @@ def shown_poses(obj: bpy.types.Object, recording: Recording) -> Motion | None:
     return motion if np.abs(times - due).max() < _OFF / POSE_RATE else resampled(times, motion, POSE_RATE)
 
 
-def play_again(obj: bpy.types.Object, recording: Recording, trace: Doubles, first: int) -> None:
-    """Give the recording another trace, which is its own before control `first`, and play it from there on."""
-    shown = shown_poses(obj, recording)
-    if shown is not None:
-        character = load(obj)
-        shown = from_then_on(character, shown, replay(obj, character, recording, trace, recording.seed), first)
-    keep(obj, recording, trace, shown)
+def play_again(
+    obj: bpy.types.Object, recording: Recording, trace: Doubles, first: int, asked: Asked | None = None
+) -> None:
+    """Give the recording another trace of the same length and, if told, ask for other things beside it. Both are its
+    own before control `first`, from which it is played. Where that fails nothing has changed."""
+    shown, own = shown_poses(obj, recording), asked_of(recording)
+    set_asked(recording, own if asked is None else asked)
+    try:
+        if shown is not None:
+            character = load(obj)
+            shown = from_then_on(character, shown, replay(obj, character, recording, trace, recording.seed), first)
+        keep(obj, recording, trace, shown)
+    except BaseException:
+        set_asked(recording, own)
+        raise
 
 
 def keep(obj: bpy.types.Object, recording: Any, trace: Doubles, shown: Motion | None) -> None:

@@ -42,6 +42,10 @@ class Ground:
         hit, normal, _, _ = self._tree.ray_cast(self._seen @ Vector((x, y, min(z, self._top))), _DOWN)
         return None if hit is None else (hit.z, *(self._turned_back @ normal))
 
+    def seen_along(self, eye: Vector, along: Vector) -> Vector | None:
+        """The place in the world where a line of sight meets it first, or None."""
+        return self._tree.ray_cast(eye, along)[0]
+
     def seen_from(self, moved: Matrix) -> Ground:
         """The same for one who plays elsewhere than he is seen: `moved` takes the one place, on the level, to the
         other."""

@@ -83,8 +83,14 @@ def _first_success(path: Path, read: Callable[[_Importer], _Read]) -> _Read:
         except UserError as error:
             refusals.append(error)
     if not refusals:
-        raise UserError(f"'{path}': no importer of {path.suffix} files is here: switch it on in Preferences > Add-ons")
+        raise UserError(f"'{path}': {_without_importer(path.suffix.lower())}")
     raise refusals[0]
+
+
+def _without_importer(suffix: str) -> str:
+    if suffix in _IMPORTERS:
+        return f"no importer of {suffix} files is here: switch it on in Preferences > Add-ons"
+    return "this Blender was built without USD: the one from blender.org reads it"
 
 
 def _check_archive(path: Path) -> None:

@@ -18,6 +18,8 @@ from ..errors import UserError
 if TYPE_CHECKING:
     from fragmotion_core import Clip, Doubles, Skeleton
 
+    Bools = np.ndarray[Any, np.dtype[np.bool_]]
+
 _FEWEST = 2  # samples of a part
 _SAME_FRAME = 0.01
 _PART = re.compile(r"(.*) from (-?[\d.]+)")
@@ -46,12 +48,29 @@ def spans_of(action: bpy.types.Action) -> list[tuple[int, int]]:
 
 def parts_of(times: Doubles, spans: Iterable[tuple[int, int]]) -> list[slice]:
     """The runs of samples at these scene frames that no span touches and that move: at least two samples."""
-    kept = np.ones(len(times), bool)
+    return [run for run in _runs(~_is_left_out(times, spans)) if run.stop - run.start >= _FEWEST]
+
+
+def _is_left_out(times: Doubles, spans: Iterable[tuple[int, int]]) -> Bools:
+    """[F]: whether a span touches the sample at a scene frame."""
+    touched = np.zeros(len(times), bool)
     for first, last in spans:
-        kept &= (times < first - _SAME_FRAME) | (times > last + _SAME_FRAME)
-    edges = np.flatnonzero(np.diff(np.concatenate(([False], kept, [False])).astype(int)))
-    runs = zip(edges[::2].tolist(), edges[1::2].tolist())
-    return [slice(begin, end) for begin, end in runs if end - begin >= _FEWEST]
+        touched |= (times >= first - _SAME_FRAME) & (times <= last + _SAME_FRAME)
+    return touched
+
+
+def _runs(flags: Bools) -> list[slice]:
+    """Where flags are set without a gap."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], flags, [False])).astype(int)))
+    return [slice(begin, end) for begin, end in zip(edges[::2].tolist(), edges[1::2].tolist())]
+
+
+def leave_out_likewise(source: bpy.types.Action, frames: Doubles, made: bpy.types.Action, times: Doubles) -> None:
+    """Leave out of an Action, whose samples at `times` show the source's at `frames`, what the source leaves out."""
+    for run in _runs(_is_left_out(frames, spans_of(source))):
+        span = made.fragmotion.left_out.add()
+        span.first = int(np.floor(times[run.start] + _SAME_FRAME))
+        span.last = int(np.ceil(times[run.stop - 1] - _SAME_FRAME))
 
 
 def cut(clip: Clip, skeleton: Skeleton, times: Doubles, spans: Iterable[tuple[int, int]]) -> list[Clip]:

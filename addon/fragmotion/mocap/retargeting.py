@@ -15,7 +15,8 @@ from ..rig.bodies import make_body
 from ..rig.rigs import carriers, make_rig
 from ..rig.writing import write_poses
 from .actions import RATE, SCENE_RATE
-from .sampling import sample, scene_rate
+from .left_out import leave_out_likewise
+from .sampling import sample, sample_times, scene_rate
 
 if TYPE_CHECKING:
     from fragmotion_core import Body, Clip, Doubles, Rig, Skeleton, Take
@@ -69,7 +70,9 @@ def retarget_actions(
     for index, clip in enumerate(_retargeted(make_body(source, source_rig, clips), obj, rig, clips)):
         channels = rig.channels(clip.root_positions, clip.rotations)
         action = make_action(context.scene, f"{clip.name} on {obj.name}", clip.rate)
-        write_poses(action, obj, key_times(action, len(channels[1])), *channels, moving)
+        times = key_times(action, len(channels[1]))
+        write_poses(action, obj, times, *channels, moving)
+        take_after(actions[index], sample_times(context.scene, source, actions[index]), action, times)
         made.append(action)
         advance(_SAMPLING + (1 - _SAMPLING) * index / len(clips))
     return made
@@ -82,6 +85,12 @@ def make_action(scene: bpy.types.Scene, name: str, rate: float) -> bpy.types.Act
     action[RATE], action[SCENE_RATE] = rate, scene_rate(scene)
     action.fragmotion.use = True
     return action
+
+
+def take_after(source: bpy.types.Action, frames: Doubles, made: bpy.types.Action, times: Doubles) -> None:
+    """Give an Action, whose keys at `times` show the source's at `frames`, all that Build is told of the source."""
+    made.fragmotion.style = source.fragmotion.style
+    leave_out_likewise(source, frames, made, times)
 
 
 def key_times(action: bpy.types.Action, frames: int) -> Doubles:

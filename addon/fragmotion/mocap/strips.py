@@ -12,7 +12,7 @@ import numpy as np
 from ..rig.rigs import carriers, make_rig
 from ..rig.writing import write_poses
 from .actions import RATE, SCENE_RATE, fits_cached, rate_of
-from .retargeting import key_times, make_action
+from .retargeting import key_times, make_action, take_after
 from .sampling import sample_at, scene_rate
 
 if TYPE_CHECKING:
@@ -36,16 +36,19 @@ def strips_of(obj: bpy.types.Object) -> list[bpy.types.NlaStrip]:
 def actions_of_strips(context: bpy.types.Context, obj: bpy.types.Object) -> list[bpy.types.Action]:
     """New Actions, ticked in place of the strips' own: each does in its own time what a strip does alone and whole."""
     rig, strips = make_rig(obj), strips_of(obj)
-    clips = []
+    clips, shown = [], []
     for strip in strips:
         rate, frames = _samples(context.scene, strip)
         clips.append(sample_at(context, obj, strip.action, rig, rate, frames))
+        shown.append(frames)
     moving, made = carriers(obj, rig), []
-    for strip, clip in zip(strips, clips):
+    for strip, clip, frames in zip(strips, clips, shown):
         strip.action.fragmotion.use = False
         action = make_action(context.scene, strip.name, clip.rate)
         channels = rig.channels(clip.root_positions, clip.rotations)
-        write_poses(action, obj, key_times(action, len(channels[1])), *channels, moving)
+        times = key_times(action, len(channels[1]))
+        write_poses(action, obj, times, *channels, moving)
+        take_after(strip.action, frames, action, times)
         made.append(action)
     return made
 

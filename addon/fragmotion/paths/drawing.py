@@ -10,12 +10,17 @@ from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_
 from mathutils import Vector
 from mathutils.geometry import intersect_line_plane
 
+from ..ground.meshes import Ground
 
-def ground_under(area: bpy.types.Area, x: float, y: float) -> Vector | None:
-    """The place on the ground that a 3D view shows at a pixel of its main region; None where that is sky."""
+
+def ground_under(area: bpy.types.Area, x: float, y: float, ground: Ground | None) -> Vector | None:
+    """The place on the ground (None: the plane) that a 3D view shows at a pixel of its main region; None where there is
+    none."""
     region = next(part for part in area.regions if part.type == "WINDOW")
     view = area.spaces.active.region_3d
     eye, along = region_2d_to_origin_3d(region, view, (x, y)), region_2d_to_vector_3d(region, view, (x, y))
+    if ground is not None:
+        return ground.seen_along(eye, along)
     place = intersect_line_plane(eye, eye + along, Vector(), Vector((0, 0, 1)))
     return place if place is not None and (place - eye).dot(along) > 0 else None
 

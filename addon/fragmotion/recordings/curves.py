@@ -11,6 +11,7 @@ import numpy as np
 from ..compat import versions
 from ..compat.data_blocks import is_alive
 from ..errors import UserError
+from ..made import is_made, mark, remove_object
 from .recordings import TRACE_RATE, Recording, trace_of
 
 if TYPE_CHECKING:
@@ -46,7 +47,9 @@ class Drawn(NamedTuple):
 def curves_of(obj: bpy.types.Object, recording: Recording) -> bpy.types.Object | None:
     """The empty that shows the armature's recording, if there is one in a scene."""
     empty = recording.curves
-    if empty is None or not is_alive(empty) or empty.parent != obj or not empty.users_scene:
+    if empty is None or not is_alive(empty) or empty.type != "EMPTY":
+        return None
+    if empty.parent != obj or not empty.users_scene:
         return None
     return empty if versions.assignment(empty)[0] is not None else None
 
@@ -54,14 +57,17 @@ def curves_of(obj: bpy.types.Object, recording: Recording) -> bpy.types.Object |
 def show_curves(scene: bpy.types.Scene, obj: bpy.types.Object, recording: Recording, first: float) -> bpy.types.Object:
     """Make the empty and its curves, whose first key is on scene frame `first`; what another one holds is lost."""
     trace = trace_of(recording)
-    remove_curves(recording)
+    remove_curves(obj, recording)
+    number = 1 + max(each.curves_number for each in obj.fragmotion.takes)
     name = f"{recording.name} Curves"
     empty = bpy.data.objects.new(name, None)
     empty.parent, empty.empty_display_type, empty.empty_display_size = obj, "SINGLE_ARROW", 0.3
     empty.hide_render = True
     (obj.users_collection[0] if obj.users_collection else scene.collection).objects.link(empty)
     action = bpy.data.actions.new(name)
-    recording.curves, recording.curves_first = empty, first
+    for made in (empty, action):
+        mark(made, number)
+    recording.curves, recording.curves_number, recording.curves_first = empty, number, first
     recording.curves_rate = scene.render.fps / scene.render.fps_base
     _write(action, empty, trace, _times(recording, len(trace)))
     versions.assign(empty, action)
@@ -69,23 +75,24 @@ def show_curves(scene: bpy.types.Scene, obj: bpy.types.Object, recording: Record
 
 
 def renew_curves(obj: bpy.types.Object, recording: Recording) -> None:
-    """Let the curves, where there are any, show what the recording has become."""
+    """Let the curves, where there are any, show what the recording has become; those that were not made for it, or that
+    something else plays as well, stay as they are and are its curves no more."""
     empty = curves_of(obj, recording)
-    if empty is not None:
-        trace, (action, _) = trace_of(recording), versions.assignment(empty)
+    if empty is None:
+        return
+    trace, (action, _) = trace_of(recording), versions.assignment(empty)
+    if _is_own(obj, recording, empty) and _is_alone(action, recording):
         _write(action, empty, trace, _times(recording, len(trace)))
+    else:
+        recording.curves = None
 
 
-def remove_curves(recording: Recording) -> None:
-    """Delete the empty and its Action, where nothing else uses that."""
+def remove_curves(obj: bpy.types.Object, recording: Recording) -> None:
+    """Delete the empty that was made for the armature's recording, and its Action where nothing else uses that."""
     empty = recording.curves
     recording.curves = None
-    if empty is None or not is_alive(empty):
-        return
-    action, _ = versions.assignment(empty)
-    bpy.data.objects.remove(empty)
-    if action is not None and action.users == 0:
-        bpy.data.actions.remove(action)
+    if _is_own(obj, recording, empty):
+        remove_object(empty)
 
 
 def read_curves(obj: bpy.types.Object, recording: Recording) -> Drawn:
@@ -113,6 +120,16 @@ def read_curves(obj: bpy.types.Object, recording: Recording) -> Drawn:
     drawn = np.clip(drawn, np.negative(_MOST), _MOST)
     changed = np.flatnonzero((drawn != own).any(1))
     return Drawn(drawn, int(changed[0]) if len(changed) else len(own), remarks)
+
+
+def _is_own(obj: bpy.types.Object, recording: Recording, empty: Any) -> bool:
+    """Whether an object is the empty that was made for this very recording, and not for one that it is a copy of."""
+    return is_made(empty, recording.curves_number) and empty.type == "EMPTY" and empty.parent == obj
+
+
+def _is_alone(action: Any, recording: Recording) -> bool:
+    """Whether an Action was made for the recording, and only its own empty plays it."""
+    return is_made(action, recording.curves_number) and action.users - action.use_fake_user == 1
 
 
 def _sample(curve: bpy.types.FCurve, channel: int, own: Doubles, times: Doubles, rate: float) -> Doubles:

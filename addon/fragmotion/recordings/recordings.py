@@ -7,7 +7,6 @@ hold what was shown meanwhile, which a bake then writes as it was seen.
 
 from __future__ import annotations
 
-import json
 import zlib
 from datetime import datetime
 from typing import TYPE_CHECKING, Any
@@ -19,6 +18,7 @@ from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty, IntPrope
 from ..errors import UserError
 from ..rig.motion import Motion
 from .asked import Asked, StartedMove, number_moves
+from .rows import read_rows, write_rows
 from .styles import StyleChange, Styled, numbered, read_changes, set_styles, trimmed
 
 if TYPE_CHECKING:
@@ -45,7 +45,6 @@ _FIELDS = (
     *("name", "date", "seconds", "quality", "policy", "seed", "start", "train"),
     *("controls", "moves", "style", "styles", "shown", "shown_bones"),
 )
-_MOST_MOVES = 1 << 20  # that a recording may start
 
 _BESIDE_BONES = 1 + 3 + 3 + 1  # columns of what was shown: time, root position, character frame, class
 
@@ -87,6 +86,8 @@ class Recording(bpy.types.PropertyGroup):
     curves: PointerProperty(  # type: ignore[valid-type]
         name="Curves", description="The empty whose curves show the recording", type=bpy.types.Object
     )
+    curves_number: IntProperty(options={"HIDDEN"}, min=0)  # type: ignore[valid-type]
+    """By which the curves that were made for it are told from all others; 0: none were."""
     curves_first: FloatProperty(options={"HIDDEN"})  # type: ignore[valid-type]
     """The scene frame at which its first control is shown."""
     curves_rate: FloatProperty(options={"HIDDEN"}, min=0)  # type: ignore[valid-type]
@@ -153,13 +154,9 @@ def moves_of(recording: Recording) -> list[StartedMove]:
     """The moves that were started, in order; UserError where the .blend is damaged."""
     if not recording.moves:
         return []
-    try:
-        rows = json.loads(recording.moves)
-        moves = [StartedMove(*row) for row in rows[:_MOST_MOVES]]
-    except (ValueError, TypeError, RecursionError):
-        raise _damaged(recording) from None
     most = len(trace_of(recording))
-    if not all(_is_started(move, most) for move in moves):
+    moves = read_rows(recording.moves, StartedMove, lambda move: _is_started(move, most))
+    if moves is None:
         raise _damaged(recording)
     return moves
 
@@ -313,7 +310,7 @@ def _trim_shown(recording: Recording, times: Doubles, motion: Motion, start: flo
 
 
 def _set_moves(recording: Any, moves: Sequence[StartedMove]) -> None:
-    recording.moves = json.dumps(moves) if moves else ""
+    recording.moves = write_rows(moves)
 
 
 def _is_started(move: StartedMove, controls: int) -> bool:

@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import Any, NamedTuple
+
+from .rows import read_rows, write_rows
 
 
 class StyleChange(NamedTuple):
@@ -27,23 +28,10 @@ class Styled(NamedTuple):
 AS_EVER = Styled()
 """The first style, without a change."""
 
-_MOST = 1 << 20  # changes that a recording may have
-
 
 def read_changes(text: str, controls: int) -> list[StyleChange] | None:
     """The changes that a recording of so many controls keeps, in order; None where the text is damaged."""
-    if not text:
-        return []
-    try:
-        changes = [StyleChange(*row) for row in json.loads(text)[:_MOST]]
-    except (ValueError, TypeError, RecursionError):
-        return None
-    return changes if all(_is_change(change, controls) for change in changes) else None
-
-
-def write_changes(changes: Sequence[StyleChange]) -> str:
-    """The changes as a recording keeps them; empty where there are none."""
-    return json.dumps(changes) if changes else ""
+    return read_rows(text, StyleChange, lambda change: _is_change(change, controls))
 
 
 def numbered(begin: str, changes: Sequence[StyleChange], names: Sequence[str]) -> Styled:
@@ -64,7 +52,7 @@ def trimmed(begin: str, changes: Sequence[StyleChange], first: int, last: int) -
 
 def set_styles(recording: Any, begin: str, changes: Sequence[StyleChange]) -> None:
     """Keep the styles with a recording."""
-    recording.style, recording.styles = begin, write_changes(changes)
+    recording.style, recording.styles = begin, write_rows(changes)
 
 
 def _is_change(change: StyleChange, controls: int) -> bool:

@@ -75,7 +75,7 @@ def read_roles(obj: bpy.types.Object, path: Path) -> dict[str, str]:
     check_regular(path)
     try:
         read: Any = json.loads(path.read_text(encoding="utf-8"))
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise UserError(f"'{path}' is no preset of bones: {error}") from error
     if not isinstance(read, dict) or not all(isinstance(bone, str) for bone in read.values()):
         raise UserError(f"'{path}' is no preset of bones: it must hold names of bones by role")

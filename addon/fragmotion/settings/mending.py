@@ -10,25 +10,16 @@ from collections.abc import Iterator
 from typing import Any
 
 import bpy
+import numpy as np
 from bpy.app.handlers import persistent
 
-_LONGEST = 1 << 12  # bytes of a text: Blender's own names have 63 and its paths 1023
+_LONGEST = 1 << 12  # characters of a text that is drawn: Blender's own names have 63 and its paths 1023
 _EVENTS = ("load_post", "blend_import_post")  # the latter, of Append and Link, from 4.3
 
 
 def mend(group: Any) -> int:
     """Set what is out of its bounds in a property group, and in the groups in it, to its default; how much that was."""
-    count = 0
-    for prop in group.bl_rna.properties[1:]:  # the first is the type
-        if prop.type == "POINTER":
-            value = getattr(group, prop.identifier)
-            count += mend(value) if isinstance(value, bpy.types.PropertyGroup) else 0
-        elif prop.type == "COLLECTION":
-            count += sum(mend(each) for each in getattr(group, prop.identifier))
-        elif not _is_computed(prop) and not _is_sound(group, prop):
-            group.property_unset(prop.identifier)
-            count += 1
-    return count
+    return sum(_mend_property(group, prop) for prop in group.bl_rna.properties[1:])  # the first is the type
 
 
 def register() -> None:
@@ -56,6 +47,48 @@ def _mend_file(*_: object) -> None:
                 print(f"Fragmotion: {count} settings of '{data.name}' were damaged; they have their default values now")
 
 
+def _mend_property(group: Any, prop: Any) -> int:
+    if prop.type == "POINTER":
+        value = getattr(group, prop.identifier)
+        return mend(value) if isinstance(value, bpy.types.PropertyGroup) else 0
+    if prop.type == "COLLECTION":
+        return _mend_entries(getattr(group, prop.identifier))
+    if _is_computed(prop) or _is_sound(group, prop):
+        return 0
+    group.property_unset(prop.identifier)
+    return 1
+
+
+def _mend_entries(entries: Any) -> int:
+    """The same of a collection: a property of all entries is looked at at once, each only where one is unsound."""
+    properties = entries[0].bl_rna.properties[1:] if len(entries) else ()
+    unsound = [prop for prop in properties if not _are_sound(entries, prop)]
+    return sum(_mend_property(each, prop) for prop in unsound for each in entries)
+
+
+def _are_sound(entries: Any, prop: Any) -> bool:
+    if prop.type == "POINTER":
+        return issubclass(getattr(bpy.types, prop.fixed_type.identifier, object), bpy.types.ID)
+    if prop.type == "COLLECTION":
+        return not any(len(getattr(each, prop.identifier)) for each in entries)
+    if _is_computed(prop) or prop.type == "BOOLEAN" or prop.subtype == "BYTE_STRING":
+        return True
+    if prop.type in {"INT", "FLOAT"}:
+        return _are_within(entries, prop)
+    try:
+        values = {getattr(each, prop.identifier) for each in entries}
+    except UnicodeDecodeError:
+        return False
+    return all(_is_within(prop, value) for value in values)
+
+
+def _are_within(entries: Any, prop: Any) -> bool:
+    """Whether the numbers of all entries are within their property's bounds; one that is no number is not."""
+    numbers = np.empty(len(entries) * max(prop.array_length, 1), np.int32 if prop.type == "INT" else np.float32)
+    entries.foreach_get(prop.identifier, numbers)
+    return bool(prop.hard_min <= numbers.min() and numbers.max() <= prop.hard_max)
+
+
 def _is_computed(prop: Any) -> bool:
     """Whether nothing of a property is stored: what can't be set, or is chosen among items listed by a function."""
     return prop.is_readonly or (prop.type == "ENUM" and not prop.enum_items)
@@ -70,7 +103,7 @@ def _is_sound(group: Any, prop: Any) -> bool:
 
 def _is_within(prop: Any, value: Any) -> bool:
     if prop.type == "STRING":
-        return prop.subtype == "BYTE_STRING" or len(value) <= _LONGEST
+        return prop.is_hidden or len(value) <= _LONGEST  # what is never drawn is bounded by what reads it
     if prop.type == "ENUM":
         return value in prop.enum_items
     if prop.type in {"INT", "FLOAT"}:

@@ -12,6 +12,7 @@ import pytest
 from baked import FIRST, Oracle, about_z, bake_recording, play, seen_at
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("root", ["BONE", "OBJECT"])
 @pytest.mark.parametrize("modes", [("QUATERNION",), ("XYZ", "AXIS_ANGLE", "ZYX", "QUATERNION")])
 def test_reduced_keys_keep_every_bone_within_the_bound_on_every_frame(

@@ -209,6 +209,7 @@ def test_build_is_undone_in_one_step(addon: ModuleType, obj: bpy.types.Object) -
     assert obj.fragmotion.figures.classes == 97 and bytes(obj.fragmotion.policy) == before
 
 
+@pytest.mark.thorough
 def test_the_same_seed_builds_and_bakes_the_same(addon: ModuleType, obj: bpy.types.Object) -> None:
     before = bytes(obj.fragmotion.policy)
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}

@@ -48,6 +48,7 @@ def test_a_move_may_be_some_frames_and_loop(addon: ModuleType, obj: bpy.types.Ob
     assert (move.upper_body, move.wait) == (True, 1.5)
 
 
+@pytest.mark.thorough
 def test_moves_outlast_a_build_saving_and_their_action(
     addon: ModuleType, obj: bpy.types.Object, tmp_path: Path
 ) -> None:
@@ -249,7 +250,11 @@ def test_playing_again_plays_the_moves_and_a_pin_says_that_it_cannot(addon: Modu
 
 
 @pytest.mark.parametrize(
-    "forged", ["nonsense", "5", "[[1]]", '[["1", "a", 2]]', "[[1, 2, 3]]", '[[99, "a", 1]]', '[[1, "a", -1]]', "{}{"]
+    "forged",
+    [
+        *("nonsense", "5", "[[1]]", '[["1", "a", 2]]', "[[1, 2, 3]]", '[[99, "a", 1]]', '[[1, "a", -1]]', "{}{"),
+        *making.OTHER_JSON,
+    ],
 )
 def test_forged_moves_of_a_recording_are_refused(addon: ModuleType, obj: bpy.types.Object, forged: str) -> None:
     recordings = part(addon, "recordings.recordings")

@@ -54,6 +54,7 @@ def test_the_coverage_of_many_directions_is_by_their_angles(addon: ModuleType) -
         assert len(rows) == 10
 
 
+@pytest.mark.thorough
 def test_what_the_takes_lack_is_said(addon: ModuleType, capfd: pytest.CaptureFixture[str]) -> None:
     build(**FINE)
     said = capfd.readouterr().out
@@ -140,6 +141,7 @@ def test_damaged_figures_draw_nothing(addon: ModuleType, field: str, value: Any)
     assert kept_layout(figures) is None
 
 
+@pytest.mark.thorough
 def test_what_was_recorded_with_others_is_baked(addon: ModuleType, tmp_path: Path) -> None:
     core = addon.compat.core.core
     core.write_trace(tmp_path / "trace.csv", core.simulate_trace("explorer", 5, 1))

@@ -44,6 +44,7 @@ def untick(addon: ModuleType, action: bpy.types.Action) -> None:
     action.fragmotion.use = False
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("change", [nudge, add_key, mute, untick])
 def test_what_changes_the_actions_marks_the_character(
     addon: ModuleType,
@@ -116,6 +117,7 @@ def test_a_look_without_changes_reads_no_keys(addon: ModuleType, obj: bpy.types.
     assert not read
 
 
+@pytest.mark.thorough
 def test_reading_all_actions_takes_less_than_sampling_them(addon: ModuleType, obj: bpy.types.Object) -> None:
     rig, takes = addon.rig.rigs.make_rig(obj), addon.mocap.actions.ticked(obj)
 

@@ -76,6 +76,7 @@ def test_a_policy_comes_back_inside_when_that_is_chosen(addon: ModuleType, built
     assert bytes(obj.fragmotion.policy) == bytes(reopened(addon, built).fragmotion.policy)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("copy", [False, True])
 def test_a_policy_follows_its_file_into_another_folder(
     addon: ModuleType, blend: Path, tmp_path: Path, copy: bool
@@ -93,6 +94,7 @@ def test_a_policy_follows_its_file_into_another_folder(
     assert bakes(reopened(addon, other))
 
 
+@pytest.mark.thorough
 def test_a_build_after_a_save_is_kept_and_a_copy_of_the_armature_keeps_the_former(
     addon: ModuleType, blend: Path
 ) -> None:
@@ -126,6 +128,24 @@ def test_where_the_file_cannot_be_written_the_policy_stays_inside(
     monkeypatch.undo()
     assert addon.character.storing.troubles == {obj.name: "the disk is full"}
     assert [file.name for file in tmp_path.iterdir() if "policy" in file.name] == []
+    assert bakes(reopened(addon, path))
+
+
+def test_an_error_that_nobody_foresaw_is_told_and_the_file_is_saved(
+    addon: ModuleType, obj: bpy.types.Object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "hero.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    obj.fragmotion.keep_policy = "BESIDE"
+    for error, told in ((MemoryError(), "not enough memory"), (RuntimeError("no luck"), "no luck")):
+
+        def fail(*_: object, error: Exception = error) -> None:
+            raise error
+
+        monkeypatch.setattr(addon.character.storing, "write_new", fail)
+        bpy.ops.wm.save_mainfile()
+        assert told in addon.character.storing.troubles[obj.name]
+    monkeypatch.undo()
     assert bakes(reopened(addon, path))
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
@@ -140,6 +141,7 @@ def test_the_classes_of_each_style_are_listed(addon: ModuleType, obj: bpy.types.
         assert [row.fragments for row in rows] == np.bincount(styled.labels).tolist()
 
 
+@pytest.mark.thorough
 def test_classes_of_a_style_are_named_and_left_out_for_themselves(addon: ModuleType, obj: bpy.types.Object) -> None:
     classes, building = part(addon, "character.classes"), part(addon, "character.building")
     whole = building.load(obj)
@@ -204,7 +206,7 @@ def test_the_inspector_and_force_are_of_the_style_that_is_driven(
 
 def test_a_preview_is_of_the_style_that_is_shown(addon: ModuleType, obj: bpy.types.Object) -> None:
     character = part(addon, "character.building").load(obj)
-    solo = part(addon, "character.solo").Solo(bpy.context, obj, 5, TIRED)
+    solo = part(addon, "drive.solo").Solo(bpy.context, obj, 5, TIRED)
     members = set(np.flatnonzero(character.in_style(TIRED).labels == 5).tolist())
     for _ in range(20):
         solo.step(1 / 8)
@@ -220,6 +222,7 @@ def test_another_style_of_a_take_makes_the_character_stale(addon: ModuleType, ob
     assert any(is_stale(obj) for _ in looks)
 
 
+@pytest.mark.thorough
 def test_a_style_that_cannot_be_built_is_named_and_nothing_changes(addon: ModuleType, obj: bpy.types.Object) -> None:
     for action in bpy.data.actions:
         fragmotion = action.fragmotion
@@ -264,6 +267,29 @@ def test_keys_and_buttons_change_the_style_of_a_drive(
     driven.styling.step_by(-1)
     driving.go_on(driven, 1.0)
     assert driven.player.playing_style == NEUTRAL
+
+
+def test_the_ghost_goes_as_the_style_that_plays(session: ModuleType, obj: bpy.types.Object) -> None:
+    driven = driving.start(session, obj)
+    neutral = driven.actor.space.turn_rate
+    driven.styling.want(TIRED)
+    driving.go_on(driven, 1.0)
+    tired = driven.actor.space.turn_rate
+    assert driven.player.playing_style == TIRED and tired != pytest.approx(neutral, rel=0.01)
+    before = driven.readings.ideal.frame[2]
+    driven.play(np.tile([0.0, 0.0, 1.0, 0.0], (10, 1)), styled=session.Styled(TIRED))
+    driving.go_on(driven, 1.0)
+    assert driven.readings.ideal.frame[2] - before == pytest.approx(tired, rel=1e-6)
+
+
+def test_a_click_is_walked_to_at_the_pace_of_the_style_that_plays(session: ModuleType, obj: bpy.types.Object) -> None:
+    driven = driving.start(session, obj)
+    driven.walk_to((0.0, -20.0))
+    driving.go_on(driven, 2.0)
+    driven.styling.want(TIRED)
+    driving.go_on(driven, 3.0)
+    assert driven.player.playing_style == TIRED and driven.inputs.label == "Click on the ground"
+    assert math.hypot(*driven.control[:2]) == pytest.approx(driven.actor.space.walk, rel=1e-3)
 
 
 def record(session: ModuleType, obj: bpy.types.Object) -> Any:
@@ -374,7 +400,10 @@ def test_recordings_keep_their_styles_when_they_are_trimmed_and_copied(
     assert (copy.style, recordings.styles_of(copy)) == ("tired", [(10, "proud")])
 
 
-@pytest.mark.parametrize("forged", ["nonsense", "5", "[[1]]", '[["1", "a"]]', "[[1, 2]]", '[[99, "a"]]', "{}{"])
+@pytest.mark.parametrize(
+    "forged",
+    ["nonsense", "5", "[[1]]", '[["1", "a"]]', "[[1, 2]]", '[[99, "a"]]', "{}{", *making.OTHER_JSON],
+)
 def test_forged_styles_of_a_recording_are_refused(addon: ModuleType, obj: bpy.types.Object, forged: str) -> None:
     recordings = part(addon, "recordings.recordings")
     recording = recordings.add_recording(obj, np.zeros((40, 4)))
@@ -392,6 +421,7 @@ def test_a_policy_file_brings_its_styles(addon: ModuleType, obj: bpy.types.Objec
     assert part(addon, "character.building").load(obj).style_names == NAMES
 
 
+@pytest.mark.thorough
 def test_moves_and_classes_left_out_leave_the_styles(addon: ModuleType, obj: bpy.types.Object) -> None:
     moves, building = part(addon, "character.moves"), part(addon, "character.building")
     moves.add_move(bpy.context, obj, bpy.data.actions["jump up"], None, [])

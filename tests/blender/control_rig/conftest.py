@@ -14,6 +14,9 @@ import pytest
 
 _status: list[int] = []
 
+# Each look at Rigify's 700 bones takes seconds.
+RIGS = [pytest.param("rigify", marks=pytest.mark.thorough), "FK", "IK"]
+
 
 @pytest.fixture(scope="session")
 def rigify_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -45,7 +48,7 @@ def rigify(addon: object, rigify_file: Path) -> bpy.types.Object:
     return bpy.context.view_layer.objects.active
 
 
-@pytest.fixture(params=["rigify", "FK", "IK"])
+@pytest.fixture(params=RIGS)
 def rig(request: pytest.FixtureRequest) -> bpy.types.Object:
     """Rigify's human rig, and another one with legs by FK and IK, or by IK alone; active."""
     if request.param == "rigify":
@@ -53,7 +56,7 @@ def rig(request: pytest.FixtureRequest) -> bpy.types.Object:
     return layouts.add_layout(fk_legs=request.param == "FK")
 
 
-@pytest.fixture(params=["rigify", "FK", "IK"])
+@pytest.fixture(params=RIGS)
 def bound(request: pytest.FixtureRequest, addon: object) -> bpy.types.Object:
     """One of these rigs, bound."""
     if request.param == "rigify":

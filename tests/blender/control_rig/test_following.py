@@ -64,6 +64,7 @@ def assert_follows(addon: ModuleType, rig: bpy.types.Object, frames: Iterable[in
     return deformed
 
 
+@pytest.mark.thorough
 def test_the_parts_of_rigifys_body_are_told_right(addon: ModuleType, rigify: bpy.types.Object) -> None:
     joints = addon.control_rig.joints.find_joints(rigify)
     assert {role: joint.bone for role, joint in joints.items()} == {
@@ -91,7 +92,7 @@ def test_the_motion_skeleton_is_plain_bones_through_the_same_joints(addon: Modul
     assert knees.length < 1e-6
 
 
-@pytest.mark.parametrize("bound", ["rigify", "FK"], indirect=True)
+@pytest.mark.parametrize("bound", [pytest.param("rigify", marks=pytest.mark.thorough), "FK"], indirect=True)
 def test_the_rig_follows_any_pose_and_its_keys_show_the_same(addon: ModuleType, bound: bpy.types.Object) -> None:
     rig, motion = bound, addon.control_rig.binding.motion_of(bound)
     rig.location, rig.rotation_euler.z = (1, 2, 0), 0.6

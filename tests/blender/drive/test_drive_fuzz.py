@@ -190,6 +190,7 @@ class User:
         self.addon.register()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("seed", range(2))
 def test_whatever_is_done_the_drive_ends_well(
     addon: ModuleType, session: ModuleType, tmp_path: Path, capfd: pytest.CaptureFixture[str], seed: int

@@ -61,10 +61,10 @@ def test_by_the_character_the_stick_is_its_velocity(addon: ModuleType, steering:
 
 def follow(addon: ModuleType, steer: Any, stick: Any, view: float, heading: float) -> tuple[np.ndarray, np.ndarray]:
     """Five seconds of controls followed exactly from a heading: the frames, and the way of the stick on the ground."""
-    track = part(addon, "acting.slider").Track(space(addon), (0.0, 0.0, heading))
+    track = part(addon, "acting.slider").Track((0.0, 0.0, heading))
     frames = [track.frame]
     for _ in range(300):
-        track.step(steer.control(stick, track.frame[2], view), 1 / 60)
+        track.step(steer.control(stick, track.frame[2], view), 1 / 60, space(addon))
         frames.append(track.frame)
     return np.array(frames), np.array(part(addon, "input.steering").rotate(stick.right, stick.ahead, view))
 

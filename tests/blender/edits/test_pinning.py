@@ -96,6 +96,7 @@ def test_a_recording_that_was_cut_is_pinned_where_it_is_shown(
     np.testing.assert_array_equal(after.rotations[:241], before.rotations[:241])
 
 
+@pytest.mark.thorough
 def test_a_pin_out_of_reach_says_by_how_much_and_changes_nothing(
     addon: ModuleType, obj: bpy.types.Object, recording: Any
 ) -> None:

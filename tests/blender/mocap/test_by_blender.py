@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 import zipfile
 from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -18,7 +19,8 @@ from test_importing import import_folder
 
 RATE = 30
 FRAMES = 20
-ENDINGS = ["glb", "gltf", "vrm", "fbx", *(["usdc"] if bpy.app.version >= (4, 2, 0) else [])]
+HAS_USD = bpy.app.version >= (4, 2, 0) and bpy.app.build_options.usd  # Debian's 4.3 is built without
+ENDINGS = ["glb", "gltf", "vrm", "fbx", *(["usdc"] if HAS_USD else [])]
 FBX = {
     "add_leaf_bones": False,
     "bake_anim_simplify_factor": 0,
@@ -253,6 +255,17 @@ def test_a_broken_file_is_one_sentence_and_changes_nothing(
         import_folder(folder)
     assert len(str(refusal.value).strip().splitlines()) == 1 and "Traceback" not in str(refusal.value)
     assert everything() == before
+
+
+@pytest.mark.parametrize(("ending", "advice"), [("glb", "Preferences > Add-ons"), ("usdc", "built without USD")])
+def test_where_blender_lacks_the_importer_it_is_said_what_to_do(
+    addon: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ending: str, advice: str
+) -> None:
+    by_blender = import_module(f"{addon.__name__}.mocap.by_blender")
+    monkeypatch.setattr(by_blender, "_available", lambda path: iter(()))
+    (tmp_path / f"dance.{ending}").write_bytes(b"dance")
+    with pytest.raises(RuntimeError, match=advice):
+        import_folder(tmp_path)
 
 
 def test_an_importer_that_fails_itself_is_told_in_a_sentence(

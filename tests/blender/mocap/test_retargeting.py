@@ -107,7 +107,8 @@ def test_bones_are_found_changed_and_kept_as_a_preset(addon: ModuleType, tmp_pat
 
 
 @pytest.mark.parametrize(
-    ("text", "message"), [("[", "no preset"), ("[1]", "no preset"), ('{"hips": "Tail"}', "'Tail'")]
+    ("text", "message"),
+    [('{"hips": "Tail"}', "'Tail'"), *((text, "no preset") for text in ("[", "[1]", "[" * 100_000))],
 )
 def test_a_preset_that_does_not_fit_is_refused(tmp_path: Path, text: str, message: str) -> None:
     obj = add_character()
@@ -136,3 +137,33 @@ def test_a_unit_is_told_by_the_body_and_said(addon: ModuleType, tmp_path: Path) 
     assert addon.rig.rigs.make_rig(first).skeleton.stature < 1
     assert 1.5 < addon.rig.rigs.make_rig(second).skeleton.stature < 2
     assert any(row.mended for row in second.animation_data.action.fragmotion.findings)
+
+
+@pytest.mark.parametrize(("first", "rate"), [(1, 30.0), (11, 30.0), (-4, 60.0)])
+def test_an_action_brought_over_keeps_its_style_and_what_is_left_out(
+    addon: ModuleType, first: int, rate: float
+) -> None:
+    source = making.add_armature(name="Actor")
+    action = making.add_action(source, 60, name="limp")
+    for curve in addon.compat.versions.curves_of(action, source):
+        for key in curve.keyframe_points:
+            key.co.x += first - 1
+        curve.update()
+    bpy.context.scene.render.fps = 30
+    action["fragmotion_scene_rate"], action["fragmotion_rate"] = 30.0, rate
+    action.fragmotion.use, action.fragmotion.style = True, "tired"
+    for begin, end in ((0, 4), (20, 29)):
+        span = action.fragmotion.left_out.add()
+        span.first, span.last = first + begin, first + end
+    obj = add_character()
+    obj.fragmotion.source = source
+    assert bpy.ops.fragmotion.retarget_actions() == {"FINISHED"}
+    made = bpy.data.actions["limp on Hero"]
+    assert made.fragmotion.style == "tired"
+    parts = [
+        [len(part.rotations) for part in addon.mocap.sampling.sample_parts(bpy.context, owner, take, rig)]
+        for owner, take in ((source, action), (obj, made))
+        for rig in (addon.rig.rigs.make_rig(owner),)
+    ]
+    assert len(parts[0]) == 2 and parts[1] == parts[0]
+    assert addon.mocap.left_out.spans_of(made) == [(1, 5), (21, 30)]

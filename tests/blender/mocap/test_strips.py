@@ -115,3 +115,18 @@ def test_what_plays_no_take_makes_none(rig: bpy.types.Object) -> None:
     rig.animation_data.action = None
     assert bpy.ops.fragmotion.take_strips() == {"FINISHED"}
     assert {action.name for action in bpy.data.actions} == {"walk", "chair", kept.name}
+
+
+def test_a_take_of_a_strip_keeps_the_style_and_what_is_left_out(rig: bpy.types.Object) -> None:
+    strip = add_strip(rig, use_reverse=True, repeat=2.0)
+    action = strip.action
+    action.fragmotion.style = "tired"
+    span = action.fragmotion.left_out.add()
+    span.first, span.last = 1, 5
+    rig.animation_data.action = None
+    assert bpy.ops.fragmotion.take_strips() == {"FINISHED"}
+    made = bpy.data.actions["strip"]
+    assert made.fragmotion.style == "tired"
+    length = int(action.frame_range[1] - action.frame_range[0])
+    spans = [(span.first, span.last) for span in made.fragmotion.left_out]
+    assert spans == [(1 + length - 4, length), (1 + 2 * length - 4, 1 + 2 * length)]

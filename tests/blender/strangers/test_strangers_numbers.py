@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import struct
+import time
 import tracemalloc
 import zlib
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
@@ -254,3 +256,37 @@ def press_every_button(folder: Path) -> None:
                 assert operator("EXEC_DEFAULT", **fields.get(name, {})) & {"FINISHED", "CANCELLED"}
         except RuntimeError as error:
             assert "Traceback" not in str(error) and str(error).count("Error") == 1, name
+
+
+def test_only_the_damaged_one_of_many_entries_is_mended(addon: ModuleType, obj: bpy.types.Object) -> None:
+    moves = obj.fragmotion.moves
+    for index in range(5):
+        move = moves.add()
+        move.name, move.wait, move.key, move.first = f"move {index}", 1.5, "F", -7
+    forged = stored(obj)["moves"][3]
+    forged["wait"], forged["key"] = float("nan"), 1_000_000
+    assert addon.settings.mending.mend(obj.fragmotion) == 2
+    told = [(move.name, move.wait, move.key, move.first) for move in moves]
+    assert told.pop(3) == ("move 3", 0.5, "NONE", -7)
+    assert told == [(f"move {index}", 1.5, "F", -7) for index in (0, 1, 2, 4)]
+
+
+@pytest.mark.parametrize("listed", ["moves", "takes", "classes"])
+def test_many_entries_are_mended_in_the_time_of_a_look(addon: ModuleType, obj: bpy.types.Object, listed: str) -> None:
+    entries = getattr(obj.fragmotion, listed)
+    for _ in range(10_000):
+        entries.add()
+    names = [prop.identifier for prop in entries[0].bl_rna.properties[1:]]
+
+    def look() -> None:
+        for entry in entries:
+            for name in names:
+                getattr(entry, name)
+
+    def seconds(what: Callable[[], object]) -> float:
+        begin = time.process_time()
+        what()
+        return time.process_time() - begin
+
+    mending = min(seconds(lambda: addon.settings.mending.mend(obj.fragmotion)) for _ in range(3))
+    assert mending < 5 * min(seconds(look) for _ in range(3))

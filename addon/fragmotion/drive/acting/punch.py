@@ -1,61 +1,133 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A stretch of a recording over which the stick is recorded: before and after it the recording's own controls play."""
+"""A stretch of a recording over which the user is recorded: before and after it the recording itself plays."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-
+from ...recordings.asked import Asked
 from ...recordings.recordings import TRACE_RATE
+from ...recordings.styles import AS_EVER, StyleChange, Styled
 from ..input.steering import Control
+from .recorder import Taken
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
 
 
+class Own(NamedTuple):
+    """A recording's name, its trace [T,4] and what it asks for beside it: by names, and numbered as Player.run has
+    it."""
+
+    name: str
+    trace: Doubles
+    asked: Asked
+    moves: Sequence[Sequence[int]] = ()
+    styled: Styled = AS_EVER
+
+
 class Punch:
-    """A recording's trace [T,4], of which the controls `first` .. `last` - 1 are taken from the stick."""
+    """A recording of which the controls `first` .. `last` - 1, and the moves and styles that are asked for in them, are
+    what the user does. What it asks for before goes on into the stretch; after it the recording's own style is back."""
 
-    def __init__(self, name: str, trace: Doubles, first: int, last: int, rate: int) -> None:
-        """Of the recording of that name, played in so many steps a second."""
-        self.name, self.first = name, first
-        self._trace, self._last, self._rate = trace, last, rate
+    def __init__(self, own: Own, first: int, last: int, rate: int, taken: Taken) -> None:
+        """Played in so many steps a second; `taken` begins in the style that `style_before(first)` tells."""
+        self.own, self.first, self.taken = own, first, taken
+        self._last, self._rate = last, rate
         self._steps = 0
-        self._taken: list[Control] = []
-        self._jumped = False
 
-    def hold(self, control: Control) -> Control:
-        """The control for the next step, where the stick says `control`."""
-        at = self._steps * TRACE_RATE // self._rate
+    def advance(self) -> None:
+        """A step has been made."""
         self._steps += 1
-        if not self.first <= at < self._last:
-            return Control(*self._trace[at].tolist()) if at < len(self._trace) else Control()
-        self._jumped = self._jumped or control.jump > 0
-        if at - self.first == len(self._taken):
-            self._taken.append(control._replace(jump=float(self._jumped)))
-            self._jumped = False
-        return self._taken[-1]
+
+    @property
+    def takes(self) -> bool:
+        """Whether the next step is the user's."""
+        return self.first <= self._now < self._last
 
     @property
     def over(self) -> bool:
         """Whether the stretch is behind."""
-        return self._steps * TRACE_RATE >= self._last * self._rate
+        return self._now >= self._last
 
     @property
-    def trace(self) -> Doubles:
-        """The recording's trace [T,4] with what was taken so far."""
-        merged = self._trace.copy()
-        if self._taken:
-            merged[self.first : self.first + len(self._taken)] = np.array(self._taken, float)
-        return merged
+    def control(self) -> Control:
+        """The recording's own for the next step."""
+        return Control(*self.own.trace[self._now].tolist())
 
     @property
-    def rest(self) -> Doubles:
-        """The controls [N,4] that are still to be played, one at least."""
-        return self._trace[min(self._steps * TRACE_RATE // self._rate, len(self._trace) - 1) :]
+    def moves(self) -> set[int]:
+        """The recording's own that are held in the next step."""
+        return {move for control, move, held in self._own_moves(self._last) if control <= self._now < control + held}
+
+    @property
+    def style(self) -> int:
+        """The recording's own for the next step."""
+        return style_before(self.own.styled, self._now + 1)
 
     @property
     def begun(self) -> bool:
         """Whether anything was taken."""
-        return bool(self._taken)
+        return bool(len(self.taken.trace))
+
+    @property
+    def trace(self) -> Doubles:
+        """The recording's trace [T,4] with what was taken so far."""
+        merged = self.own.trace.copy()
+        merged[self.first : self._end] = self.taken.trace
+        return merged
+
+    @property
+    def asked(self) -> Asked:
+        """What the recording asks for beside it, with what was taken so far."""
+        first, end, (moves, begin, styles) = self.first, self._end, self.own.asked
+        taken = [move._replace(control=move.control + first) for move in self.taken.moves]
+        changes = [change._replace(control=change.control + first) for change in self.taken.styles]
+        return Asked(
+            [*(m for m in moves if m.control < first), *taken, *(m for m in moves if m.control >= end)],
+            begin,
+            [
+                *(c for c in styles if c.control < first),
+                *changes,
+                *self._back(),
+                *(c for c in styles if c.control > end),
+            ],
+        )
+
+    @property
+    def rest(self) -> tuple[Doubles, list[Sequence[int]], list[Sequence[int]]]:
+        """The controls [N,4] that are still to be played, one at least, and the moves and styles in them; moves that
+        are held since before begin there at a negative one."""
+        now = self._now
+        moves: list[Sequence[int]] = [[control - now, move, held] for control, move, held in self._own_moves(now)]
+        later: list[Sequence[int]] = [
+            [control - now, style] for control, style in self.own.styled.changes if control > now
+        ]
+        return self.own.trace[min(now, len(self.own.trace) - 1) :], moves, [[0, self.style], *later]
+
+    @property
+    def _now(self) -> int:
+        """The control of the next step."""
+        return self._steps * TRACE_RATE // self._rate
+
+    @property
+    def _end(self) -> int:
+        """The first control that is the recording's own again."""
+        return self.first + len(self.taken.trace)
+
+    def _own_moves(self, end: int) -> list[Sequence[int]]:
+        """Those that are not in the stretch, which ends there."""
+        return [row for row in self.own.moves if not self.first <= row[0] < end]
+
+    def _back(self) -> list[StyleChange]:
+        """The change back to the recording's own style, where the stretch ends in another or one is asked for there."""
+        own = style_before(self.own.styled, self._end + 1)
+        if self._end >= len(self.own.trace) or own == self.taken.style_now:
+            return []
+        return [StyleChange(self._end, self.taken.style_names[own])]
+
+
+def style_before(styled: Styled, control: int) -> int:
+    """The number of the style that is asked for last before a control."""
+    return [styled.begin, *(style for at, style in styled.changes if at < control)][-1]

@@ -17,42 +17,36 @@ from ..input.steering import Control
 from .actor import Actor
 
 if TYPE_CHECKING:
-    from fragmotion_core import Doubles
+    from fragmotion_core import Character, Doubles
 
 
-class Recorder:
-    """A trace that grows, and the motion with it.
+class Taken:
+    """What the user does, as a trace that grows, with moves and styles beside it.
 
     Each control is held until the next one is due, so that the player is told just what the trace says. A jump that is
     pressed and let go meanwhile goes into the next control.
     """
 
-    def __init__(self, actor: Actor, rate: int) -> None:
-        """From where the actor is now, in so many steps a second."""
-        self.start = actor.frame
-        self._actor, self._rate = actor, rate
+    def __init__(self, character: Character | None, style: int, rate: int) -> None:
+        """By a character, or what slides, that goes on in a style; in so many steps a second."""
+        self._rate, self._steps = rate, 0
         self._controls: list[Control] = []
         self._jumped = False
         self._begins = False  # whether this step is the first of its control
-        self._names = names_of(actor.character)
+        self._names = names_of(character)
         self._started: list[StartedMove] = []
         self._held: dict[int, int] = {}  # the moves that are held, and which of those started each is
         self._tapped: set[int] = set()
-        self._style_names = list(actor.character.style_names) if actor.character is not None else []
-        self._style = actor.style
-        self.style = self._style_names[self._style] if self._style_names else ""
-        """The one in which it begins."""
+        self.style_names = list(character.style_names) if character is not None else []
+        self.style_now = style
         self.styles: list[StyleChange] = []
         """Those to which it changed."""
-        self._poses: list[tuple[Doubles, Doubles]] = []
-        self._frames: list[tuple[float, float, float]] = []
-        self._classes: list[int] = []
-        self.add(actor.step(Control(), 0.0))
 
     def hold(self, control: Control) -> Control:
         """The control for the next step."""
         self._jumped = self._jumped or control.jump > 0
-        self._begins = (len(self._poses) - 1) * TRACE_RATE >= len(self._controls) * self._rate
+        self._begins = self._steps * TRACE_RATE >= len(self._controls) * self._rate
+        self._steps += 1
         if self._begins:
             self._controls.append(control._replace(jump=float(self._jumped)))
             self._jumped = False
@@ -78,17 +72,10 @@ class Recorder:
 
     def hold_style(self, wanted: int) -> int:
         """The style of the next step, whose control `hold` has told: it changes with the controls."""
-        if self._begins and wanted != self._style:
-            self._style = wanted
-            self.styles.append(StyleChange(len(self._controls) - 1, self._style_names[wanted]))
-        return self._style
-
-    def add(self, pose: tuple[Doubles, Doubles]) -> None:
-        """The step has led to this pose."""
-        if self._actor.character is not None:
-            self._classes.append(self._actor.player.playing[0])
-        self._poses.append(pose)
-        self._frames.append(self._actor.frame)
+        if self._begins and wanted != self.style_now:
+            self.style_now = wanted
+            self.styles.append(StyleChange(len(self._controls) - 1, self.style_names[wanted]))
+        return self.style_now
 
     @property
     def seconds(self) -> float:
@@ -107,6 +94,29 @@ class Recorder:
     def trace(self) -> Doubles:
         """[T,4]"""
         return np.array(self._controls, float).reshape(-1, 4)
+
+
+class Recorder(Taken):
+    """What the user does from a moment on, and the motion with it."""
+
+    def __init__(self, actor: Actor, rate: int) -> None:
+        """From where the actor is now, in so many steps a second."""
+        super().__init__(actor.character, actor.style, rate)
+        self.start = actor.frame
+        self._actor = actor
+        self.style = self.style_names[self.style_now] if self.style_names else ""
+        """The one in which it begins."""
+        self._poses: list[tuple[Doubles, Doubles]] = []
+        self._frames: list[tuple[float, float, float]] = []
+        self._classes: list[int] = []
+        self.add(actor.step(Control(), 0.0))
+
+    def add(self, pose: tuple[Doubles, Doubles]) -> None:
+        """The step has led to this pose."""
+        if self._actor.character is not None:
+            self._classes.append(self._actor.player.playing[0])
+        self._poses.append(pose)
+        self._frames.append(self._actor.frame)
 
     @property
     def shown(self) -> tuple[Doubles, Motion] | None:

@@ -21,14 +21,13 @@ _UP = (0, 0, 1)
 class Track:
     """A character frame that follows controls exactly."""
 
-    def __init__(self, space: ControlSpace, frame: tuple[float, float, float]) -> None:
-        self._turn_rate = space.turn_rate
+    def __init__(self, frame: tuple[float, float, float]) -> None:
         self.frame = frame
 
-    def step(self, control: Sequence[float], seconds: float) -> None:
-        """Go on for some seconds, in a direction half way through the turn."""
+    def step(self, control: Sequence[float], seconds: float, space: ControlSpace) -> None:
+        """Go on for some seconds, in a direction half way through the turn, as the space means the control."""
         (right, forward, turn, _), (x, y, heading) = control, self.frame
-        angle = turn * self._turn_rate * seconds
+        angle = turn * space.turn_rate * seconds
         across, along = rotate(right, forward, heading + angle / 2)
         self.frame = (x + seconds * across, y + seconds * along, heading + angle)
 
@@ -51,11 +50,11 @@ class Slider:
 
     def reset(self, x: float = 0.0, y: float = 0.0, heading: float = 0.0) -> None:
         """Stand at a place, facing `heading`."""
-        self._track = Track(self._space, (x, y, heading))
+        self._track = Track((x, y, heading))
 
     def step(self, control: Control, seconds: float) -> tuple[Doubles, Doubles]:
         """Slide on, and return the pose as core.Player does."""
-        self._track.step(control, seconds)
+        self._track.step(control, seconds, self._space)
         x, y, heading = self.frame
         self._rotations[self._hips] = Quaternion(_UP, heading - self._facing) @ self._upright
         return np.array((x, y, self._height)), self._rotations.copy()

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from .actor import Actor
-from .recorder import Recorder
+from .recorder import Taken
 
 
 class Styling:
@@ -34,9 +34,9 @@ class Styling:
         """Tell the player anew what it may wait for: a recording begins."""
         self._told = self._actor.style
 
-    def tell(self, recorder: Recorder | None) -> None:
+    def tell(self, taken: Taken | None) -> None:
         """Let the player change to what is wanted; while it is recorded, with the controls."""
-        style = self.wanted if recorder is None else recorder.hold_style(self.wanted)
+        style = self.wanted if taken is None else taken.hold_style(self.wanted)
         if style != self._told:
             self._actor.player.change_style(style)
             self._told = style

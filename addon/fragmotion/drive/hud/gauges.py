@@ -45,17 +45,16 @@ class Speedometer:
 class Stopwatch:
     """How long the character takes to answer a step of the commanded velocity."""
 
-    def __init__(self, space: ControlSpace) -> None:
-        self._space = space
-        self._asked = -1  # number of the velocity
+    def __init__(self) -> None:
+        self._asked: tuple[float, ...] = ()  # the velocity of the space that is nearest
         self._before = self._wanted = (0.0, 0.0)
         self._since: float | None = None
         self.seconds: float | None = None
         """Of the last step that was answered."""
 
-    def step(self, control: Control, velocity: tuple[float, float], seconds: float) -> None:
-        """Some seconds have gone under a control; the velocity is in the character frame."""
-        asked = int(np.unravel_index(self._space.nearest([control])[0], self._space.shape)[0])
+    def step(self, control: Control, velocity: tuple[float, float], seconds: float, space: ControlSpace) -> None:
+        """Some seconds have gone under a control of the space; the velocity is in the character frame."""
+        asked = tuple(space.points[space.nearest([control])[0]][:2].tolist())
         if asked != self._asked:
             self._asked, self._before, self._wanted = asked, velocity, (control.right, control.forward)
             self._since = 0.0 if math.dist(self._before, self._wanted) > _STEP else None

@@ -20,10 +20,10 @@ class Readings:
 
     def __init__(self, actor: Actor, rate: int) -> None:
         self._actor, self._seconds = actor, 1 / rate
-        self._speedometer, self.stopwatch = Speedometer(rate), Stopwatch(actor.space)
+        self._speedometer, self.stopwatch = Speedometer(rate), Stopwatch()
         self.judge = Judge(actor.character) if actor.character is not None else None
         self.path, self.ideal_path = Trail(), Trail()
-        self.ideal = Track(actor.space, actor.frame)
+        self.ideal = Track(actor.frame)
         self.control = Control()
 
     def step(self, control: Control) -> None:
@@ -31,11 +31,11 @@ class Readings:
         self.control = control
         frame = self._actor.frame
         self._speedometer.step(frame)
-        self.stopwatch.step(control, rotate(*self.velocity, -frame[2]), self._seconds)
+        self.stopwatch.step(control, rotate(*self.velocity, -frame[2]), self._seconds, self.space)
         if self.judge is not None:
             self.judge.step(self._actor.player, control, self._seconds)
         self.path.step(frame[:2])
-        self.ideal.step(control, self._seconds)
+        self.ideal.step(control, self._seconds, self.space)
         self.ideal_path.step(self.ideal.frame[:2])
 
     @property

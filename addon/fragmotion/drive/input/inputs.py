@@ -27,6 +27,7 @@ class Inputs:
         self._arbiter = Arbiter((self.keyboard, self.stick, self.trace, self.target))
         self._pads: Pads | None = None
         self._record_pressed = False
+        self._spent: set[int] = set()  # moves that are held still, but count no more
         self._style_pressed: set[str] = set()
         self.shown = REST
         """The last intent, for drawing."""
@@ -59,9 +60,17 @@ class Inputs:
 
     def moves(self) -> set[int]:
         """The moves that any input holds now."""
+        by_user = self._moves_by_user()
+        self._spent &= by_user
+        return (by_user - self._spent) | self.trace.moves()
+
+    def spend_moves(self) -> None:
+        """Let the moves that the user holds now count no more until they are let go and pressed again."""
+        self._spent = self._moves_by_user()
+
+    def _moves_by_user(self) -> set[int]:
         pressed = {button for pad in self.pads for button in pad.state.buttons}
-        by_pads = {self._move_of[button] for button in pressed if button in self._move_of}
-        return self.keyboard.moves() | by_pads | self.trace.moves()
+        return self.keyboard.moves() | {self._move_of[button] for button in pressed if button in self._move_of}
 
     def play(self, trace: Any, moves: Any = (), styles: Any = ()) -> None:
         """Let a trace [T,4] drive with the moves [M,3] that were started and the styles [S,2] that were changed in it,
@@ -69,9 +78,9 @@ class Inputs:
         self.trace.play(trace, moves, styles)
         self._arbiter.take(self.trace)
 
-    def walk(self, space: Any, frame: tuple[float, float, float], place: tuple[float, float], pace: float) -> None:
+    def walk(self, space: Any, frame: tuple[float, float, float], place: tuple[float, float], runs: bool) -> None:
         """Let the character go to a place, until it is there or another input is touched."""
-        if self.target.go(space, frame, place, pace):
+        if self.target.go(space, frame, place, runs):
             self._arbiter.take(self.target)
 
     def style_step(self) -> int:

@@ -23,20 +23,27 @@ class WalkTarget:
 
     def __init__(self) -> None:
         self._follower: Any = None
+        self._space: ControlSpace | None = None  # of the style in which the follower steers
+        self._place, self._runs = (0.0, 0.0), False
         self._control = Control()
 
     def go(
-        self, space: ControlSpace, frame: tuple[float, float, float], place: tuple[float, float], pace: float
+        self, space: ControlSpace, frame: tuple[float, float, float], place: tuple[float, float], runs: bool
     ) -> bool:
-        """Begin to go from a character frame to a place at a speed in m/s; whether it is far enough away."""
+        """Begin to go from a character frame to a place, at the space's walk or run; whether it is far enough away."""
         if math.dist(frame[:2], place) < NEAR:
             return False
+        self._space, self._place, self._runs = space, place, runs
+        pace = space.run if runs else space.walk
         self._follower = core.PathFollower(space, core.Path([frame[:2], place]), pace)
         return True
 
-    def steer(self, frame: tuple[float, float, float], seconds: float) -> None:
-        """The character is there, so long after the last call."""
+    def steer(self, space: ControlSpace, frame: tuple[float, float, float], seconds: float) -> None:
+        """The character is there, so long after the last call, in the style that the space is of."""
         if self._follower is None:
+            return
+        if space is not self._space and not self.go(space, frame, self._place, self._runs):
+            self.release()
             return
         self._control = Control(*self._follower.steer(frame, seconds).tolist())
         if self._follower.stands:

@@ -9,7 +9,7 @@ import bpy
 
 from ...character.building import has_character
 from ...compat.core import core
-from ...errors import UserError, core_errors, reported
+from ...errors import UserError, core_errors, ends_on_error, reported
 from ...jobs import Job
 from .context import active_armature, adopt_settings, poll_armature, progress_shown
 
@@ -40,7 +40,7 @@ class Background:
         """Keep what the job returned with the armature, and report it."""
         raise NotImplementedError
 
-    @reported
+    @ends_on_error
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         if bpy.app.background:
             return self.execute(context)
@@ -53,7 +53,7 @@ class Background:
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
-    @reported
+    @ends_on_error
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         job = current
         if job is None:
@@ -82,6 +82,10 @@ class Background:
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Blender ends the operator: another file is loaded, or Blender quits."""
+        stop()
+
+    def abandon(self, context: bpy.types.Context) -> None:
+        """Give up the job."""
         stop()
 
     def _make_job(self, context: bpy.types.Context) -> Job:
@@ -125,6 +129,7 @@ class Background:
 class Exclusive(Background):
     """One of a stepped job, during which nothing else is to happen in Blender: Esc alone is heard."""
 
+    @ends_on_error
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         outcome: set[str] = super().modal(context, event)
         return {"RUNNING_MODAL"} if outcome == {"PASS_THROUGH"} else outcome
@@ -132,6 +137,12 @@ class Exclusive(Background):
     def _go_on(self, context: bpy.types.Context, job: Job) -> None:
         job.wait(_SLICE)
         context.workspace.status_text_set(f"{job.label}: {100 * job.fraction:.0f} %. Esc stops")
+
+    def abandon(self, context: bpy.types.Context) -> None:
+        """Give up the job, and what is said of it in the status bar."""
+        stop()
+        if context.workspace is not None:
+            context.workspace.status_text_set(None)
 
     def _end(self, context: bpy.types.Context) -> None:
         context.workspace.status_text_set(None)
@@ -151,6 +162,7 @@ class FRAGMOTION_OT_cancel(bpy.types.Operator):
             cls.poll_message_set("Nothing is under way")
         return current is not None
 
+    @reported
     def execute(self, _context: bpy.types.Context) -> set[str]:
         if current is not None:
             current.cancel()

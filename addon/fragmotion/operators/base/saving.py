@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 from bpy_extras.io_utils import ExportHelper
 
-from ...errors import UserError
+from ...errors import UserError, reported
 
 
 class Saving(ExportHelper):
@@ -24,6 +24,7 @@ class Saving(ExportHelper):
             raise UserError("No file is chosen")
         return Path(bpy.path.ensure_ext(bpy.path.abspath(self.filepath), self.filename_ext))
 
+    @reported
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         name = bpy.path.clean_name(self._suggestion(context))
         self.filepath = str(Path(bpy.data.filepath).parent / f"{name}{self.filename_ext}")

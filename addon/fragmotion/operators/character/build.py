@@ -9,7 +9,7 @@ import bpy
 
 from ...character import building
 from ...character.control_layout import say_lacking
-from ...character.coverage import lacking
+from ...character.coverage import lacking, say_unanswered
 from ...jobs import Job
 from ...mocap.actions import fitting
 from ...settings.build_fields import BuildFields
@@ -69,6 +69,11 @@ class FRAGMOTION_OT_build(BuildFields, Building, bpy.types.Operator):
             f"{figures.performed} of {figures.controls} controls performed well{told}",
         )
         spare = say_lacking(built.character)
-        remarks = (*self._warnings, *[spare] * bool(spare), *lacking(building.coverage_by_style(built.character)))
+        unanswered = say_unanswered(built.character)
+        remarks = (
+            *self._warnings,
+            *filter(None, (spare, unanswered)),
+            *lacking(building.coverage_by_style(built.character)),
+        )
         for warning in remarks:
             self.report({"WARNING"}, warning)

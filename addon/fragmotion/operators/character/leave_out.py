@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 from bpy.props import IntProperty
 
+from ...errors import reported
 from ...mocap.actions import chosen
 from ...mocap.left_out import choose_span
 from ..base.context import OnTake, active_armature
@@ -21,6 +22,7 @@ class FRAGMOTION_OT_leave_out(OnTake, bpy.types.Operator):
         "frames of the selected keys, else the current frame. The numbers can be changed in the list"
     )
 
+    @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
         action = chosen(context, obj)
@@ -44,6 +46,7 @@ class FRAGMOTION_OT_take_in(OnTake, bpy.types.Operator):
         name="Number", description="Which of the take's left-out ranges, from 0", default=0, min=0
     )
 
+    @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         action = chosen(context, active_armature(context))
         if action is not None:

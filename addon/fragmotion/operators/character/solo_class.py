@@ -9,10 +9,10 @@ from typing import ClassVar
 import bpy
 
 from ...character import classes
-from ...character.solo import Solo
 from ...drive import take_shown
 from ...drive.hud import views
-from ...errors import UserError, reported
+from ...drive.solo import Solo
+from ...errors import UserError, ends_on_error
 from ..base import background
 from ..base.context import active_armature, end_modal
 from .force_class import poll_class
@@ -48,7 +48,7 @@ class FRAGMOTION_OT_solo_class(bpy.types.Operator):
             cls.poll_message_set("Stop what is under way first (Esc)")
         return not (bpy.app.background or running or current)
 
-    @reported
+    @ends_on_error
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         global current, _timer
         number = context.window_manager.fragmotion.active_class
@@ -56,10 +56,11 @@ class FRAGMOTION_OT_solo_class(bpy.types.Operator):
         current = Solo(context, obj, number, classes.shown_style(obj.fragmotion.figures))
         _timer = context.window_manager.event_timer_add(1 / _RATE, window=context.window)
         self._before = time.perf_counter()
-        context.window_manager.modal_handler_add(self)
         context.workspace.status_text_set("Preview of a class: Esc or a click stops it")
+        context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
+    @ends_on_error
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if current is None:
             return {"CANCELLED"}
@@ -95,11 +96,18 @@ class FRAGMOTION_OT_solo_class(bpy.types.Operator):
         """Blender ends the operator: its window is closed, another file is loaded, or Blender quits."""
         stop()
 
+    def abandon(self, _context: bpy.types.Context) -> None:
+        """End the preview: armature and scene are as before."""
+        stop()
+
 
 def stop() -> None:
     """End the preview that is running, and let nothing of it stay."""
     global current, _timer
-    end_modal(_timer)
-    solo, current, _timer = current, None, None
-    if solo is not None:
-        solo.end()
+    solo, timer = current, _timer
+    current = _timer = None
+    try:
+        end_modal(timer)
+    finally:
+        if solo is not None:
+            solo.end()

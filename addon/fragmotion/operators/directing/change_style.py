@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 from bpy.props import IntProperty
 
-from ...errors import UserError, reported
+from ...errors import UserError, ends_on_error, reported
 from .drive import WhileDriving, driven_session
 
 
@@ -19,6 +19,7 @@ class FRAGMOTION_OT_change_style(WhileDriving, bpy.types.Operator):
 
     style: IntProperty(name="Style", description="Number of the style, from 0", min=0, options={"SKIP_SAVE"})  # type: ignore[valid-type]
 
+    @ends_on_error
     @reported
     def execute(self, _context: bpy.types.Context) -> set[str]:
         styling = driven_session().styling

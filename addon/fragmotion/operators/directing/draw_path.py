@@ -8,7 +8,8 @@ from typing import Any, ClassVar
 import bpy
 from mathutils import Vector
 
-from ...errors import UserError, reported
+from ...errors import UserError, ends_on_error
+from ...ground.meshes import find_ground
 from ...paths.drawing import add_curve, ground_under
 from ..base.context import active_armature, poll_armature
 
@@ -32,15 +33,17 @@ class FRAGMOTION_OT_draw_path(bpy.types.Operator):
     def poll(cls: Any, context: bpy.types.Context) -> bool:
         return poll_armature(cls, context)
 
+    @ends_on_error
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        self._ground = find_ground(context, active_armature(context))
         self._area, self._last = context.area, None
         self._points: list[Vector] = []
-        context.window_manager.modal_handler_add(self)
         context.window.cursor_modal_set("PAINT_BRUSH")
         context.workspace.status_text_set(_HINT)
+        context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
-    @reported
+    @ends_on_error
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type in {"ESC", "RIGHTMOUSE"}:
             return self._end(context, {"CANCELLED"})
@@ -59,7 +62,7 @@ class FRAGMOTION_OT_draw_path(bpy.types.Operator):
         if self._last is not None and (mouse - self._last).length < _APART:
             return
         self._last = mouse
-        place = ground_under(self._area, mouse.x, mouse.y)
+        place = ground_under(self._area, mouse.x, mouse.y, self._ground)
         if place is not None:
             self._points.append(place + _ABOVE)
 
@@ -71,6 +74,10 @@ class FRAGMOTION_OT_draw_path(bpy.types.Operator):
         settings.source, settings.curve = "CURVE", curve
         self.report({"INFO"}, f"Drew '{curve.name}': press Follow Path, or edit it first")
         return {"FINISHED"}
+
+    def abandon(self, context: bpy.types.Context) -> None:
+        """Draw nothing, and give the mouse back."""
+        self._end(context, set())
 
     def _end(self, context: bpy.types.Context, result: set[str]) -> set[str]:
         context.window.cursor_modal_restore()

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import time
-import traceback
 from typing import Any, ClassVar
 
 import bpy
@@ -17,7 +16,7 @@ from ...drive.hud import views
 from ...drive.input.keyboard import STYLE_STEPS
 from ...drive.input.pads import Pads
 from ...drive.input.sdl import SdlMissing
-from ...errors import UserError, core_errors, reported
+from ...errors import UserError, core_errors, ends_on_error, reported
 from ...paths.drawing import ground_under
 from ...recordings.traces import asked_beside, make_trace
 from ...rig.external_motion import external_motion
@@ -37,8 +36,8 @@ class _Hearing:
     through what is not used. Blender gives a modal operator the events of one window only."""
 
     report: Any
-    _session: session.Session
-    _timer: bpy.types.Timer
+    _session: session.Session = None  # type: ignore[assignment]  # until it hears one
+    _timer: bpy.types.Timer | None = None
 
     def _begin(self, context: bpy.types.Context, driven: session.Session, seconds: float) -> set[str]:
         """Hear the context's window, and be woken that often."""
@@ -48,15 +47,15 @@ class _Hearing:
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
+    @ends_on_error
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        return self._handle(context, event) if session.current is self._session else self._end()
+
+    def abandon(self, _context: bpy.types.Context) -> None:
+        """End the drive that it hears, if any: it must never leave the armature half way, or go on unheard."""
+        session.rest(self._timer)
         if session.current is self._session:
-            try:
-                return self._handle(context, event)
-            except Exception as error:  # a drive must never leave the armature half way
-                traceback.print_exc()
-                session.stop()
-                self.report({"ERROR"}, f"The drive has ended: {error}")
-        return self._end()
+            session.stop()
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """Blender ends the operator: its window is closed, another file is loaded, or Blender quits."""
@@ -143,13 +142,13 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
             cls.poll_message_set("Driving needs a window")
         return not bpy.app.background
 
-    @reported
+    @ends_on_error
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         if session.current is not None and self.source == "INPUTS":
             session.stop()
             return {"FINISHED"}
         obj = active_armature(context) if session.current is None else driven_session().obj
-        driven = self._start(context, obj)
+        driven = self._session = self._start(context, obj)
         self._time = self._drawn = time.perf_counter()
         self._warn(obj)
         return self._begin(context, driven, 1 / session.RATE)
@@ -224,6 +223,7 @@ class FRAGMOTION_OT_listen(_Hearing, bpy.types.Operator):
     def poll(cls, _context: bpy.types.Context) -> bool:
         return session.current is not None and not bpy.app.background
 
+    @ends_on_error
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         return self._begin(context, driven_session(), _PANEL_INTERVAL)
 
@@ -315,7 +315,7 @@ def _send_there(
     gizmo = x > free.right - _GIZMOS[0] * scale and y > free.top - _GIZMOS[1] * scale
     if gizmo or not (free.left <= x < free.right and free.bottom <= y < free.top):
         return False
-    place = ground_under(area, x, y)
+    place = ground_under(area, x, y, driven.ground)
     if place is not None:
         driven.walk_to((place.x, place.y), event.shift)
     return place is not None
@@ -330,6 +330,10 @@ class WhileDriving:
             cls.poll_message_set("Nothing is driven: press Drive first")  # type: ignore[attr-defined]
         return session.current is not None
 
+    def abandon(self, _context: bpy.types.Context) -> None:
+        """End the drive; what the user can put right is reported, and it goes on."""
+        session.stop()
+
 
 class FRAGMOTION_OT_record(WhileDriving, bpy.types.Operator):
     """Start a recording, or end it and keep it."""
@@ -341,6 +345,7 @@ class FRAGMOTION_OT_record(WhileDriving, bpy.types.Operator):
         "character stands now; press again to end it"
     )
 
+    @ends_on_error
     @reported
     def execute(self, _context: bpy.types.Context) -> set[str]:
         driven_session().toggle_recording()
@@ -354,6 +359,7 @@ class FRAGMOTION_OT_play_trace(WhileDriving, bpy.types.Operator):
     bl_label = "Play Trace"
     bl_description = "Let a trace drive until it ends, or until you touch another input"
 
+    @ends_on_error
     @reported
     def execute(self, _context: bpy.types.Context) -> set[str]:
         driven = driven_session()

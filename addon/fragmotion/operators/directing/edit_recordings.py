@@ -31,6 +31,7 @@ class FRAGMOTION_OT_edit_curves(OnRecording, bpy.types.Operator):
         "right and forward, turn and jump. An empty below the armature has them, and is selected. Play Again uses them"
     )
 
+    @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj, recording = active_armature(context), selected(context)
         empty = curves_of(obj, recording)
@@ -95,6 +96,7 @@ class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
     start: _moment("From", "Where the stretch begins, in seconds from the recording's beginning", 1.0)  # type: ignore[valid-type]
     end: _moment("To", "Where the stretch ends, in seconds from the recording's beginning", 2.0)  # type: ignore[valid-type]
 
+    @reported
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         now = playhead(context, selected(context))
         self.start, self.end = max(now, 0.0), max(now, 0.0) + 1.0

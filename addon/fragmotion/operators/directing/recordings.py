@@ -53,10 +53,11 @@ class FRAGMOTION_OT_delete_recording(OnRecording, bpy.types.Operator):
     bl_idname = "fragmotion.delete_recording"
     bl_label = "Delete Recording"
 
+    @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
         name = selected(context).name
-        remove_curves(selected(context))
+        remove_curves(obj, selected(context))
         remove_recording(obj, obj.fragmotion.active_take)
         self.report({"INFO"}, f"Deleted recording '{name}'")
         return {"FINISHED"}
@@ -68,6 +69,7 @@ class FRAGMOTION_OT_duplicate_recording(OnRecording, bpy.types.Operator):
     bl_idname = "fragmotion.duplicate_recording"
     bl_label = "Duplicate Recording"
 
+    @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
         duplicate_recording(obj, obj.fragmotion.active_take)
@@ -96,6 +98,7 @@ class FRAGMOTION_OT_trim_recording(OnRecording, bpy.types.Operator):
     start: _cut("Start", "before", 0.0, 0.0)  # type: ignore[valid-type]
     end: _cut("End", "after", 60.0, 0.1)  # type: ignore[valid-type]
 
+    @reported
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         self.start, self.end = 0.0, selected(context).seconds
         result: set[str] = context.window_manager.invoke_props_dialog(self)

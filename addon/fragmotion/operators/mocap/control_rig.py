@@ -73,6 +73,7 @@ class FRAGMOTION_OT_follow_motion(_Bound, bpy.types.Operator):
     bl_label = "Follow"
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 
+    @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         rig = active_rig(context)
         binding.set_following(rig, not binding.follows(rig))

@@ -9,7 +9,7 @@ from typing import ClassVar
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, StringProperty
 
-from ...errors import UserError
+from ...errors import UserError, ends_on_error, reported
 from ...jobs import Job, SteppedJob
 from ...mocap import by_blender
 from ...mocap.doctor import worst
@@ -90,6 +90,7 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
     def poll(cls, _context: bpy.types.Context) -> bool:
         return poll_idle(cls) and background.poll_idle(cls)
 
+    @ends_on_error
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if not self.properties.is_property_set("onto") and can_change(active_armature(context)):
             self.onto = "ACTIVE"
@@ -100,6 +101,7 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
+    @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         asked, self._is_asking = self._is_asking, False
         outcome: set[str] = super().invoke(context, None) if asked else super().execute(context)

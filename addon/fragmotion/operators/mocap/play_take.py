@@ -7,12 +7,11 @@ import time
 from typing import ClassVar
 
 import bpy
-from bpy.app.handlers import persistent
 
 from ...character import classes
 from ...drive import take_shown
 from ...drive.hud import views
-from ...errors import UserError, reported
+from ...errors import UserError, ends_on_error
 from ...mocap.actions import chosen
 from ..base import background
 from ..base.context import active_armature, end_modal, poll_armature
@@ -53,7 +52,7 @@ class FRAGMOTION_OT_play_take(bpy.types.Operator):
             return True
         return False
 
-    @reported
+    @ends_on_error
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         global _timer
         if take_shown.current is not None:
@@ -62,12 +61,12 @@ class FRAGMOTION_OT_play_take(bpy.types.Operator):
         obj = active_armature(context)
         take_shown.show(context, obj, chosen(context, obj))
         _timer = context.window_manager.event_timer_add(1 / _RATE, window=context.window)
-        _listen()
         self._before = time.perf_counter()
-        context.window_manager.modal_handler_add(self)
         context.workspace.status_text_set("A take plays: click another one in the list to see it; Esc stops")
+        context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
+    @ends_on_error
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if take_shown.current is None:
             return {"CANCELLED"}
@@ -111,38 +110,21 @@ class FRAGMOTION_OT_play_take(bpy.types.Operator):
         """Blender ends the operator: its window is closed, another file is loaded, or Blender quits."""
         stop()
 
+    def abandon(self, _context: bpy.types.Context) -> None:
+        """Show the take no more: armature and scene are as before."""
+        stop()
+
 
 def stop() -> None:
     """Show no take any more, and let nothing of it stay with Blender."""
     global _timer
-    end_modal(_timer)
-    _timer = None
-    _listen_no_more()
-    take_shown.stop()
+    timer, _timer = _timer, None
+    try:
+        end_modal(timer)
+    finally:
+        take_shown.stop()
     views.tag_redraw()
     views.tag_redraw("UI")
-
-
-@persistent  # type: ignore[untyped-decorator]
-def _stop(*_: object) -> None:
-    stop()
-
-
-def _handlers() -> tuple[list[object], ...]:
-    """Before what the armature must have been given back: a file is saved or loaded, or steps are undone."""
-    handlers = bpy.app.handlers
-    return handlers.save_pre, handlers.load_pre, handlers.undo_pre, handlers.redo_pre
-
-
-def _listen() -> None:
-    for handlers in _handlers():
-        handlers.append(_stop)
-
-
-def _listen_no_more() -> None:
-    for handlers in _handlers():
-        if _stop in handlers:
-            handlers.remove(_stop)
 
 
 def _is_over_sidebar(context: bpy.types.Context, event: bpy.types.Event) -> bool:

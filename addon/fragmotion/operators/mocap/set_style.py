@@ -46,6 +46,7 @@ class FRAGMOTION_OT_set_style(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         return poll_armature(cls, context)
 
+    @reported
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> Any:
         return context.window_manager.invoke_props_dialog(self)
 

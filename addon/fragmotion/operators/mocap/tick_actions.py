@@ -8,6 +8,7 @@ from typing import ClassVar
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
+from ...errors import reported
 from ...mocap.actions import fitting, is_found
 from ..base.context import active_armature, poll_armature
 
@@ -39,6 +40,7 @@ class FRAGMOTION_OT_tick_actions(bpy.types.Operator):
         but = ", but for those of its moves" if properties.use else ""
         return f"{verb} all Actions that fit the active armature{those}{but}"
 
+    @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
         moves = {row.action for row in obj.fragmotion.moves} if self.use else ()
