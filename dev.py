@@ -18,14 +18,21 @@ from tools.platforms import PLATFORMS
 from tools.retarget import inputs as retarget_inputs
 from tools.shell import Failure
 
+_STAGES_HELP = (
+    f"only these, whole, of {', '.join(testing.STAGES)}; or `{testing.WHOLE}` of them; or `{testing.REST}`: "
+    "what is left out when none is named"
+)
+
 
 def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     """Read the command line; `--help` tells what there is."""
     parser = argparse.ArgumentParser(prog="dev.py", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
     commands.add_parser("demo", help="from motion capture to a baked, controlled Action in Debian's Blender")
-    test = commands.add_parser("test", help="run every test: C++, Python, and the add-on in each Blender")
-    test.add_argument("stages", nargs="*", metavar="STAGE", help=f"only these of {', '.join(testing.STAGES)}")
+    test = commands.add_parser(
+        "test", help="style, C++, Python and the add-on in Debian's Blender, but for the slowest tests"
+    )
+    test.add_argument("stages", nargs="*", metavar="STAGE", help=_STAGES_HELP)
     test.add_argument("-k", dest="expression", metavar="EXPR", help="only the tests that match, as pytest's -k")
     fuzz = commands.add_parser("fuzz", help="feed the file readers with inputs made at random, and watch for crashes")
     fuzz.add_argument("--seconds", type=float, default=60.0, metavar="N", help="how long, all fuzzers together (60)")
@@ -48,8 +55,9 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     package.add_argument(
         "--platform",
         metavar="NAME",
+        action="append",
         choices=[platform.name for platform in PLATFORMS],
-        help=f"only for one of {', '.join(platform.name for platform in PLATFORMS)}",
+        help=f"only for this of {', '.join(platform.name for platform in PLATFORMS)}; can be given again",
     )
     package.add_argument(
         "--python",
@@ -60,10 +68,11 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
-def package(name: str | None, python: str | None) -> int:
-    """Build the zips of one platform or of all, say where they are, and look into them."""
+def package(names: list[str] | None, python: str | None) -> int:
+    """Build the zips of the named platforms or of all, say where they are, and look into them."""
     more = (python,) if python else ()
-    platforms = tuple(replace(platform, more_pythons=more) for platform in PLATFORMS if name in (None, platform.name))
+    chosen = [platform for platform in PLATFORMS if not names or platform.name in names]
+    platforms = tuple(replace(platform, more_pythons=more) for platform in chosen)
     machine.set_up(machine.package_needs(platforms))
     return 1 if stages.packages_of(platforms).failed else 0
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
 from functools import cache
 from pathlib import Path
 
 from tools.environments import site_packages
 from tools.paths import BLENDER, BUILD
-from tools.shell import Failure
+from tools.shell import Failure, run
 
 _SYSTEM_PATH = "/usr/local/sbin:/usr/sbin:/usr/bin:/sbin:/bin"
 _FIRST_WITH_EXTENSIONS = (4, 2)
@@ -72,9 +71,9 @@ def extension_tools() -> dict[str, Path]:
 
 
 def _ask(arguments: list[str], pattern: str) -> tuple[str, str]:
-    environment = {"PATH": _SYSTEM_PATH, "HOME": str(BUILD), **sandbox("asked")}
-    answer = subprocess.run([BLENDER, *arguments], capture_output=True, text=True, env=environment, check=False)
-    match = re.search(pattern, answer.stdout)
+    environment, lines = {**debian_environment("asked"), "HOME": str(BUILD)}, list[str]()
+    run([BLENDER, *arguments], "blender-asked", environment, hear=lines.append, timeout=120.0)
+    match = re.search(pattern, "".join(lines))
     if not match:
-        raise Failure(f"{BLENDER} {' '.join(arguments)} does not tell its version: {answer.stdout}{answer.stderr}")
+        raise Failure(f"{BLENDER} {' '.join(arguments)} does not tell its version: {''.join(lines)}")
     return match[1], match[2]

@@ -95,5 +95,7 @@ def _fuzz_one(folder: Path, name: str, limits: list[str], inputs: Path) -> Resul
     text = (LOGS / f"{log}.log").read_text(errors="replace")
     told = re.findall(r"stat::number_of_executed_units: *(\d+)|^#(\d+)", text, re.MULTILINE)
     executions = max((int(a or b) for a, b in told), default=0)
-    say(f"{name}: {executions} executions" + "".join(f"\n{cause}" for cause in finding))
+    played = re.search(r"^stat::played_policies: *(\d+)", text, re.MULTILINE)
+    of_which = f", {played[1]} of policies that were read and played" if played else ""
+    say(f"{name}: {executions} executions{of_which}" + "".join(f"\n{cause}" for cause in finding))
     return Result(executions, finding)

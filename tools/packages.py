@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 import shutil
+import threading
 import zipfile
 from collections.abc import Mapping
 from functools import cache
@@ -19,12 +20,19 @@ from tools.wheels import write_zip
 
 _MANIFEST = "blender_manifest.toml"
 _SDL_FILES = re.compile(r"sdl2/\w+\.py$|sdl2dll/dll/(libSDL2-2|SDL2\.dll)")
+_BUILDING = threading.Lock()
 _MODULE = re.compile(r"fragmotion_core\.(cp|cpython-)\d+\S*\.(so|pyd)$")
 
 
-@cache
 def wheel(python: str) -> Path:
-    """The wheel of the core for one Python of this machine, built here by its own compiler, once a run."""
+    """The wheel of the core for one Python of this machine, built here by its own compiler, once a run: stages that run
+    side by side wait for the one that builds it."""
+    with _BUILDING:
+        return _built_wheel(python)
+
+
+@cache
+def _built_wheel(python: str) -> Path:
     return build_wheel(python)
 
 

@@ -6,18 +6,15 @@ from __future__ import annotations
 import os
 import re
 import shlex
-import signal
-import subprocess
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import TextIO
 
 from tools.paths import LOGS, TOP
+from tools.processes import OutOfTime, run_for
 
 TAIL_LINES = 60
 _STEPS_EVERY = 20.0  # s, where lines are not written over
@@ -73,57 +70,29 @@ def run(
     words = [str(word) for word in command]
     LOGS.mkdir(parents=True, exist_ok=True)
     path = LOGS / f"{log}.log"
-    with path.open("w") as file:
-        file.write(f"$ {shlex.join(words)}\n")
-        file.flush()
-        if echo:
-            hear = partial(print, f"{log}: ", end="", sep="", flush=True)
-        code = _run_logged(words, file, {**os.environ, **(environment or {})}, hear, timeout)
-    if code != 0:
-        cause = f"was stopped after {timeout:.0f} s" if code == -signal.SIGKILL else f"failed with exit code {code}"
-        tail = "" if echo else _tail(path)
-        raise Failure(f"this {cause} (log: {path}):\n  {shlex.join(words)}{tail}")
-
-
-def _run_logged(
-    words: list[str],
-    file: TextIO,
-    environment: dict[str, str],
-    hear: Callable[[str], None] | None,
-    timeout: float,
-) -> int:
+    if echo:
+        hear = partial(print, f"{log}: ", end="", sep="", flush=True)
     try:
-        process = subprocess.Popen(
-            words,
-            cwd=TOP,
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors="replace",
-            start_new_session=True,
-        )
+        with path.open("w") as file:
+            file.write(f"$ {shlex.join(words)}\n")
+            code = run_for(timeout, words, TOP, {**os.environ, **(environment or {})}, _both(file.write, hear))
     except OSError as error:
         raise Failure(f"cannot run {words[0]}: {error.strerror}") from error
-    timer = threading.Timer(timeout, _kill, [process])
-    timer.start()
-    try:
-        assert process.stdout
-        for line in process.stdout:
-            file.write(line)
-            if hear:
-                hear(line)
-        return process.wait()
-    finally:
-        timer.cancel()
-        if process.poll() is None:
-            _kill(process)
+    except OutOfTime:
+        cause = f"was stopped after {timeout:.0f} s, with all that it started"
+    else:
+        cause = f"failed with exit code {code}" if code else ""
+    if cause:
+        raise Failure(f"this {cause} (log: {path}):\n  {shlex.join(words)}{'' if echo else _tail(path)}")
 
 
-def _kill(process: subprocess.Popen[str]) -> None:
-    # The whole session: a program's children hold its output open, and would be waited for.
-    os.killpg(process.pid, signal.SIGKILL)
+def _both(write: Callable[[str], object], hear: Callable[[str], None] | None) -> Callable[[str], None]:
+    def tell(line: str) -> None:
+        write(line)
+        if hear:
+            hear(line)
+
+    return tell
 
 
 def _tail(path: Path) -> str:

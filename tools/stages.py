@@ -6,23 +6,23 @@ from __future__ import annotations
 import os
 import re
 import shlex
-import subprocess
 import time
-import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from enum import Enum
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 from tools import blender, compiling, environments, fuzzing, machine, packages, style, windows
 from tools.compiling import compile_preset, installed_core
+from tools.counts import Counts, read_report
 from tools.environments import BPY_PYTHON, HOST
-from tools.paths import LOGS, TOP
+from tools.paths import BUILD, LOGS, TOP
 from tools.platforms import LINUX, TESTED_PLATFORMS, WINDOWS, Platform
 from tools.shell import Failure, run, say
 
 _BLENDER_TESTS = TOP / "tests" / "blender"
-_NOT_MEASURED = ("-m", "not measures")  # of pytest; the marker is in pyproject.toml
+_NOT_MEASURED = ("-m", "not measures")
 # Install, register, import, build, drive, bake: whether the add-on runs, where Windows' 4.5 runs all of its tests.
 _SHORT = (
     "blender/test_register.py",
@@ -34,7 +34,8 @@ _SHORT = (
 )
 _THREADED_TESTS = "Thread|ParallelFor|Crowd"
 # Whole characters made again and again for their figures, an hour's takes: what these call, others call as well.
-_NOT_SANITIZED = (
+# Neither under sanitizers nor among the quick ones.
+_THOROUGH = (
     "Build.GivesTheSameBitsForAnyNumberOfThreads",
     "Build.GivesTheSameBitsWhereASkeletonHasOneLeg",
     "Build.HasClassesForHopsOnTheSpotAndAhead",
@@ -42,6 +43,7 @@ _NOT_SANITIZED = (
     "Build.IsTheSameCharacterTenTimesAsLarge",
     "Build.MirrorsAndSynthesizesOnlyWhenAsked",
     "Build.NamesItsPolicyAndFillsTheTableWithClasses",
+    "Build.RepairsItsTablesForGood",
     "Build.TellsItsProgressInOrder",
     "Build.TheFirstPolicyAskedForDrives",
     "Bvh.BandaiNamcoStandsUprightOnTheGround",
@@ -88,17 +90,15 @@ class Skipped(Exception):
     """Why a stage cannot run on this machine."""
 
 
-@dataclass(frozen=True)
-class Counts:
-    """Numbers of tests."""
+class Part(Enum):
+    """Which tests of a stage run."""
 
-    passed: int = 0
-    failed: int = 0
-    skipped: int = 0
+    ALL = "all"
+    QUICK = "quick"
+    THOROUGH = "thorough"
 
-    def __add__(self, other: Counts) -> Counts:
-        """Both together."""
-        return Counts(self.passed + other.passed, self.failed + other.failed, self.skipped + other.skipped)
+
+_MARKS = {Part.QUICK: "not thorough", Part.THOROUGH: "thorough"}  # of pytest; the markers are in pyproject.toml
 
 
 def style_checks(expression: str | None) -> Counts:
@@ -117,10 +117,13 @@ def tidy(expression: str | None) -> Counts:
     return Counts(passed, len(failures))
 
 
-def cpp(expression: str | None) -> Counts:
+def cpp(expression: str | None, part: Part = Part.ALL) -> Counts:
     """GoogleTest, and through ctest what games link; `expression` is a regular expression here."""
     folder = compile_preset("release")
-    return _googletest("cpp", folder, expression) + _runtime_alone(folder, expression)
+    if part is Part.THOROUGH:
+        return _googletest("cpp", folder, expression, wanted=_THOROUGH)
+    left_out = _THOROUGH if part is Part.QUICK else ()
+    return _googletest("cpp", folder, expression, left_out) + _runtime_alone(folder, expression)
 
 
 def _runtime_alone(folder: Path, expression: str | None) -> Counts:
@@ -132,7 +135,7 @@ def _runtime_alone(folder: Path, expression: str | None) -> Counts:
 
 def sanitize(expression: str | None) -> Counts:
     """The tests of cpp under the address and undefined-behaviour sanitizers; `expression` as there."""
-    return _googletest("sanitize", compile_preset("sanitize", "fragmotion_tests"), expression, _NOT_SANITIZED)
+    return _googletest("sanitize", compile_preset("sanitize", "fragmotion_tests"), expression, _THOROUGH)
 
 
 def threads(expression: str | None) -> Counts:
@@ -148,10 +151,10 @@ def fuzz(expression: str | None) -> Counts:
     return Counts(len(names) - len(result.findings), len(result.findings))
 
 
-def python(expression: str | None) -> Counts:
+def python(expression: str | None, part: Part = Part.ALL) -> Counts:
     """The binding's tests, with the core that this machine's compiler builds for the Python that runs this."""
-    core = installed_core(HOST, packages.wheel(HOST))
-    return _pytest("python", HOST, TOP / "tests" / "python", {"PYTHONPATH": str(core)}, expression)
+    core = {"PYTHONPATH": str(installed_core(HOST, packages.wheel(HOST)))}
+    return _pytest("python", HOST, TOP / "tests" / "python", core, expression, _marked(part))
 
 
 def package(expression: str | None) -> Counts:
@@ -190,14 +193,21 @@ def blender_52(expression: str | None) -> Counts:
     return _pytest("blender-5.2", "3.13", _BLENDER_TESTS, _extension("blender-5.2"), expression, _NOT_MEASURED)
 
 
-def blender_debian(expression: str | None) -> Counts:
-    """The add-on's tests in Debian's Blender (3.4.1 on Debian 12, 4.3 on 13), with pytest inside it."""
-    arguments = [
-        machine.PYTEST_FOLDER,
-        *_pytest_arguments("blender-debian", expression, _BLENDER_TESTS, *_NOT_MEASURED),
-    ]
+def blender_debian(expression: str | None, part: Part = Part.ALL) -> Counts:
+    """The add-on's tests in Debian's Blender (3.4.1 on Debian 12, 4.3 on 13), with pytest inside it; the quick ones
+    with a zip whose core this machine's compiler built."""
+    is_quick = part is Part.QUICK
+    package = packages.build_for_debian(BUILD / "packages-quick") if is_quick else packages.debian_zip()
+    options = _marked(part, "not measures")
+    arguments = [machine.PYTEST_FOLDER, *_pytest_arguments("blender-debian", expression, _BLENDER_TESTS, *options)]
     command = blender.background_command(_BLENDER_TESTS / "run_in_blender.py", *arguments)
-    return _counted(command, "blender-debian", _debian("blender-debian"), expression)
+    return _counted(command, "blender-debian", _debian("blender-debian", package), expression)
+
+
+def _marked(part: Part, *more: str) -> tuple[str, ...]:
+    """pytest's options for a part of the tests that `more` marks select."""
+    marks = " and ".join((*more, *filter(None, [_MARKS.get(part)])))
+    return ("-m", marks) if marks else ()
 
 
 def windows_python(expression: str | None) -> Counts:
@@ -210,7 +220,7 @@ def windows_python(expression: str | None) -> Counts:
 def _same_bits(windows_path: str, expression: str | None) -> Counts:
     core = compiling.unpacked_core(packages.wheels_for(LINUX)[BPY_PYTHON], LINUX)
     environment = {
-        **windows.environment(),
+        **windows.environment("windows"),
         "PYTHONPATH": os.pathsep.join((str(core), str(TOP / "tests" / "python"))),
         "FRAGMOTION_WINDOWS_PYTHON": shlex.join(str(word) for word in windows.python_command(BPY_PYTHON)),
         "FRAGMOTION_WINDOWS_PATH": windows_path,
@@ -244,14 +254,14 @@ def _windows(
         "pytest",
         *_pytest_arguments(stage, expression, *_NOT_MEASURED, *folders),
     ]
-    return _counted(command, stage, {**windows.environment(), **environment}, expression)
+    return _counted(command, stage, {**windows.environment(stage), **environment}, expression)
 
 
 def gui(expression: str | None) -> Counts:
     """Window tests: pytest on a screen of its own; the tests start Blender's windows themselves."""
     if not gui_tests():
         raise Skipped("tests/gui holds no test yet")
-    environment = {**_debian("gui"), "LIBGL_ALWAYS_SOFTWARE": "1"}
+    environment = {**_debian("gui", packages.debian_zip()), "LIBGL_ALWAYS_SOFTWARE": "1"}
     screen = ("xvfb-run", "--auto-servernum", "--server-args", "-screen 0 1600x900x24")
     arguments = _pytest_arguments("gui", expression, TOP / "tests" / "gui")
     command = [*screen, environments.environment_python(HOST), "-m", "pytest", *arguments]
@@ -263,11 +273,15 @@ def gui_tests() -> list[Path]:
     return list((TOP / "tests" / "gui").glob("test_*.py"))
 
 
-def _googletest(stage: str, folder: Path, expression: str | None, left_out: tuple[str, ...] = ()) -> Counts:
+def _googletest(
+    stage: str, folder: Path, expression: str | None, left_out: tuple[str, ...] = (), wanted: tuple[str, ...] = ("*",)
+) -> Counts:
     """The C++ tests in one process a processor, since they take long to build the characters that they share."""
     program = folder / "fragmotion_tests"
-    wanted = (":".join(_tests_that_match(program, expression)) or "none") if expression else "*"
-    selection = f"--gtest_filter={wanted}-{':'.join(left_out)}"
+    if expression:
+        matching = _tests_that_match(program, expression)
+        wanted = tuple(name for name in matching if any(fnmatchcase(name, pattern) for pattern in wanted)) or ("none",)
+    selection = f"--gtest_filter={':'.join(wanted)}-{':'.join(left_out)}"
     shards = os.cpu_count() or 1
 
     def run_shard(shard: int) -> Counts:
@@ -281,9 +295,10 @@ def _googletest(stage: str, folder: Path, expression: str | None, left_out: tupl
 
 
 def _tests_that_match(program: Path, expression: str) -> list[str]:
-    answer = subprocess.run([program, "--gtest_list_tests"], capture_output=True, text=True, check=True, cwd=TOP)
+    lines: list[str] = []
+    run([program, "--gtest_list_tests"], "cpp-names", hear=lines.append, timeout=60.0)
     suite, names = "", []
-    for line in answer.stdout.splitlines():
+    for line in lines:
         word = line.split("#")[0].strip()
         if line.startswith(" "):
             names.append(suite + word)
@@ -296,8 +311,8 @@ def _extension(sandbox: str) -> dict[str, str]:
     return {**blender.sandbox(sandbox), "FRAGMOTION_ADDON_ZIP": str(packages.extension_path(LINUX))}
 
 
-def _debian(sandbox: str) -> dict[str, str]:
-    return {**blender.debian_environment(sandbox), "FRAGMOTION_ADDON_ZIP": str(packages.debian_zip())}
+def _debian(sandbox: str, package: Path) -> dict[str, str]:
+    return {**blender.debian_environment(sandbox), "FRAGMOTION_ADDON_ZIP": str(package)}
 
 
 def _pytest(
@@ -331,20 +346,9 @@ def _counted(command: list[str | Path], stage: str, environment: Mapping[str, st
         run(command, stage, environment, echo=True)
     except Failure as raised:
         failure = raised
-    counts = _read_report(LOGS / f"{stage}.xml")
+    counts = read_report(LOGS / f"{stage}.xml")
     if failure and not counts.failed and not (expression and counts == Counts()):
         raise failure
     if counts.passed + counts.failed == 0 and not expression:
         raise Failure("no test ran")
     return counts
-
-
-def _read_report(report: Path) -> Counts:
-    if not report.exists():
-        return Counts()
-    suites = list(ElementTree.parse(report).getroot().iter("testsuite"))
-    total, failures, errors, skipped = (
-        sum(int(suite.get(name, 0)) for suite in suites) for name in ("tests", "failures", "errors", "skipped")
-    )
-    disabled = sum(int(suite.get("disabled", 0)) for suite in suites)
-    return Counts(total - failures - errors - skipped - disabled, failures + errors, skipped + disabled)

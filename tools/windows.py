@@ -45,7 +45,7 @@ def ensure(version: str) -> None:
             maven.ensure_windows_python(version, _python(version))
             environments.install_for_windows(packages, version, requirements)
             (packages / "wine.pth").write_text(f"{path(_START)}\n")
-            run([*python_command(version), "-c", "import bpy"], f"wine-{version}", environment())
+            run([*python_command(version), "-c", "import bpy"], f"wine-{version}", environment("set-up"), timeout=300.0)
 
 
 def _python(version: str) -> Path:
@@ -53,17 +53,18 @@ def _python(version: str) -> Path:
 
 
 def python_command(version: str) -> list[str | Path]:
-    """What runs Windows' Python of a version; to be followed by its arguments, and run in `environment()`."""
+    """What runs Windows' Python of a version; to be followed by its arguments, and run in an `environment`."""
     loader = next((path for path in _LOADERS if Path(path).exists()), None) or shutil.which("wine")
     if not loader:
         raise Failure("wine64 is installed, but none of its programs is where Debian puts them")
     return [loader, _python(version) / "python.exe"]
 
 
-def environment() -> dict[str, str]:
-    """Environment variables that keep Wine's Windows in build/windows, and quiet."""
+def environment(name: str) -> dict[str, str]:
+    """Environment variables that give a stage a Windows of its own in build/windows, whose server ends with it, and
+    keep Wine quiet."""
     return {
-        "WINEPREFIX": str(_FOLDER / "prefix"),
+        "WINEPREFIX": str(_FOLDER / f"prefix-{name}"),
         "WINEDEBUG": "-all",
         "WINEDLLOVERRIDES": "mscoree,mshtml=",
         # Wine's XInput has a thread that goes on when SDL unloads it.

@@ -33,6 +33,8 @@ if sys.platform != "linux":
         "test_packages.py",
         "test_pin_figures.py",
         "test_retarget_command.py",
+        "test_running.py",
+        "test_testing.py",
     ]
 
 MOCAP = Path(__file__).resolve().parents[3] / "shared" / "mocap"

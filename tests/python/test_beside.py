@@ -183,6 +183,7 @@ def result(made: Setting) -> dict[str, Any]:
         return json.loads(json.dumps(comparing.compare(made, load(), 1, seconds=6), allow_nan=False))  # type: ignore[no-any-return]
 
 
+@pytest.mark.thorough
 def test_every_row_of_every_system_is_filled(result: dict[str, Any]) -> None:
     table = beside_table(result)
     names = [row.name for row in ROWS if "limited" not in row.name]
@@ -195,6 +196,7 @@ def test_every_row_of_every_system_is_filled(result: dict[str, Any]) -> None:
     assert result["takes"]["unlikeness"] == 1 and result["takes"]["foot_skate_ratio"] == pytest.approx(1)
 
 
+@pytest.mark.thorough
 def test_tuning_keeps_the_best(made: Setting, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tuning, "_SECONDS", 4.0)
     monkeypatch.setattr(tuning, "_PLAYERS", ("walker",))

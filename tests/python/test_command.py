@@ -116,6 +116,13 @@ def test_a_trace_plays_its_moves_and_styles(folder: Path, styled: Path, tmp_path
     assert run(*words, "--bvh", tmp_path / "none.bvh") == 1 and not (tmp_path / "none.bvh").exists()
 
 
+@pytest.mark.parametrize("seed", ["-1", str(2**64), "one"])
+def test_what_is_no_seed_is_told(folder: Path, capsys: pytest.CaptureFixture[str], seed: str) -> None:
+    with pytest.raises(SystemExit):
+        run("evaluate", folder / "hero.policy", "--player", "walker", "--seed", seed)
+    assert f"argument --seed: '{seed}' is no seed: it must be a whole number from 0 to" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

@@ -68,6 +68,7 @@ def test_goals_are_met_on_curves_and_corners(made: core.Character) -> None:
             assert row["arrival_m"] <= MOST_FROM_END and abs(row["arrival_s"]) <= MOST_FROM_TIME, row
 
 
+@pytest.mark.thorough
 def test_figures_have_the_fields_that_were_agreed(made: core.Character, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tools.directing.__main__.courses", lambda _seed: courses(1)[:1])
     result = measure(made, [], 1)
@@ -77,6 +78,7 @@ def test_figures_have_the_fields_that_were_agreed(made: core.Character, monkeypa
     assert {"name", "depth_m", "skate_ratio", "hips_ratio"} <= set(result["ground"][0])
 
 
+@pytest.mark.thorough
 def test_the_command_prints_a_table_and_saves_the_figures(
     folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

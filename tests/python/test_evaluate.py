@@ -22,6 +22,7 @@ pytest_plugins = ["evaluated"]
 NAMED = ("greedy", "svm", "iterate", "anticipate", "optimal")
 
 
+@pytest.mark.thorough
 def test_the_json_file_is_laid_out_as_documented(run: Run) -> None:
     result = run.result
     assert tuple(result["controllers"]) == NAMED and result["default"] == "anticipate"
@@ -39,6 +40,7 @@ def test_the_json_file_is_laid_out_as_documented(run: Run) -> None:
     assert set(result["adaptability"]) == set(NAMED[:-1])
 
 
+@pytest.mark.thorough
 def test_sessions_are_described(run: Run) -> None:
     for kind in ("train", "test"):
         for name, described in run.result["sessions"][kind].items():
@@ -49,6 +51,7 @@ def test_sessions_are_described(run: Run) -> None:
             assert described["changes_a_second"] == pytest.approx(changes / 60)
 
 
+@pytest.mark.thorough
 def test_optimal_is_100_and_has_no_run_time(run: Run) -> None:
     optimal = run.result["controllers"]["optimal"]
     assert set(optimal["percent_of_optimal"]["by_trace"].values()) == {100.0}
@@ -57,6 +60,7 @@ def test_optimal_is_100_and_has_no_run_time(run: Run) -> None:
     assert set(figures.values()) == {None}
 
 
+@pytest.mark.thorough
 def test_percents_after_any_session_are_the_cores(run: Run, built: core.Character) -> None:
     factors = (built.smoothness, built.match)
     matrix = run.result["adaptability"]["anticipate"]["matrix"]
@@ -67,6 +71,7 @@ def test_percents_after_any_session_are_the_cores(run: Run, built: core.Characte
             assert percent == pytest.approx(core.percent_of_optimal(*factors, table, control), rel=1e-12)
 
 
+@pytest.mark.thorough
 def test_the_bound_is_value_iteration_that_counted_the_test(run: Run, built: core.Character) -> None:
     factors = (built.smoothness, built.match)
     for test, percent in run.result["bound"].items():
@@ -75,6 +80,7 @@ def test_the_bound_is_value_iteration_that_counted_the_test(run: Run, built: cor
         assert percent == pytest.approx(core.percent_of_optimal(*factors, table, control), rel=1e-12)
 
 
+@pytest.mark.thorough
 def test_means_are_over_pairs_of_different_players(run: Run) -> None:
     names = run.result["train"], run.result["test"]
     different = np.array(names[0])[:, None] != np.array(names[1])
@@ -88,6 +94,7 @@ def test_means_are_over_pairs_of_different_players(run: Run) -> None:
             assert percents["by_trace"][test] == pytest.approx(matrix[different[:, i], i].mean())
 
 
+@pytest.mark.thorough
 def test_a_quick_run_has_the_same_figures(run: Run, takes: Path, tmp_path: Path, capsys: Any) -> None:
     saved = run.folder / "figures" / "traces"
     train = [saved / "train" / f"{name}.csv" for name in run.result["train"]]
@@ -107,6 +114,7 @@ def without_costs(value: Any) -> Any:
     return value
 
 
+@pytest.mark.thorough
 def test_a_run_is_repeated_by_its_traces(run: Run, takes: Path, tmp_path: Path) -> None:
     saved = run.folder / "figures" / "traces"
     train = [saved / "train" / f"{name}.csv" for name in run.result["train"]]
@@ -115,6 +123,7 @@ def test_a_run_is_repeated_by_its_traces(run: Run, takes: Path, tmp_path: Path) 
     assert without_costs(again.result) == without_costs(run.result)
 
 
+@pytest.mark.thorough
 def test_pictures_are_drawn_and_small(run: Run) -> None:
     pictures = {path.stem: path.stat().st_size for path in (run.folder / "figures").glob("*.png")}
     assert set(pictures) == {"traces", "adaptability", "run-time", "coverage"}

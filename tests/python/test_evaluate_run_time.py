@@ -23,6 +23,7 @@ from tools.evaluate.report import (
 pytest_plugins = ["evaluated"]
 
 
+@pytest.mark.thorough
 def test_ways_to_play_are_measured_beside_the_takes(run: Run, built: core.Character) -> None:
     found = run.result["stitchings"]
     takes = core.MotionMetrics(built).takes
@@ -41,6 +42,7 @@ def test_ways_to_play_are_measured_beside_the_takes(run: Run, built: core.Charac
     assert found["responsiveness 1"]["response_p95_s"] <= found["responsiveness 0"]["response_p95_s"]
 
 
+@pytest.mark.thorough
 def test_run_time_is_the_players(run: Run, built: core.Character) -> None:
     traces = [trace(run, "test", test) for test in run.result["test"]]
     played = [[core.Player(built, SEED + i, policy="iterate").run(t, 60) for i in range(3)] for t in traces]
@@ -68,6 +70,7 @@ def test_run_time_is_the_players(run: Run, built: core.Character) -> None:
     assert figures["beyond_limits_degrees"] == pytest.approx(np.degrees(max(m.turns.worst for m in measured)))
 
 
+@pytest.mark.thorough
 def test_every_figure_of_the_run_time_is_shown(run: Run) -> None:
     for table, figures in (
         (run_time_table(run.result), run_time.FIGURES),
@@ -80,6 +83,7 @@ def test_every_figure_of_the_run_time_is_shown(run: Run) -> None:
         assert table.rows and all(len(row) == len(table.header) for row in table.rows)
 
 
+@pytest.mark.thorough
 def test_response_beyond_physics_is_what_a_body_does_not_need(built: core.Character) -> None:
     space, found = built.space, run_time.responses(built, [3])
     velocities = [space.points[i][:2] for i in range(0, 102, 6)]
@@ -89,6 +93,7 @@ def test_response_beyond_physics_is_what_a_body_does_not_need(built: core.Charac
     assert found["response_p50_s"] > found["response_beyond_physics_p50_s"]
 
 
+@pytest.mark.thorough
 def test_accelerations_are_second_differences(built: core.Character) -> None:
     performance = core.Player(built, 1).run(core.simulate_trace("walker", 20, 3, built.space), 60)
     path = built.space.scale * performance.root_positions[:, :2]
@@ -116,6 +121,7 @@ def turned(vectors: Any, angles: Any) -> Any:
     return np.stack([c * vectors[:, 0] - s * vectors[:, 1], s * vectors[:, 0] + c * vectors[:, 1]], 1)
 
 
+@pytest.mark.thorough
 def test_what_is_followed_is_what_a_body_can_do(built: core.Character) -> None:
     """NumPy's limited command, and the path to which it leads, beside the core's."""
     space, rate = built.space, 60
@@ -148,6 +154,7 @@ def test_what_is_followed_is_what_a_body_can_do(built: core.Character) -> None:
         assert drift_heading == pytest.approx(np.abs(off[span:] - off[:-span]).mean(), rel=1e-6)
 
 
+@pytest.mark.thorough
 def test_weight_is_that_of_the_performances(run: Run, built: core.Character) -> None:
     traces = [trace(run, "test", test) for test in run.result["test"]]
     played = [core.Player(built, SEED + i, policy="iterate").run(t, 60) for t in traces for i in range(3)]
@@ -167,6 +174,7 @@ def test_weight_is_that_of_the_performances(run: Run, built: core.Character) -> 
     assert figures["drift_heading"] == pytest.approx(np.degrees(np.mean([p.drift_heading for p in played])))
 
 
+@pytest.mark.thorough
 def test_dips_are_beside_the_takes_where_these_jump(run: Run) -> None:
     """The made takes do not."""
     figures, takes = run.result["controllers"]["anticipate"]["run_time"], run.result["takes"]
@@ -176,6 +184,7 @@ def test_dips_are_beside_the_takes_where_these_jump(run: Run) -> None:
     assert weight.ratio(0.3, 0.6) == 0.5 and weight.ratio(0.3, 0) is None and weight.ratio(None, 1.0) is None
 
 
+@pytest.mark.thorough
 def test_trials_are_the_players(run: Run, built: core.Character) -> None:
     seeds = [SEED, SEED + 1, SEED + 2]
     figures = run.result["controllers"]["greedy"]["run_time"]

@@ -41,6 +41,7 @@ def test_svm_reaches_80_percent_of_optimal_on_traces_it_has_not_seen(bandai: Ban
     assert min(reached.values()) >= 65
 
 
+@pytest.mark.thorough
 def test_build_is_the_same_for_one_thread(bandai: Bandai) -> None:
     traces = [core.simulate_trace("explorer", 60, 1)]
     options = build_options(policies=["anticipate", "iterate", "svm", "greedy"], threads=1)

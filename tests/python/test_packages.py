@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from tools import environments, machine, packages, platforms, shell, wheels
+import dev
+from tools import environments, machine, packages, platforms, shell, stages, wheels
 from tools.shell import Failure
 
 
@@ -59,6 +60,29 @@ def test_a_module_is_packed_as_a_wheel_of_its_python_and_platform(tmp_path: Path
 def test_an_unknown_platform_is_told_with_those_there_are() -> None:
     with pytest.raises(Failure, match="no platform beos; the platforms are linux-x64, windows-x64, macos-arm64"):
         platforms.named("beos")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "made"),
+    [
+        ([], ["linux-x64", "windows-x64", "macos-arm64", "macos-x64"]),
+        (["--platform", "macos-x64"], ["macos-x64"]),
+        (["--platform", "windows-x64", "--platform", "linux-x64"], ["linux-x64", "windows-x64"]),
+    ],
+)
+def test_the_zips_of_each_platform_that_is_named_are_made(
+    monkeypatch: pytest.MonkeyPatch, arguments: list[str], made: list[str]
+) -> None:
+    seen: list[str] = []
+
+    def make(chosen: tuple[platforms.Platform, ...]) -> stages.Counts:
+        seen.extend(platform.name for platform in chosen)
+        return stages.Counts(passed=1)
+
+    monkeypatch.setattr(machine, "set_up", lambda needs: None)
+    monkeypatch.setattr(stages, "packages_of", make)
+    assert dev.main(["package", *arguments]) == 0
+    assert seen == made
 
 
 def test_needs_are_joined_without_repeats() -> None:

@@ -13,6 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from tools.directing.pins import pins
 
 
+@pytest.mark.thorough
 def test_figures_of_pins_are_what_was_left(character: core.Character, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tools.directing.pins._PLAYERS", ("explorer",))
     figures, again = pins(character), pins(character)

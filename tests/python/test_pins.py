@@ -68,6 +68,7 @@ def test_changes_are_small(character: core.Character, trace: Array) -> None:
     np.testing.assert_array_equal(pin.trace[still], trace[still])
 
 
+@pytest.mark.thorough
 def test_a_pin_is_the_same_on_any_number_of_threads(character: core.Character, trace: Array) -> None:
     target = frames_of(character, trace, np.zeros(3))[480] + (0.3, 0.1, 0.1)
     for begin in (0.0, 4.0):

@@ -41,11 +41,13 @@ def result(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     return found
 
 
+@pytest.mark.thorough
 def test_roles_are_the_targets(result: dict[str, Any]) -> None:
     assert result["roles"]["hips"] == "root"
     assert result["roles"]["left_shin"] == "ltibia"
 
 
+@pytest.mark.thorough
 def test_every_take_has_its_figures(result: dict[str, Any]) -> None:
     assert [Path(take["path"]).name for take in result["takes"]] == ["dataset-1_walk_normal_001.bvh", "02_04.amc"]
     for take in result["takes"]:
@@ -56,6 +58,7 @@ def test_every_take_has_its_figures(result: dict[str, Any]) -> None:
         assert take["findings"] == []
 
 
+@pytest.mark.thorough
 def test_the_character_has_its_figures(result: dict[str, Any]) -> None:
     character = result["character"]
     assert set(character) == {"fragments", "percent_of_optimal", "velocity_error", "foot_skate_ratio"}
@@ -70,6 +73,7 @@ WRITERS = {
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("ending", WRITERS)
 def test_rigs_of_the_formats_that_blender_reads_are_targets(ending: str, tmp_path: Path) -> None:
     """In processes of their own: bpy is no neighbour for other tests."""

@@ -165,6 +165,7 @@ def skeleton_of(bones: Bones, names: dict[str, str]) -> core.Skeleton:
     return core.Skeleton(list(names.values()), parents, still, offsets, tips)
 
 
+@pytest.mark.thorough
 def test_fifty_bodies_renamed_and_hung_anew_are_told_right_or_not_at_all() -> None:
     right, roles = 0, 0
     for seed in range(50):

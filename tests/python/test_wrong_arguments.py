@@ -8,10 +8,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 HERE = Path(__file__).resolve().parent
 SECONDS = 600  # for some seconds' work, also under a sanitizer on a busy machine
 
 
+@pytest.mark.thorough
 def test_wrong_arguments_are_exceptions_or_sane_results(tmp_path: Path) -> None:
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([*sys.path, str(HERE)]), "PYTHONWARNINGS": "ignore"}
     command = [sys.executable, "-X", "faulthandler", str(HERE / "wrong_arguments.py"), str(tmp_path)]
