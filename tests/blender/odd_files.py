@@ -15,11 +15,11 @@ def make_link(path: Path, target: Path | str) -> None:
     with suppress(OSError):
         path.symlink_to(target)
     if not path.is_symlink():
-        pytest.skip("no symbolic link can be made here")
+        pytest.skip("Windows makes no symbolic link here")
 
 
 def make_pipe(path: Path) -> None:
     """A named pipe; skips the test where there is none among the files."""
     if not hasattr(os, "mkfifo"):
-        pytest.skip("this system has no pipes among its files")
+        pytest.skip("Windows has no pipes among its files")
     os.mkfifo(path)

@@ -18,7 +18,9 @@ SCRIPT = Path(__file__).with_name("live_an_extension.py")
 
 # Blender 4.3 does not tell: it is a program here.
 IS_MODULE = getattr(bpy.app, "module", False)
-pytestmark = pytest.mark.skipif(not IS_MODULE, reason="installs extensions in a Python that has bpy as a module")
+pytestmark = pytest.mark.skipif(
+    not IS_MODULE, reason="this Blender is a program: extensions are installed where bpy is a module"
+)
 
 
 @pytest.fixture(scope="module")

@@ -56,7 +56,7 @@ def test_a_files_name_may_be_any_text(tmp_path: Path, character: core.Character)
     assert core.Character.load(path.with_suffix(".policy")).to_bytes() == character.to_bytes()
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="file names are text on Windows, not bytes")
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has text for the names of files, not bytes")
 def test_a_files_name_may_be_any_bytes(tmp_path: Path) -> None:
     path = os.fsencode(tmp_path / "tanz") + b"\xe9.bvh"
     Path(os.fsdecode(path)).write_bytes(bvh_of("utf-8"))

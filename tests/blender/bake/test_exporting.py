@@ -70,7 +70,7 @@ def test_by_fbx(baked: bpy.types.Object, tmp_path: Path, importer: tuple[str, st
     np.testing.assert_allclose(back.scale, 1, atol=1e-6)
 
 
-@pytest.mark.skipif(bpy.app.version < (3, 5, 0), reason="Blender 3.4's BVH importer fails on Python 3.11")
+@pytest.mark.skipif(bpy.app.version < (3, 5, 0), reason="this Blender's BVH importer fails on Python 3.11")
 def test_by_bvh(obj: bpy.types.Object, recording: Any, tmp_path: Path) -> None:
     """Of the armature's own space: a BVH file has no object, and Blender's has z up."""
     assert bpy.ops.fragmotion.bake(frame_start=1, trace_source="RECORDING", root="BONE") == {"FINISHED"}

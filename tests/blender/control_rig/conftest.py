@@ -22,7 +22,7 @@ RIGS = [pytest.param("rigify", marks=pytest.mark.thorough), "FK", "IK"]
 def rigify_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A file with the rig that Rigify generates from its human meta-rig."""
     if sys.platform == "win32":
-        pytest.skip("Rigify and what binds its rig are the same Python there")
+        pytest.skip("Windows: Rigify and what binds its rig are the same Python there")
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     rig = layouts.rigify_human()
     making.activate(rig)

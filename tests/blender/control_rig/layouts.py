@@ -48,7 +48,7 @@ def rigify_human() -> bpy.types.Object:
     try:
         bpy.ops.preferences.addon_enable(module="rigify")
     except RuntimeError as error:
-        pytest.skip(f"no Rigify in this Blender: {error}")
+        pytest.skip(f"this Blender has no Rigify: {error}")
     bpy.ops.object.armature_human_metarig_add()
     metarig = bpy.context.object
     assert bpy.ops.pose.rigify_generate() == {"FINISHED"}

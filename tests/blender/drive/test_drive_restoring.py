@@ -62,7 +62,7 @@ def test_an_armature_without_animation_stays_without(session: ModuleType) -> Non
     assert everything(obj) == before and obj.animation_data is None
 
 
-@pytest.mark.skipif(bpy.app.version < (4, 4, 0), reason="there are slots from 4.4")
+@pytest.mark.skipif(bpy.app.version < (4, 4, 0), reason="this Blender has no slots, which came with 4.4")
 def test_an_action_that_plays_no_slot_plays_none_afterwards(session: ModuleType) -> None:
     obj = making.add_armature()
     making.add_action(obj)

@@ -85,7 +85,7 @@ def test_a_character_of_all_takes_is_built_and_baked(addon: ModuleType, imported
 
 @pytest.mark.skipif(
     bpy.app.version < (4, 2, 0) or bpy.app.version >= (5, 0, 0),
-    reason="compared with the BVH importer of Blender 4.5 (3.4.1's fails on Python 3.11)",
+    reason="this Blender's BVH importer is not that of 4.5 (3.4.1's fails on Python 3.11)",
 )
 def test_takes_move_as_with_blenders_own_importer(imported: Path) -> None:
     bpy.ops.wm.open_mainfile(filepath=str(imported))
