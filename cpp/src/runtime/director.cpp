@@ -73,22 +73,22 @@ int Director::look_up_class(int playing, const Control& wanted) const {
   return (*policy_)(playing, space.nearest(asked));
 }
 
-int Director::bridge_to(int next_class) const {
-  return character_->bridges[static_cast<std::size_t>(class_) * character_->classes.count + next_class];
+int Director::bridge_between(int previous, int next) const {
+  return character_->bridges[static_cast<std::size_t>(previous) * character_->classes.count + next];
 }
 
 bool Director::is_planned(const Control& wanted) const {
   return exit_.next_class >= 0 && character_->space.distance(wanted, planned_for_) < kSame;
 }
 
-int Director::next_class(const Control& control) {
+int Director::next_class(const Control& control, const Playback& playback, const FragmentSelector& selector) {
   const Control wanted = this->wanted(control);
   const int waiting = std::exchange(waiting_, -1);
   int next = waiting;
   if (waiting < 0 || has_changed(wanted)) {
     decided_for_ = wanted;
-    next = is_planned(wanted) ? exit_.next_class : look_up_class(class_, wanted);
-    const int bridge = bridge_to(next);
+    next = (is_planned(wanted) ? exit_ : plan_exit(wanted, playback, selector)).next_class;
+    const int bridge = bridge_between(class_, next);
     // The jump, too, waits for the end of the stand-in-place fragment.
     if (bridge >= 0) return waiting_ = next, bridge;
   }
@@ -112,12 +112,13 @@ bool Director::leaves_early(const Control& wanted, const Playback& playback, con
   return playback.seconds() > exit_.seconds - kInstant;
 }
 
-// Where what plays is left in the middle of a step, the class that the table gives may begin with the wrong foot: then
-// the one that follows it is entered.
+// Where what plays is left in the middle of a step, or at the end of its take, the class that the table gives may begin
+// with the wrong foot: then the one that follows it is entered.
 Exit Director::plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector) const {
   const int next = look_up_class(class_, wanted), after = look_up_class(next, wanted);
   const Exit exit = selector.best_exit(next, wanted, playback, haste_);
-  if (after == next || wanted.jumps() || bridge_to(next) >= 0 || bridge_to(after) >= 0) return exit;
+  if (after == next || wanted.jumps() || bridge_between(class_, next) >= 0 || bridge_between(class_, after) >= 0)
+    return exit;
   const Exit skips = selector.best_exit(after, wanted, playback, haste_);
   return skips.cost + kSkips < exit.cost ? skips : exit;
 }
@@ -126,10 +127,24 @@ bool Director::is_due(const Control& control, const Playback& playback, const Fr
   return makes_way(playback) || playback.left() < kInstant || leaves_early(wanted(control), playback, selector);
 }
 
-int Director::decide(const Control& control, const Playback& playback) {
+// The end of a take is no reason to follow it: it is left now where that joins better than after its next fragment.
+int Director::continuation(const Control& control, const Playback& playback, const FragmentSelector& selector) const {
+  if (makes_way(playback) || playback.left() > kInstant) return -1;
+  const Control wanted = this->wanted(control);
+  const int next = waiting_ >= 0 && !has_changed(wanted) ? waiting_ : look_up_class(class_, wanted),
+            found = selector.continuation(playback.number(), next, wanted);
+  if (found < 0) return -1;
+  const int entered = selector.class_of(found), after = look_up_class(entered, wanted);
+  if (bridge_between(entered, after) >= 0 || !selector.goes_as_asked(after, wanted)) return -1;
+  if (selector.continuation(found, after, wanted) >= 0) return found;
+  const double later = selector.distance_after(found, after, wanted, playback.steps());
+  return later <= selector.distance_to_class(next, wanted, playback) ? found : -1;
+}
+
+int Director::decide(const Control& control, const Playback& playback, const FragmentSelector& selector) {
   plays_forced_ = makes_way(playback);
   if (plays_forced_) waiting_ = -1;
-  const int next = plays_forced_ ? std::exchange(forced_, -1) : next_class(control);
+  const int next = plays_forced_ ? std::exchange(forced_, -1) : next_class(control, playback, selector);
   previous_ = std::exchange(class_, next);
   exit_ = {};
   soonest_ = kSoonest;

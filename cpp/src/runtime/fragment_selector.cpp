@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fragmotion/fragments/entry_poses.hpp"
+#include "fragmotion/motion/pose.hpp"
 #include "fragmotion/policy/answer.hpp"
 
 namespace fragmotion {
@@ -52,6 +53,17 @@ void FragmentSelector::extrapolate(const Playback& playback) const {
   extrapolate(pose_tips(playback, playback.seconds(), now), before, now);
 }
 
+// The same, of a fragment's end in its take.
+void FragmentSelector::extrapolate_end(const Fragment& fragment) const {
+  auto& [before, now, unused] = workspace_->tips;
+  const PackedClip& clip = style_->character->pool.clips[fragment.clip];
+  double* rotations = workspace_->poses[0].rotations.data();
+  const double end = fragment.last_played();
+  before.pose(sample_pose(clip, end - kEntry * clip.rate, rotations), rotations);
+  now.pose(sample_pose(clip, end, rotations), rotations);
+  extrapolate(frame_at(clip, end), before, now);
+}
+
 float FragmentSelector::error(int fragment, const Control& control) const {
   const Character& c = *style_->character;
   const Fragment& f = c.pool.fragments[fragment];
@@ -59,9 +71,10 @@ float FragmentSelector::error(int fragment, const Control& control) const {
   return static_cast<float>(distance + kUnsteady * style_->velocity_changes[fragment] + kHurried * lacks);
 }
 
-// Finds the members that perform the control nearly as well as any of them does. Where the representative jumps, or
-// does not, as is wanted, or answers a control that asks for motion, they do so too.
-void FragmentSelector::find_candidates(int next_class, const Control& control) const {
+// Finds the members that perform the control nearly as well as any of them does; returns the error() that they may
+// have. Where the representative jumps, or does not, as is wanted, or answers a control that asks for motion, they do
+// so too.
+float FragmentSelector::find_candidates(int next_class, const Control& control) const {
   const Character& c = *style_->character;
   const int representative = c.classes.representatives[next_class];
   const Control& usually = c.pool.fragments[representative].evident;
@@ -83,6 +96,7 @@ void FragmentSelector::find_candidates(int next_class, const Control& control) c
   const float allowed = best + std::max(kAsWell * (usual - best), kNearly);
   const auto off = [&](const auto& candidate) { return candidate.first > allowed; };
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), off), candidates.end());
+  return allowed;
 }
 
 // How far the beginnings of the candidates are from how what plays would go on, and more for feet out of turn; tells
@@ -107,6 +121,27 @@ float FragmentSelector::measure_candidates(const Control& evident, const StepSeq
     least = std::min(least, distance);
   }
   return least;
+}
+
+bool FragmentSelector::goes_as_asked(const Control& evident, const Control& control) const {
+  return control.speed() * style_->character->space.scale() <= kMoving || answers(evident, control);
+}
+
+bool FragmentSelector::goes_as_asked(int of_class, const Control& control) const {
+  const Character& c = *style_->character;
+  return goes_as_asked(c.pool.fragments[c.classes.representatives[of_class]].evident, control);
+}
+
+int FragmentSelector::continuation(int fragment, int next_class, const Control& control) const {
+  const int next = style_->successors[fragment];
+  if (next < 0) return -1;
+  const Character& c = *style_->character;
+  const Quality& quality = c.quality;
+  const Control& evident = c.pool.fragments[next].evident;
+  const bool is_excluded =
+      quality.match[static_cast<std::size_t>(class_of(next)) * quality.controls + c.space.nearest(control)] == 0;
+  if (is_excluded || !matches_jump(evident, control) || !goes_as_asked(evident, control)) return -1;
+  return c.space.distance(evident, control) <= find_candidates(next_class, control) ? next : -1;
 }
 
 int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback) {
@@ -146,6 +181,19 @@ double FragmentSelector::distance_to_class(int next_class, const Control& contro
   find_candidates(next_class, control);
   extrapolate(playback);
   return measure_candidates(playback.evident(), playback.steps()) / workspace_->tips[0].reach();
+}
+
+double FragmentSelector::distance_after(int fragment, int next_class, const Control& control,
+                                        StepSequence steps) const {
+  const Character& c = *style_->character;
+  const Fragment& f = c.pool.fragments[fragment];
+  const Contacts& contacts = c.contacts[f.clip];
+  for (int frame = f.first_played(); frame < f.last_played(); ++frame) {
+    steps.advance(standing_feet(contacts, frame + 1), 1 / c.pool.clips[f.clip].rate);
+  }
+  find_candidates(next_class, control);
+  extrapolate_end(f);
+  return measure_candidates(f.evident, steps) / workspace_->tips[0].reach();
 }
 
 double FragmentSelector::distance_to(int move, const Playback& playback) const {

@@ -96,11 +96,16 @@ void Player::force(int next_class) {
   director_.force(next_class);
 }
 
-// Plays a fragment of the class that is decided on.
+// Goes on in the take that plays, or plays a fragment of the class that is decided on.
 void Player::go_on(const Control& control) {
   const Control wanted = director_.wanted(control);
-  const int next = director_.decide(control, playback_);
-  fragment_ = director_.plays_forced() ? selector_.choose_any(next) : selector_.choose(next, wanted, playback_);
+  fragment_ = director_.continuation(control, playback_, selector_);
+  if (fragment_ >= 0) {
+    director_.resume(selector_.class_of(fragment_), control);
+  } else {
+    const int next = director_.decide(control, playback_, selector_);
+    fragment_ = director_.plays_forced() ? selector_.choose_any(next) : selector_.choose(next, wanted, playback_);
+  }
   play(fragment_);
 }
 

@@ -5,6 +5,7 @@
 
 #include "fragmotion/fragments/entry_poses.hpp"
 #include "fragmotion/fragments/hips_velocity.hpp"
+#include "fragmotion/fragments/successors.hpp"
 
 namespace fragmotion {
 namespace {
@@ -37,7 +38,7 @@ Workspace::Workspace(const Character& character)
   std::size_t most = 0;
   for (int style = 0; style < character.style_count(); ++style) {
     const Character& c = character.in_style(style);
-    styles.push_back({&c, c.classes.members(), entry_steps(c), velocity_changes(c.pool)});
+    styles.push_back({&c, c.classes.members(), entry_steps(c), velocity_changes(c.pool), successors(c.pool.fragments)});
     most = std::max(most, c.pool.fragments.size());
   }
   candidates.reserve(most);

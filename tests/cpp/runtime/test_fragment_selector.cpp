@@ -5,6 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "fragmotion/build/exclude_classes.hpp"
+#include "fragmotion/fragments/successors.hpp"
+#include "fragmotion/policy/answer.hpp"
 #include "fragmotion/runtime/fragment_selector.hpp"
 #include "small_character.hpp"
 #include "split_bones.hpp"
@@ -133,6 +136,62 @@ int steps_out_of_turn_when_left(Choice& choice, bool known) {
 TEST(FragmentSelector, LeavesAFragmentWhereFeetComeDownInTurn) {
   Choice knows(1), does_not(1);
   EXPECT_LT(steps_out_of_turn_when_left(knows, true), steps_out_of_turn_when_left(does_not, false));
+}
+
+// A take is gone on with where its own next fragment performs the control nearly as well as the class would.
+TEST(FragmentSelector, GoesOnInTheTakeWhereThatPerformsTheControlNearlyAsWell) {
+  Choice choice(1);
+  const Character& c = *choice.character;
+  const std::vector<int> next = successors(c.pool.fragments);
+  int stays = 0, leaves = 0;
+  for (int fragment = 0; fragment < static_cast<int>(next.size()); fragment += 3) {
+    for (int k = 0; k < c.classes.count; ++k) {
+      const int representative = c.classes.representatives[k];
+      const Control& control = c.pool.fragments[representative].evident;
+      const int found = choice.selector.continuation(fragment, k, control);
+      (found < 0 ? leaves : stays) += 1;
+      if (found < 0) continue;
+      EXPECT_EQ(found, next[fragment]);
+      const Control& evident = c.pool.fragments[found].evident;
+      EXPECT_TRUE(matches_jump(evident, control));
+      EXPECT_TRUE(control.speed() <= kMoving || answers(evident, control));
+      EXPECT_LE(c.space.distance(evident, control),
+                choice.selector.error(representative, control) + FragmentSelector::kNearly);
+    }
+  }
+  EXPECT_GT(stays, 20);
+  EXPECT_GT(leaves, stays);
+}
+
+// What is foretold of a fragment's end is what is measured there.
+TEST(FragmentSelector, ForetellsHowAClassJoinsOnToAFragmentsEnd) {
+  Choice choice(1);
+  const Character& c = *choice.character;
+  for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 17) {
+    choice.playback.reset(fragment, {});
+    StepSequence steps = choice.playback.steps();
+    const double rate = c.pool.clips[choice.playback.fragment().clip].rate;
+    const int frames = choice.playback.fragment().last_played() - choice.playback.fragment().first_played();
+    for (int frame = 0; frame < frames; ++frame) choice.playback.advance(1 / rate);
+    for (int k = 0; k < c.classes.count; k += 5) {
+      const Control& control = c.pool.fragments[c.classes.representatives[k]].evident;
+      EXPECT_NEAR(choice.selector.distance_after(fragment, k, control, steps),
+                  choice.selector.distance_to_class(k, control, choice.playback), 1e-5);
+    }
+  }
+}
+
+TEST(FragmentSelector, GoesOnWithNoClassThatIsLeftOut) {
+  Choice whole(1);
+  const Character& c = *whole.character;
+  const std::vector<int> next = successors(c.pool.fragments);
+  const int fragment =
+      static_cast<int>(std::find_if(next.begin(), next.end(), [](int f) { return f >= 0; }) - next.begin());
+  const int entered = c.classes.labels[next[fragment]];
+  const Control& control = c.pool.fragments[next[fragment]].evident;
+  ASSERT_EQ(whole.selector.continuation(fragment, entered, control), next[fragment]);
+  Choice without(1, std::make_shared<const Character>(without_classes(c, {entered})));
+  EXPECT_EQ(without.selector.continuation(fragment, c.classes.labels[fragment], control), -1);
 }
 
 }  // namespace

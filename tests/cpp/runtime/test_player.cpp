@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "fragmotion/control/simulated_players.hpp"
 #include "fragmotion/evaluate/performance.hpp"
+#include "fragmotion/fragments/successors.hpp"
 #include "fragmotion/motion/pose.hpp"
 #include "fragmotion/runtime/player.hpp"
 #include "mocap_files.hpp"
@@ -147,6 +149,22 @@ TEST(Player, JumpsWheneverItIsAskedTo) {
       EXPECT_TRUE(jumps) << point << " seed " << seed;
     }
   }
+}
+
+// A walk that is held is mostly the actor's own.
+TEST(Player, MostlyGoesOnInTheTakeThatItPlays) {
+  const auto character = gait_character();
+  const std::vector<int> next = successors(character->pool.fragments);
+  Player player(character);
+  int stitches = 0, stays = 0, fragment = player.playing_fragment();
+  for (int i = 0, entered = player.entered(); i < 1200; ++i) {
+    player.step(kForward, 1.0 / 60);
+    if (std::exchange(entered, player.entered()) == entered) continue;
+    ++stitches;
+    stays += next[std::exchange(fragment, player.playing_fragment())] == fragment ? 1 : 0;
+  }
+  EXPECT_GT(stitches, 20);
+  EXPECT_GT(stays, stitches / 2);
 }
 
 TEST(Player, NeverHopsUnasked) {

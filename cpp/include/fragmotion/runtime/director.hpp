@@ -28,9 +28,13 @@ class Director {
 
   /// Whether a decision is due: what plays ends, is left early, or makes way for a forced class.
   bool is_due(const Control& control, const Playback& playback, const FragmentSelector& selector);
+  /// The fragment with which the take that plays goes on at its end, where it performs what is wanted as well as the
+  /// class that would be decided on does (FragmentSelector::continuation) and what follows goes on with it, too;
+  /// otherwise -1.
+  int continuation(const Control& control, const Playback& playback, const FragmentSelector& selector) const;
   /// Decides on the class that plays from now on, which it returns.
-  int decide(const Control& control, const Playback& playback);
-  /// Plays this class from now on, after what was no fragment: no decision was due.
+  int decide(const Control& control, const Playback& playback, const FragmentSelector& selector);
+  /// Plays this class from now on, without a decision.
   void resume(int next_class, const Control& control);
   /// Seconds until the next moment at which a decision may be due, at most `most`.
   double until_due(const Playback& playback, double most) const;
@@ -49,10 +53,10 @@ class Director {
   bool leaves_early(const Control& wanted, const Playback& playback, const FragmentSelector& selector);
   bool has_changed(const Control& wanted) const;
   int look_up_class(int playing, const Control& wanted) const;
-  int bridge_to(int next_class) const;
+  int bridge_between(int previous, int next) const;
   bool is_planned(const Control& wanted) const;
   Exit plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector) const;
-  int next_class(const Control& control);
+  int next_class(const Control& control, const Playback& playback, const FragmentSelector& selector);
 
   const Character* character_;
   const Policy* policy_;

@@ -28,6 +28,14 @@ class FragmentSelector {
   void reseed(std::uint64_t seed) { seed_ = seed; }
   /// What is chosen from now on is of this style.
   void change_style(int style);
+  /// The fragment with which the take of a fragment goes on, where it performs the control, by ControlDis alone, as
+  /// well as a member of the class must that is chosen; otherwise -1. Nothing is to be stitched there, and how steady
+  /// and how long it is is the actor's.
+  int continuation(int fragment, int next_class, const Control& control) const;
+  /// Whether a class answers() a control, if that asks for motion.
+  bool goes_as_asked(int of_class, const Control& control) const;
+  /// The class of a fragment.
+  int class_of(int fragment) const { return style_->character->classes.labels[fragment]; }
   /// The member to play after what plays now.
   int choose(int next_class, const Control& control, const Playback& playback);
   /// Any member.
@@ -43,6 +51,8 @@ class FragmentSelector {
   /// How badly the best member of a class joins on to what is shown, m a metre of tip_reach(), of places, speeds and
   /// steps.
   double distance_to_class(int next_class, const Control& control, const Playback& playback) const;
+  /// The same after a fragment that is played to its end, which begins after these steps.
+  double distance_after(int fragment, int next_class, const Control& control, StepSequence steps) const;
   /// How badly a move joins on to what is shown, m a metre of tip_reach(), of places and speeds.
   double distance_to(int move, const Playback& playback) const;
 
@@ -54,7 +64,9 @@ class FragmentSelector {
   CharacterFrame pose_tips(const Playback& playback, double seconds, BodyTips& tips) const;
   void extrapolate(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const;
   void extrapolate(const Playback& playback) const;
-  void find_candidates(int next_class, const Control& control) const;
+  void extrapolate_end(const Fragment& fragment) const;
+  bool goes_as_asked(const Control& evident, const Control& control) const;
+  float find_candidates(int next_class, const Control& control) const;
   float measure_candidates(const Control& evident, const StepSequence& steps) const;
 
   Workspace* workspace_;

@@ -49,6 +49,8 @@ class Playback {
   /// At which the hips go over the ground now, m/s in the character frame, without most of the sway of a step: over the
   /// fragment, that of evident_of_hips().
   Vector2 velocity_of_hips() const;
+  /// Its number, as Character::played() has it in its style.
+  int number() const { return now_.number; }
   bool plays_move() const { return now_.number >= static_cast<int>(styled(now_).pool.fragments.size()); }
   /// Of the clip that plays.
   const Contacts& contacts() const { return styled(now_).contacts[fragment().clip]; }

@@ -19,6 +19,7 @@ struct FragmentLists {
   std::vector<std::vector<int>> members;  ///< Classes::members()
   std::vector<EntrySteps> entry_steps;    ///< entry_steps()
   std::vector<double> velocity_changes;   ///< velocity_changes()
+  std::vector<int> successors;            ///< successors()
 };
 
 /// What players of one character that step in turn share: what never changes, and room to work in.
