@@ -12,23 +12,23 @@ namespace fragmotion {
 namespace {
 
 // Lengths are those of a character of 1.8 m.
-constexpr double kTooFar = 0.3;       // m from its motion at which a foot is let go,
-constexpr double kTooFarAlone = 0.5;  // and at which the only one that stands is
-constexpr double kLanding = 0.06;     // m over the floor within which a foot is planted
-constexpr double kStrained = 0.1;     // m that the hips would have to sink for a foot: from there it steps on
-constexpr double kForgets = 4;        // times kRelease, until nothing is seen of a foot that was let go
-constexpr double kSettle = 0.02;      // s: time constant of a foot that comes to rest
-constexpr double kSoftGround = 0.06;  // m: a foot sinks in at most half of that
-constexpr double kHovers = 0.015;     // m over the floor from where a planted foot is lowered,
-constexpr double kLowering = 0.05;    // s: time constant of that
-constexpr double kRaising = 0.05;     // s: time constant of a heel that rises,
-constexpr double kHighest = 0.6;      // rad, by so much at most
-constexpr double kLevel = 1e-4;       // rad, below which nothing is seen of it
-constexpr double kPatience = 0.3;     // s that both feet stand before one steps to where its motion has it
-constexpr double kAstray = 0.07;      // m from its motion at least, for a foot to step there rather than slide
-constexpr double kStepHeight = 0.04;  // m
-constexpr double kDeepest = 0.08;     // m that the hips may sink
-constexpr double kSinking = 0.1;      // s: time constant of the hips
+constexpr double kTooFar = 0.3;        // m from its motion at which a foot is let go,
+constexpr double kTooFarAlone = 0.5;   // and at which the only one that stands is
+constexpr double kLanding = 0.06;      // m over the floor within which a foot is planted
+constexpr double kStrained = 0.1;      // m that the hips would have to sink for a foot: from there it steps on
+constexpr double kForgets = 4;         // times kRelease, until nothing is seen of a foot that was let go
+constexpr double kSettle = 0.02;       // s: time constant of a foot that comes to rest
+constexpr double kSoftGround = 0.015;  // m: a foot sinks in at most half of that
+constexpr double kHovers = 0.015;      // m over the floor from where a planted foot is lowered,
+constexpr double kLowering = 0.05;     // s: time constant of that
+constexpr double kRaising = 0.05;      // s: time constant of a heel that rises,
+constexpr double kHighest = 0.6;       // rad, by so much at most
+constexpr double kLevel = 1e-4;        // rad, below which nothing is seen of it
+constexpr double kPatience = 0.3;      // s that both feet stand before one steps to where its motion has it
+constexpr double kAstray = 0.07;       // m from its motion at least, for a foot to step there rather than slide
+constexpr double kStepHeight = 0.04;   // m
+constexpr double kDeepest = 0.08;      // m that the hips may sink
+constexpr double kSinking = 0.1;       // s: time constant of the hips
 
 // The least angle, rad, by which `from_ball` must turn about `axis`, upright to it, to come within `length` of a place
 // that is `hip` from the ball; 0 where that brings it no nearer.
