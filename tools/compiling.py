@@ -68,7 +68,7 @@ def compiler_environment() -> dict[str, str]:
     return {
         "CXX": os.environ.get("CXX", "g++"),
         "CMAKE_CXX_COMPILER_LAUNCHER": "ccache",
-        "CCACHE_DIR": str(BUILD / "ccache"),
-        "CCACHE_BASEDIR": str(BUILD),
+        "CCACHE_DIR": os.environ.get("CCACHE_DIR", str(BUILD / "ccache")),  # one for several checkouts, where it is set
+        "CCACHE_BASEDIR": os.environ.get("CCACHE_BASEDIR", str(BUILD)),
         "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count() or 1),
     }
