@@ -23,6 +23,7 @@ if sys.platform != "linux":
         "test_beside.py",
         "test_directing.py",
         "test_directing_command.py",
+        "test_docs.py",
         "test_doctor_command.py",
         "test_evaluate.py",
         "test_evaluate_inputs.py",
