@@ -10,7 +10,6 @@ namespace fragmotion {
 namespace {
 
 constexpr double kEnd = 0.1;     // s
-constexpr double kAround = 0.4;  // s: most of a step
 constexpr int kMoments = 8;
 
 Vector2 velocity_between(const PackedClip& clip, double begin, double end) {
@@ -25,15 +24,16 @@ Vector2 hips_velocity(const PackedClip& clip, const Fragment& fragment) {
   return velocity_between(clip, fragment.begin, fragment.end);
 }
 
-Vector2 hips_velocity_around(const PackedClip& clip, double frame) {
-  const double half = kAround * clip.rate / 2, last = clip.frames - 1, middle = std::clamp(frame, 0.0, last);
+Vector2 hips_velocity_around(const PackedClip& clip, double frame, double seconds) {
+  const double half = seconds * clip.rate / 2, last = clip.frames - 1, middle = std::clamp(frame, 0.0, last);
   return velocity_between(clip, std::max(0.0, middle - half), std::min(last, middle + half));
 }
 
-Vector2 mean_velocity_around(const PackedClip& clip, const Fragment& fragment) {
+Vector2 mean_velocity_around(const PackedClip& clip, const Fragment& fragment, double seconds) {
   Vector2 sum = Vector2::Zero();
   for (int moment = 0; moment < kMoments; ++moment) {
-    sum += hips_velocity_around(clip, fragment.begin + (moment + 0.5) / kMoments * (fragment.end - fragment.begin));
+    const double frame = fragment.begin + (moment + 0.5) / kMoments * (fragment.end - fragment.begin);
+    sum += hips_velocity_around(clip, frame, seconds);
   }
   return sum / kMoments;
 }

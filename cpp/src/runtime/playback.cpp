@@ -33,7 +33,7 @@ void Playback::play(const Placed& placed) {
   now_ = placed;
   const Vector2 velocity = hips_velocity(clip(now_), fragment());
   evident_of_hips_ = {velocity.x(), velocity.y(), evident().turn, evident().jump};
-  beside_ends_ = velocity - mean_velocity_around(clip(now_), fragment());
+  beside_ends_ = velocity - mean_velocity_around(clip(now_), fragment(), step_seconds());
 }
 
 Playback::Placed Playback::place(int style, int number, const CharacterFrame& frame) const {
@@ -174,9 +174,15 @@ double Playback::left() const {
   return (f.last_played() - f.first_played()) / clip(now_).rate - now_.seconds;
 }
 
+double Playback::step_seconds() const {
+  return plays_move() ? kLongestStep : workspace_->styles[now_.style].step_seconds[now_.number];
+}
+
 Vector2 Playback::velocity_of_hips() const {
   const PackedClip& source = clip(now_);
-  return hips_velocity_around(source, fragment().first_played() + now_.seconds * source.rate) + beside_ends_;
+  return hips_velocity_around(source, fragment().first_played() + now_.seconds * source.rate,
+                              step_seconds()) +
+         beside_ends_;
 }
 
 Vector2 Playback::velocity() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/runtime/step_sequence.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -36,6 +37,24 @@ std::vector<EntrySteps> entry_steps(const Character& character) {
       entry.strikes[side] = until_strike(contacts.feet[side], f.first_played(), character.pool.clips[f.clip].rate);
     }
     all.push_back(entry);
+  }
+  return all;
+}
+
+std::vector<double> step_seconds(const Character& character) {
+  std::vector<double> all;
+  std::vector<std::vector<int>> strikes;
+  for (const Contacts& contacts : character.contacts) strikes.push_back(foot_strikes(contacts));
+  for (const Fragment& f : character.pool.fragments) {
+    const double rate = character.pool.clips[f.clip].rate, reach = kLongestStep * rate;
+    std::vector<double> times;
+    for (std::size_t i = 1; i < strikes[f.clip].size(); ++i) {
+      const int from = strikes[f.clip][i - 1], to = strikes[f.clip][i];
+      if (to > f.begin - reach && from < f.end + reach) times.push_back((to - from) / rate);
+    }
+    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+    std::nth_element(times.begin(), middle, times.end());
+    all.push_back(times.empty() ? kLongestStep : std::min(kLongestStep, *middle));
   }
   return all;
 }

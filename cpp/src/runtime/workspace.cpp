@@ -38,7 +38,8 @@ Workspace::Workspace(const Character& character)
   std::size_t most = 0;
   for (int style = 0; style < character.style_count(); ++style) {
     const Character& c = character.in_style(style);
-    styles.push_back({&c, c.classes.members(), entry_steps(c), velocity_changes(c.pool), successors(c.pool.fragments)});
+    styles.push_back({&c, c.classes.members(), entry_steps(c), velocity_changes(c.pool), step_seconds(c),
+                      successors(c.pool.fragments)});
     most = std::max(most, c.pool.fragments.size());
   }
   candidates.reserve(most);

@@ -74,5 +74,21 @@ TEST(StepSequence, FindsWhenFeetComeDownAfterAFragmentsBeginning) {
   EXPECT_GT(comes_down, static_cast<int>(all.size()) / 2);
 }
 
+TEST(StepSequence, TellsHowLongTheStepsOfAFragmentTake) {
+  const Character& c = *gait_character();
+  const std::vector<double> seconds = step_seconds(c);
+  ASSERT_EQ(seconds.size(), c.pool.fragments.size());
+  int walking = 0;
+  for (std::size_t i = 0; i < seconds.size(); ++i) {
+    const Fragment& f = c.pool.fragments[i];
+    const std::string& name = c.pool.clips[f.clip].name;
+    if (name == "stand") EXPECT_EQ(seconds[i], kLongestStep);
+    if (f.origin != Origin::captured || (name != "walk" && name != "run")) continue;
+    ++walking;
+    EXPECT_NEAR(seconds[i], name == "walk" ? 0.5 : 0.3, 1 / c.pool.clips[f.clip].rate);  // of two in a Gait::cycle
+  }
+  EXPECT_GT(walking, 20);
+}
+
 }  // namespace
 }  // namespace fragmotion

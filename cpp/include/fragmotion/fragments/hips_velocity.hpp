@@ -11,12 +11,12 @@ namespace fragmotion {
 /// takes. Its evident velocity is that of the centre of mass, which in a part of a step is another.
 Vector2 hips_velocity(const PackedClip& clip, const Fragment& fragment);
 
-/// The same over the 0.4 s around a frame of a clip, as far as the clip has them: how a body gets faster or slower,
-/// without most of the sway of its steps.
-Vector2 hips_velocity_around(const PackedClip& clip, double frame);
+/// The same over so many seconds around a frame of a clip, as far as the clip has them: over those of a step it is how
+/// a body gets faster or slower, without the sway and the ripple of its steps.
+Vector2 hips_velocity_around(const PackedClip& clip, double frame, double seconds);
 
 /// The mean of that over a fragment's time. It is hips_velocity() but for what is around its ends.
-Vector2 mean_velocity_around(const PackedClip& clip, const Fragment& fragment);
+Vector2 mean_velocity_around(const PackedClip& clip, const Fragment& fragment, double seconds);
 
 /// How much the velocity of the hips changes within each fragment, from its first tenth of a second to its last, m/s of
 /// a 1.8 m character: much where it starts, brakes or turns, though its mean be that of a steady one.

@@ -46,8 +46,8 @@ class Playback {
   const Control& evident() const { return fragment().evident; }
   /// evident(), but with hips_velocity().
   const Control& evident_of_hips() const { return evident_of_hips_; }
-  /// At which the hips go over the ground now, m/s in the character frame, without most of the sway of a step: over the
-  /// fragment, that of evident_of_hips().
+  /// At which the hips go over the ground now, m/s in the character frame, without the sway and the ripple of a step:
+  /// over the fragment, that of evident_of_hips().
   Vector2 velocity_of_hips() const;
   /// Its number, as Character::played() has it in its style.
   int number() const { return now_.number; }
@@ -100,6 +100,7 @@ class Playback {
   void sample(const Placed& placed, WorldPose& pose) const;
   void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
   Vector2 begin_stitch(const Placed& old);
+  double step_seconds() const;
   std::size_t frame_of_clip(double seconds) const;
   void crossfade(double weight, WorldPose& pose) const;
 

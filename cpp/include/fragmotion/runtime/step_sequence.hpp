@@ -29,6 +29,13 @@ struct EntrySteps {
 /// Of all fragments of a character.
 std::vector<EntrySteps> entry_steps(const Character& character);
 
+/// A step takes no longer, s: feet that come down less often do not go on steps.
+constexpr double kLongestStep = 1;
+
+/// How long the steps take that each fragment of a character is one or a part of: the median of the times between the
+/// strikes from the last step before it to the first after it, at most kLongestStep; that where no foot strikes.
+std::vector<double> step_seconds(const Character& character);
+
 /// Whether each foot stands in a frame; neither without feet.
 std::array<bool, 2> standing_feet(const Contacts& contacts, std::size_t frame);
 

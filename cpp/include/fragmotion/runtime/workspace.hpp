@@ -19,6 +19,7 @@ struct FragmentLists {
   std::vector<std::vector<int>> members;  ///< Classes::members()
   std::vector<EntrySteps> entry_steps;    ///< entry_steps()
   std::vector<double> velocity_changes;   ///< velocity_changes()
+  std::vector<double> step_seconds;       ///< step_seconds()
   std::vector<int> successors;            ///< successors()
 };
 
