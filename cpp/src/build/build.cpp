@@ -220,7 +220,7 @@ std::vector<Contacts> contacts_of(const FragmentPool& pool, int threads) {
     parallel_for(static_cast<int>(contacts.size()), thread_count(threads), [&](int begin, int end) {
       const Kinematics kinematics(pool.skeleton);
       for (int c = begin; c < end; ++c) {
-        if (captured[c] == whether) contacts[c] = find_contacts(kinematics, pool.clips[c], floors);
+        if (captured[c] == whether) contacts[c] = find_plants(kinematics, pool.clips[c], floors);
       }
     });
   };

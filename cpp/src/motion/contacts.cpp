@@ -32,7 +32,9 @@ double floor_of(const std::vector<Vector3>& path) {
   return *floor;
 }
 
-Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
+namespace {
+
+Contacts found(const Kinematics& kinematics, const Clip& clip, const Floors* floors, bool as_held) {
   const Roles& roles = kinematics.skeleton().roles;
   if (roles.left_foot < 0 || roles.right_foot < 0) return {};
   std::vector<Vector3> hips;
@@ -44,8 +46,19 @@ Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Flo
     contacts.floors[side] =
         floors ? (*floors)[side] : FootHeights{floor_of(paths[side].ball), floor_of(paths[side].heel)};
     contacts.feet[side] = foot_contacts(paths[side], contacts.floors[side], hips, clip.rate, scale);
+    if (as_held) end_where_ball_rises(paths[side], clip.rate, scale, contacts.feet[side]);
   }
   return contacts;
+}
+
+}  // namespace
+
+Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
+  return found(kinematics, clip, floors, false);
+}
+
+Contacts find_plants(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
+  return found(kinematics, clip, floors, true);
 }
 
 std::vector<int> foot_strikes(const Contacts& contacts) { return changes(contacts, true); }

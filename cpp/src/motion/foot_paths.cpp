@@ -9,7 +9,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kHeight = 0.045, kSlow = 0.5, kSpeedShare = 0.2, kShortest = 0.06;
+constexpr double kHeight = 0.045, kSlow = 0.5, kSpeedShare = 0.2, kLeaves = 0.25, kShortest = 0.06;
 
 double speed_at(const std::vector<Vector3>& path, int f, double rate) {
   const int last = static_cast<int>(path.size()) - 1, a = std::max(0, f - 1), b = std::min(last, f + 1);
@@ -63,6 +63,14 @@ std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, 
   close_short_runs(flags, false, frames);
   close_short_runs(flags, true, frames);
   return flags;
+}
+
+void end_where_ball_rises(const FootPath& path, double rate, double scale, std::vector<bool>& contacts) {
+  const std::vector<Vector3>& ball = path.ball;
+  for (int f = static_cast<int>(contacts.size()) - 2; f > 0; --f) {
+    const bool ends = contacts[f] && !contacts[f + 1], rises = ball[f + 1].z() > ball[f].z();
+    if (ends && rises && speed_at(ball, f, rate) * scale > kLeaves) contacts[f] = false;
+  }
 }
 
 }  // namespace fragmotion

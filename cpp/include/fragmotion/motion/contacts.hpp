@@ -30,6 +30,10 @@ double floor_of(const std::vector<Vector3>& path);
 /// floor_of() ball and heel in the clip, unless one is given: a short clip need not touch it.
 Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors = nullptr);
 
+/// The contacts for which feet are held in place (foot_lock.hpp): those of find_contacts(), each of which ends as soon as
+/// the ball rises and goes away, though it is low and slow enough to stand still.
+Contacts find_plants(const Kinematics& kinematics, const Clip& clip, const Floors* floors = nullptr);
+
 /// The frames in which a foot strikes the ground, in order: the gait events between fragments.
 std::vector<int> foot_strikes(const Contacts& contacts);
 

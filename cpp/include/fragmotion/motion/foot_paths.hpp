@@ -21,4 +21,7 @@ std::array<FootPath, 2> foot_paths(const Kinematics& kinematics, const Clip& cli
 std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, const std::vector<Vector3>& hips,
                                 double rate, double scale);
 
+/// Ends each contact as soon as the ball rises and goes away, at 0.25 m/s.
+void end_where_ball_rises(const FootPath& path, double rate, double scale, std::vector<bool>& contacts);
+
 }  // namespace fragmotion

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "fragmotion/motion/contacts.hpp"
+#include "fragmotion/motion/foot_paths.hpp"
+#include "walker.hpp"
+
+namespace fragmotion {
+namespace {
+
+TEST(Contacts, OfHeldFeetEndAsSoonAsTheBallRisesAndGoesAway) {
+  Gait gait;
+  gait.seconds = 8;
+  gait.rate = 60;
+  gait.cycle = 2;
+  gait.y = 0.6;
+  const Clip clip = gait_clip(gait);
+  const Kinematics kinematics(humanoid());
+  const Contacts stands = find_contacts(kinematics, clip), held = find_plants(kinematics, clip);
+  const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
+  const double scale = standard_scale(humanoid());
+  int sooner = 0;
+  for (int side = 0; side < 2; ++side) {
+    const std::vector<Vector3>& ball = paths[side].ball;
+    for (int f = 1; f + 1 < clip.frames; ++f) {
+      EXPECT_LE(held.feet[side][f], stands.feet[side][f]);
+      sooner += stands.feet[side][f] && !held.feet[side][f] ? 1 : 0;
+      if (!held.feet[side][f] || held.feet[side][f + 1]) continue;
+      const double speed = (ball[f + 1] - ball[f - 1]).norm() * clip.rate / 2 * scale;
+      EXPECT_TRUE(speed <= 0.25 || ball[f + 1].z() <= ball[f].z()) << "after " << f << " frames";
+    }
+  }
+  EXPECT_GT(sooner, 10);
+}
+
+}  // namespace
+}  // namespace fragmotion
