@@ -13,6 +13,7 @@
 #include "fragmotion/fragments/distance.hpp"
 #include "fragmotion/fragments/gait_edit.hpp"
 #include "fragmotion/fragments/standing.hpp"
+#include "fragmotion/fragments/successors.hpp"
 #include "fragmotion/motion/contacts.hpp"
 #include "fragmotion/motion/legs.hpp"
 
@@ -30,6 +31,8 @@ constexpr int kCandidates = 24;                  // neighbours of a control that
 constexpr double kHurry = 1.2;                   // the most by which steps ahead are hurried, or slowed down
 constexpr double kShuffle = 1.2;                 // how much more often feet step sideways, where strides are short
 constexpr double kStandSeconds = 0.5;
+constexpr double kStandsLong = 3;  // s that a take stands, so that one does not see it begin again
+constexpr int kStands = 48;  // fragments that stand, one after the other, until they begin again
 constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
 constexpr double kBackward = 1;                              // of effort: to be played backward
 constexpr double kAlike = 1e-6;                              // of effort
@@ -64,6 +67,40 @@ void add_standing(FragmentPool& pool, const SynthesisOptions& options) {
   pool.fragments.push_back(fragment);
 }
 
+// Adds a take of a character that stands for long, fragment after fragment.
+void add_living_stand(FragmentPool& pool, const ControlSpace& space, double usual, const SynthesisOptions& options) {
+  const Kinematics kinematics(pool.skeleton);
+  const double rate = pool.clips[0].rate;
+  const int length = std::max(1, static_cast<int>(std::lround(kStandSeconds * rate))), cycle = kStands * length,
+            frames = cycle + 1 + static_cast<int>(std::lround(options.tail * rate));
+  Clip clip = living_stand(kinematics, find_legs(kinematics, pool.clips), pool, cycle, frames, rate);
+  const BodyMotion motion = body_motion(kinematics, clip);
+  for (int begin = 0; begin < cycle; begin += length) {
+    Fragment fragment;
+    fragment.clip = static_cast<int>(pool.clips.size());
+    fragment.begin = begin;
+    fragment.end = begin + length;
+    fragment.origin = Origin::transformed;
+    fragment.evident = evident_control(motion, rate, begin, begin + length, usual, space);
+    pool.fragments.push_back(fragment);
+  }
+  pool.clips.push_back(make_clip(pool.skeleton, std::move(clip)));
+}
+
+// How long a take stands at most, s, where these fragments stand.
+double longest_stand(const FragmentPool& pool, const std::vector<int>& standing) {
+  const std::vector<int> next = successors(pool.fragments);
+  double longest = 0;
+  for (const int first : standing) {
+    double seconds = 0;
+    for (int f = first; std::binary_search(standing.begin(), standing.end(), f); f = next[f]) {
+      seconds += pool.seconds(pool.fragments[f]);
+    }
+    longest = std::max(longest, seconds);
+  }
+  return longest;
+}
+
 // Fills the holes of a pool's control space.
 class Synthesizer {
  public:
@@ -80,11 +117,13 @@ class Synthesizer {
     find_dip();
   }
 
+  // Who stands does so as the takes do, or as living_stand().
   void fill() {
+    const int stand = space_.nearest({});
     std::vector<int> missing;
     for (int c = 0; c < space_.size(); ++c) missing.push_back(std::max(0, options_.wanted - performers(c)));
     for (int c = 0; c < space_.size(); ++c) {
-      if (missing[c] == 0) continue;
+      if (missing[c] == 0 || c == stand) continue;
       interpolate(space_.point(c), missing[c]);
       transform(space_.point(c));
     }
@@ -325,9 +364,14 @@ void check(const SynthesisOptions& options) {
 
 void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, const SynthesisOptions& options) {
   check(options);
-  const auto stands = [&](const Fragment& f) { return space.distance(f.evident, {}) <= options.tolerance; };
-  if (std::none_of(pool.fragments.begin(), pool.fragments.end(), stands)) add_standing(pool, options);
+  std::vector<int> standing;
+  for (std::size_t f = 0; f < pool.fragments.size(); ++f) {
+    if (space.distance(pool.fragments[f].evident, {}) <= options.tolerance) standing.push_back(static_cast<int>(f));
+  }
+  if (standing.empty()) add_standing(pool, options);
+  const bool stands_long = longest_stand(pool, standing) >= kStandsLong;
   Synthesizer(pool, space, usual, options).fill();
+  if (!stands_long) add_living_stand(pool, space, usual, options);
 }
 
 }  // namespace fragmotion

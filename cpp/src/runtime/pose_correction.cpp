@@ -18,7 +18,7 @@ constexpr double kSetOff = 0.15;   // of what balances it that the feet are set 
 constexpr double kStriding = 0.3;  // s: time constant of the steps'
 constexpr double kHeading = 0.12;  // s in which the heading gets to where it is led,
 constexpr double kLeash = 0.5;     // rad by which it is led at most
-constexpr double kStill = 0.2;     // m/s of a 1.8 m character, and of the turn rate, below which it stands
+constexpr double kSways = 0.05;    // m/s of a 1.8 m character, at most, at which one sways that stands
 
 }  // namespace
 
@@ -30,7 +30,6 @@ PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace,
       acceleration_(acceleration),
       lock_feet_(lock_feet),
       foot_lock_(workspace.body),
-      breathing_(Trunk(workspace.kinematics.skeleton())),
       lean_(Trunk(workspace.kinematics.skeleton()), character.space.scale()) {}
 
 void PoseCorrection::reset(double heading) {
@@ -41,12 +40,12 @@ void PoseCorrection::reset(double heading) {
   led_ = heading;
   steps_ = {};
   foot_lock_.reset();
-  breathing_.reset();
   lean_.reset();
 }
 
-// The velocity that the fragment lacks now, as far as its strides can be changed.
+// The velocity that the fragment lacks now, as far as its strides can be changed. Who stands may sway.
 Vector2 PoseCorrection::velocity_to_add(const Control& control, const Vector2& velocity) const {
+  if (control.speed() == 0 && velocity.norm() * space_->scale() < kSways) return Vector2::Zero();
   const Vector2 lacks = Vector2{control.x, control.y} - tempo_ * velocity;
   return root_adjustment_ * clamp_length(lacks, kMostAdjusted * velocity.norm());
 }
@@ -98,7 +97,6 @@ void PoseCorrection::leave_root(double seconds, Playback& playback) {
 
 void PoseCorrection::correct(const Playback& playback, const Vector2& acceleration, double seconds) {
   const Skeleton& skeleton = workspace_->kinematics.skeleton();
-  breathing_.apply(skeleton, workspace_->shown, !playback.plays_move() && stands(playback.evident()), seconds);
   lean_.apply(skeleton, workspace_->shown, acceleration, seconds);
   edit_steps(playback.evident_of_hips(), seconds);
   if (lock_feet_) lock_feet(playback, seconds);
@@ -115,10 +113,6 @@ void PoseCorrection::edit_steps(const Control& evident, double seconds) {
   steps_.stride += filtered(seconds, kStriding) * (wanted - steps_.stride);
   const Vector2 behind = -kSetOff * workspace_->shown.root.z() / kGravity * lean_.acceleration();
   steps_.shift += filtered(seconds, kStriding) * (behind - steps_.shift);
-}
-
-bool PoseCorrection::stands(const Control& evident) const {
-  return evident.speed() * space_->scale() < kStill && std::abs(evident.turn) < kStill && !evident.jumps();
 }
 
 void PoseCorrection::lock_feet(const Playback& playback, double seconds) {

@@ -359,6 +359,43 @@ TEST(Standing, StandsStillOnTheGround) {
   }
 }
 
+TEST(Standing, LivesOverFeetThatStayAndBeginsAgainWhereItBegan) {
+  std::vector<Clip> clips = gait_takes();
+  clips.erase(clips.begin());  // without the take that stands
+  const FragmentPool pool = gait_pool(clips);
+  const Legs legs = find_legs(kKinematics, clips);
+  const int cycle = 24 * 30, frames = cycle + 10;
+  const Clip stand = make_clip(kSkeleton, living_stand(kKinematics, legs, pool, cycle, frames, 30));
+  ASSERT_EQ(stand.frames, frames);
+  PosedBones first(kSkeleton.size()), now(kSkeleton.size()), last(kSkeleton.size());
+  world(kKinematics, stand, 0, first.heads.data(), first.rotations.data());
+  Vector2 least = first.heads[0].head<2>(), most = least;
+  double turned = 0;
+  const int head = kSkeleton.roles.head;
+  for (int f = 0; f < frames; ++f) {
+    world(kKinematics, stand, f, now.heads.data(), now.rotations.data());
+    for (const Leg& leg : legs) {
+      EXPECT_NEAR((now.heads[leg.foot] - first.heads[leg.foot]).norm(), 0, 1e-3) << f;
+      EXPECT_NEAR(now.rotations[leg.foot].angularDistance(first.rotations[leg.foot]), 0, 1e-6) << f;
+    }
+    least = least.cwiseMin(now.heads[0].head<2>());
+    most = most.cwiseMax(now.heads[0].head<2>());
+    turned = std::max(turned, now.rotations[head].angularDistance(first.rotations[head]));
+    if (f > 0) EXPECT_LT((now.heads[0] - last.heads[0]).norm() * stand.rate, 0.1) << f;
+    if (f > 0) EXPECT_LT(now.rotations[head].angularDistance(last.rotations[head]) * stand.rate, 1) << f;
+    std::swap(now, last);
+  }
+  const Vector2 sway = most - least;
+  EXPECT_GT(sway.minCoeff(), 0.015);
+  EXPECT_LT(sway.maxCoeff(), 0.12);
+  EXPECT_GT(turned, 0.1);
+  for (int f = 0; f < 10; ++f) {
+    world(kKinematics, stand, f, first.heads.data(), first.rotations.data());
+    world(kKinematics, stand, cycle + f, now.heads.data(), now.rotations.data());
+    for (int b = 0; b < kSkeleton.size(); ++b) EXPECT_LT((now.heads[b] - first.heads[b]).norm(), 1e-6);
+  }
+}
+
 FragmentPool synthesized(std::vector<Clip> clips, const ControlSpace& space, const SynthesisOptions& options) {
   FragmentPool pool = gait_pool(clips, 1, {}, &space);
   synthesize(pool, space, usual_of(clips), options);
@@ -459,6 +496,30 @@ TEST(Synthesize, LetsEveryCharacterStand) {
   const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
   const FragmentPool pool = synthesized({gait_clip(run)}, space, {});
   EXPECT_LT(coverage(pool.fragments, space).distances[space.nearest({})], 1e-6);
+}
+
+// As a take stands for three seconds or more, or as one that is made and does for longer; nothing else is made.
+TEST(Synthesize, StandsOnForLong) {
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  for (const double seconds : {0.0, 1.0, 6.0}) {
+    std::vector<Clip> clips = gait_takes();
+    Gait gait;
+    gait.y = 0;
+    gait.seconds = seconds;
+    clips.erase(clips.begin());
+    if (seconds > 0) clips.push_back(gait_clip(gait, "stand"));
+    const FragmentPool pool = synthesized(clips, space, {});
+    double standing = 0;
+    for (const Fragment& f : pool.fragments) {
+      const bool stands = space.distance(f.evident, {}) < 0.3 && pool.clips[f.clip].name == "standing";
+      standing += stands ? pool.seconds(f) : 0;
+    }
+    if (seconds > 3) {
+      EXPECT_EQ(standing, 0);
+    } else {
+      EXPECT_GT(standing, 20) << seconds;
+    }
+  }
 }
 
 TEST(Synthesize, IsDeterministic) {

@@ -11,4 +11,10 @@ namespace fragmotion {
 /// the fragments' mirror images. A skeleton without two legs keeps those of the mean pose.
 Clip standing(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool, int frames, double rate);
 
+/// The same, alive: the body sways over its feet, which stay where they are, shifts its weight, breathes and looks
+/// around, by 1/f noise as people do who stand for long (Duarte and Zatsiorsky, "Patterns of center of pressure
+/// migration during prolonged unconstrained standing", Motor Control 3, 1999). After `cycle` frames it begins again.
+Clip living_stand(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool, int cycle, int frames,
+                  double rate);
+
 }  // namespace fragmotion

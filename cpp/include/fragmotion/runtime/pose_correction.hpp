@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fragmotion/runtime/breathing.hpp"
 #include "fragmotion/runtime/lean.hpp"
 #include "fragmotion/runtime/playback.hpp"
 
 namespace fragmotion {
 
 /// Corrects what fragments show: the root goes more as the control says and no faster away from its velocity than a
-/// body can, it keeps the heading that the control leads to, a body that stands breathes (breathing.hpp), one that is
-/// accelerated leans (lean.hpp) and sets its feet for it, and planted feet stay where they are (foot_lock.hpp).
-/// Allocates nothing once it is made.
+/// body can, it keeps the heading that the control leads to, one that is accelerated leans (lean.hpp)
+/// and sets its feet for it, and planted feet stay where they are (foot_lock.hpp). Allocates nothing once it is made.
 class PoseCorrection {
  public:
   /// By which the adjustment of the velocity lags behind what it is told, s.
@@ -56,7 +54,6 @@ class PoseCorrection {
   void adjust_velocity(const Control& control, double seconds, const Playback& playback);
   double turn_to_add(const Control& control, const Playback& playback, double seconds);
   void edit_steps(const Control& evident, double seconds);
-  bool stands(const Control& evident) const;
   void lock_feet(const Playback& playback, double seconds);
 
   const ControlSpace* space_;  // of the style that plays
@@ -71,7 +68,6 @@ class PoseCorrection {
   bool lock_feet_;
   StepEdit steps_;
   FootLock foot_lock_;
-  Breathing breathing_;
   Lean lean_;
 };
 
