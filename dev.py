@@ -9,14 +9,17 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from tools import benchmarks, demo, evaluating, fuzzing, machine, maven, stages, testing
-from tools.beside import inputs as beside_inputs
-from tools.directing import inputs as directing_inputs
-from tools.doctor import inputs as doctor_inputs
-from tools.evaluate import inputs
+from tools import demo
+from tools.measuring import benchmarks, evaluating
+from tools.measuring.beside import inputs as beside_inputs
+from tools.measuring.directing import inputs as directing_inputs
+from tools.measuring.doctor import inputs as doctor_inputs
+from tools.measuring.evaluate import inputs
+from tools.measuring.retarget import inputs as retarget_inputs
 from tools.platforms import PLATFORMS
-from tools.retarget import inputs as retarget_inputs
+from tools.setup import machine, maven
 from tools.shell import Failure
+from tools.testing import fuzzing, stages, testing
 
 _STAGES_HELP = (
     f"only these, whole, of {', '.join(testing.STAGES)}; or `{testing.WHOLE}` of them; or `{testing.REST}`: "

@@ -18,9 +18,9 @@ from typing import Any
 DOCS = Path(__file__).resolve().parent
 sys.path.insert(0, str(DOCS.parent))
 
-from tools.beside.table import beside_table  # noqa: E402
-from tools.evaluate import report  # noqa: E402
-from tools.evaluate.report import Table, number  # noqa: E402
+from tools.measuring.beside.table import beside_table  # noqa: E402
+from tools.measuring.evaluate import report  # noqa: E402
+from tools.measuring.evaluate.report import Table, number  # noqa: E402
 
 Result = dict[str, Any]
 PAGE = DOCS / "evaluation.md"

@@ -25,7 +25,7 @@ import fragmotion_core as core  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
 from matplotlib.axes import Axes  # noqa: E402
 
-from tools.directing.ground import GROUNDS, Height, asked  # noqa: E402
+from tools.measuring.directing.measures.ground import GROUNDS, Height, asked  # noqa: E402
 
 RATE, SECONDS, EVERY = 60, 3.5, 12  # frames a second; s; frames between two bodies
 LEFT, RIGHT, BODY, GROUND = "#0b7d9c", "#d3691f", "#555555", "#b8b4a8"

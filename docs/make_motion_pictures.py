@@ -18,10 +18,11 @@ from pathlib import Path
 DOCS = Path(__file__).resolve().parent
 sys.path.insert(0, str(DOCS.parent))
 
-from tools import machine, packages  # noqa: E402
-from tools.compiling import installed_core  # noqa: E402
-from tools.environments import BPY_PYTHON, environment_python  # noqa: E402
+from tools.packaging import packages  # noqa: E402
+from tools.packaging.compiling import installed_core  # noqa: E402
 from tools.paths import BUILD, TOP  # noqa: E402
+from tools.setup import machine  # noqa: E402
+from tools.setup.environments import BPY_PYTHON, environment_python  # noqa: E402
 from tools.shell import Failure  # noqa: E402
 
 SAMPLE = TOP / "sample_rigs" / "fragmotion_sample.blend"

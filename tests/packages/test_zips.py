@@ -24,7 +24,7 @@ from packaging.metadata import Metadata
 from packaging.tags import Tag
 from packaging.utils import parse_wheel_filename
 
-from tools import cross, packages
+from tools.packaging import cross, packages
 from tools.platforms import LEGACY_PYTHONS, Platform, named
 
 MEGABYTES_WITHOUT_SDL = 10

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from conftest import NAMES, OFFSETS, PARENTS, TIPS, build_options, walking_arrays
 
-from tools.evaluate import synthesis
-from tools.evaluate.__main__ import main
+from tools.measuring.evaluate.__main__ import main
+from tools.measuring.evaluate.measures import synthesis
 
 CLASSES = 12
 SEED = 5

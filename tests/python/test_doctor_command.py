@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from conftest import BANDAI, CMU
 
-from tools.doctor.__main__ import main
+from tools.measuring.doctor.__main__ import main
 
 FIELDS = [
     "path",

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from evaluated import CLASSES, Run, command, evaluate, refuse_constant, trace
 
-from tools.evaluate import curves, run_time, synthesis, weight
-from tools.evaluate.controllers import summarise, unseen
-from tools.evaluate.loading import Session, Sessions
-from tools.evaluate.report import Table, text
+from tools.measuring.evaluate.loading import Session, Sessions
+from tools.measuring.evaluate.measures import curves, run_time, synthesis, weight
+from tools.measuring.evaluate.measures.controllers import summarise, unseen
+from tools.measuring.evaluate.report import Table, text
 
 pytest_plugins = ["evaluated"]
 

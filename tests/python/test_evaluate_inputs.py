@@ -16,7 +16,7 @@ import pytest
 from conftest import NAMES, walking_arrays
 from evaluated import command, write_bvh
 
-from tools.evaluate import inputs, loading
+from tools.measuring.evaluate import inputs, loading
 from tools.paths import TOP
 from tools.shell import Failure
 
@@ -28,7 +28,7 @@ def test_the_sample_rigs_actions_are_takes() -> None:
     if find_spec("bpy") is None:
         pytest.skip("Blender's module bpy is not installed here")
     code = (
-        "import sys; from pathlib import Path; from tools.evaluate.loading import read_recordings as read;"
+        "import sys; from pathlib import Path; from tools.measuring.evaluate.loading import read_recordings as read;"
         "r = read([Path(sys.argv[1])], 0.01); print('read:', len(r.clips), len(r.skeleton.names), r.skeleton.stature)"
     )
     command = [sys.executable, "-c", code, str(TOP / "sample_rigs" / "fragmotion_sample.blend")]

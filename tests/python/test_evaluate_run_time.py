@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from evaluated import SEED, Run, trace
 
-from tools.evaluate import run_time, weight
-from tools.evaluate.report import (
+from tools.measuring.evaluate.measures import run_time, weight
+from tools.measuring.evaluate.report import (
     acceleration_table,
     changes_table,
     following_table,

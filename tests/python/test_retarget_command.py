@@ -14,8 +14,8 @@ import pytest
 from conftest import BANDAI, CMU, NAMES, walking_arrays
 from evaluated import write_bvh
 
+from tools.measuring.retarget.__main__ import main
 from tools.paths import TOP
-from tools.retarget.__main__ import main
 
 FIGURES = {"foot_skate_ratio", "contact_error_m", "knee_beyond_degrees"}
 
@@ -84,7 +84,7 @@ def test_rigs_of_the_formats_that_blender_reads_are_targets(ending: str, tmp_pat
         f"import bpy, os; bpy.ops.wm.open_mainfile(filepath={str(sample)!r}); out = {str(rig)!r}; {WRITERS[ending]}"
     )
     subprocess.run([sys.executable, "-c", opened], cwd=TOP, capture_output=True, check=True)
-    command = [sys.executable, "-m", "tools.retarget", take, "--onto", rig, "--json", tmp_path / "saved.json"]
+    command = [sys.executable, "-m", "tools.measuring.retarget", take, "--onto", rig, "--json", tmp_path / "saved.json"]
     answer = subprocess.run(command, cwd=TOP, capture_output=True, text=True)
     assert answer.returncode == 0, answer.stderr
     found = json.loads((tmp_path / "saved.json").read_text())
