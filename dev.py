@@ -13,7 +13,6 @@ from tools import demo
 from tools.measuring import benchmarks, evaluating
 from tools.measuring.beside import inputs as beside_inputs
 from tools.measuring.directing import inputs as directing_inputs
-from tools.measuring.doctor import inputs as doctor_inputs
 from tools.measuring.evaluate import inputs
 from tools.measuring.retarget import inputs as retarget_inputs
 from tools.platforms import PLATFORMS
@@ -50,8 +49,6 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
         "directing", help="measure how a character follows paths and pins, and stands on ground"
     )
     directing_inputs.add_arguments(directing)
-    doctor = commands.add_parser("doctor", help="say what is wrong with motion capture files")
-    doctor_inputs.add_arguments(doctor)
     retarget = commands.add_parser("retarget", help="bring takes onto another skeleton, and build a character of them")
     retarget_inputs.add_arguments(retarget)
     package = commands.add_parser("package", help="build the zips that Blender installs, into build/packages")

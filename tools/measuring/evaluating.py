@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py evaluate`, `beside`, `directing`, `doctor` and `retarget`: build the core, and let tools' package of that
+"""`dev.py evaluate`, `beside`, `directing` and `retarget`: build the core, and let tools' package of that
 name work with it."""
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ import subprocess
 
 from tools.measuring.beside import inputs as beside_inputs
 from tools.measuring.directing import inputs as directing_inputs
-from tools.measuring.doctor import inputs as doctor_inputs
 from tools.measuring.evaluate import inputs
 from tools.measuring.retarget import inputs as retarget_inputs
 from tools.packaging import packages
@@ -39,12 +38,6 @@ def run_directing(options: argparse.Namespace, arguments: list[str]) -> int:
     return _run("tools.measuring.directing", directing_inputs.needs_blender(options), arguments)
 
 
-def run_doctor(options: argparse.Namespace, arguments: list[str]) -> int:
-    """Examine files, likewise."""
-    doctor_inputs.check(options)
-    return _run("tools.measuring.doctor", False, arguments)
-
-
 def run_retargeting(options: argparse.Namespace, arguments: list[str]) -> int:
     """Retarget, likewise."""
     retarget_inputs.check(options)
@@ -66,7 +59,6 @@ COMMANDS = {
     "evaluate": run_evaluation,
     "beside": run_comparison,
     "directing": run_directing,
-    "doctor": run_doctor,
     "retarget": run_retargeting,
 }
 """What does each command, with its options and its arguments as they were given."""

@@ -22,7 +22,7 @@ from tools.shell import Failure, run
 _MANIFEST = "blender_manifest.toml"
 _SDL_FILES = re.compile(r"sdl2/\w+\.py$|sdl2dll/dll/(libSDL2-2|SDL2\.dll)")
 _BUILDING = threading.Lock()
-_MODULE = re.compile(r"fragmotion_core\.(cp|cpython-)\d+\S*\.(so|pyd)$")
+_MODULE = re.compile(r"fragmotion_core\.(cp|cpython-)\d+\S*\.(so|pyd)$|fragmotion_command/\S+\.py$")
 
 
 def wheel(python: str) -> Path:
@@ -100,7 +100,7 @@ def build_extension(platform: Platform, wheels: Mapping[str, Path], folder: Path
 
 
 def build_legacy(platform: Platform, wheels: Mapping[str, Path], folder: Path) -> Path:
-    """Zip the add-on as the folder `fragmotion`, the compiled core of each wheel and SDL inside."""
+    """Zip the add-on as the folder `fragmotion`, the compiled core of each wheel, its command and SDL inside."""
     environments.ensure_sdl(platform)
     staged = _staged_addon(f"legacy-{platform.name}")
     (staged / _MANIFEST).unlink()

@@ -13,7 +13,7 @@ import tomllib
 
 from tools.paths import TOP, version
 
-_BESIDE = [TOP / "cpp" / "bindings" / name for name in ("fragmotion_command.py", "fragmotion_core.pyi")]
+_BINDINGS = TOP / "cpp" / "bindings"
 _MOMENT = (1980, 1, 1, 0, 0, 0)  # the first that a zip can tell
 _MODE = 0o100644
 
@@ -26,7 +26,7 @@ def pack(module: Path, python: str, platform_tag: str, folder: Path) -> Path:
     info = f"{name}.dist-info"
     files = {
         module.name: module.read_bytes(),
-        **{path.name: path.read_bytes() for path in _BESIDE},
+        **{path.relative_to(_BINDINGS).as_posix(): path.read_bytes() for path in _beside()},
         f"{info}/METADATA": _metadata(project).encode(),
         f"{info}/entry_points.txt": _entry_points(project).encode(),
         f"{info}/WHEEL": _wheel(f"{tag}-{tag}-{platform_tag}").encode(),
@@ -47,6 +47,11 @@ def write_zip(target: Path, files: dict[str, bytes]) -> None:
             entry.external_attr = _MODE << 16
             entry.create_system = 3  # Unix, wherever it is written
             archive.writestr(entry, data)
+
+
+def _beside() -> list[Path]:
+    """What lies beside the module: its stub and the command."""
+    return [_BINDINGS / "fragmotion_core.pyi", *sorted((_BINDINGS / "fragmotion_command").rglob("*.py"))]
 
 
 def _project() -> dict[str, Any]:

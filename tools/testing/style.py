@@ -15,7 +15,7 @@ from tools.shell import Failure, run, say
 
 _CPP = ("cpp", "tests")
 _STAGES = tuple((f"{target}.dir", "Unity") for target in ("fragmotion", "fragmotion_runtime"))
-_TYPED = ("dev.py", "tools", "cpp/bindings/fragmotion_command.py")
+_TYPED = ("dev.py", "tools", "cpp/bindings/fragmotion_command")
 
 
 def check() -> tuple[int, list[str]]:

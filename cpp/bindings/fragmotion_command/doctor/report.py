@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from tools.measuring.doctor.examining import File, Result, is_readable
+from .examining import File, Result, is_readable
 
 _POSES = {"T": "T pose", "A": "A pose", "down": "arms down", "other": "another rest pose", None: "no arms told"}
 

@@ -9,10 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TypedDict
 
-import fragmotion_core as core
-
-from tools.measuring.evaluate.inputs import find_takes
-from tools.shell import Failure
+from ..core import core
+from ..files import read_take
 
 _FORMATS = {".bvh": "BVH", ".amc": "ASF/AMC"}
 _IN_FILE = {"+X": "+X", "-X": "-X", "+Z": "+Y", "-Z": "-Y", "-Y": "+Z", "+Y": "-Z", "": None}  # readers turn y up to z
@@ -72,9 +70,8 @@ def is_readable(file: File) -> bool:
 def _read(path: Path) -> core.Take | str:
     """The take, or why it cannot be read."""
     try:
-        (file,) = find_takes([path])
-        return core.read_asf_amc(file.asf, path) if file.asf else core.read_bvh(path)
-    except (Failure, ValueError, OSError) as error:
+        return read_take(path)
+    except (ValueError, OSError) as error:
         return str(error)
 
 
