@@ -17,10 +17,11 @@ from pathlib import Path
 from typing import Any
 
 DOCS = Path(__file__).resolve().parent
-sys.path.insert(0, str(DOCS.parent))
+sys.path[:0] = [str(DOCS.parent), str(DOCS.parent / "cpp" / "bindings")]
+
+from fragmotion_command.evaluate.report import Table  # noqa: E402
 
 from tools.measuring.directing.table import tables  # noqa: E402
-from tools.measuring.evaluate.report import Table  # noqa: E402
 
 PAGE, FOLDER = DOCS / "directing.md", DOCS / "directing"
 _BLOCK = re.compile(r"(<!-- made: (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)

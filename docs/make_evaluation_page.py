@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Fill docs/evaluation.md with the figures of a run of `dev.py evaluate` and one of `dev.py beside`: all between
+"""Fill docs/evaluation.md with the figures of a run of `fragmotion evaluate` and one of `dev.py beside`: all between
 <!-- made: NAME --> and <!-- end --> is written anew.
 
 python3 docs/make_evaluation_page.py [JSON]    (default: docs/evaluation/evaluation.json; beside.json lies beside it)
@@ -16,11 +16,12 @@ from pathlib import Path
 from typing import Any
 
 DOCS = Path(__file__).resolve().parent
-sys.path.insert(0, str(DOCS.parent))
+sys.path[:0] = [str(DOCS.parent), str(DOCS.parent / "cpp" / "bindings")]
+
+from fragmotion_command.evaluate import report  # noqa: E402
+from fragmotion_command.evaluate.report import Table, number  # noqa: E402
 
 from tools.measuring.beside.table import beside_table  # noqa: E402
-from tools.measuring.evaluate import report  # noqa: E402
-from tools.measuring.evaluate.report import Table, number  # noqa: E402
 
 Result = dict[str, Any]
 PAGE = DOCS / "evaluation.md"

@@ -16,22 +16,32 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from .character.building import has_character, load, make_player, save_policy
-from .compat.core import command
-from .errors import UserError
+from .character.building import gather, has_character, load, make_player, save_policy
+from .compat.core import command, core
+from .errors import UserError, core_errors
 from .mocap.actions import ticked
 from .mocap.importing import METRES
 from .mocap.take_files import BY_BLENDER, find_takes
+from .mocap.target_rigs import open_rig, save_minute
 from .operators.base.context import active_armature
 from .recordings.recordings import trace_of
+from .rig.rigs import make_rig
 
 if TYPE_CHECKING:
     import argparse
 
     from fragmotion_command import building, parser, playing, running
+    from fragmotion_command.evaluate import command as evaluating
+    from fragmotion_command.evaluate import inputs as evaluate_inputs
+    from fragmotion_command.evaluate import loading
+    from fragmotion_command.retarget import command as retargeting
+    from fragmotion_command.retarget import inputs as retarget_inputs
+    from fragmotion_command.retarget import sources
     from fragmotion_core import Character, Doubles
 else:
     building, parser, playing, running = map(command, ("building", "parser", "playing", "running"))
+    evaluating, evaluate_inputs, loading = (command(f"evaluate.{name}") for name in ("command", "inputs", "loading"))
+    retargeting, retarget_inputs, sources = (command(f"retarget.{name}") for name in ("command", "inputs", "sources"))
 
 NAME = "fragmotion"
 _BLEND = ".blend"
@@ -48,11 +58,14 @@ _EXAMPLES = (
     "bake scenes/*.blend --recordings --into shots/",
     "evaluate hero.blend --player runner --json -",
     "info hero.blend --json -",
+    "retarget walks/ --onto rig.glb --blend hero.blend",
 )
 _MORE = """
 
-In Blender, takes may also be one .blend with ticked Actions or one folder of files that Blender imports, and a
-character a .blend that holds one. Settings that no option names are then those of the armature's panels."""
+In Blender, takes may also be one .blend with ticked Actions or one folder of files that Blender imports, what takes are
+brought onto a rig in a file that Blender reads, and a
+character a .blend that holds one; where it holds none, evaluate measures what its ticked Actions make. Settings that no
+option names are then those of the armature's panels."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -73,6 +86,7 @@ def _parser() -> argparse.ArgumentParser:
     made.build.set_defaults(command=_build)
     made.info.set_defaults(command=_info)
     made.evaluate.set_defaults(command=_evaluate)
+    made.retarget.set_defaults(command=_retarget)
     bake = made.words.add_parser("bake", help="bake motion of characters to Actions, several files over all processors")
     bake.add_argument("sources", type=Path, nargs="+", metavar="CHARACTER.blend")
     bake.add_argument("--style", metavar="NAME", help="what a trace or a player is played in (the first one)")
@@ -81,10 +95,10 @@ def _parser() -> argparse.ArgumentParser:
     for driver in (made.evaluate_driver, parser.add_driver(bake)):
         driver.add_argument("--recordings", action="store_true", help="every recording of the armature")
     parser.add_json(bake)
-    for word in (made.build, bake):
+    for word in (made.build, bake, made.retarget):
         word.add_argument("--blend", type=Path, metavar="FILE", help="where to write the .blend")
-    for word in (made.build, bake, made.evaluate, made.info):
-        word.add_argument("--armature", metavar="NAME", help="which armature, where a .blend has several")
+    for word in (made.build, bake, made.evaluate, made.info, made.retarget):
+        word.add_argument("--armature", metavar="NAME", help="which armature, where a file has several")
     return made.parser
 
 
@@ -211,39 +225,51 @@ def _bake_apart(options: argparse.Namespace, source: Path) -> tuple[list[dict[st
 def _bake_one(options: argparse.Namespace, path: Path, target: Path) -> list[dict[str, Any]]:
     obj = _open(path, options.armature)
     given = _given(options, "seconds", "seed", "style")
-    sources: list[dict[str, Any]]
+    played: list[dict[str, Any]]
     if options.trace:
-        sources = [{"trace_source": "FILE", "trace_file": str(options.trace.resolve())}]
+        played = [{"trace_source": "FILE", "trace_file": str(options.trace.resolve())}]
     elif options.player:
-        sources = [{"trace_source": "PLAYER", "player": options.player}]
+        played = [{"trace_source": "PLAYER", "player": options.player}]
     else:
-        sources = [{"trace_source": "RECORDING", "recording": index} for index in range(len(obj.fragmotion.takes))]
-    if not sources:
+        played = [{"trace_source": "RECORDING", "recording": index} for index in range(len(obj.fragmotion.takes))]
+    if not played:
         raise UserError(f"Armature '{obj.name}' has no recordings")
     baked = []
-    for number, source in enumerate(sources, 1):
+    for number, source in enumerate(played, 1):
         before = set(bpy.data.actions)
         bpy.ops.fragmotion.bake("EXEC_DEFAULT", target="NEW", **source, **given)
         (action,) = set(bpy.data.actions) - before
         action.use_fake_user = True
         first, last = action.frame_range
         baked.append({"blend": str(target), "action": action.name, "first": first, "last": last})
-        print(f"{number} of {len(sources)}: Action '{action.name}', frames {first:.0f} to {last:.0f}", flush=True)
+        print(f"{number} of {len(played)}: Action '{action.name}', frames {first:.0f} to {last:.0f}", flush=True)
     _save(target)
     return baked
 
 
 def _evaluate(options: argparse.Namespace) -> running.Done:
-    if not _is_blend(options):
+    source = options.sources[0]
+    if len(options.sources) > 1 or not _is_blend(source, options):
         if options.recordings:
-            raise UserError(f"--recordings are an armature's, and '{options.character}' is no .blend")
-        return playing.evaluate(options)
-    obj = _open_character(options)
+            raise UserError(f"--recordings are an armature's, and '{source}' is no .blend")
+        return evaluating.evaluate(options)
+    obj = _open(source, options.armature)
+    if not has_character(obj):
+        return _evaluate_takes(options, obj)
+    evaluate_inputs.check_kind(options, is_character=True)
     character, seed = load(obj), 1 if options.seed is None else options.seed
     traces = _traces(options, obj, character)
     return playing.measured(
         character, {name: (trace, make_player(obj, character, seed, "")) for name, trace in traces.items()}
     )
+
+
+def _evaluate_takes(options: argparse.Namespace, obj: bpy.types.Object) -> running.Done:
+    """Measure what is built of the armature's ticked Actions, those of its first style."""
+    evaluate_inputs.check_kind(options, is_character=False)
+    evaluate_inputs.check(options)
+    material = gather(bpy.context, obj, obj.fragmotion.build)
+    return evaluating.evaluate_takes(options, loading.Recordings(material.rig.skeleton, material.clips))
 
 
 def _traces(options: argparse.Namespace, obj: bpy.types.Object, character: Character) -> dict[str, Doubles]:
@@ -256,18 +282,34 @@ def _traces(options: argparse.Namespace, obj: bpy.types.Object, character: Chara
 
 
 def _info(options: argparse.Namespace) -> running.Done:
-    return _described(_open_character(options)) if _is_blend(options) else building.info(options)
-
-
-def _is_blend(options: argparse.Namespace) -> bool:
-    return bool(options.armature) or options.character.suffix.lower() == _BLEND
-
-
-def _open_character(options: argparse.Namespace) -> bpy.types.Object:
+    if not _is_blend(options.character, options):
+        return building.info(options)
     obj = _open(options.character, options.armature)
     if not has_character(obj):
         raise UserError(f"Armature '{obj.name}' has no character yet")
-    return obj
+    return _described(obj)
+
+
+def _is_blend(path: Path, options: argparse.Namespace) -> bool:
+    return bool(options.armature) or path.suffix.lower() == _BLEND
+
+
+def _retarget(options: argparse.Namespace) -> running.Done:
+    ending = options.onto.suffix.lower()
+    if ending not in (_BLEND, *BY_BLENDER):
+        for name in ("armature", "blend"):
+            if getattr(options, name):
+                raise UserError(f"--{name} is for rigs, and {options.onto.name} is a skeleton alone: leave it out")
+        return retargeting.retarget(options)
+    retarget_inputs.check(options)
+    takes = sources.read_sources(options.takes, options.unit)
+    obj = open_rig(options.onto, options.armature)
+    with core_errors(f"Armature '{obj.name}'"):
+        body = core.Body(make_rig(obj).skeleton)
+    done, character = retargeting.bring(options, takes, body)
+    if options.blend:
+        save_minute(obj, character, options.seed, options.blend)
+    return done
 
 
 def _open(path: Path, name: str | None) -> bpy.types.Object:

@@ -102,6 +102,16 @@ def test_a_platform_has_its_pythons(platform: Platform) -> None:
 
 
 @platforms
+def test_the_command_comes_with_every_core(platform: Platform) -> None:
+    files = ["fragmotion_command/parser.py", "fragmotion_command/evaluate/measures/synthesis.py"]
+    for name, wheel in wheels_in(platform).items():
+        if name.startswith("fragmotion_core"):
+            assert set(files) <= read_bytes(wheel).keys(), name
+    if platform.legacy:
+        assert {f"fragmotion/{name}" for name in files} <= read(packages.legacy_path(platform)).keys()
+
+
+@platforms
 def test_the_manifest_names_one_platform_and_the_wheels_that_are_there(platform: Platform) -> None:
     files = read(packages.extension_path(platform))
     manifest = tomllib.loads(files["blender_manifest.toml"].decode())

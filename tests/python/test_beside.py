@@ -13,6 +13,7 @@ import fragmotion_core as core
 import numpy as np
 import pytest
 from conftest import Array, walking_clips
+from fragmotion_command.evaluate.loading import Recordings
 from sample_motions import write_sample
 
 from tools.measuring.beside import comparing, measures, tuning
@@ -22,7 +23,7 @@ from tools.measuring.beside.motion.likeness import Likeness
 from tools.measuring.beside.setting import Setting, frame_controls, make_setting, sessions
 from tools.measuring.beside.systems import Fragments, Matching, Shown, matching
 from tools.measuring.beside.table import ROWS, beside_table
-from tools.measuring.evaluate.loading import Recordings, read_recordings
+from tools.measuring.blend import read_recordings
 from tools.measuring.peers.kinematics.bodies import RATE, Motion, facing
 from tools.measuring.peers.motion_matching.constants import Constants, load
 from tools.measuring.peers.motion_matching.library import floors_of

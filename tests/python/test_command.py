@@ -75,6 +75,11 @@ def test_a_trace_drives_as_its_player_does(folder: Path, tmp_path: Path, capsys:
     assert 0 < float(str(by_player["percent_of_optimal"])) <= 100
 
 
+def test_all_players_measure_where_none_is_named(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    rows = rows_of(capsys, "evaluate", folder / "hero.policy", "--seconds", 2)
+    assert [row["trace"] for row in rows] == list(core.PLAYERS)
+
+
 @pytest.fixture(scope="module")
 def styled(folder: Path) -> Path:
     """A policy file of two styles, built of the same folder."""

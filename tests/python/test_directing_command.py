@@ -13,11 +13,11 @@ import pytest
 from conftest import Array
 from sample_motions import write_sample
 
+from tools.measuring.blend import read_recordings
 from tools.measuring.directing import inputs
 from tools.measuring.directing.__main__ import main, make_character, measure
 from tools.measuring.directing.measures.courses import TIGHTEST, Course, courses, right_angles
 from tools.measuring.directing.measures.paths import follow
-from tools.measuring.evaluate.loading import read_recordings
 
 MOST_WALKING, MOST_RUNNING = 0.15, 0.3  # m from the path, in the mean: the goals
 MOST_FROM_END, MOST_FROM_TIME = 0.2, 0.25  # m, s

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py evaluate` on a few made takes: what its JSON file says, and that a run can be repeated."""
+"""`fragmotion evaluate` on a few made takes: what its JSON file says, and that a run can be repeated."""
 
 from __future__ import annotations
 
@@ -11,11 +11,10 @@ import fragmotion_core as core
 import numpy as np
 import pytest
 from evaluated import CLASSES, Run, command, evaluate, refuse_constant, trace
-
-from tools.measuring.evaluate.loading import Session, Sessions
-from tools.measuring.evaluate.measures import curves, run_time, synthesis, weight
-from tools.measuring.evaluate.measures.controllers import summarise, unseen
-from tools.measuring.evaluate.report import Table, text
+from fragmotion_command.evaluate.loading import Session, Sessions
+from fragmotion_command.evaluate.measures import curves, run_time, synthesis, weight
+from fragmotion_command.evaluate.measures.controllers import summarise, unseen
+from fragmotion_command.evaluate.report import Table, text
 
 pytest_plugins = ["evaluated"]
 

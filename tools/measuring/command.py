@@ -1,13 +1,19 @@
 # SPDX-License-Identifier: MIT
-"""What the commands of dev.py that measure have alike: `python -m tools.NAME ARGUMENTS` with the built core."""
+"""What the commands of dev.py that measure have alike: `python -m tools.measuring.NAME ARGUMENTS`, the core built."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 from collections.abc import Callable, Sequence
+from pathlib import Path
 
 from tools.shell import Failure
+
+
+def has_blend(paths: Sequence[Path]) -> bool:
+    """Whether Blender is needed to read the takes."""
+    return any(path.suffix.lower() == ".blend" for path in paths)
 
 
 def run_command(
@@ -22,6 +28,6 @@ def run_command(
     add_arguments(parser)
     try:
         return do(parser.parse_args(arguments)) or 0
-    except (Failure, OSError) as failure:
+    except (Failure, ValueError, OSError) as failure:
         print(f"{name}: {failure}", file=sys.stderr)
         return 1

@@ -8,7 +8,7 @@ import sys
 import time
 from pathlib import Path
 
-from tools.measuring.evaluate.blend import read_moves, read_styles
+from tools.measuring.blend import read_moves, read_styles
 from tools.motion_pictures.actor import open_blend, open_folder
 from tools.motion_pictures.motions import Feet
 from tools.motion_pictures.movements import MOVEMENTS

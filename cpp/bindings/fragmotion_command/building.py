@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from .core import core
-from .files import UNIT, find_takes, read_take
+from .files import UNIT, find_takes
 from .running import Done, listed
+from .takes import read_take
 
 CONTROLS = ("paper", "found", "told")
 _NEUTRAL = "neutral"  # the style of takes that tell none, where others do
@@ -40,11 +41,21 @@ def build(options: argparse.Namespace) -> Done:
 
 def _settings(options: argparse.Namespace) -> core.BuildOptions:
     settings = core.BuildOptions()
+    tell_controls(settings, options)
+    _tell(settings, options, "classes", "seed")
+    return settings
+
+
+def tell_controls(settings: core.BuildOptions, options: argparse.Namespace) -> None:
+    """Tell a build which controls the options ask for."""
     settings.find_controls = controls_of(options) == "found"
-    for name in ("classes", "seed", "speeds", "directions", "turn", "jump"):
+    _tell(settings, options, "speeds", "directions", "turn", "jump")
+
+
+def _tell(settings: core.BuildOptions, options: argparse.Namespace, *names: str) -> None:
+    for name in names:
         if getattr(options, name) is not None:
             setattr(settings, name, getattr(options, name))
-    return settings
 
 
 def controls_of(options: argparse.Namespace) -> str | None:

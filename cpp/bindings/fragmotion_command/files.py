@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Files of takes, by the names of files and folders."""
+"""Files of takes, by the names of files and folders. Needs Python alone."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-
-from .core import core
 
 ENDINGS = (".bvh", ".amc")
 UNIT = 0.01
@@ -34,10 +32,3 @@ def _files_of(path: Path) -> Iterator[Path]:
 def _is_take(file: Path, folder: Path) -> bool:
     hidden = any(part.startswith(".") for part in file.relative_to(folder).parts)
     return file.suffix.lower() in ENDINGS and not hidden and file.is_file()
-
-
-def read_take(path: Path, unit: float = UNIT) -> core.Take:
-    """The take of a file, an AMC's on the skeleton that lies beside it; ValueError names what is wrong."""
-    if path.suffix.lower() not in ENDINGS:
-        raise ValueError(f"{path}: not motion capture that can be read ({', '.join(ENDINGS)})")
-    return core.read_bvh(path, unit) if path.suffix.lower() == ".bvh" else core.read_asf_amc(core.find_asf(path), path)

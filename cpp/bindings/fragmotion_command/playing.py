@@ -50,8 +50,8 @@ def _number_of(what: str, name: str, names: dict[str, list[str]]) -> int:
 
 
 def evaluate(options: argparse.Namespace) -> Done:
-    """Measure how a character follows a trace."""
-    character = core.Character.load(options.character)
+    """Measure how the character of a policy file follows traces."""
+    character = core.Character.load(options.sources[0])
     traces = traces_of(options, character)
     return measured(
         character, {name: (trace, core.Player(character, _seed(options))) for name, trace in traces.items()}
@@ -77,11 +77,12 @@ def _figures(character: core.Character, trace: core.Doubles, player: core.Player
 
 
 def traces_of(options: argparse.Namespace, character: core.Character) -> dict[str, core.Doubles]:
-    """The trace of the file or of the simulated player that is asked for, by what it is called."""
+    """The trace of the file or of the simulated player that is asked for, by what it is called; else all players'."""
     if options.trace:
         return {options.trace.stem: core.read_trace(options.trace)}
     seconds = _SECONDS if options.seconds is None else options.seconds
-    return {options.player: core.simulate_trace(options.player, seconds, _seed(options), character.space)}
+    players = [options.player] if options.player else core.PLAYERS
+    return {name: core.simulate_trace(name, seconds, _seed(options), character.space) for name in players}
 
 
 def _seed(options: argparse.Namespace) -> int:

@@ -39,7 +39,13 @@ def _tell(done: Done, file: str | None) -> None:
         return
     print(done.text, flush=True)
     if file:
+        Path(file).parent.mkdir(parents=True, exist_ok=True)
         Path(file).write_text(figures + "\n", encoding="utf-8")
+
+
+def say(text: str) -> None:
+    """Say at once what is being done: not where figures are printed."""
+    print(text, file=sys.stderr, flush=True)
 
 
 def listed(figures: Mapping[str, Any]) -> str:

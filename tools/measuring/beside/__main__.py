@@ -10,14 +10,15 @@ import argparse
 import json
 import sys
 
+from fragmotion_command.evaluate.report import text
+
 from tools.measuring.beside import inputs
 from tools.measuring.beside.comparing import compare
 from tools.measuring.beside.setting import make_setting
 from tools.measuring.beside.table import beside_table
 from tools.measuring.beside.tuning import tune
+from tools.measuring.blend import read_recordings
 from tools.measuring.command import run_command
-from tools.measuring.evaluate.loading import read_recordings
-from tools.measuring.evaluate.report import text
 from tools.measuring.peers.motion_matching.constants import TUNED, load
 from tools.shell import say
 

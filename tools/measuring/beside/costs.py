@@ -16,7 +16,7 @@ from tools.shell import Failure
 _LOAD = """
 import sys
 import fragmotion_core as core
-from tools.measuring.evaluate.measures.synthesis import peak_memory
+from fragmotion_command.evaluate.measures.synthesis import peak_memory
 def play():
     character = core.Character.load(sys.argv[1])
     core.Player(character).step([0, 1, 0, 0], 1 / 60)

@@ -6,7 +6,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from tools.measuring.evaluate.inputs import find_takes
+from fragmotion_command.files import find_takes
+
 from tools.shell import Failure
 
 

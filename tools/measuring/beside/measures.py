@@ -10,13 +10,13 @@ from collections.abc import Mapping, Sequence
 
 import fragmotion_core as core
 import numpy as np
+from fragmotion_command.evaluate.measures import run_time
 from scipy.signal import savgol_filter
 
 from tools.measuring.beside.motion import footfalls
 from tools.measuring.beside.motion.likeness import REACH, Likeness
 from tools.measuring.beside.setting import Setting, frame_controls
 from tools.measuring.beside.systems import Shown, System
-from tools.measuring.evaluate.measures import run_time
 from tools.measuring.peers.kinematics.bodies import RATE, Body, Motion
 from tools.measuring.peers.kinematics.rotations import Array, turned
 from tools.measuring.peers.motion_matching.gaps import PERFORMED

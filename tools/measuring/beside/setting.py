@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import fragmotion_core as core
 import numpy as np
+from fragmotion_command.evaluate.loading import TEACHER, Recordings, Session, core_failures, make_session
+from fragmotion_command.evaluate.measures import curves
+from fragmotion_command.evaluate.measures.controllers import DEFAULT
 
-from tools.measuring.evaluate.loading import TEACHER, Recordings, Session, core_failures, make_session
-from tools.measuring.evaluate.measures import curves
-from tools.measuring.evaluate.measures.controllers import DEFAULT
 from tools.measuring.peers.kinematics.bodies import RATE, Body, Motion, body_of, motion_of
 from tools.measuring.peers.kinematics.legs import knee_hinges
 from tools.measuring.peers.kinematics.rotations import Array

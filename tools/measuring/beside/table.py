@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from tools.measuring.evaluate.report import Table
+from fragmotion_command.evaluate.report import Table
 
 TAKES = "the takes"
 

@@ -13,7 +13,12 @@ from collections.abc import Sequence
 from typing import Any
 
 import fragmotion_core as core
+from fragmotion_command.evaluate.loading import SECONDS, TEACHER, Recordings, core_failures, make_session
+from fragmotion_command.evaluate.measures import curves
+from fragmotion_command.evaluate.measures.controllers import DEFAULT
+from fragmotion_command.evaluate.report import text
 
+from tools.measuring.blend import read_recordings
 from tools.measuring.command import run_command
 from tools.measuring.directing import inputs
 from tools.measuring.directing.figures import draw_paths
@@ -25,10 +30,6 @@ from tools.measuring.directing.measures.pins import pins
 from tools.measuring.directing.measures.spaces import spaces
 from tools.measuring.directing.measures.styles import Style, styled_takes, styles
 from tools.measuring.directing.table import tables
-from tools.measuring.evaluate.loading import SECONDS, TEACHER, Recordings, core_failures, make_session, read_recordings
-from tools.measuring.evaluate.measures import curves
-from tools.measuring.evaluate.measures.controllers import DEFAULT
-from tools.measuring.evaluate.report import text
 from tools.shell import say
 
 CLASSES = 97

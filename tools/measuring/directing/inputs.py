@@ -6,7 +6,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from tools.measuring.evaluate.inputs import find_takes, has_blend
+from fragmotion_command.files import find_takes
+
+from tools.measuring.command import has_blend
 from tools.paths import TOP
 from tools.shell import Failure
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from tools.measuring.evaluate.report import Table
+from fragmotion_command.evaluate.report import Table
 
 _PINS = ["asked, m", "left, mm", "left, degrees", "tries", "seconds"]
 _MOVES = ["move", "waits, s", "joint step, of the takes'"]

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TypedDict
 
 from ..core import core
-from ..files import read_take
+from ..takes import read_take
 
 _FORMATS = {".bvh": "BVH", ".amc": "ASF/AMC"}
 _IN_FILE = {"+X": "+X", "-X": "-X", "+Z": "+Y", "-Z": "-Y", "-Y": "+Z", "+Y": "-Z", "": None}  # readers turn y up to z

@@ -10,8 +10,8 @@ from typing import Any
 import fragmotion_core as core
 import numpy as np
 
+from tools.measuring import blend
 from tools.measuring.directing.measures.seams import RATE, TRACE_RATE, marked
-from tools.measuring.evaluate import blend
 
 _PRESSES = range(20, 40, 3)  # controls before which a move is started, so that it meets every phase of a gait
 _AFTER = 20  # controls that are played after a move's longest time

@@ -7,9 +7,8 @@ import statistics
 from typing import Any
 
 import fragmotion_core as core
-
-from tools.measuring.evaluate.loading import SECONDS, TEACHER, Recordings, core_failures
-from tools.measuring.evaluate.measures.controllers import DEFAULT
+from fragmotion_command.evaluate.loading import SECONDS, TEACHER, Recordings, core_failures
+from fragmotion_command.evaluate.measures.controllers import DEFAULT
 
 SPACES = ((1, 4), (2, 8), (3, 8), (4, 16))
 """Speeds and directions, from the coarsest; the second is the paper's."""

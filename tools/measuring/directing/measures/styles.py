@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 
 import fragmotion_core as core
 import numpy as np
+from fragmotion_command.evaluate.loading import SECONDS, Recordings
 
+from tools.measuring import blend
 from tools.measuring.directing.measures.seams import RATE, TRACE_RATE, marked
-from tools.measuring.evaluate import blend
-from tools.measuring.evaluate.loading import SECONDS, Recordings
 from tools.shell import Failure
 
 _PRESSES = range(20, 40, 3)  # controls before which a change is asked for, so that it meets every phase of a gait

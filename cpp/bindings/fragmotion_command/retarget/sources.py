@@ -7,11 +7,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-import fragmotion_core as core
-
-from tools.measuring.evaluate.inputs import find_takes
-from tools.measuring.evaluate.loading import core_failures, read_take
-from tools.measuring.retarget.rigs import OpenRig
+from ..core import core
+from ..evaluate.loading import core_failures
+from ..files import find_takes
+from ..takes import read_take
 
 
 class Source(NamedTuple):
@@ -25,10 +24,9 @@ class Source(NamedTuple):
 def read_sources(paths: Sequence[Path], unit: float) -> list[Source]:
     """All takes, those of one skeleton together."""
     files = find_takes(paths)
-    with core_failures():
-        takes = [read_take(file, unit) for file in files]
+    takes = [read_take(file, unit) for file in files]
     groups = core.group_skeletons([take.skeleton for take in takes])
-    return [_source([takes[index] for index in group], [files[index].path for index in group]) for group in groups]
+    return [_source([takes[index] for index in group], [files[index] for index in group]) for group in groups]
 
 
 def _source(takes: Sequence[core.Take], paths: list[Path]) -> Source:
@@ -40,20 +38,13 @@ def _source(takes: Sequence[core.Take], paths: list[Path]) -> Source:
     return Source(skeleton, clips, paths)
 
 
-def body_of(rig: OpenRig) -> core.Body:
-    """The body of an armature."""
-    with core_failures(f"Armature '{rig.obj.name}'"):
-        return core.Body(rig.skeleton)
-
-
 def read_body(path: Path, unit: float) -> core.Body:
     """The body of a file's skeleton; the motion in a BVH tells how it stands."""
-    with core_failures():
-        if path.suffix.lower() == ".asf":
-            skeleton, clips = core.read_asf(path), []
-        else:
-            take = core.read_bvh(path, unit)
-            skeleton = take.skeleton
-            clips = [core.Clip.from_take(take)] if len(take.rotations) > 1 else []
+    if path.suffix.lower() == ".asf":
+        skeleton, clips = core.read_asf(path), []
+    else:
+        take = core.read_bvh(path, unit)
+        skeleton = take.skeleton
+        clips = [core.Clip.from_take(take)] if len(take.rotations) > 1 else []
     with core_failures(str(path)):
         return core.Body(skeleton, clips)

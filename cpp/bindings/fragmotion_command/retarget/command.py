@@ -1,49 +1,62 @@
 # SPDX-License-Identifier: MIT
-"""Bring takes of any skeletons onto another one, build a character of them, print the figures, and save them.
-
-`python3 dev.py retarget` runs this with the built core; python -m tools.measuring.retarget --help tells what there is.
-"""
+"""`fragmotion retarget`: takes of any skeletons on another one, the character that they make, and its figures."""
 
 from __future__ import annotations
 
 import argparse
 import math
-import sys
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-import fragmotion_core as core
-
-from tools.measuring.command import run_command
-from tools.measuring.evaluate.__main__ import save
-from tools.measuring.evaluate.loading import Recordings, core_failures
-from tools.measuring.evaluate.report import Table, text
-from tools.measuring.retarget import inputs, rigs
-from tools.measuring.retarget.character import make_character
-from tools.measuring.retarget.sources import Source, body_of, read_body, read_sources
-from tools.shell import say
+from ..core import core
+from ..evaluate.loading import Recordings, core_failures
+from ..evaluate.report import Table, text
+from ..running import Done, say
+from . import inputs
+from .character import make_character
+from .sources import Source, read_body, read_sources
 
 _SKATE, _CONTACT = 1.1, 0.01  # ratio, and m of a 1.8 m character: beyond these a take is remarked on
 _HIPS = 0.05  # m of a 1.8 m character that hips are moved without a remark
 
 
-def retarget(options: argparse.Namespace) -> None:
-    """Do all that the options ask for; Failure says what was wrong with them."""
+class Retargeted(NamedTuple):
+    """What was found, and the character."""
+
+    done: Done
+    character: core.Character
+
+
+def retarget(options: argparse.Namespace) -> Done:
+    """Bring takes onto a skeleton of a BVH or ASF file."""
     inputs.check(options)
-    sources = read_sources(options.mocap, options.unit)
-    rig = rigs.open_rig(options.onto, options.armature) if inputs.needs_blender(options) else None
-    body = body_of(rig) if rig else read_body(options.onto, options.onto_unit or options.unit)
+    inputs.check_skeleton(options.onto)
+    sources = read_sources(options.takes, options.unit)
+    return bring(options, sources, read_body(options.onto, options.onto_unit)).done
+
+
+def bring(options: argparse.Namespace, sources: list[Source], body: core.Body) -> Retargeted:
+    """Bring takes onto a body, write them where it is asked for, and build a character of them."""
     say(f"onto {options.onto.name}: {body.skeleton.stature:.2f} m tall, {len(body.roles)} roles")
     clips, takes = onto(body, sources)
-    say(text(takes_table(takes)))
+    if options.into:
+        _write(clips, body.skeleton, options.into)
     made = make_character(Recordings(body.skeleton, clips), options.seed)
-    say(f"\n{text(character_table(made.figures))}")
-    if options.json:
-        save({"roles": body.roles, "takes": takes, "character": made.figures}, options.json)
-        say(f"\nroles and figures: {options.json}")
-    if rig and options.blend:
-        rigs.save_minute(rig, made.character, options.seed, options.blend)
-        say(f"a minute of it: {options.blend}")
+    figures = {"roles": body.roles, "takes": takes, "character": made.figures}
+    return Retargeted(
+        Done(figures, f"{text(takes_table(takes))}\n\n{text(character_table(made.figures))}"), made.character
+    )
+
+
+def _write(clips: list[core.Clip], skeleton: core.Skeleton, folder: Path) -> None:
+    """Each take as a BVH file of its name."""
+    names = [clip.name for clip in clips]
+    twice = {name for name in names if names.count(name) > 1}
+    if twice:
+        raise ValueError(f"several takes are called '{min(twice)}', and one would replace the other in {folder}")
+    folder.mkdir(parents=True, exist_ok=True)
+    for clip in clips:
+        core.write_bvh(core.Take.from_clip(clip, skeleton), folder / f"{clip.name}.bvh")
 
 
 def onto(body: core.Body, sources: list[Source]) -> tuple[list[core.Clip], list[dict[str, Any]]]:
@@ -106,12 +119,3 @@ def character_table(figures: dict[str, float]) -> Table:
     ]
     header = ["fragments", "percent of Optimal", "velocity error, m/s", "foot skate, ratio"]
     return Table("The character of them", header, [row])
-
-
-def main(arguments: list[str]) -> int:
-    """Run, and return the exit code."""
-    return run_command("retarget", __doc__, inputs.add_arguments, retarget, arguments)
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""The character that retargeted takes make, and how good it is, as `dev.py evaluate` measures it."""
+"""The character that retargeted takes make, and how good it is, as `fragmotion evaluate` measures it."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-import fragmotion_core as core
-
-from tools.measuring.evaluate.loading import Recordings, core_failures, simulate_players
-from tools.measuring.evaluate.measures import run_time
-from tools.measuring.evaluate.measures.controllers import DEFAULT
+from ..core import core
+from ..evaluate.loading import Recordings, core_failures, simulate_players
+from ..evaluate.measures import run_time
+from ..evaluate.measures.controllers import DEFAULT
 
 CLASSES = 97
 _FIGURES = ("percent_of_optimal", "velocity_error", "foot_skate_ratio")

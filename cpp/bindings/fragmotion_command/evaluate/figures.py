@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from tools.measuring.evaluate.report import HOLE, TITLES, Result
+from .report import HOLE, TITLES, Result
 
 _COLOURS = {"greedy": "#999999", "svm": "#E69F00", "iterate": "#56B4E9", "anticipate": "#00735C"}
 _LIGHT = ("svm", "iterate")  # on these, text is black

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
 """What a controller's synthesis takes in time and memory (Table 1): measured in fresh processes, nothing estimated.
 
-python -m tools.measuring.evaluate.measures.synthesis ARRAYS CONTROLLER prints the figures of one process as JSON.
+python -m fragmotion_command.evaluate.measures.synthesis ARRAYS CONTROLLER prints the figures of one process as JSON.
 """
 
 from __future__ import annotations
 
 import ctypes
 import json
+import os
 import statistics
 import subprocess
 import sys
@@ -18,14 +19,13 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-import fragmotion_core as core
 import numpy as np
 
-from tools.measuring.evaluate.loading import Session
-from tools.measuring.evaluate.measures.controllers import CONTROLLERS, Factors, make_table
-from tools.paths import TOP
-from tools.shell import Failure
+from ...core import core
+from ..loading import Session
+from .controllers import CONTROLLERS, Factors, make_table
 
+_ABOVE = Path(__file__).parents[3]  # where the command's package is
 _PROCESSES = 3  # a controller
 _RUNS = 3  # a process
 _WARM_UP = 4  # classes
@@ -49,10 +49,11 @@ def _median(runs: list[dict[str, Any]]) -> dict[str, float | None]:
 
 
 def _run_child(arrays: Path, name: str) -> dict[str, Any]:
-    command = [sys.executable, "-m", "tools.measuring.evaluate.measures.synthesis", str(arrays), name]
-    answer = subprocess.run(command, cwd=TOP, capture_output=True, text=True, check=False)
+    command = [sys.executable, "-m", "fragmotion_command.evaluate.measures.synthesis", str(arrays), name]
+    paths = {"PYTHONPATH": os.pathsep.join((str(_ABOVE), *sys.path))}
+    answer = subprocess.run(command, env={**os.environ, **paths}, capture_output=True, text=True, check=False)
     if answer.returncode != 0:
-        raise Failure(f"measuring the synthesis of {name} failed:\n{answer.stderr}")
+        raise ValueError(f"measuring the synthesis of {name} failed:\n{answer.stderr}")
     measured: dict[str, Any] = json.loads(answer.stdout)
     return measured
 

@@ -9,7 +9,7 @@ import statistics
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-import fragmotion_core as core
+from ...core import core
 
 Figures = dict[str, float | None]
 SEEN = (

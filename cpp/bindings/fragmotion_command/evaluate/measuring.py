@@ -7,12 +7,13 @@ import argparse
 import math
 from typing import Any
 
-import fragmotion_core as core
 import numpy as np
 
-from tools.measuring.evaluate.loading import STEPS_A_SECOND, Recordings, Session, Sessions
-from tools.measuring.evaluate.measures import run_time
-from tools.measuring.evaluate.measures.controllers import (
+from ..core import core
+from ..running import say
+from .loading import STEPS_A_SECOND, Recordings, Session, Sessions
+from .measures import run_time
+from .measures.controllers import (
     CONTROLLERS,
     DEFAULT,
     TABLES,
@@ -20,9 +21,8 @@ from tools.measuring.evaluate.measures.controllers import (
     measure_bound,
     measure_quality,
 )
-from tools.measuring.evaluate.measures.curves import build, classes_curve, minutes_curve
-from tools.measuring.evaluate.measures.synthesis import measure_synthesis
-from tools.shell import say
+from .measures.curves import build, classes_curve, minutes_curve
+from .measures.synthesis import measure_synthesis
 
 Result = dict[str, Any]
 

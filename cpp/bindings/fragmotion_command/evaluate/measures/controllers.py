@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import fragmotion_core as core
 import numpy as np
 
-from tools.measuring.evaluate.loading import Session, Sessions
+from ...core import core
+from ..loading import Session, Sessions
 
 DEFAULT = "anticipate"
 TRAINED = ("svm", "iterate", "anticipate")

@@ -8,12 +8,11 @@ import statistics
 from collections.abc import Sequence
 from typing import Any
 
-import fragmotion_core as core
-
-from tools.measuring.evaluate import control_options
-from tools.measuring.evaluate.loading import TEACHER, Recordings, Session, core_failures, make_session
-from tools.measuring.evaluate.measures import run_time
-from tools.measuring.evaluate.measures.controllers import DEFAULT, TRAINED
+from ...building import tell_controls
+from ...core import core
+from ..loading import TEACHER, Recordings, Session, core_failures, make_session
+from . import run_time
+from .controllers import DEFAULT, TRAINED
 
 CLASSES = (20, 40, 60, 80, 97, 120, 160, 200, 250)
 MINUTES = (1 / 6, 1 / 3, 1.0, 2.0, 5.0, 10.0)
@@ -30,7 +29,7 @@ def build(
     """A character that learned from one session, with the controls that a command line tells, or the paper's."""
     options = core.BuildOptions()
     if told:
-        control_options.tell(options, told)
+        tell_controls(options, told)
     options.classes, options.seed, options.policies = classes, seed, list(policies)
     with core_failures(f"Building {classes} classes"):
         return core.build(*recordings, [session.controls], options)

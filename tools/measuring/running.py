@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py evaluate`, `beside`, `directing` and `retarget`: build the core, and let tools' package of that
+"""`dev.py beside` and `directing`: build the core, and let tools' package of that
 name work with it."""
 
 from __future__ import annotations
@@ -9,9 +9,8 @@ import os
 import subprocess
 
 from tools.measuring.beside import inputs as beside_inputs
+from tools.measuring.command import has_blend
 from tools.measuring.directing import inputs as directing_inputs
-from tools.measuring.evaluate import inputs
-from tools.measuring.retarget import inputs as retarget_inputs
 from tools.packaging import packages
 from tools.packaging.compiling import installed_core
 from tools.paths import TOP
@@ -20,28 +19,16 @@ from tools.setup.environments import BPY_PYTHON, HOST, environment_python
 from tools.shell import say
 
 
-def run_evaluation(options: argparse.Namespace, arguments: list[str]) -> int:
-    """Measure; `arguments` are the words that the options were read from."""
-    inputs.check(options)
-    return _run("tools.measuring.evaluate", inputs.has_blend(options.mocap), arguments)
-
-
 def run_comparison(options: argparse.Namespace, arguments: list[str]) -> int:
-    """Measure beside motion matching, likewise."""
+    """Measure beside motion matching; `arguments` are the words that the options were read from."""
     beside_inputs.check(options)
-    return _run("tools.measuring.beside", inputs.has_blend(options.mocap), arguments)
+    return _run("tools.measuring.beside", has_blend(options.mocap), arguments)
 
 
 def run_directing(options: argparse.Namespace, arguments: list[str]) -> int:
     """Direct a character, likewise."""
     directing_inputs.check(options)
     return _run("tools.measuring.directing", directing_inputs.needs_blender(options), arguments)
-
-
-def run_retargeting(options: argparse.Namespace, arguments: list[str]) -> int:
-    """Retarget, likewise."""
-    retarget_inputs.check(options)
-    return _run("tools.measuring.retarget", retarget_inputs.needs_blender(options), arguments)
 
 
 def _run(module: str, blender: bool, arguments: list[str]) -> int:
@@ -56,9 +43,7 @@ def _run(module: str, blender: bool, arguments: list[str]) -> int:
 
 
 COMMANDS = {
-    "evaluate": run_evaluation,
     "beside": run_comparison,
     "directing": run_directing,
-    "retarget": run_retargeting,
 }
 """What does each command, with its options and its arguments as they were given."""

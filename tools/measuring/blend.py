@@ -4,17 +4,30 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import fragmotion_core as core
+from fragmotion_command.evaluate import loading
+from fragmotion_command.evaluate.loading import Recordings
 
 from tools.paths import ADDON
 from tools.shell import Failure, say
 
 Styles = list[tuple[str, list[core.Clip]]]
+
+
+def read_recordings(paths: Sequence[Path], unit: float) -> Recordings:
+    """All takes on the first one's skeleton, or those of a .blend; Failure where one has other bones."""
+    blends = [path for path in paths if path.suffix.lower() == ".blend"]
+    if not blends:
+        return loading.read_recordings(paths, unit)
+    if len(paths) > 1:
+        raise Failure(f"{blends[0]}: a .blend has its own rig, and cannot be mixed with other motion capture")
+    return Recordings(*read_actions(blends[0]))
 
 
 def read_actions(path: Path) -> tuple[core.Skeleton, list[core.Clip]]:

@@ -8,11 +8,11 @@ import statistics
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-import fragmotion_core as core
 import numpy as np
 
-from tools.measuring.evaluate.loading import Session
-from tools.measuring.evaluate.measures import weight
+from ...core import core
+from ..loading import Session
+from . import weight
 
 RATE = 60.0  # frames a second
 PLAYERS = 3  # random seeds

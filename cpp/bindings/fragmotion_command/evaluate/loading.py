@@ -9,11 +9,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
-import fragmotion_core as core
-
-from tools.measuring.evaluate import blend, control_options
-from tools.measuring.evaluate.inputs import TakeFile, find_takes
-from tools.shell import Failure
+from ..building import tell_controls
+from ..core import core
+from ..files import find_takes
+from ..takes import read_take
 
 SECONDS = 60.0
 STEPS_A_SECOND = 10
@@ -45,49 +44,33 @@ class Sessions(NamedTuple):
 
 @contextmanager
 def core_failures(place: str = "") -> Iterator[None]:
-    """Turn the core's ValueError into a Failure that begins with the place."""
+    """Let the core's ValueError begin with the place."""
     try:
         yield
     except ValueError as error:
-        raise Failure(f"{place}: {error}" if place else str(error)) from error
+        raise ValueError(f"{place}: {error}" if place else str(error)) from error
 
 
 def read_recordings(paths: Sequence[Path], unit: float) -> Recordings:
-    """All takes on the first one's skeleton; Failure where one has other bones."""
+    """All takes on the first one's skeleton; ValueError where one has other bones."""
     files = find_takes(paths)
-    blends = [file.path for file in files if file.path.suffix.lower() == ".blend"]
-    if not blends:
-        return _read_takes(files, unit)
-    if len(files) > 1:
-        raise Failure(f"{blends[0]}: a .blend has its own rig, and cannot be mixed with other motion capture")
-    with core_failures(str(blends[0])):
-        return Recordings(*blend.read_actions(blends[0]))
-
-
-def _read_takes(files: Sequence[TakeFile], unit: float) -> Recordings:
-    with core_failures():
-        first = read_take(files[0], unit).skeleton
+    first = read_take(files[0], unit).skeleton
     clips = []
     for file in files:
-        with core_failures():
-            take = read_take(file, unit)
+        take = read_take(file, unit)
         _check_bones(file, take.skeleton, files[0], first)
-        with core_failures(str(file.path)):
+        with core_failures(str(file)):
             clips.append(core.Clip.from_take(take, first))
     return Recordings(first, clips)
 
 
-def _check_bones(file: TakeFile, skeleton: core.Skeleton, first_file: TakeFile, first: core.Skeleton) -> None:
+def _check_bones(file: Path, skeleton: core.Skeleton, first_file: Path, first: core.Skeleton) -> None:
     different = set(skeleton.names) ^ set(first.names)
     if different:
-        raise Failure(
-            f"{file.path}: its skeleton is not that of {first_file.path.name}: bone '{min(different)}' is in one only; "
+        raise ValueError(
+            f"{file}: its skeleton is not that of {first_file.name}: bone '{min(different)}' is in one only; "
             "evaluate the takes of one skeleton at a time"
         )
-
-
-def read_take(file: TakeFile, unit: float) -> core.Take:
-    return core.read_asf_amc(file.asf, file.path) if file.asf else core.read_bvh(file.path, unit)
 
 
 def make_sessions(options: argparse.Namespace, recordings: Recordings) -> Sessions:
@@ -102,7 +85,7 @@ def measure_space(recordings: Recordings, told: argparse.Namespace) -> core.Cont
     """The controls with the takes' own speeds, by the smallest build there is."""
     options = core.BuildOptions()
     options.classes, options.restarts, options.policies = 1, 1, ["greedy"]
-    control_options.tell(options, told)
+    tell_controls(options, told)
     with core_failures("The takes"):
         return core.build(*recordings, [core.simulate_trace(TEACHER, 1)], options).space
 
@@ -119,8 +102,7 @@ def make_session(name: str, controls: core.Doubles, space: core.ControlSpace) ->
 
 
 def _read_traces(paths: Sequence[Path] | None, space: core.ControlSpace) -> list[Session]:
-    with core_failures():
-        return [make_session(path.stem, core.read_trace(path), space) for path in paths or []]
+    return [make_session(path.stem, core.read_trace(path), space) for path in paths or []]
 
 
 def save_sessions(sessions: Sessions, folder: Path) -> None:
