@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py beside` and `directing`: build the core, and let tools' package of that
-name work with it."""
+"""`dev.py beside` and `directing`: build the core, and let tools' package of that name work with it."""
 
 from __future__ import annotations
 
