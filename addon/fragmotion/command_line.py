@@ -109,6 +109,7 @@ def _build(options: argparse.Namespace) -> running.Done:
         return building.build(options)
     if len(options.takes) > 1:
         raise UserError("Blender builds of one folder of takes or of one .blend: name one of them")
+    _check_numbers(options, "build", "classes", "seed")
     (source,) = options.takes
     if source.is_dir():
         _import(source, options)
@@ -125,6 +126,15 @@ def _build(options: argparse.Namespace) -> running.Done:
         save_policy(obj, options.policy.resolve())
     _save(options.blend)
     return _described(obj)
+
+
+def _check_numbers(options: argparse.Namespace, operator: str, *names: str) -> None:
+    """UserError where a number is out of the bounds of an operator's field."""
+    fields = getattr(bpy.ops.fragmotion, operator).get_rna_type().properties
+    for name, value in _given(options, *names).items():
+        least, most = fields[name].hard_min, fields[name].hard_max
+        if not least <= value <= most:
+            raise UserError(f"--{name} is {value}, and must be from {least} to {most}")
 
 
 def _needs_blender(options: argparse.Namespace) -> bool:
@@ -163,6 +173,7 @@ def _import(folder: Path, options: argparse.Namespace) -> None:
 def _bake(options: argparse.Namespace) -> running.Done:
     if bool(options.blend) == bool(options.into) or (options.blend and len(options.sources) > 1):
         raise UserError("Nothing would be kept: say where to, by --blend for one file or by --into for several")
+    _check_numbers(options, "bake", "seed")
     if options.blend:
         return _baked(_bake_one(options, options.sources[0], options.blend))
     _check_names(options)
