@@ -13,18 +13,20 @@ import fragmotion_core as core
 import numpy as np
 import pytest
 from conftest import Array, walking_clips
+from fragmotion_command.evaluate.loading import Recordings
 from sample_motions import write_sample
 
-from tools.beside import comparing, footfalls, measures, response, tuning
-from tools.beside.__main__ import main
-from tools.beside.likeness import Likeness
-from tools.beside.setting import Setting, frame_controls, make_setting, sessions
-from tools.beside.systems import Fragments, Matching, Shown, matching
-from tools.beside.table import ROWS, beside_table
-from tools.evaluate.loading import Recordings, read_recordings
-from tools.motion_matching.bodies import RATE, Motion, facing
-from tools.motion_matching.constants import Constants, load
-from tools.motion_matching.library import floors_of
+from tools.measuring.beside import comparing, measures, tuning
+from tools.measuring.beside.__main__ import main
+from tools.measuring.beside.motion import footfalls, response
+from tools.measuring.beside.motion.likeness import Likeness
+from tools.measuring.beside.setting import Setting, frame_controls, make_setting, sessions
+from tools.measuring.beside.systems import Fragments, Matching, Shown, matching
+from tools.measuring.beside.table import ROWS, beside_table
+from tools.measuring.blend import read_recordings
+from tools.measuring.peers.kinematics.bodies import RATE, Motion, facing
+from tools.measuring.peers.motion_matching.constants import Constants, load
+from tools.measuring.peers.motion_matching.library import floors_of
 from tools.shell import Failure
 
 PLAYERS = ("walker", "circler")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py evaluate` on a few made takes: what its JSON file says, and that a run can be repeated."""
+"""`fragmotion evaluate` on a few made takes: what its JSON file says, and that a run can be repeated."""
 
 from __future__ import annotations
 
@@ -11,11 +11,10 @@ import fragmotion_core as core
 import numpy as np
 import pytest
 from evaluated import CLASSES, Run, command, evaluate, refuse_constant, trace
-
-from tools.evaluate import curves, run_time, synthesis, weight
-from tools.evaluate.controllers import summarise, unseen
-from tools.evaluate.loading import Session, Sessions
-from tools.evaluate.report import Table, text
+from fragmotion_command.evaluate.loading import Session, Sessions
+from fragmotion_command.evaluate.measures import curves, run_time, synthesis, weight
+from fragmotion_command.evaluate.measures.controllers import summarise, unseen
+from fragmotion_command.evaluate.report import Table, text
 
 pytest_plugins = ["evaluated"]
 

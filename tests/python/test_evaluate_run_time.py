@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The run time's figures of `dev.py evaluate`, beside the core's players and NumPy."""
+"""The run time's figures of `fragmotion evaluate`, beside the core's players and NumPy."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ import fragmotion_core as core
 import numpy as np
 import pytest
 from evaluated import SEED, Run, trace
-
-from tools.evaluate import run_time, weight
-from tools.evaluate.report import (
+from fragmotion_command.evaluate.measures import run_time, weight
+from fragmotion_command.evaluate.report import (
     acceleration_table,
     changes_table,
     following_table,
