@@ -15,7 +15,8 @@ from tools.evaluate.controllers import CONTROLLERS, DEFAULT, TABLES, factors_of,
 from tools.evaluate.curves import build, classes_curve, minutes_curve
 from tools.evaluate.loading import STEPS_A_SECOND, Recordings, Session, Sessions
 from tools.evaluate.synthesis import measure_synthesis
-from tools.shell import say
+from tools.measuring.likeness.reenacting import Likeness, reenact
+from tools.shell import Failure, say
 
 Result = dict[str, Any]
 
@@ -27,6 +28,7 @@ def measure(recordings: Recordings, sessions: Sessions, options: argparse.Namesp
     character = build(recordings, teacher, options.classes, options.seed, [DEFAULT, *TABLES[:-1]], options)
     result = _describe(character, recordings, sessions, options)
     result.update(_measure_controllers(character, sessions, options))
+    result.update(measure_likeness(recordings, teacher, options))
     if not options.no_curves:
         result.update(_measure_curves(recordings, sessions, character, options))
     return result
@@ -44,7 +46,20 @@ def measure_quickly(recordings: Recordings, sessions: Sessions, options: argpars
         "responsiveness": options.responsiveness,
         "takes": {"count": len(recordings.clips), **run_time.of_takes(character)},
         "controllers": {DEFAULT: {"run_time": _without(played[DEFAULT], "by_trace")}},
+        **measure_likeness(recordings, sessions.train[0], options),
     }
+
+
+def measure_likeness(recordings: Recordings, teacher: Session, options: argparse.Namespace) -> Result:
+    """`likeness`: how like the takes a character of half of them looks; nothing, and why, where that cannot be told."""
+    try:
+        likeness = Likeness(recordings)
+        character = build(likeness.seen, teacher, options.classes, options.seed, [DEFAULT], options)
+    except Failure as failure:
+        say(f"likeness to the takes: not measured: {failure}")
+        return {}
+    played = reenact(likeness, character, options.seed, responsiveness=options.responsiveness)
+    return {"likeness": {"takes": likeness.takes, "played": played}}
 
 
 def _describe(
