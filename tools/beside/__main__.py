@@ -12,6 +12,7 @@ import sys
 
 from tools.beside import inputs
 from tools.beside.comparing import compare
+from tools.beside.reenacting import add_likeness
 from tools.beside.setting import make_setting
 from tools.beside.table import beside_table
 from tools.beside.tuning import tune
@@ -34,6 +35,7 @@ def beside(options: argparse.Namespace) -> None:
         say(f"\nconstants: {path}")
         return
     result = compare(setting, load(path), options.seed)
+    add_likeness(result, recordings, load(path), options.seed)
     say(f"\n{text(beside_table(result))}")
     if options.json:
         options.json.write_text(json.dumps(result, indent=1, allow_nan=False) + "\n")

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""How like the takes each system looks that knows half of them and re-enacts the others, as `dev.py evaluate` does."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tools.beside.comparing import every_system
+from tools.beside.setting import CLASSES, SECONDS, make_setting
+from tools.evaluate.loading import Recordings
+from tools.measuring.likeness.reenacting import Figures, Likeness
+from tools.motion_matching.constants import Constants
+from tools.shell import Failure, say
+
+FIGURES = ("frechet", "nearest", "auc", "head_jerk", "ball_travel", "ball_under", "stances", "sway", "ripple", "whips")
+
+
+def add_likeness(
+    result: dict[str, Any],
+    recordings: Recordings,
+    tuned: Constants,
+    seed: int,
+    seconds: float = SECONDS,
+    classes: int = CLASSES,
+) -> None:
+    """To a comparison's figures; says why where the takes cannot be halved."""
+    say("likeness: re-enacting half of the takes")
+    try:
+        likeness = Likeness(recordings)
+        setting = make_setting(likeness.seen, seed, seconds, classes)
+    except Failure as failure:
+        say(f"likeness to unseen takes: not measured: {failure}")
+        return
+    traces = likeness.traces(setting.space)
+    result["takes"].update(_known(likeness.takes))
+    for name, make in every_system(setting, tuned).items():
+        shown = make().play(traces, range(seed, seed + len(traces)))
+        clips = [setting.body.clip(each.motion) for each in shown]
+        result["systems"][name].update(_known(likeness.of(clips)))
+
+
+def _known(figures: Figures) -> dict[str, float]:
+    """Those of FIGURES that are numbers."""
+    return {name: figure for name in FIGURES if (figure := figures[name]) is not None}
