@@ -10,10 +10,10 @@ import fragmotion_core as core
 import numpy as np
 import pytest
 from conftest import Array, make_skeleton
+from fragmotion_command.evaluate import rotations as q
 from sample_motions import write_sample
 from scipy.integrate import solve_ivp
 
-from tools.measuring.peers.kinematics import rotations as q
 from tools.measuring.peers.kinematics.bodies import RATE, Body, Motion, body_of, motion_of, world
 from tools.measuring.peers.kinematics.legs import knee_hinges, set_balls
 from tools.measuring.peers.kinematics.springs import chased, faded, stiffness

@@ -30,6 +30,11 @@ def run_directing(options: argparse.Namespace, arguments: list[str]) -> int:
     return _run("tools.measuring.directing", directing_inputs.needs_blender(options), arguments)
 
 
+def run_quality(arguments: list[str]) -> int:
+    """Compare with the quality's baseline or write it, as python3 -m tools.measuring.quality does with a core."""
+    return _run("tools.measuring.quality", False, arguments)
+
+
 def _run(module: str, blender: bool, arguments: list[str]) -> int:
     """Run a module of tools in the Python that runs this, or with `blender` in that of Blender 4.5's module."""
     python = BPY_PYTHON if blender else HOST

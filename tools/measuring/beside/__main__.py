@@ -14,6 +14,7 @@ from fragmotion_command.evaluate.report import text
 
 from tools.measuring.beside import inputs
 from tools.measuring.beside.comparing import compare
+from tools.measuring.beside.motion.reenacting import add_likeness
 from tools.measuring.beside.setting import make_setting
 from tools.measuring.beside.table import beside_table
 from tools.measuring.beside.tuning import tune
@@ -35,6 +36,7 @@ def beside(options: argparse.Namespace) -> None:
         say(f"\nconstants: {path}")
         return
     result = compare(setting, load(path), options.seed)
+    add_likeness(result, recordings, load(path), options.seed)
     say(f"\n{text(beside_table(result))}")
     if options.json:
         options.json.write_text(json.dumps(result, indent=1, allow_nan=False) + "\n")

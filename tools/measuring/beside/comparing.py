@@ -28,7 +28,7 @@ def compare(setting: Setting, tuned: Constants, seed: int, seconds: float = SECO
     likeness = Likeness(setting.body, *setting.takes)
     traces = sessions(setting.space, seed + TEST_SEEDS, core.PLAYERS, seconds)
     found: dict[str, Any] = {"takes": measures.takes_figures(setting), "systems": {}}
-    for name, make in _systems(setting, tuned).items():
+    for name, make in every_system(setting, tuned).items():
         say(f"playing: {name}")
         system = make()
         figures = measures.measure(setting, system, traces, likeness, measures.SEEDS)
@@ -36,7 +36,8 @@ def compare(setting: Setting, tuned: Constants, seed: int, seconds: float = SECO
     return {**_describe(setting, seed), **found}
 
 
-def _systems(setting: Setting, tuned: Constants) -> dict[str, Callable[[], System]]:
+def every_system(setting: Setting, tuned: Constants) -> dict[str, Callable[[], System]]:
+    """What makes each, by its name."""
     return {
         "ours": lambda: Fragments(setting),
         "ours, responsiveness 1": lambda: Fragments(setting, responsiveness=1.0),

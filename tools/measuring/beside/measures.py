@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 import fragmotion_core as core
 import numpy as np
 from fragmotion_command.evaluate.measures import run_time
+from fragmotion_command.evaluate.rotations import Array, turned
 from scipy.signal import savgol_filter
 
 from tools.measuring.beside.motion import footfalls
@@ -18,7 +19,6 @@ from tools.measuring.beside.motion.likeness import REACH, Likeness
 from tools.measuring.beside.setting import Setting, frame_controls
 from tools.measuring.beside.systems import Shown, System
 from tools.measuring.peers.kinematics.bodies import RATE, Body, Motion
-from tools.measuring.peers.kinematics.rotations import Array, turned
 from tools.measuring.peers.motion_matching.gaps import PERFORMED
 
 Figures = dict[str, float]

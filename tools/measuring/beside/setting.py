@@ -12,10 +12,10 @@ import numpy as np
 from fragmotion_command.evaluate.loading import TEACHER, Recordings, Session, core_failures, make_session
 from fragmotion_command.evaluate.measures import curves
 from fragmotion_command.evaluate.measures.controllers import DEFAULT
+from fragmotion_command.evaluate.rotations import Array
 
 from tools.measuring.peers.kinematics.bodies import RATE, Body, Motion, body_of, motion_of
 from tools.measuring.peers.kinematics.legs import knee_hinges
-from tools.measuring.peers.kinematics.rotations import Array
 from tools.measuring.peers.motion_matching import gaps
 from tools.measuring.peers.motion_matching.matcher import Material, material_of
 

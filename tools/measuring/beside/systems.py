@@ -9,10 +9,10 @@ from typing import NamedTuple, Protocol
 
 import fragmotion_core as core
 import numpy as np
+from fragmotion_command.evaluate.rotations import Array
 
 from tools.measuring.beside.setting import Setting, frame_controls
 from tools.measuring.peers.kinematics.bodies import RATE, Motion
-from tools.measuring.peers.kinematics.rotations import Array
 from tools.measuring.peers.motion_matching.constants import Constants
 from tools.measuring.peers.motion_matching.matcher import Matcher
 

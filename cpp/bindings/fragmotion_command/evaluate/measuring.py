@@ -34,6 +34,7 @@ def measure(recordings: Recordings, sessions: Sessions, options: argparse.Namesp
     character = build(recordings, teacher, options.classes, options.seed, [DEFAULT, *TABLES[:-1]], options)
     result = _describe(character, recordings, sessions, options)
     result.update(_measure_controllers(character, sessions, options))
+    result.update(measure_likeness(recordings, teacher, options))
     if not options.no_curves:
         result.update(_measure_curves(recordings, sessions, character, options))
     return result
@@ -51,7 +52,25 @@ def measure_quickly(recordings: Recordings, sessions: Sessions, options: argpars
         "responsiveness": options.responsiveness,
         "takes": {"count": len(recordings.clips), **run_time.of_takes(character)},
         "controllers": {DEFAULT: {"run_time": _without(played[DEFAULT], "by_trace")}},
+        **measure_likeness(recordings, sessions.train[0], options),
     }
+
+
+def measure_likeness(recordings: Recordings, teacher: Session, options: argparse.Namespace) -> Result:
+    """`likeness`: how like the takes a character of half of them looks; nothing, and why, where that cannot be told."""
+    try:
+        from .likeness.reenacting import Likeness, reenact  # what it computes with need not be there
+    except ModuleNotFoundError as error:
+        say(f"likeness to the takes: not measured: {error.name} is not installed: python -m pip install scipy")
+        return {}
+    try:
+        likeness = Likeness(recordings)
+        character = build(likeness.seen, teacher, options.classes, options.seed, [DEFAULT], options)
+    except ValueError as failure:
+        say(f"likeness to the takes: not measured: {failure}")
+        return {}
+    played = reenact(likeness, character, options.seed, responsiveness=options.responsiveness)
+    return {"likeness": {"takes": likeness.takes, "played": played}}
 
 
 def _describe(

@@ -317,6 +317,8 @@ def tables(result: Result) -> Iterable[Table]:
         yield make(result)
     for make in (changes_table, weight_table, speeds_table, following_table, stitchings_table, coverage_table):
         yield make(result)
+    if "likeness" in result:
+        yield likeness_table(result)
     if "classes_curve" in result:
         yield classes_table(result)
         yield minutes_table(result)
@@ -333,10 +335,39 @@ def figures_table(result: Result) -> Table:
     return Table("The player at 60 frames a second", ["", "the takes", title(result["default"], result)], rows)
 
 
+LIKENESS = {
+    "frechet": "Frechet distance of windows of 0.8 s",
+    "nearest": "nearest window, x an unseen take's",
+    "auc": "told apart by a classifier (AUC)",
+    "successors": "stitches that stay in the take, share",
+    "head_jerk": "head's jerk, x takes'",
+    "hands_jerk": "hands' jerk, x takes'",
+    "ball_travel": "vertical travel of a planted ball, mm",
+    "ball_under": "its lowest place, 5th percentile, mm",
+    "stances": "stances a second, x takes'",
+    "steps": "steps a second, x takes'",
+    "left_right": "longer of left and right step, x shorter",
+    "sway": "hips' sway, x takes'",
+    "ripple": "speed's ripple, x takes'",
+    "whips": "bones that turn too fast, a minute",
+}
+"""The figures of likeness, for people."""
+
+
+def likeness_table(result: Result) -> Table:
+    """How like takes a character of other takes looks that re-enacts them."""
+    takes, played = result["likeness"]["takes"], result["likeness"]["played"]
+    rows = [[name, number(takes.get(key), 2), number(played[key], 2)] for key, name in LIKENESS.items()]
+    heading = "Likeness: half of the takes re-enact the other half's velocity and turn"
+    return Table(heading, ["", "the takes", title(result["default"], result)], rows)
+
+
 def quick_tables(result: Result) -> Iterable[Table]:
     """What `--quick` measures."""
     for make in (figures_table, changes_table, speeds_table):
         yield make(result)
+    if "likeness" in result:
+        yield likeness_table(result)
 
 
 def text(table: Table) -> str:

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 
 import fragmotion_core as core
 import numpy as np
+from fragmotion_command.evaluate.rotations import Array
 from scipy.signal import savgol_filter
 
 from tools.measuring.peers.kinematics.bodies import RATE, Body, Motion, derived, world
-from tools.measuring.peers.kinematics.rotations import Array
 from tools.measuring.peers.motion_matching.library import floors_of
 
 _LOW, _SLOW, _SLOW_SHARE, _SHORTEST = 0.045, 0.5, 0.2, 4  # m, m/s, of the hips' speed, frames

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from fragmotion_command.evaluate.rotations import Array, turned
 
 from tools.measuring.peers.kinematics.bodies import RATE, Body, Motion, facing, world
-from tools.measuring.peers.kinematics.rotations import Array, turned
 
 APART, POSES = round(0.1 * RATE), 6
 REACH = APART * (POSES - 1)  # frames from a window's first to its last

@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import fragmotion_core as core
 import numpy as np
+from fragmotion_command.evaluate.rotations import Array, turned
 
 from tools.measuring.beside.setting import Setting
 from tools.measuring.beside.systems import System
 from tools.measuring.peers.kinematics.bodies import RATE
-from tools.measuring.peers.kinematics.rotations import Array, turned
 
 NO_RESPONSE = 3.0  # s
 _DONE = 0.9  # of a step of the command

@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import fragmotion_core as core
 import numpy as np
+from fragmotion_command.evaluate import rotations as q
+from fragmotion_command.evaluate.rotations import Array
 from scipy.interpolate import CubicSpline
 
-from tools.measuring.peers.kinematics import rotations as q
-from tools.measuring.peers.kinematics.rotations import Array
 from tools.shell import Failure
 
 RATE = 60.0

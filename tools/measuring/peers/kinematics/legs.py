@@ -6,10 +6,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from fragmotion_command.evaluate import rotations as q
+from fragmotion_command.evaluate.rotations import Array
 
-from tools.measuring.peers.kinematics import rotations as q
 from tools.measuring.peers.kinematics.bodies import Body, Motion, world
-from tools.measuring.peers.kinematics.rotations import Array
 
 _THIN = 1e-12
 

@@ -5,8 +5,7 @@ halves."""
 from __future__ import annotations
 
 import numpy as np
-
-from tools.measuring.peers.kinematics.rotations import Array
+from fragmotion_command.evaluate.rotations import Array
 
 
 def stiffness(halflife: float) -> float:

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import numpy as np
+from fragmotion_command.evaluate.rotations import Array
 
 from tools.measuring.peers.kinematics.bodies import RATE, Body, world
 from tools.measuring.peers.kinematics.legs import set_balls
-from tools.measuring.peers.kinematics.rotations import Array
 from tools.measuring.peers.kinematics.springs import faded
 from tools.measuring.peers.motion_matching.constants import Constants
 

@@ -8,12 +8,12 @@ from collections.abc import Sequence
 
 import fragmotion_core as core
 import numpy as np
+from fragmotion_command.evaluate import rotations as q
+from fragmotion_command.evaluate.rotations import Array, turned, wrapped
 from numpy.typing import ArrayLike
 
-from tools.measuring.peers.kinematics import rotations as q
 from tools.measuring.peers.kinematics.bodies import RATE, Body, Motion, derived, world
 from tools.measuring.peers.kinematics.legs import set_balls
-from tools.measuring.peers.kinematics.rotations import Array, turned, wrapped
 from tools.measuring.peers.motion_matching.library import floors_of, root_of
 
 PERFORMED = 0.3  # ControlDis up to which the takes perform a control

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from fragmotion_command.evaluate import rotations as q
+from fragmotion_command.evaluate.rotations import Array
 from scipy.ndimage import median_filter
 from scipy.signal import savgol_filter
 
-from tools.measuring.peers.kinematics import rotations as q
 from tools.measuring.peers.kinematics.bodies import RATE, Body, Motion, derived, hips_heading, world
-from tools.measuring.peers.kinematics.rotations import Array
 from tools.measuring.peers.motion_matching.constants import Constants
 from tools.shell import Failure
 

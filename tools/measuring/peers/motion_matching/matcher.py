@@ -13,10 +13,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from fragmotion_command.evaluate.rotations import Array, turned
 
 from tools.measuring.peers.kinematics.bodies import RATE, Body, Motion
 from tools.measuring.peers.kinematics.legs import knee_hinges
-from tools.measuring.peers.kinematics.rotations import Array, turned
 from tools.measuring.peers.motion_matching.constants import Constants
 from tools.measuring.peers.motion_matching.feet import FootLock
 from tools.measuring.peers.motion_matching.library import (

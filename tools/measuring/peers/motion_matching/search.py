@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import numpy as np
+from fragmotion_command.evaluate.rotations import Array
 from scipy.spatial import cKDTree
 
-from tools.measuring.peers.kinematics.rotations import Array
 from tools.measuring.peers.motion_matching.library import Database
 
 _FEW = 4  # frames that are looked at before more are

@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import numpy as np
+from fragmotion_command.evaluate import rotations as q
+from fragmotion_command.evaluate.rotations import Array, turned, wrapped
 
-from tools.measuring.peers.kinematics import rotations as q
 from tools.measuring.peers.kinematics.bodies import RATE
-from tools.measuring.peers.kinematics.rotations import Array, turned, wrapped
 from tools.measuring.peers.kinematics.springs import faded, share
 from tools.measuring.peers.motion_matching.constants import Constants
 from tools.measuring.peers.motion_matching.library import Frames

@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 import numpy as np
+from fragmotion_command.evaluate.rotations import Array, turned
 
 from tools.measuring.peers.kinematics.bodies import RATE
-from tools.measuring.peers.kinematics.rotations import Array, turned
 from tools.measuring.peers.kinematics.springs import chased, faded
 from tools.measuring.peers.motion_matching.constants import Constants
 from tools.measuring.peers.motion_matching.library import AHEAD
