@@ -156,10 +156,10 @@ class Examination:
     """Role -> bone name, as of Skeleton.role_map."""
     findings: list[Finding]
 
-def examine(takes: list[Take], threads: int = 0) -> list[Examination]:
+def examine(takes: list[Take], threads: int = 0, progress: Progress | None = None) -> list[Examination]:
     """Examine takes as they were read, each by itself and for motion that several have. 0 threads: the machine's."""
 
-def mend(take: Take, findings: list[Finding]) -> Take:
+def mend(take: Take, findings: list[Finding], progress: Progress | None = None) -> Take:
     """The take without what these findings of its examination say, where they are mendable; others change nothing."""
 
 def euler_to_quaternion(order: str, angles: ArrayLike) -> Doubles:
