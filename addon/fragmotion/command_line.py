@@ -9,7 +9,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -73,7 +73,7 @@ def _parser() -> argparse.ArgumentParser:
     build = commands.add_parser("build", help="build a character, from a folder of takes or a .blend's ticked Actions")
     build.add_argument("source", type=Path, metavar="TAKES", help="a folder of takes, or a .blend with Actions")
     build.add_argument("--onto", type=Path, metavar="RIG.blend", help="the file of the character that the takes move")
-    build.add_argument("--classes", type=int, metavar="N", help="how many classes")
+    build.add_argument("--classes", type=_number("build", "classes"), metavar="N", help="how many classes")
     build.add_argument("--controls", choices=_CONTROLS, help="as in the paper, as the takes hold, or as told by:")
     build.add_argument("--speeds", type=int, choices=(1, 2, 3, 4), help="how many it can be asked for")
     build.add_argument("--directions", choices=("4", "8", "16"), help="how many it can be asked for")
@@ -93,7 +93,9 @@ def _parser() -> argparse.ArgumentParser:
     build.add_argument(
         "--folder-styles", action="store_true", help="each take is of the style that the folder of its file is called"
     )
-    build.add_argument("--seed", type=int, metavar="N", help="draws the first centres and the simulated players")
+    build.add_argument(
+        "--seed", type=_number("build", "seed"), metavar="N", help="draws the first centres and the simulated players"
+    )
     build.add_argument("--policy", type=Path, metavar="FILE", help="where to write the policy file")
     build.set_defaults(command=_build)
     bake = commands.add_parser("bake", help="bake motion of characters to Actions, several files over all processors")
@@ -110,7 +112,7 @@ def _parser() -> argparse.ArgumentParser:
         driver.add_argument("--player", choices=core.PLAYERS, help="a simulated player")
         driver.add_argument("--recordings", action="store_true", help="every recording of the armature")
         command.add_argument("--seconds", type=float, metavar="S", help="how long the simulated player plays (20)")
-        command.add_argument("--seed", type=int, metavar="N", help="draws what is left to chance")
+        command.add_argument("--seed", type=_number("bake", "seed"), metavar="N", help="draws what is left to chance")
     info = commands.add_parser("info", help="tell what a character is")
     info.add_argument("source", type=Path, metavar="CHARACTER.blend")
     info.set_defaults(command=_info)
@@ -120,6 +122,20 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("--armature", metavar="NAME", help="which armature, where the file has several")
         command.add_argument("--json", metavar="FILE", help="save the figures there too; - is the terminal")
     return parser
+
+
+def _number(operator: str, field: str) -> Callable[[str], int]:
+    """Reads a whole number that an operator's field may be."""
+    bounds = getattr(bpy.ops.fragmotion, operator).get_rna_type().properties[field]
+
+    def read(text: str) -> int:
+        if text.removeprefix("-").isdecimal() and bounds.hard_min <= int(text) <= bounds.hard_max:
+            return int(text)
+        raise argparse.ArgumentTypeError(
+            f"'{text}' does not do: it must be a whole number from {bounds.hard_min} to {bounds.hard_max}"
+        )
+
+    return read
 
 
 def _build(options: argparse.Namespace) -> dict[str, Any]:
@@ -261,7 +277,7 @@ def _evaluate(options: argparse.Namespace) -> dict[str, Any]:
         raise UserError(f"Armature '{obj.name}' has no character yet")
     character, rows = load(obj), []
     for name, trace in _traces(options, obj, character).items():
-        performance = make_player(obj, character, options.seed or 1, "").run(trace, _EVALUATED_RATE)
+        performance = make_player(obj, character, _seed(options), "").run(trace, _EVALUATED_RATE)
         row = {
             "percent_of_optimal": character.percent_of_optimal(trace),
             "quality": performance.quality,
@@ -274,6 +290,10 @@ def _evaluate(options: argparse.Namespace) -> dict[str, Any]:
     return {"traces": rows}
 
 
+def _seed(options: argparse.Namespace) -> int:
+    return 1 if options.seed is None else options.seed
+
+
 def _traces(options: argparse.Namespace, obj: bpy.types.Object, character: Character) -> dict[str, Doubles]:
     """The traces that are asked for, by what they are called."""
     with core_errors():
@@ -281,7 +301,7 @@ def _traces(options: argparse.Namespace, obj: bpy.types.Object, character: Chara
             return {options.trace.stem: core.read_trace(options.trace)}
         if options.player:
             seconds = 20.0 if options.seconds is None else options.seconds
-            return {options.player: core.simulate_trace(options.player, seconds, options.seed or 1, character.space)}
+            return {options.player: core.simulate_trace(options.player, seconds, _seed(options), character.space)}
     if not obj.fragmotion.takes:
         raise UserError(f"Armature '{obj.name}' has no recordings")
     return {recording.name: trace_of(recording) for recording in obj.fragmotion.takes}

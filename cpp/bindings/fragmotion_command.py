@@ -54,7 +54,7 @@ def _parser() -> argparse.ArgumentParser:
     build = commands.add_parser("build", help="build a character of takes")
     build.add_argument("takes", nargs="+", type=Path, metavar="TAKES")
     build.add_argument("--policy", type=Path, required=True, metavar="FILE", help="where to write the policy file")
-    build.add_argument("--classes", type=int, metavar="N", help="how many classes")
+    build.add_argument("--classes", type=_classes, metavar="N", help="how many classes")
     build.add_argument("--speeds", type=int, choices=(1, 2, 3, 4), default=2, help="that it can be asked for (2)")
     build.add_argument("--directions", type=int, choices=(4, 8, 16), default=8, help="that it can be asked for (8)")
     build.add_argument("--no-turn", action="store_true", help="it can be asked for no turns")
@@ -97,9 +97,17 @@ def _parser() -> argparse.ArgumentParser:
 
 def _seed(text: str) -> int:
     """What is left to chance is drawn from a number of 64 bits."""
-    if text.isdecimal() and int(text) < 2**64:
+    return _number(text, "seed", 0, 2**64 - 1)
+
+
+def _classes(text: str) -> int:
+    return _number(text, "number of classes", 1, core.MOST_CLASSES)
+
+
+def _number(text: str, what: str, least: int, most: int) -> int:
+    if text.isdecimal() and least <= int(text) <= most:
         return int(text)
-    raise argparse.ArgumentTypeError(f"'{text}' is no seed: it must be a whole number from 0 to {2**64 - 1}")
+    raise argparse.ArgumentTypeError(f"'{text}' is no {what}: it must be a whole number from {least} to {most}")
 
 
 def _build(options: argparse.Namespace) -> dict[str, Any]:

@@ -1166,6 +1166,9 @@ def trajectories(character: Character, poses: int = 16) -> tuple[Floats, Floats,
     character frame of the first pose, and [N,K,3] of the first and the last pose, each in its own character frame.
     `poses`: 2 .. 1000."""
 
+MOST_CLASSES: int
+"""More cannot be asked for."""
+
 def cluster(
     points: ArrayLike,
     classes: int,

@@ -196,3 +196,21 @@ def test_styles_are_told_by_names_and_by_folders(addon: ModuleType, takes: Path,
         assert json.loads(told.read_text())["styles"] == ["neutral", "Tired"]
     words = ("bake", built, "--player", "walker", "--seconds", 2, "--style", "Tired")
     assert run(addon, *words, "--blend", tmp_path / "shot.blend") == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "least"),
+    [
+        (("build", "takes", "--seed", "-1"), 0),
+        (("build", "takes", "--classes", "99999999999999"), 2),
+        (("bake", "hero.blend", "--player", "walker", "--seed", "-1"), 0),
+        (("evaluate", "hero.blend", "--player", "walker", "--seed", "one"), 0),
+    ],
+)
+def test_a_number_out_of_its_bounds_is_told(
+    addon: ModuleType, capfd: pytest.CaptureFixture[str], words: tuple[str, ...], least: int
+) -> None:
+    assert run(addon, *words) == 2
+    *_, option, value = words
+    said = f"argument {option}: '{value}' does not do: it must be a whole number from {least} to 2147483647"
+    assert said in capfd.readouterr().err
