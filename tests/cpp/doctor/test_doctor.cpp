@@ -440,7 +440,7 @@ TEST(Doctor, LosesNothingWhereThePiecesOfALongTakeMeet) {
   }
 }
 
-TEST(Doctor, IsStoppedInTheMiddleOfATake) {
+TEST(Doctor, IsStoppedInTheMiddleOfATakeOnAnyThread) {
   const std::vector<Take> takes = {walk(), long_walk(9000)};
   for (const int threads : {1, 2}) {
     int reports = 0;
