@@ -293,3 +293,21 @@ def test_what_ticked_actions_make_is_measured(addon: ModuleType, tmp_path: Path)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "sample.blend"))
     assert run(addon, "evaluate", tmp_path / "sample.blend", "--quick", "--json", tmp_path / "told.json") == 0
     assert json.loads((tmp_path / "told.json").read_text())["takes"]["count"] >= 20
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("build", "takes", "--seed", "-1"),
+        ("build", "takes", "--classes", "99999999999999"),
+        ("bake", "hero.blend", "--player", "walker", "--seed", "-1"),
+        ("evaluate", "hero.blend", "--player", "walker", "--seed", "one"),
+    ],
+)
+def test_a_number_out_of_its_bounds_is_told(
+    addon: ModuleType, capfd: pytest.CaptureFixture[str], words: tuple[str, ...]
+) -> None:
+    assert run(addon, *words) == 2
+    *_, option, value = words
+    said = capfd.readouterr().err
+    assert f"argument {option}: '{value}' is no " in said and "it must be a whole number from" in said

@@ -135,6 +135,17 @@ def test_what_is_no_seed_is_told(folder: Path, capsys: pytest.CaptureFixture[str
     assert f"argument --seed: '{seed}' is no seed: it must be a whole number from 0 to" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("classes", ["0", "-1", "99999999999999", "many"])
+def test_what_is_no_number_of_classes_is_told(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], classes: str
+) -> None:
+    with pytest.raises(SystemExit) as end:
+        run("build", folder / "takes", "--policy", tmp_path / "x.policy", "--classes", classes)
+    assert end.value.code == 2
+    words = f"'{classes}' is no number of classes: it must be a whole number from 1 to {core.MOST_CLASSES}"
+    assert f"argument --classes: {words}" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

@@ -15,7 +15,7 @@ from ..character import classes
 from ..character.building import has_character, load
 from ..character.moves import bring_up_to_date, check_keys, names_of, triggers_of
 from ..compat.data_blocks import is_alive
-from ..edits.replaying import play_again
+from ..edits.replaying import play_again, shown_poses
 from ..errors import UserError
 from ..ground.meshes import find_ground
 from ..recordings.curves import renew_curves
@@ -46,6 +46,8 @@ from .state.scene_state import SceneState
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
+
+    from ..rig.motion import Motion
 
 RATE = POSE_RATE
 """Steps a second. All are equally long, so that a recorded trace shows the same motion when it is replayed."""
@@ -258,10 +260,12 @@ class Session:
         self.actor.begin(start, styled.begin)
         self.styling.reset(styled.begin)
 
-    def play_over(self, punch: Punch, start: tuple[float, float, float], styled: Styled) -> None:
-        """Let a recording drive from the character frame and the style in which it begins, from shortly before the
-        stretch on which the stick takes over."""
+    def play_over(self, punch: Punch, start: tuple[float, float, float], styled: Styled, shown: Motion | None) -> None:
+        """Let a recording, of which these poses are `shown`, drive from the character frame and the style in which it
+        begins, from shortly before the stretch on which the stick takes over."""
         self._begin(start, styled)
+        if shown is not None:
+            self.actor.join_on(shown, punch.first)
         self.punch = punch
         for _ in range(max(punch.first * RATE // TRACE_RATE - _LEAD * RATE, 0)):
             self._ask_beside(set())
@@ -451,12 +455,17 @@ def record_over(
         )
     known = load(obj).policies if has_character(obj) else []
     chosen = recording.policy if recording.policy in known else ""
+    shown = shown_poses(obj, recording)
+    if shown is not None and len(shown.classes) <= first * RATE // TRACE_RATE:
+        raise UserError(
+            f"Recording '{recording.name}' shows nothing from {begin:.1f} s on: move the playhead before it"
+        )
     with _opened(context, obj, recording.seed, chosen) as driven:
         character, asked = driven.actor.character, asked_of(recording)
         styled = numbered_styles(recording, driven.styling.names)
         own = Own(recording.name, trace, asked, numbered_moves(recording, names_of(character)), styled)
         taken = Taken(character, style_before(styled, first), RATE)
-        driven.play_over(Punch(own, first, last, RATE, taken), start_frame, styled)
+        driven.play_over(Punch(own, first, last, RATE, taken), start_frame, styled, shown)
         return driven
 
 

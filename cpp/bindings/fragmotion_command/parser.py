@@ -98,7 +98,7 @@ def _add_build(build_: argparse.ArgumentParser) -> argparse.ArgumentParser:
 
 
 def _add_what_is_built(word: argparse._ActionsContainer) -> None:
-    word.add_argument("--classes", type=int, metavar="N", help="how many classes (97)")
+    word.add_argument("--classes", type=_classes, metavar="N", help="how many classes (97)")
     word.add_argument("--controls", choices=CONTROLS, help="as in the paper (so it is), as the takes hold, or told by:")
     word.add_argument("--speeds", type=int, choices=(1, 2, 3, 4), help="how many it can be asked for (2)")
     word.add_argument("--directions", type=int, choices=(4, 8, 16), help="how many it can be asked for (8)")
@@ -180,6 +180,14 @@ def _add_seed(word: argparse.ArgumentParser) -> None:
 
 def _seed(text: str) -> int:
     """What is left to chance is drawn from a number of 64 bits."""
-    if text.isdecimal() and int(text) < 2**64:
+    return _number(text, "seed", 0, 2**64 - 1)
+
+
+def _classes(text: str) -> int:
+    return _number(text, "number of classes", 1, core.MOST_CLASSES)
+
+
+def _number(text: str, what: str, least: int, most: int) -> int:
+    if text.isdecimal() and least <= int(text) <= most:
         return int(text)
-    raise argparse.ArgumentTypeError(f"'{text}' is no seed: it must be a whole number from 0 to {2**64 - 1}")
+    raise argparse.ArgumentTypeError(f"'{text}' is no {what}: it must be a whole number from {least} to {most}")

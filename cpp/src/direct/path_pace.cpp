@@ -92,7 +92,7 @@ double PathPace::seconds_left(double way, double going, double speed) const {
   for (auto i = static_cast<std::size_t>(at / step_) + 1; i < limits_.size() && at < stop; ++i) {
     const double next = std::min(static_cast<double>(i) * step_, stop), limit = std::min(speed, limits_[i]);
     const double then = std::min(limit, std::sqrt(now * now + faster * (next - at)));
-    seconds += (next - at) / std::max((std::min(now, limit) + then) / 2, kCrawl / scale_);
+    seconds += (next - at) / std::max((std::min(now, limit) + then) / 2, std::min(kCrawl / scale_, limit));
     if (limits_[i] < kSharp * speed && leaves_bend(i)) seconds += kTurningOff;
     now = then;
     at = next;

@@ -33,17 +33,20 @@ double floor_of(const std::vector<Vector3>& path) {
 }
 
 Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
-  const Roles& roles = kinematics.skeleton().roles;
-  if (roles.left_foot < 0 || roles.right_foot < 0) return {};
   std::vector<Vector3> hips;
   for (int f = 0; f < clip.frames; ++f) hips.push_back(load_vector(&clip.root_positions[3 * f]));
-  const double scale = standard_scale(kinematics.skeleton());
-  const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
+  return find_contacts(kinematics.skeleton(), foot_paths(kinematics, clip), hips, clip.rate, floors);
+}
+
+Contacts find_contacts(const Skeleton& skeleton, const std::array<FootPath, 2>& paths, const std::vector<Vector3>& hips,
+                       double rate, const Floors* floors) {
+  if (paths[0].ball.empty()) return {};
+  const double scale = standard_scale(skeleton);
   Contacts contacts;
   for (int side = 0; side < 2; ++side) {
     contacts.floors[side] =
         floors ? (*floors)[side] : FootHeights{floor_of(paths[side].ball), floor_of(paths[side].heel)};
-    contacts.feet[side] = foot_contacts(paths[side], contacts.floors[side], hips, clip.rate, scale);
+    contacts.feet[side] = foot_contacts(paths[side], contacts.floors[side], hips, rate, scale);
   }
   return contacts;
 }

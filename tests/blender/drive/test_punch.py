@@ -152,3 +152,43 @@ def test_a_replay_that_fails_leaves_the_recording_as_it_was(
         session.stop()
     assert [getattr(obj.fragmotion.takes[0], field) for field in fields] == before
     assert session.current is None
+
+
+def cut(addon: ModuleType, obj: bpy.types.Object, recording: Any) -> None:
+    part(addon, "edits.cutting").cut_out(obj, recording, 1.0, 3.0)
+
+
+def pinned(addon: ModuleType, obj: bpy.types.Object, recording: Any) -> None:
+    """A quarter of a metre aside at 3 s; the search plays controls alone."""
+    pinning, recordings = part(addon, "edits.pinning"), part(addon, "recordings.recordings")
+    recordings.set_asked(recording, recordings.Asked([], "", []))
+    aside = part(addon, "edits.replaying").shown_poses(obj, recording).path[180] + (0.2, 0.15, 0.2)
+    goal = pinning.Goal(3.0, 0.5, tuple(aside))
+    pinning.keep_pin(obj, recording, goal, pinning.prepare(obj, recording, goal)(lambda *_: True))
+
+
+@pytest.mark.parametrize("edit", [cut, pinned])
+@pytest.mark.parametrize("begin", [0.0, 4.0])
+def test_what_is_recorded_over_an_edited_recording_is_kept_as_it_was_shown(
+    addon: ModuleType, session: ModuleType, obj: bpy.types.Object, edit: Any, begin: float
+) -> None:
+    recording, replaying = obj.fragmotion.takes[0], part(addon, "edits.replaying")
+    shown_of = part(addon, "recordings.recordings").shown_of
+    edit(addon, obj, recording)
+    before = shown_of(recording)[1]
+    driven = session.record_over(bpy.context, obj, recording, begin, begin + 2.5)
+    seen = Seen(driven)
+    seen.go_on(min(begin, 2.0))
+    driven.inputs.keyboard.press("W")
+    seen.go_on(5.0)
+    session.stop()
+    kept = shown_of(recording)[1]
+    end, first = round(begin * driving.RATE), round(max(begin - 2.0, 0.0) * driving.RATE) + 1
+    np.testing.assert_array_equal(kept.path[: end + 1], before.path[: end + 1])
+    part_seen = slice(first, first + len(seen.frames))
+    np.testing.assert_allclose(kept.path[part_seen], np.array(seen.frames), atol=NEAR)
+    np.testing.assert_allclose(kept.root_positions[part_seen], seen.heads, atol=NEAR)
+    character = part(addon, "character.building").load(obj)
+    trace = part(addon, "recordings.recordings").trace_of(recording)
+    played = replaying.replay(obj, character, recording, trace, recording.seed)
+    assert begin == 0 or np.hypot(*(played.path[end] - kept.path[end])[:2]) > 2 * NEAR, "it is not what a replay shows"

@@ -17,10 +17,13 @@ from ...ground.meshes import Ground
 from ...rig.posing import check_free
 from ...rig.rigs import carriers, make_rig
 from ..input.steering import Control
+from .joined import Joined, Pose
 from .slider import Slider
 
 if TYPE_CHECKING:
     from fragmotion_core import ControlSpace, Doubles, Player
+
+    from ...rig.motion import Motion
 
 _TURNS_WELL = 0.75  # of the turn rate that is asked for
 _START, _TRIAL = 1.0, 2.0  # s of going straight, and of turning then
@@ -57,14 +60,19 @@ class Actor:
             with core_errors("Drive"):
                 self.player = make_player(obj, self.character, seed, policy)
                 self.player.stand_on(ground)
+        self._joined: Joined | None = None
+        self._pose: Pose
         self._order = [obj.data.bones.find(bone.name) for bone in obj.pose.bones]
         stands = obj.fragmotion.drive.start == "CHARACTER"
         self.player.reset(*(character_frame(context, obj, self._rig) if stands else origin_frame(obj)))
 
     def step(self, control: Control, seconds: float) -> tuple[Doubles, Doubles]:
         """Play on, and return the pose: root position [3] and rotations [B,4]."""
-        pose: tuple[Doubles, Doubles] = self.player.step(control, seconds)
-        return pose
+        root, rotations = self.player.step(control, seconds)
+        if self._joined is None:
+            return root, rotations
+        self._pose = self._joined.show(Pose(root, rotations, self.player.frame))
+        return self._pose.root, self._pose.rotations
 
     @property
     def style(self) -> int:
@@ -87,8 +95,21 @@ class Actor:
             turned += _turned(player, pace, turn)
         return bool(turned / 2 > _TURNS_WELL * self.space.turn_rate * _TRIAL)
 
+    def join_on(self, shown: Motion, first: int) -> None:
+        """Show what a recording showed that begins now, and from its control `first` on what is played, joined on."""
+        assert self.character is not None
+        root, rotations = self.step(Control(), 0.0)
+        self._pose = Pose(root, rotations, self.frame)
+        self._joined = Joined(self.character, shown, first, self._pose)
+
+    @property
+    def is_joined(self) -> bool:
+        """Whether it is shown joined on to what a recording showed."""
+        return self._joined is not None
+
     def begin(self, frame: Sequence[float], style: int = 0) -> None:
         """Stand at a character frame, in a style."""
+        self._joined = None
         if self.character is None:
             self.player.reset(*frame)
         else:
@@ -109,7 +130,7 @@ class Actor:
     @property
     def frame(self) -> tuple[float, float, float]:
         """Where the character is, m, and its heading, radians from +Y."""
-        frame: tuple[float, float, float] = self.player.frame
+        frame: tuple[float, float, float] = self.player.frame if self._joined is None else self._pose.frame
         return frame
 
 

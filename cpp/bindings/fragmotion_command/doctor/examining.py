@@ -53,13 +53,17 @@ def examine(paths: Sequence[Path]) -> Result:
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         read = list(pool.map(_read, paths))
     takes = [take for take in read if isinstance(take, core.Take)]
-    examinations = iter(core.examine(takes))
+    examinations = iter(core.examine(takes, progress=_hear))
     return {
         "files": [
             _told(path, take, next(examinations)) if isinstance(take, core.Take) else _unreadable(path, take)
             for path, take in zip(paths, read)
         ]
     }
+
+
+def _hear(_fraction: float, _stage: str) -> None:
+    """Python hears of Ctrl+C whenever it is called."""
 
 
 def is_readable(file: File) -> bool:

@@ -42,8 +42,6 @@ def check(options: argparse.Namespace) -> None:
     for name, value in _USUAL.items():
         if getattr(options, name) is None:
             setattr(options, name, value)
-    if options.classes < 1:
-        raise ValueError(f"--classes is {options.classes}, and must be 1 or more")
     if not options.unit > 0:
         raise ValueError(f"--unit is {options.unit:g}, and must be over 0")
     if not 0 <= options.responsiveness <= 1:

@@ -21,4 +21,8 @@ std::array<FootPath, 2> foot_paths(const Kinematics& kinematics, const Clip& cli
 std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, const std::vector<Vector3>& hips,
                                 double rate, double scale);
 
+/// find_contacts() of feet that went so.
+Contacts find_contacts(const Skeleton& skeleton, const std::array<FootPath, 2>& paths, const std::vector<Vector3>& hips,
+                       double rate, const Floors* floors = nullptr);
+
 }  // namespace fragmotion
