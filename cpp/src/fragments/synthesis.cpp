@@ -290,8 +290,8 @@ class Synthesizer {
 
   // Of a character that goes so fast.
   Hop hop_at(double speed) const {
-    const double haste = std::min(1.0, speed / space_.run());
-    return {kJumpHeight, dip_ * (1 + haste * (kRunningDip - 1)), kSinking * (1 - haste / 2)};
+    const double running = std::min(1.0, speed / space_.run());
+    return {kJumpHeight, dip_ * (1 + running * (kRunningDip - 1)), kSinking * (1 - running / 2)};
   }
 
   // Adds a clip with a hop in it, whose flight is the fragment.

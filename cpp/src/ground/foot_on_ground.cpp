@@ -150,7 +150,7 @@ void FootOnGround::bear(const FootAhead& foot, double seconds) {
   const auto ramp = [](double time, double over) { return std::clamp(1 - time / over, 0.0, 1.0); };
   const double wanted = foot.stands ? 1 : std::max(ramp(due_, kLoading), ramp(aloft_, kUnloading)),
                most = fresh_ ? 1 : seconds / kQuickest;
-  burden_ += std::clamp(wanted - burden_, -most, most);
+  contact_weight_ += std::clamp(wanted - contact_weight_, -most, most);
   const double grip = foot.stands ? 1 : std::max(ramp(due_, kGrip), ramp(aloft_, kGrip)),
                step = fresh_ ? 1 : seconds / kGrip;
   grip_ += std::clamp(grip - grip_, -step, step);

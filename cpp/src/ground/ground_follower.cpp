@@ -152,7 +152,7 @@ void GroundFollower::sink(const FeetAhead& feet, const std::array<Vector3, 2>& a
     const Leg& leg = body_->legs[side];
     const double length = leg_length(leg, body_->posed),
                  lacks = missing(length, body_->posed.heads[leg.thigh], ankles[side]);
-    now = std::max(now, feet_[side].burden() * softly_positive(lacks, soft));
+    now = std::max(now, feet_[side].contact_weight() * softly_positive(lacks, soft));
     if (feet[side].stands || feet[side].due > due) continue;
     const FootAhead& foot = feet[side];
     const Footing& next = feet_[side].next();
@@ -175,7 +175,7 @@ void GroundFollower::raise_heel(int side, const FootAhead& foot, Vector3& ankle)
   const Vector3 from_ball = turns_[side] * (posed.heads[leg.foot] - ball(body_->kinematics.skeleton(), leg, posed)),
                 ball = ankle - from_ball, axis = from_ball.cross(Vector3::UnitZ()).normalized();
   const double upright = kMostUpright - std::atan2(from_ball.z(), from_ball.head<2>().norm()),
-               most = std::min(kMostRaised, upright) * exact_ * feet_[side].burden() * flat;
+               most = std::min(kMostRaised, upright) * exact_ * feet_[side].contact_weight() * flat;
   const auto raised = [&](double angle) { return Quaternion{Eigen::AngleAxisd(angle, axis)}; };
   const auto reaches = [&](double angle) {
     return (ball + raised(angle) * from_ball - posed.heads[leg.thigh]).norm() <= reached;
