@@ -21,7 +21,7 @@ FOLDERS = [
     "recordings",
     "character",
     "paths",
-    "drive/input",
+    "input",
     "settings",
     "bake",
     "edits",

@@ -18,6 +18,8 @@ from ..compat.data_blocks import is_alive
 from ..edits.replaying import play_again
 from ..errors import UserError
 from ..ground.meshes import find_ground
+from ..input.inputs import Inputs
+from ..input.steering import Control, Steering, view_heading
 from ..recordings.curves import renew_curves
 from ..recordings.recordings import (
     POSE_RATE,
@@ -39,8 +41,6 @@ from .follow import FollowCamera
 from .hud import overlays, views
 from .hud.readings import Readings
 from .hud.shown import LONGEST_UPDATE, Shown
-from .input.inputs import Inputs
-from .input.steering import Control, Steering, view_heading
 from .state import suspended_state
 from .state.scene_state import SceneState
 
@@ -273,7 +273,7 @@ class Session:
         """Give the recording what was recorded over it, once; whether there was anything. It goes on playing where it
         was recorded as it is."""
         punch, self.punch = self.punch, None
-        recording = self.obj.fragmotion.takes.get(punch.own.name) if punch is not None else None
+        recording = self.obj.fragmotion.recordings.get(punch.own.name) if punch is not None else None
         if punch is None or recording is None or not punch.begun:
             return False
         try:

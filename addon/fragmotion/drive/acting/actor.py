@@ -14,9 +14,9 @@ from ...character.building import check_skeleton, has_character, in_styles, load
 from ...compat.core import core
 from ...errors import core_errors
 from ...ground.meshes import Ground
+from ...input.steering import Control
 from ...rig.posing import check_free
 from ...rig.rigs import carriers, make_rig
-from ..input.steering import Control
 from .slider import Slider
 
 if TYPE_CHECKING:

@@ -13,10 +13,10 @@ from ...character.moves import names_of
 from ...control_rig.binding import follows, rig_of
 from ...drive import session
 from ...drive.hud import views
-from ...drive.input.keyboard import STYLE_STEPS
-from ...drive.input.pads import Pads
-from ...drive.input.sdl import SdlMissing
 from ...errors import UserError, core_errors, ends_on_error, reported
+from ...input.keyboard import STYLE_STEPS
+from ...input.pads import Pads
+from ...input.sdl import SdlMissing
 from ...paths.drawing import ground_under
 from ...recordings.traces import asked_beside, make_trace
 from ...rig.external_motion import external_motion
@@ -156,7 +156,7 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
     def _start(self, context: bpy.types.Context, obj: bpy.types.Object) -> session.Session:
         if self.source == "INPUTS":
             return session.start(context, obj, self.seed, self.policy)
-        recordings = obj.fragmotion.takes
+        recordings = obj.fragmotion.recordings
         if self.recording >= len(recordings):
             raise UserError(f"Armature '{obj.name}' has no such recording: record or import one")
         if self.source == "OVER":
