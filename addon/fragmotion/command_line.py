@@ -239,7 +239,7 @@ def _bake_one(options: argparse.Namespace, path: Path, target: Path) -> list[dic
     elif options.player:
         sources = [{"trace_source": "PLAYER", "player": options.player}]
     else:
-        sources = [{"trace_source": "RECORDING", "recording": index} for index in range(len(obj.fragmotion.takes))]
+        sources = [{"trace_source": "RECORDING", "recording": index} for index in range(len(obj.fragmotion.recordings))]
     if not sources:
         raise UserError(f"Armature '{obj.name}' has no recordings")
     baked = []
@@ -282,9 +282,9 @@ def _traces(options: argparse.Namespace, obj: bpy.types.Object, character: Chara
         if options.player:
             seconds = 20.0 if options.seconds is None else options.seconds
             return {options.player: core.simulate_trace(options.player, seconds, options.seed or 1, character.space)}
-    if not obj.fragmotion.takes:
+    if not obj.fragmotion.recordings:
         raise UserError(f"Armature '{obj.name}' has no recordings")
-    return {recording.name: trace_of(recording) for recording in obj.fragmotion.takes}
+    return {recording.name: trace_of(recording) for recording in obj.fragmotion.recordings}
 
 
 def _info(options: argparse.Namespace) -> dict[str, Any]:
@@ -326,7 +326,7 @@ def _figures(obj: bpy.types.Object) -> dict[str, Any]:
         "controls_performed": figures.performed,
         "controls": figures.controls,
         **({"styles": [style.name for style in figures.styles]} if figures.styles else {}),
-        "recordings": len(obj.fragmotion.takes),
+        "recordings": len(obj.fragmotion.recordings),
     }
     print(", ".join(f"{name.replace('_', ' ')} {_shown(value)}" for name, value in found.items()), flush=True)
     return found

@@ -154,7 +154,9 @@ def lose_a_window(before: list[Any]) -> Iterator[None]:
     yield from go_on()
     close_window()
     yield
-    assert [each.name for each in bpy.data.objects["Rig"].fragmotion.takes] == ["Recording"], "the recording is lost"
+    assert [each.name for each in bpy.data.objects["Rig"].fragmotion.recordings] == ["Recording"], (
+        "the recording is lost"
+    )
     yield from assert_nothing_is_left(before)
 
 
@@ -190,11 +192,11 @@ def undo_while_recording(before: list[Any]) -> Iterator[None]:
         yield from undo()
         yield
         yield from assert_nothing_is_left(before)
-        assert len(bpy.data.objects["Rig"].fragmotion.takes) == 1 and "Another" in bpy.data.objects
+        assert len(bpy.data.objects["Rig"].fragmotion.recordings) == 1 and "Another" in bpy.data.objects
         yield from send(first, "Z", "RELEASE")
         yield from send(first, "Z", "PRESS", ctrl=True)
         yield from send(first, "Z", "RELEASE")
-        assert not bpy.data.objects["Rig"].fragmotion.takes and "Another" in bpy.data.objects
+        assert not bpy.data.objects["Rig"].fragmotion.recordings and "Another" in bpy.data.objects
     assert "Undo has ended the drive" in reports() and "ended by undo" in reports()
 
 

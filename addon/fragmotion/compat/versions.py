@@ -196,3 +196,8 @@ def _slot_for(action: bpy.types.Action, obj: bpy.types.Object) -> Any:
     slots = [slot for slot in action.slots if slot.target_id_type in {"OBJECT", "UNSPECIFIED"}]
     sizes = {bag.slot_handle: len(bag.fcurves) for bag in _bags(action)}
     return max(slots, key=lambda slot: (slot.name_display == obj.name, sizes.get(slot.handle, 0)), default=None)
+
+
+def kept_properties(data: bpy.types.ID) -> Any:
+    """What Blender keeps of the properties that add-ons register, by their names."""
+    return data.bl_system_properties_get() if hasattr(data, "bl_system_properties_get") else data

@@ -78,7 +78,7 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.O
 
 def _draw_recording(layout: bpy.types.UILayout, obj: bpy.types.Object, settings: BakeFields) -> None:
     """The name of the recording that is baked."""
-    recordings, index = obj.fragmotion.takes, settings.recording
+    recordings, index = obj.fragmotion.recordings, settings.recording
     recording = active_recording(obj) if index < 0 else recordings[index] if index < len(recordings) else None
     if recording is not None:
         layout.label(text=recording.name, icon="REC", translate=False)

@@ -125,7 +125,7 @@ def test_what_is_taken_away_ends_the_drive(session: ModuleType, cast: Any, remov
     assert len(kept) >= (3 if remove == swap_armature else len(before) - 1)
     assert {key: after[key] for key in kept} == {key: before[key] for key in kept}
     assert armature.pose_position == "REST" and cast.data.pose_position == ("POSE" if armature != cast.data else "REST")
-    assert [each.seconds for each in cast.fragmotion.takes] == [0.5], "what was recorded is lost"
+    assert [each.seconds for each in cast.fragmotion.recordings] == [0.5], "what was recorded is lost"
 
 
 def test_the_armature_is_given_back_where_what_was_active_is_gone(session: ModuleType) -> None:
@@ -211,15 +211,17 @@ def test_undo_while_recording_keeps_the_recording_and_what_was_done_before(sessi
     bpy.ops.ed.undo()
     assert session.current is None and "undo" in driven.farewell and "is kept" in driven.farewell
     obj = bpy.data.objects["Rig"]
-    assert [each.seconds for each in obj.fragmotion.takes] == [1] and "Another" in bpy.data.objects
+    assert [each.seconds for each in obj.fragmotion.recordings] == [1] and "Another" in bpy.data.objects
     assert own_state(obj).keys() == before and NOTE not in obj
     bpy.ops.ed.undo()
-    assert not bpy.data.objects["Rig"].fragmotion.takes and "Another" in bpy.data.objects, "the recording is one step"
+    assert not bpy.data.objects["Rig"].fragmotion.recordings and "Another" in bpy.data.objects, (
+        "the recording is one step"
+    )
     bpy.ops.ed.undo()
     assert "Another" not in bpy.data.objects, "nothing is in the way of further undoing"
     for _ in range(2):
         bpy.ops.ed.redo()
-    assert [each.seconds for each in bpy.data.objects["Rig"].fragmotion.takes] == [1]
+    assert [each.seconds for each in bpy.data.objects["Rig"].fragmotion.recordings] == [1]
 
 
 def test_redo_while_recording_keeps_the_recording(session: ModuleType) -> None:
@@ -234,9 +236,9 @@ def test_redo_while_recording_keeps_the_recording(session: ModuleType) -> None:
     go_on(driven, 1)
     bpy.ops.ed.redo()
     assert session.current is None and "Another" in bpy.data.objects
-    assert [each.seconds for each in bpy.data.objects["Rig"].fragmotion.takes] == [1]
+    assert [each.seconds for each in bpy.data.objects["Rig"].fragmotion.recordings] == [1]
     bpy.ops.ed.undo()
-    assert "Another" in bpy.data.objects and not bpy.data.objects["Rig"].fragmotion.takes
+    assert "Another" in bpy.data.objects and not bpy.data.objects["Rig"].fragmotion.recordings
 
 
 def test_a_recording_that_is_replayed_may_be_removed(addon: ModuleType, session: ModuleType) -> None:
