@@ -57,7 +57,7 @@ def add_twin(obj: bpy.types.Object, module: str) -> None:
     twin.name = "Twin"
     bpy.context.scene.collection.objects.link(twin)
     twin.fragmotion.keep_policy = "BESIDE"
-    import_module(f"{module}.drive.state.suspended_state").put_aside(twin)
+    import_module(f"{module}.preview.suspended_state").put_aside(twin)
 
 
 def main(package: str, folder: Path) -> None:

@@ -25,7 +25,7 @@ FOLDERS = [
     "settings",
     "bake",
     "edits",
-    "drive/state",
+    "preview",
     "drive/acting",
     "drive/hud",
     "drive",

@@ -206,7 +206,7 @@ def test_the_inspector_and_force_are_of_the_style_that_is_driven(
 
 def test_a_preview_is_of_the_style_that_is_shown(addon: ModuleType, obj: bpy.types.Object) -> None:
     character = part(addon, "character.building").load(obj)
-    solo = part(addon, "drive.solo").Solo(bpy.context, obj, 5, TIRED)
+    solo = part(addon, "preview.class_preview").ClassPreview(bpy.context, obj, 5, TIRED)
     members = set(np.flatnonzero(character.in_style(TIRED).labels == 5).tolist())
     for _ in range(20):
         solo.step(1 / 8)

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -177,13 +176,13 @@ def test_saving_twice_between_two_updates_is_harmless(
     assert "Traceback" not in capfd.readouterr().err
 
 
-def test_a_note_that_is_not_ours_is_dropped(session: ModuleType, tmp_path: Path) -> None:
+def test_a_note_that_is_not_ours_is_dropped(addon: ModuleType, session: ModuleType, tmp_path: Path) -> None:
     obj, mesh = making.add_armature(), making.add_mesh()
     obj[NOTE], mesh[NOTE] = {"slot": "?", "modes": 3}, 1
     other = making.add_armature(name="Other")
     spoil(other)
     before = own_state(other)
-    import_module(f"{session.__package__}.state.suspended_state").put_aside(other)
+    addon.preview.suspended_state.put_aside(other)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "forged.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "forged.blend"))
     assert not any(NOTE in obj for obj in bpy.data.objects)

@@ -140,12 +140,12 @@ def test_an_undo_step_of_the_users_from_the_middle_of_a_drive_is_healed(session:
     assert obj.animation_data.action == bpy.data.actions["own"]
 
 
-def test_a_file_from_the_middle_of_a_drive_is_healed(session: ModuleType, tmp_path: Path) -> None:
+def test_a_file_from_the_middle_of_a_drive_is_healed(addon: ModuleType, session: ModuleType, tmp_path: Path) -> None:
     """As Blender's autosave writes it, which calls no handler."""
     obj = making.add_armature()
     spoil(obj)
     modes, pose = [bone.rotation_mode for bone in obj.pose.bones], everything(obj)["bones"]
-    import_module(f"{session.__package__}.state.suspended_state").put_aside(obj)
+    addon.preview.suspended_state.put_aside(obj)
     assert [bone.rotation_mode for bone in obj.pose.bones] != modes
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "autosave.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "autosave.blend"))
