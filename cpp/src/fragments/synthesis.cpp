@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "base/quantile.hpp"
 #include "base/ranges.hpp"
 #include "fragmotion/fragments/blend.hpp"
 #include "fragmotion/fragments/distance.hpp"
@@ -42,12 +43,6 @@ double angle_between(const Control& a, const Control& b) {
 
 Control mix(const Control& a, const Control& b, double w) {
   return {a.x + w * (b.x - a.x), a.y + w * (b.y - a.y), a.turn + w * (b.turn - a.turn), a.jump + w * (b.jump - a.jump)};
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Adds a fragment that stands in place.
@@ -214,7 +209,7 @@ class Synthesizer {
     for (const Clip& clip : pool_.clips) {
       for (int f = 0; f < clip.frames; ++f) heights.push_back(clip.root_positions[std::size_t{3} * f + 2]);
     }
-    const double usual = median(heights);
+    const double usual = median(std::move(heights));
     for (const Fragment& f : pool_.fragments) {
       if (!f.evident.jumps()) continue;
       const Clip& clip = pool_.clips[f.clip];
@@ -223,7 +218,7 @@ class Synthesizer {
         lowest = std::min(lowest, clip.root_positions[std::size_t{3} * at + 2]);
       dips.push_back((usual - lowest) * space_.scale());
     }
-    if (!dips.empty()) dip_ = std::clamp(median(dips), kLeastDip, kMostDip);
+    if (!dips.empty()) dip_ = std::clamp(median(std::move(dips)), kLeastDip, kMostDip);
   }
 
   // What it costs a cycle's looks to be made to perform a control. Whether it jumps makes no difference: what hops is
