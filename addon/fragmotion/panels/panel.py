@@ -23,6 +23,7 @@ from ..preview.take_preview import TakePreview
 from ..settings.drawing import (
     draw_bake,
     draw_build,
+    draw_build_advanced,
     draw_coverage,
     draw_figures,
     draw_keeping,
@@ -228,13 +229,23 @@ class FRAGMOTION_PT_coverage(_BuildSubPanel, bpy.types.Panel):
 
 
 class FRAGMOTION_PT_training(_BuildSubPanel, bpy.types.Panel):
-    """What the policy learns from, and how."""
+    """What the policy learns to perform, and from whom."""
 
     bl_idname = "FRAGMOTION_PT_training"
     bl_label = "Training"
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_training(self.layout, active_armature(context).fragmotion.build)
+
+
+class FRAGMOTION_PT_build_advanced(_BuildSubPanel, bpy.types.Panel):
+    """What hardly anybody need change: the policy, where takes are cut, and the seed."""
+
+    bl_idname = "FRAGMOTION_PT_build_advanced"
+    bl_label = "Advanced"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_build_advanced(self.layout, active_armature(context).fragmotion.build)
 
 
 class FRAGMOTION_PT_policy(_BuildSubPanel, bpy.types.Panel):
@@ -279,6 +290,7 @@ CLASSES = (
     *classes.CLASS_PANELS,
     FRAGMOTION_PT_coverage,
     FRAGMOTION_PT_policy,
+    FRAGMOTION_PT_build_advanced,
     *drive.CLASSES,
     *moves.CLASSES,
     *path.CLASSES,
