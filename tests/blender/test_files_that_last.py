@@ -102,6 +102,7 @@ def test_what_is_linked_has_all_too(addon: ModuleType, file: Path) -> None:
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     with bpy.data.libraries.load(str(file), link=True) as (_, linked):
         linked.objects = ["Hero"]
+    bpy.context.scene.collection.objects.link(linked.objects[0])
     bpy.ops.wm.save_as_mainfile(filepath=str(file.with_name("linking.blend")))
     bpy.ops.wm.open_mainfile(filepath=str(file.with_name("linking.blend")))
     settings = bpy.data.objects["Hero"].fragmotion

@@ -153,12 +153,12 @@ def draw_named(layout: bpy.types.UILayout, data: Any, name: str, placeholder: st
         layout.prop(data, name)
 
 
-def draw_progress(layout: bpy.types.UILayout, fraction: float, text: str, percentage: bool = True) -> None:
-    """A progress bar; its text, with a percentage unless the text says how far it is, before 4.0, which had no bar."""
+def draw_progress(layout: bpy.types.UILayout, fraction: float, text: str) -> None:
+    """A progress bar; its text with a percentage before 4.0, which had no bar."""
     if hasattr(layout, "progress"):
         layout.progress(factor=fraction, text=text)
     else:
-        layout.label(text=f"{text}: {100 * fraction:.0f} %" if percentage else text, icon="SORTTIME")
+        layout.label(text=f"{text}: {100 * fraction:.0f} %", icon="SORTTIME")
 
 
 def draw_deflection(layout: bpy.types.UILayout, value: float) -> None:

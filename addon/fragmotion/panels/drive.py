@@ -157,7 +157,7 @@ def _draw_input(layout: bpy.types.UILayout, context: bpy.types.Context, driven: 
     """What drives, and how far it is where it has an end."""
     trace = driven.inputs.trace
     if trace.playing:
-        versions.draw_progress(layout, trace.elapsed / trace.seconds, driven.playing, percentage=False)
+        versions.draw_progress(layout, trace.elapsed / trace.seconds, driven.playing)
     else:
         draw_wrapped(layout.column(align=True), context, f"Input: {driven.inputs.label or 'none yet'}")
 

@@ -239,11 +239,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   report_held(c, pool);
   c.report["cut_seconds"] = stage.lap();
   report(progress, 0.5, "Synthesizing fragments");
-  if (options.synthesize) {
-    SynthesisOptions synthesis;
-    synthesis.longest = options.cut.longest;
-    synthesize(pool, c.space, usual, synthesis);
-  }
+  if (options.synthesize) synthesize(pool, c.space, usual, options.cut.longest);
   round_to_single(pool.clips);
   c.contacts = contacts_of(pool, options.threads);
   c.legs = find_legs(kinematics, pool.clips);
