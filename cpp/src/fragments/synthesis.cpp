@@ -31,8 +31,8 @@ constexpr double kRunningDip = 0.6;              // of that dip, as it runs
 constexpr double kSinking = 0.2;                 // s into a crouch; half of that as it runs
 constexpr double kSimilar = 2.52 / kTunedReach;  // m a metre of reach: fragments this near may be interpolated
 constexpr int kCandidates = 24;                  // neighbours of a control that interpolation tries in pairs
-constexpr double kHurry = 1.2;                   // the most by which steps ahead are hurried, or slowed down
-constexpr double kShuffle = 1.2;                 // how much more often feet step sideways, where strides are short
+constexpr double kMostTempo = 1.2;               // the most by which steps ahead are hurried, or slowed down
+constexpr double kSideways = 1.2;                // how much more often feet step sideways, where strides are short
 constexpr double kStandSeconds = 0.5;
 constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
 constexpr double kBackward = 1;                              // of effort: to be played backward
@@ -271,9 +271,9 @@ class Synthesizer {
     if (moves && control.speed() > 0) change.direction = angle_between(best->evident, control);
     const int length = std::abs(best->end - best->begin);
     const double usual = length / (longest_ * clip.rate);  // pieces, each as long as may be
-    const int pieces = std::max(1, static_cast<int>(std::ceil(usual / kHurry - 1e-6)));
-    const double sideways = std::abs(std::sin(change.direction)), hurry = 1 + sideways * (kShuffle - 1);
-    change.tempo = std::max(usual / pieces, hurry * std::clamp(std::sqrt(faster), 1 / kHurry, kHurry));
+    const int pieces = std::max(1, static_cast<int>(std::ceil(usual / kMostTempo - 1e-6)));
+    const double sideways = std::abs(std::sin(change.direction)), cadence = 1 + sideways * (kSideways - 1);
+    change.tempo = std::max(usual / pieces, cadence * std::clamp(std::sqrt(faster), 1 / kMostTempo, kMostTempo));
     change.speed = faster / change.tempo;
     const int beyond = tail(clip.rate * change.tempo);
     const Hop hop = hop_at(control.speed());

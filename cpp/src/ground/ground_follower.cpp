@@ -20,7 +20,7 @@ constexpr double kContact = 0.06;     // m over its floor, within which a sole t
 constexpr double kReached = 0.985;    // of a leg's length, that the hips leave it at most
 constexpr double kStretched = 0.998;  // and that it is stretched to
 constexpr double kSoft = 0.02;        // m: by how much what a leg lacks is rounded off
-constexpr double kForesight = 0.4;    // s before a foot lands, from which on the hips sink for it
+constexpr double kLookAhead = 0.4;    // s before a foot lands, from which on the hips sink for it
 constexpr double kDeepest = 0.45;     // m that they sink
 constexpr double kMostRaised = 1;     // rad of a heel
 constexpr double kToesUp = 0.05;      // m that a heel is lower than the ball, where it is not raised
@@ -76,7 +76,7 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
   hips_.advance(pose.root.head<2>(), feet_, seconds);
   level_ = hips_.level();
   pose.root.z() += level_;
-  const double since = fresh_ ? kForesight : seconds;
+  const double since = fresh_ ? kLookAhead : seconds;
   fresh_ = false;
   if (is_flat()) return;
   kinematics.world(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
@@ -112,7 +112,7 @@ void GroundFollower::get_exact(double seconds) {
 double GroundFollower::lower(int side, const FootAhead& foot) const {
   const double contact = kContact / body_->scale, height = foot.now.height();
   const double lowered = height <= 0 ? 0 : height < contact ? height * height / (2 * contact) : height - contact / 2;
-  return exact_ * feet_[side].grip() * (height - lowered);
+  return exact_ * feet_[side].sole_weight() * (height - lowered);
 }
 
 // Whether the body stands as on level ground.
@@ -147,7 +147,7 @@ Vector3 GroundFollower::place_foot(int side, const FootAhead& foot) {
 // Lowers the hips for legs that bear the body, and for those that are about to.
 void GroundFollower::sink(const FeetAhead& feet, const std::array<Vector3, 2>& ankles, double seconds) {
   const double soft = kSoft / body_->scale, deepest = kDeepest / body_->scale;
-  double now = 0, soon = 0, due = kForesight;
+  double now = 0, soon = 0, due = kLookAhead;
   for (int side = 0; side < 2; ++side) {
     const Leg& leg = body_->legs[side];
     const double length = leg_length(leg, body_->posed),
