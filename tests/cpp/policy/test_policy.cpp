@@ -298,12 +298,11 @@ TEST(IteratePolicy, RefusesOptionsThatHaveNoEnd) {
   EXPECT_EQ(error(0, 1e-4), "no error");
 }
 
-TEST(IteratePolicy, EndsAfterItsSweepsHoweverFarTheValues) {
+TEST(IteratePolicy, EndsHoweverFarTheValues) {
   Random random(14);
   const Quality quality = random_quality(random, 6);
   const std::vector<std::vector<int>> traces{random_trace(random, 50)};
-  EXPECT_EQ(iterate_policy(quality, traces, {0.999999999, 1e-300, 1}).next, greedy_policy(quality).next);
-  EXPECT_EQ(iterate_policy(quality, traces, {0.999999999, 1e-300, 100}).next.size(), 6U * kPaperPoints);
+  EXPECT_EQ(iterate_policy(quality, traces, {0.999999999, 1e-300}).next.size(), 6U * kPaperPoints);
 }
 
 TEST(QualityTable, IsEq2ForTheRepresentatives) {
