@@ -32,7 +32,7 @@ MIDDLE = (600, 450)  # of the viewport
 VIEW = math.radians(45)  # its heading, counter-clockwise from +Y
 DRAWS = 10  # of the panels, of which the quickest counts
 
-session = window.module("drive.session")
+session, waking = window.module("drive.session"), window.module("preview.waking")
 overlays = window.module("drive.hud.overlays")
 button = window.module("operators.directing.drive")
 recordings = window.module("recordings.recordings")
@@ -143,7 +143,7 @@ def assert_nothing_is_left() -> Iterator[None]:
     """No timer, no drawing, no SDL device after a drive."""
     assert session.current is None and overlays._handlers == []
     assert sdl.SDL_WasInit(0) == 0, "SDL is open"
-    yield from window.until(lambda: session._timers == [], "the end of the drive's operator", 20)
+    yield from window.until(lambda: waking._timers == [], "the end of the drive's operator", 20)
     yield from window.count_timers()
     assert window.TEST_OT_count_timers.count < 3, "a timer goes on"  # Blender's own may come once
 
