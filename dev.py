@@ -12,6 +12,7 @@ from pathlib import Path
 from tools import benchmarks, demo, evaluating, fuzzing, machine, maven, stages, testing
 from tools.beside import inputs as beside_inputs
 from tools.directing import inputs as directing_inputs
+from tools.docs import pages
 from tools.doctor import inputs as doctor_inputs
 from tools.evaluate import inputs
 from tools.platforms import PLATFORMS
@@ -51,6 +52,8 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     doctor_inputs.add_arguments(doctor)
     retarget = commands.add_parser("retarget", help="bring takes onto another skeleton, and build a character of them")
     retarget_inputs.add_arguments(retarget)
+    docs = commands.add_parser("docs", help="make the pictures and tables of README.md and docs")
+    pages.add_arguments(docs)
     package = commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
     package.add_argument(
         "--platform",
@@ -90,6 +93,8 @@ def main(arguments: list[str]) -> int:
             return 1 if fuzzing.fuzz_for(options.seconds, options.names or fuzzing.names()).findings else 0
         if options.command == "bench":
             return benchmarks.run_benchmarks(options.json)
+        if options.command == "docs":
+            return pages.make_docs(options)
         if options.command in evaluating.COMMANDS:
             return evaluating.COMMANDS[options.command](options, arguments[1:])
         return package(options.platform, options.python)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
@@ -55,5 +56,6 @@ def _skip(case: ElementTree.Element) -> Skip | None:
     if said is None and case.get("status") not in ("notrun", "disabled"):
         return None
     reason = (said.get("message") if said is not None else "") or "disabled"
+    reason = re.sub(r"^\S+:\d+\n", "", reason)  # GoogleTest's place in the source
     names = [name for name in (case.get("classname"), case.get("name")) if name]
     return Skip(".".join(dict.fromkeys(names)), reason.strip())

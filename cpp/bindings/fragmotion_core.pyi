@@ -55,7 +55,7 @@ class Skeleton:
     roles: dict[str, str]
     """Role -> bone name, for the roles that the skeleton has."""
     stature: float
-    """Height of the standing character, m."""
+    """Height of a person with these legs, m."""
     def role_map(self, heads: ArrayLike | None = None) -> dict[str, tuple[str, float]]:
         """Role -> (bone name, confidence 0.5 to 1) of every bone that is told: root, hips, spine_1 ..., neck_1 ...,
         head, and with left_ or right_ shoulder, upper_arm, lower_arm, hand, thumb_1 ... pinky_1 ..., thigh, shin, foot,

@@ -46,7 +46,7 @@ def test_a_folder_of_takes_becomes_a_character_and_a_policy_file(addon: ModuleTy
     assert addon.character.building.load(obj).to_bytes() == hero.with_suffix(".policy").read_bytes()
 
 
-@pytest.mark.skipif(not WALKS, reason="no motion capture here")
+@pytest.mark.skipif(not WALKS, reason="no motion capture beside the project")
 def test_takes_move_the_armature_of_another_file(addon: ModuleType, tmp_path: Path) -> None:
     (tmp_path / "walks").mkdir()
     for path in WALKS:

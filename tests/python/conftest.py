@@ -23,6 +23,7 @@ if sys.platform != "linux":
         "test_beside.py",
         "test_directing.py",
         "test_directing_command.py",
+        "test_docs.py",
         "test_doctor_command.py",
         "test_evaluate.py",
         "test_evaluate_inputs.py",
@@ -150,7 +151,7 @@ def bandai() -> Bandai:
     """All takes of shared/mocap/bandai-namco on one skeleton, built with the defaults."""
     files = sorted(BANDAI.glob("*.bvh"))
     if not files:
-        pytest.skip(f"no motion capture at {BANDAI}")
+        pytest.skip("no motion capture beside the project")
     takes = [core.read_bvh(path) for path in files]
     skeleton = takes[0].skeleton
     clips = [core.Clip.from_take(take, skeleton) for take in takes]

@@ -23,6 +23,7 @@ from tools.shell import Failure
 pytest_plugins = ["evaluated"]
 
 
+@pytest.mark.thorough  # among which bpy is installed
 def test_the_sample_rigs_actions_are_takes() -> None:
     """In a process of its own: bpy is no neighbour for other tests."""
     if find_spec("bpy") is None:

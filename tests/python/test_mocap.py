@@ -94,7 +94,7 @@ def test_forward_goes_forward(bandai: Bandai) -> None:
 def test_cmu_takes_make_a_character() -> None:
     files = sorted(CMU.glob("02_*.amc"))
     if not files:
-        pytest.skip(f"no motion capture at {CMU}")
+        pytest.skip("no motion capture beside the project")
     takes = [core.read_asf_amc(CMU / "02.asf", path) for path in files]
     skeleton = takes[0].skeleton
     clips = [core.Clip.from_take(take, skeleton) for take in takes]
@@ -109,7 +109,7 @@ def test_cmu_takes_make_a_character() -> None:
 @pytest.mark.parametrize("kind", ["bvh", "amc"])
 def test_cmu_01_01_makes_a_character_from_either_format(kind: str) -> None:
     if not (CMU / "01_01.bvh").exists():
-        pytest.skip(f"no motion capture at {CMU}")
+        pytest.skip("no motion capture beside the project")
     # cgspeed's BVH files are in inches scaled by 0.45, as the ASF is: 0.0254 / 0.45 m
     take = (
         core.read_bvh(CMU / "01_01.bvh", 0.0254 / 0.45)
@@ -126,7 +126,7 @@ def test_cmu_01_01_makes_a_character_from_either_format(kind: str) -> None:
 
 def test_takes_of_another_skeleton_are_refused(bandai: Bandai) -> None:
     if not (CMU / "01_01.bvh").exists():
-        pytest.skip(f"no motion capture at {CMU}")
+        pytest.skip("no motion capture beside the project")
     take = core.read_bvh(CMU / "01_01.bvh", 0.0254 / 0.45)
     with pytest.raises(ValueError, match="01_01"):
         core.Clip.from_take(take, bandai.skeleton)

@@ -146,7 +146,7 @@ def test_the_measure_tells_waits_and_steps(moving: core.Character) -> None:
         assert 0 < row["joint_step_ratio"] < 3
 
 
-@pytest.mark.skipif(not CMU.is_dir(), reason="the motion capture beside the project is missing")
+@pytest.mark.skipif(not CMU.is_dir(), reason="no motion capture beside the project")
 def test_a_captured_jump_joins_a_captured_walk_as_well_as_fragments_join() -> None:
     takes = [core.read_asf_amc(CMU / "02.asf", CMU / f"02_0{number}.amc") for number in range(1, 5)]
     skeleton = takes[0].skeleton

@@ -42,7 +42,7 @@ def test_motion_and_shape_tell_most_of_what_names_do_and_nothing_wrong() -> None
     """The heads of these files are no longer than their necks, and a runner's feet hardly tell the sides."""
     files = sorted(BANDAI.glob("*_001.bvh"))
     if not files:
-        pytest.skip(f"no motion capture at {BANDAI}")
+        pytest.skip("no motion capture beside the project")
     right, roles = 0, 0
     for path in files:
         take = core.read_bvh(path)

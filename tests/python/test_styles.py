@@ -161,7 +161,7 @@ def test_the_measure_tells_quality_and_changes(
         assert 0 < row["joint_step_ratio"] < 2
 
 
-@pytest.mark.skipif(not BANDAI.is_dir(), reason="the motion capture beside the project is missing")
+@pytest.mark.skipif(not BANDAI.is_dir(), reason="no motion capture beside the project")
 def test_captured_styles_meet_the_goals() -> None:
     takes = {path.stem: core.read_bvh(path) for path in sorted(BANDAI.glob("dataset-1_*.bvh"))}
     skeleton = next(iter(takes.values())).skeleton

@@ -22,7 +22,7 @@ def copy_bandai(folder: Path) -> None:
     """Some takes of shared/mocap/bandai-namco."""
     files = sorted(BANDAI.glob("*.bvh"))[::4]
     if not files:
-        pytest.skip(f"no motion capture at {BANDAI}")
+        pytest.skip("no motion capture beside the project")
     for path in files:
         shutil.copy(path, folder)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Draw the sheets of all movements and the turntable. docs/make_motion_pictures.py runs this with the built core."""
+"""Draw the sheets of all movements and the turntable. `dev.py docs motion` runs this with the built core."""
 
 from __future__ import annotations
 

@@ -44,31 +44,31 @@ def draw_turntable(character: core.Character, actor: Actor, path: Path, seed: in
 
 def _pictures(motion: Motion, trace: core.Doubles, actor: Actor) -> Iterator[NDArray[Any]]:
     actor.play(motion)
-    size, middles = actor.stature, _calm(motion.roots[:, :2], round(_CALM * motion.rate))
+    size, middles = actor.stature, calm(motion.roots[:, :2], round(_CALM * motion.rate))
     frames = range(0, len(motion.roots) - 1, _EVERY)
     with stage.stage() as scene:
         use_workbench(scene)
-        _add_ground(scene, motion.roots)
-        shadow, arrow = add_disc(scene, (0, 0, 0), 0.13 * size, _SHADOW), _add_arrow(scene)
+        add_squares(scene, motion.roots)
+        shadow, arrow = add_disc(scene, (0, 0, 0), 0.13 * size, _SHADOW), add_arrow(scene)
         for frame in frames:
             moment = filmstrip.freeze(actor.armature, scene, frame + 1)
             shadow.location = (moment.middle.x, moment.middle.y, 0.004)
-            _show_command(arrow, motion, trace[int(frame / motion.rate * STEPS_A_SECOND)], frame)
+            show_command(arrow, motion, trace[int(frame / motion.rate * STEPS_A_SECOND)], frame)
             angle = math.radians(_START + _AROUND * frame / frames[-1]) + motion.path[0, 2]
-            _aim(scene.camera, middles[frame], angle, size)
+            aim(scene.camera, middles[frame], angle, size)
             yield upright(stage.render(scene, _SIZE))
             for ghost in moment.ghosts:
                 filmstrip.bpy.data.objects.remove(ghost)
 
 
-def _calm(places: core.Doubles, width: int) -> core.Doubles:
+def calm(places: core.Doubles, width: int) -> core.Doubles:
     """Means over so many frames."""
     padded = np.pad(places, ((width, width), (0, 0)), "edge")
     sums = np.cumsum(padded, axis=0)
     return ((sums[2 * width :] - sums[: -2 * width]) / (2 * width))[: len(places)]
 
 
-def _add_ground(scene: Any, roots: core.Doubles) -> None:
+def add_squares(scene: Any, roots: core.Doubles) -> None:
     """Squares around all of the way."""
     low = np.floor((roots[:, :2].min(axis=0) - _AWAY) / _SQUARE).astype(int)
     high = np.ceil((roots[:, :2].max(axis=0) + _AWAY) / _SQUARE).astype(int)
@@ -78,14 +78,15 @@ def _add_ground(scene: Any, roots: core.Doubles) -> None:
         add_mesh(scene, corners, np.arange(len(corners)).reshape(-1, 4).tolist(), [colour])
 
 
-def _add_arrow(scene: Any) -> Any:
+def add_arrow(scene: Any) -> Any:
     """What is asked for: an arrow along y of length 1."""
     half = [(0.05, 0.3), (0.05, 0.8), (0.14, 0.8), (0, 1)]
     points = [(x, y, 0) for x, y in half] + [(-x, y, 0) for x, y in half[-2::-1]]
     return add_mesh(scene, points, [range(7)], [_COMMAND])
 
 
-def _show_command(arrow: Any, motion: Motion, control: core.Doubles, frame: int) -> None:
+def show_command(arrow: Any, motion: Motion, control: core.Doubles, frame: int) -> None:
+    """Let the arrow say what is asked for at a frame."""
     x, y, heading = motion.path[frame]
     speed = math.hypot(control[0], control[1])
     arrow.hide_render = speed == 0
@@ -94,10 +95,10 @@ def _show_command(arrow: Any, motion: Motion, control: core.Doubles, frame: int)
     arrow.scale = (1, 0.6 + 0.4 * speed, 1)
 
 
-def _aim(camera: Any, middle: core.Doubles, angle: float, size: float) -> None:
-    """From a place around the character, `angle` counter-clockwise from +y."""
+def aim(camera: Any, middle: core.Doubles, angle: float, size: float, distance: float = _DISTANCE) -> None:
+    """From a place around the character, `angle` counter-clockwise from +y, `distance` statures away."""
     target = mathutils.Vector((*middle, _LOOK * size))
-    away = mathutils.Vector((-math.sin(angle), math.cos(angle), 0)) * _DISTANCE * size
+    away = mathutils.Vector((-math.sin(angle), math.cos(angle), 0)) * distance * size
     camera.data.type, camera.data.lens, camera.data.sensor_fit = "PERSP", 38, "HORIZONTAL"
     position = mathutils.Vector((*middle, _HEIGHT * size)) + away
     camera.matrix_world = stage.looking_at(position, target)

@@ -179,6 +179,7 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
     figures.fragments = len(character.labels)
     figures.classes, figures.controls = character.table.shape
     figures.seconds = sum(styled.report.get("seconds", 0) for styled in in_styles(character))
+    figures.stature = character.skeleton.stature
     figures.quality = next(iter(built.qualities[0].values()))
     figures.policies.clear()
     for policy, quality in built.qualities[0].items():

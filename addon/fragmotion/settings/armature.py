@@ -233,6 +233,7 @@ class BuildFigures(_Coverage, bpy.types.PropertyGroup):
     classes: IntProperty()  # type: ignore[valid-type]
     controls: IntProperty()  # type: ignore[valid-type]
     seconds: FloatProperty()  # type: ignore[valid-type]
+    stature: FloatProperty()  # type: ignore[valid-type]
     quality: FloatProperty()  # type: ignore[valid-type]
     examiner: StringProperty()  # type: ignore[valid-type]
     sources: StringProperty()  # type: ignore[valid-type]

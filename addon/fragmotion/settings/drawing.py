@@ -138,6 +138,8 @@ def draw_figures(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
         _draw_row(box, "Performed well", f"{figures.performed} of {figures.controls}")
     if figures.seconds > 0:
         _draw_row(box, "Built in", f"{figures.seconds:.2f} s")
+    if figures.stature > 0:
+        _draw_row(box, "Stature, by its legs", f"{figures.stature:.2f} m")
     box.separator()
     for style in figures.styles:
         _draw_row(box, style.name, f"{style.classes} classes, {style.quality:.1f} %")

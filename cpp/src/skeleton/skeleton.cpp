@@ -7,9 +7,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <unordered_set>
-#include <utility>
 
-#include "base/ranges.hpp"
 #include "base/take_limits.hpp"
 #include "fragmotion/skeleton/role_names.hpp"
 
@@ -18,7 +16,6 @@ namespace {
 
 constexpr double kUnitTolerance = 1e-3;  // Blender's rotations are floats; anything worse is a caller's mistake.
 constexpr double kFarthest = 1e6;        // m: a giant in millimetres that are taken for metres stays far below.
-constexpr double kLeastStature = 1e-3, kMostStature = 1e7;  // m
 
 void check_sizes(const Skeleton& skeleton) {
   const std::size_t bones = skeleton.names.size();
@@ -82,38 +79,6 @@ void check_roles(const Skeleton& skeleton) {
   }
 }
 
-/// From a leaf's tip to another leaf's tip, the longest way through `root` or below: each bone joins its two longest
-/// branches.
-double longest_chain(const Skeleton& skeleton, int root) {
-  std::vector<double> longest(skeleton.size(), 0), second(skeleton.size(), 0);
-  std::vector<bool> leaf(skeleton.size(), true);
-  double chain = 0;
-  for (int bone = skeleton.size() - 1; bone >= root; --bone) {
-    if (!skeleton.is_below(bone, root)) continue;
-    if (leaf[bone]) longest[bone] = skeleton.tips[bone].norm();
-    chain = std::max(chain, longest[bone] + second[bone]);
-    if (bone == root) break;
-    const int parent = skeleton.parents[bone];
-    leaf[parent] = false;
-    double branch = skeleton.offsets[bone].norm() + longest[bone];
-    if (branch > longest[parent]) std::swap(branch, longest[parent]);
-    second[parent] = std::max(second[parent], branch);
-  }
-  return chain;
-}
-
-/// Length of the chain of bones between the heads of `a` and `b`.
-double path_length(const Skeleton& skeleton, int a, int b) {
-  double length = 0;
-  while (a != b) {
-    // Parents have smaller indices, so the larger one cannot be the common ancestor.
-    int& lower = a > b ? a : b;
-    length += skeleton.offsets[lower].norm();
-    lower = skeleton.parents[lower];
-  }
-  return length;
-}
-
 }  // namespace
 
 int Skeleton::find(const std::string& name) const {
@@ -145,23 +110,6 @@ Skeleton make_skeleton(Skeleton skeleton) {
   }
   return skeleton;
 }
-
-double stature(const Skeleton& skeleton) {
-  const Roles& roles = skeleton.roles;
-  const int foot = roles.left_foot >= 0 ? roles.left_foot : roles.right_foot;
-  if (roles.head < 0 || roles.hips < 0 || foot < 0) return longest_chain(skeleton, std::max(roles.hips, 0));
-  // The foot bone's own length stands for the ankle's height, which no bone holds.
-  return skeleton.tips[roles.head].norm() + path_length(skeleton, roles.head, foot) + skeleton.tips[foot].norm();
-}
-
-void check_stature(const Skeleton& skeleton) {
-  const double height = stature(skeleton);
-  if (height >= kLeastStature && height <= kMostStature) return;
-  throw std::invalid_argument("the bones from '" + skeleton.names[skeleton.roles.hips] + "' on make a character " +
-                              text_of(height) + " m tall: it must be 1 mm to 10,000 km");
-}
-
-double standard_scale(const Skeleton& skeleton) { return 1.8 / stature(skeleton); }
 
 void rest_pose(const Skeleton& skeleton, std::vector<Vector3>& heads, std::vector<Quaternion>& rotations) {
   heads.assign(skeleton.offsets.begin(), skeleton.offsets.end());

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
+from unittest.mock import MagicMock
 
 import bpy
 import making
@@ -26,6 +27,22 @@ def test_build_reports_what_it_found_and_survives_saving(addon: ModuleType, obj:
     assert found == pytest.approx({name: character.percent_of_optimal(exam, name) for name in character.policies})
     assert figures.examiner != obj.fragmotion.build.player
     assert figures.captured == character.report.get("captured", figures.captured)
+
+
+def test_the_panel_says_how_tall_the_legs_make_the_body(addon: ModuleType, obj: bpy.types.Object) -> None:
+    shown: list[str] = []
+    layout = MagicMock()
+    for part in ("box", "column", "split"):
+        getattr(layout, part).return_value = layout
+    layout.label.side_effect = lambda text, **_: shown.append(text)
+    figures = obj.fragmotion.figures
+    addon.settings.drawing.draw_figures(layout, figures)
+    assert figures.stature == pytest.approx(1.8, abs=0.04), "the sample's height"
+    assert shown[shown.index("Stature, by its legs") + 1] == f"{figures.stature:.2f} m"
+    figures.stature = 0
+    shown.clear()
+    addon.settings.drawing.draw_figures(layout, figures)
+    assert "Stature, by its legs" not in shown, "what an earlier version built does not say it"
 
 
 def test_the_coverage_shown_is_the_cores(addon: ModuleType, obj: bpy.types.Object) -> None:

@@ -120,7 +120,7 @@ def test_a_rig_of_another_unit_follows(addon: ModuleType, size: float) -> None:
     assert_follows(addon, rig, range(1, FRAMES + 1))
 
 
-@pytest.mark.skipif(not WALK.exists(), reason="no motion capture here")
+@pytest.mark.skipif(not WALK.exists(), reason="no motion capture beside the project")
 def test_takes_build_and_bake_work_with_the_rig_selected(
     addon: ModuleType, bound: bpy.types.Object, tmp_path: Path
 ) -> None:

@@ -16,7 +16,7 @@ CMU = making.MOCAP / "cmu"
 
 pytestmark = [
     pytest.mark.measures,
-    pytest.mark.skipif(not BANDAI.is_dir(), reason=f"the takes in {making.MOCAP} are not on this machine"),
+    pytest.mark.skipif(not BANDAI.is_dir(), reason="no motion capture beside the project"),
 ]
 
 

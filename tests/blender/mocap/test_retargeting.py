@@ -63,7 +63,7 @@ def test_actions_of_another_armature_move_this_one_likewise() -> None:
         assert apart.max() < 20 and apart.mean() < 8
 
 
-@pytest.mark.skipif(not WALK.exists(), reason="no motion capture here")
+@pytest.mark.skipif(not WALK.exists(), reason="no motion capture beside the project")
 def test_takes_of_another_skeleton_move_the_active_character_and_are_learned(tmp_path: Path) -> None:
     for path in WALK.parent.glob("dataset-1_walk_normal_00[12].bvh"):
         (tmp_path / path.name).write_bytes(path.read_bytes())
@@ -119,7 +119,7 @@ def test_a_preset_that_does_not_fit_is_refused(tmp_path: Path, text: str, messag
     assert not len(obj.fragmotion.roles)
 
 
-@pytest.mark.skipif(not WALK.exists(), reason="no motion capture here")
+@pytest.mark.skipif(not WALK.exists(), reason="no motion capture beside the project")
 def test_a_take_that_is_there_twice_is_told(tmp_path: Path) -> None:
     for name in ("a", "b"):
         (tmp_path / f"{name}.bvh").write_bytes(WALK.read_bytes())
@@ -128,7 +128,7 @@ def test_a_take_that_is_there_twice_is_told(tmp_path: Path) -> None:
     assert len(bpy.data.actions) == 2 and sum("counts twice" in text for text in told) == 1
 
 
-@pytest.mark.skipif(not ODD_UNIT.exists(), reason="no motion capture here")
+@pytest.mark.skipif(not ODD_UNIT.exists(), reason="no motion capture beside the project")
 def test_a_unit_is_told_by_the_body_and_said(addon: ModuleType, tmp_path: Path) -> None:
     (tmp_path / "odd.bvh").write_bytes(ODD_UNIT.read_bytes())
     assert bpy.ops.fragmotion.import_mocap(directory=str(tmp_path), unit="CENTIMETRES") == {"FINISHED"}

@@ -370,7 +370,7 @@ double largest_distance(const World& asf, const World& bvh, int bvh_frames_befor
 
 TEST(AsfAmc, MatchesTheSameTakeAsBvh) {
   const auto cmu = shared_mocap() / "cmu";
-  if (!std::filesystem::exists(cmu / "01_01.bvh")) GTEST_SKIP() << "no take 01_01 in " << cmu;
+  if (!std::filesystem::exists(cmu / "01_01.bvh")) GTEST_SKIP() << "no motion capture beside the project";
   const World asf(read_asf_amc(cmu / "01.asf", cmu / "01_01.amc"));
   const World bvh(read_bvh(cmu / "01_01.bvh", kInch / 0.45));
   // The BVH file begins with a T-pose of its own.
@@ -388,7 +388,7 @@ TEST(AsfAmc, MatchesTheSameTakeAsBvh) {
 
 TEST(AsfAmc, ReadsAllTakesOfSubject02) {
   const auto cmu = shared_mocap() / "cmu";
-  if (!std::filesystem::exists(cmu / "02.asf")) GTEST_SKIP() << "no 02.asf in " << cmu;
+  if (!std::filesystem::exists(cmu / "02.asf")) GTEST_SKIP() << "no motion capture beside the project";
   int takes = 0;
   for (const auto& file : files_in(cmu, ".amc")) {
     if (file.stem().string().rfind("02_", 0) != 0) continue;
@@ -401,7 +401,7 @@ TEST(AsfAmc, ReadsAllTakesOfSubject02) {
 
 TEST(AsfAmc, SubjectsStandAsTallAsPeople) {
   const auto cmu = shared_mocap() / "cmu";
-  if (!std::filesystem::exists(cmu / "01.asf")) GTEST_SKIP() << "no 01.asf in " << cmu;
+  if (!std::filesystem::exists(cmu / "01.asf")) GTEST_SKIP() << "no motion capture beside the project";
   const double statures[] = {stature(read_asf(cmu / "01.asf")), stature(read_asf(cmu / "02.asf")),
                              stature(read_bvh(cmu / "01_01.bvh", kInch / 0.45).skeleton)};
   for (const double metres : statures) {

@@ -290,7 +290,7 @@ TEST(Bvh, RefusesAFileLargerThanAnyTake) {
 
 TEST(Bvh, ReadsAllTakesOfBandaiNamco) {
   const auto files = files_in(shared_mocap() / "bandai-namco", ".bvh");
-  if (files.empty()) GTEST_SKIP() << "no takes in " << shared_mocap() / "bandai-namco";
+  if (files.empty()) GTEST_SKIP() << "no motion capture beside the project";
   const auto start = std::chrono::steady_clock::now();
   std::vector<Take> takes;
   for (const auto& file : files) takes.push_back(read_bvh(file));
@@ -314,7 +314,7 @@ TEST(Bvh, ReadsAllTakesOfBandaiNamco) {
 
 TEST(Bvh, BandaiNamcoStandsUprightOnTheGround) {
   const auto files = files_in(shared_mocap() / "bandai-namco", ".bvh");
-  if (files.empty()) GTEST_SKIP() << "no takes in " << shared_mocap() / "bandai-namco";
+  if (files.empty()) GTEST_SKIP() << "no motion capture beside the project";
   for (const auto& file : files) {
     const Take take = read_bvh(file);
     for (const int frame : {0, take.frames / 2, take.frames - 1}) {

@@ -157,7 +157,7 @@ TEST(WriteBvh, NamesThePathThatCannotBeWritten) {
 TEST(WriteBvh, RealTakesAreReadBackWithinATenthOfAMillimetre) {
   const std::filesystem::path cmu = shared_mocap() / "cmu";
   const auto files = files_in(shared_mocap() / "bandai-namco", ".bvh");
-  if (files.empty()) GTEST_SKIP() << "no motion capture at " << shared_mocap();
+  if (files.empty()) GTEST_SKIP() << "no motion capture beside the project";
   const Take acclaim = read_asf_amc(cmu / "02.asf", cmu / "02_01.amc");
   EXPECT_LT(apart(acclaim, read_back(acclaim)), 1e-4);
   for (std::size_t i = 0; i < files.size(); i += 40) {

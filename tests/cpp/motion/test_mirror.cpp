@@ -113,7 +113,7 @@ TEST(Mirror, MirrorsTheEvidentControl) {
 
 TEST(Mirror, ReflectsRealTakesWithinTheBonesAsymmetry) {
   const auto files = files_in(shared_mocap() / "bandai-namco", ".bvh");
-  if (files.empty()) GTEST_SKIP() << "no motion capture at " << shared_mocap();
+  if (files.empty()) GTEST_SKIP() << "no motion capture beside the project";
   const Skeleton skeleton = read_bvh(files[0]).skeleton;
   const Kinematics kinematics(skeleton);
   std::vector<Clip> clips;

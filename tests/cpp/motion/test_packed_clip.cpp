@@ -144,7 +144,7 @@ TEST(PackedClip, IsTheSameForAnyNumberOfThreads) {
 
 TEST(PackedClip, KeepsAllTakesInLessThanAQuarterOfTheirSize) {
   const auto files = files_in(shared_mocap() / "bandai-namco", ".bvh");
-  if (files.empty()) GTEST_SKIP() << "the motion capture is not there";
+  if (files.empty()) GTEST_SKIP() << "no motion capture beside the project";
   FragmentPool pool;
   for (const auto& file : files) {
     const Take take = read_bvh(file, 0.01);

@@ -50,8 +50,8 @@ Roles find_roles(const Skeleton& skeleton);
 /// where it has none.
 std::vector<int> mirror_bones(const Skeleton& skeleton);
 
-/// Height of the standing character in metres, whatever the rest pose: the chain of bones from the head's tip to the
-/// hips and on to a foot, or the longest chain of bones where those roles are missing.
+/// Height in metres of a person with these legs, whatever the rest pose and however head and toes end: a leg from hip
+/// joint to ankle is 0.491 of it. Where no leg has its roles, the longest chain of bones.
 double stature(const Skeleton& skeleton);
 
 /// Throws std::invalid_argument unless the stature is 1 mm to 10,000 km, so that distances are numbers.

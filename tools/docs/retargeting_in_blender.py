@@ -1,12 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Make the pictures of docs/retargeting.md: Rigify's human, which follows a take, or a character of an FBX file, which
-does what it does. In any Blender, without a screen:
-
-blender --background --factory-startup --python-exit-code 1 --python docs/make_retargeting_pictures.py \
-    -- build/packages/LEGACY.zip TAKE.bvh|TAKE.amc [FIRST LAST [CHARACTER.fbx NAME]]
-
-The pictures in docs are of CMU's take 02_01, a walk, the second with Mixamo's X Bot.
-"""
+"""The pictures of docs/retargeting.md: Rigify's human, which follows a take, or a character of an FBX file, which does
+what it does. `dev.py docs retargeting` runs this in Debian's Blender; arguments after `--`: the add-on's zip, the take,
+the picture, and for the second kind the FBX file."""
 
 from __future__ import annotations
 
@@ -18,16 +13,16 @@ from typing import Any
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
-DOCS = Path(__file__).resolve().parent
-sys.path[:0] = [str(DOCS), str(DOCS.parent / "tests" / "blender"), str(DOCS.parent / "sample_rigs")]
+TOP = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(TOP / "tests" / "blender"), str(TOP / "sample_rigs")]
 
-import making  # noqa: E402
-from filmstrip import render_filmstrip  # noqa: E402
-from make_pictures import save_jpeg  # noqa: E402
-from stage import material  # noqa: E402
+making: Any = import_module("making")
+filmstrip: Any = import_module("filmstrip")
+stage: Any = import_module("stage")
 
-MOMENTS = 12
+MOMENTS, QUALITY = 12, 85
 AROUND, RINGS = 16, 9  # of a part of the body
 COLOURS = {"": (0.5, 0.5, 0.52), "left": (0.02, 0.3, 0.42), "right": (0.8, 0.2, 0.03)}
 THICK = {  # half width and half depth of a part of the body, m
@@ -39,28 +34,26 @@ THICK = {  # half width and half depth of a part of the body, m
 OVER = 0.12  # of its length, how far a part reaches beyond its joints
 
 
-def main() -> None:
+def main(package: str, take: str, picture: str, *character: str) -> None:
     """Let the character do what the take does, and draw it."""
-    package, take, *more = sys.argv[sys.argv.index("--") + 1 :]
     addon = import_module(making.install(package))
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     bpy.context.scene.render.fps = 30
-    path = Path(take).resolve()
-    span, character = more[:2], more[2:]
-    if character:
-        obj, action = performed(path, character[0])
-    else:
-        obj, action = followed(addon, path)
-    name = character[1] if character else "rigify"
-    frames = (float(span[0]), float(span[1])) if span else tuple(action.frame_range)
-    target = DOCS / "retargeting" / f"{name}.jpg"
-    target.parent.mkdir(exist_ok=True)
+    path, target = Path(take).resolve(), Path(picture)
+    obj, action = performed(path, *character) if character else followed(addon, path)
     with TemporaryDirectory() as folder:
-        picture = render_filmstrip(
-            obj, action, str(Path(folder) / "strip.png"), MOMENTS, frame_range=frames, birdseye=False
-        )
-        save_jpeg(Path(picture), target)
+        strip = filmstrip.render_filmstrip(obj, action, str(Path(folder) / "strip.png"), MOMENTS, birdseye=False)
+        save_jpeg(strip, target)
     print(f"{target}: {target.stat().st_size / 1000:.0f} kB")
+
+
+def save_jpeg(picture: str, target: Path) -> None:
+    """A PNG as a JPEG, its colours unchanged."""
+    scene = bpy.context.scene
+    scene.view_settings.view_transform = "Standard"
+    scene.render.image_settings.file_format = "JPEG"
+    scene.render.image_settings.quality = QUALITY
+    bpy.data.images.load(picture).save_render(str(target), scene=scene)
 
 
 def followed(addon: Any, take: Path) -> tuple[bpy.types.Object, bpy.types.Action]:
@@ -110,7 +103,7 @@ def add_body(rig: bpy.types.Object, joints: Any) -> None:
         mesh = bpy.data.meshes.new(role)
         vertices, faces = rounded(np.array(joint.head), np.array(joint.tail), *THICK[part])
         mesh.from_pydata(vertices.tolist(), [], faces)
-        mesh.materials.append(material(f"Body {side}", COLOURS[side]))
+        mesh.materials.append(stage.material(f"Body {side}", COLOURS[side]))
         mesh.polygons.foreach_set("use_smooth", [True] * len(faces))
         obj = bpy.data.objects.new(role, mesh)
         bpy.context.scene.collection.objects.link(obj)
@@ -119,7 +112,9 @@ def add_body(rig: bpy.types.Object, joints: Any) -> None:
         modifier.object = rig
 
 
-def rounded(head: np.ndarray, tail: np.ndarray, width: float, depth: float) -> tuple[np.ndarray, list[list[int]]]:
+def rounded(
+    head: NDArray[np.float64], tail: NDArray[np.float64], width: float, depth: float
+) -> tuple[NDArray[np.float64], list[list[int]]]:
     """Vertices and faces of a closed tube from head to tail with round ends."""
     way = tail - head
     along = way / np.linalg.norm(way)
@@ -146,4 +141,4 @@ def rounded(head: np.ndarray, tail: np.ndarray, width: float, depth: float) -> t
     return vertices, [*faces, *ends]
 
 
-main()
+main(*sys.argv[sys.argv.index("--") + 1 :])

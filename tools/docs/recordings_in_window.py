@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Make the pictures of "Change what you recorded" in docs/directing.md, with the sample rig. It needs a screen:
-
-xvfb-run -s "-screen 0 1600x900x24" blender --factory-startup --enable-event-simulate --window-geometry 0 0 1600 900 \
-    --python docs/make_directing_recordings.py -- build/packages/LEGACY.zip docs/directing
-"""
+"""The pictures of "Change what you recorded" in docs/directing.md. `dev.py docs directing` runs this in a Blender with
+a window; arguments after `--`: the add-on's zip and the pictures' folder."""
 
 from __future__ import annotations
 
 import math
 import sys
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +15,11 @@ import bpy
 import numpy as np
 from mathutils import Euler
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "gui"))
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "blender"))
+TESTS = Path(__file__).resolve().parents[2] / "tests"
+sys.path[:0] = [str(TESTS / "gui"), str(TESTS / "blender")]
 
-import making
-import window
+making: Any = import_module("making")
+window: Any = import_module("window")
 
 FPS, FIRST = 24, 1
 AT = 7.0  # s of the recording, where it is pinned
@@ -143,6 +141,7 @@ def steps() -> Iterator[None]:
     yield from picture_of_the_panel()
     yield from picture_of_curves()
     window.show_all()  # all that the add-on unregisters
+    print("SESSION PASSED", flush=True)
 
 
 window.run(steps())

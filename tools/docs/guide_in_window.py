@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Make the pictures of docs/guide.md and the README's picture of the panels, with the sample rig. It needs a screen:
-
-xvfb-run -s "-screen 0 1600x900x24" blender --factory-startup --enable-event-simulate --window-geometry 0 0 1600 900 \
-    --python docs/make_guide_pictures.py -- build/packages/LEGACY.zip docs/guide
-"""
+"""The pictures of docs/guide.md. `dev.py docs guide` runs this in a Blender with a window; arguments after `--`: the
+add-on's zip and the pictures' folder."""
 
 from __future__ import annotations
 
 import math
 import sys
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -17,20 +15,18 @@ import bpy
 import numpy as np
 from mathutils import Euler
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "gui"))
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "blender"))
+TESTS = Path(__file__).resolve().parents[2] / "tests"
+sys.path[:0] = [str(TESTS / "gui"), str(TESTS / "blender")]
 
-import making
-import window
-from sample_takes import export_takes
+making: Any = import_module("making")
+window: Any = import_module("window")
 
-DOCS = Path(__file__).resolve().parent
 FORWARD, TO_THE_RIGHT = "W", "D"
 MIDDLE = (600, 450)  # of the viewport
 VIEW = Euler((math.radians(70), 0, math.radians(35)))
 
 
-def crop(name: str, region: Any, fit: bool = False, target: Path | None = None) -> Iterator[None]:
+def crop(name: str, region: Any, fit: bool = False) -> Iterator[None]:
     """A picture of a region of the window; with `fit`, without the plain ground at its lower end."""
     yield from window.picture(name)
     path = f"{window.FOLDER}/{name}.png"
@@ -43,7 +39,7 @@ def crop(name: str, region: Any, fit: bool = False, target: Path | None = None) 
         drawn = np.flatnonzero(np.ptp(part[:, : part.shape[1] - 40, :3], axis=1).max(axis=1) > 0.02)
         part = part[max(drawn[0] - 6, 0) :]
     bpy.data.images.remove(image)
-    save(part, target or Path(path))
+    save(part, Path(path))
 
 
 def save(pixels: Any, path: Path) -> None:
@@ -64,7 +60,7 @@ def panels(name: str, *labels: str) -> Iterator[None]:
 
 def imported(folder: Path) -> Iterator[None]:
     """The sample's takes, as a user imports them."""
-    export_takes(folder)
+    import_module("sample_takes").export_takes(folder)
     bpy.ops.wm.read_homefile(use_factory_startup=True, load_ui=False)
     yield from window.open_tab()
     window.press(bpy.ops.fragmotion.import_mocap, "EXEC_DEFAULT", True, directory=str(folder))
@@ -125,8 +121,7 @@ def pictures_of_building() -> Iterator[None]:
     yield from panels("inspector", "Inspector")
     window.show_only("Mocap", "Build", "Drive", "Recordings", "Bake")
     manager.show_mocap = manager.show_build = False
-    yield from crop("panel", window.sidebar()["area"], target=DOCS / "panel.png")
-    Path(f"{window.FOLDER}/panel.png").unlink()
+    yield from crop("panel", window.sidebar()["area"])
 
 
 def hold(key: str, seconds: float, **modifiers: bool) -> Iterator[None]:
@@ -186,6 +181,7 @@ def steps() -> Iterator[None]:
     yield from pictures_of_baking()
     yield from pictures_of_a_crowd()
     window.show_all()  # all that the add-on unregisters
+    print("SESSION PASSED", flush=True)
 
 
 window.run(steps())

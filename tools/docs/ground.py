@@ -1,49 +1,39 @@
 # SPDX-License-Identifier: MIT
-"""Make the pictures of Ground in docs/ground: a filmstrip, seen from the side, for each slope and stairs.
-
-PYTHONPATH=FOLDER_OF_THE_CORE:. build/env-3.11/bin/python docs/make_ground_pictures.py hero.policy
-
-FOLDER_OF_THE_CORE holds the compiled module fragmotion_core.
-"""
+"""The pictures of docs/ground: a walk of the sample character over each slope and stairs, seen from the side."""
 
 from __future__ import annotations
 
-import argparse
 import math
-import sys
-from pathlib import Path
 
-import matplotlib
+import fragmotion_core as core
+import matplotlib as mpl
 import numpy as np
 from numpy.typing import NDArray
 
-DOCS = Path(__file__).resolve().parent
-sys.path.insert(0, str(DOCS.parent))
-matplotlib.use("Agg")
+mpl.use("Agg")
+from matplotlib import pyplot
+from matplotlib.axes import Axes
 
-import fragmotion_core as core  # noqa: E402
-from matplotlib import pyplot  # noqa: E402
-from matplotlib.axes import Axes  # noqa: E402
+from tools.directing.ground import GROUNDS, Height, asked
+from tools.directing.inputs import SAMPLE
+from tools.evaluate.blend import read_actions
+from tools.paths import TOP
 
-from tools.directing.ground import GROUNDS, Height, asked  # noqa: E402
-
+FOLDER = TOP / "docs" / "ground"
 RATE, SECONDS, EVERY = 60, 3.5, 12  # frames a second; s; frames between two bodies
 LEFT, RIGHT, BODY, GROUND = "#0b7d9c", "#d3691f", "#555555", "#b8b4a8"
 
 
-def main(arguments: list[str]) -> int:
+def draw() -> None:
     """Draw a walk over each ground."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("policy", type=Path)
-    character = core.Character.load(parser.parse_args(arguments).policy)
-    (DOCS / "ground").mkdir(exist_ok=True)
+    character = core.build(*read_actions(SAMPLE), [core.simulate_trace("explorer")])
+    FOLDER.mkdir(exist_ok=True)
     for name, (height, heading) in GROUNDS.items():
         figure, axes = pyplot.subplots(figsize=(15, 6), dpi=100)
         _draw(axes, character, height, heading)
         axes.set_title(f"{name[0].upper()}{name[1:]}: five bodies a second", loc="left")
-        figure.savefig(DOCS / "ground" / f"{name.replace(' ', '_')}.png", bbox_inches="tight")
+        figure.savefig(FOLDER / f"{name.replace(' ', '_')}.png", bbox_inches="tight")
         pyplot.close(figure)
-    return 0
 
 
 def _draw(axes: Axes, character: core.Character, height: Height, heading: float) -> None:
@@ -90,4 +80,4 @@ def _play(character: core.Character, height: Height, heading: float) -> tuple[ND
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    draw()

@@ -1,31 +1,24 @@
 # SPDX-License-Identifier: MIT
-"""Fill docs/evaluation.md with the figures of a run of `dev.py evaluate` and one of `dev.py beside`: all between
-<!-- made: NAME --> and <!-- end --> is written anew.
-
-python3 docs/make_evaluation_page.py [JSON]    (default: docs/evaluation/evaluation.json; beside.json lies beside it)
-"""
+"""The places of docs/evaluation.md, from the figures of a run of `dev.py evaluate` and one of `dev.py beside`."""
 
 from __future__ import annotations
 
 import json
 import re
 import statistics
-import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
-DOCS = Path(__file__).resolve().parent
-sys.path.insert(0, str(DOCS.parent))
-
-from tools.beside.table import beside_table  # noqa: E402
-from tools.evaluate import report  # noqa: E402
-from tools.evaluate.report import Table, number  # noqa: E402
+from tools.beside.table import beside_table
+from tools.docs.filling import fill, markdown
+from tools.evaluate import report
+from tools.evaluate.report import Table, number
+from tools.paths import TOP
 
 Result = dict[str, Any]
-PAGE = DOCS / "evaluation.md"
-_BLOCK = re.compile(r"(<!-- made: (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
-_PLAYERS = DOCS.parent / "cpp" / "src" / "control" / "simulated_players.cpp"
+PAGE = TOP / "docs" / "evaluation.md"
+FIGURES = TOP / "docs" / "evaluation"
+_PLAYERS = TOP / "cpp" / "src" / "control" / "simulated_players.cpp"
 _PLAYER = re.compile(r'^ +\{"(\w+)", +(.*)\},$', re.MULTILINE)
 
 # The paper's Table 1 and Sec. 4.
@@ -36,12 +29,6 @@ _PAPER_SYNTHESIS = {
     "optimal": ("2 min", "under 10 MB"),
 }
 _PAPER_QUALITY = {"greedy": "about 40", "svm": "84 (81 to 90, sd 4.1)", "iterate": "88 (85 to 91, sd 1.7)"}
-
-
-def markdown(table: Table) -> str:
-    """The table, numbers to the right."""
-    rule = ["---", *["---:"] * (len(table.header) - 1)]
-    return "\n".join(f"| {' | '.join(line)} |" for line in (table.header, rule, *table.rows))
 
 
 def short(result: Result) -> str:
@@ -230,13 +217,12 @@ _MADE: dict[str, Callable[[Result], str]] = {
 }
 
 
-def main(path: Path) -> None:
-    """Write the page."""
-    result = {**json.loads(path.read_text()), "beside": json.loads(path.with_name("beside.json").read_text())}
-    text = _BLOCK.sub(lambda match: f"{match[1]}\n{_MADE[match[2]](result)}\n\n{match[3]}", PAGE.read_text())
-    PAGE.write_text(text)
-    print(f"{PAGE}: {len(_BLOCK.findall(text))} places filled from {path}")
+def made() -> Callable[[str], str]:
+    """What is made for each name, from the figures in docs/evaluation."""
+    result = json.loads((FIGURES / "evaluation.json").read_text())
+    result["beside"] = json.loads((FIGURES / "beside.json").read_text())
+    return lambda name: _MADE[name](result)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else DOCS / "evaluation" / "evaluation.json")
+    fill(PAGE, made())

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: MIT
+"""`dev.py docs`: each page's pictures and tables, in the Blender or the Python that they take."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+from tools import blender, machine, packages
+from tools.compiling import installed_core
+from tools.directing.inputs import SAMPLE
+from tools.environments import BPY_PYTHON, environment_python
+from tools.paths import BLENDER, BUILD, LOGS, TOP
+from tools.shell import Failure, run, say
+
+_DOCS = TOP / "docs"
+_SCRIPTS = Path(__file__).parent
+_SCREEN = ("xvfb-run", "--auto-servernum", "--server-args", "-screen 0 1600x900x24")
+_WINDOW = ("--factory-startup", "--enable-event-simulate", "--window-geometry", "0", "0", "1600", "900")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What can be asked for."""
+    parser.add_argument("pages", nargs="*", metavar="NAME", help=f"only these of {', '.join(PAGES)}")
+    parser.add_argument(
+        "--mocap",
+        type=Path,
+        metavar="DIR",
+        help="a folder with bandai-namco, to measure the evaluation anew, and cmu, for retargeting's pictures",
+    )
+    parser.add_argument("--fbx", type=Path, metavar="FILE", help="Mixamo's X Bot, for retargeting's second picture")
+
+
+def make_docs(options: argparse.Namespace) -> int:
+    """Make the named pages or all."""
+    unknown = [name for name in options.pages if name not in PAGES]
+    if unknown:
+        raise Failure(f"there is no page {', '.join(unknown)}; the pages are {', '.join(PAGES)}")
+    for name in options.pages or PAGES:
+        say(f"\n=== {name}")
+        PAGES[name](options)
+    return 0
+
+
+def _readme(options: argparse.Namespace) -> None:
+    _run_python("tools.docs.drive_picture")
+
+
+def _guide(options: argparse.Namespace) -> None:
+    _run_in_window("guide_in_window.py", _DOCS / "guide")
+
+
+def _motion(options: argparse.Namespace) -> None:
+    _run_python("tools.motion_pictures", str(SAMPLE), str(_DOCS / "motion"))
+
+
+def _directing(options: argparse.Namespace) -> None:
+    folder = _DOCS / "directing"
+    _run_python("tools.directing", "--figures", str(folder), "--json", str(folder / "directing.json"))
+    _run_python("tools.docs.directing")
+    _run_in_window("recordings_in_window.py", folder)
+
+
+def _ground(options: argparse.Namespace) -> None:
+    _run_python("tools.docs.ground")
+
+
+def _evaluation(options: argparse.Namespace) -> None:
+    if options.mocap:
+        takes, folder = str(_takes(options, "bandai-namco")), _DOCS / "evaluation"
+        _run_python("tools.evaluate", takes, "--figures", str(folder), "--json", str(folder / "evaluation.json"))
+        _run_python("tools.beside", takes, "--json", str(folder / "beside.json"))
+    else:
+        say("the page is filled from the figures of the last run; --mocap DIR measures anew")
+    _run_python("tools.docs.evaluation")
+
+
+def _retargeting(options: argparse.Namespace) -> None:
+    if not options.mocap:
+        say("left out: its pictures take CMU's take 02_01; --mocap DIR says where it is")
+        return
+    take = _takes(options, "cmu") / "02_01.amc"
+    machine.set_up(machine.DEMO)
+    package = packages.build_for_debian(BUILD / "packages-quick")
+    kinds = {"rigify": [], **({"xbot": [options.fbx.resolve()]} if options.fbx else {})}
+    for name, character in kinds.items():
+        words = [package, take, _DOCS / "retargeting" / f"{name}.jpg", *character]
+        command = blender.background_command(_SCRIPTS / "retargeting_in_blender.py", *words)
+        run(command, f"docs-{name}", blender.debian_environment("docs"), echo=True)
+
+
+def _takes(options: argparse.Namespace, name: str) -> Path:
+    folder: Path = options.mocap.resolve() / name
+    if not folder.is_dir():
+        raise Failure(f"{folder}: there is no such folder")
+    return folder
+
+
+def _run_python(module: str, *arguments: str) -> None:
+    """Run a module of tools with the core and Blender's module."""
+    machine.set_up(machine.measuring_needs(BPY_PYTHON) | machine.BLENDER_45)
+    core = installed_core(BPY_PYTHON, packages.wheel(BPY_PYTHON))
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(core), str(TOP)))}
+    command = [str(environment_python(BPY_PYTHON)), "-m", module, *arguments]
+    if subprocess.run(command, env=environment, cwd=TOP, check=False).returncode:
+        raise Failure(f"{module} failed; what it printed says why")
+
+
+def _run_in_window(script: str, folder: Path) -> None:
+    """Run a script in a window of Debian's Blender, on a screen of its own."""
+    machine.set_up(machine.GUI)
+    package = packages.build_for_debian(BUILD / "packages-quick")
+    environment = {**blender.debian_environment("docs"), "LIBGL_ALWAYS_SOFTWARE": "1"}
+    command: list[str | Path] = [*_SCREEN, BLENDER, *_WINDOW, "--python", _SCRIPTS / script, "--", package, folder]
+    log = f"docs-{Path(script).stem}"
+    run(command, log, environment, echo=True)
+    if "SESSION PASSED" not in (LOGS / f"{log}.log").read_text():
+        raise Failure(f"{script} did not come to its end; what it printed says why")
+
+
+PAGES: dict[str, Callable[[argparse.Namespace], None]] = {
+    "readme": _readme,
+    "guide": _guide,
+    "motion": _motion,
+    "directing": _directing,
+    "ground": _ground,
+    "evaluation": _evaluation,
+    "retargeting": _retargeting,
+}
+"""What makes the pictures and tables of each page."""
