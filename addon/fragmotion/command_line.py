@@ -242,7 +242,7 @@ def _bake_one(options: argparse.Namespace, path: Path, target: Path) -> list[dic
     elif options.player:
         played = [{"trace_source": "PLAYER", "player": options.player}]
     else:
-        played = [{"trace_source": "RECORDING", "recording": index} for index in range(len(obj.fragmotion.takes))]
+        played = [{"trace_source": "RECORDING", "recording": index} for index in range(len(obj.fragmotion.recordings))]
     if not played:
         raise UserError(f"Armature '{obj.name}' has no recordings")
     baked = []
@@ -287,9 +287,9 @@ def _traces(options: argparse.Namespace, obj: bpy.types.Object, character: Chara
     """The traces that are asked for, by what they are called."""
     if not options.recordings:
         return playing.traces_of(options, character)
-    if not obj.fragmotion.takes:
+    if not obj.fragmotion.recordings:
         raise UserError(f"Armature '{obj.name}' has no recordings")
-    return {recording.name: trace_of(recording) for recording in obj.fragmotion.takes}
+    return {recording.name: trace_of(recording) for recording in obj.fragmotion.recordings}
 
 
 def _info(options: argparse.Namespace) -> running.Done:
@@ -355,7 +355,7 @@ def _described(obj: bpy.types.Object) -> running.Done:
         "controls_performed": figures.performed,
         "controls": figures.controls,
         **({"styles": [style.name for style in figures.styles]} if figures.styles else {}),
-        "recordings": len(obj.fragmotion.takes),
+        "recordings": len(obj.fragmotion.recordings),
     }
     return running.Done(found, running.listed(found))
 

@@ -20,7 +20,7 @@ def rig(addon: ModuleType) -> bpy.types.Object:
     obj = making.add_armature()
     for name in ("Stroll", "Other"):
         addon.recordings.recordings.add_recording(obj, np.zeros((50, 4)), name=name)
-    obj.fragmotion.active_take = 0
+    obj.fragmotion.active_recording = 0
     return obj
 
 
@@ -39,7 +39,7 @@ def strangers(rig: bpy.types.Object) -> dict[str, bpy.types.Object]:
 def test_what_a_forged_pointer_names_stays(rig: bpy.types.Object, name: str, press: str) -> None:
     named = strangers(rig)[name]
     making.activate(rig)
-    rig.fragmotion.takes[0].curves = named
+    rig.fragmotion.recordings[0].curves = named
     before = set(bpy.data.objects)
     assert getattr(bpy.ops.fragmotion, press)() == {"FINISHED"}
     assert before <= set(bpy.data.objects)
@@ -47,10 +47,10 @@ def test_what_a_forged_pointer_names_stays(rig: bpy.types.Object, name: str, pre
 
 def test_curves_of_another_recording_stay(rig: bpy.types.Object) -> None:
     assert bpy.ops.fragmotion.edit_curves() == {"FINISHED"}
-    curves = rig.fragmotion.takes[0].curves
-    rig.fragmotion.takes[1].curves = curves
+    curves = rig.fragmotion.recordings[0].curves
+    rig.fragmotion.recordings[1].curves = curves
     making.activate(rig)
-    rig.fragmotion.active_take = 1
+    rig.fragmotion.active_recording = 1
     assert bpy.ops.fragmotion.delete_recording() == {"FINISHED"}
     assert curves in set(bpy.data.objects)
 
@@ -63,23 +63,23 @@ def duplicated(rig: bpy.types.Object) -> Any:
 
 def test_a_copys_recording_leaves_the_originals_curves(addon: ModuleType, rig: bpy.types.Object) -> None:
     assert bpy.ops.fragmotion.edit_curves() == {"FINISHED"}
-    curves, action = rig.fragmotion.takes[0].curves, rig.fragmotion.takes[0].curves.animation_data.action
+    curves, action = rig.fragmotion.recordings[0].curves, rig.fragmotion.recordings[0].curves.animation_data.action
     copy = duplicated(rig)
-    assert addon.recordings.curves.curves_of(copy, copy.fragmotion.takes[0]) is None
+    assert addon.recordings.curves.curves_of(copy, copy.fragmotion.recordings[0]) is None
     assert bpy.ops.fragmotion.edit_curves() == {"FINISHED"}
-    own = copy.fragmotion.takes[0].curves
+    own = copy.fragmotion.recordings[0].curves
     assert own != curves and own.parent == copy
     making.activate(copy)
     assert bpy.ops.fragmotion.delete_recording() == {"FINISHED"}
     assert curves in set(bpy.data.objects) and action in set(bpy.data.actions)
-    assert addon.recordings.curves.curves_of(rig, rig.fragmotion.takes[0]) == curves
+    assert addon.recordings.curves.curves_of(rig, rig.fragmotion.recordings[0]) == curves
 
 
 def test_own_curves_go_with_their_recording(rig: bpy.types.Object) -> None:
-    rig.fragmotion.takes[0].name = "Stroll"
+    rig.fragmotion.recordings[0].name = "Stroll"
     assert bpy.ops.fragmotion.edit_curves() == {"FINISHED"}
     making.activate(rig)
-    rig.fragmotion.takes[0].name = "Renamed"
+    rig.fragmotion.recordings[0].name = "Renamed"
     rig.name = "Hero"
     assert bpy.ops.fragmotion.delete_recording() == {"FINISHED"}
     assert set(bpy.data.objects) == {rig} and not bpy.data.actions
@@ -110,13 +110,13 @@ def test_unbinding_leaves_a_collection_that_the_user_made(addon: ModuleType, rig
 
 def test_a_copy_of_character_and_curves_has_curves_of_its_own(addon: ModuleType, rig: bpy.types.Object) -> None:
     assert bpy.ops.fragmotion.edit_curves() == {"FINISHED"}
-    curves = rig.fragmotion.takes[0].curves
+    curves = rig.fragmotion.recordings[0].curves
     rig.select_set(True)
     assert bpy.ops.object.duplicate() == {"FINISHED"}
     copy = next(obj for obj in bpy.data.objects if obj.type == "ARMATURE" and obj != rig)
-    own = copy.fragmotion.takes[0].curves
-    assert own != curves and addon.recordings.curves.curves_of(copy, copy.fragmotion.takes[0]) == own
-    addon.recordings.curves.remove_curves(copy, copy.fragmotion.takes[0])
+    own = copy.fragmotion.recordings[0].curves
+    assert own != curves and addon.recordings.curves.curves_of(copy, copy.fragmotion.recordings[0]) == own
+    addon.recordings.curves.remove_curves(copy, copy.fragmotion.recordings[0])
     assert set(bpy.data.objects) == {rig, copy, curves}
 
 

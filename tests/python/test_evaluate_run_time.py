@@ -147,8 +147,8 @@ def test_what_is_followed_is_what_a_body_can_do(built: core.Character) -> None:
         exact = limited(controls, headings[:-1], limit)
         places = np.concatenate([[[0, 0]], np.cumsum(turned(exact, headings[:-1] + angle / 2) / rate, 0)])
         span, off = 2 * rate, path[:, 2] - headings
-        led = turned(places[span:] - places[:-span], off[:-span])
-        away = np.linalg.norm(path[span:, :2] - path[:-span, :2] - led, axis=1)
+        asked = turned(places[span:] - places[:-span], off[:-span])
+        away = np.linalg.norm(path[span:, :2] - path[:-span, :2] - asked, axis=1)
         assert drift == pytest.approx(away.mean() / 2, rel=1e-6)
         assert drift_heading == pytest.approx(np.abs(off[span:] - off[:-span]).mean(), rel=1e-6)
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a damaged or forged file says of our properties is put back within their bounds when it is opened.
+"""What a file of an earlier version says of our properties gets its name of today when it is opened, and what a damaged
+or forged one says is put back within their bounds.
 
 Blender checks a value against its property's bounds when it is set, but not when it is read from a file.
 """
@@ -12,6 +13,8 @@ from typing import Any
 import bpy
 import numpy as np
 from bpy.app.handlers import persistent
+
+from .former_names import rename
 
 _LONGEST = 1 << 12  # characters of a text that is drawn: Blender's own names have 63 and its paths 1023
 _EVENTS = ("load_post", "blend_import_post")  # the latter, of Append and Link, from 4.3
@@ -40,6 +43,8 @@ def _handlers() -> Iterator[Any]:
 
 @persistent  # type: ignore[untyped-decorator]
 def _mend_file(*_: object) -> None:
+    for obj in bpy.data.objects:
+        rename(obj)
     for kind in (bpy.data.objects, bpy.data.actions, bpy.data.window_managers):
         for data in kind:
             count = mend(data.fragmotion) if data.library is None and data.is_property_set("fragmotion") else 0

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "base/quantile.hpp"
 #include "doctor/check.hpp"
 #include "doctor/lengths.hpp"
 #include "fragmotion/motion/contacts.hpp"
@@ -59,10 +61,7 @@ Stands stands_of(const Patient& patient, bool level) {
 std::optional<double> ground_of(const Patient& patient) {
   std::vector<double> heights;
   for (const Eigen::Vector4d& stand : stands_of(patient, true)) heights.push_back(stand.z());
-  if (heights.empty()) return std::nullopt;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
+  return heights.empty() ? std::nullopt : std::optional(median(std::move(heights)));
 }
 
 /// How much the ground that feet stand on rises or falls over the take, as a plane or with time, m; 0 where it is

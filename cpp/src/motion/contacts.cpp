@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/motion/contacts.hpp"
 
-#include <algorithm>
+#include <utility>
 
+#include "base/quantile.hpp"
 #include "fragmotion/motion/foot_paths.hpp"
 
 namespace fragmotion {
@@ -27,9 +28,20 @@ std::vector<int> changes(const Contacts& contacts, bool stands) {
 double floor_of(const std::vector<Vector3>& path) {
   std::vector<double> heights;
   for (const Vector3& p : path) heights.push_back(p.z());
-  const auto floor = heights.begin() + static_cast<std::ptrdiff_t>(kDeeper * static_cast<double>(heights.size() - 1));
-  std::nth_element(heights.begin(), floor, heights.end());
-  return *floor;
+  return quantile(std::move(heights), kDeeper);
+}
+
+Floors usual_floors(const std::vector<Contacts>& contacts) {
+  if (contacts.empty()) return {};
+  const auto usual = [&](int side, double FootHeights::*point) {
+    std::vector<double> heights;
+    for (const Contacts& each : contacts) heights.push_back(each.floors[side].*point);
+    return median(std::move(heights));
+  };
+  Floors floors;
+  for (int side = 0; side < 2; ++side)
+    floors[side] = {usual(side, &FootHeights::ball), usual(side, &FootHeights::heel)};
+  return floors;
 }
 
 Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {

@@ -80,7 +80,7 @@ class Seen:
 
 def record_over(session: ModuleType, obj: bpy.types.Object) -> Seen:
     """From 4 s to 7 s: a walk while the recording still waves, a jump, another style, and a wave to the very end."""
-    driven = session.record_over(bpy.context, obj, obj.fragmotion.takes[0], 4.0, 7.0)
+    driven = session.record_over(bpy.context, obj, obj.fragmotion.recordings[0], 4.0, 7.0)
     press, let_go = driven.inputs.keyboard.press, driven.inputs.keyboard.let_go
     jump, wave = (row.key for row in obj.fragmotion.moves)
     seen = Seen(driven)
@@ -107,7 +107,7 @@ def test_what_is_recorded_over_moves_and_styles_is_kept_as_it_was_shown(
 ) -> None:
     seen = record_over(session, obj)
     session.stop()
-    recording = obj.fragmotion.takes[0]
+    recording = obj.fragmotion.recordings[0]
     _, kept = part(addon, "recordings.recordings").shown_of(recording)
     first = 2 * driving.RATE + 1
     np.testing.assert_allclose(kept.path[first : first + len(seen.frames), :2], np.array(seen.frames)[:, :2], atol=NEAR)
@@ -118,7 +118,7 @@ def test_what_is_recorded_over_moves_and_styles_is_kept_as_it_was_shown(
     assert again.played[shown] == seen.played
     styles, whole, upper = (set(column) for column in zip(*seen.played))
     assert styles == {NEUTRAL, TIRED} and {0, -1} <= whole and {1, -1} <= upper, "all that is asked for is played"
-    assert len(obj.fragmotion.takes) == 1
+    assert len(obj.fragmotion.recordings) == 1
 
 
 def test_the_users_moves_and_styles_stand_where_the_recordings_were(
@@ -126,7 +126,7 @@ def test_the_users_moves_and_styles_stand_where_the_recordings_were(
 ) -> None:
     record_over(session, obj)
     session.stop()
-    recordings, recording = part(addon, "recordings.recordings"), obj.fragmotion.takes[0]
+    recordings, recording = part(addon, "recordings.recordings"), obj.fragmotion.recordings[0]
     assert recordings.moves_of(recording) == [
         *[(5, WAVE, 4), (38, WAVE, 20), (46, JUMP, 2), (61, WAVE, 9), (90, WAVE, 5), (100, JUMP, 1)]
     ]
@@ -139,18 +139,18 @@ def test_a_replay_that_fails_leaves_the_recording_as_it_was(
     addon: ModuleType, session: ModuleType, obj: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     replaying, fields = part(addon, "edits.replaying"), ("controls", "moves", "style", "styles", "shown")
-    before = [getattr(obj.fragmotion.takes[0], field) for field in fields]
+    before = [getattr(obj.fragmotion.recordings[0], field) for field in fields]
 
     def fail(*_arguments: Any) -> None:
         raise ValueError("injected")
 
-    driven = session.record_over(bpy.context, obj, obj.fragmotion.takes[0], 4.0, 5.0)
+    driven = session.record_over(bpy.context, obj, obj.fragmotion.recordings[0], 4.0, 5.0)
     driven.inputs.keyboard.press("W")
     driving.go_on(driven, 2.5)
     monkeypatch.setattr(replaying, "from_then_on", fail)
     with pytest.raises(ValueError, match="injected"):
         session.stop()
-    assert [getattr(obj.fragmotion.takes[0], field) for field in fields] == before
+    assert [getattr(obj.fragmotion.recordings[0], field) for field in fields] == before
     assert session.current is None
 
 
@@ -172,7 +172,7 @@ def pinned(addon: ModuleType, obj: bpy.types.Object, recording: Any) -> None:
 def test_what_is_recorded_over_an_edited_recording_is_kept_as_it_was_shown(
     addon: ModuleType, session: ModuleType, obj: bpy.types.Object, edit: Any, begin: float
 ) -> None:
-    recording, replaying = obj.fragmotion.takes[0], part(addon, "edits.replaying")
+    recording, replaying = obj.fragmotion.recordings[0], part(addon, "edits.replaying")
     shown_of = part(addon, "recordings.recordings").shown_of
     edit(addon, obj, recording)
     before = shown_of(recording)[1]

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ...input.steering import Control, rotate
 from ..acting.actor import Actor
 from ..acting.slider import Track
-from ..input.steering import Control, rotate
 from .gauges import Judge, Speedometer, Stopwatch
 from .trail import Trail
 

@@ -25,6 +25,9 @@ struct Contacts {
 /// nor a bad frame is taken for the floor.
 double floor_of(const std::vector<Vector3>& path);
 
+/// Where feet stand in most clips: the medians, 0 where there are none.
+Floors usual_floors(const std::vector<Contacts>& contacts);
+
 /// A foot stands while its lower end is within 4.5 cm of its floor and nearly still: slower than 0.5 m/s plus a fifth
 /// of the hips' speed (lengths of a character of 1.8 m). Gaps and contacts shorter than 0.06 s are closed. The floor is
 /// floor_of() ball and heel in the clip, unless one is given: a short clip need not touch it.

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -19,11 +18,10 @@ STEP = 1 / 4  # s
 
 
 @pytest.fixture
-def shown(addon: ModuleType) -> Iterator[ModuleType]:
-    """The add-on's module of takes that are shown; none is afterwards."""
-    module = import_module(f"{addon.__name__}.drive.take_shown")
-    yield module
-    module.stop()
+def previews(addon: ModuleType) -> Iterator[ModuleType]:
+    """The add-on's module of previews; there is none afterwards."""
+    yield addon.preview.previews
+    addon.preview.previews.stop()
 
 
 @pytest.fixture
@@ -42,23 +40,31 @@ def another_take(obj: bpy.types.Object) -> bpy.types.Action:
     return next(a for a in bpy.data.actions if a != playing and not a.fragmotion.style and "run" in a.name)
 
 
+def show(addon: ModuleType, obj: bpy.types.Object, action: bpy.types.Action) -> None:
+    """Play the take, in place of what plays."""
+    addon.preview.previews.stop()
+    addon.preview.previews.show(addon.preview.take_preview.TakePreview(bpy.context, obj, action))
+
+
 def told(obj: bpy.types.Object) -> str:
     """Everything in words, to be compared across an undo or a load."""
     return repr(everything(obj))
 
 
-def test_a_take_is_shown_as_blender_plays_it_on_loop_and_leaves_nothing(shown: ModuleType, sample: Any) -> None:
+def test_a_take_is_shown_as_blender_plays_it_on_loop_and_leaves_nothing(
+    addon: ModuleType, previews: ModuleType, sample: Any
+) -> None:
     before, action = everything(sample), another_take(sample)
-    shown.show(bpy.context, sample, action)
-    length, seen = shown.current.seconds, [hips(sample)]
+    show(addon, sample, action)
+    length, seen = previews.current.seconds, [hips(sample)]
     rate = bpy.context.scene.render.fps / bpy.context.scene.render.fps_base
     for _ in range(round(length / STEP) + 4):
-        shown.current.step(STEP)
+        previews.current.step(STEP)
         bpy.context.view_layer.update()
         seen.append(hips(sample))
     times = (STEP * np.arange(len(seen))) % length
     assert bpy.context.scene.frame_current_final == 17.5, "the playhead is the user's"
-    shown.stop()
+    previews.stop()
     assert everything(sample) == before
     frames = action.frame_range[0] + np.floor(times * rate + 1e-6)
     poses = making.blender_poses(sample, action, frames, ["hips"])[:, 0, :3, 3]
@@ -66,60 +72,64 @@ def test_a_take_is_shown_as_blender_plays_it_on_loop_and_leaves_nothing(shown: M
     assert np.ptp(np.array(seen), axis=0).max() > 1, "it runs"
 
 
-def test_another_take_takes_its_place(shown: ModuleType, sample: Any) -> None:
+def test_another_take_takes_its_place(addon: ModuleType, previews: ModuleType, sample: Any) -> None:
     before = everything(sample)
     for action in (another_take(sample), bpy.data.actions["jump up"]):
-        shown.show(bpy.context, sample, action)
-        assert shown.current.name == action.name and shown.current.trouble() == ""
-    shown.stop()
-    assert shown.current is None and everything(sample) == before
+        show(addon, sample, action)
+        assert previews.current.name == f"Take '{action.name}'" and previews.current.trouble() == ""
+    previews.stop()
+    assert previews.current is None and everything(sample) == before
 
 
 def test_a_take_that_cannot_be_shown_is_refused_and_nothing_changes(
-    addon: ModuleType, shown: ModuleType, sample: Any
+    addon: ModuleType, previews: ModuleType, sample: Any
 ) -> None:
     before, stranger = everything(sample), bpy.data.actions.new("of nobody")
     with pytest.raises(addon.errors.UserError, match="'of nobody' animates no bone"):
-        shown.show(bpy.context, sample, stranger)
+        show(addon, sample, stranger)
     bpy.data.actions.remove(stranger)
-    assert shown.current is None and everything(sample) == before
+    assert previews.current is None and everything(sample) == before
 
 
-def test_what_is_taken_away_ends_it(shown: ModuleType, sample: Any) -> None:
+def test_what_is_taken_away_ends_it(addon: ModuleType, previews: ModuleType, sample: Any) -> None:
     name = sample.name
-    shown.show(bpy.context, sample, another_take(sample))
+    show(addon, sample, another_take(sample))
     bpy.data.objects.remove(sample)
-    assert shown.current.trouble() == f"Armature '{name}' was deleted"
-    shown.stop()
+    assert previews.current.trouble() == f"Armature '{name}' was deleted"
+    previews.stop()
 
 
-def test_an_undo_step_from_its_middle_is_healed(shown: ModuleType, sample: Any) -> None:
+def test_an_undo_step_from_its_middle_is_healed(addon: ModuleType, previews: ModuleType, sample: Any) -> None:
     for action in bpy.data.actions:
         action.fragmotion.use = False
     name, before = sample.name, told(sample)
     bpy.ops.ed.undo_push(message="before")
-    shown.show(bpy.context, sample, another_take(sample))
+    show(addon, sample, another_take(sample))
     for take in ("jump up", "run back"):  # each tick is a step of the user's
         bpy.data.actions[take].fragmotion.use = True
         bpy.ops.ed.undo_push(message="tick")
-    shown.stop()
+    previews.stop()
     bpy.ops.ed.undo()
     obj = bpy.data.objects[name]
     assert bpy.data.actions["jump up"].fragmotion.use and not bpy.data.actions["run back"].fragmotion.use
     assert told(obj) == before
 
 
-def test_nothing_else_may_change_the_armature_meanwhile(shown: ModuleType, obj: bpy.types.Object) -> None:
+def test_nothing_else_may_change_the_armature_meanwhile(
+    addon: ModuleType, previews: ModuleType, obj: bpy.types.Object
+) -> None:
     others = (bpy.ops.fragmotion.build, bpy.ops.fragmotion.bake, bpy.ops.fragmotion.tick_actions)
     assert all(operator.poll() for operator in others)
-    shown.show(bpy.context, obj, another_take(obj))
+    show(addon, obj, another_take(obj))
     assert not any(operator.poll() for operator in others) and bpy.ops.fragmotion.play_take.poll()
 
 
-def test_a_file_that_is_saved_meanwhile_has_the_armature_as_it_was(shown: ModuleType, tmp_path: Path) -> None:
+def test_a_file_that_is_saved_meanwhile_has_the_armature_as_it_was(
+    addon: ModuleType, previews: ModuleType, tmp_path: Path
+) -> None:
     obj = making.open_sample()
     before = told(obj)
-    shown.show(bpy.context, obj, another_take(obj))
+    show(addon, obj, another_take(obj))
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
-    assert shown.current is None and told(obj) == before
+    assert previews.current is None and told(obj) == before
     assert told(making.open_armature(tmp_path / "saved.blend")) == before

@@ -10,32 +10,28 @@ import bpy
 
 from ..character import building
 from ..compat.core import core
-from ..errors import core_errors
-from ..rig.posing import check_free
-from ..rig.rigs import make_rig
-from .state.borrowed import Borrowed
+from .previews import Preview
 
 _STAND = (0.0, 0.0, 0.0, 0.0)
 _FURTHEST = 3.0  # m that a character of 1.8 m goes before it begins again where the armature stood
 _INSTANT = 1e-6  # s
 
 
-class Solo:
-    """Plays a class from where the armature stands until `end`, which gives it back. The playhead stays where it is."""
+class ClassPreview(Preview):
+    """Plays a class from where the armature stands."""
 
     def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, number: int, style: int = 0) -> None:
+        super().__init__(context, obj)
         character = building.load_whole(obj)
-        check_free(obj)
-        context.view_layer.update()
-        self._rig, self._number, self._style = make_rig(obj), number, style
         building.check_skeleton(obj, character, self._rig)
         place = obj.matrix_world
         self._place = (place.translation.x, place.translation.y, place.to_euler().z + math.pi)
         self._reach = _FURTHEST / character.space.scale
         self._durations = character.in_style(style).fragment_durations
-        self._character, self._seeds = character, count(1)
+        self._character, self._number, self._style, self._seeds = character, number, style, count(1)
+        self.name = f"Class {number}"
+        self._begin_again()
         self._begin()
-        self._armature = Borrowed(obj)
 
     @property
     def playing(self) -> tuple[int, int]:
@@ -51,22 +47,12 @@ class Solo:
             self._next()
         root, rotations = self._player.step(_STAND, seconds)
         self._left -= seconds
-        with core_errors(f"Armature '{self._armature.name}'"):
-            locations, turns = self._rig.channels(root[None], rotations[None])
-        self._armature.pose(locations[0], turns[0])
+        self._armature.pose(root, rotations)
         if math.dist(root[:2], self._place[:2]) > self._reach:
-            self._begin()
+            self._begin_again()
 
-    def trouble(self) -> str:
-        """Why it cannot play on, empty where it can."""
-        return self._armature.trouble()
-
-    def end(self) -> None:
-        """Give the armature back as it was; one that was deleted stays deleted."""
-        self._armature.give_back()
-
-    def _begin(self) -> None:
-        """Begin again where the armature stood, with other fragments than before: a reset player draws the same."""
+    def _begin_again(self) -> None:
+        """Begin where the armature stood, with other fragments than before: a reset player draws the same."""
         self._player = core.Player(self._character, seed=next(self._seeds))
         self._player.reset(*self._place, style=self._style)
         self._next()

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from ...compat.core import core
+from ..compat.core import core
 
 if TYPE_CHECKING:
     from fragmotion_core import ControlSpace

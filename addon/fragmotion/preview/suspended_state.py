@@ -10,8 +10,8 @@ from typing import Any
 
 import bpy
 
-from ...compat import versions
-from ...rig.posing import CHANNELS, get_channel, reset_pose
+from ..compat import versions
+from ..rig.posing import CHANNELS, get_channel, reset_pose
 
 NOTE = "fragmotion_put_aside"
 """Custom property of an armature object that is being driven."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import bpy
 
-from ...compat import versions
-from ...compat.data_blocks import is_alive
+from ..compat import versions
+from ..compat.data_blocks import is_alive
 
 
 class SceneState:

@@ -11,7 +11,7 @@ from importlib import import_module, util
 from pathlib import Path
 from typing import Any
 
-from ...compat.core import ADDON
+from ..compat.core import ADDON
 
 _LIBRARY = "PYSDL2_DLL_PATH"  # environment variable that tells sdl2 where to look
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from ...compat.core import core
+from ..compat.core import core
 from .steering import REST, Control, Intent
 
 if TYPE_CHECKING:

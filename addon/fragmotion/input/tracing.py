@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ...recordings.recordings import TRACE_RATE
+from ..recordings.recordings import TRACE_RATE
 from .steering import REST, Control, Intent
 
 if TYPE_CHECKING:
