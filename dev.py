@@ -9,15 +9,15 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from tools import benchmarks, demo, evaluating, fuzzing, machine, maven, stages, testing
-from tools.beside import inputs as beside_inputs
-from tools.directing import inputs as directing_inputs
+from tools import demo
 from tools.docs import pages
-from tools.doctor import inputs as doctor_inputs
-from tools.evaluate import inputs
+from tools.measuring import benchmarks, running
+from tools.measuring.beside import inputs as beside_inputs
+from tools.measuring.directing import inputs as directing_inputs
 from tools.platforms import PLATFORMS
-from tools.retarget import inputs as retarget_inputs
+from tools.setup import machine, maven
 from tools.shell import Failure
+from tools.testing import fuzzing, stages, testing
 
 _STAGES_HELP = (
     f"only these, whole, of {', '.join(testing.STAGES)}; or `{testing.WHOLE}` of them; or `{testing.REST}`: "
@@ -40,18 +40,12 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     fuzz.add_argument("names", nargs="*", metavar="FUZZER", help=f"only these of {', '.join(fuzzing.names())}")
     bench = commands.add_parser("bench", help="measure the core against NumPy and scikit-learn")
     bench.add_argument("--json", type=Path, metavar="FILE", help="save the figures there too")
-    evaluate = commands.add_parser("evaluate", help="measure the policies on takes and traces, as the paper does")
-    inputs.add_arguments(evaluate)
     beside = commands.add_parser("beside", help="measure Fragmotion beside motion matching, on the same takes")
     beside_inputs.add_arguments(beside)
     directing = commands.add_parser(
         "directing", help="measure how a character follows paths and pins, and stands on ground"
     )
     directing_inputs.add_arguments(directing)
-    doctor = commands.add_parser("doctor", help="say what is wrong with motion capture files")
-    doctor_inputs.add_arguments(doctor)
-    retarget = commands.add_parser("retarget", help="bring takes onto another skeleton, and build a character of them")
-    retarget_inputs.add_arguments(retarget)
     docs = commands.add_parser("docs", help="make the pictures and tables of README.md and docs")
     pages.add_arguments(docs)
     package = commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
@@ -95,10 +89,10 @@ def main(arguments: list[str]) -> int:
             return benchmarks.run_benchmarks(options.json)
         if options.command == "docs":
             return pages.make_docs(options)
-        if options.command in evaluating.COMMANDS:
-            return evaluating.COMMANDS[options.command](options, arguments[1:])
+        if options.command in running.COMMANDS:
+            return running.COMMANDS[options.command](options, arguments[1:])
         return package(options.platform, options.python)
-    except Failure as failure:
+    except (Failure, ValueError) as failure:
         print(f"dev.py: {failure}", file=sys.stderr)
         return 1
 

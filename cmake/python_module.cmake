@@ -15,5 +15,5 @@ set_target_properties(fragmotion_core PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATC
 target_compile_options(fragmotion_core PRIVATE -Wall -Wextra -Wpedantic)
 target_compile_definitions(fragmotion_core PRIVATE FRAGMOTION_VERSION="${PROJECT_VERSION}")
 install(TARGETS fragmotion_core LIBRARY DESTINATION .)
-file(GLOB fragmotion_python cpp/bindings/*.py cpp/bindings/*.pyi)
-install(FILES ${fragmotion_python} DESTINATION .)
+install(FILES cpp/bindings/fragmotion_core.pyi DESTINATION .)
+install(DIRECTORY cpp/bindings/fragmotion_command DESTINATION . FILES_MATCHING PATTERN *.py)

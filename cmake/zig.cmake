@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Toolchain of zig's clang for another platform. FRAGMOTION_ZIG_DIR holds the programs c++, cc, ar, ranlib and rc that
-# compile for it (tools/cross.py writes them), FRAGMOTION_SYSTEM and FRAGMOTION_PROCESSOR name it as CMake does.
+# compile for it (tools/packaging/cross.py writes them), FRAGMOTION_SYSTEM and FRAGMOTION_PROCESSOR name it as CMake does.
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES FRAGMOTION_ZIG_DIR FRAGMOTION_SYSTEM FRAGMOTION_PROCESSOR)
 set(CMAKE_SYSTEM_NAME ${FRAGMOTION_SYSTEM})
 set(CMAKE_SYSTEM_PROCESSOR ${FRAGMOTION_PROCESSOR})

@@ -1,2 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The parts of dev.py; the standard library only, so that a bare machine can run them."""
+"""What dev.py does, a folder for what each does. What needs no core of the command `fragmotion` is found without it."""
+
+import sys
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).parents[1] / "cpp" / "bindings"))

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from tools import blender, machine, packages
+from tools.packaging import packages
 from tools.paths import BUILD, TOP
+from tools.setup import blender, machine
 from tools.shell import run, say
 
 OUTPUT = BUILD / "demo"

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Build, bake and measure without a window: `blender -c fragmotion` (4.2 and later); before, `run` from
---python-expr."""
+--python-expr. It is the core's command `fragmotion`, and does more where Blender is asked for."""
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import subprocess
@@ -17,169 +16,173 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from .character.building import has_character, load, make_player, save_policy
-from .compat.core import core
+from .character.building import gather, has_character, load, make_player, save_policy
+from .compat.core import command, core
 from .errors import UserError, core_errors
 from .mocap.actions import ticked
+from .mocap.importing import METRES
+from .mocap.take_files import BY_BLENDER, find_takes
+from .mocap.target_rigs import open_rig, save_minute
 from .operators.base.context import active_armature
 from .recordings.recordings import trace_of
+from .rig.rigs import make_rig
 
 if TYPE_CHECKING:
+    import argparse
+
+    from fragmotion_command import building, parser, playing, running
+    from fragmotion_command.evaluate import command as evaluating
+    from fragmotion_command.evaluate import inputs as evaluate_inputs
+    from fragmotion_command.evaluate import loading
+    from fragmotion_command.retarget import command as retargeting
+    from fragmotion_command.retarget import inputs as retarget_inputs
+    from fragmotion_command.retarget import sources
     from fragmotion_core import Character, Doubles
+else:
+    building, parser, playing, running = map(command, ("building", "parser", "playing", "running"))
+    evaluating, evaluate_inputs, loading = (command(f"evaluate.{name}") for name in ("command", "inputs", "loading"))
+    retargeting, retarget_inputs, sources = (command(f"retarget.{name}") for name in ("command", "inputs", "sources"))
 
 NAME = "fragmotion"
-
-_EVALUATED_RATE = 60.0  # frames a second
+_BLEND = ".blend"
 
 _CONTROLS = {"paper": "PAPER", "found": "FOUND", "told": "TOLD"}
 
-_EXAMPLES = """examples:
-  blender -c fragmotion build walks/ --blend hero.blend --policy hero.policy
-  blender -c fragmotion build takes.blend --armature Hero --blend hero.blend
-  blender -c fragmotion build walks/ --onto rig.blend --armature Hero --blend hero.blend
-  blender -c fragmotion build walks/ --style tired=*_tired_* --style happy=*_happy_* --blend hero.blend
-  blender -c fragmotion bake hero.blend --trace path.csv --blend shot.blend
-  blender -c fragmotion bake hero.blend --player walker --style tired --blend shot.blend
-  blender -c fragmotion bake hero.blend --recordings --blend shots.blend
-  blender -c fragmotion bake scenes/*.blend --recordings --into shots/
-  blender -c fragmotion evaluate hero.blend --player runner --json -
-  blender -c fragmotion info hero.blend --json -
+_EXAMPLES = (
+    "build walks/ --blend hero.blend --policy hero.policy",
+    "build takes.blend --armature Hero --blend hero.blend",
+    "build walks/ --onto rig.blend --armature Hero --blend hero.blend",
+    "bake hero.blend --trace path.csv --blend shot.blend",
+    "bake hero.blend --player walker --style tired --blend shot.blend",
+    "bake hero.blend --recordings --blend shots.blend",
+    "bake scenes/*.blend --recordings --into shots/",
+    "evaluate hero.blend --player runner --json -",
+    "info hero.blend --json -",
+    "retarget walks/ --onto rig.glb --blend hero.blend",
+)
+_MORE = """
 
-Settings that no option names are those of the armature's panels. The exit code is 0 where all was done; else it is 1,
-the cause is told."""
+In Blender, takes may also be one .blend with ticked Actions or one folder of files that Blender imports, what takes are
+brought onto a rig in a file that Blender reads, and a
+character a .blend that holds one; where it holds none, evaluate measures what its ticked Actions make. Settings that no
+option names are then those of the armature's panels."""
 
 
 def run(arguments: Sequence[str]) -> int:
     """Run one command; the exit code. --help tells what there is."""
     try:
-        options = _parser().parse_args(arguments)
+        return running.run(_parser(), arguments)
     except SystemExit as end:  # Blender would end without its own goodbye
         return int(end.code or 0)
-    try:
-        figures = options.command(options)
-        if options.json:
-            _write_json(options.json, figures)
-    except (UserError, RuntimeError, OSError) as error:
+    except (UserError, RuntimeError) as error:
         print(f"{NAME}: {str(error).removeprefix('Error: ').strip()}", file=sys.stderr)
         return 1
-    return 0
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog=f"blender -c {NAME}", epilog=_EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    build = commands.add_parser("build", help="build a character, from a folder of takes or a .blend's ticked Actions")
-    build.add_argument("source", type=Path, metavar="TAKES", help="a folder of takes, or a .blend with Actions")
-    build.add_argument("--onto", type=Path, metavar="RIG.blend", help="the file of the character that the takes move")
-    build.add_argument("--classes", type=int, metavar="N", help="how many classes")
-    build.add_argument("--controls", choices=_CONTROLS, help="as in the paper, as the takes hold, or as told by:")
-    build.add_argument("--speeds", type=int, choices=(1, 2, 3, 4), help="how many it can be asked for")
-    build.add_argument("--directions", choices=("4", "8", "16"), help="how many it can be asked for")
-    build.add_argument(
-        "--no-turn", dest="turn", action="store_false", default=None, help="it can be asked for no turns"
-    )
-    build.add_argument(
-        "--no-jump", dest="jump", action="store_false", default=None, help="it can be asked for no jumps"
-    )
-    build.add_argument(
-        "--style",
-        action="append",
-        default=[],
-        metavar="NAME=PATTERN",
-        help="the style of the takes whose name fits, such as tired=*_tired_*; once for each style",
-    )
-    build.add_argument(
-        "--folder-styles", action="store_true", help="each take is of the style that the folder of its file is called"
-    )
-    build.add_argument("--seed", type=int, metavar="N", help="draws the first centres and the simulated players")
-    build.add_argument("--policy", type=Path, metavar="FILE", help="where to write the policy file")
-    build.set_defaults(command=_build)
-    bake = commands.add_parser("bake", help="bake motion of characters to Actions, several files over all processors")
+    """The core's command, with what Blender adds to it."""
+    made = parser.make_parser(f"blender -c {NAME}", _EXAMPLES, _MORE)
+    made.build.add_argument("--onto", type=Path, metavar="RIG.blend", help="the file of what the takes move")
+    made.build.set_defaults(command=_build)
+    made.info.set_defaults(command=_info)
+    made.evaluate.set_defaults(command=_evaluate)
+    made.retarget.set_defaults(command=_retarget)
+    bake = made.words.add_parser("bake", help="bake motion of characters to Actions, several files over all processors")
     bake.add_argument("sources", type=Path, nargs="+", metavar="CHARACTER.blend")
     bake.add_argument("--style", metavar="NAME", help="what a trace or a player is played in (the first one)")
     bake.add_argument("--into", type=Path, metavar="FOLDER", help="where to write the .blends, by their names")
     bake.set_defaults(command=_bake)
-    evaluate = commands.add_parser("evaluate", help="measure how well a character follows traces")
-    evaluate.add_argument("source", type=Path, metavar="CHARACTER.blend")
-    evaluate.set_defaults(command=_evaluate)
-    for command in (bake, evaluate):
-        driver = command.add_mutually_exclusive_group(required=True)
-        driver.add_argument("--trace", type=Path, metavar="FILE.csv", help="what a stick did, 10 rows a second")
-        driver.add_argument("--player", choices=core.PLAYERS, help="a simulated player")
+    for driver in (made.evaluate_driver, parser.add_driver(bake)):
         driver.add_argument("--recordings", action="store_true", help="every recording of the armature")
-        command.add_argument("--seconds", type=float, metavar="S", help="how long the simulated player plays (20)")
-        command.add_argument("--seed", type=int, metavar="N", help="draws what is left to chance")
-    info = commands.add_parser("info", help="tell what a character is")
-    info.add_argument("source", type=Path, metavar="CHARACTER.blend")
-    info.set_defaults(command=_info)
-    for command in (build, bake):
-        command.add_argument("--blend", type=Path, metavar="FILE", help="where to write the .blend")
-    for command in (build, bake, evaluate, info):
-        command.add_argument("--armature", metavar="NAME", help="which armature, where the file has several")
-        command.add_argument("--json", metavar="FILE", help="save the figures there too; - is the terminal")
-    return parser
+    parser.add_json(bake)
+    for word in (made.build, bake, made.retarget):
+        word.add_argument("--blend", type=Path, metavar="FILE", help="where to write the .blend")
+    for word in (made.build, bake, made.evaluate, made.info, made.retarget):
+        word.add_argument("--armature", metavar="NAME", help="which armature, where a file has several")
+    return made.parser
 
 
-def _build(options: argparse.Namespace) -> dict[str, Any]:
+def _build(options: argparse.Namespace) -> running.Done:
     if not (options.blend or options.policy):
         raise UserError("Nothing would be kept: say where to, by --blend or --policy")
-    if options.source.is_dir():
-        _import(options)
+    if not _needs_blender(options):
+        return building.build(options)
+    if len(options.takes) > 1:
+        raise UserError("Blender builds of one folder of takes or of one .blend: name one of them")
+    _check_numbers(options, "build", "classes", "seed")
+    (source,) = options.takes
+    if source.is_dir():
+        _import(source, options)
     elif options.folder_styles:
-        raise UserError(f"--folder-styles asks for a folder of takes, and '{options.source}' is none")
+        raise UserError(f"--folder-styles asks for a folder of takes, and '{source}' is none")
     else:
-        _open(options.source, options.armature)
-    _set_styles(options.style)
+        _open(source, options.armature)
+    for text in options.style:
+        name, pattern = building.style_of(text)
+        bpy.ops.fragmotion.set_style("EXEC_DEFAULT", style=name, pattern=pattern)
     bpy.ops.fragmotion.build("EXEC_DEFAULT", **_given(options, "classes", "seed"), **_controls(options))
     obj = active_armature(bpy.context)
-    figures = _figures(obj)
     if options.policy:
         save_policy(obj, options.policy.resolve())
     _save(options.blend)
-    return figures
+    return _described(obj)
+
+
+def _check_numbers(options: argparse.Namespace, operator: str, *names: str) -> None:
+    """UserError where a number is out of the bounds of an operator's field."""
+    fields = getattr(bpy.ops.fragmotion, operator).get_rna_type().properties
+    for name, value in _given(options, *names).items():
+        least, most = fields[name].hard_min, fields[name].hard_max
+        if not least <= value <= most:
+            raise UserError(f"--{name} is {value}, and must be from {least} to {most}")
+
+
+def _needs_blender(options: argparse.Namespace) -> bool:
+    """Whether a build asks for what the core's command cannot do: a .blend, or takes that Blender alone reads."""
+    if options.blend or options.onto or options.armature:
+        return True
+    inside = [take.path for path in options.takes if path.is_dir() for take in find_takes(path)]
+    return any(path.suffix.lower() in (_BLEND, *BY_BLENDER) for path in (*inside, *options.takes))
 
 
 def _controls(options: argparse.Namespace) -> dict[str, Any]:
     """The fields of a build that say which controls."""
-    told = _given(options, "speeds", "directions", "turn", "jump")
-    if options.controls not in (None, "told") and told:
-        raise UserError(f"--controls {options.controls} and --{min(told)} say two different things: leave one out")
-    kind = "told" if told else options.controls
-    return {"controls": _CONTROLS[kind], **told} if kind else {}
+    kind = building.controls_of(options)
+    told = _given(options, "speeds", "turn", "jump")
+    directions = {} if options.directions is None else {"directions": str(options.directions)}
+    return {"controls": _CONTROLS[kind], **told, **directions} if kind else {}
 
 
-def _set_styles(told: Sequence[str]) -> None:
-    """Let takes be of the styles that --style tells."""
-    for text in told:
-        name, _, pattern = text.partition("=")
-        if not (name and pattern):
-            raise UserError(f"--style {text} tells no name or no pattern, as in tired=*_tired_*")
-        bpy.ops.fragmotion.set_style("EXEC_DEFAULT", style=name, pattern=pattern)
-
-
-def _import(options: argparse.Namespace) -> None:
+def _import(folder: Path, options: argparse.Namespace) -> None:
     """The folder's takes onto the rig, or onto an armature of their own."""
+    units = {metres: name for name, metres in METRES.items()}
+    if options.unit is not None and options.unit not in units:
+        raise UserError(f"--unit {options.unit:g}: for Blender it is one of {', '.join(f'{unit:g}' for unit in units)}")
     if options.onto:
         _open(options.onto, options.armature)
     else:
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     bpy.ops.fragmotion.import_mocap(
-        directory=str(options.source.resolve()),
+        directory=str(folder.resolve()),
         onto="ACTIVE" if options.onto else "NEW",
         style="FOLDER" if options.folder_styles else "NONE",
+        unit=units.get(options.unit, "AUTO"),
     )
 
 
-def _bake(options: argparse.Namespace) -> dict[str, Any]:
+def _bake(options: argparse.Namespace) -> running.Done:
     if bool(options.blend) == bool(options.into) or (options.blend and len(options.sources) > 1):
         raise UserError("Nothing would be kept: say where to, by --blend for one file or by --into for several")
+    _check_numbers(options, "bake", "seed")
     if options.blend:
-        return {"baked": _bake_one(options, options.sources[0], options.blend)}
+        return _baked(_bake_one(options, options.sources[0], options.blend))
     _check_names(options)
     options.into.mkdir(parents=True, exist_ok=True)
-    return {"baked": _bake_each(options) if bpy.app.binary_path else _bake_in_turn(options)}
+    return _baked(_bake_each(options) if bpy.app.binary_path else _bake_in_turn(options))
+
+
+def _baked(rows: list[dict[str, Any]]) -> running.Done:
+    return running.Done({"baked": rows}, f"{len(rows)} baked")
 
 
 def _check_names(options: argparse.Namespace) -> None:
@@ -233,65 +236,91 @@ def _bake_apart(options: argparse.Namespace, source: Path) -> tuple[list[dict[st
 def _bake_one(options: argparse.Namespace, path: Path, target: Path) -> list[dict[str, Any]]:
     obj = _open(path, options.armature)
     given = _given(options, "seconds", "seed", "style")
-    sources: list[dict[str, Any]]
+    played: list[dict[str, Any]]
     if options.trace:
-        sources = [{"trace_source": "FILE", "trace_file": str(options.trace.resolve())}]
+        played = [{"trace_source": "FILE", "trace_file": str(options.trace.resolve())}]
     elif options.player:
-        sources = [{"trace_source": "PLAYER", "player": options.player}]
+        played = [{"trace_source": "PLAYER", "player": options.player}]
     else:
-        sources = [{"trace_source": "RECORDING", "recording": index} for index in range(len(obj.fragmotion.takes))]
-    if not sources:
+        played = [{"trace_source": "RECORDING", "recording": index} for index in range(len(obj.fragmotion.recordings))]
+    if not played:
         raise UserError(f"Armature '{obj.name}' has no recordings")
     baked = []
-    for number, source in enumerate(sources, 1):
+    for number, source in enumerate(played, 1):
         before = set(bpy.data.actions)
         bpy.ops.fragmotion.bake("EXEC_DEFAULT", target="NEW", **source, **given)
         (action,) = set(bpy.data.actions) - before
         action.use_fake_user = True
         first, last = action.frame_range
         baked.append({"blend": str(target), "action": action.name, "first": first, "last": last})
-        print(f"{number} of {len(sources)}: Action '{action.name}', frames {first:.0f} to {last:.0f}", flush=True)
+        print(f"{number} of {len(played)}: Action '{action.name}', frames {first:.0f} to {last:.0f}", flush=True)
     _save(target)
     return baked
 
 
-def _evaluate(options: argparse.Namespace) -> dict[str, Any]:
-    obj = _open(options.source, options.armature)
+def _evaluate(options: argparse.Namespace) -> running.Done:
+    source = options.sources[0]
+    if len(options.sources) > 1 or not _is_blend(source, options):
+        if options.recordings:
+            raise UserError(f"--recordings are an armature's, and '{source}' is no .blend")
+        return evaluating.evaluate(options)
+    obj = _open(source, options.armature)
     if not has_character(obj):
-        raise UserError(f"Armature '{obj.name}' has no character yet")
-    character, rows = load(obj), []
-    for name, trace in _traces(options, obj, character).items():
-        performance = make_player(obj, character, options.seed or 1, "").run(trace, _EVALUATED_RATE)
-        row = {
-            "percent_of_optimal": character.percent_of_optimal(trace),
-            "quality": performance.quality,
-            "velocity_error": performance.velocity_error,
-            "commanded_speed": performance.commanded_speed,
-            "turn_error": performance.turn_error,
-        }
-        print(f"{name}: {', '.join(f'{key} {value:.3g}' for key, value in row.items())}", flush=True)
-        rows.append({"trace": name, **row})
-    return {"traces": rows}
+        return _evaluate_takes(options, obj)
+    evaluate_inputs.check_kind(options, is_character=True)
+    character, seed = load(obj), 1 if options.seed is None else options.seed
+    traces = _traces(options, obj, character)
+    return playing.measured(
+        character, {name: (trace, make_player(obj, character, seed, "")) for name, trace in traces.items()}
+    )
+
+
+def _evaluate_takes(options: argparse.Namespace, obj: bpy.types.Object) -> running.Done:
+    """Measure what is built of the armature's ticked Actions, those of its first style."""
+    evaluate_inputs.check_kind(options, is_character=False)
+    evaluate_inputs.check(options)
+    material = gather(bpy.context, obj, obj.fragmotion.build)
+    return evaluating.evaluate_takes(options, loading.Recordings(material.rig.skeleton, material.clips))
 
 
 def _traces(options: argparse.Namespace, obj: bpy.types.Object, character: Character) -> dict[str, Doubles]:
     """The traces that are asked for, by what they are called."""
-    with core_errors():
-        if options.trace:
-            return {options.trace.stem: core.read_trace(options.trace)}
-        if options.player:
-            seconds = 20.0 if options.seconds is None else options.seconds
-            return {options.player: core.simulate_trace(options.player, seconds, options.seed or 1, character.space)}
-    if not obj.fragmotion.takes:
+    if not options.recordings:
+        return playing.traces_of(options, character)
+    if not obj.fragmotion.recordings:
         raise UserError(f"Armature '{obj.name}' has no recordings")
-    return {recording.name: trace_of(recording) for recording in obj.fragmotion.takes}
+    return {recording.name: trace_of(recording) for recording in obj.fragmotion.recordings}
 
 
-def _info(options: argparse.Namespace) -> dict[str, Any]:
-    obj = _open(options.source, options.armature)
+def _info(options: argparse.Namespace) -> running.Done:
+    if not _is_blend(options.character, options):
+        return building.info(options)
+    obj = _open(options.character, options.armature)
     if not has_character(obj):
         raise UserError(f"Armature '{obj.name}' has no character yet")
-    return _figures(obj)
+    return _described(obj)
+
+
+def _is_blend(path: Path, options: argparse.Namespace) -> bool:
+    return bool(options.armature) or path.suffix.lower() == _BLEND
+
+
+def _retarget(options: argparse.Namespace) -> running.Done:
+    ending = options.onto.suffix.lower()
+    if ending not in (_BLEND, *BY_BLENDER):
+        for name in ("armature", "blend"):
+            if getattr(options, name):
+                raise UserError(f"--{name} is for rigs, and {options.onto.name} is a skeleton alone: leave it out")
+        return retargeting.retarget(options)
+    retarget_inputs.check(options)
+    takes = sources.read_sources(options.takes, options.unit)
+    obj = open_rig(options.onto, options.armature)
+    with core_errors(f"Armature '{obj.name}'"):
+        body = core.Body(make_rig(obj).skeleton)
+    done, character = retargeting.bring(options, takes, body)
+    if options.blend:
+        save_minute(obj, character, options.seed, options.blend)
+    return done
 
 
 def _open(path: Path, name: str | None) -> bpy.types.Object:
@@ -314,8 +343,8 @@ def _given(options: argparse.Namespace, *names: str) -> dict[str, Any]:
     return {name: value for name in names if (value := getattr(options, name)) is not None}
 
 
-def _figures(obj: bpy.types.Object) -> dict[str, Any]:
-    """What the last build found, said and returned."""
+def _described(obj: bpy.types.Object) -> running.Done:
+    """What the last build found."""
     figures = obj.fragmotion.figures
     found = {
         "armature": obj.name,
@@ -326,29 +355,14 @@ def _figures(obj: bpy.types.Object) -> dict[str, Any]:
         "controls_performed": figures.performed,
         "controls": figures.controls,
         **({"styles": [style.name for style in figures.styles]} if figures.styles else {}),
-        "recordings": len(obj.fragmotion.takes),
+        "recordings": len(obj.fragmotion.recordings),
     }
-    print(", ".join(f"{name.replace('_', ' ')} {_shown(value)}" for name, value in found.items()), flush=True)
-    return found
-
-
-def _shown(value: object) -> str:
-    if isinstance(value, list):
-        return " ".join(value)
-    return f"{value:.1f}" if isinstance(value, float) else str(value)
+    return running.Done(found, running.listed(found))
 
 
 def _save(path: Path | None) -> None:
     if path:
         bpy.ops.wm.save_as_mainfile(filepath=str(path.resolve()), check_existing=False)
-
-
-def _write_json(path: str, figures: dict[str, Any]) -> None:
-    text = json.dumps(figures, indent=1) + "\n"
-    if path == "-":
-        print(text, end="")
-    else:
-        Path(path).write_text(text, encoding="utf-8")
 
 
 _handle: Any = None

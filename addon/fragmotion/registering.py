@@ -7,11 +7,11 @@ import bpy
 
 from . import command_line, operators
 from .character import building, coverage_picture, inspector, staleness, storing
-from .drive import handlers, session
+from .drive import handlers
 from .mocap import actions
-from .operators import endings
 from .operators.base import background
 from .panels import menus, panel
+from .preview import waking
 from .settings import keymaps, mending, preferences, properties
 
 _CLASSES = (
@@ -28,15 +28,15 @@ def register() -> None:
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
     properties.register()
-    for part in (mending, staleness, storing, keymaps, menus, handlers, endings, command_line):
+    for part in (mending, staleness, storing, keymaps, menus, handlers, command_line):
         part.register()
 
 
 def unregister() -> None:
     """Remove all that `register` added; a build or a drive that runs is stopped."""
     background.stop()
-    session.unregister()
-    for part in (command_line, endings, handlers, menus, keymaps, storing, staleness, mending):
+    waking.unregister()
+    for part in (command_line, handlers, menus, keymaps, storing, staleness, mending):
         part.unregister()
     properties.unregister()
     for cls in reversed(_CLASSES):

@@ -45,6 +45,7 @@ std::vector<float> to_weights(const std::optional<Floats>& weights, py::ssize_t 
 }  // namespace
 
 void bind_classes(py::module_& m) {
+  m.attr("MOST_CLASSES") = kMostClasses;
   m.def(
       "cluster",
       [](const Floats& points, int classes, const std::optional<Floats>& weights, int restarts, std::uint64_t seed,

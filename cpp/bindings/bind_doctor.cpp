@@ -37,8 +37,23 @@ void bind_findings(py::module_& m) {
 void bind_doctor(py::module_& m) {
   bind_findings(m);
   m.attr("FINDING_CODES") = finding_codes();
-  m.def("examine", &examine, py::arg("takes"), py::arg("threads") = 0, py::call_guard<GilRelease>());
-  m.def("mend", &mend, py::arg("take"), py::arg("findings"), py::call_guard<GilRelease>());
+  m.def(
+      "examine",
+      [](const std::vector<std::shared_ptr<Take>>& takes, int threads, const py::object& progress) {
+        std::vector<const Take*> each;
+        for (const std::shared_ptr<Take>& take : takes) {
+          if (take == nullptr) throw py::type_error("a take is None");
+          each.push_back(take.get());
+        }
+        return without_gil(progress, [&](const Progress& told) { return examine(each, threads, told); });
+      },
+      py::arg("takes"), py::arg("threads") = 0, py::arg("progress") = py::none());
+  m.def(
+      "mend",
+      [](const Take& take, const std::vector<Finding>& findings, const py::object& progress) {
+        return without_gil(progress, [&](const Progress& told) { return mend(take, findings, told); });
+      },
+      py::arg("take"), py::arg("findings"), py::arg("progress") = py::none());
 }
 
 }  // namespace fragmotion::bindings

@@ -92,7 +92,7 @@ std::vector<Clip> mirrored(const Skeleton& skeleton, const std::vector<Clip>& cl
 }
 
 void bind_take(py::module_& m) {
-  py::class_<Take>(m, "Take", py::module_local())
+  py::class_<Take, std::shared_ptr<Take>>(m, "Take", py::module_local())
       .def(py::init(&new_take), py::arg("skeleton"), py::arg("name"), py::arg("rate"), py::arg("translations"),
            py::arg("rotations"), py::arg("unit") = 1.0)
       .def_readonly("name", &Take::name)

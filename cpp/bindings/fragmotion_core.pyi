@@ -156,10 +156,10 @@ class Examination:
     """Role -> bone name, as of Skeleton.role_map."""
     findings: list[Finding]
 
-def examine(takes: list[Take], threads: int = 0) -> list[Examination]:
+def examine(takes: list[Take], threads: int = 0, progress: Progress | None = None) -> list[Examination]:
     """Examine takes as they were read, each by itself and for motion that several have. 0 threads: the machine's."""
 
-def mend(take: Take, findings: list[Finding]) -> Take:
+def mend(take: Take, findings: list[Finding], progress: Progress | None = None) -> Take:
     """The take without what these findings of its examination say, where they are mendable; others change nothing."""
 
 def euler_to_quaternion(order: str, angles: ArrayLike) -> Doubles:
@@ -1165,6 +1165,9 @@ def trajectories(character: Character, poses: int = 16) -> tuple[Floats, Floats,
     """The fragments as Dis sees them (Sec. 3.1), m of a 1.8 m character: bone tips [N,poses*K,3] at equal times in the
     character frame of the first pose, and [N,K,3] of the first and the last pose, each in its own character frame.
     `poses`: 2 .. 1000."""
+
+MOST_CLASSES: int
+"""More cannot be asked for."""
 
 def cluster(
     points: ArrayLike,

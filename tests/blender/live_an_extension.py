@@ -30,7 +30,7 @@ def state(name: str) -> dict[str, Any]:
         module.character.building.forget()
         found["newer"] = hasattr(module, "NEWER") and module.errors.NEWER
         found["fragments"] = module.character.building.load(obj).fragment_durations.size if obj.fragmotion.policy else 0
-        found["recordings"] = len(obj.fragmotion.takes)
+        found["recordings"] = len(obj.fragmotion.recordings)
     return found
 
 

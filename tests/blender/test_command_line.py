@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -139,6 +140,12 @@ def test_a_character_is_measured(addon: ModuleType, hero: Path, tmp_path: Path) 
         (("bake", "{hero}", "--player", "walker"), "say where to"),
         (("bake", "{hero}", "--recordings", "--blend", "x.blend"), "has no recordings"),
         (("bake", "{hero}", "--trace", "missing.csv", "--blend", "x.blend"), "missing.csv"),
+        (
+            ("build", "{hero}", "--classes", "99999999999", "--blend", "x.blend"),
+            "--classes is 99999999999, and must be",
+        ),
+        (("build", "{hero}", "--seed", "4294967296", "--blend", "x.blend"), "must be from 0 to 2147483647"),
+        (("bake", "{hero}", "--player", "walker", "--seed", "4294967296", "--blend", "x.blend"), "must be from 0 to"),
         (("info", "{hero}", "--armature", "Nobody"), "has no armature 'Nobody'"),
         (("bake", "{hero}", "--player", "walker", "--style", "sad", "--blend", "x.blend"), "has no style 'sad'"),
         (("build", "{hero}", "--style", "tired", "--blend", "x.blend"), "--style tired tells no name or no pattern"),
@@ -196,3 +203,111 @@ def test_styles_are_told_by_names_and_by_folders(addon: ModuleType, takes: Path,
         assert json.loads(told.read_text())["styles"] == ["neutral", "Tired"]
     words = ("bake", built, "--player", "walker", "--seconds", 2, "--style", "Tired")
     assert run(addon, *words, "--blend", tmp_path / "shot.blend") == 0
+
+
+def test_words_that_need_no_blend_do_what_the_cores_command_does(
+    addon: ModuleType, takes: Path, hero: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command, policy = addon.compat.core.command("parser").make_parser("fragmotion"), tmp_path / "hero.policy"
+    for word in command.words.choices:
+        assert run(addon, word, "--help") == 0
+    alone = [
+        str(word) for word in ("build", takes, "--classes", 12, "--seed", 3, "--policy", tmp_path / "alone.policy")
+    ]
+    assert addon.compat.core.command("running").run(command.parser, alone) == 0
+    assert run(addon, "build", takes, "--classes", 12, "--seed", 3, "--policy", policy) == 0
+    assert policy.read_bytes() == (tmp_path / "alone.policy").read_bytes()
+    words = ("--player", "walker", "--seconds", 5)
+    assert run(addon, "play", policy, *words, "--bvh", tmp_path / "shot.bvh") == 0
+    assert (tmp_path / "shot.bvh").stat().st_size > 1000
+    for word in (("info", policy), ("evaluate", policy, *words)):
+        assert run(addon, *word) == 0
+    said = capsys.readouterr().out
+    assert "classes 12" in said and "walker: percent of optimal" in said
+    assert run(addon, "doctor", takes, "--json", tmp_path / "findings.json") == 0
+    assert len(json.loads((tmp_path / "findings.json").read_text())["files"]) == len(list(takes.glob("*.bvh")))
+    assert run(addon, "evaluate", policy, "--recordings") == 1
+    assert "is no .blend" in capsys.readouterr().err
+
+
+def test_what_the_core_reads_in_another_unit_is_built_in_it(
+    addon: ModuleType, takes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ("build", takes, "--classes", 12, "--blend", tmp_path / "built.blend")
+    assert run(addon, *words, "--unit", "0.5") == 1
+    assert "--unit 0.5: for Blender it is one of 0.01, 1, 0.0254" in capsys.readouterr().err
+    assert run(addon, *words, "--unit", "0.01") == 0
+
+
+def _write_vrm(path: str) -> None:
+    bpy.ops.export_scene.gltf(filepath=f"{path}.glb")
+    Path(f"{path}.glb").rename(path)  # a VRM is a GLB of another name
+
+
+RIGS: dict[str, Callable[[str], object]] = {
+    ".blend": lambda path: bpy.ops.wm.save_as_mainfile(filepath=path, copy=True),
+    ".vrm": _write_vrm,
+    ".usdc": lambda path: bpy.ops.wm.usd_export(filepath=path),
+    ".fbx": lambda path: bpy.ops.export_scene.fbx(filepath=path, bake_anim=False),
+}
+
+
+@pytest.fixture(scope="module")
+def walk(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A take of the sample character as a BVH file."""
+    obj, core, path = making.open_sample(), addon.compat.core.core, tmp_path_factory.mktemp("walk") / "walk.bvh"
+    rig = addon.rig.rigs.make_rig(obj)
+    clip = addon.mocap.sampling.sample(bpy.context, obj, bpy.data.actions["walk forward"], rig)
+    core.write_bvh(core.Take.from_clip(clip, rig.skeleton), path)
+    return path
+
+
+@pytest.mark.parametrize(
+    "ending", [pytest.param(each, marks=() if each == ".blend" else pytest.mark.thorough) for each in RIGS]
+)
+def test_takes_are_brought_onto_a_rig_of_a_file(addon: ModuleType, walk: Path, tmp_path: Path, ending: str) -> None:
+    rig, minute = tmp_path / f"rig{ending}", tmp_path / "minute.blend"
+    making.open_sample()
+    try:
+        RIGS[ending](str(rig))
+    except AttributeError:
+        pytest.skip(f"this Blender writes no {ending}")
+    words = ("retarget", walk, "--onto", rig, "--seed", 3, "--blend", minute, "--json", tmp_path / "told.json")
+    assert run(addon, *words) == 0
+    told = json.loads((tmp_path / "told.json").read_text())
+    assert told["takes"][0]["contact_error_m"] <= 0.01
+    assert {"hips", "left_hand", "right_foot"} <= set(told["roles"])
+    bpy.ops.wm.open_mainfile(filepath=str(minute))
+    assert bpy.data.actions["Driven by a trace"].frame_range[1] > 60 * bpy.context.scene.render.fps
+
+
+def test_what_is_for_rigs_alone_is_refused(addon: ModuleType, walk: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for option in ("--armature", "--blend"):
+        assert run(addon, "retarget", walk, "--onto", walk, option, "x") == 1
+        assert f"{option} is for rigs, and walk.bvh is a skeleton alone" in capsys.readouterr().err
+
+
+@pytest.mark.thorough
+def test_what_ticked_actions_make_is_measured(addon: ModuleType, tmp_path: Path) -> None:
+    making.open_sample()
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "sample.blend"))
+    assert run(addon, "evaluate", tmp_path / "sample.blend", "--quick", "--json", tmp_path / "told.json") == 0
+    assert json.loads((tmp_path / "told.json").read_text())["takes"]["count"] >= 20
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("build", "takes", "--seed", "-1"),
+        ("build", "takes", "--classes", "99999999999999"),
+        ("bake", "hero.blend", "--player", "walker", "--seed", "-1"),
+        ("evaluate", "hero.blend", "--player", "walker", "--seed", "one"),
+    ],
+)
+def test_a_number_out_of_its_bounds_is_told(
+    addon: ModuleType, capfd: pytest.CaptureFixture[str], words: tuple[str, ...]
+) -> None:
+    assert run(addon, *words) == 2
+    *_, option, value = words
+    said = capfd.readouterr().err
+    assert f"argument {option}: '{value}' is no " in said and "it must be a whole number from" in said

@@ -88,7 +88,7 @@ def drive(addon: ModuleType, source: str) -> Pressed:
 
 
 def check_over(addon: ModuleType, session: ModuleType, pressed: Pressed, before: dict[str, Any]) -> None:
-    assert session.current is None and not session._timers and part(addon, "character.classes").session is None
+    assert session.current is None and addon.character.classes.session is None and not addon.preview.waking._timers
     assert everything(bpy.data.objects["Rig"]) == before
     ((kind, text),) = pressed.told
     assert kind == {"ERROR"} and INJECTED in text
@@ -106,11 +106,13 @@ def test_an_error_while_a_drive_begins_ends_it(
 ) -> None:
     bpy.context.scene.frame_set(2)
     before, button = everything(bpy.data.objects["Rig"]), part(addon, "operators.directing.drive")
-    monkeypatch.setattr(session, "wake", lambda *_: session._timers.append(None))
-    owner = button if place == "external_motion" else session
-    for name in place.split(".")[:-1]:
-        owner = getattr(owner, name)
-    monkeypatch.setattr(owner, place.split(".")[-1], fail)
+    owners = {
+        "suspended_state.reset_pose": addon.preview.suspended_state,
+        "wake": addon.operators.base.woken,
+        "external_motion": button,
+        "overlays.add": session.overlays,
+    }
+    monkeypatch.setattr(owners.get(place, session), place.rpartition(".")[2], fail)
     pressed = drive(addon, source)
     assert button.FRAGMOTION_OT_drive.invoke(pressed, a_context(), EVENT) == {"CANCELLED"}
     check_over(addon, session, pressed, before)
@@ -128,7 +130,7 @@ def test_an_error_while_a_drive_goes_on_ends_it(
 ) -> None:
     bpy.context.scene.frame_set(2)
     before, button = everything(bpy.data.objects["Rig"]), part(addon, "operators.directing.drive")
-    monkeypatch.setattr(session, "wake", lambda *_: None)
+    monkeypatch.setattr(addon.operators.base.woken, "wake", lambda *_: None)
     pressed = drive(addon, source)
     assert button.FRAGMOTION_OT_drive.invoke(pressed, a_context(), EVENT) == {"RUNNING_MODAL"}
     go_on(session.current, 0.3)
@@ -174,12 +176,11 @@ def test_an_error_in_a_preview_a_take_or_a_stroke_leaves_nothing(
 ) -> None:
     solo, take = part(addon, "operators.character.solo_class"), part(addon, "operators.mocap.play_take")
     stroke, before = part(addon, "operators.directing.draw_path"), everything(obj)
-    monkeypatch.setattr(solo, "end_modal", lambda _timer: None)
-    monkeypatch.setattr(take, "end_modal", lambda _timer: None)
+    monkeypatch.setattr(addon.operators.base.woken, "wake", lambda *_: None)
     monkeypatch.setattr(take, "chosen", lambda *_: obj.animation_data.action)
     for operator, module, name in (
-        (solo.FRAGMOTION_OT_solo_class, part(addon, "drive.solo").Solo, "step"),
-        (take.FRAGMOTION_OT_play_take, part(addon, "drive.take_shown").TakeShown, "trouble"),
+        (solo.FRAGMOTION_OT_solo_class, part(addon, "preview.class_preview").ClassPreview, "step"),
+        (take.FRAGMOTION_OT_play_take, part(addon, "preview.take_preview").TakePreview, "trouble"),
         (stroke.FRAGMOTION_OT_draw_path, stroke.FRAGMOTION_OT_draw_path, "_add"),
     ):
         context, pressed = a_context(), Pressed(operator)
@@ -192,5 +193,5 @@ def test_an_error_in_a_preview_a_take_or_a_stroke_leaves_nothing(
             assert operator.modal(pressed, context, event) == {"CANCELLED"}
         assert len(pressed.told) == 1 and INJECTED in pressed.told[0][1]
         assert everything(obj) == before
-    assert solo.current is None and part(addon, "drive.take_shown").current is None
+    assert addon.preview.previews.current is None
     context.window.cursor_modal_restore.assert_called_once()

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -18,7 +20,7 @@ def rig(addon: ModuleType) -> bpy.types.Object:
     obj = making.add_armature()
     for name in ("Stroll", "Other"):
         addon.recordings.recordings.add_recording(obj, np.zeros((50, 4)), name=name)
-    obj.fragmotion.active_take = 0
+    obj.fragmotion.active_recording = 0
     return obj
 
 
@@ -37,7 +39,7 @@ def strangers(rig: bpy.types.Object) -> dict[str, bpy.types.Object]:
 def test_what_a_forged_pointer_names_stays(rig: bpy.types.Object, name: str, press: str) -> None:
     named = strangers(rig)[name]
     making.activate(rig)
-    rig.fragmotion.takes[0].curves = named
+    rig.fragmotion.recordings[0].curves = named
     before = set(bpy.data.objects)
     assert getattr(bpy.ops.fragmotion, press)() == {"FINISHED"}
     assert before <= set(bpy.data.objects)
@@ -45,10 +47,10 @@ def test_what_a_forged_pointer_names_stays(rig: bpy.types.Object, name: str, pre
 
 def test_curves_of_another_recording_stay(rig: bpy.types.Object) -> None:
     assert bpy.ops.fragmotion.edit_curves() == {"FINISHED"}
-    curves = rig.fragmotion.takes[0].curves
-    rig.fragmotion.takes[1].curves = curves
+    curves = rig.fragmotion.recordings[0].curves
+    rig.fragmotion.recordings[1].curves = curves
     making.activate(rig)
-    rig.fragmotion.active_take = 1
+    rig.fragmotion.active_recording = 1
     assert bpy.ops.fragmotion.delete_recording() == {"FINISHED"}
     assert curves in set(bpy.data.objects)
 
@@ -61,23 +63,23 @@ def duplicated(rig: bpy.types.Object) -> Any:
 
 def test_a_copys_recording_leaves_the_originals_curves(addon: ModuleType, rig: bpy.types.Object) -> None:
     assert bpy.ops.fragmotion.edit_curves() == {"FINISHED"}
-    curves, action = rig.fragmotion.takes[0].curves, rig.fragmotion.takes[0].curves.animation_data.action
+    curves, action = rig.fragmotion.recordings[0].curves, rig.fragmotion.recordings[0].curves.animation_data.action
     copy = duplicated(rig)
-    assert addon.recordings.curves.curves_of(copy, copy.fragmotion.takes[0]) is None
+    assert addon.recordings.curves.curves_of(copy, copy.fragmotion.recordings[0]) is None
     assert bpy.ops.fragmotion.edit_curves() == {"FINISHED"}
-    own = copy.fragmotion.takes[0].curves
+    own = copy.fragmotion.recordings[0].curves
     assert own != curves and own.parent == copy
     making.activate(copy)
     assert bpy.ops.fragmotion.delete_recording() == {"FINISHED"}
     assert curves in set(bpy.data.objects) and action in set(bpy.data.actions)
-    assert addon.recordings.curves.curves_of(rig, rig.fragmotion.takes[0]) == curves
+    assert addon.recordings.curves.curves_of(rig, rig.fragmotion.recordings[0]) == curves
 
 
 def test_own_curves_go_with_their_recording(rig: bpy.types.Object) -> None:
-    rig.fragmotion.takes[0].name = "Stroll"
+    rig.fragmotion.recordings[0].name = "Stroll"
     assert bpy.ops.fragmotion.edit_curves() == {"FINISHED"}
     making.activate(rig)
-    rig.fragmotion.takes[0].name = "Renamed"
+    rig.fragmotion.recordings[0].name = "Renamed"
     rig.name = "Hero"
     assert bpy.ops.fragmotion.delete_recording() == {"FINISHED"}
     assert set(bpy.data.objects) == {rig} and not bpy.data.actions
@@ -108,11 +110,74 @@ def test_unbinding_leaves_a_collection_that_the_user_made(addon: ModuleType, rig
 
 def test_a_copy_of_character_and_curves_has_curves_of_its_own(addon: ModuleType, rig: bpy.types.Object) -> None:
     assert bpy.ops.fragmotion.edit_curves() == {"FINISHED"}
-    curves = rig.fragmotion.takes[0].curves
+    curves = rig.fragmotion.recordings[0].curves
     rig.select_set(True)
     assert bpy.ops.object.duplicate() == {"FINISHED"}
     copy = next(obj for obj in bpy.data.objects if obj.type == "ARMATURE" and obj != rig)
-    own = copy.fragmotion.takes[0].curves
-    assert own != curves and addon.recordings.curves.curves_of(copy, copy.fragmotion.takes[0]) == own
-    addon.recordings.curves.remove_curves(copy, copy.fragmotion.takes[0])
+    own = copy.fragmotion.recordings[0].curves
+    assert own != curves and addon.recordings.curves.curves_of(copy, copy.fragmotion.recordings[0]) == own
+    addon.recordings.curves.remove_curves(copy, copy.fragmotion.recordings[0])
     assert set(bpy.data.objects) == {rig, copy, curves}
+
+
+def stored(data: Any) -> Any:
+    """The add-on's properties as the file holds them."""
+    if bpy.app.version >= (5, 0, 0):
+        return data.bl_system_properties_get(do_create=True)["fragmotion"]
+    return data["fragmotion"]
+
+
+def forge_pointers(kind: Any, group: Any, wrong: bpy.types.ID) -> int:
+    """Point every pointer to data of a property group, and of the groups in it, to a mesh; how many there were."""
+    count = 0
+    for prop in kind.bl_rna.properties[1:]:
+        name, inside = prop.identifier, getattr(prop, "fixed_type", None)
+        if prop.type == "COLLECTION":
+            count += sum(forge_pointers(inside, each, wrong) for each in group.get(name, ()))
+        elif prop.type == "POINTER" and issubclass(getattr(bpy.types, inside.identifier, object), bpy.types.ID):
+            group[name] = wrong
+            count += 1
+        elif prop.type == "POINTER":
+            if name not in group:
+                group[name] = {}
+            count += forge_pointers(inside, group[name], wrong)
+    return count
+
+
+def pointers(group: Any) -> Iterator[Any]:
+    """What the pointers to data of a property group point to, and of the groups in it."""
+    for prop in group.bl_rna.properties[1:]:
+        value = getattr(group, prop.identifier)
+        if prop.type == "COLLECTION":
+            for each in value:
+                yield from pointers(each)
+        elif prop.type == "POINTER" and isinstance(value, bpy.types.PropertyGroup):
+            yield from pointers(value)
+        elif prop.type == "POINTER":
+            yield value
+
+
+def test_a_pointer_to_data_of_another_type_is_taken_for_none(
+    addon: ModuleType, rig: bpy.types.Object, tmp_path: Path
+) -> None:
+    rig.fragmotion.moves.add().name = "wave"
+    mesh = making.add_mesh(rig).data
+    count = forge_pointers(type(rig.fragmotion), stored(rig), mesh)
+    assert count == len(list(pointers(rig.fragmotion))) > 10
+    path = str(tmp_path / "forged.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    rig = bpy.data.objects["Rig"]
+    assert list(pointers(rig.fragmotion)) == [None] * count
+    rig.fragmotion.ground.kind = "COLLECTION"
+    with pytest.raises(addon.errors.UserError, match="none is chosen"):
+        addon.ground.meshes.find_ground(bpy.context, rig)
+
+
+def test_takes_of_what_is_no_armature_are_refused_in_a_sentence(addon: ModuleType, rig: bpy.types.Object) -> None:
+    mesh = making.add_mesh(rig)
+    making.activate(rig)
+    rig.fragmotion.source = mesh
+    with pytest.raises(RuntimeError, match=f"'{mesh.name}' is no other armature") as failure:
+        bpy.ops.fragmotion.retarget_actions()
+    assert "Traceback" not in str(failure.value)

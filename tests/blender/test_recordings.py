@@ -33,7 +33,7 @@ def obj(addon: ModuleType) -> bpy.types.Object:
 
 def assert_kept(addon: ModuleType, obj: bpy.types.Object) -> None:
     """The armature has the fixture's recordings."""
-    stroll, other = obj.fragmotion.takes
+    stroll, other = obj.fragmotion.recordings
     assert (stroll.name, stroll.seed, stroll.policy, tuple(stroll.start)) == ("Stroll", 7, "svm", (1, 2, 0.5))
     assert (stroll.seconds, stroll.quality, stroll.train) == (5, 0.75, False)
     assert (other.name, other.seconds, other.train) == ("Recording", 12, True)
@@ -74,7 +74,7 @@ def test_recordings_survive_a_renamed_armature_and_go_with_its_copy(addon: Modul
     assert_kept(addon, obj)
     copy = obj.copy()
     assert_kept(addon, copy)
-    copy.fragmotion.takes.remove(0)
+    copy.fragmotion.recordings.remove(0)
     assert_kept(addon, obj)
     making.activate(obj)
     assert bpy.ops.object.duplicate() == {"FINISHED"}
@@ -89,7 +89,7 @@ def test_recordings_survive_undo_and_redo(addon: ModuleType, obj: bpy.types.Obje
     bpy.ops.ed.undo()
     assert_kept(addon, bpy.data.objects["Rig"])
     bpy.ops.ed.redo()
-    recordings = bpy.data.objects["Rig"].fragmotion.takes
+    recordings = bpy.data.objects["Rig"].fragmotion.recordings
     assert [each.name for each in recordings] == ["Stroll", "Recording", "Recording.001"]
     np.testing.assert_array_equal(addon.recordings.recordings.trace_of(recordings[2]), trace)
 
@@ -102,7 +102,7 @@ def test_what_is_no_trace_is_refused_and_changes_nothing(addon: ModuleType, obj:
     with pytest.raises(addon.errors.UserError, match="A recording"):
         addon.recordings.recordings.add_recording(obj, trace)
     with pytest.raises(addon.errors.UserError, match="A recording"):
-        addon.recordings.recordings.set_trace(obj.fragmotion.takes[0], trace)
+        addon.recordings.recordings.set_trace(obj.fragmotion.recordings[0], trace)
     assert_kept(addon, obj)
 
 
@@ -110,7 +110,7 @@ def test_what_is_no_trace_is_refused_and_changes_nothing(addon: ModuleType, obj:
     "damage", [b"", b"not packed", lambda data: data[:-6], lambda data: data[:9] + b"?" + data[10:]]
 )
 def test_a_damaged_recording_says_so(addon: ModuleType, obj: bpy.types.Object, damage: Any) -> None:
-    recording = obj.fragmotion.takes[0]
+    recording = obj.fragmotion.recordings[0]
     recording.controls = damage(recording.controls) if callable(damage) else damage
     with pytest.raises(addon.errors.UserError, match="Recording 'Stroll' is damaged: delete it"):
         addon.recordings.recordings.trace_of(recording)
@@ -123,15 +123,15 @@ def press(name: str, **fields: Any) -> None:
 
 def recordings() -> Any:
     """The recordings of the armature that is there after undo, too."""
-    return bpy.data.objects["Rig"].fragmotion.takes
+    return bpy.data.objects["Rig"].fragmotion.recordings
 
 
 def test_recordings_are_duplicated_and_deleted_and_that_is_undone(addon: ModuleType, obj: bpy.types.Object) -> None:
-    obj.fragmotion.active_take = 0
+    obj.fragmotion.active_recording = 0
     bpy.ops.ed.undo_push(message="two recordings")
     press("duplicate_recording")
     assert [each.name for each in recordings()] == ["Stroll", "Stroll.001", "Recording"]
-    assert bpy.data.objects["Rig"].fragmotion.active_take == 1
+    assert bpy.data.objects["Rig"].fragmotion.active_recording == 1
     original, copy = recordings()[:2]
     for field in ("date", "seconds", "quality", "policy", "seed", "train", "controls"):
         assert getattr(copy, field) == getattr(original, field)
@@ -144,7 +144,7 @@ def test_recordings_are_duplicated_and_deleted_and_that_is_undone(addon: ModuleT
     for names in (["Stroll"], ["Stroll", "Recording"], ["Stroll", "Stroll.001", "Recording"], ["Stroll", "Recording"]):
         bpy.ops.ed.undo()
         assert [each.name for each in recordings()] == names
-    bpy.data.objects["Rig"].fragmotion.active_take = 1
+    bpy.data.objects["Rig"].fragmotion.active_recording = 1
     assert_kept(addon, bpy.data.objects["Rig"])
 
 
@@ -172,7 +172,7 @@ def test_what_was_shown_survives_saving_and_is_trimmed_with_its_recording(
     )
     addon.recordings.recordings.add_recording(obj, make_trace(), name="Seen", shown=(times, motion))
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "kept.blend"))
-    recording = append(tmp_path / "kept.blend", link=False).fragmotion.takes["Seen"]
+    recording = append(tmp_path / "kept.blend", link=False).fragmotion.recordings["Seen"]
 
     def assert_shown(first: int, last: int) -> None:
         seen, shown = addon.recordings.recordings.shown_of(recording)
@@ -193,7 +193,7 @@ def test_recordings_go_out_to_csv_and_come_back_to_the_bit(
     addon: ModuleType, obj: bpy.types.Object, tmp_path: Path
 ) -> None:
     for index, name in enumerate(("one", "two")):
-        obj.fragmotion.active_take = index
+        obj.fragmotion.active_recording = index
         assert bpy.ops.fragmotion.export_recording(filepath=str(tmp_path / name)) == {"FINISHED"}
     assert (tmp_path / "one.csv").read_text().startswith("velocity_x,velocity_y,turn,jump\n")
     addon.recordings.recordings.add_recording(obj, make_trace(1))
@@ -251,11 +251,11 @@ def test_build_learns_from_the_ticked_recordings(
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", **fields) == {"FINISHED"}
     assert len(given) == 1
     np.testing.assert_array_equal(given[0], make_trace(120, 2))
-    obj.fragmotion.takes[0].train = True
+    obj.fragmotion.recordings[0].train = True
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", **fields) == {"FINISHED"}
     np.testing.assert_array_equal(given[1], make_trace())
     np.testing.assert_array_equal(given[2], make_trace(120, 2))
-    for recording in obj.fragmotion.takes:
+    for recording in obj.fragmotion.recordings:
         recording.train = False
     with pytest.raises(RuntimeError, match="No recording of armature 'Rig' is ticked to train on"):
         bpy.ops.fragmotion.build("EXEC_DEFAULT", **fields)

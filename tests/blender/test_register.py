@@ -6,8 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from threading import Event
 from types import ModuleType, SimpleNamespace
+from typing import Any
+from unittest.mock import MagicMock
 
 import bpy
+import making
 import pytest
 from registered import registered
 
@@ -29,8 +32,8 @@ def test_unregister_stops_a_build_with_its_thread_and_timer(addon: ModuleType, m
     manager = SimpleNamespace(
         event_timer_add=lambda step, window: timers.append(step) or step, event_timer_remove=timers.remove
     )
-    button = addon.operators.base.background
-    monkeypatch.setattr(button, "bpy", SimpleNamespace(context=SimpleNamespace(window_manager=manager)))
+    button, context = addon.operators.base.background, SimpleNamespace(window_manager=manager, workspace=None)
+    monkeypatch.setattr(addon.preview.waking, "bpy", SimpleNamespace(context=context))
     started = Event()
 
     def work(report: Callable[[float, str], bool]) -> None:
@@ -66,8 +69,28 @@ def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) ->
     assert [panel.bl_label for panel in panels] == [
         *("Control Rig", "Mocap", "Left Out", "Doctor", "Bones"),
         *("Build", "Numbers Tried", "Training", "Figures", "Classes", "Inspector", "Coverage", "Policy File"),
+        "Advanced",
         *("Drive", "Drive Options", "Feel", "Ground", "Gamepads", "Overlays", "Trace"),
         *("Moves", "Path", "Recordings", "Change", "Bake", "Bake Options", "Populate"),
     ]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}
     assert {(panel.bl_space_type, panel.bl_region_type) for panel in panels} == {("VIEW_3D", "UI")}
+
+
+def fields_of(panel: Any) -> list[str]:
+    """The names of those that a panel draws."""
+    layout = MagicMock()
+    layout.row.return_value = layout.column.return_value = layout
+    panel.draw(SimpleNamespace(layout=layout), bpy.context)
+    return [call.args[1] for call in layout.prop.call_args_list]
+
+
+def test_the_choice_of_policy_is_folded_away_under_advanced(addon: ModuleType) -> None:
+    obj, panels = making.open_sample(), addon.panels.panel
+    advanced = panels.FRAGMOTION_PT_build_advanced
+    assert advanced.bl_parent_id == panels.FRAGMOTION_PT_build.bl_idname and "DEFAULT_CLOSED" in advanced.bl_options
+    assert fields_of(advanced) == ["policy", "cut", "seed"]
+    for panel in (panels.FRAGMOTION_PT_build, panels.FRAGMOTION_PT_training):
+        assert fields_of(panel) and not {"policy", "cut", "seed"} & set(fields_of(panel))
+    items = obj.fragmotion.build.bl_rna.properties["policy"].enum_items
+    assert items.keys() == ["anticipate", "iterate", "svm", "greedy"]

@@ -46,7 +46,7 @@ def test_a_damaged_recording_has_no_curves_and_that_is_one_sentence(addon: Modul
     obj = making.add_armature()
     recordings = addon.recordings.recordings
     recordings.add_recording(obj, np.zeros((20, 4)), seed=1, policy="", start=(0, 0, 0), quality=0.0)
-    obj.fragmotion.takes[0].controls = b"damaged"
+    obj.fragmotion.recordings[0].controls = b"damaged"
     with pytest.raises(RuntimeError, match="damaged") as failure:
         bpy.ops.fragmotion.edit_curves()
     assert "Traceback" not in str(failure.value)

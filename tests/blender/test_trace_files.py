@@ -69,7 +69,7 @@ def test_moves_and_styles_go_out_to_csv_and_come_back(addon: ModuleType, obj: bp
     lines = (tmp_path / "asks.csv").read_text().splitlines()
     assert lines[0] == f"{HEADER},move,move,style" and lines[1 + 10] == "0,1,0,0,wave,kick,proud"
     assert bpy.ops.fragmotion.import_recordings(filepath=str(tmp_path / "asks.csv")) == {"FINISHED"}
-    read = obj.fragmotion.takes[-1]
+    read = obj.fragmotion.recordings[-1]
     assert recordings.asked_of(read) == asked and read.quality > 0
     np.testing.assert_array_equal(recordings.trace_of(read), np.tile(np.array(WALK), (40, 1)))
 

@@ -23,7 +23,7 @@ def test_many_moves_and_changes_of_style_are_there_after_reopening(addon: Module
     path = str(tmp_path / "long.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
-    reopened = bpy.data.objects["Rig"].fragmotion.takes["Long"]
+    reopened = bpy.data.objects["Rig"].fragmotion.recordings["Long"]
     assert recordings.asked_of(reopened) == recordings.Asked(moves, "calm", styles)
 
 
@@ -35,7 +35,7 @@ def test_a_day_of_changes_of_style_is_there_after_reopening(addon: ModuleType, t
     path = str(tmp_path / "day.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
-    assert recordings.styles_of(bpy.data.objects["Rig"].fragmotion.takes["Day"]) == styles
+    assert recordings.styles_of(bpy.data.objects["Rig"].fragmotion.recordings["Day"]) == styles
 
 
 def test_many_moves_of_the_character_stay_told_after_reopening(addon: ModuleType, tmp_path: Path) -> None:

@@ -31,7 +31,7 @@ def make_character(module: str) -> bpy.types.Object:
     small = {"classes": 4, "seconds": 2.0, "mirror": False, "synthesize": False}
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", **small) == {"FINISHED"}
     obj.fragmotion.classes[1].name, obj.fragmotion.classes[2].excluded = "Stride", True
-    obj.fragmotion.feel.promptness = 0.25
+    obj.fragmotion.feel.responsiveness = 0.25
     bpy.data.actions["way 0"].fragmotion.left_out.add().last = 3
     session, recordings = import_module(f"{module}.drive.session"), import_module(f"{module}.recordings.recordings")
     recordings.add_recording(obj, making.waves(30, 4, 1) ** 2, name="Imported", seed=7, start=(1, 2, 0.5)).train = True
@@ -41,7 +41,7 @@ def make_character(module: str) -> bpy.types.Object:
     driving.go_on(driven, 1)
     driven.toggle_recording()
     session.stop()
-    obj.fragmotion.takes[-1].name = "Recorded"
+    obj.fragmotion.recordings[-1].name = "Recorded"
     return obj
 
 
@@ -57,7 +57,7 @@ def add_twin(obj: bpy.types.Object, module: str) -> None:
     twin.name = "Twin"
     bpy.context.scene.collection.objects.link(twin)
     twin.fragmotion.keep_policy = "BESIDE"
-    import_module(f"{module}.drive.state.suspended_state").put_aside(twin)
+    import_module(f"{module}.preview.suspended_state").put_aside(twin)
 
 
 def main(package: str, folder: Path) -> None:

@@ -42,34 +42,35 @@ def stopped_trial(core: Any, build: Any, obj: bpy.types.Object) -> Iterator[None
     assert not obj.fragmotion.tried and obj.fragmotion.build.classes == number
 
 
-def preview(solo: Any, obj: bpy.types.Object) -> Iterator[None]:
+def preview(obj: bpy.types.Object) -> Iterator[None]:
     """The preview plays until Esc, and everything is as before."""
     before, hips = making.contents(), obj.pose.bones["hips"]
+    previews, waking = window.module("preview.previews"), window.module("preview.waking")
     press(bpy.ops.fragmotion.solo_class)
-    assert solo.current is not None and not bpy.ops.fragmotion.solo_class.poll()
+    assert previews.current is not None and not bpy.ops.fragmotion.build.poll()
     places: list[tuple[float, ...]] = []
-    begin, step = time.perf_counter(), solo.current.step
+    begin, step = time.perf_counter(), previews.current.step
 
     def noted(since: float) -> None:
         step(since)
         places.append(tuple(value for row in hips.matrix_basis for value in row))
 
-    solo.current.step = noted
+    previews.current.step = noted
     yield from until(lambda: len(places) > 20, "a preview that goes on")
     assert len(set(places)) > 3, "nothing moves"
     window.tell(f"preview: {len(places) / (time.perf_counter() - begin):.1f} poses a second in this window")
     yield from picture("6 preview")
     yield from send("Z", "PRESS", 300, 300)
-    assert solo.current is not None, "a key got through"
+    assert previews.current is not None, "a key got through"
     yield from send("ESC", "PRESS", 300, 300)
-    assert solo.current is None and solo._timer is None
+    assert previews.current is None and not waking._timers
     assert making.contents() == before
 
 
 def steps() -> Iterator[None]:
     """The whole session."""
     building, classes = window.module("character.building"), window.module("character.classes")
-    solo = window.module("operators.character.solo_class")
+    previews, waking = window.module("preview.previews"), window.module("preview.waking")
     bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE), load_ui=False)
     yield
     obj = bpy.data.objects[making.ARMATURE]
@@ -102,7 +103,7 @@ def steps() -> Iterator[None]:
     yield from picture("5 left out")
     show_only("Classes", "Inspector")
     manager.active_class = next(number for number, row in enumerate(rows) if row.suggested.startswith("run"))
-    yield from preview(solo, obj)
+    yield from preview(obj)
 
     player = building.core.Player(building.load(obj))
     classes.session = SimpleNamespace(armature=obj.name, player=player, control=(0.0, 1.2, 0.0, 0.0))
@@ -116,14 +117,14 @@ def steps() -> Iterator[None]:
     yield from seconds(0.3)
     bpy.ops.wm.open_mainfile(filepath=str(making.SAMPLE), load_ui=False)
     yield from seconds(0.2)
-    assert solo.current is None and solo._timer is None, "a preview outlives its file"
+    assert previews.current is None and not waking._timers, "a preview outlives its file"
 
     making.activate(bpy.data.objects[making.ARMATURE])
     press(bpy.ops.fragmotion.build, "EXEC_DEFAULT", True, synthesize=False)
     press(bpy.ops.fragmotion.solo_class)
     bpy.data.objects.remove(bpy.data.objects[making.ARMATURE])
-    yield from until(lambda: solo.current is None, "the end of a preview without its armature", 40)
-    assert solo._timer is None
+    yield from until(lambda: previews.current is None, "the end of a preview without its armature", 40)
+    assert not waking._timers
     show_all()
     print("SESSION PASSED")
 

@@ -32,11 +32,11 @@ MIDDLE = (600, 450)  # of the viewport
 VIEW = math.radians(45)  # its heading, counter-clockwise from +Y
 DRAWS = 10  # of the panels, of which the quickest counts
 
-session = window.module("drive.session")
+session, waking = window.module("drive.session"), window.module("preview.waking")
 overlays = window.module("drive.hud.overlays")
 button = window.module("operators.directing.drive")
 recordings = window.module("recordings.recordings")
-sdl = window.module("drive.input.sdl").load()
+sdl = window.module("input.sdl").load()
 costs = window.watch_panels()
 
 
@@ -143,7 +143,7 @@ def assert_nothing_is_left() -> Iterator[None]:
     """No timer, no drawing, no SDL device after a drive."""
     assert session.current is None and overlays._handlers == []
     assert sdl.SDL_WasInit(0) == 0, "SDL is open"
-    yield from window.until(lambda: session._timers == [], "the end of the drive's operator", 20)
+    yield from window.until(lambda: waking._timers == [], "the end of the drive's operator", 20)
     yield from window.count_timers()
     assert window.TEST_OT_count_timers.count < 3, "a timer goes on"  # Blender's own may come once
 
@@ -244,7 +244,7 @@ def record(driven: Any, pad: VirtualPad) -> Iterator[None]:
     assert driven.inputs.pads == [] and driven.readings.control == (0, 0, 0, 0), "a pad that is gone drives"
     yield from window.send("R", "PRESS", *MIDDLE)
     yield from window.send("R", "RELEASE", *MIDDLE)
-    (recording,) = driven.obj.fragmotion.takes
+    (recording,) = driven.obj.fragmotion.recordings
     assert recording.seconds > 1.9 and driven.recording is None
 
 
@@ -285,7 +285,7 @@ def use_the_panel(driven: Any) -> Iterator[None]:
 
 def bake_and_undo(obj: bpy.types.Object, before: dict[str, Any]) -> Generator[None, None, bpy.types.Object]:
     """Bake's button bakes what was seen of the recording that is selected, and one undo takes it back."""
-    (recording,) = obj.fragmotion.takes
+    (recording,) = obj.fragmotion.recordings
     _, motion = recordings.shown_of(recording)
     window.show_only("Bake")
     yield from window.click_button("fragmotion.bake")
@@ -305,20 +305,20 @@ def bake_and_undo(obj: bpy.types.Object, before: dict[str, Any]) -> Generator[No
 
 def reload(obj: bpy.types.Object) -> Generator[None, None, bpy.types.Object]:
     """The file is saved and loaded: the recordings, the character and the settings are there."""
-    (recording,), name, path = obj.fragmotion.takes, obj.name, f"{window.FOLDER}/driven.blend"
+    (recording,), name, path = obj.fragmotion.recordings, obj.name, f"{window.FOLDER}/driven.blend"
     kept = (recording.name, recording.seconds, recordings.trace_of(recording).tolist(), obj.fragmotion.policy)
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
     yield
     obj = bpy.data.objects[name]
-    (recording,) = obj.fragmotion.takes
+    (recording,) = obj.fragmotion.recordings
     assert (recording.name, recording.seconds, recordings.trace_of(recording).tolist(), obj.fragmotion.policy) == kept
     return obj
 
 
 def replay(obj: bpy.types.Object) -> Iterator[None]:
     """The recording's button lets it drive as it was recorded, until Esc; and the scene is as before."""
-    before, (recording,) = state(obj), obj.fragmotion.takes
+    before, (recording,) = state(obj), obj.fragmotion.recordings
     trace, (_, motion) = recordings.trace_of(recording), recordings.shown_of(recording)
     window.show_only("Recordings")
     yield from window.click_button("fragmotion.drive")

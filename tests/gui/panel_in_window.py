@@ -59,7 +59,7 @@ def disable_while_building(build: Any) -> Iterator[None]:
 
 def play_takes(obj: bpy.types.Object) -> Iterator[None]:
     """Play shows the chosen take, and what is chosen and ticked meanwhile; Esc gives everything back."""
-    shown, manager = window.module("drive.take_shown"), bpy.context.window_manager.fragmotion
+    shown, manager = window.module("preview.previews"), bpy.context.window_manager.fragmotion
     before, hips = making.contents(), obj.pose.bones["Hips"]
     manager.active_action = bpy.data.actions.find("take 1")
     yield from window.click_button("fragmotion.play_take")
@@ -69,7 +69,7 @@ def play_takes(obj: bpy.types.Object) -> Iterator[None]:
     region, take = window.sidebar()["region"], bpy.data.actions["take 2"]
     y = region.y + region.height - SECOND_TAKE
     yield from window.click(region.x + NAME, y)
-    yield from until(lambda: shown.current.name == take.name, "the take that is clicked meanwhile")
+    yield from until(lambda: shown.current.name == f"Take '{take.name}'", "the take that is clicked meanwhile")
     for use in (False, True):
         yield from window.click(region.x + TICK_BOX, y)
         yield from until(lambda use=use: take.fragmotion.use is use, "a tick while the take plays", 40)

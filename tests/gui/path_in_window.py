@@ -84,8 +84,8 @@ def session_of_tests() -> Iterator[None]:
     window.show_only("Path", "Recordings")
     yield from window.picture("1 drawn")
     yield from window.click_button("fragmotion.follow_path")
-    yield from window.until(lambda: len(obj.fragmotion.takes) == 1, "the recording", 100)
-    places = window.module("recordings.recordings").shown_of(obj.fragmotion.takes[0])[1].path
+    yield from window.until(lambda: len(obj.fragmotion.recordings) == 1, "the recording", 100)
+    places = window.module("recordings.recordings").shown_of(obj.fragmotion.recordings[0])[1].path
     assert math.dist(places[-1][:2], points[-1].co[:2]) < 0.2
     window.press(bpy.ops.fragmotion.bake, "EXEC_DEFAULT", trace_source="RECORDING", recording=0)
     bpy.context.scene.frame_set(70)

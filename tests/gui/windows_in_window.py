@@ -26,7 +26,7 @@ MIDDLE = (500, 400)  # of the 3D view, in the first window and in the second
 PROPERTIES = (1450, 200)  # of the first window; the second one shows its 3D view there
 NOTE = "fragmotion_put_aside"
 
-session = window.module("drive.session")
+session, waking = window.module("drive.session"), window.module("preview.waking")
 overlays = window.module("drive.hud.overlays")
 
 
@@ -98,7 +98,7 @@ def assert_nothing_is_left(before: list[Any]) -> Iterator[None]:
     """The armature is as it was, and no timer and no drawing is left of the drive."""
     assert session.current is None and overlays._handlers == []
     assert state(bpy.data.objects["Rig"]) == before
-    yield from window.until(lambda: session._timers == [], "the end of the drive's operators", 20)
+    yield from window.until(lambda: waking._timers == [], "the end of the drive's operators", 20)
 
 
 def session_of_tests() -> Iterator[None]:
@@ -144,7 +144,7 @@ def lose_a_window(before: list[Any]) -> Iterator[None]:
     yield from go_on()
     close_window()
     yield from go_on()
-    assert len(session._timers) == 1
+    assert len(waking._timers) == 1
     yield from send(windows()[0], "ESC", "PRESS")
     yield from assert_nothing_is_left(before)
 
@@ -154,7 +154,9 @@ def lose_a_window(before: list[Any]) -> Iterator[None]:
     yield from go_on()
     close_window()
     yield
-    assert [each.name for each in bpy.data.objects["Rig"].fragmotion.takes] == ["Recording"], "the recording is lost"
+    assert [each.name for each in bpy.data.objects["Rig"].fragmotion.recordings] == ["Recording"], (
+        "the recording is lost"
+    )
     yield from assert_nothing_is_left(before)
 
 
@@ -190,11 +192,11 @@ def undo_while_recording(before: list[Any]) -> Iterator[None]:
         yield from undo()
         yield
         yield from assert_nothing_is_left(before)
-        assert len(bpy.data.objects["Rig"].fragmotion.takes) == 1 and "Another" in bpy.data.objects
+        assert len(bpy.data.objects["Rig"].fragmotion.recordings) == 1 and "Another" in bpy.data.objects
         yield from send(first, "Z", "RELEASE")
         yield from send(first, "Z", "PRESS", ctrl=True)
         yield from send(first, "Z", "RELEASE")
-        assert not bpy.data.objects["Rig"].fragmotion.takes and "Another" in bpy.data.objects
+        assert not bpy.data.objects["Rig"].fragmotion.recordings and "Another" in bpy.data.objects
     assert "Undo has ended the drive" in reports() and "ended by undo" in reports()
 
 
@@ -213,7 +215,7 @@ def delete_the_armature(_before: list[Any]) -> Iterator[None]:
     bpy.data.objects.remove(bpy.data.objects["Rig"])
     yield from send(first, "MOUSEMOVE", "NOTHING", (510, 410))
     yield from window.seconds(0.3)
-    assert session.current is None and session._timers == []
+    assert session.current is None and waking._timers == []
     assert reports().strip().splitlines()[-1].endswith("The drive has ended: Armature 'Rig' was deleted")
 
 

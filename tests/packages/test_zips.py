@@ -24,7 +24,7 @@ from packaging.metadata import Metadata
 from packaging.tags import Tag
 from packaging.utils import parse_wheel_filename
 
-from tools import cross, packages
+from tools.packaging import cross, packages
 from tools.platforms import LEGACY_PYTHONS, Platform, named
 
 MEGABYTES_WITHOUT_SDL = 10
@@ -99,6 +99,16 @@ def test_a_platform_has_its_pythons(platform: Platform) -> None:
         assert packages.pythons_inside(packages.legacy_path(platform)) == list(LEGACY_PYTHONS)
     modules = [minor for minor, _ in modules_of(platform)]
     assert len(modules) == len(platform.extension_pythons) + (len(LEGACY_PYTHONS) if platform.legacy else 0)
+
+
+@platforms
+def test_the_command_comes_with_every_core(platform: Platform) -> None:
+    files = ["fragmotion_command/parser.py", "fragmotion_command/evaluate/measures/synthesis.py"]
+    for name, wheel in wheels_in(platform).items():
+        if name.startswith("fragmotion_core"):
+            assert set(files) <= read_bytes(wheel).keys(), name
+    if platform.legacy:
+        assert {f"fragmotion/{name}" for name in files} <= read(packages.legacy_path(platform)).keys()
 
 
 @platforms

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the tests of `dev.py evaluate` share: a few made takes, a run of the tool on them, and its character."""
+"""What the tests of `fragmotion evaluate` share: a few made takes, a run of the tool on them, and its character."""
 
 from __future__ import annotations
 
@@ -11,9 +11,8 @@ import fragmotion_core as core
 import numpy as np
 import pytest
 from conftest import NAMES, OFFSETS, PARENTS, TIPS, build_options, walking_arrays
-
-from tools.evaluate import synthesis
-from tools.evaluate.__main__ import main
+from fragmotion_command import main
+from fragmotion_command.evaluate.measures import synthesis
 
 CLASSES = 12
 SEED = 5
@@ -75,7 +74,7 @@ def command(*words: str | Path | int) -> int:
     """The tool's exit code, with one process for each controller's synthesis: medians are for those who read them."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(synthesis, "_PROCESSES", 1)
-        return main([str(word) for word in words])
+        return main(["evaluate", *(str(word) for word in words)])
 
 
 def evaluate(takes: Path, folder: Path, *arguments: str | Path) -> Run:

@@ -13,18 +13,21 @@ import fragmotion_core as core
 import numpy as np
 import pytest
 from conftest import Array, walking_clips
+from fragmotion_command.evaluate.loading import Recordings
 from sample_motions import write_sample
 
-from tools.beside import comparing, footfalls, measures, response, tuning
-from tools.beside.__main__ import main
-from tools.beside.likeness import Likeness
-from tools.beside.setting import Setting, frame_controls, make_setting, sessions
-from tools.beside.systems import Fragments, Matching, Shown, matching
-from tools.beside.table import ROWS, beside_table
-from tools.evaluate.loading import Recordings, read_recordings
-from tools.motion_matching.bodies import RATE, Motion, facing
-from tools.motion_matching.constants import Constants, load
-from tools.motion_matching.library import floors_of
+from tools.measuring.beside import comparing, measures, tuning
+from tools.measuring.beside.__main__ import main
+from tools.measuring.beside.motion import footfalls, response
+from tools.measuring.beside.motion.likeness import Likeness
+from tools.measuring.beside.motion.reenacting import add_likeness
+from tools.measuring.beside.setting import Setting, frame_controls, make_setting, sessions
+from tools.measuring.beside.systems import Fragments, Matching, Shown, matching
+from tools.measuring.beside.table import ROWS, beside_table
+from tools.measuring.blend import read_recordings
+from tools.measuring.peers.kinematics.bodies import RATE, Motion, facing
+from tools.measuring.peers.motion_matching.constants import Constants, load
+from tools.measuring.peers.motion_matching.library import floors_of
 from tools.shell import Failure
 
 PLAYERS = ("walker", "circler")
@@ -175,12 +178,14 @@ def test_feet_that_alternate_are_no_fault(made: Setting) -> None:
 
 
 @pytest.fixture(scope="module")
-def result(made: Setting) -> dict[str, Any]:
+def result(made: Setting, folder: Path) -> dict[str, Any]:
     with pytest.MonkeyPatch.context() as patch:
         for name, rows in (("_LEAST", 2), ("_MOST", 3), ("_AFTER", 4)):
             patch.setattr(response, name, rows)
         patch.setattr(measures, "SEEDS", range(1))
-        return json.loads(json.dumps(comparing.compare(made, load(), 1, seconds=6), allow_nan=False))  # type: ignore[no-any-return]
+        found = comparing.compare(made, load(), 1, seconds=6)
+        add_likeness(found, read_recordings([folder], 0.01), load(), 1, seconds=20, classes=30)
+        return json.loads(json.dumps(found, allow_nan=False))  # type: ignore[no-any-return]
 
 
 @pytest.mark.thorough
@@ -193,6 +198,7 @@ def test_every_row_of_every_system_is_filled(result: dict[str, Any]) -> None:
         own = row[1:3] if row[0] != "of these, the search" else row[3:5]
         assert all(cell != "-" for cell in [*own, *row[3:5]]), row
     assert all(figures["velocity_error_percent"] > 0 for figures in result["systems"].values())
+    assert all(figures["frechet"] > 0 for figures in [result["takes"], *result["systems"].values()])
     assert result["takes"]["unlikeness"] == 1 and result["takes"]["foot_skate_ratio"] == pytest.approx(1)
 
 

@@ -34,6 +34,12 @@ def figures_of(capsys: pytest.CaptureFixture[str], *words: object) -> dict[str, 
     return found
 
 
+def rows_of(capsys: pytest.CaptureFixture[str], *words: object) -> list[dict[str, object]]:
+    rows = figures_of(capsys, *words)["traces"]
+    assert isinstance(rows, list)
+    return rows
+
+
 def test_info_tells_what_was_built(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     character = core.Character.load(folder / "hero.policy")
     found = figures_of(capsys, "info", folder / "hero.policy")
@@ -59,13 +65,19 @@ def test_what_is_played_is_read_back(folder: Path, tmp_path: Path, capsys: pytes
 def test_a_trace_drives_as_its_player_does(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     character = core.Character.load(folder / "hero.policy")
     core.write_trace(tmp_path / "trace.csv", core.simulate_trace("runner", 10, 3, character.space))
-    by_file = figures_of(capsys, "evaluate", folder / "hero.policy", "--trace", tmp_path / "trace.csv", "--seed", 3)
-    words = ("evaluate", folder / "hero.policy", "--player", "runner", "--seconds", 10, "--seed", 3)
-    by_player = figures_of(capsys, *words)
+    words = ("evaluate", folder / "hero.policy", "--seed", 3)
+    (by_file,) = rows_of(capsys, *words, "--trace", tmp_path / "trace.csv")
+    (by_player,) = rows_of(capsys, *words, "--player", "runner", "--seconds", 10)
+    assert (by_file.pop("trace"), by_player.pop("trace")) == ("trace", "runner")
     assert by_file.keys() == by_player.keys()
     for name, value in by_player.items():
         assert by_file[name] == pytest.approx(value, rel=1e-3), name
     assert 0 < float(str(by_player["percent_of_optimal"])) <= 100
+
+
+def test_all_players_measure_where_none_is_named(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    rows = rows_of(capsys, "evaluate", folder / "hero.policy", "--seconds", 2)
+    assert [row["trace"] for row in rows] == list(core.PLAYERS)
 
 
 @pytest.fixture(scope="module")
@@ -123,6 +135,17 @@ def test_what_is_no_seed_is_told(folder: Path, capsys: pytest.CaptureFixture[str
     assert f"argument --seed: '{seed}' is no seed: it must be a whole number from 0 to" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("classes", ["0", "-1", "99999999999999", "many"])
+def test_what_is_no_number_of_classes_is_told(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], classes: str
+) -> None:
+    with pytest.raises(SystemExit) as end:
+        run("build", folder / "takes", "--policy", tmp_path / "x.policy", "--classes", classes)
+    assert end.value.code == 2
+    words = f"'{classes}' is no number of classes: it must be a whole number from 1 to {core.MOST_CLASSES}"
+    assert f"argument --classes: {words}" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -131,6 +154,12 @@ def test_what_is_no_seed_is_told(folder: Path, capsys: pytest.CaptureFixture[str
         (("build", "alone.amc", "--policy", "x.policy"), "its skeleton alone.asf is not in the folder"),
         (("play", "{hero}", "--trace", "missing.csv", "--bvh", "x.bvh"), "missing.csv"),
         (("play", "{hero}", "--player", "walker", "--bvh", "no/x.bvh"), "no/x.bvh"),
+        (("build", "{takes}"), "say where to, by --policy"),
+        (
+            ("build", "{takes}", "--controls", "found", "--no-turn", "--policy", "x.policy"),
+            "--no-turn say two different",
+        ),
+        (("doctor", "missing.bvh"), "missing.bvh: there is no such file"),
         (("build", "{takes}", "--style", "tired", "--policy", "x.policy"), "tells no name or no pattern"),
         (("play", "{hero}", "--player", "walker", "--style", "sad", "--bvh", "x.bvh"), "its styles are none"),
         (("play", "{hero}", "--player", "walker", "--rate", "0", "--bvh", "x.bvh"), "rate"),

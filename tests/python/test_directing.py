@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from conftest import Array
 
-from tools.directing.courses import circle
+from tools.measuring.directing.measures.courses import circle
 
 FRAMES = 60  # a second
 

@@ -13,11 +13,11 @@ import pytest
 from conftest import Array
 from sample_motions import write_sample
 
-from tools.directing import inputs
-from tools.directing.__main__ import main, make_character, measure
-from tools.directing.courses import TIGHTEST, Course, courses, right_angles
-from tools.directing.paths import follow
-from tools.evaluate.loading import read_recordings
+from tools.measuring.blend import read_recordings
+from tools.measuring.directing import inputs
+from tools.measuring.directing.__main__ import main, make_character, measure
+from tools.measuring.directing.measures.courses import TIGHTEST, Course, courses, right_angles
+from tools.measuring.directing.measures.paths import follow
 
 MOST_WALKING, MOST_RUNNING = 0.15, 0.3  # m from the path, in the mean: the goals
 MOST_FROM_END, MOST_FROM_TIME = 0.2, 0.25  # m, s
@@ -33,7 +33,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(autouse=True)
 def one_player_is_pinned(monkeypatch: pytest.MonkeyPatch) -> None:
     """Since each pin is searched for."""
-    monkeypatch.setattr("tools.directing.pins._PLAYERS", ("walker",))
+    monkeypatch.setattr("tools.measuring.directing.measures.pins._PLAYERS", ("walker",))
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +70,7 @@ def test_goals_are_met_on_curves_and_corners(made: core.Character) -> None:
 
 @pytest.mark.thorough
 def test_figures_have_the_fields_that_were_agreed(made: core.Character, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tools.directing.__main__.courses", lambda _seed: courses(1)[:1])
+    monkeypatch.setattr("tools.measuring.directing.__main__.courses", lambda _seed: courses(1)[:1])
     result = measure(made, [], 1)
     assert set(result) == {"paths", "pins", "moves", "styles", "ground"}
     assert {"name", "speed", "mean_m", "max_m", "arrival_m", "arrival_s"} <= set(result["paths"][0])
@@ -82,7 +82,7 @@ def test_figures_have_the_fields_that_were_agreed(made: core.Character, monkeypa
 def test_the_command_prints_a_table_and_saves_the_figures(
     folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("tools.directing.__main__.courses", lambda _seed: courses(1)[:2])
+    monkeypatch.setattr("tools.measuring.directing.__main__.courses", lambda _seed: courses(1)[:2])
     target = tmp_path / "figures.json"
     styles = ["--style", "slow=*walk*", "--style", "fast=*run*"]
     assert main([str(folder), "--json", str(target), "--figures", str(tmp_path / "drawn"), *styles]) == 0

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import itertools
+import os
 from collections.abc import Callable
+from pathlib import Path
 
 import fragmotion_core as core
 import numpy as np
@@ -277,6 +279,46 @@ def test_copies_are_found(takes: list[core.Take], walk: core.Take, rate: float) 
 def test_any_number_of_threads_says_the_same(takes: list[core.Take]) -> None:
     one, two = ([[f.text for f in e.findings] for e in core.examine(takes, threads)] for threads in (1, 3))
     assert one == two
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="only Linux tells how much memory is used")
+@pytest.mark.parametrize("fault", ["none", "flips and feet"])
+def test_a_long_take_is_not_copied(walk: core.Take, fault: str) -> None:
+    frames, there_and_back = 100_000, [*range(len(walk.rotations)), *range(len(walk.rotations) - 2, 0, -1)]
+    order = np.resize(there_and_back, frames)
+    translations, rotations = walk.translations[order], walk.rotations[order]
+    if fault != "none":
+        translations[:, 0, 2] += 0.3
+        rotations[500::1000, 5] = (0, 1, 0, 0)
+    take = remade(walk, translations, rotations)
+    used = resident()
+    most = 0
+
+    def watch(_fraction: float, _stage: str) -> None:
+        nonlocal most
+        most = max(most, resident() - used)
+
+    codes = {finding.code for finding in core.examine([take], 1, watch)[0].findings}
+    assert codes == (set() if fault == "none" else {"flip", "ground"})
+    assert most < 0.5 * (translations.nbytes + rotations.nbytes)
+
+
+def resident() -> int:
+    """Bytes of memory that the process uses."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_an_examination_is_stopped(walk: core.Take) -> None:
+    with pytest.raises(core.Cancelled):
+        core.examine([walk], progress=lambda _fraction, _stage: False)
+    with pytest.raises(core.Cancelled):
+        core.mend(walk, findings_of(walk), progress=lambda _fraction, _stage: False)
+
+    def interrupted(_fraction: float, _stage: str) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        core.examine([walk], progress=interrupted)
 
 
 def test_takes_need_their_shapes(walk: core.Take) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py doctor`: what its JSON file says, folders at any depth, and files that cannot be read."""
+"""`fragmotion doctor`: what its JSON file says, folders at any depth, and files that cannot be read."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from typing import Any
 
 import pytest
 from conftest import BANDAI, CMU
-
-from tools.doctor.__main__ import main
+from fragmotion_command import main
 
 FIELDS = [
     "path",
@@ -47,7 +46,7 @@ Frame Time: 0.01
 def examined(folder: Path, *files: Path) -> tuple[int, list[dict[str, Any]]]:
     """The exit code, and the files of the JSON file."""
     target = folder / "doctor.json"
-    code = main([*map(str, files), "--json", str(target)])
+    code = main(["doctor", *map(str, files), "--json", str(target)])
     return code, json.loads(target.read_text())["files"]
 
 
@@ -80,9 +79,9 @@ def test_a_file_that_cannot_be_read_is_told_with_its_line(tmp_path: Path) -> Non
 
 def test_hidden_files_do_not_count_and_nothing_is_an_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "._take.bvh").write_text("x")
-    assert main([str(tmp_path)]) == 1
-    assert "no motion capture" in capsys.readouterr().err
-    assert main([str(tmp_path / "nothing.bvh")]) == 1
+    assert main(["doctor", str(tmp_path)]) == 1
+    assert "no takes here" in capsys.readouterr().err
+    assert main(["doctor", str(tmp_path / "nothing.bvh")]) == 1
     assert "no such file" in capsys.readouterr().err
 
 

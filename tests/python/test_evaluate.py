@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py evaluate` on a few made takes: what its JSON file says, and that a run can be repeated."""
+"""`fragmotion evaluate` on a few made takes: what its JSON file says, and that a run can be repeated."""
 
 from __future__ import annotations
 
@@ -11,11 +11,10 @@ import fragmotion_core as core
 import numpy as np
 import pytest
 from evaluated import CLASSES, Run, command, evaluate, refuse_constant, trace
-
-from tools.evaluate import curves, run_time, synthesis, weight
-from tools.evaluate.controllers import summarise, unseen
-from tools.evaluate.loading import Session, Sessions
-from tools.evaluate.report import Table, text
+from fragmotion_command.evaluate.loading import Session, Sessions
+from fragmotion_command.evaluate.measures import curves, run_time, synthesis, weight
+from fragmotion_command.evaluate.measures.controllers import summarise, unseen
+from fragmotion_command.evaluate.report import LIKENESS, Table, text
 
 pytest_plugins = ["evaluated"]
 
@@ -38,6 +37,8 @@ def test_the_json_file_is_laid_out_as_documented(run: Run) -> None:
     assert result["classes"] == CLASSES and result["build_seconds"] > 0
     assert sorted(result["train"]) == sorted(result["test"]) == sorted(core.PLAYERS)
     assert set(result["adaptability"]) == set(NAMED[:-1])
+    assert set(result["likeness"]) == {"takes", "played"}
+    assert set(result["likeness"]["played"]) == set(LIKENESS) == {*result["likeness"]["takes"], "successors"}
 
 
 @pytest.mark.thorough
@@ -100,10 +101,11 @@ def test_a_quick_run_has_the_same_figures(run: Run, takes: Path, tmp_path: Path,
     train = [saved / "train" / f"{name}.csv" for name in run.result["train"]]
     test = [saved / "test" / f"{name}.csv" for name in run.result["test"]]
     quick = evaluate(takes, tmp_path, "--quick", "--train", *train, "--test", *test).result
-    assert quick["takes"] == run.result["takes"]
+    assert quick["takes"] == run.result["takes"] and quick["likeness"] == run.result["likeness"]
     assert quick["controllers"]["anticipate"]["run_time"] == run.result["controllers"]["anticipate"]["run_time"]
     shown = capsys.readouterr().out
     assert all(key in shown for key in run_time.ALL if key not in ("speed_ripple", "acceleration_by_change"))
+    assert all(name in shown for name in LIKENESS.values())
 
 
 def without_costs(value: Any) -> Any:
@@ -149,6 +151,14 @@ def test_curves_have_a_row_for_each_point(
         assert row["velocity_error"] > 0 and row["build_seconds"] > 0
     assert (tmp_path / "classes.png").exists() and (tmp_path / "minutes.png").exists()
     assert "against the number of classes" in capsys.readouterr().out
+
+
+def test_takes_that_cannot_be_halved_are_measured_but_for_their_likeness(
+    takes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    quick = evaluate(takes / "gait_1.bvh", tmp_path, "--quick").result
+    assert "likeness" not in quick and quick["controllers"]["anticipate"]["run_time"]["velocity_error"] > 0
+    assert "likeness to the takes: not measured: that takes two halves of takes" in capsys.readouterr().err
 
 
 def test_one_session_to_learn_from_is_paired_with_all_tests() -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What `dev.py evaluate` reads: .blend files, takes and their skeletons, and bad input."""
+"""What `fragmotion evaluate` reads: takes and their skeletons, and bad input."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ import numpy as np
 import pytest
 from conftest import NAMES, walking_arrays
 from evaluated import command, write_bvh
+from fragmotion_command.evaluate import loading
+from fragmotion_command.files import find_takes
+from fragmotion_command.takes import read_take
 
-from tools.evaluate import inputs, loading
 from tools.paths import TOP
-from tools.shell import Failure
 
 pytest_plugins = ["evaluated"]
 
@@ -29,7 +30,7 @@ def test_the_sample_rigs_actions_are_takes() -> None:
     if find_spec("bpy") is None:
         pytest.skip("Blender's module bpy is not installed here")
     code = (
-        "import sys; from pathlib import Path; from tools.evaluate.loading import read_recordings as read;"
+        "import sys; from pathlib import Path; from tools.measuring.blend import read_recordings as read;"
         "r = read([Path(sys.argv[1])], 0.01); print('read:', len(r.clips), len(r.skeleton.names), r.skeleton.stature)"
     )
     command = [sys.executable, "-c", code, str(TOP / "sample_rigs" / "fragmotion_sample.blend")]
@@ -74,15 +75,14 @@ def broken_take(folder: Path) -> list[str | Path]:
 
 BAD: list[tuple[Callable[[Path], list[str | Path]], str]] = [
     (lambda folder: [folder / "nowhere"], "nowhere: there is no such file or folder"),
-    (empty_folder, "empty: no takes in this folder"),
-    (lambda folder: [TOP / "dev.py"], "dev.py: not motion capture"),
+    (empty_folder, "empty: no takes here"),
+    (lambda folder: [folder / "take.bvh", TOP / "dev.py"], "dev.py: not motion capture"),
     (broken_take, "broken.bvh:"),
     (other_skeleton, "other.bvh: its skeleton is not that of take.bvh: bone 'back'"),
     (lambda folder: [folder / "take.bvh", "--train", folder / "none.csv"], "none.csv: there is no such trace file"),
     (broken_trace, "bad.csv:3:"),
     (short_trace, "short.csv"),
     (namesakes, "2 traces are called p"),
-    (lambda folder: [folder / "take.bvh", "--classes", "0"], "--classes is 0"),
     (lambda folder: [folder / "take.bvh", "--classes", "5000"], "5000"),
     (lambda folder: [folder / "take.bvh", "--responsiveness", "1.5"], "--responsiveness is 1.5"),
     (
@@ -90,7 +90,8 @@ BAD: list[tuple[Callable[[Path], list[str | Path]], str]] = [
         "--figures draws what --quick does not",
     ),
     (lambda folder: [folder / "take.bvh", "--json", folder / "take.bvh" / "x.json"], "take.bvh: not a folder"),
-    (lambda folder: [folder / "a.blend", folder / "take.bvh"], "a.blend: a .blend has its own rig"),
+    (lambda folder: [folder / "take.bvh", "--player", "walker"], "--player is for characters, and"),
+    (lambda folder: [folder / "hero.policy", "--no-turn"], "hero.policy is a character: leave it out"),
 ]
 
 
@@ -103,20 +104,28 @@ def test_bad_input_is_one_line_and_exit_code_1(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     shutil.copy(takes / "gait_1.bvh", tmp_path / "take.bvh")
-    (tmp_path / "a.blend").write_bytes(b"BLENDER")
+    (tmp_path / "hero.policy").touch()
     assert command(*prepare(tmp_path)) == 1
-    message = capsys.readouterr().err
-    assert cause in message and message.count("\n") == 1 and message.startswith("evaluate: ")
+    message = capsys.readouterr().err.splitlines(keepends=True)[-1]
+    assert cause in message and message.count("\n") == 1 and message.startswith("fragmotion: ")
+
+
+def test_pictures_say_what_to_install(
+    takes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib", None)  # as where it is not installed
+    assert command(takes, "--figures", tmp_path / "figures") == 1
+    assert "matplotlib, which is not installed: python -m pip install matplotlib" in capsys.readouterr().err
 
 
 def test_an_amc_goes_with_its_asf(tmp_path: Path) -> None:
     for name in ("02.asf", "07.asf", "02_01.amc", "._02_01.amc"):
         (tmp_path / name).touch()
-    (found,) = inputs.find_takes([tmp_path])
-    assert found.path.name == "02_01.amc" and found.asf is not None and found.asf.name == "02.asf"
+    assert [path.name for path in find_takes([tmp_path])] == ["02_01.amc"]
+    assert core.find_asf(tmp_path / "02_01.amc") == tmp_path / "02.asf"
     (tmp_path / "09_01.amc").touch()
-    with pytest.raises(Failure, match=r"09_01\.amc: its skeleton 09\.asf is not in the folder"):
-        inputs.find_takes([tmp_path])
+    with pytest.raises(ValueError, match=r"09_01\.amc: its skeleton 09\.asf is not in the folder"):
+        read_take(tmp_path / "09_01.amc")
 
 
 def test_takes_in_a_file_are_those_that_were_written(takes: Path) -> None:

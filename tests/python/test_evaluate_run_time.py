@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The run time's figures of `dev.py evaluate`, beside the core's players and NumPy."""
+"""The run time's figures of `fragmotion evaluate`, beside the core's players and NumPy."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ import fragmotion_core as core
 import numpy as np
 import pytest
 from evaluated import SEED, Run, trace
-
-from tools.evaluate import run_time, weight
-from tools.evaluate.report import (
+from fragmotion_command.evaluate.measures import run_time, weight
+from fragmotion_command.evaluate.report import (
     acceleration_table,
     changes_table,
     following_table,
@@ -148,8 +147,8 @@ def test_what_is_followed_is_what_a_body_can_do(built: core.Character) -> None:
         exact = limited(controls, headings[:-1], limit)
         places = np.concatenate([[[0, 0]], np.cumsum(turned(exact, headings[:-1] + angle / 2) / rate, 0)])
         span, off = 2 * rate, path[:, 2] - headings
-        led = turned(places[span:] - places[:-span], off[:-span])
-        away = np.linalg.norm(path[span:, :2] - path[:-span, :2] - led, axis=1)
+        asked = turned(places[span:] - places[:-span], off[:-span])
+        away = np.linalg.norm(path[span:, :2] - path[:-span, :2] - asked, axis=1)
         assert drift == pytest.approx(away.mean() / 2, rel=1e-6)
         assert drift_heading == pytest.approx(np.abs(off[span:] - off[:-span]).mean(), rel=1e-6)
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from conftest import Bandai
 
-from tools.directing.ground import GROUNDS, ground
+from tools.measuring.directing.measures.ground import GROUNDS, ground
 
 DEEPEST, ON_STAIRS = 0.02, 0.025  # m: the goal, and with feet that come down late on a step
 SMOOTH, STEPPING = 2.5, 3.0  # times the plane's vertical acceleration of the hips: the goal on slopes; on stairs

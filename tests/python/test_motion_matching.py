@@ -10,19 +10,19 @@ import fragmotion_core as core
 import numpy as np
 import pytest
 from conftest import Array, make_skeleton
+from fragmotion_command.evaluate import rotations as q
 from sample_motions import write_sample
 from scipy.integrate import solve_ivp
 
-from tools.motion_matching import gaps, library
-from tools.motion_matching import rotations as q
-from tools.motion_matching.bodies import RATE, Body, Motion, body_of, motion_of, world
-from tools.motion_matching.constants import TUNED, Constants, load, save
-from tools.motion_matching.feet import FootLock
-from tools.motion_matching.legs import knee_hinges, set_balls
-from tools.motion_matching.matcher import Matcher, Material, material_of
-from tools.motion_matching.search import Search
-from tools.motion_matching.showing import PoseTrack, RootTrack
-from tools.motion_matching.springs import chased, faded, stiffness
+from tools.measuring.peers.kinematics.bodies import RATE, Body, Motion, body_of, motion_of, world
+from tools.measuring.peers.kinematics.legs import knee_hinges, set_balls
+from tools.measuring.peers.kinematics.springs import chased, faded, stiffness
+from tools.measuring.peers.motion_matching import gaps, library
+from tools.measuring.peers.motion_matching.constants import TUNED, Constants, load, save
+from tools.measuring.peers.motion_matching.feet import FootLock
+from tools.measuring.peers.motion_matching.matcher import Matcher, Material, material_of
+from tools.measuring.peers.motion_matching.search import Search
+from tools.measuring.peers.motion_matching.showing import PoseTrack, RootTrack
 from tools.shell import Failure
 
 WALK = 1.2  # m/s, the sample's

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from conftest import CMU, NAMES, Array, build_options, walking_arrays
 
-from tools.directing.moves import moves as measured_moves
+from tools.measuring.directing.measures.moves import moves as measured_moves
 
 LUNGE, WAVE = 0, 1
 

@@ -107,5 +107,5 @@ def test_the_command_builds_with_controls_of_its_own(tmp_path: Path, capsys: pyt
     capsys.readouterr()
     assert fragmotion_command.main(["info", str(tmp_path / "own.policy")]) == 0
     assert "directions 4, controls 39" in capsys.readouterr().out
-    assert fragmotion_command.main([*words, "--find-controls"]) == 0
+    assert fragmotion_command.main([*words, "--controls", "found"]) == 0
     assert core.Character.load(tmp_path / "own.policy").space.turns

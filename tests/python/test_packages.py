@@ -9,8 +9,11 @@ from pathlib import Path
 import pytest
 
 import dev
-from tools import environments, machine, packages, platforms, shell, stages, wheels
+from tools import platforms, shell
+from tools.packaging import packages, wheels
+from tools.setup import environments, machine
 from tools.shell import Failure
+from tools.testing import stages
 
 
 @pytest.mark.parametrize(

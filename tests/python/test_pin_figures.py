@@ -10,12 +10,12 @@ import fragmotion_core as core
 import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
-from tools.directing.pins import pins
+from tools.measuring.directing.measures.pins import pins
 
 
 @pytest.mark.thorough
 def test_figures_of_pins_are_what_was_left(character: core.Character, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("tools.directing.pins._PLAYERS", ("explorer",))
+    monkeypatch.setattr("tools.measuring.directing.measures.pins._PLAYERS", ("explorer",))
     figures, again = pins(character), pins(character)
     assert {tuple(figure) for figure in figures} == {("asked_m", "left_m", "left_degrees", "tries", "seconds")}
     for one, other in zip(figures, again, strict=True):

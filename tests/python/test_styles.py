@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from conftest import BANDAI, NAMES, build_options, small_build
 
-from tools.directing.styles import Style
-from tools.directing.styles import styles as measured_styles
+from tools.measuring.directing.measures.styles import Style
+from tools.measuring.directing.measures.styles import styles as measured_styles
 
 NORMAL, TIRED = 0, 1
 SLOWER = 0.75

@@ -8,10 +8,11 @@ from typing import Any
 
 import pytest
 
-from tools import counts, machine, stages, testing
-from tools.counts import Counts, Skip
+from tools.setup import machine
 from tools.shell import Failure
-from tools.stages import Part
+from tools.testing import counts, stages, testing
+from tools.testing.counts import Counts, Skip
+from tools.testing.stages import Part
 
 REPORT = """<testsuites><testsuite tests="5" failures="1" errors="0" skipped="2" disabled="0">
 <testcase classname="tests.python.test_mocap" name="test_reads"><skipped message="no takes here"/></testcase>

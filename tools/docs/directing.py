@@ -6,8 +6,8 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 
-from tools.directing.table import tables
 from tools.docs.filling import fill, markdown
+from tools.measuring.directing.table import tables
 from tools.paths import TOP
 
 PAGE = TOP / "docs" / "directing.md"

@@ -11,7 +11,7 @@ import fragmotion_core as core
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from tools.directing.inputs import SAMPLE
+from tools.measuring.directing.inputs import SAMPLE
 from tools.motion_pictures.actor import Actor, add_disc, filmstrip, open_blend, stage, upright, use_workbench
 from tools.motion_pictures.motions import Motion, of_performance
 from tools.motion_pictures.movements import STEPS_A_SECOND, Part, trace_of

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The places of docs/evaluation.md, from the figures of a run of `dev.py evaluate` and one of `dev.py beside`."""
+"""The places of docs/evaluation.md, from the figures of a run of `fragmotion evaluate` and one of `dev.py beside`."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ import statistics
 from collections.abc import Callable
 from typing import Any
 
-from tools.beside.table import beside_table
+from fragmotion_command.evaluate import report
+from fragmotion_command.evaluate.report import Table, number
+
 from tools.docs.filling import fill, markdown
-from tools.evaluate import report
-from tools.evaluate.report import Table, number
+from tools.measuring.beside.table import beside_table
 from tools.paths import TOP
 
 Result = dict[str, Any]

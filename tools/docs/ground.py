@@ -14,9 +14,9 @@ mpl.use("Agg")
 from matplotlib import pyplot
 from matplotlib.axes import Axes
 
-from tools.directing.ground import GROUNDS, Height, asked
-from tools.directing.inputs import SAMPLE
-from tools.evaluate.blend import read_actions
+from tools.measuring.blend import read_actions
+from tools.measuring.directing.inputs import SAMPLE
+from tools.measuring.directing.measures.ground import GROUNDS, Height, asked
 from tools.paths import TOP
 
 FOLDER = TOP / "docs" / "ground"

@@ -146,7 +146,7 @@ def pictures_of_driving() -> Iterator[None]:
     yield from crop("driving", window.view()["region"])
     yield from crop("drive", window.sidebar()["region"], fit=True)
     yield from window.send("ESC", "PRESS", *MIDDLE)
-    recording = character().fragmotion.takes[0]
+    recording = character().fragmotion.recordings[0]
     recording.name = "To the right"
     yield from panels("recordings", "Recordings")
 

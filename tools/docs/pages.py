@@ -9,11 +9,12 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
-from tools import blender, machine, packages
-from tools.compiling import installed_core
-from tools.directing.inputs import SAMPLE
-from tools.environments import BPY_PYTHON, environment_python
+from tools.measuring.directing.inputs import SAMPLE
+from tools.packaging import packages
+from tools.packaging.compiling import installed_core
 from tools.paths import BLENDER, BUILD, LOGS, TOP
+from tools.setup import blender, machine
+from tools.setup.environments import BPY_PYTHON, environment_python
 from tools.shell import Failure, run, say
 
 _DOCS = TOP / "docs"
@@ -59,7 +60,7 @@ def _motion(options: argparse.Namespace) -> None:
 
 def _directing(options: argparse.Namespace) -> None:
     folder = _DOCS / "directing"
-    _run_python("tools.directing", "--figures", str(folder), "--json", str(folder / "directing.json"))
+    _run_python("tools.measuring.directing", "--figures", str(folder), "--json", str(folder / "directing.json"))
     _run_python("tools.docs.directing")
     _run_in_window("recordings_in_window.py", folder)
 
@@ -71,8 +72,9 @@ def _ground(options: argparse.Namespace) -> None:
 def _evaluation(options: argparse.Namespace) -> None:
     if options.mocap:
         takes, folder = str(_takes(options, "bandai-namco")), _DOCS / "evaluation"
-        _run_python("tools.evaluate", takes, "--figures", str(folder), "--json", str(folder / "evaluation.json"))
-        _run_python("tools.beside", takes, "--json", str(folder / "beside.json"))
+        made = ("--figures", str(folder), "--json", str(folder / "evaluation.json"))
+        _run_python("fragmotion_command", "evaluate", takes, *made)
+        _run_python("tools.measuring.beside", takes, "--json", str(folder / "beside.json"))
     else:
         say("the page is filled from the figures of the last run; --mocap DIR measures anew")
     _run_python("tools.docs.evaluation")
@@ -100,7 +102,7 @@ def _takes(options: argparse.Namespace, name: str) -> Path:
 
 
 def _run_python(module: str, *arguments: str) -> None:
-    """Run a module of tools with the core and Blender's module."""
+    """Run a module with the core and Blender's module."""
     machine.set_up(machine.measuring_needs(BPY_PYTHON) | machine.BLENDER_45)
     core = installed_core(BPY_PYTHON, packages.wheel(BPY_PYTHON))
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(core), str(TOP)))}

@@ -107,7 +107,7 @@ def picture_of_the_panel() -> Iterator[None]:
 def picture_of_a_pin() -> Iterator[None]:
     """The character at the pin's frame, before and after."""
     obj, scene = character(), bpy.context.scene
-    recording = obj.fragmotion.takes[0]
+    recording = obj.fragmotion.recordings[0]
     pose = round(60 * AT)
     frame = window.module("edits.replaying").shown_poses(obj, recording).path[pose] + OFF
     mark = bpy.data.objects.new("Pin", None)

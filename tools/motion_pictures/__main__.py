@@ -8,14 +8,13 @@ import sys
 import time
 from pathlib import Path
 
-from tools.evaluate.blend import read_moves, read_styles
+from tools.measuring.blend import read_moves, read_styles
 from tools.motion_pictures.actor import open_blend, open_folder
 from tools.motion_pictures.motions import Feet
 from tools.motion_pictures.movements import MOVEMENTS
-from tools.motion_pictures.moves import draw_moves
 from tools.motion_pictures.rows import SEED, Cast
+from tools.motion_pictures.sequences import draw_moves, draw_styles
 from tools.motion_pictures.sheet import draw_sheet
-from tools.motion_pictures.styles import draw_styles
 from tools.motion_pictures.turntable import draw_turntable
 from tools.shell import Failure, say
 

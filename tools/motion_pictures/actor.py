@@ -14,7 +14,7 @@ import fragmotion_core as core
 import numpy as np
 from numpy.typing import NDArray
 
-from tools.evaluate.blend import addon, read_actions
+from tools.measuring.blend import addon, read_actions
 from tools.motion_pictures.motions import Motion
 from tools.paths import TOP
 

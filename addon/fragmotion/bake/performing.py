@@ -47,7 +47,7 @@ def chosen_recording(obj: bpy.types.Object, settings: Any) -> Recording | None:
     """The recording that BakeFields ask for, None where the trace is another; UserError where it is not there."""
     if settings.trace_source != "RECORDING":
         return None
-    recordings, index = obj.fragmotion.takes, settings.recording
+    recordings, index = obj.fragmotion.recordings, settings.recording
     recording = active_recording(obj) if index < 0 else recordings[index] if index < len(recordings) else None
     if recording is None:
         raise UserError(

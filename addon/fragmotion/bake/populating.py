@@ -90,7 +90,7 @@ def _bakes(obj: bpy.types.Object, settings: Any) -> Iterator[SimpleNamespace]:
     """What each copy bakes: Bake's own settings, with a trace and a seed of its own."""
     ticked = []
     if settings.traces == "RECORDINGS" and settings.layout != "PATH":
-        ticked = [index for index, recording in enumerate(obj.fragmotion.takes) if recording.train]
+        ticked = [index for index, recording in enumerate(obj.fragmotion.recordings) if recording.train]
         if not ticked:
             raise UserError(
                 f"No recording of armature '{obj.name}' is ticked: tick some under Recordings, or choose Simulated"

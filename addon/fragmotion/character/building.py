@@ -291,7 +291,7 @@ def check_skeleton(obj: bpy.types.Object, character: Character, rig: Rig) -> Non
 def player_options(obj: bpy.types.Object) -> dict[str, Any]:
     """What a player is told of how the armature is set to move."""
     feel = obj.fragmotion.feel
-    return {"responsiveness": feel.promptness, "root_adjustment": feel.pull, "lock_feet": feel.lock_feet}
+    return {"responsiveness": feel.responsiveness, "root_adjustment": feel.root_adjustment, "lock_feet": feel.lock_feet}
 
 
 def make_player(obj: bpy.types.Object, character: Character, seed: int, policy: str = "") -> Player:

@@ -16,11 +16,20 @@ _NAME = "fragmotion_core"
 
 
 def _load() -> ModuleType:
-    bundled = util.find_spec(f".{_NAME}", ADDON) is not None
     try:
-        return import_module(f".{_NAME}", ADDON) if bundled else import_module(_NAME)
+        return import_module(f".{_NAME}", ADDON) if _is_bundled() else import_module(_NAME)
     except ImportError as error:
         raise CoreMissing(explain(error, Path(__file__).parents[1])) from error
 
 
+def _is_bundled() -> bool:
+    return util.find_spec(f".{_NAME}", ADDON) is not None
+
+
 core = _load()
+
+
+def command(name: str) -> ModuleType:
+    """A module of the command that comes with the core."""
+    path = f"fragmotion_command.{name}"
+    return import_module(f".{path}", ADDON) if _is_bundled() else import_module(path)

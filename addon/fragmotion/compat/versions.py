@@ -153,12 +153,12 @@ def draw_named(layout: bpy.types.UILayout, data: Any, name: str, placeholder: st
         layout.prop(data, name)
 
 
-def draw_progress(layout: bpy.types.UILayout, fraction: float, text: str, percentage: bool = True) -> None:
-    """A progress bar; its text, with a percentage unless the text says how far it is, before 4.0, which had no bar."""
+def draw_progress(layout: bpy.types.UILayout, fraction: float, text: str) -> None:
+    """A progress bar; its text with a percentage before 4.0, which had no bar."""
     if hasattr(layout, "progress"):
         layout.progress(factor=fraction, text=text)
     else:
-        layout.label(text=f"{text}: {100 * fraction:.0f} %" if percentage else text, icon="SORTTIME")
+        layout.label(text=f"{text}: {100 * fraction:.0f} %", icon="SORTTIME")
 
 
 def draw_deflection(layout: bpy.types.UILayout, value: float) -> None:
@@ -196,3 +196,8 @@ def _slot_for(action: bpy.types.Action, obj: bpy.types.Object) -> Any:
     slots = [slot for slot in action.slots if slot.target_id_type in {"OBJECT", "UNSPECIFIED"}]
     sizes = {bag.slot_handle: len(bag.fcurves) for bag in _bags(action)}
     return max(slots, key=lambda slot: (slot.name_display == obj.name, sizes.get(slot.handle, 0)), default=None)
+
+
+def kept_properties(data: bpy.types.ID) -> Any:
+    """What Blender keeps of the properties that add-ons register, by their names."""
+    return data.bl_system_properties_get() if hasattr(data, "bl_system_properties_get") else data

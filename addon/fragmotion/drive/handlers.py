@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What ends a drive beside its user, and what heals files and undo steps that were made in the middle of one."""
+"""What ends a drive or a preview beside its user, and what heals files and undo steps that were made in the middle of
+one."""
 
 from __future__ import annotations
 
@@ -8,26 +9,30 @@ from typing import Any
 import bpy
 from bpy.app.handlers import persistent
 
+from ..preview import previews, suspended_state
 from ..recordings.recordings import add_recording
 from . import session
-from .state import suspended_state
 
 _recordings: list[tuple[str, dict[str, Any]]] = []  # with their armatures' names, on their way across an undo or a redo
 
 
 def _end(*_arguments: Any) -> None:
-    """Another file comes: what is driven goes."""
+    """Another file comes: what is driven or shown goes."""
+    previews.stop()
     session.stop(push=False)
 
 
 def _end_before_undo(*_arguments: Any) -> None:
-    """Undo ends the drive. What it records is not lost, and a step of its own keeps what was done before the drive."""
+    """Undo ends what is shown, and the drive. What that records is not lost, and a step of its own keeps what was done
+    before it."""
+    previews.stop()
     if _carry_recording():
         bpy.ops.ed.undo_push(message="Drive")
 
 
 def _end_before_redo(*_arguments: Any) -> None:
-    """Redo ends the drive. What it records is not lost; a step now would be in the way of those to be redone."""
+    """Redo ends both, too. What the drive records is not lost; a step now would be in the way of those to be redone."""
+    previews.stop()
     _carry_recording()
 
 
@@ -62,7 +67,8 @@ def _heal(*_arguments: Any) -> None:
 
 
 def _give_back(*_arguments: Any) -> None:
-    """The file is saved with the armature as it was; the next update goes on."""
+    """The file is saved with the armature as it was; the drive's next update goes on."""
+    previews.stop()
     if session.current is not None:
         session.current.give_back()
 
@@ -85,6 +91,8 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Listen no more."""
+    """Listen no more, and end what is under way."""
+    previews.stop()
+    session.stop()
     for name, handler in _HANDLERS.items():
         getattr(bpy.app.handlers, name).remove(handler)

@@ -15,9 +15,12 @@ from ..character import classes
 from ..character.building import has_character, load
 from ..character.moves import bring_up_to_date, check_keys, names_of, triggers_of
 from ..compat.data_blocks import is_alive
-from ..edits.replaying import play_again
+from ..edits.replaying import play_again, shown_poses
 from ..errors import UserError
 from ..ground.meshes import find_ground
+from ..input.inputs import Inputs
+from ..input.steering import Control, Steering, view_heading
+from ..preview.posed_armature import PosedArmature
 from ..recordings.curves import renew_curves
 from ..recordings.recordings import (
     POSE_RATE,
@@ -39,13 +42,12 @@ from .follow import FollowCamera
 from .hud import overlays, views
 from .hud.readings import Readings
 from .hud.shown import LONGEST_UPDATE, Shown
-from .input.inputs import Inputs
-from .input.steering import Control, Steering, view_heading
-from .state import suspended_state
-from .state.scene_state import SceneState
+from .scene_state import SceneState
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
+
+    from ..rig.motion import Motion
 
 RATE = POSE_RATE
 """Steps a second. All are equally long, so that a recorded trace shows the same motion when it is replayed."""
@@ -57,8 +59,6 @@ _SMOOTH = 0.05  # share of the newest in a running mean
 current: Session | None = None
 """The drive that is under way; the panel shows it."""
 
-_timers: list[bpy.types.Timer] = []  # each wakes a modal operator
-
 
 class Session:
     """An armature is driven from construction until `close`. UserError where it cannot be; then nothing has changed."""
@@ -68,13 +68,12 @@ class Session:
         keys = preferences.get(context)
         check_keys(obj, {key: action for action, key in keys.keys().items()})
         bring_up_to_date(context, obj)
-        self.obj, self._name = obj, str(obj.name)
+        self.obj = obj
         self.seed = self.settings.seed if seed < 0 else seed
         ground = find_ground(context, obj)
         self.actor = Actor(context, obj, self.seed, policy, ground)
         self.ground = ground if self.actor.character is not None else None
         """What it stands on; None: the plane."""
-        self._data, self._bones = obj.data, len(obj.pose.bones)
         self.views, self._follow = views.Views(context.area), FollowCamera()
         self._state = SceneState(context, obj)
         self.styling = Styling(self.actor)
@@ -98,18 +97,15 @@ class Session:
         if ground is not None and ground.remark:
             self.inputs.messages.append(ground.remark)
         try:
-            suspended_state.put_aside(obj)
+            self._armature = PosedArmature(obj, self.actor.rig)
         except BaseException:
             self.inputs.close()
-            self.give_back()
             raise
 
     @property
     def armature(self) -> str:
         """The armature object's name; where it was deleted, the last one."""
-        if is_alive(self.obj):
-            self._name = str(self.obj.name)
-        return self._name
+        return self._armature.name
 
     @property
     def scene(self) -> bpy.types.Scene:
@@ -134,8 +130,6 @@ class Session:
     def update(self, seconds: float) -> None:
         """Go on by the time since the last update: read the inputs, step, and pose the armature."""
         begin = time.perf_counter()
-        if suspended_state.NOTE not in self.obj:  # given back for a save
-            suspended_state.put_aside(self.obj)
         if self.inputs.poll():
             self.toggle_recording()
         self.styling.step_by(self.inputs.style_step())
@@ -146,7 +140,7 @@ class Session:
             pose = self._step()
         if pose is None:
             return
-        self.actor.show(*pose)
+        self._armature.pose(*pose)
         self._tell_missed()
         self._follow_actor(due / RATE)
         self.cost = _running(self.cost, time.perf_counter() - begin)
@@ -258,10 +252,12 @@ class Session:
         self.actor.begin(start, styled.begin)
         self.styling.reset(styled.begin)
 
-    def play_over(self, punch: Punch, start: tuple[float, float, float], styled: Styled) -> None:
-        """Let a recording drive from the character frame and the style in which it begins, from shortly before the
-        stretch on which the stick takes over."""
+    def play_over(self, punch: Punch, start: tuple[float, float, float], styled: Styled, shown: Motion | None) -> None:
+        """Let a recording, of which these poses are `shown`, drive from the character frame and the style in which it
+        begins, from shortly before the stretch on which the stick takes over."""
         self._begin(start, styled)
+        if shown is not None:
+            self.actor.join_on(shown, punch.first)
         self.punch = punch
         for _ in range(max(punch.first * RATE // TRACE_RATE - _LEAD * RATE, 0)):
             self._ask_beside(set())
@@ -273,7 +269,7 @@ class Session:
         """Give the recording what was recorded over it, once; whether there was anything. It goes on playing where it
         was recorded as it is."""
         punch, self.punch = self.punch, None
-        recording = self.obj.fragmotion.takes.get(punch.own.name) if punch is not None else None
+        recording = self.obj.fragmotion.recordings.get(punch.own.name) if punch is not None else None
         if punch is None or recording is None or not punch.begun:
             return False
         try:
@@ -345,15 +341,7 @@ class Session:
 
     def trouble(self) -> str:
         """Why the drive cannot go on, empty where it can."""
-        if not is_alive(self.obj):
-            return f"Armature '{self.armature}' was deleted"
-        if self.obj.data != self._data:
-            return f"Armature '{self.armature}' was given other armature data"
-        if self.obj.mode not in {"OBJECT", "POSE"}:
-            return f"Armature '{self.armature}' is being edited"
-        if len(self.obj.pose.bones) != self._bones:
-            return f"Bones of armature '{self.armature}' were added or deleted"
-        return self._state.trouble()
+        return self._armature.trouble() or self._state.trouble()
 
     def shown(self) -> Shown | None:
         """What is drawn of it now; None where it cannot go on."""
@@ -379,8 +367,7 @@ class Session:
 
     def give_back(self) -> None:
         """Let the armature have its own pose and animation until the next update: the file is saved."""
-        if is_alive(self.obj) and suspended_state.NOTE in self.obj:
-            suspended_state.give_back(self.obj, self._state.layer)
+        self._armature.give_back(self._state.layer)
 
     def close(self) -> bool:
         """Let go of the inputs and give everything back; whether a recording was kept that no undo step holds yet.
@@ -451,27 +438,18 @@ def record_over(
         )
     known = load(obj).policies if has_character(obj) else []
     chosen = recording.policy if recording.policy in known else ""
+    shown = shown_poses(obj, recording)
+    if shown is not None and len(shown.classes) <= first * RATE // TRACE_RATE:
+        raise UserError(
+            f"Recording '{recording.name}' shows nothing from {begin:.1f} s on: move the playhead before it"
+        )
     with _opened(context, obj, recording.seed, chosen) as driven:
         character, asked = driven.actor.character, asked_of(recording)
         styled = numbered_styles(recording, driven.styling.names)
         own = Own(recording.name, trace, asked, numbered_moves(recording, names_of(character)), styled)
         taken = Taken(character, style_before(styled, first), RATE)
-        driven.play_over(Punch(own, first, last, RATE, taken), start_frame, styled)
+        driven.play_over(Punch(own, first, last, RATE, taken), start_frame, styled, shown)
         return driven
-
-
-def wake(window: bpy.types.Window, seconds: float) -> bpy.types.Timer:
-    """Send the window's modal operators a timer event that often, until `rest`."""
-    timer = bpy.context.window_manager.event_timer_add(seconds, window=window)
-    _timers.append(timer)
-    return timer
-
-
-def rest(timer: bpy.types.Timer | None) -> None:
-    """Send no more of them."""
-    if timer in _timers:
-        _timers.remove(timer)
-        bpy.context.window_manager.event_timer_remove(timer)
 
 
 def stop(push: bool = True) -> None:
@@ -492,10 +470,3 @@ def stop(push: bool = True) -> None:
         bpy.ops.ed.undo_push(message="Record")
     views.tag_redraw()
     views.tag_redraw("UI")
-
-
-def unregister() -> None:
-    """End the drive, and let nothing of it stay with Blender, which drops its operators."""
-    stop()
-    for timer in list(_timers):
-        rest(timer)

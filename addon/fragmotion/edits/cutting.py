@@ -76,7 +76,7 @@ def _glue(
         seam, both = Seam(*asked, None), None
     else:
         seam = _find_seam(obj, shown, shown_next, seams)
-        both = joined(load(obj), shown, seam.end, shown_next, seam.beginning)
+        both = joined(load(obj), shown, seam.end * STEPS, shown_next, seam.beginning * STEPS)
     glued = np.concatenate((trace[: seam.end], following[seam.beginning :]))
     rest = asked_between(other, seam.beginning, len(following))
     set_asked(recording, joined_asked(asked_between(recording, 0, seam.end), seam.end, rest))

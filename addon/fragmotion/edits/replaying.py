@@ -94,15 +94,14 @@ def keep(obj: bpy.types.Object, recording: Any, trace: Doubles, shown: Motion | 
 
 def from_then_on(character: Character, shown: Motion, again: Motion, first: int) -> Motion:
     """What was shown until control `first`, to the bit, and then another motion of the same time."""
-    return joined(character, shown, first, again, first)
+    return joined(character, shown, first * STEPS, again, first * STEPS)
 
 
 def joined(character: Character, first: Motion, end: int, second: Motion, beginning: int) -> Motion:
-    """The first motion to the bit until its control `end`, and then the second from its control `beginning` on."""
-    last, begin = end * STEPS, beginning * STEPS
+    """The first motion to the bit until its pose `end`, and then the second from its pose `beginning` on."""
     with core_errors("Joining"):
-        both = core.join(character.skeleton, as_shown(first), last, as_shown(second), begin)
-    return as_motion(both, np.concatenate((first.classes[: last + 1], second.classes[begin + 1 :])))
+        both = core.join(character.skeleton, as_shown(first), end, as_shown(second), beginning)
+    return as_motion(both, np.concatenate((first.classes[: end + 1], second.classes[beginning + 1 :])))
 
 
 def as_shown(motion: Motion) -> CoreMotion:

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..compat.core import core
+from ..jobs import Job, Report
 
 if TYPE_CHECKING:
     from fragmotion_core import Examination, Finding, Take
@@ -18,6 +19,7 @@ DUPLICATE = "duplicate"
 """The code of a finding that is mended by leaving the take out."""
 
 _UNIT = "unit"  # a finding's code
+_WAIT = 0.1  # s
 
 
 class TakeFinding(bpy.types.PropertyGroup):
@@ -50,16 +52,34 @@ class Examined(NamedTuple):
     found: list[Found]
 
 
-def examine(takes: Sequence[Take], mends: bool, keep_unit: Sequence[bool]) -> list[Examined]:
-    """Examine takes, and with `mends` put right what is safe to; `keep_unit`: whose lengths stay as they were read."""
-    seen = core.examine(list(takes))
-    return [_treat(take, each, mends, keeps) for take, each, keeps in zip(takes, seen, keep_unit)]
+def examine(
+    takes: Sequence[Take], mends: bool, keep_unit: Sequence[bool], begin: float = 0, end: float = 1
+) -> Generator[float, None, list[Examined]]:
+    """Examine takes, and with `mends` put right what is safe to; `keep_unit`: whose lengths stay as they were read.
+    Gives the share that is done, from `begin` to `end`; where it is closed before, the core stops, too."""
+
+    def task(report: Report) -> list[Examined]:
+        seen = core.examine(list(takes), progress=report)
+        return [_treat(take, each, mends, keeps, report) for take, each, keeps in zip(takes, seen, keep_unit)]
+
+    job = Job("Examining", task)
+    job.start()
+    try:
+        while job.running:
+            job.wait(_WAIT)
+            yield begin + (end - begin) * job.fraction
+    except GeneratorExit:
+        job.cancel()
+        job.wait()
+        raise
+    examined: list[Examined] = job.result()
+    return examined
 
 
-def _treat(take: Take, seen: Examination, mends: bool, keep_unit: bool) -> Examined:
+def _treat(take: Take, seen: Examination, mends: bool, keep_unit: bool, report: Report) -> Examined:
     findings = seen.findings
     chosen = [f for f in findings if mends and f.safe and not (keep_unit and f.code == _UNIT)]
-    mended = core.mend(take, chosen) if chosen else take
+    mended = core.mend(take, chosen, progress=lambda _fraction, stage: report(1, stage)) if chosen else take
     return Examined(mended, [Found(f, f in chosen) for f in findings])
 
 

@@ -38,7 +38,7 @@ _LONGEST_NAME = 63  # bytes
 _STILL = 1e-6  # m; a location that stays below never leaves its rest
 _BVH = ".bvh"
 _UNIT = 0.01  # m in one unit of a BVH file, until the body tells otherwise
-_READING = 0.5  # share of the progress that reading takes
+_STAGE = 1 / 3  # of the progress: reading, examining, writing
 
 
 class Imported(NamedTuple):
@@ -76,7 +76,7 @@ def import_takes(
     takes = [take for each in read for take in each.takes]
     kept = [each.is_kept for each in read for _ in each.takes]
     paths = [each.path for each in read for _ in each.takes]
-    examined = examine(takes, mends, kept)
+    examined = yield from examine(takes, mends, kept, _STAGE, 2 * _STAGE)
     takes = [each.take for each in examined]
     with _undone_on_error(context):
         obj = onto or make_armature(context, name, takes[0].skeleton)
@@ -89,7 +89,7 @@ def import_takes(
             keep_findings(actions[-1], each.found)
             times = key_times(actions[-1], len(rotations))
             write_poses(actions[-1], obj, times, locations, rotations, moving)
-            yield _READING + (1 - _READING) * index / len(examined)
+            yield _STAGE * (2 + index / len(examined))
         versions.assign(obj, actions[0])
         context.view_layer.update()
     return Imported(obj, actions, paths, without)
@@ -101,7 +101,7 @@ def _read_all(
     """Each file's takes, and the files of a folder in which nothing moves."""
     read, without = [], []
     for index, file in enumerate(files):
-        yield _READING * index / len(files)
+        yield _STAGE * index / len(files)
         takes = _read_or_none(context, file, unit or _UNIT, character, is_needed=file.named or len(files) == 1)
         if takes is None:
             without.append(file.path)

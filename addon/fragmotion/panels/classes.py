@@ -12,9 +12,9 @@ from ..character.control_layout import ControlLayout, kept_layout
 from ..errors import UserError
 from ..operators.base import background
 from ..operators.base.context import active_armature
-from ..operators.character import solo_class
+from ..preview.class_preview import ClassPreview
 from ..settings.drawing import draw_shown_style, draw_wrapped
-from .sidebar import SubPanel
+from .sidebar import SubPanel, draw_play
 
 _ROWS = 7
 _WIDE = 260  # pixels of a sidebar that has room for more than a name beside it
@@ -93,10 +93,7 @@ class FRAGMOTION_PT_classes(_ClassPanel, bpy.types.Panel):
         if settings.active_class < len(rows):
             _draw_class(layout, context, settings.active_class, rows[settings.active_class])
         row = layout.row(align=True)
-        if solo_class.current is not None:
-            row.label(text="Esc stops", icon="PLAY")
-        else:
-            row.operator("fragmotion.solo_class", text="Preview", icon="PLAY")
+        draw_play(row, "fragmotion.solo_class", "Preview", ClassPreview)
         row.operator("fragmotion.force_class", icon="FORWARD").number = -1
 
 

@@ -9,7 +9,7 @@ import bpy
 
 from ..compat import versions
 from ..drive import session
-from ..drive.input.pads import PadState
+from ..input.pads import PadState
 from ..operators.base.context import active_armature
 from ..operators.directing import drive as drive_operator
 from ..settings.drawing import aligned, draw_trace, draw_wrapped
@@ -132,7 +132,7 @@ class FRAGMOTION_PT_drive_feel(_OptionsPanel, bpy.types.Panel):
         settings = _armature(context).fragmotion.feel
         column = self.layout.column()
         column.active = session.current is None
-        for name in ("promptness", "pull", "lock_feet"):
+        for name in ("responsiveness", "root_adjustment", "lock_feet"):
             column.prop(settings, name)
 
 
@@ -157,7 +157,7 @@ def _draw_input(layout: bpy.types.UILayout, context: bpy.types.Context, driven: 
     """What drives, and how far it is where it has an end."""
     trace = driven.inputs.trace
     if trace.playing:
-        versions.draw_progress(layout, trace.elapsed / trace.seconds, driven.playing, percentage=False)
+        versions.draw_progress(layout, trace.elapsed / trace.seconds, driven.playing)
     else:
         draw_wrapped(layout.column(align=True), context, f"Input: {driven.inputs.label or 'none yet'}")
 

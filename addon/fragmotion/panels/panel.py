@@ -14,15 +14,16 @@ from ..character.coverage_picture import draw_pictures
 from ..character.staleness import is_stale
 from ..compat import versions
 from ..control_rig.binding import own_armatures
-from ..drive import take_shown
 from ..jobs import SteppedJob
 from ..mocap.actions import chosen, fits_cached, fitting, is_found, seconds_of
 from ..mocap.doctor import worst
 from ..operators.base import background
 from ..operators.base.context import active_armature
+from ..preview.take_preview import TakePreview
 from ..settings.drawing import (
     draw_bake,
     draw_build,
+    draw_build_advanced,
     draw_coverage,
     draw_figures,
     draw_keeping,
@@ -33,7 +34,7 @@ from ..settings.drawing import (
 )
 from . import bones, classes, control_rig, doctor, drive, left_out, moves, path, recordings
 from .doctor import LIGHTS
-from .sidebar import Sidebar, SubPanel, draw_fold, is_folded
+from .sidebar import Sidebar, SubPanel, draw_fold, draw_play, is_folded
 
 _FEWEST_ROWS, _MOST_ROWS = 5, 12  # of the list, unless the user draws it larger
 _NAME = 0.76  # of a row's width
@@ -144,9 +145,7 @@ def _draw_takes(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy
         "FRAGMOTION_UL_actions", "", bpy.data, "actions", settings, "active_action", rows=rows, maxrows=rows
     )
     row = layout.row(align=True)
-    playing = take_shown.current is not None
-    text, icon = ("Stop", "SNAP_FACE") if playing else ("Play", "PLAY")
-    row.operator("fragmotion.play_take", text=text, icon=icon, depress=playing)
+    draw_play(row, "fragmotion.play_take", "Play", TakePreview)
     for text, use in (("All", True), ("None", False)):
         tick = row.operator("fragmotion.tick_actions", text=text)
         tick.use, tick.search = use, settings.take_search
@@ -230,13 +229,23 @@ class FRAGMOTION_PT_coverage(_BuildSubPanel, bpy.types.Panel):
 
 
 class FRAGMOTION_PT_training(_BuildSubPanel, bpy.types.Panel):
-    """What the policy learns from, and how."""
+    """What the policy learns to perform, and from whom."""
 
     bl_idname = "FRAGMOTION_PT_training"
     bl_label = "Training"
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_training(self.layout, active_armature(context).fragmotion.build)
+
+
+class FRAGMOTION_PT_build_advanced(_BuildSubPanel, bpy.types.Panel):
+    """What hardly anybody need change: the policy, where takes are cut, and the seed."""
+
+    bl_idname = "FRAGMOTION_PT_build_advanced"
+    bl_label = "Advanced"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_build_advanced(self.layout, active_armature(context).fragmotion.build)
 
 
 class FRAGMOTION_PT_policy(_BuildSubPanel, bpy.types.Panel):
@@ -281,6 +290,7 @@ CLASSES = (
     *classes.CLASS_PANELS,
     FRAGMOTION_PT_coverage,
     FRAGMOTION_PT_policy,
+    FRAGMOTION_PT_build_advanced,
     *drive.CLASSES,
     *moves.CLASSES,
     *path.CLASSES,

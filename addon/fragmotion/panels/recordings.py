@@ -52,7 +52,9 @@ class FRAGMOTION_PT_recordings(Sidebar, bpy.types.Panel):
             return
         settings = obj.fragmotion
         row = layout.row()
-        row.template_list("FRAGMOTION_UL_recordings", "", settings, "takes", settings, "active_take", rows=_ROWS)
+        row.template_list(
+            "FRAGMOTION_UL_recordings", "", settings, "recordings", settings, "active_recording", rows=_ROWS
+        )
         _draw_buttons(row.column(align=True))
         recording = active_recording(obj)
         if recording is None:
@@ -85,7 +87,7 @@ class FRAGMOTION_PT_change(SubPanel, bpy.types.Panel):
         column = aligned(layout)
         column.prop(settings.drive, "over_seconds", text="For")
         over = layout.operator("fragmotion.drive", text="Record Over", icon="REC")
-        over.source, over.recording = "OVER", settings.active_take
+        over.source, over.recording = "OVER", settings.active_recording
         column = aligned(layout)
         column.prop(settings, "pin_at", text="At")
         column.prop(settings.pin, "stretch")
@@ -138,7 +140,7 @@ def _draw_figures(layout: bpy.types.UILayout, recording: Any) -> None:
 
 
 def _draw_uses(layout: bpy.types.UILayout, settings: Any) -> None:
-    drive, index = settings.drive, settings.active_take
+    drive, index = settings.drive, settings.active_recording
     column = aligned(layout)
     column.prop(drive, "replay", text="Replay")
     if drive.replay != "RECORDED":

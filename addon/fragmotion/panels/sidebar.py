@@ -9,6 +9,7 @@ import bpy
 
 from ..character.building import has_character
 from ..operators.base.context import active_armature
+from ..preview import previews
 
 
 class Sidebar:
@@ -35,6 +36,13 @@ def draw_fold(layout: bpy.types.UILayout, context: bpy.types.Context, name: str,
     row = layout.row()
     row.alignment = "LEFT"
     row.prop(context.window_manager.fragmotion, f"show_{name}", text=text, icon=icon, emboss=False)
+
+
+def draw_play(layout: bpy.types.UILayout, operator: str, text: str, kind: type[previews.Preview]) -> None:
+    """The button that begins such a preview, and stops it."""
+    playing = isinstance(previews.current, kind)
+    text, icon = ("Stop", "SNAP_FACE") if playing else (text, "PLAY")
+    layout.operator(operator, text=text, icon=icon, depress=playing)
 
 
 class SubPanel(Sidebar):

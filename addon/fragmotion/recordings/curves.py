@@ -58,7 +58,7 @@ def show_curves(scene: bpy.types.Scene, obj: bpy.types.Object, recording: Record
     """Make the empty and its curves, whose first key is on scene frame `first`; what another one holds is lost."""
     trace = trace_of(recording)
     remove_curves(obj, recording)
-    number = 1 + max(each.curves_number for each in obj.fragmotion.takes)
+    number = 1 + max(each.curves_number for each in obj.fragmotion.recordings)
     name = f"{recording.name} Curves"
     empty = bpy.data.objects.new(name, None)
     empty.parent, empty.empty_display_type, empty.empty_display_size = obj, "SINGLE_ARROW", 0.3

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Recordings: joystick sessions kept in the .blend with the armature object that they drove, as `obj.fragmotion.takes`.
+"""Recordings: joystick sessions kept in the .blend with the armature object that they drove.
 
 A recording holds all that its replay needs: the trace, the seed, the policy and where the character stood. It may also
 hold what was shown meanwhile, which a bake then writes as it was seen.
@@ -128,8 +128,8 @@ def add_recording(
     """
     data = _packed(trace)
     settings = obj.fragmotion
-    name = unique_name(name or "Recording", [recording.name for recording in settings.takes])
-    recording: Recording = settings.takes.add()
+    name = unique_name(name or "Recording", [recording.name for recording in settings.recordings])
+    recording: Recording = settings.recordings.add()
     recording.name, recording.seed, recording.policy = name, seed, policy
     recording.start, recording.quality = start, quality
     recording.date = datetime.now().strftime("%Y-%m-%d %H:%M")
@@ -138,7 +138,7 @@ def add_recording(
     set_styles(recording, style, styles)
     if shown is not None:
         set_shown(recording, *shown)
-    settings.active_take = len(settings.takes) - 1
+    settings.active_recording = len(settings.recordings) - 1
     return recording
 
 
@@ -233,13 +233,13 @@ def set_trace(recording: Recording, trace: Doubles) -> None:
 
 def duplicate_recording(obj: bpy.types.Object, index: int) -> Recording:
     """A copy of a recording after it in the list, selected."""
-    recordings = obj.fragmotion.takes
+    recordings = obj.fragmotion.recordings
     copy = recordings.add()
     for key in _FIELDS:
         setattr(copy, key, getattr(recordings[index], key))
     copy.name = unique_name(copy.name, [recording.name for recording in recordings[:-1]])
     recordings.move(len(recordings) - 1, index + 1)
-    obj.fragmotion.active_take = index + 1
+    obj.fragmotion.active_recording = index + 1
     moved: Recording = recordings[index + 1]
     return moved
 
@@ -247,8 +247,8 @@ def duplicate_recording(obj: bpy.types.Object, index: int) -> Recording:
 def remove_recording(obj: bpy.types.Object, index: int) -> None:
     """Delete a recording, and select the one that comes into its place, or the last."""
     settings = obj.fragmotion
-    settings.takes.remove(index)
-    settings.active_take = max(min(index, len(settings.takes) - 1), 0)
+    settings.recordings.remove(index)
+    settings.active_recording = max(min(index, len(settings.recordings) - 1), 0)
 
 
 def trim_recording(recording: Recording, start: float, end: float) -> None:
@@ -273,12 +273,12 @@ def trim_recording(recording: Recording, start: float, end: float) -> None:
 
 def trained_on(obj: bpy.types.Object) -> list[Recording]:
     """The armature's recordings that are ticked to be learned from, in the list's order."""
-    return [recording for recording in obj.fragmotion.takes if recording.train]
+    return [recording for recording in obj.fragmotion.recordings if recording.train]
 
 
 def active_recording(obj: bpy.types.Object) -> Recording | None:
     """The recording that is selected in the list, if any."""
-    recordings, index = obj.fragmotion.takes, obj.fragmotion.active_take
+    recordings, index = obj.fragmotion.recordings, obj.fragmotion.active_recording
     return recordings[index] if 0 <= index < len(recordings) else None
 
 

@@ -36,7 +36,7 @@ def make_traces(obj: bpy.types.Object, settings: Any, space: ControlSpace) -> li
     return [trace_of(recording) for recording in ticked]
 
 
-def make_trace(settings: Any, space: ControlSpace | None = None) -> Doubles:
+def make_trace(settings: Any, space: ControlSpace) -> Doubles:
     """The trace [T,4] of settings that have TraceFields, player, seconds and seed."""
     if settings.trace_source == "PLAYER":
         with core_errors("Simulated player"):

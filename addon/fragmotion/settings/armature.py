@@ -136,14 +136,14 @@ def _may_be_ground(_settings: GroundSettings, obj: bpy.types.Object) -> bool:
 class FeelSettings(bpy.types.PropertyGroup):
     """How the character moves when it is driven and baked, whatever its policy."""
 
-    # PlayerOptions' responsiveness and root_adjustment, under the names that saved files have.
-    promptness: factor_field(  # type: ignore[valid-type]
+    # The core's PlayerOptions.
+    responsiveness: factor_field(  # type: ignore[valid-type]
         "Responsiveness",
         "How soon the character follows the stick: in the middle it speeds up and brakes as a body does, by nearly 5 "
         "metres a second in a second; at 0 half as fast; at 1 at once, as if it weighed nothing, and feet may slide",
         0.5,
     )
-    pull: factor_field(  # type: ignore[valid-type]
+    root_adjustment: factor_field(  # type: ignore[valid-type]
         "Root Adjustment",
         "How much the body does of what the stick says beyond what its takes do: at 0 it moves as the actor did, "
         "at 1 it goes up to three fifths faster, slower or aside, and turns as the stick says",
@@ -251,7 +251,7 @@ class BuildFigures(_Coverage, bpy.types.PropertyGroup):
 
 def _bake_selected(settings: CharacterSettings, _context: bpy.types.Context) -> None:
     """What was selected last is what is baked."""
-    if settings.takes:
+    if settings.recordings:
         settings.bake.trace_source = "RECORDING"
 
 
@@ -295,9 +295,8 @@ class CharacterSettings(bpy.types.PropertyGroup):
         name="Policy File", description="Where the policy is kept; // is the folder of the .blend"
     )
     policy_digest: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
-    # The recordings, under the names that saved files have.
-    takes: CollectionProperty(type=Recording)  # type: ignore[valid-type]
-    active_take: IntProperty(  # type: ignore[valid-type]
+    recordings: CollectionProperty(type=Recording)  # type: ignore[valid-type]
+    active_recording: IntProperty(  # type: ignore[valid-type]
         name="Recording", description="The recording that is selected in the list", update=_bake_selected
     )
     moves: CollectionProperty(type=MoveRow)  # type: ignore[valid-type]

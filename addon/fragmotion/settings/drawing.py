@@ -33,13 +33,17 @@ def draw_build(layout: bpy.types.UILayout, settings: BuildFields) -> None:
 
 
 def draw_training(layout: bpy.types.UILayout, settings: BuildFields) -> None:
-    """The other fields of a build."""
+    """What a build learns to perform, and from whom."""
     layout = aligned(layout)
-    layout.prop(settings, "cut")
     _draw_controls(layout, settings)
-    layout.prop(settings, "policy")
     draw_trace(layout, settings, "Learn from")
-    layout.prop(settings, "seed")
+
+
+def draw_build_advanced(layout: bpy.types.UILayout, settings: BuildFields) -> None:
+    """The fields of a build that hardly anybody need change."""
+    layout = aligned(layout)
+    for name in ("policy", "cut", "seed"):
+        layout.prop(settings, name)
 
 
 def _draw_controls(layout: bpy.types.UILayout, settings: BuildFields) -> None:
@@ -78,7 +82,7 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.O
 
 def _draw_recording(layout: bpy.types.UILayout, obj: bpy.types.Object, settings: BakeFields) -> None:
     """The name of the recording that is baked."""
-    recordings, index = obj.fragmotion.takes, settings.recording
+    recordings, index = obj.fragmotion.recordings, settings.recording
     recording = active_recording(obj) if index < 0 else recordings[index] if index < len(recordings) else None
     if recording is not None:
         layout.label(text=recording.name, icon="REC", translate=False)

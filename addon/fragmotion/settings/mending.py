@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a damaged or forged file says of our properties is put back within their bounds when it is opened.
+"""What a file of an earlier version says of our properties gets its name of today when it is opened, and what a damaged
+or forged one says is put back within their bounds.
 
 Blender checks a value against its property's bounds when it is set, but not when it is read from a file.
 """
@@ -12,6 +13,8 @@ from typing import Any
 import bpy
 import numpy as np
 from bpy.app.handlers import persistent
+
+from .former_names import rename
 
 _LONGEST = 1 << 12  # characters of a text that is drawn: Blender's own names have 63 and its paths 1023
 _EVENTS = ("load_post", "blend_import_post")  # the latter, of Append and Link, from 4.3
@@ -40,6 +43,8 @@ def _handlers() -> Iterator[Any]:
 
 @persistent  # type: ignore[untyped-decorator]
 def _mend_file(*_: object) -> None:
+    for obj in bpy.data.objects:
+        rename(obj)
     for kind in (bpy.data.objects, bpy.data.actions, bpy.data.window_managers):
         for data in kind:
             count = mend(data.fragmotion) if data.library is None and data.is_property_set("fragmotion") else 0
@@ -48,9 +53,8 @@ def _mend_file(*_: object) -> None:
 
 
 def _mend_property(group: Any, prop: Any) -> int:
-    if prop.type == "POINTER":
-        value = getattr(group, prop.identifier)
-        return mend(value) if isinstance(value, bpy.types.PropertyGroup) else 0
+    if prop.type == "POINTER" and not _is_to_data(prop):
+        return mend(getattr(group, prop.identifier))
     if prop.type == "COLLECTION":
         return _mend_entries(getattr(group, prop.identifier))
     if _is_computed(prop) or _is_sound(group, prop):
@@ -68,7 +72,7 @@ def _mend_entries(entries: Any) -> int:
 
 def _are_sound(entries: Any, prop: Any) -> bool:
     if prop.type == "POINTER":
-        return issubclass(getattr(bpy.types, prop.fixed_type.identifier, object), bpy.types.ID)
+        return _is_to_data(prop) and all(_is_sound(each, prop) for each in entries)
     if prop.type == "COLLECTION":
         return not any(len(getattr(each, prop.identifier)) for each in entries)
     if _is_computed(prop) or prop.type == "BOOLEAN" or prop.subtype == "BYTE_STRING":
@@ -94,6 +98,11 @@ def _is_computed(prop: Any) -> bool:
     return prop.is_readonly or (prop.type == "ENUM" and not prop.enum_items)
 
 
+def _is_to_data(prop: Any) -> bool:
+    """Whether a pointer is to a data-block, and no group of its own."""
+    return issubclass(getattr(bpy.types, prop.fixed_type.identifier, object), bpy.types.ID)
+
+
 def _is_sound(group: Any, prop: Any) -> bool:
     try:
         return _is_within(prop, getattr(group, prop.identifier))
@@ -106,6 +115,8 @@ def _is_within(prop: Any, value: Any) -> bool:
         return prop.is_hidden or len(value) <= _LONGEST  # what is never drawn is bounded by what reads it
     if prop.type == "ENUM":
         return value in prop.enum_items
+    if prop.type == "POINTER":
+        return value is None or isinstance(value, getattr(bpy.types, prop.fixed_type.identifier))
     if prop.type in {"INT", "FLOAT"}:
         return all(prop.hard_min <= each <= prop.hard_max for each in (value if prop.is_array else (value,)))
     return True

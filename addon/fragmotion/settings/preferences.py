@@ -10,7 +10,7 @@ from bpy.props import EnumProperty, FloatProperty
 
 from ..compat.core import ADDON
 from ..compat.event_keys import KEYS
-from ..drive.input.keyboard import DEFAULT_KEYS
+from ..input.keyboard import DEFAULT_KEYS
 from . import keymaps
 
 _LABELS = {name: name.replace("_", " ").title() for name in DEFAULT_KEYS}

@@ -189,22 +189,6 @@ void check(const std::vector<Clip>& clips, const std::vector<Trace>& traces, con
 
 }  // namespace
 
-Floors usual_floors(const std::vector<Contacts>& contacts, const std::vector<bool>& captured) {
-  const auto median = [&](int side, double FootHeights::*part) {
-    std::vector<double> heights;
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      if (captured[c]) heights.push_back(contacts[c].floors[side].*part);
-    }
-    if (heights.empty()) return 0.0;
-    std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
-    return heights[heights.size() / 2];
-  };
-  Floors floors;
-  for (int side = 0; side < 2; ++side)
-    floors[side] = {median(side, &FootHeights::ball), median(side, &FootHeights::heel)};
-  return floors;
-}
-
 const std::vector<std::string>& policy_names() {
   static const std::vector<std::string> names{"anticipate", "iterate", "svm", "greedy"};
   return names;
@@ -225,7 +209,11 @@ std::vector<Contacts> contacts_of(const FragmentPool& pool, int threads) {
     });
   };
   find(true, nullptr);
-  const Floors usual = usual_floors(contacts, captured);
+  std::vector<Contacts> of_takes;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (captured[c]) of_takes.push_back(contacts[c]);
+  }
+  const Floors usual = usual_floors(of_takes);
   find(false, &usual);
   return contacts;
 }
@@ -251,11 +239,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   report_held(c, pool);
   c.report["cut_seconds"] = stage.lap();
   report(progress, 0.5, "Synthesizing fragments");
-  if (options.synthesize) {
-    SynthesisOptions synthesis;
-    synthesis.longest = options.cut.longest;
-    synthesize(pool, c.space, usual, synthesis);
-  }
+  if (options.synthesize) synthesize(pool, c.space, usual, options.cut.longest);
   round_to_single(pool.clips);
   c.contacts = contacts_of(pool, options.threads);
   c.legs = find_legs(kinematics, pool.clips);

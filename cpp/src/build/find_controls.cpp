@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/quantile.hpp"
 #include "fragmotion/control/gaits.hpp"
 
 namespace fragmotion {
@@ -64,9 +65,7 @@ double turn_rate(const std::vector<Control>& evident) {
     if (std::abs(ev.turn) * unit > kTurning) rates.push_back(std::abs(ev.turn) * unit);
   }
   if (rates.size() * 20 < evident.size() || rates.empty()) return unit;
-  const std::size_t at = rates.size() * 3 / 4;
-  std::nth_element(rates.begin(), rates.begin() + at, rates.end());
-  return rates[at];
+  return quantile(std::move(rates), 0.75);
 }
 
 struct Group {

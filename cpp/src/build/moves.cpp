@@ -62,7 +62,7 @@ Character with_moves(const Character& character, const std::vector<MoveClip>& mo
   Character result = without_moves(character);
   const Skeleton& skeleton = result.pool.skeleton;
   const Kinematics kinematics(skeleton);
-  const Floors floors = usual_floors(result.contacts, std::vector<bool>(result.contacts.size(), true));
+  const Floors floors = usual_floors(result.contacts);
   const auto grid = result.pool.clips.front().grid;
   std::vector<Move> added;
   for (const MoveClip& move : moves) {

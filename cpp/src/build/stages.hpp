@@ -28,7 +28,4 @@ Progress part_of(const Progress& progress, double from, double to);
 /// The character without its moves.
 Character without_moves(Character character);
 
-/// The median floor of the captured clips.
-Floors usual_floors(const std::vector<Contacts>& contacts, const std::vector<bool>& captured);
-
 }  // namespace fragmotion

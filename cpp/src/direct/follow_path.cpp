@@ -93,8 +93,8 @@ PathWalk walk_once(Player& player, const CharacterFrame& start, const Path& path
   return walk;
 }
 
-// How far a walk is from what was asked, in parts of what will do.
-double amiss(const PathWalk& walk, double arrive, double scale) {
+// The error of a walk, in parts of what will do.
+double error(const PathWalk& walk, double arrive, double scale) {
   const double place = walk.arrival_distance * scale / kArrived;
   const double time = arrive > 0 ? std::abs(walk.seconds - arrive) / kInTime : 0;
   return std::max(place, time) + (walk.arrived ? 0 : 1);
@@ -110,7 +110,7 @@ PathWalk follow_path(Player& player, const CharacterFrame& start, const Path& pa
   const PathFollower plan(space, path, options);
   const double soonest = plan.seconds_left();
   const double arrive = options.arrive > 0 ? std::max(options.arrive, soonest) : 0;
-  const auto badness = [&](const PathWalk& walk) { return amiss(walk, arrive, space.scale()); };
+  const auto error_of = [&](const PathWalk& walk) { return error(walk, arrive, space.scale()); };
   FollowOptions tried = options;
   PathWalk best;
   int tries = 0;
@@ -118,10 +118,10 @@ PathWalk follow_path(Player& player, const CharacterFrame& start, const Path& pa
     tried.stop_early = options.stop_early + sooner / space.scale();
     PathWalk walk = walk_once(player, start, path, tried, rate, frames, progress);
     const double late = walk.arrived ? walk.seconds - options.arrive : 0;
-    if (best.trace.empty() || badness(walk) < badness(best)) best = std::move(walk);
+    if (best.trace.empty() || error_of(walk) < error_of(best)) best = std::move(walk);
     const double enough = ++tries < kUsualTries ? kGoodEnough : 1;
     const bool cannot_arrive = soonest > seconds;
-    if (options.end != PathEnd::stand || badness(best) < enough || cannot_arrive) break;
+    if (options.end != PathEnd::stand || error_of(best) < enough || cannot_arrive) break;
     if (soonest < options.arrive) tried.arrive = std::max(options.arrive - late / 2, kShortest);
   }
   best.asked_speed = plan.asked_speed();

@@ -19,7 +19,7 @@ constexpr double kTurning = 0.3;                // s by which a turn begins befo
 constexpr double kReturning = 2.2;              // 1/s: how fast a body comes back to the path
 constexpr double kMeasured = 0.1;               // s over which its velocity is measured
 constexpr double kOnTheSpot = 100 * kPi / 180;  // rad: what faces farther away turns before it goes
-constexpr double kFaces = 0.03;                 // rad that a body which stands may face amiss
+constexpr double kFaces = 0.03;                 // rad: error of the heading that a body which stands may have
 constexpr double kUnhurried = 0.6;              // of a walk: the pace for which it sets off where there is time,
 constexpr double kLeastPace = 0.5;              // and the slowest on the way
 constexpr double kStill = 0.4;                  // s after which what stands in the wrong place goes there
@@ -159,8 +159,8 @@ Vector2 PathFollower::stopped(const Vector2& velocity, const Aim& aim, double se
     if (!stands_ && rest < speed * seconds) return velocity * std::max(rest / (speed * seconds), 0.0);
   } else if (speed < scaled(kStands)) {
     still_ += seconds;
-    const bool amiss = aim.off.norm() + aim.left > scaled(kOffEnd) && corrections_ < kCorrections;
-    if (still_ < kStill || !amiss) return Vector2::Zero();
+    const bool misplaced = aim.off.norm() + aim.left > scaled(kOffEnd) && corrections_ < kCorrections;
+    if (still_ < kStill || !misplaced) return Vector2::Zero();
     stands_ = false;
     still_ = 0;
     ++corrections_;

@@ -21,7 +21,7 @@ constexpr double kSettingOff = 0.15;  // s longer from standing
 constexpr double kTurningOff = 0.2;   // s longer out of a bend
 constexpr double kSharp = 0.6;        // that is taken slower than by this of the speed
 constexpr double kSlowest = 0.5;      // of a walk: in the sharpest bend
-constexpr double kCrawl = 0.05;       // m/s
+constexpr double kLeastSpeed = 0.05;  // m/s
 constexpr int kHalvings = 24;         // of the span in which a speed is sought
 
 // The radius of the arc that touches the path before and behind a place.
@@ -92,7 +92,7 @@ double PathPace::seconds_left(double way, double going, double speed) const {
   for (auto i = static_cast<std::size_t>(at / step_) + 1; i < limits_.size() && at < stop; ++i) {
     const double next = std::min(static_cast<double>(i) * step_, stop), limit = std::min(speed, limits_[i]);
     const double then = std::min(limit, std::sqrt(now * now + faster * (next - at)));
-    seconds += (next - at) / std::max((std::min(now, limit) + then) / 2, kCrawl / scale_);
+    seconds += (next - at) / std::max((std::min(now, limit) + then) / 2, std::min(kLeastSpeed / scale_, limit));
     if (limits_[i] < kSharp * speed && leaves_bend(i)) seconds += kTurningOff;
     now = then;
     at = next;

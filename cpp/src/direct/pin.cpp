@@ -141,7 +141,7 @@ class PinSearch {
     return trials;
   }
 
-  // Plays all trials, each player every so-manieth.
+  // Plays all trials, each of n players every n-th.
   void make(std::vector<Trial>& trials) {
     const int count = static_cast<int>(trials.size()), players = static_cast<int>(players_.size());
     parallel_for(players, players, [&](int begin, int end) {

@@ -44,9 +44,9 @@ std::string body_text(double stature) { return "the body is " + short_number(sta
 
 /// The unit of the file in which the body has a person's stature, told from what was taken for it.
 std::optional<Unit> told_unit(const Patient& patient) {
-  const double in_file = patient.stature() / patient.take().unit;
+  const double in_file = patient.stature() / patient.unit();
   for (const Unit& unit : kUnits) {
-    if (is_body(in_file * unit.metres)) return Unit{unit.name, unit.metres / patient.take().unit};
+    if (is_body(in_file * unit.metres)) return Unit{unit.name, unit.metres / patient.unit()};
   }
   for (int power = -6; power <= 6; ++power) {
     const double scale = std::pow(10.0, power);
@@ -109,17 +109,12 @@ Findings find_unit(const Patient& patient) {
                              " make it " + short_number(patient.stature() * unit->metres) + " m"))};
 }
 
-void change_unit(Patient& patient, const Findings&) {
-  const double scale = told_unit(patient)->metres;
-  Take take = with_basis(patient.take(), kAsItIs, scale);
-  take.unit *= scale;
-  patient.become(std::move(take));
-}
+void change_unit(Patient& patient, const Findings&) { patient.change_basis(kAsItIs, told_unit(patient)->metres); }
 
 Findings find_up(const Patient& patient) {
   const Vector3 up = up_axis(patient);
   if (up.isZero(0) || up.z() == 1) return {};
-  const bool rests_so = standing_axis(Patient(resting_take(patient.take().skeleton))) == up;
+  const bool rests_so = standing_axis(Patient(patient.skeleton())) == up;
   const bool sure = rests_so || walks_across(patient, up);
   const std::string doubt = sure ? "" : " (or the take is of somebody who lies)";
   return {mendable(found(patient, "up", Severity::kWarning,
@@ -131,7 +126,7 @@ Findings find_up(const Patient& patient) {
 void turn_up(Patient& patient, const Findings&) {
   const Vector3 up = up_axis(patient), z = Vector3::UnitZ();
   const Vector3 about = up.z() == 0 ? Vector3{up.cross(z)} : Vector3::UnitX();
-  patient.become(with_basis(patient.take(), quarter_turns(about, up.z() == 0 ? 1 : 2)));
+  patient.change_basis(quarter_turns(about, up.z() == 0 ? 1 : 2));
 }
 
 Findings find_mirrored(const Patient& patient) {
@@ -142,10 +137,10 @@ Findings find_mirrored(const Patient& patient) {
                          "left-handed or negated axis); mirror it back"))};
 }
 
-void mirror_back(Patient& patient, const Findings&) { patient.become(with_basis(patient.take(), kMirror)); }
+void mirror_back(Patient& patient, const Findings&) { patient.change_basis(kMirror); }
 
 Findings find_facing(const Patient& patient) {
-  const Patient rest(resting_take(patient.take().skeleton));
+  const Patient rest(patient.skeleton());
   const Vector3 front = front_axis(rest);
   if (standing_axis(rest).z() != 1 || front.isZero(0) || front.y() == -1) return {};
   return {mendable(found(patient, "facing", Severity::kInfo,
@@ -153,9 +148,9 @@ Findings find_facing(const Patient& patient) {
 }
 
 void turn_to_front(Patient& patient, const Findings&) {
-  const Vector3 front = front_axis(Patient(resting_take(patient.take().skeleton)));
+  const Vector3 front = front_axis(Patient(patient.skeleton()));
   const int quarters = front.y() == 1 ? 2 : front.x() == 1 ? -1 : 1;
-  patient.become(with_basis(patient.take(), quarter_turns(Vector3::UnitZ(), quarters)));
+  patient.change_basis(quarter_turns(Vector3::UnitZ(), quarters));
 }
 
 }  // namespace fragmotion

@@ -10,14 +10,6 @@ namespace {
 constexpr double kNearAxis = 0.8;    // cosine
 constexpr int kMostPosesSeen = 200;  // that are looked at, at most
 
-void change(const Eigen::Matrix3d& matrix, Vector3& v) { v = matrix * v; }
-
-// A rotation's axis turns the other way in a mirror.
-Quaternion changed(const Eigen::Matrix3d& basis, const Quaternion& q) {
-  const Vector3 axis = basis.determinant() * (basis * q.vec());
-  return {q.w(), axis.x(), axis.y(), axis.z()};
-}
-
 Vector3 middle_of_feet(const Patient& patient, int frame) {
   return 0.5 * (patient.head(frame, patient.legs[0].end) + patient.head(frame, patient.legs[1].end));
 }
@@ -35,18 +27,6 @@ bool points(const Patient& resting, int from, int to, const Vector3& up) {
 }
 
 }  // namespace
-
-Take with_basis(Take take, const Eigen::Matrix3d& basis, double scale) {
-  const Eigen::Matrix3d matrix = scale * basis;
-  for (Vector3& offset : take.skeleton.offsets) change(matrix, offset);
-  for (Vector3& tip : take.skeleton.tips) change(matrix, tip);
-  for (Quaternion& rest : take.skeleton.rest_rotations) rest = changed(basis, rest);
-  for (std::size_t i = 0; i < take.translations.size(); i += 3)
-    store_vector(matrix * load_vector(&take.translations[i]), &take.translations[i]);
-  for (std::size_t i = 0; i < take.rotations.size(); i += 4)
-    store_quaternion(changed(basis, load_quaternion(&take.rotations[i])), &take.rotations[i]);
-  return take;
-}
 
 Vector3 nearest_axis(const Vector3& direction) {
   int axis = 0;

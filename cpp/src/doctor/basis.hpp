@@ -7,10 +7,6 @@
 
 namespace fragmotion {
 
-/// The take as if it had been read with other axes, and unit: every vector v becomes `scale` `basis` v, every rotation
-/// R `basis` R `basis`^-1. The basis is orthogonal; one that mirrors makes the mirror image.
-Take with_basis(Take take, const Eigen::Matrix3d& basis, double scale = 1);
-
 /// The axis nearest to a direction, where the angle between them is under 37 degrees; else zero.
 Vector3 nearest_axis(const Vector3& direction);
 

@@ -65,17 +65,11 @@ Findings find_dropped(const Patient& patient) {
 }
 
 void fill_dropped(Patient& patient, const Findings& findings) {
-  const std::vector<int> counts = dropped_before(patient);
-  Take take = frames_of(patient.take(), {0});
-  std::vector<int> sources = {0};
+  std::vector<int> counts = dropped_before(patient);
   for (int f = 1; f < patient.frames(); ++f) {
-    const int count = covers(findings, {f - 1, f}) ? counts[f] : 0;
-    for (int i = 1; i <= count + 1; ++i) {
-      append_between(patient.take(), f - 1, static_cast<double>(i) / (count + 1), take);
-      sources.push_back(f);
-    }
+    if (!covers(findings, {f - 1, f})) counts[f] = 0;
   }
-  patient.become(std::move(take), sources);
+  patient.fill_in(counts);
 }
 
 }  // namespace fragmotion

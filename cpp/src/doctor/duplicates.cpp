@@ -129,10 +129,10 @@ double shared_with(const std::vector<Outline>& outlines, int take, int other) {
   return shared_motion(outlines[take], outlines[other]);
 }
 
-Finding duplicate(const std::vector<Take>& takes, int take, int other, double share) {
+Finding duplicate(const std::vector<const Take*>& takes, int take, int other, double share) {
   const std::string part = share > kWhole ? "its motion" : short_number(100 * share) + " % of its motion";
-  Finding finding = mendable(found("duplicate", Severity::kWarning, 0, takes[take].frames - 1,
-                                   part + " is in take '" + takes[other].name +
+  Finding finding = mendable(found("duplicate", Severity::kWarning, 0, takes[take]->frames - 1,
+                                   part + " is in take '" + takes[other]->name +
                                        "', too: it counts twice in what is learned; leave one of them out"),
                              false);
   finding.other = other;
@@ -155,11 +155,12 @@ Outline outline_of(const Patient& patient) {
   return outline;
 }
 
-void find_duplicates(const std::vector<Take>& takes, const std::vector<Outline>& outlines, int threads,
-                     std::vector<Examination>& told) {
+void find_duplicates(const std::vector<const Take*>& takes, const std::vector<Outline>& outlines, int threads,
+                     const Progress& progress, std::vector<Examination>& told) {
   const int count = static_cast<int>(takes.size());
   parallel_for(count, threads, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
+      if (begin == 0) report(progress, 1, "Comparing takes");
       double share = 0;
       int other = -1;
       while (share == 0 && ++other < count) share = shared_with(outlines, i, other);

@@ -20,7 +20,7 @@ struct Outline {
 Outline outline_of(const Patient& patient);
 
 /// Appends to each examination what other take has the same motion, though cut or resampled.
-void find_duplicates(const std::vector<Take>& takes, const std::vector<Outline>& outlines, int threads,
-                     std::vector<Examination>& told);
+void find_duplicates(const std::vector<const Take*>& takes, const std::vector<Outline>& outlines, int threads,
+                     const Progress& progress, std::vector<Examination>& told);
 
 }  // namespace fragmotion

@@ -4,9 +4,10 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "base/quantile.hpp"
 #include "doctor/check.hpp"
-#include "doctor/clip_of.hpp"
 #include "doctor/lengths.hpp"
 #include "fragmotion/motion/contacts.hpp"
 
@@ -39,13 +40,15 @@ using Stands = std::vector<Eigen::Vector4d>;
 
 /// `level`: near the lowest that they come; else told by their speeds alone, as the ground may be anywhere.
 Stands stands_of(const Patient& patient, bool level) {
-  const std::optional<Clip> clip = patient.has_legs() && patient.scale() > 0 ? clip_of(patient) : std::nullopt;
-  if (!clip) return {};
+  if (!patient.has_legs() || patient.scale() == 0 || !patient.tracks()) return {};
+  const Tracks& tracks = *patient.tracks();
   const FootHeights anywhere{kAnyHeight, kAnyHeight};
   const Floors floors = {anywhere, anywhere};
-  const Contacts contacts = find_contacts(Kinematics(patient.take().skeleton), *clip, level ? nullptr : &floors);
+  const Contacts contacts =
+      find_contacts(patient.skeleton(), tracks.feet, tracks.hips, patient.rate(), level ? nullptr : &floors);
   Stands stands;
   for (int f = 0; f < static_cast<int>(contacts.feet[0].size()); ++f) {
+    if (!contacts.feet[0][f] && !contacts.feet[1][f]) continue;
     const Vector3 left = sole(patient, f, 0), right = sole(patient, f, 1);
     const int side = left.z() < right.z() ? 0 : 1;
     const Vector3& place = side == 0 ? left : right;
@@ -58,10 +61,7 @@ Stands stands_of(const Patient& patient, bool level) {
 std::optional<double> ground_of(const Patient& patient) {
   std::vector<double> heights;
   for (const Eigen::Vector4d& stand : stands_of(patient, true)) heights.push_back(stand.z());
-  if (heights.empty()) return std::nullopt;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
+  return heights.empty() ? std::nullopt : std::optional(median(std::move(heights)));
 }
 
 /// How much the ground that feet stand on rises or falls over the take, as a plane or with time, m; 0 where it is
@@ -127,12 +127,7 @@ Findings find_ground(const Patient& patient) {
                              " the ground; move the take " + (height < 0 ? "up" : "down")))};
 }
 
-void put_on_ground(Patient& patient, const Findings&) {
-  Take take = patient.take();
-  const double ground = *ground_of(patient);
-  for (int f = 0; f < take.frames; ++f) take.translations[3 * patient.at(f, 0) + 2] -= ground;
-  patient.become(std::move(take));
-}
+void put_on_ground(Patient& patient, const Findings&) { patient.move({0, 0, -*ground_of(patient)}); }
 
 Findings find_slope(const Patient& patient) {
   const double rise = rise_of(patient);

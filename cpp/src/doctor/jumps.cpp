@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "doctor/check.hpp"
-#include "doctor/clip_of.hpp"
 #include "doctor/runs.hpp"
-#include "fragmotion/motion/discontinuities.hpp"
 
 namespace fragmotion {
 namespace {
@@ -40,9 +37,7 @@ std::vector<int> jumps_of(const Patient& patient) {
       if (is_torn(patient, f)) frames.insert(f);
     }
   }
-  if (const std::optional<Clip> clip = clip_of(patient)) {
-    for (const int f : discontinuities(patient.take().skeleton, *clip)) frames.insert(f);
-  }
+  if (patient.tracks()) frames.insert(patient.tracks()->torn.begin(), patient.tracks()->torn.end());
   return {frames.begin(), frames.end()};
 }
 

@@ -12,10 +12,8 @@ constexpr double kNoRotation = 1e-6;  // length of a quaternion that is none
 constexpr double kEndShare = 0.1;     // of the take, that may be cut off an end unasked
 
 bool lacks(const Patient& patient, int frame, int bone) {
-  const std::size_t at = patient.at(frame, bone);
-  const Quaternion q = patient.local(frame, bone);
-  return !load_vector(&patient.take().translations[3 * at]).allFinite() || !q.coeffs().allFinite() ||
-         q.norm() < kNoRotation;
+  const Local local = patient.local(frame, bone);
+  return !local.place.allFinite() || !local.rotation.coeffs().allFinite() || local.rotation.norm() < kNoRotation;
 }
 
 int first_lacking(const Patient& patient, int frame) {
@@ -39,7 +37,7 @@ bool is_cut(const Patient& patient, const Run& run) {
 Finding missing(const Patient& patient, const Run& run) {
   const bool cut = is_cut(patient, run);
   const bool safe = cut ? run.length() <= kEndShare * patient.frames() : run.length() <= brief(patient.rate());
-  const std::string bone = patient.take().skeleton.names[first_lacking(patient, run.begin)];
+  const std::string bone = patient.skeleton().names[first_lacking(patient, run.begin)];
   const std::string mend = cut    ? "cut these frames off"
                            : safe ? "fill them in from the frames beside them"
                                   : "filling them in would invent motion: better cut the take here";
@@ -58,17 +56,17 @@ Findings find_missing(const Patient& patient) {
 }
 
 void fill_missing(Patient& patient, const Findings& findings) {
-  Take take = patient.take();
   Findings cut;
   for (const Finding& finding : findings) {
-    if (is_cut(patient, {finding.begin, finding.end})) cut.push_back(finding);
-  }
-  for (int b = 0; b < patient.bones(); ++b) {
-    for (const Run& run : runs(patient.frames(), [&](int f) { return lacks(patient, f, b); })) {
-      if (covers(findings, run) && !covers(cut, run)) bridge(take, b, run);
+    const Run all{finding.begin, finding.end};
+    if (is_cut(patient, all)) {
+      cut.push_back(finding);
+      continue;
+    }
+    for (int b = 0; b < patient.bones(); ++b) {
+      for (const Run& run : runs(all, [&](int f) { return lacks(patient, f, b); })) patient.bridge(b, run);
     }
   }
-  patient.become(std::move(take));
   cut_ends(patient, cut);
 }
 

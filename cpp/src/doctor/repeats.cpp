@@ -16,7 +16,7 @@ constexpr double kHeldAtEnd = 0.1;  // s
 class Repeats {
  public:
   explicit Repeats(const Patient& patient) {
-    for (int f = 0; f < patient.frames(); ++f) flags_.push_back(f > 0 && is_same(patient, f));
+    for (int f = 0; f < patient.frames(); ++f) flags_.push_back(patient.repeats(f));
   }
 
   bool operator[](int frame) const { return flags_[frame] != 0; }
@@ -26,15 +26,6 @@ class Repeats {
   int moves() const { return static_cast<int>(std::count(flags_.begin() + 1, flags_.end(), 0)); }
 
  private:
-  static bool is_same(const Patient& patient, int frame) {
-    const auto same = [&](const std::vector<double>& values, int width) {
-      const auto here = values.begin() + static_cast<std::ptrdiff_t>(width * patient.at(frame, 0));
-      return std::equal(here, here + std::ptrdiff_t{width} * patient.bones(),
-                        here - std::ptrdiff_t{width} * patient.bones());
-    };
-    return same(patient.take().translations, 3) && same(patient.take().rotations, 4);
-  }
-
   std::vector<char> flags_;
 };
 
@@ -93,9 +84,7 @@ void leave_out_doubled(Patient& patient, const Findings&) {
   std::vector<int> frames;
   for (int f = copies.first > 0 ? copies.first - copies.count : 0; f < patient.frames(); f += copies.count)
     frames.push_back(std::max(f, 0));
-  Take take = frames_of(patient.take(), frames);
-  take.rate /= copies.count;
-  patient.become(std::move(take), frames);
+  patient.keep(frames, copies.count);
 }
 
 Findings find_held(const Patient& patient) {
@@ -110,11 +99,9 @@ Findings find_held(const Patient& patient) {
 }
 
 void fill_held(Patient& patient, const Findings& findings) {
-  Take take = patient.take();
   for (const Finding& finding : findings) {
-    for (int b = 0; b < patient.bones(); ++b) bridge(take, b, {finding.begin, finding.end});
+    for (int b = 0; b < patient.bones(); ++b) patient.bridge(b, {finding.begin, finding.end});
   }
-  patient.become(std::move(take));
 }
 
 Findings find_frozen_ends(const Patient& patient) {
@@ -139,8 +126,7 @@ void cut_ends(Patient& patient, const Findings& findings) {
   }
   std::vector<int> frames;
   for (int f = first; f <= last; ++f) frames.push_back(f);
-  if (frames.size() >= 2 && frames.size() < static_cast<std::size_t>(patient.frames()))
-    patient.become(frames_of(patient.take(), frames), frames);
+  if (frames.size() >= 2 && frames.size() < static_cast<std::size_t>(patient.frames())) patient.keep(frames);
 }
 
 }  // namespace fragmotion

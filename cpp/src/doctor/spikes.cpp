@@ -33,14 +33,13 @@ class Distances {
   double operator()(int bone, int a, int b) const { return std::max(turned(bone, a, b) / kTurn, moved(bone, a, b)); }
 
   double turned(int bone, int a, int b) const {
-    return 2 * std::acos(std::min(1.0, std::abs(patient_.local(a, bone).dot(patient_.local(b, bone)))));
+    const Quaternion from = patient_.local(a, bone).rotation, to = patient_.local(b, bone).rotation;
+    return 2 * std::acos(std::min(1.0, std::abs(from.dot(to))));
   }
 
  private:
   double moved(int bone, int a, int b) const {
-    const std::vector<double>& places = patient_.take().translations;
-    return (load_vector(&places[3 * patient_.at(a, bone)]) - load_vector(&places[3 * patient_.at(b, bone)])).norm() /
-           move_;
+    return (patient_.local(a, bone).place - patient_.local(b, bone).place).norm() / move_;
   }
 
   const Patient& patient_;
@@ -53,41 +52,43 @@ class SpikeFinder {
       : patient_(patient),
         distance_(patient),
         longest_(std::max(4, static_cast<int>(kLongest * patient.rate()))),
-        steps_(patient.frames() + 1) {}
+        next_(patient.bones(), 1) {}
 
   std::vector<Spike> find() {
     std::vector<Spike> spikes;
-    for (int b = 0; b < patient_.bones(); ++b) find_of(b, spikes);
+    for (int f = 1; f < patient_.frames(); ++f) {
+      for (int b = 0; b < patient_.bones(); ++b) {
+        const int end = f >= next_[b] ? back_from(b, f) : 0;
+        if (end == 0) continue;
+        spikes.push_back({b, {f, end - 1}, distance_.turned(b, f - 1, f) > kTurnedOver});
+        next_[b] = end + 1;
+      }
+    }
     return spikes;
   }
 
  private:
-  void find_of(int bone, std::vector<Spike>& spikes) {
-    for (int f = 1; f < patient_.frames(); ++f) steps_[f] = distance_(bone, f - 1, f);
-    for (int f = 1; f < patient_.frames(); ++f) {
-      const int end = steps_[f] > 1 ? back_from(bone, f) : 0;
-      if (end == 0) continue;
-      spikes.push_back({bone, {f, end - 1}, distance_.turned(bone, f - 1, f) > kTurnedOver});
-      f = end;
-    }
-  }
+  double step(int bone, int frame) const { return distance_(bone, frame - 1, frame); }
 
-  // The frame in which the bone is back where it was before `begin`; 0 where it is not soon.
+  // The frame in which the bone is back where it was before `begin`, a jump; 0 where it is not soon, or does not jump.
   int back_from(int bone, int begin) const {
-    for (int f = begin + 1; f <= begin + longest_ && f < patient_.frames(); ++f) {
-      const double jump = std::min(steps_[begin], steps_[f]);
+    const double first = step(bone, begin);
+    for (int f = begin + 1; first > 1 && f <= begin + longest_ && f < patient_.frames(); ++f) {
+      const double jump = std::min(first, step(bone, f));
       if (distance_(bone, begin - 1, f) < kBack * jump)
-        return jump > 1 && is_calm(begin - 1, kCalm * jump) && is_calm(f + 1, kCalm * jump) ? f : 0;
+        return jump > 1 && is_calm(bone, begin - 1, kCalm * jump) && is_calm(bone, f + 1, kCalm * jump) ? f : 0;
     }
     return 0;
   }
 
-  bool is_calm(int step, double most) const { return step < 1 || step >= patient_.frames() || steps_[step] < most; }
+  bool is_calm(int bone, int frame, double most) const {
+    return frame < 1 || frame >= patient_.frames() || step(bone, frame) < most;
+  }
 
   const Patient& patient_;
   Distances distance_;
   int longest_;
-  std::vector<double> steps_;  // to each frame from the one before
+  std::vector<int> next_;  // the first frame in which each bone may leave again
 };
 
 /// Also those that show only when others are filled.
@@ -97,9 +98,7 @@ std::vector<Spike> all_spikes(const Patient& patient) {
   Patient mended = patient;
   for (int round = 0; !fresh.empty() && round < kMostRounds; ++round) {
     all.insert(all.end(), fresh.begin(), fresh.end());
-    Take take = mended.take();
-    for (const Spike& spike : fresh) bridge(take, spike.bone, spike.run);
-    mended.become(std::move(take));
+    for (const Spike& spike : fresh) mended.bridge(spike.bone, spike.run);
     fresh = SpikeFinder(mended).find();
   }
   return all;
@@ -110,7 +109,7 @@ std::string bone_names(const Patient& patient, const std::vector<Spike>& spikes,
   for (const Spike& spike : spikes) {
     if (spike.run.begin >= run.begin && spike.run.end <= run.end) bones.insert(spike.bone);
   }
-  const std::string first = "bone '" + patient.take().skeleton.names[*bones.begin()] + "'";
+  const std::string first = "bone '" + patient.skeleton().names[*bones.begin()] + "'";
   return bones.size() == 1 ? first : first + " and " + std::to_string(bones.size() - 1) + " more";
 }
 
@@ -124,7 +123,7 @@ Severity severity_of(const std::vector<Spike>& spikes, const Run& run, const std
 }
 
 Findings findings_of(const Patient& patient, const std::vector<Spike>& spikes, const char* code, const char* what) {
-  const std::vector<int> measured = measured_bones(patient.take().skeleton);
+  const std::vector<int> measured = measured_bones(patient.skeleton());
   std::vector<char> is_out(patient.frames());
   for (const Spike& spike : spikes) std::fill_n(&is_out[spike.run.begin], spike.run.length(), 1);
   Findings findings;
@@ -149,14 +148,12 @@ Findings find_spikes(const Patient& patient) {
 }
 
 void fill_spikes(Patient& patient, const Findings& findings) {
-  Take take = patient.take();
   for (const Spike& spike : all_spikes(patient)) {
     const bool chosen = std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
       return (finding.code == "flip") == spike.flip && covers({finding}, spike.run);
     });
-    if (chosen) bridge(take, spike.bone, spike.run);
+    if (chosen) patient.bridge(spike.bone, spike.run);
   }
-  patient.become(std::move(take));
 }
 
 }  // namespace fragmotion

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "base/quantile.hpp"
 #include "evaluate/tracks.hpp"
 
 namespace fragmotion {
@@ -20,10 +22,7 @@ double median_height(const std::vector<BodyTrack>& tracks, std::vector<Vector3> 
   for (const BodyTrack& track : tracks) {
     for (const Vector3& place : track.*path) heights.push_back(place.z());
   }
-  if (heights.empty()) return 0;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
+  return heights.empty() ? 0 : median(std::move(heights));
 }
 
 bool in_the_air(const BodyTrack& track, int f) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -16,7 +15,6 @@ namespace fragmotion {
 namespace {
 
 constexpr double kHeight = 0.025, kSliding = 0.1, kStitched = 0.25;
-constexpr double kNeverLow = std::numeric_limits<double>::infinity();
 
 // The places of a motion's joints, of a character of 1.8 m.
 struct Joints {
@@ -41,22 +39,16 @@ Joints joints_of(const Kinematics& kinematics, const Clip& clip) {
   return joints;
 }
 
-// The median over the takes of where a point of a foot stands.
-double median_floor(const std::vector<BodyTrack>& takes, int side, std::vector<Vector3> FootPath::*point) {
-  std::vector<double> heights;
-  for (const BodyTrack& take : takes) {
-    heights.push_back(take.has_feet() ? floor_of(take.feet[side].*point) : kNeverLow);
-  }
-  std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
-  return heights[heights.size() / 2];
-}
-
+// Where feet stand in most takes; 0 for bodies without.
 Floors floors_of(const std::vector<BodyTrack>& takes) {
-  Floors floors;
-  for (int side = 0; side < 2; ++side) {
-    floors[side] = {median_floor(takes, side, &FootPath::ball), median_floor(takes, side, &FootPath::heel)};
+  std::vector<Contacts> contacts(takes.size());
+  for (std::size_t i = 0; i < takes.size(); ++i) {
+    for (std::size_t side = 0; takes[i].has_feet() && side < takes[i].feet.size(); ++side) {
+      const FootPath& foot = takes[i].feet[side];
+      contacts[i].floors[side] = {floor_of(foot.ball), floor_of(foot.heel)};
+    }
   }
-  return floors;
+  return usual_floors(contacts);
 }
 
 class Measurement {

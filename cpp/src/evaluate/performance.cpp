@@ -69,8 +69,8 @@ Drift drift(const Performance& p, const std::vector<CharacterFrame>& exact) {
   const auto off = [&](int f) { return p.path[std::size_t{3} * f + 2] - exact[f].heading; };
   Drift sum;
   for (int f = 0; f < spans; ++f) {
-    const Vector2 led = Eigen::Rotation2Dd(off(f)) * (exact[f + span].position - exact[f].position);
-    sum.place += (place(f + span) - place(f) - led).norm();
+    const Vector2 asked = Eigen::Rotation2Dd(off(f)) * (exact[f + span].position - exact[f].position);
+    sum.place += (place(f + span) - place(f) - asked).norm();
     sum.heading += std::abs(off(f + span) - off(f));
   }
   return {sum.place / spans * p.rate / span, sum.heading / spans};

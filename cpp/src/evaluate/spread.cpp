@@ -2,25 +2,20 @@
 #include "fragmotion/evaluate/spread.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
+
+#include "base/quantile.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr double kHard = 6;  // m/s^2
 
-double percentile(std::vector<double>& values, double share) {
-  const auto i = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), i, values.end());
-  return *i;
-}
-
 }  // namespace
 
 Spread spread(std::vector<double> values) {
   if (values.empty()) return {};
-  return {percentile(values, 0.5), percentile(values, 0.99), percentile(values, 0.999), percentile(values, 1)};
+  return {median(values), quantile(values, 0.99), quantile(values, 0.999), quantile(std::move(values), 1)};
 }
 
 Pushes pushes(std::vector<double> accelerations) {

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "base/quantile.hpp"
 
 namespace fragmotion {
 namespace {
@@ -23,9 +26,7 @@ double usual_height(const std::vector<BodyMotion>& motions) {
   for (const BodyMotion& motion : motions) {
     for (const Vector3& center : motion.center) heights.push_back(center.z());
   }
-  if (heights.empty()) return 0;
-  std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
-  return heights[heights.size() / 2];
+  return heights.empty() ? 0 : median(std::move(heights));
 }
 
 Control evident_control(const BodyMotion& motion, double rate, int begin, int end, double usual,

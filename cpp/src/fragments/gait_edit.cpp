@@ -15,7 +15,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kBow = 2;       // rad that the trunk bows forward for each m of a crouch, of a 1.8 m character
+constexpr double kFlexion = 2;   // rad that the trunk bows forward for each m of a crouch, of a 1.8 m character
 constexpr double kWidest = 0.2;  // m of a 1.8 m character that each foot is set out so as not to cross the other
 constexpr double kLevel = 0.8;   // of the way to flat, where feet go straight to the side
 constexpr double kTuck = 0.35;   // of the body's height: how much further the feet are lifted
@@ -218,7 +218,7 @@ void add_hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, const H
       reach(skeleton, leg, posed, ankle, rotations);
     }
     const Vector3 left{-std::cos(clip.headings[f]), -std::sin(clip.headings[f]), 0};
-    turn_spine(skeleton, trunk, left, kBow * std::max(0.0, -height), rotations);
+    turn_spine(skeleton, trunk, left, kFlexion * std::max(0.0, -height), rotations);
   }
 }
 

@@ -9,7 +9,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kEnd = 0.1;     // s
+constexpr double kEnd = 0.1;  // s
 constexpr int kMoments = 8;
 
 Vector2 velocity_between(const PackedClip& clip, double begin, double end) {

@@ -7,20 +7,20 @@
 
 #include "fragments/body_pose.hpp"
 #include "fragmotion/base/random.hpp"
-#include "fragmotion/motion/trunk.hpp"
 #include "fragmotion/motion/pose.hpp"
+#include "fragmotion/motion/trunk.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kAsHigh = 0.985;                // of a leg's length: how far the hip joints stand over the ankles
-constexpr double kOutward = 8 * kPi / 180;       // rad that each foot points outward
+constexpr double kAsHigh = 0.985;           // of a leg's length: how far the hip joints stand over the ankles
+constexpr double kOutward = 8 * kPi / 180;  // rad that each foot points outward
 // Root mean squares of how a body moves that stands for long; m of a 1.8 m character.
 constexpr double kAcross = 0.015, kAlong = 0.008;
 constexpr double kLean = 1 * kPi / 180, kLook = 6 * kPi / 180, kNod = 1.5 * kPi / 180;  // rad
-constexpr double kBreath = 3.6;             // s
-constexpr double kDepth = 1.2 * kPi / 180;  // rad that the chest goes back
-constexpr double kUneven = 0.15;            // of a breath, by which it comes sooner or later
+constexpr double kBreath = 3.6;                                                         // s
+constexpr double kDepth = 1.2 * kPi / 180;                                              // rad that the chest goes back
+constexpr double kUneven = 0.15;                 // of a breath, by which it comes sooner or later
 constexpr std::size_t kFewest = 10, kShare = 5;  // fragments at least, and one of how many, that are the slowest
 
 std::vector<int> slowest_of(const FragmentPool& pool) {

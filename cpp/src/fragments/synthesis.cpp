@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "base/quantile.hpp"
 #include "base/ranges.hpp"
 #include "fragmotion/fragments/blend.hpp"
 #include "fragmotion/fragments/distance.hpp"
@@ -20,6 +21,9 @@
 namespace fragmotion {
 namespace {
 
+constexpr double kPerformed = 0.3;               // ControlDis from a control at which a fragment performs it, at most
+constexpr int kWanted = 4;                       // fragments that should perform each control
+constexpr double kTail = 0.3;                    // s kept beyond a fragment's end, for stitching
 constexpr double kJumpHeight = 0.22;             // m, of a 1.8 m character
 constexpr double kLeastDip = 0.16;               // m that it crouches for a jump on the spot where no take jumps,
 constexpr double kMostDip = 0.3;                 // and at most where takes do
@@ -28,11 +32,11 @@ constexpr double kRunningDip = 0.6;              // of that dip, as it runs
 constexpr double kSinking = 0.2;                 // s into a crouch; half of that as it runs
 constexpr double kSimilar = 2.52 / kTunedReach;  // m a metre of reach: fragments this near may be interpolated
 constexpr int kCandidates = 24;                  // neighbours of a control that interpolation tries in pairs
-constexpr double kHurry = 1.2;                   // the most by which steps ahead are hurried, or slowed down
-constexpr double kShuffle = 1.2;                 // how much more often feet step sideways, where strides are short
+constexpr double kMostTempo = 1.2;               // the most by which steps ahead are hurried, or slowed down
+constexpr double kSideways = 1.2;                // how much more often feet step sideways, where strides are short
 constexpr double kStandSeconds = 0.5;
 constexpr double kStandsLong = 3;  // s that a take stands, so that one does not see it begin again
-constexpr int kStands = 48;  // fragments that stand, one after the other, until they begin again
+constexpr int kStands = 48;        // fragments that stand, one after the other, until they begin again
 constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
 constexpr double kBackward = 1;                              // of effort: to be played backward
 constexpr double kAlike = 1e-6;                              // of effort
@@ -47,32 +51,26 @@ Control mix(const Control& a, const Control& b, double w) {
   return {a.x + w * (b.x - a.x), a.y + w * (b.y - a.y), a.turn + w * (b.turn - a.turn), a.jump + w * (b.jump - a.jump)};
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Adds a fragment that stands in place.
-void add_standing(FragmentPool& pool, const SynthesisOptions& options) {
+void add_standing(FragmentPool& pool) {
   const Kinematics kinematics(pool.skeleton);
   const double rate = pool.clips[0].rate;
   Fragment fragment;
   fragment.clip = static_cast<int>(pool.clips.size());
   fragment.end = std::max(1, static_cast<int>(std::lround(kStandSeconds * rate)));
   fragment.origin = Origin::transformed;
-  const int frames = fragment.end + 1 + static_cast<int>(std::lround(options.tail * rate));
+  const int frames = fragment.end + 1 + static_cast<int>(std::lround(kTail * rate));
   pool.clips.push_back(
       make_clip(pool.skeleton, standing(kinematics, find_legs(kinematics, pool.clips), pool, frames, rate)));
   pool.fragments.push_back(fragment);
 }
 
 // Adds a take of a character that stands for long, fragment after fragment.
-void add_living_stand(FragmentPool& pool, const ControlSpace& space, double usual, const SynthesisOptions& options) {
+void add_living_stand(FragmentPool& pool, const ControlSpace& space, double usual) {
   const Kinematics kinematics(pool.skeleton);
   const double rate = pool.clips[0].rate;
   const int length = std::max(1, static_cast<int>(std::lround(kStandSeconds * rate))), cycle = kStands * length,
-            frames = cycle + 1 + static_cast<int>(std::lround(options.tail * rate));
+            frames = cycle + 1 + static_cast<int>(std::lround(kTail * rate));
   Clip clip = living_stand(kinematics, find_legs(kinematics, pool.clips), pool, cycle, frames, rate);
   const BodyMotion motion = body_motion(kinematics, clip);
   for (int begin = 0; begin < cycle; begin += length) {
@@ -104,11 +102,11 @@ double longest_stand(const FragmentPool& pool, const std::vector<int>& standing)
 // Fills the holes of a pool's control space.
 class Synthesizer {
  public:
-  Synthesizer(FragmentPool& pool, const ControlSpace& space, double usual, const SynthesisOptions& options)
+  Synthesizer(FragmentPool& pool, const ControlSpace& space, double usual, double longest)
       : pool_(pool),
         space_(space),
         usual_(usual),
-        options_(options),
+        longest_(longest),
         kinematics_(pool.skeleton),
         legs_(find_legs(kinematics_, pool.clips)),
         trajectories_(trajectories(pool)),
@@ -121,7 +119,7 @@ class Synthesizer {
   void fill() {
     const int stand = space_.nearest({});
     std::vector<int> missing;
-    for (int c = 0; c < space_.size(); ++c) missing.push_back(std::max(0, options_.wanted - performers(c)));
+    for (int c = 0; c < space_.size(); ++c) missing.push_back(std::max(0, kWanted - performers(c)));
     for (int c = 0; c < space_.size(); ++c) {
       if (missing[c] == 0 || c == stand) continue;
       interpolate(space_.point(c), missing[c]);
@@ -136,12 +134,12 @@ class Synthesizer {
 
   int performers(int c) const {
     int count = 0;
-    for (int i = 0; i < originals_; ++i) count += distance(i, space_.point(c)) <= options_.tolerance ? 1 : 0;
+    for (int i = 0; i < originals_; ++i) count += distance(i, space_.point(c)) <= kPerformed ? 1 : 0;
     return count;
   }
 
   // Frames kept beyond a fragment's end.
-  int tail(double rate) const { return static_cast<int>(std::lround(options_.tail * rate)); }
+  int tail(double rate) const { return static_cast<int>(std::lround(kTail * rate)); }
 
   // Adds a clip whose frames ends[i] .. ends[i + 1] are fragments.
   void add(Clip clip, const std::vector<int>& ends, Origin origin) {
@@ -195,7 +193,7 @@ class Synthesizer {
       for (const int b : near) {
         if (a >= b) continue;
         const Pair pair = pair_for(a, b, control);
-        if (pair.distance > options_.tolerance || fragment_distance(trajectories_, a, b) > similar) continue;
+        if (pair.distance > kPerformed || fragment_distance(trajectories_, a, b) > similar) continue;
         pairs.push_back(pair);
       }
     }
@@ -253,7 +251,7 @@ class Synthesizer {
     for (const Clip& clip : pool_.clips) {
       for (int f = 0; f < clip.frames; ++f) heights.push_back(clip.root_positions[std::size_t{3} * f + 2]);
     }
-    const double usual = median(heights);
+    const double usual = median(std::move(heights));
     for (const Fragment& f : pool_.fragments) {
       if (!f.evident.jumps()) continue;
       const Clip& clip = pool_.clips[f.clip];
@@ -262,7 +260,7 @@ class Synthesizer {
         lowest = std::min(lowest, clip.root_positions[std::size_t{3} * at + 2]);
       dips.push_back((usual - lowest) * space_.scale());
     }
-    if (!dips.empty()) dip_ = std::clamp(median(dips), kLeastDip, kMostDip);
+    if (!dips.empty()) dip_ = std::clamp(median(std::move(dips)), kLeastDip, kMostDip);
   }
 
   // What it costs a cycle's looks to be made to perform a control. Whether it jumps makes no difference: what hops is
@@ -311,10 +309,10 @@ class Synthesizer {
     const double faster = moves ? control.speed() / best->evident.speed() : 1;
     if (moves && control.speed() > 0) change.direction = angle_between(best->evident, control);
     const int length = std::abs(best->end - best->begin);
-    const double usual = length / (options_.longest * clip.rate);  // pieces, each as long as may be
-    const int pieces = std::max(1, static_cast<int>(std::ceil(usual / kHurry - 1e-6)));
-    const double sideways = std::abs(std::sin(change.direction)), hurry = 1 + sideways * (kShuffle - 1);
-    change.tempo = std::max(usual / pieces, hurry * std::clamp(std::sqrt(faster), 1 / kHurry, kHurry));
+    const double usual = length / (longest_ * clip.rate);  // pieces, each as long as may be
+    const int pieces = std::max(1, static_cast<int>(std::ceil(usual / kMostTempo - 1e-6)));
+    const double sideways = std::abs(std::sin(change.direction)), cadence = 1 + sideways * (kSideways - 1);
+    change.tempo = std::max(usual / pieces, cadence * std::clamp(std::sqrt(faster), 1 / kMostTempo, kMostTempo));
     change.speed = faster / change.tempo;
     const int beyond = tail(clip.rate * change.tempo);
     const Hop hop = hop_at(control.speed());
@@ -329,8 +327,8 @@ class Synthesizer {
 
   // Of a character that goes so fast.
   Hop hop_at(double speed) const {
-    const double haste = std::min(1.0, speed / space_.run());
-    return {kJumpHeight, dip_ * (1 + haste * (kRunningDip - 1)), kSinking * (1 - haste / 2)};
+    const double running = std::min(1.0, speed / space_.run());
+    return {kJumpHeight, dip_ * (1 + running * (kRunningDip - 1)), kSinking * (1 - running / 2)};
   }
 
   // Adds a clip with a hop in it, whose flight is the fragment.
@@ -343,7 +341,7 @@ class Synthesizer {
   FragmentPool& pool_;
   const ControlSpace& space_;
   double usual_;
-  SynthesisOptions options_;
+  double longest_;
   Kinematics kinematics_;
   Legs legs_;
   Trajectories trajectories_;
@@ -353,25 +351,18 @@ class Synthesizer {
   std::map<int, Contacts> contacts_;  // of the clips that were transformed
 };
 
-void check(const SynthesisOptions& options) {
-  require_range("the tolerance of synthesis", options.tolerance, 0, 100);
-  require_range("the number of fragments wanted for each control", options.wanted, 0, 1000);
-  require_range("the longest fragment (s)", options.longest, 0.1, 10);
-  require_range("the tail of a fragment (s)", options.tail, 0, 10);
-}
-
 }  // namespace
 
-void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, const SynthesisOptions& options) {
-  check(options);
+void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, double longest) {
+  require_range("the longest fragment (s)", longest, 0.1, 10);
   std::vector<int> standing;
   for (std::size_t f = 0; f < pool.fragments.size(); ++f) {
-    if (space.distance(pool.fragments[f].evident, {}) <= options.tolerance) standing.push_back(static_cast<int>(f));
+    if (space.distance(pool.fragments[f].evident, {}) <= kPerformed) standing.push_back(static_cast<int>(f));
   }
-  if (standing.empty()) add_standing(pool, options);
+  if (standing.empty()) add_standing(pool);
   const bool stands_long = longest_stand(pool, standing) >= kStandsLong;
-  Synthesizer(pool, space, usual, options).fill();
-  if (!stands_long) add_living_stand(pool, space, usual, options);
+  Synthesizer(pool, space, usual, longest).fill();
+  if (!stands_long) add_living_stand(pool, space, usual);
 }
 
 }  // namespace fragmotion

@@ -15,26 +15,26 @@ constexpr double kPace = 0.1;        // m/s with which a foot that steps on the 
 constexpr double kLoading = 0.12;    // s before it stands, and
 constexpr double kUnloading = 0.15;  // s after it, in which a foot bears more and more, and less and less
 constexpr double kQuickest = 0.06;   // s in which it does so at least
-constexpr double kGrip = 0.08;  // s before it stands, and after it, in which its sole is more and less on its footing
+constexpr double kSole = 0.08;  // s before it stands, and after it, in which its sole is more and less on its footing
 
 constexpr double kMargin = 0.03;        // m by which it clears what is in its way
-constexpr double kHurdle = 0.1;         // s in which it gets as high as it must
-constexpr double kLeast = 0.2;          // of the hurdle's height, below which it is not told from that what it is to be
-constexpr double kHighestHurdle = 0.5;  // m of it
+constexpr double kClearing = 0.1;       // s in which its clearance gets as high as it must
+constexpr double kLeast = 0.2;          // of the arch's height, below which it is not told from that what it is to be
+constexpr double kMostClearance = 0.5;  // m
 
-constexpr double kTried = 0.02;       // m by which a sole is moved off an edge,
-constexpr int kTrials = 8;            // times that, to the front and to the back
-constexpr double kSameTread = 0.05;   // m between heights of one tread
-constexpr double kPersistence = 0.1;  // s: the sooner it lands, the more it keeps to the tread that was foreseen
+constexpr double kTried = 0.02;      // m by which a sole is moved off an edge,
+constexpr int kTrials = 8;           // times that, to the front and to the back
+constexpr double kSameTread = 0.05;  // m between heights of one tread
+constexpr double kHysteresis = 0.1;  // s: the sooner it lands, the more it keeps to the tread that was foreseen
 
-// How high a hurdle is at a part of the way over it.
+// The height of a foot's clearance at a part of its way.
 double arch(double part) { return 1 - std::pow(2 * part - 1, 4); }
 
 }  // namespace
 
 bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, const GroundProbe& probe) {
   due_ = foot.stands ? 0 : foot.due;
-  aloft_ = foot.stands ? 0 : aloft_ + seconds;
+  swing_time_ = foot.stands ? 0 : swing_time_ + seconds;
   const Vector2 place = foot.now.place() + shift();
   Footing before = on_way(place, 0);
   if (foot.stands) before.height += lift_;
@@ -84,7 +84,7 @@ Vector2 FootOnGround::beside_edges(const FootAhead& foot, const GroundProbe& pro
   const Sole& sole = foot.landing();
   const Vector2 along = (sole.tip - sole.heel).head<2>().normalized();
   const bool planned = !fresh_ && !stood_;
-  const double keeps = kPersistence / std::max(due_, kTried);
+  const double keeps = kHysteresis / std::max(due_, kTried);
   const bool descends = !fresh_ && next_.height < last_.height;
   double least = std::numeric_limits<double>::infinity();
   Vector2 best = Vector2::Zero();
@@ -107,7 +107,7 @@ void FootOnGround::advance_shift(const FootAhead& foot, double seconds) {
 }
 
 double FootOnGround::part_of_way(const Vector2& place, double later) const {
-  const double gone = (place - last_.place).norm() + kPace * (aloft_ + later),
+  const double gone = (place - last_.place).norm() + kPace * (swing_time_ + later),
                left = (next_.place - place).norm() + kPace * std::max(0.0, due_ - later);
   return gone + left > 0 ? gone / (gone + left) : 1;
 }
@@ -127,7 +127,7 @@ void FootOnGround::advance_errors(double seconds) {
 // Steps over what is in its way, in one arch.
 void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, const GroundProbe& probe) {
   if (foot.stands) {
-    hurdle_ = {};
+    clearance_ = {};
     lift_ = 0;
     return;
   }
@@ -139,21 +139,21 @@ void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, co
     const double height = arch(part_of_way(at.place(), later));
     if (over > 0 && height > kLeast) wanted = std::max(wanted, (over + std::min(over, kMargin)) / height);
   }
-  hurdle_.advance(std::min(wanted, kHighestHurdle), fresh_ ? 0 : kHurdle, seconds);
+  clearance_.advance(std::min(wanted, kMostClearance), fresh_ ? 0 : kClearing, seconds);
   const Sole now = foot.now.moved(shift());
   Footing shown = plane_;
   shown.height += error_.value;
-  lift_ = std::max(std::max(hurdle_.value, 0.0) * arch(part_of_way(now.place(), 0)), probe.over(now, lower, shown));
+  lift_ = std::max(std::max(clearance_.value, 0.0) * arch(part_of_way(now.place(), 0)), probe.over(now, lower, shown));
 }
 
 void FootOnGround::bear(const FootAhead& foot, double seconds) {
   const auto ramp = [](double time, double over) { return std::clamp(1 - time / over, 0.0, 1.0); };
-  const double wanted = foot.stands ? 1 : std::max(ramp(due_, kLoading), ramp(aloft_, kUnloading)),
+  const double wanted = foot.stands ? 1 : std::max(ramp(due_, kLoading), ramp(swing_time_, kUnloading)),
                most = fresh_ ? 1 : seconds / kQuickest;
-  burden_ += std::clamp(wanted - burden_, -most, most);
-  const double grip = foot.stands ? 1 : std::max(ramp(due_, kGrip), ramp(aloft_, kGrip)),
-               step = fresh_ ? 1 : seconds / kGrip;
-  grip_ += std::clamp(grip - grip_, -step, step);
+  contact_weight_ += std::clamp(wanted - contact_weight_, -most, most);
+  const double sole_weight = foot.stands ? 1 : std::max(ramp(due_, kSole), ramp(swing_time_, kSole)),
+               step = fresh_ ? 1 : seconds / kSole;
+  sole_weight_ += std::clamp(sole_weight - sole_weight_, -step, step);
 }
 
 }  // namespace fragmotion

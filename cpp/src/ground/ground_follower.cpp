@@ -20,7 +20,7 @@ constexpr double kContact = 0.06;     // m over its floor, within which a sole t
 constexpr double kReached = 0.985;    // of a leg's length, that the hips leave it at most
 constexpr double kStretched = 0.998;  // and that it is stretched to
 constexpr double kSoft = 0.02;        // m: by how much what a leg lacks is rounded off
-constexpr double kForesight = 0.4;    // s before a foot lands, from which on the hips sink for it
+constexpr double kLookAhead = 0.4;    // s before a foot lands, from which on the hips sink for it
 constexpr double kDeepest = 0.45;     // m that they sink
 constexpr double kMostRaised = 1;     // rad of a heel
 constexpr double kToesUp = 0.05;      // m that a heel is lower than the ball, where it is not raised
@@ -76,7 +76,7 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
   hips_.advance(pose.root.head<2>(), feet_, seconds);
   level_ = hips_.level();
   pose.root.z() += level_;
-  const double since = fresh_ ? kForesight : seconds;
+  const double since = fresh_ ? kLookAhead : seconds;
   fresh_ = false;
   if (is_flat()) return;
   kinematics.world(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
@@ -112,7 +112,7 @@ void GroundFollower::get_exact(double seconds) {
 double GroundFollower::lower(int side, const FootAhead& foot) const {
   const double contact = kContact / body_->scale, height = foot.now.height();
   const double lowered = height <= 0 ? 0 : height < contact ? height * height / (2 * contact) : height - contact / 2;
-  return exact_ * feet_[side].grip() * (height - lowered);
+  return exact_ * feet_[side].sole_weight() * (height - lowered);
 }
 
 // Whether the body stands as on level ground.
@@ -147,12 +147,12 @@ Vector3 GroundFollower::place_foot(int side, const FootAhead& foot) {
 // Lowers the hips for legs that bear the body, and for those that are about to.
 void GroundFollower::sink(const FeetAhead& feet, const std::array<Vector3, 2>& ankles, double seconds) {
   const double soft = kSoft / body_->scale, deepest = kDeepest / body_->scale;
-  double now = 0, soon = 0, due = kForesight;
+  double now = 0, soon = 0, due = kLookAhead;
   for (int side = 0; side < 2; ++side) {
     const Leg& leg = body_->legs[side];
     const double length = leg_length(leg, body_->posed),
                  lacks = missing(length, body_->posed.heads[leg.thigh], ankles[side]);
-    now = std::max(now, feet_[side].burden() * softly_positive(lacks, soft));
+    now = std::max(now, feet_[side].contact_weight() * softly_positive(lacks, soft));
     if (feet[side].stands || feet[side].due > due) continue;
     const FootAhead& foot = feet[side];
     const Footing& next = feet_[side].next();
@@ -175,7 +175,7 @@ void GroundFollower::raise_heel(int side, const FootAhead& foot, Vector3& ankle)
   const Vector3 from_ball = turns_[side] * (posed.heads[leg.foot] - ball(body_->kinematics.skeleton(), leg, posed)),
                 ball = ankle - from_ball, axis = from_ball.cross(Vector3::UnitZ()).normalized();
   const double upright = kMostUpright - std::atan2(from_ball.z(), from_ball.head<2>().norm()),
-               most = std::min(kMostRaised, upright) * exact_ * feet_[side].burden() * flat;
+               most = std::min(kMostRaised, upright) * exact_ * feet_[side].contact_weight() * flat;
   const auto raised = [&](double angle) { return Quaternion{Eigen::AngleAxisd(angle, axis)}; };
   const auto reaches = [&](double angle) {
     return (ball + raised(angle) * from_ball - posed.heads[leg.thigh]).norm() <= reached;

@@ -29,7 +29,7 @@ void settle(double& off, double& rate, double quickness, double seconds) {
 }  // namespace
 
 double level_between(const FeetOnGround& feet, const Vector2& place) {
-  const int side = feet[1].aloft() < feet[0].aloft() ? 1 : 0;
+  const int side = feet[1].swing_time() < feet[0].swing_time() ? 1 : 0;
   const Footing &under = feet[side].last(), &behind = feet[1 - side].last(), &ahead = feet[1 - side].next();
   const double back = part_between(under.place, behind.place, place),
                front = part_between(under.place, ahead.place, place), away = std::max(back, front);

@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/quantile.hpp"
 #include "fragmotion/skeleton/role_names.hpp"
 #include "io/rigid_matrix.hpp"
 
@@ -59,10 +60,7 @@ double overlength(const Armature& armature) {
     const double way = (head(b) - head(parent)).norm();
     if (way > 0) ratios.push_back(armature.lengths[parent] / way);
   }
-  if (ratios.empty()) return 1;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
+  return ratios.empty() ? 1 : median(std::move(ratios));
 }
 
 /// Blender's importer of glTF makes all bones a hundred times too long where the file's armature is scaled by 0.01.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "fragmotion/motion/contacts.hpp"
 
-#include <algorithm>
+#include <utility>
 
+#include "base/quantile.hpp"
 #include "fragmotion/motion/foot_paths.hpp"
 
 namespace fragmotion {
@@ -27,38 +28,47 @@ std::vector<int> changes(const Contacts& contacts, bool stands) {
 double floor_of(const std::vector<Vector3>& path) {
   std::vector<double> heights;
   for (const Vector3& p : path) heights.push_back(p.z());
-  const auto floor = heights.begin() + static_cast<std::ptrdiff_t>(kDeeper * static_cast<double>(heights.size() - 1));
-  std::nth_element(heights.begin(), floor, heights.end());
-  return *floor;
+  return quantile(std::move(heights), kDeeper);
 }
 
-namespace {
+Floors usual_floors(const std::vector<Contacts>& contacts) {
+  if (contacts.empty()) return {};
+  const auto usual = [&](int side, double FootHeights::*point) {
+    std::vector<double> heights;
+    for (const Contacts& each : contacts) heights.push_back(each.floors[side].*point);
+    return median(std::move(heights));
+  };
+  Floors floors;
+  for (int side = 0; side < 2; ++side)
+    floors[side] = {usual(side, &FootHeights::ball), usual(side, &FootHeights::heel)};
+  return floors;
+}
 
-Contacts found(const Kinematics& kinematics, const Clip& clip, const Floors* floors, bool as_held) {
-  const Roles& roles = kinematics.skeleton().roles;
-  if (roles.left_foot < 0 || roles.right_foot < 0) return {};
+Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
   std::vector<Vector3> hips;
   for (int f = 0; f < clip.frames; ++f) hips.push_back(load_vector(&clip.root_positions[3 * f]));
-  const double scale = standard_scale(kinematics.skeleton());
-  const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
+  return find_contacts(kinematics.skeleton(), foot_paths(kinematics, clip), hips, clip.rate, floors);
+}
+
+Contacts find_contacts(const Skeleton& skeleton, const std::array<FootPath, 2>& paths, const std::vector<Vector3>& hips,
+                       double rate, const Floors* floors) {
+  if (paths[0].ball.empty()) return {};
+  const double scale = standard_scale(skeleton);
   Contacts contacts;
   for (int side = 0; side < 2; ++side) {
     contacts.floors[side] =
         floors ? (*floors)[side] : FootHeights{floor_of(paths[side].ball), floor_of(paths[side].heel)};
-    contacts.feet[side] = foot_contacts(paths[side], contacts.floors[side], hips, clip.rate, scale);
-    if (as_held) end_where_ball_rises(paths[side], clip.rate, scale, contacts.feet[side]);
+    contacts.feet[side] = foot_contacts(paths[side], contacts.floors[side], hips, rate, scale);
   }
   return contacts;
 }
 
-}  // namespace
-
-Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
-  return found(kinematics, clip, floors, false);
-}
-
 Contacts find_plants(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
-  return found(kinematics, clip, floors, true);
+  Contacts contacts = find_contacts(kinematics, clip, floors);
+  const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
+  const double scale = standard_scale(kinematics.skeleton());
+  for (int side = 0; side < 2; ++side) end_where_ball_rises(paths[side], clip.rate, scale, contacts.feet[side]);
+  return contacts;
 }
 
 std::vector<int> foot_strikes(const Contacts& contacts) { return changes(contacts, true); }

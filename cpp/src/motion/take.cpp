@@ -34,25 +34,30 @@ Take make_take(Take take) {
 }
 
 void world_transforms(const Take& take, std::vector<double>& positions, std::vector<double>& rotations) {
-  const Skeleton& skeleton = take.skeleton;
-  const std::size_t bones = skeleton.names.size();
+  const std::size_t bones = take.skeleton.names.size();
   positions.resize(take.frames * bones * 3);
   rotations.resize(take.frames * bones * 4);
   for (std::size_t frame = 0; frame < static_cast<std::size_t>(take.frames); ++frame) {
-    for (std::size_t bone = 0; bone < bones; ++bone) {
-      const std::size_t at = frame * bones + bone;
-      Vector3 position = load_vector(&take.translations[at * 3]);
-      Quaternion rotation = load_quaternion(&take.rotations[at * 4]);
-      if (bone > 0) {
-        const std::size_t parent = frame * bones + skeleton.parents[bone];
-        const Quaternion parent_rotation = load_quaternion(&rotations[parent * 4]);
-        position = load_vector(&positions[parent * 3]) + parent_rotation * position;
-        // Renormalised so that long chains do not drift from unit length.
-        rotation = (parent_rotation * rotation).normalized();
-      }
-      store_vector(position, &positions[at * 3]);
-      store_quaternion(rotation, &rotations[at * 4]);
+    const std::size_t at = frame * bones;
+    world_transforms(take.skeleton, &take.translations[at * 3], &take.rotations[at * 4], &positions[at * 3],
+                     &rotations[at * 4]);
+  }
+}
+
+void world_transforms(const Skeleton& skeleton, const double* local_positions, const double* local_rotations,
+                      double* positions, double* rotations) {
+  for (std::size_t bone = 0; bone < skeleton.names.size(); ++bone) {
+    Vector3 position = load_vector(local_positions + bone * 3);
+    Quaternion rotation = load_quaternion(local_rotations + bone * 4);
+    if (bone > 0) {
+      const std::size_t parent = skeleton.parents[bone];
+      const Quaternion parent_rotation = load_quaternion(rotations + parent * 4);
+      position = load_vector(positions + parent * 3) + parent_rotation * position;
+      // Renormalised so that long chains do not drift from unit length.
+      rotation = (parent_rotation * rotation).normalized();
     }
+    store_vector(position, positions + bone * 3);
+    store_quaternion(rotation, rotations + bone * 4);
   }
 }
 

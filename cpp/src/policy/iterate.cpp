@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/ranges.hpp"
 #include "base/transposed.hpp"
 #include "fragmotion/policy/optimal.hpp"
 
@@ -14,6 +13,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kValueTolerance = 1e-6;
+constexpr int kMostSweeps = 10000;
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -61,7 +61,6 @@ void check(const IterateOptions& options) {
   if (!(options.tolerance > 0 && options.tolerance <= 1)) {
     throw std::invalid_argument("the tolerance must be over 0 and at most 1");
   }
-  require_range("the number of sweeps", options.sweeps, 1, 1000000);
 }
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -80,7 +79,7 @@ Policy value_iteration(const Quality& quality, const std::vector<double>& model,
   const std::vector<double> matches = transposed(quality.match, n, controls);
   std::vector<double> value(matches.size(), 0), promise, before;  // [controls, classes]
   const auto of = [&](auto& values, int c) { return &values[static_cast<std::size_t>(c) * n]; };
-  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     promise = expectation.of(value, n);
     for (double& sum : promise) sum *= options.discount;
     before = value;

@@ -18,7 +18,7 @@ namespace fragmotion {
 namespace {
 
 constexpr int kPoseComponents = 8;
-constexpr int kMostFolds = 1000;
+constexpr int kFolds = 3;                                       // of the cross-validation
 constexpr double kLeastParameter = 1e-6, kMostParameter = 1e6;  // C and gamma: far beyond, libsvm hardly ends
 constexpr int kBlock = 50;  // samples: neighbours in time are alike, so folds are made of blocks of five seconds
 const std::vector<double> kCosts{1, 8, 64, 512};
@@ -79,12 +79,12 @@ std::vector<double> input(const double* features, int width, const Control& cont
   return x;
 }
 
-double fold_accuracy(Nodes& nodes, const std::vector<int>& labels, int folds, double c, double gamma) {
+double fold_accuracy(Nodes& nodes, const std::vector<int>& labels, double c, double gamma) {
   int right = 0;
-  const int count = static_cast<int>(labels.size()), block = std::clamp(count / folds, 1, kBlock);
-  for (int fold = 0; fold < folds; ++fold) {
+  const int count = static_cast<int>(labels.size()), block = std::clamp(count / kFolds, 1, kBlock);
+  for (int fold = 0; fold < kFolds; ++fold) {
     std::vector<int> train, test;
-    for (int i = 0; i < count; ++i) (i / block % folds == fold ? test : train).push_back(i);
+    for (int i = 0; i < count; ++i) (i / block % kFolds == fold ? test : train).push_back(i);
     if (train.empty() || test.empty()) continue;
     const Model model(nodes, labels, train, c, gamma);
     for (const int i : test) right += model.predict(nodes.row(i)) == labels[i] ? 1 : 0;
@@ -101,8 +101,7 @@ void cross_validate(const SvmSamples& samples, const SvmOptions& options, SvmPol
   parallel_for(static_cast<int>(accuracy.size()), thread_count(options.threads), [&](int begin, int end) {
     Nodes nodes(samples.inputs, samples.width);
     for (int i = begin; i < end; ++i) {
-      accuracy[i] =
-          fold_accuracy(nodes, samples.labels, options.folds, costs[i / gammas.size()], gammas[i % gammas.size()]);
+      accuracy[i] = fold_accuracy(nodes, samples.labels, costs[i / gammas.size()], gammas[i % gammas.size()]);
     }
   });
   const auto best = static_cast<std::size_t>(std::max_element(accuracy.begin(), accuracy.end()) - accuracy.begin());
@@ -131,7 +130,6 @@ Policy whole_table(const Model& model, const std::vector<double>& features, int 
 
 void check(const std::vector<std::vector<int>>& traces, const SvmOptions& options) {
   if (traces.empty()) throw std::invalid_argument("the svm policy needs at least one trace to learn from");
-  require_range("the number of folds of the svm's cross-validation", options.folds, 2, kMostFolds);
   for (const double value : {options.c, options.gamma}) {
     if (value != 0) require_range("the svm's C and gamma (0: chosen)", value, kLeastParameter, kMostParameter);
   }

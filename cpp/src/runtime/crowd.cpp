@@ -35,20 +35,22 @@ Crowd::Crowd(std::shared_ptr<const Character> character, int count, const Player
   }
 }
 
-Player& Crowd::existing(int player) {
-  if (player >= 0 && player < size()) return players_[player];
+int Crowd::existing(int player) const {
+  if (player >= 0 && player < size()) return player;
   throw std::invalid_argument("player " + std::to_string(player) + " does not exist");
 }
 
-void Crowd::reset(int player, const CharacterFrame& frame, int style) { existing(player).reset(frame, style); }
+void Crowd::reset(int player, const CharacterFrame& frame, int style) {
+  players_[existing(player)].reset(frame, style);
+}
 
-void Crowd::change_style(int player, int style) { existing(player).change_style(style); }
+void Crowd::change_style(int player, int style) { players_[existing(player)].change_style(style); }
 
-void Crowd::force(int player, int next_class) { existing(player).force(next_class); }
+void Crowd::force(int player, int next_class) { players_[existing(player)].force(next_class); }
 
-void Crowd::start_move(int player, int move) { existing(player).start_move(move); }
+void Crowd::start_move(int player, int move) { players_[existing(player)].start_move(move); }
 
-void Crowd::release_move(int player, int move) { existing(player).release_move(move); }
+void Crowd::release_move(int player, int move) { players_[existing(player)].release_move(move); }
 
 void Crowd::check_step(const Control* controls, double seconds) const {
   for (int i = 0; i < size(); ++i) Player::check_step(controls[i], seconds);
@@ -60,6 +62,7 @@ void Crowd::step(const Control* controls, double seconds, double* roots, double*
 }
 
 void Crowd::step_part(int part, const Control* controls, double seconds, double* roots, double* rotations) {
+  if (part < 0 || part >= parts_) throw std::invalid_argument("part " + std::to_string(part) + " does not exist");
   const int last = first_player(part + 1, parts_, size()) - 1;
   for (int i = first_player(part, parts_, size()); i <= last; ++i) {
     players_[std::min(i + 1, last)].prefetch();

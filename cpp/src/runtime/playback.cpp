@@ -180,8 +180,7 @@ double Playback::step_seconds() const {
 
 Vector2 Playback::velocity_of_hips() const {
   const PackedClip& source = clip(now_);
-  return hips_velocity_around(source, fragment().first_played() + now_.seconds * source.rate,
-                              step_seconds()) +
+  return hips_velocity_around(source, fragment().first_played() + now_.seconds * source.rate, step_seconds()) +
          beside_ends_;
 }
 

@@ -16,8 +16,8 @@ constexpr double kSlowest = 0.75, kFastest = 1.2;  // of the tempo
 constexpr double kPacing = 0.15;                   // s: time constant of the tempo's,
 constexpr double kSetOff = 0.15;   // of what balances it that the feet are set off for a body's acceleration
 constexpr double kStriding = 0.3;  // s: time constant of the steps'
-constexpr double kHeading = 0.12;  // s in which the heading gets to where it is led,
-constexpr double kLeash = 0.5;     // rad by which it is led at most
+constexpr double kHeading = 0.12;  // s in which the heading gets to the target heading,
+constexpr double kLeash = 0.5;     // rad by which that is ahead of it at most
 constexpr double kSways = 0.05;    // m/s of a 1.8 m character, at most, at which one sways that stands
 
 }  // namespace
@@ -37,7 +37,7 @@ void PoseCorrection::reset(double heading) {
   begins_ = true;
   turn_rate_ = 0;
   tempo_ = 1;
-  led_ = heading;
+  target_heading_ = heading;
   steps_ = {};
   foot_lock_.reset();
   lean_.reset();
@@ -53,9 +53,9 @@ Vector2 PoseCorrection::velocity_to_add(const Control& control, const Vector2& v
 // The turn rate that the fragment lacks, and what brings back the heading that it has lost.
 double PoseCorrection::turn_to_add(const Control& control, const Playback& playback, double seconds) {
   const double unit = space_->turn_rate(), heading = playback.frame().heading;
-  led_ += seconds * control.turn * unit;
-  const double behind = std::clamp(std::remainder(led_ - heading, 2 * kPi), -kLeash, kLeash);
-  led_ = heading + behind;
+  target_heading_ += seconds * control.turn * unit;
+  const double behind = std::clamp(std::remainder(target_heading_ - heading, 2 * kPi), -kLeash, kLeash);
+  target_heading_ = heading + behind;
   const double quickest = std::max(kMostTurned, space_->quickest_turn()),
                lacks = std::clamp(control.turn - tempo_ * playback.evident().turn, -quickest, quickest);
   return root_adjustment_ * unit * (lacks + std::clamp(behind / kHeading / unit, -kMostTurned, kMostTurned));
@@ -92,7 +92,7 @@ void PoseCorrection::leave_root(double seconds, Playback& playback) {
   velocity_ -= clamp_length(filtered(seconds, kLag) * velocity_, acceleration_ * seconds);
   turn_rate_ -= filtered(seconds, kTurning) * turn_rate_;
   playback.move(velocity_, turn_rate_, seconds);
-  led_ = playback.frame().heading;
+  target_heading_ = playback.frame().heading;
 }
 
 void PoseCorrection::correct(const Playback& playback, const Vector2& acceleration, double seconds) {

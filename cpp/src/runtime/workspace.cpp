@@ -8,30 +8,11 @@
 #include "fragmotion/fragments/successors.hpp"
 
 namespace fragmotion {
-namespace {
-
-double median(const std::vector<Contacts>& contacts, int side, double FootHeights::*height) {
-  std::vector<double> heights;
-  for (const Contacts& each : contacts) heights.push_back(each.floors[side].*height);
-  if (heights.empty()) return 0;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
-}
-
-Floors median_floors(const std::vector<Contacts>& contacts) {
-  Floors floors;
-  for (int side = 0; side < 2; ++side)
-    floors[side] = {median(contacts, side, &FootHeights::ball), median(contacts, side, &FootHeights::heel)};
-  return floors;
-}
-
-}  // namespace
 
 Workspace::Workspace(const Character& character)
     : kinematics(character.pool.skeleton),
       body(std::make_shared<FootLock::Body>(kinematics, character.legs)),
-      floors(median_floors(character.contacts)),
+      floors(usual_floors(character.contacts)),
       move_entries(entry_poses(character.pool, character.move_parts)),
       tips{BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton)},
       onward(character.entry_poses.size() / character.pool.fragments.size()) {

@@ -23,7 +23,7 @@ def test_the_recording_that_is_selected_is_the_source(
 ) -> None:
     addon.recordings.recordings.add_recording(obj, trace[:20], name="Short")
     assert baked_frames() == 61, "the one that was recorded last is selected"
-    obj.fragmotion.active_take = 0
+    obj.fragmotion.active_recording = 0
     assert baked_frames() == 121
 
 
@@ -31,14 +31,14 @@ def test_what_was_selected_last_is_the_source(obj: bpy.types.Object, recording: 
     bake = obj.fragmotion.bake
     bake.trace_source, bake.seconds = "PLAYER", 2.0
     assert baked_frames() == 61, "another source may be chosen"
-    obj.fragmotion.active_take = 0
+    obj.fragmotion.active_recording = 0
     assert bake.trace_source == "RECORDING" and baked_frames() == 121
 
 
 def test_while_there_is_no_recording_a_simulated_player_is_baked(obj: bpy.types.Object) -> None:
     obj.fragmotion.bake.seconds = 2.0
     assert baked_frames() == 61
-    obj.fragmotion.active_take = 0
+    obj.fragmotion.active_recording = 0
     assert obj.fragmotion.bake.property_unset("trace_source") is None and baked_frames() == 61
 
 

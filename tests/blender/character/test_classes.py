@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -166,7 +165,7 @@ def test_the_preview_plays_the_class_alone_and_puts_everything_back(addon: Modul
     _, number = min((int(count), label) for label, count in enumerate(np.bincount(character.labels)) if count > 2)
     members = set(np.flatnonzero(character.labels == number).tolist())
     place = obj.matrix_world.copy()
-    solo = addon.drive.solo.Solo(bpy.context, obj, number)
+    solo = addon.preview.class_preview.ClassPreview(bpy.context, obj, number)
     seen, poses = set(), []
     for _ in range(40 * len(members)):
         solo.step(1 / 8)
@@ -185,7 +184,7 @@ def test_the_preview_plays_the_class_alone_and_puts_everything_back(addon: Modul
 def test_the_preview_of_a_deleted_armature_says_so_and_ends(addon: ModuleType, obj: bpy.types.Object) -> None:
     armature, name = obj.data, obj.name
     armature.pose_position = "REST"
-    solo = addon.drive.solo.Solo(bpy.context, obj, 0)
+    solo = addon.preview.class_preview.ClassPreview(bpy.context, obj, 0)
     assert solo.trouble() == "" and armature.pose_position == "POSE"
     bpy.data.objects.remove(obj)
     assert solo.trouble() == f"Armature '{name}' was deleted"
@@ -197,19 +196,19 @@ def test_the_preview_of_a_deleted_armature_says_so_and_ends(addon: ModuleType, o
 def test_a_file_that_is_saved_during_a_preview_has_the_armature_as_it_was(
     addon: ModuleType, obj: bpy.types.Object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, told: bool
 ) -> None:
-    button = importlib.import_module(f"{addon.__name__}.operators.character.solo_class")
+    previews = addon.preview.previews
     obj.animation_data.action.use_fake_user = False
     obj.pose.bones[3].location = (0.1, 0.2, 0.3)
     before, path = repr(everything(obj)), tmp_path / "saved.blend"
-    monkeypatch.setattr(button, "current", addon.drive.solo.Solo(bpy.context, obj, 0))
-    button.current.step(1 / 8)
+    previews.show(addon.preview.class_preview.ClassPreview(bpy.context, obj, 0))
+    previews.current.step(1 / 8)
     listening = [] if told else list(bpy.app.handlers.save_pre)
     for handler in listening:  # Blender tells nobody of what it saves by itself
         bpy.app.handlers.save_pre.remove(handler)
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
     bpy.app.handlers.save_pre.extend(listening)
-    assert (button.current is None) == told
-    button.stop()
+    assert (previews.current is None) == told
+    previews.stop()
     assert repr(everything(obj)) == before
     assert repr(everything(making.open_armature(path))) == before
 
@@ -217,11 +216,8 @@ def test_a_file_that_is_saved_during_a_preview_has_the_armature_as_it_was(
 def test_a_preview_that_is_too_far_away_says_so(addon: ModuleType, obj: bpy.types.Object) -> None:
     before = making.contents()
     obj.location.xy = 1e6, 1e6
-    solo = addon.drive.solo.Solo(bpy.context, obj, 0)
     with pytest.raises(addon.errors.UserError, match=f"^Armature '{obj.name}': .*more than 1000 km from the origin"):
-        for _ in range(40):
-            solo.step(1 / 8)
-    solo.end()
+        addon.preview.class_preview.ClassPreview(bpy.context, obj, 0)
     assert making.contents() == before
 
 

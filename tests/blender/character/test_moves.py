@@ -149,7 +149,7 @@ def test_a_key_starts_a_move_and_a_recording_keeps_it(
         heights.append(driving.hips(obj)[2])
     assert max(heights) > 1.2, "it leapt"
     driven.toggle_recording()
-    recording = obj.fragmotion.takes[0]
+    recording = obj.fragmotion.recordings[0]
     session.stop()
     recordings = part(addon, "recordings.recordings")
     (move,) = recordings.moves_of(recording)
@@ -214,9 +214,9 @@ def test_a_glued_recording_asks_for_what_both_asked_for(addon: ModuleType, obj: 
     recordings.add_recording(
         obj, trace, moves=[recordings.StartedMove(20, JUMP, 3)], style="proud", styles=[styles.StyleChange(9, "tired")]
     )
-    seam = part(addon, "edits.cutting").append(obj, obj.fragmotion.takes[0], obj.fragmotion.takes[1])
+    seam = part(addon, "edits.cutting").append(obj, obj.fragmotion.recordings[0], obj.fragmotion.recordings[1])
     moved = seam.end - seam.beginning
-    first = obj.fragmotion.takes[0]
+    first = obj.fragmotion.recordings[0]
     assert recordings.moves_of(first) == [
         recordings.StartedMove(5, JUMP, 1),
         recordings.StartedMove(20 + moved, JUMP, 3),

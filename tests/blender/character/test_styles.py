@@ -206,7 +206,7 @@ def test_the_inspector_and_force_are_of_the_style_that_is_driven(
 
 def test_a_preview_is_of_the_style_that_is_shown(addon: ModuleType, obj: bpy.types.Object) -> None:
     character = part(addon, "character.building").load(obj)
-    solo = part(addon, "drive.solo").Solo(bpy.context, obj, 5, TIRED)
+    solo = part(addon, "preview.class_preview").ClassPreview(bpy.context, obj, 5, TIRED)
     members = set(np.flatnonzero(character.in_style(TIRED).labels == 5).tolist())
     for _ in range(20):
         solo.step(1 / 8)
@@ -304,7 +304,7 @@ def record(session: ModuleType, obj: bpy.types.Object) -> Any:
     assert driven.player.playing_style == TIRED
     driven.toggle_recording()
     session.stop()
-    return obj.fragmotion.takes[0]
+    return obj.fragmotion.recordings[0]
 
 
 def test_a_recording_keeps_its_styles_and_is_replayed_with_them(
@@ -365,7 +365,7 @@ def test_a_recording_of_a_style_that_is_gone_is_baked_and_that_is_said(
     trace = np.tile(np.array(WALK), (20, 1))
     lost = [styles.StyleChange(5, "happy"), styles.StyleChange(9, "tired")]
     recordings.add_recording(obj, trace, name="Happy", style="sad", styles=lost)
-    numbered = recordings.numbered_styles(obj.fragmotion.takes[0], NAMES)
+    numbered = recordings.numbered_styles(obj.fragmotion.recordings[0], NAMES)
     assert numbered == (NEUTRAL, [[9, TIRED]], "without style 'happy', which the character does not have")
     obj.fragmotion.bake.as_recorded = False
     baked(obj, trace_source="RECORDING")

@@ -149,7 +149,7 @@ def test_what_is_recorded_replays_as_it_was_seen(addon: ModuleType, session: Mod
     driven = start(session, obj)
     go_on(driven, 0.5)
     begin, seen = driven.player.frame, record(driven)
-    (recording,) = obj.fragmotion.takes
+    (recording,) = obj.fragmotion.recordings
     trace = import_module(f"{addon.__name__}.recordings.recordings").trace_of(recording)
     assert len(trace) == math.ceil(len(seen) / 6) == 26
     assert trace[:, 3].sum() == 1, "the tap on the jump button is lost, or lasts"
@@ -165,7 +165,7 @@ def test_what_is_recorded_replays_as_it_was_seen(addon: ModuleType, session: Mod
 def test_a_recording_is_replayed_live(session: ModuleType, obj: bpy.types.Object) -> None:
     driven = start(session, obj)
     seen = record(driven)
-    (recording,) = obj.fragmotion.takes
+    (recording,) = obj.fragmotion.recordings
     driven = session.replay(bpy.context, obj, recording)
     assert driven.inputs.label == "Trace" and driven.seed == recording.seed
     replayed = []
@@ -202,7 +202,7 @@ def test_a_recording_that_begins_in_motion_keeps_what_was_seen(
     before = driven.player.frame
     seen = record(driven)
     assert math.dist(before[:2], seen[0][:2]) < 0.1, "the character leaps where the recording begins"
-    (recording,) = obj.fragmotion.takes
+    (recording,) = obj.fragmotion.recordings
     times, motion = import_module(f"{addon.__name__}.recordings.recordings").shown_of(recording)
     np.testing.assert_allclose(times, np.arange(len(seen) + 1) / RATE, atol=1e-5)
     np.testing.assert_allclose(motion.path, [before, *seen], atol=1e-5)
@@ -215,11 +215,11 @@ def test_a_recording_under_way_is_kept_when_the_drive_ends(session: ModuleType, 
     driven.inputs.keyboard.press("W")
     go_on(driven, 1)
     session.stop()
-    assert [each.seconds for each in obj.fragmotion.takes] == [1]
+    assert [each.seconds for each in obj.fragmotion.recordings] == [1]
     bpy.ops.ed.undo()
-    assert not bpy.context.view_layer.objects.active.fragmotion.takes, "a recording is one undo step"
+    assert not bpy.context.view_layer.objects.active.fragmotion.recordings, "a recording is one undo step"
     bpy.ops.ed.redo()
-    assert len(bpy.context.view_layer.objects.active.fragmotion.takes) == 1
+    assert len(bpy.context.view_layer.objects.active.fragmotion.recordings) == 1
 
 
 def test_before_build_a_trace_is_recorded_too(addon: ModuleType, session: ModuleType) -> None:
@@ -228,7 +228,7 @@ def test_before_build_a_trace_is_recorded_too(addon: ModuleType, session: Module
     driven.inputs.keyboard.press("W")
     go_on(driven, 0.5)
     driven.toggle_recording()
-    (recording,) = driven.obj.fragmotion.takes
+    (recording,) = driven.obj.fragmotion.recordings
     trace = import_module(f"{addon.__name__}.recordings.recordings").trace_of(recording)
     np.testing.assert_allclose(trace, [(0, driven.actor.space.walk, 0, 0)] * 5)
     assert recording.policy == "" and recording.quality == 0
@@ -265,7 +265,7 @@ def test_the_ghost_goes_just_as_the_trace_says(addon: ModuleType, session: Modul
     driven.play(np.array([(0, space.walk, 0, 0)] * 10 + [(0, 0, 1, 0)] * 10 + [(space.run, 0, 0, 0)] * 10))
     x, y, heading = driven.player.frame
     go_on(driven, 3.05)
-    rotate = import_module(f"{session.__package__}.input.steering").rotate
+    rotate = addon.input.steering.rotate
     ahead, aside = rotate(0, space.walk, heading), rotate(space.run, 0, heading + space.turn_rate)
     wanted = (x + ahead[0] + aside[0], y + ahead[1] + aside[1], heading + space.turn_rate)
     assert driven.readings.ideal.frame == pytest.approx(wanted, abs=1e-6)

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -125,7 +124,7 @@ def test_what_is_taken_away_ends_the_drive(session: ModuleType, cast: Any, remov
     assert len(kept) >= (3 if remove == swap_armature else len(before) - 1)
     assert {key: after[key] for key in kept} == {key: before[key] for key in kept}
     assert armature.pose_position == "REST" and cast.data.pose_position == ("POSE" if armature != cast.data else "REST")
-    assert [each.seconds for each in cast.fragmotion.takes] == [0.5], "what was recorded is lost"
+    assert [each.seconds for each in cast.fragmotion.recordings] == [0.5], "what was recorded is lost"
 
 
 def test_the_armature_is_given_back_where_what_was_active_is_gone(session: ModuleType) -> None:
@@ -177,13 +176,13 @@ def test_saving_twice_between_two_updates_is_harmless(
     assert "Traceback" not in capfd.readouterr().err
 
 
-def test_a_note_that_is_not_ours_is_dropped(session: ModuleType, tmp_path: Path) -> None:
+def test_a_note_that_is_not_ours_is_dropped(addon: ModuleType, session: ModuleType, tmp_path: Path) -> None:
     obj, mesh = making.add_armature(), making.add_mesh()
     obj[NOTE], mesh[NOTE] = {"slot": "?", "modes": 3}, 1
     other = making.add_armature(name="Other")
     spoil(other)
     before = own_state(other)
-    import_module(f"{session.__package__}.state.suspended_state").put_aside(other)
+    addon.preview.suspended_state.put_aside(other)
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "forged.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "forged.blend"))
     assert not any(NOTE in obj for obj in bpy.data.objects)
@@ -211,15 +210,17 @@ def test_undo_while_recording_keeps_the_recording_and_what_was_done_before(sessi
     bpy.ops.ed.undo()
     assert session.current is None and "undo" in driven.farewell and "is kept" in driven.farewell
     obj = bpy.data.objects["Rig"]
-    assert [each.seconds for each in obj.fragmotion.takes] == [1] and "Another" in bpy.data.objects
+    assert [each.seconds for each in obj.fragmotion.recordings] == [1] and "Another" in bpy.data.objects
     assert own_state(obj).keys() == before and NOTE not in obj
     bpy.ops.ed.undo()
-    assert not bpy.data.objects["Rig"].fragmotion.takes and "Another" in bpy.data.objects, "the recording is one step"
+    assert not bpy.data.objects["Rig"].fragmotion.recordings and "Another" in bpy.data.objects, (
+        "the recording is one step"
+    )
     bpy.ops.ed.undo()
     assert "Another" not in bpy.data.objects, "nothing is in the way of further undoing"
     for _ in range(2):
         bpy.ops.ed.redo()
-    assert [each.seconds for each in bpy.data.objects["Rig"].fragmotion.takes] == [1]
+    assert [each.seconds for each in bpy.data.objects["Rig"].fragmotion.recordings] == [1]
 
 
 def test_redo_while_recording_keeps_the_recording(session: ModuleType) -> None:
@@ -234,9 +235,9 @@ def test_redo_while_recording_keeps_the_recording(session: ModuleType) -> None:
     go_on(driven, 1)
     bpy.ops.ed.redo()
     assert session.current is None and "Another" in bpy.data.objects
-    assert [each.seconds for each in bpy.data.objects["Rig"].fragmotion.takes] == [1]
+    assert [each.seconds for each in bpy.data.objects["Rig"].fragmotion.recordings] == [1]
     bpy.ops.ed.undo()
-    assert "Another" in bpy.data.objects and not bpy.data.objects["Rig"].fragmotion.takes
+    assert "Another" in bpy.data.objects and not bpy.data.objects["Rig"].fragmotion.recordings
 
 
 def test_a_recording_that_is_replayed_may_be_removed(addon: ModuleType, session: ModuleType) -> None:

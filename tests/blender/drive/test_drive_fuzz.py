@@ -89,8 +89,8 @@ class User:
     do_drive_again = do_drive_on = do_drive_at_last = do_drive_now = do_drive_once_more = do_drive
 
     def do_replay(self) -> None:
-        if self.rig is not None and self.rig.fragmotion.takes and self.rig.mode != "EDIT":
-            self.session.replay(bpy.context, self.rig, self.rig.fragmotion.takes[0])
+        if self.rig is not None and self.rig.fragmotion.recordings and self.rig.mode != "EDIT":
+            self.session.replay(bpy.context, self.rig, self.rig.fragmotion.recordings[0])
 
     def do_go_on(self) -> None:
         for _ in range(self.random.randrange(20)):
@@ -139,7 +139,7 @@ class User:
         making.activate(making.add_mesh())
 
     def do_remove_recording(self) -> None:
-        if self.rig is not None and self.rig.fragmotion.takes:
+        if self.rig is not None and self.rig.fragmotion.recordings:
             self.addon.recordings.recordings.remove_recording(self.rig, 0)
 
     def do_rename(self) -> None:

@@ -21,12 +21,12 @@ WALK, RUN = 1.2, 3.3
 @pytest.fixture
 def steering(addon: ModuleType) -> ModuleType:
     """The module of the name."""
-    return part(addon, "input.steering")
+    return part(addon, "steering")
 
 
 def part(addon: ModuleType, name: str) -> ModuleType:
-    """A module of the add-on's folder `drive`."""
-    return import_module(f"{addon.__name__}.drive.{name}")
+    """A module of the add-on's folder `input`."""
+    return import_module(f"{addon.__name__}.input.{name}")
 
 
 def space(addon: ModuleType) -> Any:
@@ -61,12 +61,12 @@ def test_by_the_character_the_stick_is_its_velocity(addon: ModuleType, steering:
 
 def follow(addon: ModuleType, steer: Any, stick: Any, view: float, heading: float) -> tuple[np.ndarray, np.ndarray]:
     """Five seconds of controls followed exactly from a heading: the frames, and the way of the stick on the ground."""
-    track = part(addon, "acting.slider").Track((0.0, 0.0, heading))
+    track = addon.drive.acting.slider.Track((0.0, 0.0, heading))
     frames = [track.frame]
     for _ in range(300):
         track.step(steer.control(stick, track.frame[2], view), 1 / 60, space(addon))
         frames.append(track.frame)
-    return np.array(frames), np.array(part(addon, "input.steering").rotate(stick.right, stick.ahead, view))
+    return np.array(frames), np.array(part(addon, "steering").rotate(stick.right, stick.ahead, view))
 
 
 @pytest.mark.parametrize("turns_well", [True, False])
@@ -107,7 +107,7 @@ def test_how_well_a_character_turns_is_asked_of_the_policy_that_drives(addon: Mo
             player = addon.compat.core.core.Player(character, 1, policy=policy)
             frames = player.run(np.repeat([(0, space.run, 0, 0), (0, space.run, turn, 0)], (10, 20), axis=0), 60).path
             turned += turn * (frames[-1, 2] - frames[60, 2]) / 2
-        turns_well = part(addon, "acting.actor").Actor(bpy.context, obj, 1, policy).turns_well(space.run)
+        turns_well = addon.drive.acting.actor.Actor(bpy.context, obj, 1, policy).turns_well(space.run)
         assert turns_well == (turned > 0.75 * space.turn_rate * seconds)
 
 
@@ -136,7 +136,7 @@ def test_a_control_in_words(addon: ModuleType, steering: ModuleType) -> None:
 
 
 def test_the_keyboard_walks_runs_turns_and_jumps(addon: ModuleType) -> None:
-    keyboard_module = part(addon, "input.keyboard")
+    keyboard_module = part(addon, "keyboard")
     keyboard = keyboard_module.Keyboard({**keyboard_module.DEFAULT_KEYS, "jump": "J"})
 
     def hold(*keys: str) -> Any:
@@ -155,7 +155,7 @@ def test_the_keyboard_walks_runs_turns_and_jumps(addon: ModuleType) -> None:
 
 
 def test_the_on_screen_stick_is_dragged_and_springs_back(addon: ModuleType) -> None:
-    stick = part(addon, "input.screen_stick").ScreenStick()
+    stick = part(addon, "screen_stick").ScreenStick()
     stick.place(100, 0, 2.0)
     x, y = stick.center
     assert not stick.press(x + 1.01 * stick.radius, y) and stick.intent()[:2] == (0, 0)
@@ -183,7 +183,7 @@ class Knob:
 
 def test_the_last_input_touched_drives(addon: ModuleType, steering: ModuleType) -> None:
     one, two = Knob(steering, "one"), Knob(steering, "two")
-    arbiter = part(addon, "input.arbiter").Arbiter((one, two))
+    arbiter = part(addon, "arbiter").Arbiter((one, two))
     assert arbiter.intent() == steering.REST and arbiter.current is None
     one.now = steering.Intent(1, 0)
     assert arbiter.intent() == one.now
@@ -200,9 +200,9 @@ def test_the_last_input_touched_drives(addon: ModuleType, steering: ModuleType) 
 
 
 def test_a_trace_drives_until_it_ends_or_another_input_is_touched(addon: ModuleType, steering: ModuleType) -> None:
-    trace = part(addon, "input.tracing").TraceInput(60)
+    trace = part(addon, "tracing").TraceInput(60)
     knob = Knob(steering, "knob")
-    arbiter = part(addon, "input.arbiter").Arbiter((trace, knob))
+    arbiter = part(addon, "arbiter").Arbiter((trace, knob))
     rows = np.array([(0, 1, 0, 0), (1, 0, 1, 0), (0, 3, 0, 1)], float)
     trace.play(rows)
     arbiter.take(trace)
@@ -249,7 +249,7 @@ class VirtualPads:
 @pytest.fixture
 def pads(addon: ModuleType) -> Iterator[Any]:
     """The add-on's pads, open."""
-    opened = part(addon, "input.pads").Pads(PREFERENCES)
+    opened = part(addon, "pads").Pads(PREFERENCES)
     yield opened
     opened.close()
 
@@ -257,7 +257,7 @@ def pads(addon: ModuleType) -> Iterator[Any]:
 @pytest.fixture
 def virtual(addon: ModuleType, pads: Any) -> VirtualPads:
     """Pads to connect."""
-    return VirtualPads(part(addon, "input.sdl").load())
+    return VirtualPads(part(addon, "sdl").load())
 
 
 def test_a_pads_sticks_shoulders_and_buttons_are_read(pads: Any, virtual: VirtualPads) -> None:
@@ -283,8 +283,8 @@ def test_a_pads_sticks_shoulders_and_buttons_are_read(pads: Any, virtual: Virtua
 
 
 def test_pads_come_and_go(addon: ModuleType) -> None:
-    inputs = part(addon, "input.inputs").Inputs(SimpleNamespace(keys=dict, **vars(PREFERENCES)), 60)
-    virtual = VirtualPads(part(addon, "input.sdl").load())
+    inputs = part(addon, "inputs").Inputs(SimpleNamespace(keys=dict, **vars(PREFERENCES)), 60)
+    virtual = VirtualPads(part(addon, "sdl").load())
     try:
         assert inputs.messages == []
         first, second = virtual.attach(), virtual.attach()
@@ -310,8 +310,8 @@ def test_pads_come_and_go(addon: ModuleType) -> None:
 
 def test_moves_are_held_by_their_keys_and_buttons(addon: ModuleType) -> None:
     preferences = SimpleNamespace(**vars(PREFERENCES), keys=lambda: {"forward": "W"})
-    inputs = part(addon, "input.inputs").Inputs(preferences, 60, [("F", "NONE"), ("NONE", "X"), ("G", "DPAD_UP")])
-    virtual = VirtualPads(part(addon, "input.sdl").load())
+    inputs = part(addon, "inputs").Inputs(preferences, 60, [("F", "NONE"), ("NONE", "X"), ("G", "DPAD_UP")])
+    virtual = VirtualPads(part(addon, "sdl").load())
     try:
         pad = virtual.attach()
         virtual.set(pad, {}, (2, 11))
@@ -343,8 +343,8 @@ def test_closed_pads_leave_nothing_with_sdl(addon: ModuleType) -> None:
     def threads() -> int:
         return len(os.listdir("/proc/self/task"))
 
-    library, before = part(addon, "input.sdl").load(), threads()
-    opened = part(addon, "input.pads").Pads(PREFERENCES)
+    library, before = part(addon, "sdl").load(), threads()
+    opened = part(addon, "pads").Pads(PREFERENCES)
     device = VirtualPads(library).attach()
     library.SDL_JoystickClose(device)
     opened.poll()
@@ -356,13 +356,13 @@ def test_closed_pads_leave_nothing_with_sdl(addon: ModuleType) -> None:
 
 
 def test_without_sdl_the_keyboard_still_drives(addon: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
-    sdl = part(addon, "input.sdl")
+    sdl = part(addon, "sdl")
 
     def fail(*_arguments: Any) -> Any:
         raise ImportError("no such library")
 
     monkeypatch.setattr(sdl, "import_module", fail)
-    inputs = part(addon, "input.inputs").Inputs(SimpleNamespace(keys=lambda: {"forward": "W"}, **vars(PREFERENCES)), 60)
+    inputs = part(addon, "inputs").Inputs(SimpleNamespace(keys=lambda: {"forward": "W"}, **vars(PREFERENCES)), 60)
     (message,) = inputs.messages
     assert "SDL" in message and "no such library" in message
     inputs.keyboard.press("W")

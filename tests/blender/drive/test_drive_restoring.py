@@ -140,12 +140,12 @@ def test_an_undo_step_of_the_users_from_the_middle_of_a_drive_is_healed(session:
     assert obj.animation_data.action == bpy.data.actions["own"]
 
 
-def test_a_file_from_the_middle_of_a_drive_is_healed(session: ModuleType, tmp_path: Path) -> None:
+def test_a_file_from_the_middle_of_a_drive_is_healed(addon: ModuleType, session: ModuleType, tmp_path: Path) -> None:
     """As Blender's autosave writes it, which calls no handler."""
     obj = making.add_armature()
     spoil(obj)
     modes, pose = [bone.rotation_mode for bone in obj.pose.bones], everything(obj)["bones"]
-    import_module(f"{session.__package__}.state.suspended_state").put_aside(obj)
+    addon.preview.suspended_state.put_aside(obj)
     assert [bone.rotation_mode for bone in obj.pose.bones] != modes
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "autosave.blend"))
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "autosave.blend"))
@@ -155,17 +155,17 @@ def test_a_file_from_the_middle_of_a_drive_is_healed(session: ModuleType, tmp_pa
     assert "fragmotion_put_aside" not in obj
 
 
-def test_loading_a_file_ends_the_drive(session: ModuleType) -> None:
+def test_loading_a_file_ends_the_drive(addon: ModuleType, session: ModuleType) -> None:
     driven = start(session, making.add_armature())
     go_on(driven, 0.1)
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     assert session.current is None and driven.inputs.pads == []
-    assert sdl_is_closed(session)
+    assert sdl_is_closed(addon)
 
 
-def sdl_is_closed(session: ModuleType) -> bool:
+def sdl_is_closed(addon: ModuleType) -> bool:
     """Whether nothing of SDL is in use."""
-    return bool(import_module(f"{session.__package__}.input.sdl").load().SDL_WasInit(0) == 0)
+    return bool(import_module(f"{addon.__name__}.input.sdl").load().SDL_WasInit(0) == 0)
 
 
 def test_switching_the_add_on_off_ends_the_drive(addon: ModuleType, session: ModuleType) -> None:
@@ -175,10 +175,10 @@ def test_switching_the_add_on_off_ends_the_drive(addon: ModuleType, session: Mod
     go_on(start(session, obj), 0.1)
     addon.unregister()
     addon.register()
-    assert session.current is None and everything(obj) == before and sdl_is_closed(session)
+    assert session.current is None and everything(obj) == before and sdl_is_closed(addon)
 
 
-def test_a_drive_says_why_it_cannot_go_on(session: ModuleType) -> None:
+def test_a_drive_says_why_it_cannot_go_on(addon: ModuleType, session: ModuleType) -> None:
     obj = making.add_armature()
     driven = start(session, obj)
     assert driven.trouble() == ""
@@ -188,7 +188,7 @@ def test_a_drive_says_why_it_cannot_go_on(session: ModuleType) -> None:
     bpy.data.objects.remove(obj)
     assert driven.trouble() == "Armature 'Rig' was deleted"
     session.stop()
-    assert session.current is None and sdl_is_closed(session)
+    assert session.current is None and sdl_is_closed(addon)
 
 
 def test_one_drive_at_a_time(session: ModuleType) -> None:
@@ -211,4 +211,4 @@ def test_an_armature_that_cannot_be_driven_is_refused_and_left_alone(addon: Modu
     before = everything(obj)
     with pytest.raises(addon.errors.UserError, match="'hips' carries the body"):
         start(session, obj)
-    assert session.current is None and everything(obj) == before and sdl_is_closed(session)
+    assert session.current is None and everything(obj) == before and sdl_is_closed(addon)

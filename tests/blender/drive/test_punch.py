@@ -80,7 +80,7 @@ class Seen:
 
 def record_over(session: ModuleType, obj: bpy.types.Object) -> Seen:
     """From 4 s to 7 s: a walk while the recording still waves, a jump, another style, and a wave to the very end."""
-    driven = session.record_over(bpy.context, obj, obj.fragmotion.takes[0], 4.0, 7.0)
+    driven = session.record_over(bpy.context, obj, obj.fragmotion.recordings[0], 4.0, 7.0)
     press, let_go = driven.inputs.keyboard.press, driven.inputs.keyboard.let_go
     jump, wave = (row.key for row in obj.fragmotion.moves)
     seen = Seen(driven)
@@ -107,7 +107,7 @@ def test_what_is_recorded_over_moves_and_styles_is_kept_as_it_was_shown(
 ) -> None:
     seen = record_over(session, obj)
     session.stop()
-    recording = obj.fragmotion.takes[0]
+    recording = obj.fragmotion.recordings[0]
     _, kept = part(addon, "recordings.recordings").shown_of(recording)
     first = 2 * driving.RATE + 1
     np.testing.assert_allclose(kept.path[first : first + len(seen.frames), :2], np.array(seen.frames)[:, :2], atol=NEAR)
@@ -118,7 +118,7 @@ def test_what_is_recorded_over_moves_and_styles_is_kept_as_it_was_shown(
     assert again.played[shown] == seen.played
     styles, whole, upper = (set(column) for column in zip(*seen.played))
     assert styles == {NEUTRAL, TIRED} and {0, -1} <= whole and {1, -1} <= upper, "all that is asked for is played"
-    assert len(obj.fragmotion.takes) == 1
+    assert len(obj.fragmotion.recordings) == 1
 
 
 def test_the_users_moves_and_styles_stand_where_the_recordings_were(
@@ -126,7 +126,7 @@ def test_the_users_moves_and_styles_stand_where_the_recordings_were(
 ) -> None:
     record_over(session, obj)
     session.stop()
-    recordings, recording = part(addon, "recordings.recordings"), obj.fragmotion.takes[0]
+    recordings, recording = part(addon, "recordings.recordings"), obj.fragmotion.recordings[0]
     assert recordings.moves_of(recording) == [
         *[(5, WAVE, 4), (38, WAVE, 20), (46, JUMP, 2), (61, WAVE, 9), (90, WAVE, 5), (100, JUMP, 1)]
     ]
@@ -139,16 +139,56 @@ def test_a_replay_that_fails_leaves_the_recording_as_it_was(
     addon: ModuleType, session: ModuleType, obj: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     replaying, fields = part(addon, "edits.replaying"), ("controls", "moves", "style", "styles", "shown")
-    before = [getattr(obj.fragmotion.takes[0], field) for field in fields]
+    before = [getattr(obj.fragmotion.recordings[0], field) for field in fields]
 
     def fail(*_arguments: Any) -> None:
         raise ValueError("injected")
 
-    driven = session.record_over(bpy.context, obj, obj.fragmotion.takes[0], 4.0, 5.0)
+    driven = session.record_over(bpy.context, obj, obj.fragmotion.recordings[0], 4.0, 5.0)
     driven.inputs.keyboard.press("W")
     driving.go_on(driven, 2.5)
     monkeypatch.setattr(replaying, "from_then_on", fail)
     with pytest.raises(ValueError, match="injected"):
         session.stop()
-    assert [getattr(obj.fragmotion.takes[0], field) for field in fields] == before
+    assert [getattr(obj.fragmotion.recordings[0], field) for field in fields] == before
     assert session.current is None
+
+
+def cut(addon: ModuleType, obj: bpy.types.Object, recording: Any) -> None:
+    part(addon, "edits.cutting").cut_out(obj, recording, 1.0, 3.0)
+
+
+def pinned(addon: ModuleType, obj: bpy.types.Object, recording: Any) -> None:
+    """A quarter of a metre aside at 3 s; the search plays controls alone."""
+    pinning, recordings = part(addon, "edits.pinning"), part(addon, "recordings.recordings")
+    recordings.set_asked(recording, recordings.Asked([], "", []))
+    aside = part(addon, "edits.replaying").shown_poses(obj, recording).path[180] + (0.2, 0.15, 0.2)
+    goal = pinning.Goal(3.0, 0.5, tuple(aside))
+    pinning.keep_pin(obj, recording, goal, pinning.prepare(obj, recording, goal)(lambda *_: True))
+
+
+@pytest.mark.parametrize("edit", [cut, pinned])
+@pytest.mark.parametrize("begin", [0.0, 4.0])
+def test_what_is_recorded_over_an_edited_recording_is_kept_as_it_was_shown(
+    addon: ModuleType, session: ModuleType, obj: bpy.types.Object, edit: Any, begin: float
+) -> None:
+    recording, replaying = obj.fragmotion.recordings[0], part(addon, "edits.replaying")
+    shown_of = part(addon, "recordings.recordings").shown_of
+    edit(addon, obj, recording)
+    before = shown_of(recording)[1]
+    driven = session.record_over(bpy.context, obj, recording, begin, begin + 2.5)
+    seen = Seen(driven)
+    seen.go_on(min(begin, 2.0))
+    driven.inputs.keyboard.press("W")
+    seen.go_on(5.0)
+    session.stop()
+    kept = shown_of(recording)[1]
+    end, first = round(begin * driving.RATE), round(max(begin - 2.0, 0.0) * driving.RATE) + 1
+    np.testing.assert_array_equal(kept.path[: end + 1], before.path[: end + 1])
+    part_seen = slice(first, first + len(seen.frames))
+    np.testing.assert_allclose(kept.path[part_seen], np.array(seen.frames), atol=NEAR)
+    np.testing.assert_allclose(kept.root_positions[part_seen], seen.heads, atol=NEAR)
+    character = part(addon, "character.building").load(obj)
+    trace = part(addon, "recordings.recordings").trace_of(recording)
+    played = replaying.replay(obj, character, recording, trace, recording.seed)
+    assert begin == 0 or np.hypot(*(played.path[end] - kept.path[end])[:2]) > 2 * NEAR, "it is not what a replay shows"

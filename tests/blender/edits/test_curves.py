@@ -29,7 +29,7 @@ def press(name: str, **fields: Any) -> None:
 def stroll() -> Any:
     """The recording that is there after undo, too."""
     armatures = [obj for obj in bpy.data.objects if obj.type == "ARMATURE"]
-    return armatures[0].fragmotion.takes["Stroll"]
+    return armatures[0].fragmotion.recordings["Stroll"]
 
 
 def curve(versions: ModuleType, name: str) -> Any:
@@ -218,9 +218,9 @@ def test_a_copy_of_the_recording_or_the_armature_has_curves_of_its_own(
     press("edit_curves")
     making.activate(obj)
     press("duplicate_recording")
-    assert obj.fragmotion.takes[1].curves is None and obj.fragmotion.takes[0].curves is not None
+    assert obj.fragmotion.recordings[1].curves is None and obj.fragmotion.recordings[0].curves is not None
     copy = obj.copy()
-    assert addon.recordings.curves.curves_of(copy, copy.fragmotion.takes[0]) is None
+    assert addon.recordings.curves.curves_of(copy, copy.fragmotion.recordings[0]) is None
 
 
 def test_curves_survive_saving(

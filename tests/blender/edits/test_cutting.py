@@ -62,7 +62,7 @@ def test_a_cut_is_undone_and_is_baked_as_it_is_shown(
     assert (frames[1] - frames[0]) / 24 == pytest.approx(seconds, abs=0.05)
     bpy.ops.ed.undo()
     bpy.ops.ed.undo()
-    again = next(each for each in bpy.data.objects if each.type == "ARMATURE").fragmotion.takes[0]
+    again = next(each for each in bpy.data.objects if each.type == "ARMATURE").fragmotion.recordings[0]
     np.testing.assert_array_equal(addon.recordings.recordings.trace_of(again), trace)
 
 
@@ -81,10 +81,10 @@ def test_an_imported_recording_is_cut_as_it_is_played(
 ) -> None:
     other = addon.recordings.recordings.add_recording(obj, trace, name="Imported", seed=3, start=(2, -1, 0.5))
     press("cut_recording", start=4, end=6)
-    obj.fragmotion.active_take = 0
+    obj.fragmotion.active_recording = 0
     press("cut_recording", start=4, end=6)
     np.testing.assert_allclose(
-        shown(addon, other).root_positions, shown(addon, obj.fragmotion.takes[0]).root_positions, atol=1e-5
+        shown(addon, other).root_positions, shown(addon, obj.fragmotion.recordings[0]).root_positions, atol=1e-5
     )
 
 
@@ -93,14 +93,14 @@ def test_glued_recordings_follow_each_other_from_where_the_character_is(
 ) -> None:
     other = np.tile([0, 1.2, 0.5, 0], (40, 1))
     addon.recordings.recordings.add_recording(obj, other, name="More", seed=9, start=(50, 0, 0))
-    obj.fragmotion.active_take = 0
+    obj.fragmotion.active_recording = 0
     first, second = (
-        shown(addon, obj.fragmotion.takes[0]),
-        addon.edits.replaying.shown_poses(obj, obj.fragmotion.takes[1]),
+        shown(addon, obj.fragmotion.recordings[0]),
+        addon.edits.replaying.shown_poses(obj, obj.fragmotion.recordings[1]),
     )
     press("glue_recording")
-    glued, whole = obj.fragmotion.takes[0], shown(addon, obj.fragmotion.takes[0])
-    assert [each.name for each in obj.fragmotion.takes] == ["Stroll", "More"]
+    glued, whole = obj.fragmotion.recordings[0], shown(addon, obj.fragmotion.recordings[0])
+    assert [each.name for each in obj.fragmotion.recordings] == ["Stroll", "More"]
     length = len(addon.recordings.recordings.trace_of(glued))
     assert len(trace) + len(other) - 10 <= length <= len(trace) + len(other)
     np.testing.assert_array_equal(whole.root_positions[:400], first.root_positions[:400])
@@ -113,12 +113,12 @@ def test_recordings_without_a_character_are_cut_and_glued_as_controls(addon: Mod
     obj = making.add_armature()
     for name in ("one", "two"):
         addon.recordings.recordings.add_recording(obj, making.waves(50, 4, 1) / 2 + 0.5, name=name)
-    obj.fragmotion.active_take = 0
+    obj.fragmotion.active_recording = 0
     press("glue_recording")
     press("cut_recording", start=2, end=3)
-    trace = addon.recordings.recordings.trace_of(obj.fragmotion.takes[0])
+    trace = addon.recordings.recordings.trace_of(obj.fragmotion.recordings[0])
     rows = making.waves(50, 4, 1) / 2 + 0.5
     np.testing.assert_array_equal(trace, np.concatenate((rows[:20], rows[30:], rows)))
-    obj.fragmotion.active_take = 1
+    obj.fragmotion.active_recording = 1
     with pytest.raises(RuntimeError, match="No recording comes after it"):
         bpy.ops.fragmotion.glue_recording()

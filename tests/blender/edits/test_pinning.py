@@ -64,7 +64,7 @@ def test_a_pin_is_baked_and_undone(addon: ModuleType, obj: bpy.types.Object, rec
     np.testing.assert_allclose(np.array(posed.matrix_world @ posed.pose.bones["Hips"].head)[:2], goal[:2], atol=1e-3)
     bpy.ops.ed.undo()
     bpy.ops.ed.undo()
-    again = next(each for each in bpy.data.objects if each.type == "ARMATURE").fragmotion.takes[0]
+    again = next(each for each in bpy.data.objects if each.type == "ARMATURE").fragmotion.recordings[0]
     np.testing.assert_array_equal(addon.recordings.recordings.trace_of(again), trace)
 
 

@@ -14,7 +14,7 @@ from driving import go_on
 
 def start(session: ModuleType, obj: bpy.types.Object, begin: float, end: float) -> Any:
     obj.fragmotion.drive.relative = "CHARACTER"
-    return session.record_over(bpy.context, obj, obj.fragmotion.takes[0], begin, end)
+    return session.record_over(bpy.context, obj, obj.fragmotion.recordings[0], begin, end)
 
 
 def test_the_stick_is_recorded_over_a_stretch_and_the_rest_follows(
@@ -28,16 +28,16 @@ def test_the_stick_is_recorded_over_a_stretch_and_the_rest_follows(
     np.testing.assert_allclose(driven.actor.frame, before.path[300], atol=1e-5)
     go_on(driven, 2.5)
     frame = driven.actor.frame
-    over = addon.recordings.recordings.trace_of(obj.fragmotion.takes[0])
+    over = addon.recordings.recordings.trace_of(obj.fragmotion.recordings[0])
     session.stop()
     np.testing.assert_array_equal(over[:50], trace[:50])
     np.testing.assert_array_equal(over[50:70], np.tile([0, 0, 1, 0], (20, 1)))
     np.testing.assert_array_equal(over[70:], trace[70:])
-    after = addon.recordings.recordings.shown_of(obj.fragmotion.takes[0])[1]
+    after = addon.recordings.recordings.shown_of(obj.fragmotion.recordings[0])[1]
     np.testing.assert_array_equal(after.rotations[:301], before.rotations[:301])
     np.testing.assert_array_equal(after.path[:301], before.path[:301])
     np.testing.assert_allclose(after.path[450], frame, atol=1e-3)
-    assert len(obj.fragmotion.takes) == 1 and len(after.path) == len(before.path)
+    assert len(obj.fragmotion.recordings) == 1 and len(after.path) == len(before.path)
 
 
 def test_what_was_taken_until_the_drive_ends_is_kept(
@@ -47,7 +47,7 @@ def test_what_was_taken_until_the_drive_ends_is_kept(
     driven.inputs.keyboard.press("W")
     go_on(driven, 1.5)
     session.stop()
-    over = addon.recordings.recordings.trace_of(obj.fragmotion.takes[0])
+    over = addon.recordings.recordings.trace_of(obj.fragmotion.recordings[0])
     assert (over[10:15] != trace[10:15]).any()
     np.testing.assert_array_equal(over[15:], trace[15:])
     np.testing.assert_array_equal(over[:10], trace[:10])
@@ -59,7 +59,7 @@ def test_a_drive_that_ends_before_the_stretch_changes_nothing(
     controls, shown = recording.controls, recording.shown
     go_on(start(session, obj, 5.0, 7.0), 1)
     session.stop()
-    assert (obj.fragmotion.takes[0].controls, obj.fragmotion.takes[0].shown) == (controls, shown)
+    assert (obj.fragmotion.recordings[0].controls, obj.fragmotion.recordings[0].shown) == (controls, shown)
 
 
 @pytest.mark.parametrize(("begin", "end"), [(-3.0, 2.0), (12.5, 14.0)])

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+import threading
 from pathlib import Path
 from types import ModuleType
 
@@ -213,6 +214,20 @@ def test_a_folder_without_takes_is_named(tmp_path: Path, files: tuple[str, ...])
         import_folder(tmp_path)
     with pytest.raises(RuntimeError, match="is not a folder"):
         import_folder(tmp_path / "missing")
+
+
+def test_an_import_is_stopped_while_its_takes_are_examined(addon: ModuleType, tmp_path: Path) -> None:
+    core, (file,) = (
+        addon.compat.core.core,
+        addon.mocap.take_files.find_takes(making.write_bvh(tmp_path / "a.bvh").parent),
+    )
+    short = core.read_bvh(file.path)
+    values = (np.tile(each, (4000, 1, 1)) for each in (short.translations, short.rotations))
+    take = core.Take(short.skeleton, "long", short.rate, *values, short.unit)
+    steps = addon.mocap.doctor.examine([take], True, [True], 0.25, 0.75)
+    assert 0.25 <= next(steps) < 0.75
+    steps.close()
+    assert not any(thread.name == "Fragmotion" for thread in threading.enumerate())
 
 
 def test_an_import_that_stops_in_the_middle_removes_what_it_made(addon: ModuleType, tmp_path: Path) -> None:

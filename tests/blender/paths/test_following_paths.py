@@ -76,11 +76,11 @@ def follow(obj: bpy.types.Object, **settings: Any) -> Any:
     """Follow a path as settings say; the recording."""
     for name, value in settings.items():
         setattr(obj.fragmotion.path, name, value)
-    before = len(obj.fragmotion.takes)
+    before = len(obj.fragmotion.recordings)
     bpy.context.view_layer.update()
     assert bpy.ops.fragmotion.follow_path("EXEC_DEFAULT") == {"FINISHED"}
-    assert len(obj.fragmotion.takes) == before + 1
-    return obj.fragmotion.takes[-1]
+    assert len(obj.fragmotion.recordings) == before + 1
+    return obj.fragmotion.recordings[-1]
 
 
 def refused(obj: bpy.types.Object, **settings: Any) -> str:
@@ -88,10 +88,12 @@ def refused(obj: bpy.types.Object, **settings: Any) -> str:
     for name, value in settings.items():
         setattr(obj.fragmotion.path, name, value)
     bpy.context.view_layer.update()
-    counts = [len(kind) for kind in (bpy.data.objects, bpy.data.curves, bpy.data.meshes, obj.fragmotion.takes)]
+    counts = [len(kind) for kind in (bpy.data.objects, bpy.data.curves, bpy.data.meshes, obj.fragmotion.recordings)]
     with pytest.raises(RuntimeError) as refusal:
         bpy.ops.fragmotion.follow_path("EXEC_DEFAULT")
-    assert counts == [len(kind) for kind in (bpy.data.objects, bpy.data.curves, bpy.data.meshes, obj.fragmotion.takes)]
+    assert counts == [
+        len(kind) for kind in (bpy.data.objects, bpy.data.curves, bpy.data.meshes, obj.fragmotion.recordings)
+    ]
     return str(refusal.value)
 
 

@@ -98,7 +98,7 @@ def shown(rows: np.ndarray) -> bytes:
 def test_a_recording_with_impossible_numbers_is_damaged_or_baked(
     addon: ModuleType, obj: bpy.types.Object, column: int, value: float
 ) -> None:
-    recording = obj.fragmotion.takes[0]
+    recording = obj.fragmotion.recordings[0]
     rows = np.frombuffer(zlib.decompress(recording.shown), "<f4").reshape(60, -1).copy()
     rows[-1, column] = value
     recording.shown = shown(rows)
@@ -110,7 +110,7 @@ def test_a_recording_with_impossible_numbers_is_damaged_or_baked(
 
 
 def test_a_recording_without_rotations_or_rows_is_damaged(addon: ModuleType, obj: bpy.types.Object) -> None:
-    recording = obj.fragmotion.takes[0]
+    recording = obj.fragmotion.recordings[0]
     rows = np.frombuffer(zlib.decompress(recording.shown), "<f4").reshape(60, -1).copy()
     rows[3, 8:] = 0
     for data in (shown(rows), zlib.compress(b""), shown(np.zeros((1, 3)))):
@@ -131,7 +131,7 @@ def test_a_recording_without_rotations_or_rows_is_damaged(addon: ModuleType, obj
 def test_a_recording_that_claims_more_poses_than_were_shown_takes_no_memory(
     addon: ModuleType, obj: bpy.types.Object
 ) -> None:
-    recording = obj.fragmotion.takes[0]
+    recording = obj.fragmotion.recordings[0]
     recording.shown = zlib.compress(bytes(1 << 27))
     tracemalloc.start()
     try:
@@ -228,7 +228,7 @@ def test_damaged_settings_are_mended_and_every_button_ends_in_a_sentence(
     assert "fragmotion_put_aside" not in obj
     assert addon.settings.mending.mend(obj.fragmotion) == 0
     assert 0 <= obj.fragmotion.build.seconds <= 3600 and obj.fragmotion.keep_policy in {"PACKED", "BESIDE"}
-    assert obj.fragmotion.bake.target == "NEW" and len(obj.fragmotion.takes) == 2
+    assert obj.fragmotion.bake.target == "NEW" and len(obj.fragmotion.recordings) == 2
     press_every_button(tmp_path)
     bpy.ops.wm.save_mainfile()
     assert files_in(tmp_path).keys() <= {"x.policy", "x.csv"}
@@ -271,7 +271,7 @@ def test_only_the_damaged_one_of_many_entries_is_mended(addon: ModuleType, obj: 
     assert told == [(f"move {index}", 1.5, "F", -7) for index in (0, 1, 2, 4)]
 
 
-@pytest.mark.parametrize("listed", ["moves", "takes", "classes"])
+@pytest.mark.parametrize("listed", ["moves", "recordings", "classes"])
 def test_many_entries_are_mended_in_the_time_of_a_look(addon: ModuleType, obj: bpy.types.Object, listed: str) -> None:
     entries = getattr(obj.fragmotion, listed)
     for _ in range(10_000):

@@ -83,5 +83,17 @@ TEST(Crowd, MayBeEmptyButNotLess) {
   EXPECT_NE(error_of([&] { Crowd(gait_character(), 2, options); }).find("root adjustment"), std::string::npos);
 }
 
+TEST(Crowd, HasNoPlayersAndPartsButItsOwn) {
+  Crowd crowd(gait_character(), kCount, {}, 2);
+  const std::vector<Control> controls(kCount);
+  for (const int out : {-1, kCount}) {
+    EXPECT_NE(error_of([&] { crowd[out]; }).find("player " + std::to_string(out)), std::string::npos);
+  }
+  for (const int out : {-1, 2}) {
+    EXPECT_NE(error_of([&] { crowd.step_part(out, controls.data(), kStep); }).find("part " + std::to_string(out)),
+              std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace fragmotion

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The armature and what plays it."""
+"""What plays an armature."""
 
 from __future__ import annotations
 
@@ -7,20 +7,22 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import bpy
-import numpy as np
 
 from ...bake.performing import character_frame, origin_frame
 from ...character.building import check_skeleton, has_character, in_styles, load, make_player
 from ...compat.core import core
 from ...errors import core_errors
 from ...ground.meshes import Ground
+from ...input.steering import Control
 from ...rig.posing import check_free
 from ...rig.rigs import carriers, make_rig
-from ..input.steering import Control
+from .joined import Joined, Pose
 from .slider import Slider
 
 if TYPE_CHECKING:
     from fragmotion_core import ControlSpace, Doubles, Player
+
+    from ...rig.motion import Motion
 
 _TURNS_WELL = 0.75  # of the turn rate that is asked for
 _START, _TRIAL = 1.0, 2.0  # s of going straight, and of turning then
@@ -28,7 +30,7 @@ _STEP = 1 / 60  # s
 
 
 class Actor:
-    """Poses an armature by its character, or lets it slide where it has none. UserError where it cannot be driven.
+    """Plays an armature's character, or lets the body slide where it has none. UserError where it cannot be driven.
 
     It begins where its DriveSettings.start says. Its character stands on `ground`; what slides, slides on the plane.
     """
@@ -42,9 +44,9 @@ class Actor:
         ground: Ground | None = None,
     ) -> None:
         check_free(obj)
-        self._obj, self._rig = obj, make_rig(obj)
-        self.skeleton = self._rig.skeleton
-        carriers(obj, self._rig)
+        self._obj, self.rig = obj, make_rig(obj)
+        self.skeleton = self.rig.skeleton
+        carriers(obj, self.rig)
         self.character = load(obj) if has_character(obj) else None
         self.policy = policy or (self.character.policy if self.character else "")
         self._spaces = [styled.space for styled in in_styles(self.character)] if self.character else []
@@ -53,18 +55,22 @@ class Actor:
             self._spaces = [core.ControlSpace()]
             self.player = Slider(self.skeleton, self.space)
         else:
-            check_skeleton(obj, self.character, self._rig)
+            check_skeleton(obj, self.character, self.rig)
             with core_errors("Drive"):
                 self.player = make_player(obj, self.character, seed, policy)
                 self.player.stand_on(ground)
-        self._order = [obj.data.bones.find(bone.name) for bone in obj.pose.bones]
+        self._joined: Joined | None = None
+        self._pose: Pose
         stands = obj.fragmotion.drive.start == "CHARACTER"
-        self.player.reset(*(character_frame(context, obj, self._rig) if stands else origin_frame(obj)))
+        self.player.reset(*(character_frame(context, obj, self.rig) if stands else origin_frame(obj)))
 
     def step(self, control: Control, seconds: float) -> tuple[Doubles, Doubles]:
         """Play on, and return the pose: root position [3] and rotations [B,4]."""
-        pose: tuple[Doubles, Doubles] = self.player.step(control, seconds)
-        return pose
+        root, rotations = self.player.step(control, seconds)
+        if self._joined is None:
+            return root, rotations
+        self._pose = self._joined.show(Pose(root, rotations, self.player.frame))
+        return self._pose.root, self._pose.rotations
 
     @property
     def style(self) -> int:
@@ -87,8 +93,21 @@ class Actor:
             turned += _turned(player, pace, turn)
         return bool(turned / 2 > _TURNS_WELL * self.space.turn_rate * _TRIAL)
 
+    def join_on(self, shown: Motion, first: int) -> None:
+        """Show what a recording showed that begins now, and from its control `first` on what is played, joined on."""
+        assert self.character is not None
+        root, rotations = self.step(Control(), 0.0)
+        self._pose = Pose(root, rotations, self.frame)
+        self._joined = Joined(self.character, shown, first, self._pose)
+
+    @property
+    def is_joined(self) -> bool:
+        """Whether it is shown joined on to what a recording showed."""
+        return self._joined is not None
+
     def begin(self, frame: Sequence[float], style: int = 0) -> None:
         """Stand at a character frame, in a style."""
+        self._joined = None
         if self.character is None:
             self.player.reset(*frame)
         else:
@@ -98,18 +117,10 @@ class Actor:
         """Stand where the character is, as a replay will begin."""
         self.begin(self.frame, self.style)
 
-    def show(self, root: Doubles, rotations: Doubles) -> None:
-        """Write a pose to the armature, whose bones rotate by quaternions."""
-        locations, turns = self._rig.channels(root[None], rotations[None])
-        bones = self._obj.pose.bones
-        bones.foreach_set("location", locations[0, self._order].astype(np.float32).ravel())
-        bones.foreach_set("rotation_quaternion", turns[0, self._order].astype(np.float32).ravel())
-        self._obj.update_tag()
-
     @property
     def frame(self) -> tuple[float, float, float]:
         """Where the character is, m, and its heading, radians from +Y."""
-        frame: tuple[float, float, float] = self.player.frame
+        frame: tuple[float, float, float] = self.player.frame if self._joined is None else self._pose.frame
         return frame
 
 

@@ -6,10 +6,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...input.steering import Control
 from ...recordings.asked import Asked
 from ...recordings.recordings import TRACE_RATE
 from ...recordings.styles import AS_EVER, StyleChange, Styled
-from ..input.steering import Control
 from .recorder import Taken
 
 if TYPE_CHECKING:

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...character.moves import names_of
+from ...input.steering import Control
 from ...recordings.asked import StartedMove
 from ...recordings.recordings import TRACE_RATE
 from ...recordings.styles import StyleChange
 from ...rig.motion import Motion
-from ..input.steering import Control
 from .actor import Actor
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from mathutils import Quaternion
 
-from ..input.steering import Control, rotate
+from ...input.steering import Control, rotate
 
 if TYPE_CHECKING:
     from fragmotion_core import ControlSpace, Doubles, Skeleton

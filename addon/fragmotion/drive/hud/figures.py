@@ -6,7 +6,7 @@ from __future__ import annotations
 import blf
 
 from ...compat import versions
-from ..input.steering import describe
+from ...input.steering import describe
 from . import paint
 from .shown import LONGEST_UPDATE, Shown
 from .views import Free

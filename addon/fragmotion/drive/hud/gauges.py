@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...character.building import in_styles
-from ..input.steering import Control
+from ...input.steering import Control
 
 if TYPE_CHECKING:
     from fragmotion_core import Character, ControlSpace, Player

@@ -9,8 +9,8 @@ from typing import Any
 
 import bpy
 
-from ..input.screen_stick import ScreenStick
-from ..input.steering import Intent
+from ...input.screen_stick import ScreenStick
+from ...input.steering import Intent
 from . import figures, paint, views
 from .shown import Shown
 

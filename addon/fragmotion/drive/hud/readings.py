@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ...input.steering import Control, rotate
 from ..acting.actor import Actor
 from ..acting.slider import Track
-from ..input.steering import Control, rotate
 from .gauges import Judge, Speedometer, Stopwatch
 from .trail import Trail
 
@@ -56,9 +56,9 @@ class Readings:
 
     @property
     def standing_feet(self) -> Doubles:
-        """Where feet stand [0 .. 2,3], m."""
+        """Where feet stand [0 .. 2,3], m; none where the body is shown elsewhere than it is played."""
         feet: Doubles = self._actor.player.standing_feet
-        return feet
+        return feet[:0] if self._actor.is_joined else feet
 
     @property
     def velocity(self) -> tuple[float, float]:

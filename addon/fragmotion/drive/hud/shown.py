@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from ..input.screen_stick import ScreenStick
-from ..input.steering import Intent
+from ...input.screen_stick import ScreenStick
+from ...input.steering import Intent
 from .readings import Readings
 
 LONGEST_UPDATE = 0.1

@@ -11,6 +11,7 @@ from ...character.building import has_character
 from ...compat.core import core
 from ...errors import UserError, core_errors, ends_on_error, reported
 from ...jobs import Job
+from ...preview.waking import rest, wake
 from .context import active_armature, adopt_settings, poll_armature, progress_shown
 
 _TICK = 0.1  # s between looks at the job
@@ -138,16 +139,6 @@ class Exclusive(Background):
         job.wait(_SLICE)
         context.workspace.status_text_set(f"{job.label}: {100 * job.fraction:.0f} %. Esc stops")
 
-    def abandon(self, context: bpy.types.Context) -> None:
-        """Give up the job, and what is said of it in the status bar."""
-        stop()
-        if context.workspace is not None:
-            context.workspace.status_text_set(None)
-
-    def _end(self, context: bpy.types.Context) -> None:
-        context.workspace.status_text_set(None)
-        super()._end(context)
-
 
 class FRAGMOTION_OT_cancel(bpy.types.Operator):
     """Stop what is under way in the background; nothing changes in the file"""
@@ -201,13 +192,12 @@ def _watch(context: bpy.types.Context, job: Job) -> None:
     global _timer
     _set_current(job)
     job.start()
-    _timer = context.window_manager.event_timer_add(_TICK, window=context.window)
+    _timer = wake(context.window, _TICK)
 
 
 def _stop_timer() -> None:
     global _timer
-    if _timer is not None:
-        bpy.context.window_manager.event_timer_remove(_timer)
+    rest(_timer)
     _timer = None
 
 

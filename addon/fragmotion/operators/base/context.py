@@ -11,9 +11,10 @@ import bpy
 
 from ...control_rig.binding import motion_of, rig_of
 from ...control_rig.detecting import is_control_rig
-from ...drive import session, take_shown
+from ...drive import session
 from ...errors import UserError
 from ...mocap.actions import chosen
+from ...preview import previews
 from ...recordings.curves import curves_of
 from ...recordings.recordings import Recording
 
@@ -35,12 +36,12 @@ def active_rig(context: bpy.types.Context) -> Any:
 
 
 def poll_idle(cls: Any) -> bool:
-    """Whether nothing is being driven, and no take is shown; says what is."""
+    """Whether nothing is being driven or previewed; says what is."""
     if session.current is not None:
         cls.poll_message_set(f"'{session.current.armature}' is being driven: stop that first (Esc)")
-    elif take_shown.current is not None:
-        cls.poll_message_set(f"Take '{take_shown.current.name}' is being played: stop that first (Esc)")
-    return session.current is None and take_shown.current is None
+    elif previews.current is not None:
+        cls.poll_message_set(f"{previews.current.name} is being played: stop that first (Esc)")
+    return session.current is None and previews.current is None
 
 
 def poll_armature(cls: Any, context: bpy.types.Context) -> bool:
@@ -95,15 +96,6 @@ def advise_on_foreign(obj: bpy.types.Object) -> str:
         f"Armature '{obj.name}' {state}, where no character can be kept: select it and choose, in Object Mode, "
         f"Object > Relations > Make Local > {choice}"
     )
-
-
-def end_modal(timer: bpy.types.Timer | None) -> None:
-    """Remove what a modal operator is woken by, if it is, and what it says in the status bar."""
-    if timer is None:
-        return
-    bpy.context.window_manager.event_timer_remove(timer)
-    if bpy.context.workspace is not None:  # there is none where no window is the context's
-        bpy.context.workspace.status_text_set(None)
 
 
 @contextmanager

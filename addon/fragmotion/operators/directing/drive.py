@@ -13,16 +13,18 @@ from ...character.moves import names_of
 from ...control_rig.binding import follows, rig_of
 from ...drive import session
 from ...drive.hud import views
-from ...drive.input.keyboard import STYLE_STEPS
-from ...drive.input.pads import Pads
-from ...drive.input.sdl import SdlMissing
 from ...errors import UserError, core_errors, ends_on_error, reported
+from ...input.keyboard import STYLE_STEPS
+from ...input.pads import Pads
+from ...input.sdl import SdlMissing
 from ...paths.drawing import ground_under
+from ...preview.waking import rest
 from ...recordings.traces import asked_beside, make_trace
 from ...rig.external_motion import external_motion
 from ...settings import preferences
 from ..base.background import poll_idle
 from ..base.context import active_armature, playhead, poll_armature
+from ..base.woken import Woken
 
 _PANEL_INTERVAL = 0.2  # s between drawings of the sidebar, which holds the pads, and looks at the other windows
 _GIZMOS = 100, 330  # pixels from a view's upper right corner, at a UI scale of 1, where clicks turn the view
@@ -31,21 +33,18 @@ seen_pads: list[str] = []
 """The gamepads that the last Find Gamepads found."""
 
 
-class _Hearing:
+class _Hearing(Woken):
     """A modal operator by which a drive hears the keys and the mouse of a window, until that drive ends. It lets
     through what is not used. Blender gives a modal operator the events of one window only."""
 
     report: Any
     _session: session.Session = None  # type: ignore[assignment]  # until it hears one
-    _timer: bpy.types.Timer | None = None
 
-    def _begin(self, context: bpy.types.Context, driven: session.Session, seconds: float) -> set[str]:
+    def _listen(self, context: bpy.types.Context, driven: session.Session, seconds: float) -> set[str]:
         """Hear the context's window, and be woken that often."""
         self._session, self._window = driven, context.window.as_pointer()
         driven.windows.add(self._window)
-        self._timer = session.wake(context.window, seconds)
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+        return self._begin(context, seconds)
 
     @ends_on_error
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -53,14 +52,14 @@ class _Hearing:
 
     def abandon(self, _context: bpy.types.Context) -> None:
         """End the drive that it hears, if any: it must never leave the armature half way, or go on unheard."""
-        session.rest(self._timer)
+        rest(self._timer)
         if session.current is self._session:
             session.stop()
 
-    def cancel(self, _context: bpy.types.Context) -> None:
-        """Blender ends the operator: its window is closed, another file is loaded, or Blender quits."""
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Blender ends the operator."""
         self._session.windows.discard(self._window)
-        session.rest(self._timer)
+        super().cancel(context)
 
     def _handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         raise NotImplementedError
@@ -78,7 +77,7 @@ class _Hearing:
 
     def _end(self) -> set[str]:
         """The drive is over: say how it ended, where that is not said yet."""
-        session.rest(self._timer)
+        rest(self._timer)
         self._tell()
         if self._session.farewell:
             self.report({"WARNING"}, self._session.farewell)
@@ -149,14 +148,14 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
             return {"FINISHED"}
         obj = active_armature(context) if session.current is None else driven_session().obj
         driven = self._session = self._start(context, obj)
-        self._time = self._drawn = time.perf_counter()
+        self._drawn = time.perf_counter()
         self._warn(obj)
-        return self._begin(context, driven, 1 / session.RATE)
+        return self._listen(context, driven, 1 / session.RATE)
 
     def _start(self, context: bpy.types.Context, obj: bpy.types.Object) -> session.Session:
         if self.source == "INPUTS":
             return session.start(context, obj, self.seed, self.policy)
-        recordings = obj.fragmotion.takes
+        recordings = obj.fragmotion.recordings
         if self.recording >= len(recordings):
             raise UserError(f"Armature '{obj.name}' has no such recording: record or import one")
         if self.source == "OVER":
@@ -180,11 +179,10 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
         return self._update(context) if event.type == "TIMER" else self._hear(context, event)
 
     def _update(self, context: bpy.types.Context) -> set[str]:
-        now = time.perf_counter()
+        seconds, now = self._passed(), time.perf_counter()
         if not bpy.app.is_job_running("RENDER"):  # which reads the armature meanwhile
             with core_errors("Drive"):
-                self._session.update(now - self._time)
-        self._time = now
+                self._session.update(seconds)
         self._tell()
         views.tag_redraw()
         if now - self._drawn > _PANEL_INTERVAL:
@@ -225,7 +223,7 @@ class FRAGMOTION_OT_listen(_Hearing, bpy.types.Operator):
 
     @ends_on_error
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        return self._begin(context, driven_session(), _PANEL_INTERVAL)
+        return self._listen(context, driven_session(), _PANEL_INTERVAL)
 
     def _handle(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type == "TIMER" or self._session.trouble():

@@ -126,7 +126,7 @@ class FRAGMOTION_OT_glue_recording(OnRecording, bpy.types.Operator):
         if not super().poll(context):
             return False
         settings = active_armature(context).fragmotion
-        has_next: bool = settings.active_take + 1 < len(settings.takes)
+        has_next: bool = settings.active_recording + 1 < len(settings.recordings)
         if not has_next:
             cls.poll_message_set("No recording comes after it in the list")
         return has_next
@@ -134,7 +134,7 @@ class FRAGMOTION_OT_glue_recording(OnRecording, bpy.types.Operator):
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj, recording = active_armature(context), selected(context)
-        other = obj.fragmotion.takes[obj.fragmotion.active_take + 1]
+        other = obj.fragmotion.recordings[obj.fragmotion.active_recording + 1]
         seam = cutting.append(obj, recording, other)
         self.report(
             {"INFO"}, f"'{other.name}' follows in '{recording.name}' from {seam.end / TRACE_RATE:.1f} s on{_fit(seam)}"
@@ -179,7 +179,7 @@ class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.
         return Job(f"Pinning '{recording.name}'", pinning.prepare(obj, recording, self._goal))
 
     def _keep(self, _context: bpy.types.Context, obj: bpy.types.Object, pinned: pinning.Pinned) -> None:
-        recording = obj.fragmotion.takes.get(self._recording)
+        recording = obj.fragmotion.recordings.get(self._recording)
         if recording is None or recording.controls != self._controls:
             raise UserError(f"Recording '{self._recording}' was changed meanwhile")
         pinning.keep_pin(obj, recording, self._goal, pinned)

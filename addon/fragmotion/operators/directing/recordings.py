@@ -58,7 +58,7 @@ class FRAGMOTION_OT_delete_recording(OnRecording, bpy.types.Operator):
         obj = active_armature(context)
         name = selected(context).name
         remove_curves(obj, selected(context))
-        remove_recording(obj, obj.fragmotion.active_take)
+        remove_recording(obj, obj.fragmotion.active_recording)
         self.report({"INFO"}, f"Deleted recording '{name}'")
         return {"FINISHED"}
 
@@ -72,7 +72,7 @@ class FRAGMOTION_OT_duplicate_recording(OnRecording, bpy.types.Operator):
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
-        duplicate_recording(obj, obj.fragmotion.active_take)
+        duplicate_recording(obj, obj.fragmotion.active_recording)
         return {"FINISHED"}
 
 

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import bpy
 
+from ...control_rig.binding import is_source
 from ...errors import UserError, reported
 from ...mocap.actions import ticked
 from ...mocap.retargeting import retarget_actions
@@ -34,6 +35,8 @@ class FRAGMOTION_OT_retarget_actions(bpy.types.Operator):
         obj = active_armature(context)
         check_plain(obj)
         source = obj.fragmotion.source
+        if not is_source(source, obj):
+            raise UserError(f"'{source.name}' is no other armature: choose the one that the Actions are from")
         actions = ticked(source)
         if not actions:
             raise UserError(f"No Action of armature '{source.name}' is ticked: click it, and tick them")

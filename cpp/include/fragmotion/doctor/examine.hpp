@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fragmotion/base/progress.hpp"
 #include "fragmotion/motion/take.hpp"
 
 namespace fragmotion {
@@ -44,7 +45,9 @@ struct Examination {
 const std::vector<std::string>& finding_codes();
 
 /// Examines takes as they were read, each by itself and for motion that is in several of them; `threads` as
-/// thread_count(). Numbers may be missing (not finite).
-std::vector<Examination> examine(const std::vector<Take>& takes, int threads = 0);
+/// thread_count(). Numbers may be missing (not finite). Beside a take it holds some 150 bytes a frame, and what is
+/// mended on the way.
+std::vector<Examination> examine(const std::vector<const Take*>& takes, int threads = 0, const Progress& progress = {});
+std::vector<Examination> examine(const std::vector<Take>& takes, int threads = 0, const Progress& progress = {});
 
 }  // namespace fragmotion

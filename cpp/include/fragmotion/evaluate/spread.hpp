@@ -10,7 +10,6 @@ struct Spread {
   double p50 = 0, p99 = 0, p999 = 0, worst = 0;
 };
 
-/// A percentile is the value at the index that is a share of the last one's, rounded down.
 Spread spread(std::vector<double> values);
 
 /// How hard a body is pushed along the ground: the change over 0.2 s of its mean velocity over 0.2 s, m/s^2. A body can

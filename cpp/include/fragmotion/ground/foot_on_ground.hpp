@@ -20,15 +20,15 @@ class FootOnGround {
   /// How far it is moved along itself: where it would stand on an edge, it stands beside it. m.
   Vector2 shift() const { return {shift_[0].value, shift_[1].value}; }
   /// How much its leg must reach it, 0 .. 1: it stands, or did just now, or is about to.
-  double burden() const { return burden_; }
+  double contact_weight() const { return contact_weight_; }
   /// How much its sole is on its footing rather than as high as it was captured, likewise.
-  double grip() const { return grip_; }
+  double sole_weight() const { return sole_weight_; }
 
   /// On which it stands, or stood last, and on which it is to stand.
   const Footing& last() const { return last_; }
   const Footing& next() const { return next_; }
   /// Since it stood, s.
-  double aloft() const { return aloft_; }
+  double swing_time() const { return swing_time_; }
   /// Whether it is on its footing as foreseen.
   bool arrived() const { return error_.rests() && turn_[0].rests() && turn_[1].rests() && lift_ == 0; }
 
@@ -50,9 +50,9 @@ class FootOnGround {
   std::array<Approach, 2> turn_;      // likewise of the slope
   Vector2 beside_ = Vector2::Zero();  // how far it is to be moved
   std::array<Approach, 2> shift_;
-  Approach hurdle_;                          // how high it steps over what is in its way, m
-  double aloft_ = 0, due_ = 0;               // s since it stood, and until it stands
-  double lift_ = 0, burden_ = 1, grip_ = 1;  // m; 0 .. 1
+  Approach clearance_;                                      // how high it steps over what is in its way, m
+  double swing_time_ = 0, due_ = 0;                         // s since it stood, and until it stands
+  double lift_ = 0, contact_weight_ = 1, sole_weight_ = 1;  // m; 0 .. 1
 };
 
 }  // namespace fragmotion

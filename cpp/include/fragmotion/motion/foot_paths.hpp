@@ -24,4 +24,8 @@ std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, 
 /// Ends each contact as soon as the ball rises and goes away, at 0.25 m/s.
 void end_where_ball_rises(const FootPath& path, double rate, double scale, std::vector<bool>& contacts);
 
+/// find_contacts() of feet that went so.
+Contacts find_contacts(const Skeleton& skeleton, const std::array<FootPath, 2>& paths, const std::vector<Vector3>& hips,
+                       double rate, const Floors* floors = nullptr);
+
 }  // namespace fragmotion

@@ -28,4 +28,8 @@ Take make_take(Take take);
 /// World position [frames, bones, 3] and rotation [frames, bones, 4] of every bone's frame.
 void world_transforms(const Take& take, std::vector<double>& positions, std::vector<double>& rotations);
 
+/// The same of one pose; all arrays [bones, 3] and [bones, 4].
+void world_transforms(const Skeleton& skeleton, const double* local_positions, const double* local_rotations,
+                      double* positions, double* rotations);
+
 }  // namespace fragmotion

@@ -10,7 +10,6 @@ namespace fragmotion {
 struct IterateOptions {
   double discount = 0.9;    ///< Of the quality a step later: 0 or more, under 1.
   double tolerance = 1e-4;  ///< Iteration ends when no value changes by more; over 0, up to 1.
-  int sweeps = 10000;       ///< At most; 1 .. 1,000,000.
 };
 
 /// Value iteration with a control model [controls, controls] (McCann and Pollard, "Responsive characters from motion

@@ -17,7 +17,6 @@ struct SvmSamples {
 };
 
 struct SvmOptions {
-  int folds = 3;     ///< Of the cross-validation that chooses what is not given; 2 .. 1000.
   double c = 0;      ///< Penalty a of Eq. 5, 1e-6 .. 1e6; 0: by cross-validation.
   double gamma = 0;  ///< Of Eq. 6, 1e-6 .. 1e6; 0: by cross-validation.
   int threads = 0;   ///< 0 or less: as many as the machine has.
@@ -41,7 +40,7 @@ SvmSamples svm_samples(const Quality& quality, const std::vector<std::vector<int
                        const std::vector<double>& features, const ControlSpace& space);
 
 /// C-SVC with the RBF kernel (Eqs. 5 and 6, libsvm), one against one, asked for every class and control. Throws
-/// std::invalid_argument without a trace, and on folds, C or gamma out of range.
+/// std::invalid_argument without a trace, and on C or gamma out of range.
 SvmPolicy svm_policy(const Quality& quality, const std::vector<std::vector<int>>& traces,
                      const std::vector<double>& features, const ControlSpace& space, const SvmOptions& options = {},
                      const Progress& progress = {});

@@ -23,8 +23,9 @@ class Crowd {
   int size() const { return static_cast<int>(players_.size()); }
   int bones() const { return bones_; }
   int parts() const { return parts_; }
-  /// Where a player is and what it plays. How it is posed, step() tells alone.
-  const Player& operator[](int player) const { return players_[player]; }
+  /// Where a player is and what it plays; throws std::invalid_argument on one that does not exist. How it is posed,
+  /// step() tells alone.
+  const Player& operator[](int player) const { return players_[existing(player)]; }
 
   /// Player::reset and change_style of one; they throw likewise, and on a player that does not exist.
   void reset(int player, const CharacterFrame& frame = {}, int style = 0);
@@ -43,7 +44,7 @@ class Crowd {
   void step(const Control* controls, double seconds, double* roots = nullptr, double* rotations = nullptr);
 
   /// The same of one part's players; the arrays are the whole crowd's. Once check_step() has let the controls pass, it
-  /// does not throw. `part` must be 0 .. parts() - 1.
+  /// does not throw but std::invalid_argument on a part that does not exist.
   void step_part(int part, const Control* controls, double seconds, double* roots = nullptr,
                  double* rotations = nullptr);
 
@@ -51,7 +52,7 @@ class Crowd {
   void check_step(const Control* controls, double seconds) const;
 
  private:
-  Player& existing(int player);
+  int existing(int player) const;
   void step_player(int player, const Control& control, double seconds, double* roots, double* rotations);
 
   int bones_, parts_;

@@ -7,8 +7,8 @@
 namespace fragmotion {
 
 /// Corrects what fragments show: the root goes more as the control says and no faster away from its velocity than a
-/// body can, it keeps the heading that the control leads to, one that is accelerated leans (lean.hpp)
-/// and sets its feet for it, and planted feet stay where they are (foot_lock.hpp). Allocates nothing once it is made.
+/// body can, it keeps its target heading, one that is accelerated leans (lean.hpp) and sets its feet for it, and
+/// planted feet stay where they are (foot_lock.hpp). Allocates nothing once it is made.
 class PoseCorrection {
  public:
   /// By which the adjustment of the velocity lags behind what it is told, s.
@@ -64,7 +64,7 @@ class PoseCorrection {
   bool begins_ = true;                  // but for when it has just begun
   double turn_rate_ = 0;                // of the adjustment, rad/s
   double tempo_ = 1;
-  double led_ = 0;  // the heading that the controls lead to, rad
+  double target_heading_ = 0;  // rad: what the turn rates that were asked for add up to
   bool lock_feet_;
   StepEdit steps_;
   FootLock foot_lock_;

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+"""Takes of any skeletons, by the body that they are of, and bodies of the targets that the core reads."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from ..core import core
+from ..evaluate.loading import core_failures
+from ..files import find_takes
+from ..takes import read_take
+
+
+class Source(NamedTuple):
+    """Takes of one skeleton, and the files that they are from."""
+
+    skeleton: core.Skeleton
+    clips: list[core.Clip]
+    paths: list[Path]
+
+
+def read_sources(paths: Sequence[Path], unit: float) -> list[Source]:
+    """All takes, those of one skeleton together."""
+    files = find_takes(paths)
+    takes = [read_take(file, unit) for file in files]
+    groups = core.group_skeletons([take.skeleton for take in takes])
+    return [_source([takes[index] for index in group], [files[index] for index in group]) for group in groups]
+
+
+def _source(takes: Sequence[core.Take], paths: list[Path]) -> Source:
+    skeleton = takes[0].skeleton
+    clips = []
+    for take, path in zip(takes, paths):
+        with core_failures(str(path)):
+            clips.append(core.Clip.from_take(take, skeleton))
+    return Source(skeleton, clips, paths)
+
+
+def read_body(path: Path, unit: float) -> core.Body:
+    """The body of a file's skeleton; the motion in a BVH tells how it stands."""
+    if path.suffix.lower() == ".asf":
+        skeleton, clips = core.read_asf(path), []
+    else:
+        take = core.read_bvh(path, unit)
+        skeleton = take.skeleton
+        clips = [core.Clip.from_take(take)] if len(take.rotations) > 1 else []
+    with core_failures(str(path)):
+        return core.Body(skeleton, clips)

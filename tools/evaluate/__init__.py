@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: MIT
-"""`dev.py evaluate`: how good the policies are on given takes and traces, by the measures of the paper's Sec. 4."""

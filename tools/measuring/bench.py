@@ -1,0 +1,338 @@
+# SPDX-License-Identifier: MIT
+"""Compare the core's stages (Google Benchmark) with NumPy and scikit-learn: same run, same data, results compared.
+Then how time grows with the number of fragments, and each of the project's goals beside its figure.
+
+python -m tools.measuring.bench PROGRAM [--json FILE], from the top folder, with NumPy and scikit-learn.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tests.reference import numpy_build as reference
+
+Arrays = dict[str, NDArray[Any]]
+Stage = Callable[[Arrays], tuple[float, str]]
+
+_UNITS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
+_ENOUGH = 1.0  # s: a reference that took less is measured again
+_REPEATS = 3
+_FRAMES = 200  # of the NumPy player
+_DECISIONS = 200  # of NumPy
+_LARGE = "large build"
+_FRAME_GOALS = (("player frame", 1e-6), ("player frame, feet locked", 2e-6))  # s
+_CROWDS = ("crowd step", "crowd step, two threads")  # 10,000 players
+
+
+@dataclass(frozen=True)
+class Row:
+    """One stage; `seconds` are the core's."""
+
+    name: str
+    seconds: float
+    reference: str
+    reference_seconds: float
+    ratio: float
+
+
+@dataclass(frozen=True)
+class Growth:
+    """Large pools by number of fragments, fitted by CPU seconds = factor * fragments^exponent."""
+
+    fragments: list[int]
+    seconds: list[float]
+    cpu_seconds: list[float]
+    peak_bytes: list[float]
+    exponent: float
+    r_squared: float
+
+
+@dataclass(frozen=True)
+class Goal:
+    """A figure and what it is to be: at most `limit`, or at least where `more` is better."""
+
+    name: str
+    figure: float
+    limit: float
+    shown: Callable[[float], str]
+    more: bool = False
+
+    @property
+    def met(self) -> bool:
+        return self.figure >= self.limit if self.more else self.figure <= self.limit
+
+
+class Measured:
+    """What the benchmarks told."""
+
+    def __init__(self, runs: list[dict[str, Any]]) -> None:
+        """Read Google Benchmark's runs; of several of one name the fastest counts."""
+        self.seconds: dict[str, float] = {}
+        self.whole: dict[str, Any] = {}
+        large: dict[int, list[tuple[float, float, float]]] = {}
+        for run in runs:
+            name, _, arguments = run["name"].partition("/")
+            seconds = run["real_time"] * _UNITS[run["time_unit"]]
+            if name == _LARGE:
+                figures = (seconds, run["cpu_time"] * _UNITS[run["time_unit"]], run["peak_bytes"])
+                large.setdefault(int(arguments.partition("/")[0]), []).append(figures)
+            elif seconds < self.seconds.get(name, float("inf")):
+                self.seconds[name] = seconds
+                self.whole = run if name == "whole build" else self.whole
+        self.growth = _growth(large)
+
+
+def _growth(large: dict[int, list[tuple[float, float, float]]]) -> Growth:
+    fragments = sorted(large)
+    # The fit is one of CPU time, which other programs on the machine disturb least.
+    seconds, cpu_seconds, peaks = ([min(run[part] for run in large[count]) for count in fragments] for part in range(3))
+    x, y = np.log(fragments), np.log(cpu_seconds)
+    exponent, offset = np.polyfit(x, y, 1)
+    unexplained = ((y - exponent * x - offset) ** 2).sum() / ((y - y.mean()) ** 2).sum()
+    return Growth(fragments, seconds, cpu_seconds, peaks, float(exponent), float(1 - unexplained))
+
+
+def measure_core(program: Path, folder: Path) -> Measured:
+    """Run the benchmarks; their data lie in the folder."""
+    output = folder / "benchmarks.json"
+    options = [f"--benchmark_out={output}", "--benchmark_out_format=json", f"--benchmark_repetitions={_REPEATS}"]
+    answer = subprocess.run([program, "--dump", folder, *options], capture_output=True, text=True, check=False)
+    if answer.returncode != 0:
+        raise SystemExit(f"{program} failed with exit code {answer.returncode}:\n{answer.stderr}")
+    runs = json.loads(output.read_text())["benchmarks"]
+    return Measured([run for run in runs if run["run_type"] == "iteration"])
+
+
+def timed(work: Callable[[], Any]) -> tuple[float, Any]:
+    """The shortest of a few runs in seconds, and the result."""
+    best, result = float("inf"), None
+    for _ in range(_REPEATS):
+        start = time.perf_counter()
+        result = work()
+        best = min(best, time.perf_counter() - start)
+        if best > _ENOUGH:
+            break
+    return best, result
+
+
+# The stages in NumPy: seconds, and how their results compare with the core's.
+
+
+def _trajectories(data: Arrays) -> tuple[float, str]:
+    seconds, (whole, first, last) = timed(
+        lambda: reference.trajectories(_body(data), _motion(data), data["ranges"], data["played"])
+    )
+    ours = np.moveaxis(data["trajectories"], 1, 2)[:, : whole.shape[1]]
+    data.update(whole=whole, first=first, last=last)
+    return seconds, f"largest difference {np.abs(whole - ours).max() * 1e3:.4f} mm"
+
+
+def _cluster(data: Arrays) -> tuple[float, str]:
+    points, classes = data["whole"].astype(np.float32), len(data["representatives"])
+    restarts = int(data["restarts"][0])
+    seconds, (_, _, inertia) = timed(lambda: reference.cluster(points, classes, restarts=restarts))
+    return seconds, f"inertia: core {data['inertia'][0]:.0f}, NumPy {inertia:.0f}"
+
+
+def _k_means(data: Arrays) -> tuple[float, str]:
+    from sklearn.cluster import KMeans
+
+    points, classes = data["whole"].astype(np.float32), len(data["representatives"])
+    model = KMeans(classes, n_init=int(data["restarts"][0]), random_state=1)
+    seconds, _ = timed(lambda: model.fit(points.reshape(len(points), -1)))
+    means = [points[model.labels_ == k].mean(axis=0) for k in range(classes)]
+    own = [reference.distances(points[model.labels_ == k], mean[None]) for k, mean in enumerate(means)]
+    inertia = sum(float((apart**2).sum()) for apart in own)
+    return seconds, f"inertia under Dis: core {data['inertia'][0]:.0f}, scikit-learn {inertia:.0f}"
+
+
+def _quality(data: Arrays) -> tuple[float, str]:
+    chosen = data["representatives"]
+    first, last, evident = (data[name][chosen] for name in ("first", "last", "evident"))
+    seconds, (smoothness, match) = timed(
+        lambda: reference.quality_table(first, last, evident, data["points"], data["control_weights"])
+    )
+    worst = max(np.abs(smoothness - data["smoothness"]).max(), np.abs(match - data["match"]).max())
+    return seconds, f"largest difference {worst:.0e}"
+
+
+def _optimal(data: Arrays) -> tuple[float, str]:
+    seconds, (_, quality) = timed(lambda: reference.optimal_path(data["smoothness"], data["match"], data["trace"]))
+    return seconds, f"total quality: core {data['optimal'][0]:.6f}, NumPy {quality:.6f}"
+
+
+def _svm(data: Arrays) -> tuple[float, str]:
+    seconds, (table, c, gamma, accuracy) = timed(
+        lambda: reference.svm_table(
+            data["smoothness"], data["match"], data["trace"], data["features"], data["points"], data["control_weights"]
+        )
+    )
+    same = (table == data["svm_table"]).mean()
+    return seconds, f"{same:.2%} of the table equal; C {c:g}, gamma {gamma:g}, cross-validated accuracy {accuracy:.1%}"
+
+
+def _iterate(data: Arrays) -> tuple[float, str]:
+    seconds, table = timed(lambda: reference.iterate_table(data["smoothness"], data["match"], [data["trace"]]))
+    return seconds, f"{(table == data['iterate_table']).mean():.2%} of the table equal"
+
+
+def _decision(data: Arrays) -> tuple[float, str]:
+    controls = np.random.default_rng(1).uniform([-4, -4, -1.2, 0], [4, 4, 1.2, 1], (_DECISIONS, 4))
+    table, points, weights = data["iterate_table"], data["points"], data["control_weights"]
+    seconds, _ = timed(lambda: [reference.decide(table, 0, control, points, weights) for control in controls])
+    return seconds / _DECISIONS, "the nearest of the 102 points, and the table's next class"
+
+
+def _player_frame(data: Arrays) -> tuple[float, str]:
+    motion, offset = _motion(data), np.zeros(3)
+    frames = [10 + 0.5 * k for k in range(_FRAMES)]
+    seconds, _ = timed(
+        lambda: [reference.player_frame(motion, at, at + 20, 0.5, 0.3, offset) for at in frames],
+    )
+    return seconds / _FRAMES, "a frame in the middle of a stitch; the core's: all frames, and the places of all bones"
+
+
+def _body(data: Arrays) -> reference.Body:
+    return reference.Body(
+        data["parents"], data["offsets"], data["tips"], data["measured"], scale=float(data["scale"][0])
+    )
+
+
+def _motion(data: Arrays) -> reference.Motion:
+    return reference.Motion(data["root_positions"], data["rotations"], data["headings"])
+
+
+_STAGES: dict[str, tuple[str, str, Stage]] = {
+    "trajectories": ("trajectories", "NumPy", _trajectories),
+    "cluster": ("cluster", "NumPy", _cluster),
+    "cluster, Euclidean": ("cluster", "scikit-learn KMeans", _k_means),
+    "quality table": ("quality table", "NumPy", _quality),
+    "optimal": ("optimal", "NumPy", _optimal),
+    "svm": ("svm", "scikit-learn SVC", _svm),
+    "iterate": ("iterate", "NumPy", _iterate),
+    "decision": ("decision", "NumPy", _decision),
+    "player frame": ("player frame", "NumPy", _player_frame),
+}
+_WHOLE = ("trajectories", "quality table", "optimal", "iterate")  # and the faster of both ways to cluster
+_CLUSTER = ("cluster", "cluster, Euclidean")
+
+
+def compare(core: dict[str, float], data: Arrays) -> tuple[list[Row], dict[str, str]]:
+    """Measure every stage's reference; the rows, and a remark on the results of each."""
+    rows, remarks = [], {}
+    for name, (measured, library, stage) in _STAGES.items():
+        seconds, remarks[name] = stage(data)
+        rows.append(Row(name, core[measured], library, seconds, seconds / core[measured]))
+    clustered = min((row for row in rows if row.name in _CLUSTER), key=lambda row: row.reference_seconds)
+    whole = clustered.reference_seconds + sum(row.reference_seconds for row in rows if row.name in _WHOLE)
+    rows.append(Row("whole build", core["whole build"], "NumPy, scikit-learn", whole, whole / core["whole build"]))
+    stages = ", ".join((clustered.name, *_WHOLE))
+    remarks["whole build"] = f"reference: {stages}; without cutting, mirroring and synthesis, as the core's has"
+    return rows, remarks
+
+
+def goals(rows: list[Row], measured: Measured) -> list[Goal]:
+    """The project's goals, for two cores, beside what was measured."""
+    core, growth = {row.name: row for row in rows}, measured.growth
+    return [
+        Goal("whole build", core["whole build"].seconds, 0.2, _duration),
+        Goal("whole build against the reference", core["whole build"].ratio, 5, "{:.1f}x".format, more=True),
+        Goal("iterate", core["iterate"].seconds, 0.05, _duration),
+        Goal("optimal", core["optimal"].seconds, 0.002, _duration),
+        Goal("decision", core["decision"].seconds, 50e-9, _duration),
+        *(Goal(name, measured.seconds[name], limit, _nanoseconds) for name, limit in _FRAME_GOALS),
+        Goal("step of a crowd of 10000", measured.seconds[_CROWDS[0]], 1 / 60, _duration),
+        Goal("crowd's gain by a second thread", _gain(measured), 1.8, "{:.2f}x".format, more=True),
+        Goal(f"{growth.fragments[-1]} fragments", growth.seconds[-1], 60, _duration),
+        Goal(f"memory of {growth.fragments[-1]} fragments", growth.peak_bytes[-1], 1e9, _megabytes),
+        Goal("exponent of CPU time over fragments", growth.exponent, 1.1, "{:.2f}".format),
+    ]
+
+
+def show(rows: list[Row], remarks: dict[str, str], measured: Measured, data: Arrays) -> None:
+    """Print the table."""
+    print(
+        f"{len(data['ranges'])} fragments, {len(data['representatives'])} classes, {len(data['points'])} controls, "
+        f"{len(data['trace'])} samples, {len(data['parents'])} bones; {os.cpu_count()} CPUs, "
+        f"load {os.getloadavg()[0]:.1f}\n"
+    )
+    print(f"{'stage':<20} {'core':>10} {'reference':>10} {'ratio':>8}  by")
+    for row in rows:
+        figures = f"{_duration(row.seconds):>10} {_duration(row.reference_seconds):>10} {row.ratio:>7.1f}x"
+        print(f"{row.name:<20} {figures}  {row.reference}: {remarks[row.name]}")
+    whole = measured.whole
+    stages = [key for key in whole if key.endswith("_seconds")]
+    parts = ", ".join(f"{key.partition('_')[0]} {_duration(whole[key])}" for key in stages)
+    cpu = _duration(whole["cpu_time"] * _UNITS[whole["time_unit"]])
+    print(f"\nWhole build: {whole['fragments']:.0f} fragments ({whole['captured']:.0f} not synthesized), {cpu} of CPU")
+    print(f"The fastest one's stages: {parts}")
+    show_growth(measured.growth)
+    show_goals(goals(rows, measured))
+
+
+def show_growth(growth: Growth) -> None:
+    """Print how time and memory grow."""
+    print(f"\n{'fragments':>10} {'build':>10} {'CPU':>10} {'peak':>10}  of classes, quality, Optimal, default policy")
+    for fragments, seconds, cpu, peak in zip(growth.fragments, growth.seconds, growth.cpu_seconds, growth.peak_bytes):
+        print(f"{fragments:>10} {_duration(seconds):>10} {_duration(cpu):>10} {_megabytes(peak):>10}")
+    print(f"CPU time grows as fragments^{growth.exponent:.2f} (R^2 {growth.r_squared:.4f})")
+
+
+def show_goals(listed: list[Goal]) -> None:
+    """Print each goal beside its figure."""
+    print(f"\n{'goal':<38} {'measured':>10}")
+    for goal in listed:
+        limit = f"at {'least' if goal.more else 'most'} {goal.shown(goal.limit)}"
+        print(f"{goal.name:<38} {goal.shown(goal.figure):>10}  {limit:<18} {'met' if goal.met else 'NOT MET'}")
+
+
+def _gain(measured: Measured) -> float:
+    one, two = (measured.seconds[name] for name in _CROWDS)
+    return one / two
+
+
+def _nanoseconds(seconds: float) -> str:
+    return f"{seconds * 1e9:.0f} ns"
+
+
+def _megabytes(count: float) -> str:
+    return f"{count / 1e6:.0f} MB"
+
+
+def _duration(seconds: float) -> str:
+    unit = next((unit for unit in ("s", "ms", "us") if seconds >= _UNITS[unit]), "ns")
+    return f"{seconds / _UNITS[unit]:.3g} {unit}"
+
+
+def main(arguments: list[str]) -> None:
+    """Measure, print, and save where asked."""
+    parser = argparse.ArgumentParser(prog="tools.measuring.bench", description=__doc__)
+    parser.add_argument("program", type=Path, help="the Google Benchmark program")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="save the figures there too")
+    options = parser.parse_args(arguments)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        measured = measure_core(options.program, folder)
+        data: Arrays = {path.stem: np.load(path) for path in folder.glob("*.npy")}
+    rows, remarks = compare(measured.seconds, data)
+    show(rows, remarks, measured, data)
+    if options.json:
+        figures = {"stages": [asdict(row) for row in rows], "growth": asdict(measured.growth)}
+        options.json.write_text(json.dumps(figures, indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

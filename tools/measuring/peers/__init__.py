@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Other methods, to compare with."""

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Bodies, their rotations and legs, in NumPy."""

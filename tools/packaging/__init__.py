@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Compiling the core, and making the wheels and zips of it."""

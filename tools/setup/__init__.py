@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""What the commands need on this machine: Debian packages, Pythons, Blenders, Wine."""

@@ -1,0 +1,368 @@
+# SPDX-License-Identifier: MIT
+"""What each stage of `dev.py test` does; each returns how many tests passed, failed and were skipped."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import time
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from enum import Enum
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+from tools.packaging import compiling, packages
+from tools.packaging.compiling import compile_preset, installed_core
+from tools.paths import BUILD, LOGS, TOP
+from tools.platforms import LINUX, TESTED_PLATFORMS, WINDOWS, Platform
+from tools.setup import blender, environments, machine, windows
+from tools.setup.environments import BPY_PYTHON, HOST
+from tools.shell import Failure, run, say
+from tools.testing import fuzzing, style
+from tools.testing.counts import Counts, read_report
+
+_BLENDER_TESTS = TOP / "tests" / "blender"
+_NOT_THOROUGH = ("-m", "not measures and not thorough")
+# Install, register, import, build, drive, bake: whether the add-on runs. All of its tests run in Linux's Blenders.
+_SHORT = (
+    "blender/test_register.py",
+    "blender/test_extension_life.py",
+    "blender/test_sample.py",
+    "blender/mocap/test_importing.py",
+    "blender/drive/test_drive.py",
+    "blender/bake/test_baking.py",
+)
+# What Windows does otherwise than Linux: its files, their names, paths and locks.
+_FILES = (
+    "blender/bake/test_exporting.py",
+    "blender/character/test_storing.py",
+    "blender/mocap",
+    "blender/strangers/test_strangers_policies.py",
+    "blender/test_command_line.py",
+    "blender/test_files_that_last.py",
+    "blender/test_trace_files.py",
+    "blender/test_what_is_reopened.py",
+)
+_THREADED_TESTS = "Thread|ParallelFor|Crowd"
+# Whole characters made again and again for their figures, an hour's takes: what these call, others call as well.
+# Neither under sanitizers nor among the quick ones.
+_THOROUGH = (
+    "Build.GivesTheSameBitsForAnyNumberOfThreads",
+    "Build.GivesTheSameBitsWhereASkeletonHasOneLeg",
+    "Build.HasClassesForHopsOnTheSpotAndAhead",
+    "Build.IsCancelledAtEveryReport",
+    "Build.IsTheSameCharacterTenTimesAsLarge",
+    "Build.MirrorsAndSynthesizesOnlyWhenAsked",
+    "Build.NamesItsPolicyAndFillsTheTableWithClasses",
+    "Build.RepairsItsTablesForGood",
+    "Build.TellsItsProgressInOrder",
+    "Build.TheFirstPolicyAskedForDrives",
+    "Bvh.BandaiNamcoStandsUprightOnTheGround",
+    "Bvh.TakesMemoryInProportionToTheFile",
+    "ChangePushes.*",
+    "Cluster.OfManyFragments*",
+    "Crowd.ShowsTheSameBitsWhateverTheThreads",
+    "Doctor.FindsAndFillsSpikes",
+    "Doctor.FindsNothingInCleanMotion",
+    "Doctor.PutsRightAnyUnit",
+    "FragmentSelector.Leaves*",
+    "GroundFollower.GoesTheSameWayOnTheSlopeAndIsTheSameEveryTime",
+    "GroundFollower.ShowsOnLevelGroundToTheBitWhatIsShownWithoutGround",
+    "Mirror.ReflectsRealTakesWithinTheBonesAsymmetry",
+    "MotionMetrics.FindsLessSkateWhereFeetAreLocked",
+    "OptimalPerformance.IsNeverReachedByAPlayer",
+    "OwnControls.AreSaidToBeHeldOrNot",
+    "OwnControls.AreTheChangesThatAreTimed",
+    "OwnControls.AreWhatEverythingAsksFor",
+    "OwnControls.ReplayWhatWasRecordedWithOthers",
+    "PackedClip.KeepsAllTakesInLessThanAQuarterOfTheirSize",
+    "Path.FindsTheNearestPlaceAsBruteForceDoes",
+    "Pin.Is*",
+    "Player.NeverJumps",
+    "Player.ResponsivenessIsPaidForWithWorseStitches",
+    "PlayerStyles.BeginWithinTheirTimeToWait",
+    "PlayerStyles.ChangeAsSmoothlyAsOtherStitches",
+    "PolicyFile.TakesFragmentsOfTwentyMilliseconds",
+    "PolicyFile.TakesNoMemoryOutOfProportionToItsSize",
+    "ResponseTimes.*",
+    "Retarget.FeetAndKneesKeepTheirMannersOnOtherProportions",
+    "Retarget.HowTheArmsAreHeldAtRestDoesNotMatter",
+    "Styles.AreInThePolicyFile",
+    "Styles.AreWhatABuildMakesOfTheirTakesAlone",
+    "SuggestClasses.*",
+    "Synthesize.IsDeterministic",
+    "Synthesize.RunsBackwardWithoutKneesThatSnap",
+    "WithoutClasses.NeverPlaysAnExcludedOneNotEvenStanding",
+)
+_MAKERS = "*.DISABLED_*"  # of files that tests read
+_FUZZ_RUNS = 5000  # of each fuzzer: a minute together
+
+
+class Skipped(Exception):
+    """Why a stage cannot run on this machine."""
+
+
+class Part(Enum):
+    """Which tests of a stage run."""
+
+    ALL = "all"
+    QUICK = "quick"
+    THOROUGH = "thorough"
+
+
+_MARKS = {Part.QUICK: "not thorough", Part.THOROUGH: "thorough"}  # of pytest; the markers are in pyproject.toml
+
+
+def style_checks(expression: str | None) -> Counts:
+    """How the code is written; `expression` selects nothing."""
+    passed, failures = style.check()
+    for failure in failures:
+        say(failure)
+    return Counts(passed, len(failures))
+
+
+def tidy(expression: str | None) -> Counts:
+    """What clang-tidy finds in the core; `expression` selects nothing."""
+    passed, failures = style.tidy()
+    for failure in failures:
+        say(failure)
+    return Counts(passed, len(failures))
+
+
+def cpp(expression: str | None, part: Part = Part.ALL) -> Counts:
+    """GoogleTest, and through ctest what games link; `expression` is a regular expression here."""
+    folder = compile_preset("release")
+    if part is Part.THOROUGH:
+        return _googletest("cpp", folder, expression, wanted=_THOROUGH)
+    left_out = _THOROUGH if part is Part.QUICK else ()
+    return _googletest("cpp", folder, expression, left_out) + _runtime_alone(folder, expression)
+
+
+def _runtime_alone(folder: Path, expression: str | None) -> Counts:
+    selection = ["--tests-regex", expression] if expression else []
+    report = _fresh_report("cpp-runtime")
+    options = ["--output-on-failure", "--output-junit", str(report), "--label-regex", "runtime"]
+    return _counted(["ctest", "--test-dir", folder, *options, *selection], "cpp-runtime", {}, expression)
+
+
+def sanitize(expression: str | None) -> Counts:
+    """The tests of cpp under the address and undefined-behaviour sanitizers; `expression` as there."""
+    return _googletest("sanitize", compile_preset("sanitize", "fragmotion_tests"), expression, _THOROUGH)
+
+
+def threads(expression: str | None) -> Counts:
+    """The tests that start threads, under the thread sanitizer; `expression` as in cpp."""
+    folder = compile_preset("thread", "fragmotion_tests")
+    return _googletest("threads", folder, expression or _THREADED_TESTS)
+
+
+def fuzz(expression: str | None) -> Counts:
+    """The fuzzers, the same inputs every time; `expression` is a part of their names."""
+    names = [name for name in fuzzing.names() if (expression or "") in name]
+    result = fuzzing.fuzz_alike(_FUZZ_RUNS, names)
+    return Counts(len(names) - len(result.findings), len(result.findings))
+
+
+def python(expression: str | None, part: Part = Part.ALL) -> Counts:
+    """The binding's tests, with the core that this machine's compiler builds for the Python that runs this."""
+    core = {"PYTHONPATH": str(installed_core(HOST, packages.wheel(HOST)))}
+    return _pytest("python", HOST, TOP / "tests" / "python", core, expression, _marked(part))
+
+
+def package(expression: str | None) -> Counts:
+    """Build the zips for the platforms that the next stages run them on, and look into them."""
+    return packages_of(TESTED_PLATFORMS, expression)
+
+
+def packages_of(platforms: tuple[Platform, ...], expression: str | None = None) -> Counts:
+    """Build the zips of platforms, and look into them."""
+    for platform in platforms:
+        _say_packages(platform)
+    environment = {
+        "PYTHONPATH": str(TOP),
+        "FRAGMOTION_PLATFORMS": " ".join(platform.name for platform in platforms),
+        "FRAGMOTION_MORE_PYTHONS": " ".join(platforms[0].more_pythons),
+    }
+    return _pytest("package", HOST, TOP / "tests" / "packages", environment, expression)
+
+
+def _say_packages(platform: Platform) -> None:
+    """Build a platform's zips and say where they are, how big, and which Pythons they are for."""
+    say(f"build: the zips for {platform.name}")
+    start = time.monotonic()
+    for path in packages.build(platform):
+        size, pythons = path.stat().st_size / 1e6, ", ".join(packages.pythons_inside(path))
+        say(f"{path.relative_to(TOP)}: {size:.1f} MB, for Python {pythons}, after {time.monotonic() - start:.0f} s")
+
+
+def blender_45(expression: str | None) -> Counts:
+    """All of the add-on's tests in Blender 4.5 LTS, a Python 3.11 module."""
+    return _pytest("blender-4.5", "3.11", _BLENDER_TESTS, _extension("blender-4.5"), expression)
+
+
+def blender_52(expression: str | None) -> Counts:
+    """The quick ones of the add-on's tests in Blender 5.2 LTS, a Python 3.13 module."""
+    return _pytest("blender-5.2", "3.13", _BLENDER_TESTS, _extension("blender-5.2"), expression, _NOT_THOROUGH)
+
+
+def blender_debian(expression: str | None, part: Part = Part.ALL) -> Counts:
+    """The add-on's tests in Debian's Blender (3.4.1 on Debian 12, 4.3 on 13), with pytest inside it; the quick ones
+    with a zip whose core this machine's compiler built."""
+    is_quick = part is Part.QUICK
+    package = packages.build_for_debian(BUILD / "packages-quick") if is_quick else packages.debian_zip()
+    options = _marked(part, "not measures")
+    arguments = [machine.PYTEST_FOLDER, *_pytest_arguments("blender-debian", expression, _BLENDER_TESTS, *options)]
+    command = blender.background_command(_BLENDER_TESTS / "run_in_blender.py", *arguments)
+    return _counted(command, "blender-debian", _debian("blender-debian", package), expression)
+
+
+def _marked(part: Part, *more: str) -> tuple[str, ...]:
+    """pytest's options for a part of the tests that `more` marks select."""
+    marks = " and ".join((*more, *filter(None, [_MARKS.get(part)])))
+    return ("-m", marks) if marks else ()
+
+
+def windows_python(expression: str | None) -> Counts:
+    """The binding's quick tests in Windows' Python, by Wine, and whether its core makes what Linux's makes."""
+    core = compiling.unpacked_core(packages.wheels_for(WINDOWS)[BPY_PYTHON], WINDOWS)
+    path = windows.path(core)
+    return _windows("windows", BPY_PYTHON, ["python"], {"PYTHONPATH": path}, expression) + _same_bits(path, expression)
+
+
+def _same_bits(windows_path: str, expression: str | None) -> Counts:
+    core = compiling.unpacked_core(packages.wheels_for(LINUX)[BPY_PYTHON], LINUX)
+    environment = {
+        **windows.environment("windows"),
+        "PYTHONPATH": os.pathsep.join((str(core), str(TOP / "tests" / "python"))),
+        "FRAGMOTION_WINDOWS_PYTHON": shlex.join(str(word) for word in windows.python_command(BPY_PYTHON)),
+        "FRAGMOTION_WINDOWS_PATH": windows_path,
+    }
+    return _pytest("windows-bits", BPY_PYTHON, TOP / "tests" / "windows", environment, expression)
+
+
+def windows_45(expression: str | None) -> Counts:
+    """The add-on's tests of what Windows does otherwise in its Blender 4.5, by Wine."""
+    return _windows_blender("windows-4.5", "3.11", [*_SHORT, *_FILES], expression)
+
+
+def windows_52(expression: str | None) -> Counts:
+    """Some of the add-on's tests in Windows' Blender 5.2, by Wine."""
+    return _windows_blender("windows-5.2", "3.13", _SHORT, expression)
+
+
+def _windows_blender(stage: str, version: str, tests: Sequence[str], expression: str | None) -> Counts:
+    folders = {name: windows.path(folder) for name, folder in blender.sandbox(stage).items()}
+    addon = windows.path(packages.extension_path(WINDOWS))
+    return _windows(stage, version, tests, {**folders, "FRAGMOTION_ADDON_ZIP": addon}, expression)
+
+
+def _windows(
+    stage: str, version: str, tests: Sequence[str], environment: Mapping[str, str], expression: str | None
+) -> Counts:
+    folders = [TOP / "tests" / name for name in tests]
+    command = [
+        *windows.python_command(version),
+        "-m",
+        "pytest",
+        *_pytest_arguments(stage, expression, *_NOT_THOROUGH, *folders),
+    ]
+    return _counted(command, stage, {**windows.environment(stage), **environment}, expression)
+
+
+def gui(expression: str | None) -> Counts:
+    """Window tests: pytest on a screen of its own; the tests start Blender's windows themselves."""
+    if not gui_tests():
+        raise Skipped("tests/gui holds no test yet")
+    environment = {**_debian("gui", packages.debian_zip()), "LIBGL_ALWAYS_SOFTWARE": "1"}
+    screen = ("xvfb-run", "--auto-servernum", "--server-args", "-screen 0 1600x900x24")
+    arguments = _pytest_arguments("gui", expression, TOP / "tests" / "gui")
+    command = [*screen, environments.environment_python(HOST), "-m", "pytest", *arguments]
+    return _counted(command, "gui", environment, expression)
+
+
+def gui_tests() -> list[Path]:
+    """The window tests there are."""
+    return list((TOP / "tests" / "gui").glob("test_*.py"))
+
+
+def _googletest(
+    stage: str, folder: Path, expression: str | None, left_out: tuple[str, ...] = (), wanted: tuple[str, ...] = ("*",)
+) -> Counts:
+    """The C++ tests in one process a processor, since they take long to build the characters that they share."""
+    program = folder / "fragmotion_tests"
+    if expression:
+        matching = _tests_that_match(program, expression)
+        wanted = tuple(name for name in matching if any(fnmatchcase(name, pattern) for pattern in wanted)) or ("none",)
+    selection = f"--gtest_filter={':'.join(wanted)}-{':'.join((*left_out, _MAKERS))}"
+    shards = os.cpu_count() or 1
+
+    def run_shard(shard: int) -> Counts:
+        name = f"{stage}-{shard}"
+        options = ["--gtest_brief=1", f"--gtest_output=xml:{_fresh_report(name)}", selection]
+        environment = {"GTEST_TOTAL_SHARDS": str(shards), "GTEST_SHARD_INDEX": str(shard)}
+        return _counted([program, *options], name, environment, expression)
+
+    with ThreadPoolExecutor(shards) as pool:
+        return sum(pool.map(run_shard, range(shards)), Counts())
+
+
+def _tests_that_match(program: Path, expression: str) -> list[str]:
+    lines: list[str] = []
+    run([program, "--gtest_list_tests"], "cpp-names", hear=lines.append, timeout=60.0)
+    suite, names = "", []
+    for line in lines:
+        word = line.split("#")[0].strip()
+        if line.startswith(" "):
+            names.append(suite + word)
+        else:
+            suite = word
+    return [name for name in names if re.search(expression, name)]
+
+
+def _extension(sandbox: str) -> dict[str, str]:
+    return {**blender.sandbox(sandbox), "FRAGMOTION_ADDON_ZIP": str(packages.extension_path(LINUX))}
+
+
+def _debian(sandbox: str, package: Path) -> dict[str, str]:
+    return {**blender.debian_environment(sandbox), "FRAGMOTION_ADDON_ZIP": str(package)}
+
+
+def _pytest(
+    stage: str,
+    version: str,
+    folder: Path,
+    environment: Mapping[str, str],
+    expression: str | None,
+    options: Sequence[str] = (),
+) -> Counts:
+    arguments = _pytest_arguments(stage, expression, *options, folder)
+    command = [environments.environment_python(version), "-m", "pytest", *arguments]
+    return _counted(command, stage, environment, expression)
+
+
+def _pytest_arguments(stage: str, expression: str | None, *tests: str | Path) -> list[str | Path]:
+    selection = ["-k", expression] if expression else []
+    return ["-q", f"--junitxml={_fresh_report(stage)}", *selection, *tests]
+
+
+def _fresh_report(stage: str) -> Path:
+    report = LOGS / f"{stage}.xml"
+    report.unlink(missing_ok=True)
+    return report
+
+
+def _counted(command: list[str | Path], stage: str, environment: Mapping[str, str], expression: str | None) -> Counts:
+    """Run a test program and count by its JUnit report; it must have run a test, unless a selection left none."""
+    failure = None
+    try:
+        run(command, stage, environment, echo=True)
+    except Failure as raised:
+        failure = raised
+    counts = read_report(LOGS / f"{stage}.xml")
+    if failure and not counts.failed and not (expression and counts == Counts()):
+        raise failure
+    if counts.passed + counts.failed == 0 and not expression:
+        raise Failure("no test ran")
+    return counts

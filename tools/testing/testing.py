@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: MIT
+"""`dev.py test`: the stages, the order in which they run, and the summary."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Optional
+
+from tools.setup import machine
+from tools.shell import Failure, say
+from tools.testing import stages
+from tools.testing.counts import Counts, Skip
+from tools.testing.stages import Part, Skipped
+
+Run = Callable[[Optional[str]], Counts]
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One stage: what it does, what it needs of the machine, the stages that must have passed before (except for the
+    quick part), and what it does of each part of the tests: the whole is thorough, if not told."""
+
+    run: Run
+    needs: Callable[[], machine.Needs]
+    after: tuple[str, ...] = ()
+    parts: dict[Part, Run] = field(default_factory=dict)
+
+    def of(self, part: Part) -> Run | None:
+        """What runs a part of its tests, if there are any in it."""
+        if part is Part.ALL or (part is Part.THOROUGH and not self.parts):
+            return self.run
+        return self.parts.get(part)
+
+
+def _in_parts(run: Callable[[str | None, Part], Counts]) -> dict[Part, Run]:
+    return {part: partial(_run_part, run, part) for part in (Part.QUICK, Part.THOROUGH)}
+
+
+def _run_part(run: Callable[[str | None, Part], Counts], part: Part, expression: str | None) -> Counts:
+    return run(expression, part)
+
+
+# Those that take longest before others that need the same, so that none is left to run alone.
+STAGES = {
+    "cpp": Stage(stages.cpp, lambda: machine.CPP_TESTS, parts=_in_parts(stages.cpp)),
+    "style": Stage(stages.style_checks, lambda: machine.STYLE, parts={Part.QUICK: stages.style_checks}),
+    "python": Stage(stages.python, lambda: machine.PYTHON_TESTS, parts=_in_parts(stages.python)),
+    "package": Stage(stages.package, lambda: machine.PACKAGE_TESTS),
+    "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS),
+    "gui": Stage(stages.gui, lambda: machine.GUI if stages.gui_tests() else machine.Needs(), ("package",)),
+    "windows": Stage(stages.windows_python, lambda: machine.WINDOWS_45, ("package",)),
+    "windows-4.5": Stage(stages.windows_45, lambda: machine.WINDOWS_45, ("package",)),
+    "windows-5.2": Stage(stages.windows_52, lambda: machine.WINDOWS_52, ("package",)),
+    "blender-4.5": Stage(stages.blender_45, lambda: machine.BLENDER_45, ("package",)),
+    "blender-5.2": Stage(stages.blender_52, lambda: machine.BLENDER_52, ("package",)),
+    "blender-debian": Stage(
+        stages.blender_debian, lambda: machine.BLENDER_DEBIAN, ("package",), _in_parts(stages.blender_debian)
+    ),
+    "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
+    "tidy": Stage(stages.tidy, lambda: machine.TIDY),
+    "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),
+}
+
+EXPECTED_SKIPS = (
+    "this Blender",  # what a version or a kind of Blender lacks
+    "Windows",  # what a file cannot be there
+    "no motion capture beside the project",  # takes that are not ours to pass on; the sample's test the same code
+)
+"""How the reasons begin for which tests may be skipped where FRAGMOTION_NO_SKIPS is set, as in CI."""
+
+WHOLE, REST = "all", "rest"
+"""What stands for all stages, and for what is left when no stage is named."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """How a stage ended."""
+
+    state: str  # "passed", "failed" or "skipped"
+    counts: Counts
+    seconds: float
+    remark: str = ""
+
+
+def run_tests(names: list[str], expression: str | None) -> int:
+    """Run the named stages and those they build on; `all` of them, the quick ones when none is named, or the `rest`;
+    non-zero when any failed."""
+    start = time.monotonic()
+    part = {(): Part.QUICK, (REST,): Part.THOROUGH}.get(tuple(names), Part.ALL)
+    selected = _selected(names, part)
+    needs = machine.Needs()
+    for name in selected:
+        needs = needs | STAGES[name].needs()
+    machine.set_up(needs)
+    say(f"set-up: ready after {time.monotonic() - start:.0f} s")
+    results = _run_side_by_side(selected, part, expression)
+    failed = _summarise({name: results[name] for name in selected}, time.monotonic() - start)
+    if part is Part.QUICK:
+        say("these are the quick ones; `python3 dev.py test rest` runs the others, `python3 dev.py test all` every one")
+    return failed
+
+
+def _selected(names: list[str], part: Part) -> list[str]:
+    unknown = [name for name in names if name not in STAGES]
+    if unknown and names not in ([WHOLE], [REST]):
+        raise Failure(
+            f"there is no stage {', '.join(unknown)}; the stages are {', '.join(STAGES)}; or: {WHOLE}, {REST}"
+        )
+    in_part = [name for name, stage in STAGES.items() if stage.of(part)]
+    return in_part if unknown or not names else _with_prerequisites(names)
+
+
+def _with_prerequisites(names: list[str]) -> list[str]:
+    wanted = set(names)
+    for name in reversed(STAGES):
+        if name in wanted:
+            wanted.update(STAGES[name].after)
+    return [name for name in STAGES if name in wanted]
+
+
+def _run_side_by_side(selected: list[str], part: Part, expression: str | None) -> dict[str, Result]:
+    """As many stages at a time as there are processors, since most of Blender's tests keep but one of them busy."""
+    lanes = os.cpu_count() or 1
+    results: dict[str, Result] = {}
+    waiting, running = list(selected), dict[Future[Result], str]()
+    with ThreadPoolExecutor(lanes) as pool:
+        while waiting or running:
+            ready = [name for name in waiting if results.keys() >= set(STAGES[name].after) & set(selected)]
+            for name in ready[: lanes - len(running)]:
+                waiting.remove(name)
+                running[pool.submit(_run_stage, name, part, expression, dict(results))] = name
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                results[running.pop(future)] = future.result()
+    return results
+
+
+def _run_stage(name: str, part: Part, expression: str | None, results: dict[str, Result]) -> Result:
+    say(f"\n=== {name}")
+    start = time.monotonic()
+    blockers = [before for before in STAGES[name].after if before in results and results[before].state == "failed"]
+    try:
+        if blockers:
+            raise Failure(f"not run, as {', '.join(blockers)} failed")
+        run = STAGES[name].of(part) or STAGES[name].run
+        counts = run(expression)
+        state, remark = ("failed" if counts.failed else "passed"), ""
+    except Skipped as skipped:
+        counts, state, remark = Counts(skipped=1, skips=(Skip("all of it", str(skipped)),)), "skipped", str(skipped)
+    except Failure as failure:
+        counts, state, remark = Counts(failed=1), "failed", str(failure)
+    seconds = time.monotonic() - start
+    say(f"=== {name}: {state} in {seconds:.0f} s{': ' if remark else ''}{remark}")
+    return Result(state, counts, seconds, remark.splitlines()[0] if remark else "")
+
+
+def _summarise(results: dict[str, Result], seconds: float) -> int:
+    say(f"\n{'stage':<14} {'result':<8} {'passed':>6} {'failed':>6} {'skipped':>7} {'seconds':>7}")
+    for name, result in results.items():
+        counts = result.counts
+        figures = f"{counts.passed:>6} {counts.failed:>6} {counts.skipped:>7} {result.seconds:>7.0f}"
+        say(f"{name:<14} {result.state:<8} {figures}  {result.remark}".rstrip())
+    for name, result in results.items():
+        _say_skips(name, result.counts.skips)
+    total = Counts()
+    for result in results.values():
+        total = total + result.counts
+    unexpected = [skip for skip in total.skips if not skip.reason.startswith(EXPECTED_SKIPS)]
+    if unexpected and os.environ.get("FRAGMOTION_NO_SKIPS"):
+        say(f"\nfailed: {len(unexpected)} skipped for another reason than what a Blender or Windows lacks")
+        total = total + Counts(failed=len(unexpected))
+    say(f"\nin {seconds:.0f} s with the set-up\n{total.passed} passed, {total.failed} failed, {total.skipped} skipped")
+    return 1 if total.failed or not total.passed else 0
+
+
+def _say_skips(stage: str, skips: tuple[Skip, ...]) -> None:
+    """Name the tests that were skipped, by their reasons."""
+    for reason in dict.fromkeys(skip.reason for skip in skips):
+        tests = [skip.test for skip in skips if skip.reason == reason]
+        say(f"\n{stage}: {len(tests)} skipped: {reason}")
+        for test in tests:
+            say(f"  {test}")
