@@ -38,6 +38,8 @@ class Movement(NamedTuple):
 
 
 MOVEMENTS = (
+    Movement("held-walk", "A walk, held", (Part(5.5, "walk"),)),
+    Movement("stand", "A stand, held", (Part(5.5, "stand"),)),
     Movement(
         "walk-run-stop",
         "Walk, run, stop",

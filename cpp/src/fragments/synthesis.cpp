@@ -51,7 +51,7 @@ Control mix(const Control& a, const Control& b, double w) {
   return {a.x + w * (b.x - a.x), a.y + w * (b.y - a.y), a.turn + w * (b.turn - a.turn), a.jump + w * (b.jump - a.jump)};
 }
 
-// Adds a fragment that stands in place.
+// Adds a fragment that stands in place, for others to be made of.
 void add_standing(FragmentPool& pool) {
   const Kinematics kinematics(pool.skeleton);
   const double rate = pool.clips[0].rate;
@@ -359,10 +359,13 @@ void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, dou
   for (std::size_t f = 0; f < pool.fragments.size(); ++f) {
     if (space.distance(pool.fragments[f].evident, {}) <= kPerformed) standing.push_back(static_cast<int>(f));
   }
+  const std::size_t captured = pool.fragments.size();
   if (standing.empty()) add_standing(pool);
   const bool stands_long = longest_stand(pool, standing) >= kStandsLong;
   Synthesizer(pool, space, usual, longest).fill();
-  if (!stands_long) add_living_stand(pool, space, usual);
+  if (stands_long) return;
+  add_living_stand(pool, space, usual);
+  if (standing.empty()) pool.fragments.erase(pool.fragments.begin() + static_cast<std::ptrdiff_t>(captured));
 }
 
 }  // namespace fragmotion

@@ -490,7 +490,7 @@ TEST(Synthesize, LetsEveryCharacterStand) {
   run.y = 3;
   const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
   const FragmentPool pool = synthesized({gait_clip(run)}, space);
-  EXPECT_LT(coverage(pool.fragments, space).distances[space.nearest({})], 1e-6);
+  EXPECT_LT(coverage(pool.fragments, space).distances[space.nearest({})], 0.05);  // it sways
 }
 
 // As a take stands for three seconds or more, or as one that is made and does for longer; nothing else is made.
@@ -506,8 +506,10 @@ TEST(Synthesize, StandsOnForLong) {
     const FragmentPool pool = synthesized(clips, space);
     double standing = 0;
     for (const Fragment& f : pool.fragments) {
-      const bool stands = space.distance(f.evident, {}) < 0.3 && pool.clips[f.clip].name == "standing";
-      standing += stands ? pool.seconds(f) : 0;
+      if (pool.clips[f.clip].name != "standing") continue;
+      EXPECT_LT(space.distance(f.evident, {}), 0.3);
+      EXPECT_GT(pool.clips[f.clip].frames, 20 * 30) << "it plays nothing that only stands still";
+      standing += pool.seconds(f);
     }
     if (seconds > 3) {
       EXPECT_EQ(standing, 0);
