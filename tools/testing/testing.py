@@ -171,7 +171,7 @@ def _summarise(results: dict[str, Result], seconds: float) -> int:
         total = total + result.counts
     unexpected = [skip for skip in total.skips if not skip.reason.startswith(EXPECTED_SKIPS)]
     if unexpected and os.environ.get("FRAGMOTION_NO_SKIPS"):
-        say(f"\nfailed: {len(unexpected)} skipped for another reason than what a Blender or Windows lacks")
+        say(f"\nfailed: {len(unexpected)} skipped for a reason that is not on the list of EXPECTED_SKIPS")
         total = total + Counts(failed=len(unexpected))
     say(f"\nin {seconds:.0f} s with the set-up\n{total.passed} passed, {total.failed} failed, {total.skipped} skipped")
     return 1 if total.failed or not total.passed else 0

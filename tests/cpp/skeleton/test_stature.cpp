@@ -117,7 +117,7 @@ TEST(Stature, IsThatOfThePersonWhateverTheRig) {
 
 TEST(Stature, OfOneActorIsTheSameInTwoFormats) {
   const auto cmu = shared_mocap() / "cmu";
-  if (!std::filesystem::exists(cmu / "01.asf")) GTEST_SKIP() << "no 01.asf in " << cmu;
+  if (!std::filesystem::exists(cmu / "01.asf")) GTEST_SKIP() << "no motion capture beside the project";
   const double asf = stature(read_asf(cmu / "01.asf")),
                bvh = stature(read_bvh(cmu / "01_01.bvh", 0.0254 / 0.45).skeleton);
   std::cout << "CMU 01: " << asf << " m as ASF, before 1.74 m; " << bvh << " m as BVH, before 1.63 m\n";
