@@ -63,9 +63,8 @@ _EXAMPLES = (
 _MORE = """
 
 In Blender, takes may also be one .blend with ticked Actions or one folder of files that Blender imports, what takes are
-brought onto a rig in a file that Blender reads, and a
-character a .blend that holds one; where it holds none, evaluate measures what its ticked Actions make. Settings that no
-option names are then those of the armature's panels."""
+brought onto a rig in a file that Blender reads, and a character a .blend that holds one; where it holds none, evaluate
+measures what its ticked Actions make. Settings that no option names are then those of the armature's panels."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -134,7 +133,7 @@ def _check_numbers(options: argparse.Namespace, operator: str, *names: str) -> N
     for name, value in _given(options, *names).items():
         least, most = fields[name].hard_min, fields[name].hard_max
         if not least <= value <= most:
-            raise UserError(f"--{name} is {value}, and must be from {least} to {most}")
+            raise UserError(f"--{name} is {value}, and must be from {round(least, 6)} to {round(most, 6)}")
 
 
 def _needs_blender(options: argparse.Namespace) -> bool:
@@ -173,7 +172,7 @@ def _import(folder: Path, options: argparse.Namespace) -> None:
 def _bake(options: argparse.Namespace) -> running.Done:
     if bool(options.blend) == bool(options.into) or (options.blend and len(options.sources) > 1):
         raise UserError("Nothing would be kept: say where to, by --blend for one file or by --into for several")
-    _check_numbers(options, "bake", "seed")
+    _check_numbers(options, "bake", "seed", "seconds")
     if options.blend:
         return _baked(_bake_one(options, options.sources[0], options.blend))
     _check_names(options)

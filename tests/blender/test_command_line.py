@@ -143,6 +143,10 @@ def test_a_character_is_measured(addon: ModuleType, hero: Path, tmp_path: Path) 
         (("build", "{hero}", "--classes", "1", "--blend", "x.blend"), "--classes is 1, and must be from 2 to"),
         (("build", "{hero}", "--seed", "4294967296", "--blend", "x.blend"), "must be from 0 to 2147483647"),
         (("bake", "{hero}", "--player", "walker", "--seed", "4294967296", "--blend", "x.blend"), "must be from 0 to"),
+        (
+            ("bake", "{hero}", "--player", "walker", "--seconds", "4000", "--blend", "x.blend"),
+            "--seconds is 4000.0, and must be from 0.5 to 3600.0",
+        ),
         (("info", "{hero}", "--armature", "Nobody"), "has no armature 'Nobody'"),
         (("bake", "{hero}", "--player", "walker", "--style", "sad", "--blend", "x.blend"), "has no style 'sad'"),
         (("build", "{hero}", "--style", "tired", "--blend", "x.blend"), "--style tired tells no name or no pattern"),

@@ -29,7 +29,7 @@ _EXAMPLES = (
 _EPILOG = """Takes are BVH files, AMC files with their ASF beside them, and folders of such, at any depth.
 A trace is a CSV file: velocity_x,velocity_y (m/s), turn (-1 to 1), jump (0 or 1), 10 rows a second; columns `move` and
 `style` after these may name the moves that are held and the style. The exit code is 0 where all was done; else it is 1,
-and the cause is told."""
+or 2 where the command was not understood, and the cause is told."""
 
 
 class Parser(NamedTuple):
