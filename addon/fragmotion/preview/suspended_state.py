@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The armature's own pose and animation, put aside while it is driven and given back exactly.
+"""The armature's own pose and animation, put aside while it shows something and given back exactly.
 
-They are noted on the object itself: what undo or autosave keep of the middle of a drive can be healed.
+They are noted on the object itself: what undo or autosave keep of the middle of a drive or a preview can be healed.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from ..compat import versions
 from ..rig.posing import CHANNELS, get_channel, reset_pose
 
 NOTE = "fragmotion_put_aside"
-"""Custom property of an armature object that is being driven."""
+"""Custom property of an armature object while it is driven, or shows a take or a class."""
 
 # By a note that no drive wrote.
 _DAMAGES = (ArithmeticError, AttributeError, LookupError, ReferenceError, RuntimeError, TypeError, ValueError)

@@ -2,7 +2,6 @@
 #include "doctor/basis.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fragmotion {
 namespace {

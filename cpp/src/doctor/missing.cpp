@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <numeric>
 
 #include "doctor/check.hpp"

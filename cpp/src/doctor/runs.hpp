@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <utility>
+#include <algorithm>
+#include <string>
 #include <vector>
 
 #include "doctor/patient.hpp"

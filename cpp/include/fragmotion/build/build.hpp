@@ -37,7 +37,7 @@ const std::vector<std::string>& policy_names();
 Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
                 const BuildOptions& options = {}, const Progress& progress = {});
 
-/// The contacts of all clips of a pool.
+/// find_plants() of all clips of a pool; those that are made stand on the usual floors of the takes.
 std::vector<Contacts> contacts_of(const FragmentPool& pool, int threads = 0);
 
 }  // namespace fragmotion

@@ -21,10 +21,10 @@ std::array<FootPath, 2> foot_paths(const Kinematics& kinematics, const Clip& cli
 std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, const std::vector<Vector3>& hips,
                                 double rate, double scale);
 
-/// Ends each contact as soon as the ball rises and goes away, at 0.25 m/s.
+/// Ends each contact as soon as the ball rises and goes away, faster than 0.25 m/s of a character of 1.8 m.
 void end_where_ball_rises(const FootPath& path, double rate, double scale, std::vector<bool>& contacts);
 
-/// find_contacts() of feet that went so.
+/// find_contacts() of feet and hips that went so.
 Contacts find_contacts(const Skeleton& skeleton, const std::array<FootPath, 2>& paths, const std::vector<Vector3>& hips,
                        double rate, const Floors* floors = nullptr);
 

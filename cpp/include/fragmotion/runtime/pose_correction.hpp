@@ -7,7 +7,7 @@
 namespace fragmotion {
 
 /// Corrects what fragments show: the root goes more as the control says and no faster away from its velocity than a
-/// body can, it keeps its target heading, one that is accelerated leans (lean.hpp) and sets its feet for it, and
+/// body can, it keeps its target heading, a body that is accelerated leans (lean.hpp) and sets its feet for it, and
 /// planted feet stay where they are (foot_lock.hpp). Allocates nothing once it is made.
 class PoseCorrection {
  public:

@@ -32,8 +32,8 @@ std::vector<EntrySteps> entry_steps(const Character& character);
 /// A step takes no longer, s: feet that come down less often do not go on steps.
 constexpr double kLongestStep = 1;
 
-/// How long the steps take that each fragment of a character is one or a part of: the median of the times between the
-/// strikes from the last step before it to the first after it, at most kLongestStep; that where no foot strikes.
+/// How long the steps take that each fragment of a character is one or a part of: the median of the times between
+/// strikes from kLongestStep before it to as long after it, at most kLongestStep; that where there are not two strikes.
 std::vector<double> step_seconds(const Character& character);
 
 /// Whether each foot stands in a frame; neither without feet.

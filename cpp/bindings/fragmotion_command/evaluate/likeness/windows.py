@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Motions as windows of 0.8 s, and how far sets of these are from each other.
 
-A window is nine poses a tenth of a second apart, seen from the hips and the heading halfway: the places of all bones,
-the hips' height, and a fifth of the velocities of both, so that 1 m/s off counts as much as 0.2 m.
+A window is eight poses a tenth of a second apart, seen from the hips and the heading halfway: the places of all bones,
+the hips' height over its mean, and a fifth of the velocities, that of the hips less its mean, so that 1 m/s off counts
+as much as 0.2 m.
 """
 
 from __future__ import annotations
