@@ -65,8 +65,8 @@ void add_standing(FragmentPool& pool) {
   pool.fragments.push_back(fragment);
 }
 
-// Adds a take of a character that stands for long, fragment after fragment.
-void add_living_stand(FragmentPool& pool, const ControlSpace& space, double usual) {
+// Adds a take of a character that stands for long, fragment after fragment, as this clip.
+void add_living_stand(FragmentPool& pool, const ControlSpace& space, double usual, int into) {
   const Kinematics kinematics(pool.skeleton);
   const double rate = pool.clips[0].rate;
   const int length = std::max(1, static_cast<int>(std::lround(kStandSeconds * rate))), cycle = kStands * length,
@@ -75,14 +75,15 @@ void add_living_stand(FragmentPool& pool, const ControlSpace& space, double usua
   const BodyMotion motion = body_motion(kinematics, clip);
   for (int begin = 0; begin < cycle; begin += length) {
     Fragment fragment;
-    fragment.clip = static_cast<int>(pool.clips.size());
+    fragment.clip = into;
     fragment.begin = begin;
     fragment.end = begin + length;
     fragment.origin = Origin::transformed;
     fragment.evident = evident_control(motion, rate, begin, begin + length, usual, space);
     pool.fragments.push_back(fragment);
   }
-  pool.clips.push_back(make_clip(pool.skeleton, std::move(clip)));
+  pool.clips.resize(std::max(pool.clips.size(), std::size_t{1} + into));
+  pool.clips[into] = make_clip(pool.skeleton, std::move(clip));
 }
 
 // How long a take stands at most, s, where these fragments stand.
@@ -359,13 +360,13 @@ void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, dou
   for (std::size_t f = 0; f < pool.fragments.size(); ++f) {
     if (space.distance(pool.fragments[f].evident, {}) <= kPerformed) standing.push_back(static_cast<int>(f));
   }
-  const std::size_t captured = pool.fragments.size();
+  const std::size_t fragments = pool.fragments.size(), clips = pool.clips.size();
   if (standing.empty()) add_standing(pool);
   const bool stands_long = longest_stand(pool, standing) >= kStandsLong;
   Synthesizer(pool, space, usual, longest).fill();
   if (stands_long) return;
-  add_living_stand(pool, space, usual);
-  if (standing.empty()) pool.fragments.erase(pool.fragments.begin() + static_cast<std::ptrdiff_t>(captured));
+  add_living_stand(pool, space, usual, static_cast<int>(standing.empty() ? clips : pool.clips.size()));
+  if (standing.empty()) pool.fragments.erase(pool.fragments.begin() + static_cast<std::ptrdiff_t>(fragments));
 }
 
 }  // namespace fragmotion

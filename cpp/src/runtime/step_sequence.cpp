@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "base/quantile.hpp"
 
 namespace fragmotion {
 namespace {
@@ -52,9 +55,7 @@ std::vector<double> step_seconds(const Character& character) {
       const int from = strikes[f.clip][i - 1], to = strikes[f.clip][i];
       if (to > f.begin - reach && from < f.end + reach) times.push_back((to - from) / rate);
     }
-    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-    std::nth_element(times.begin(), middle, times.end());
-    all.push_back(times.empty() ? kLongestStep : std::min(kLongestStep, *middle));
+    all.push_back(times.empty() ? kLongestStep : std::min(kLongestStep, median(std::move(times))));
   }
   return all;
 }
