@@ -54,7 +54,7 @@ class Rounds {
  public:
   Rounds(const std::vector<const Take*>& takes, const Progress& progress)
       : takes_(takes), progress_(progress), told_(takes.size()), outlines_(takes.size()) {
-    for (const Take* take : takes) all_ += static_cast<double>(take->frames) * kStages;
+    for (const Take* take : takes) all_ += static_cast<double>(take->frames) * stages_;
   }
 
   void go(int threads) {
@@ -65,7 +65,7 @@ class Rounds {
   std::vector<Examination>& told() { return told_; }
 
  private:
-  const int kStages = static_cast<int>(checks().size()) + 1;  // of a take
+  const int stages_ = static_cast<int>(checks().size()) + 1;  // of a take
 
   void lead() {
     try {
@@ -104,14 +104,14 @@ class Rounds {
   }
 
   std::optional<std::size_t> next() {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     if (next_ == takes_.size()) return std::nullopt;
     ++busy_;
     return next_++;
   }
 
   void end() {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     --busy_;
     ended_.notify_all();
   }

@@ -155,7 +155,7 @@ class Sway {
  private:
   static constexpr int kHarmonics = 12;
 
-  std::array<double, kHarmonics> phases_;
+  std::array<double, kHarmonics> phases_{};
   double strength_;
 };
 
