@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "base/quantile.hpp"
 
@@ -55,7 +54,7 @@ std::vector<double> step_seconds(const Character& character) {
       const int from = strikes[f.clip][i - 1], to = strikes[f.clip][i];
       if (to > f.begin - reach && from < f.end + reach) times.push_back((to - from) / rate);
     }
-    all.push_back(times.empty() ? kLongestStep : std::min(kLongestStep, median(std::move(times))));
+    all.push_back(times.empty() ? kLongestStep : std::min(kLongestStep, median(times)));
   }
   return all;
 }
