@@ -111,7 +111,7 @@ TEST(MotionMetrics, FindsLessSkateWhereFeetAreLocked) {
   paper.root_adjustment = 0;
   const double ours = yardstick.of(perform(Player(character), trace, 60)).foot_skate,
                theirs = yardstick.of(perform(Player(character, paper), trace, 60)).foot_skate;
-  EXPECT_LT(ours, theirs);
+  EXPECT_LT(ours, 0.7 * theirs);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ TEST(OptimalPerformance, IsNeverReachedByAPlayer) {
     for (const std::uint64_t seed : {1, 2, 3}) {
       const double reached = perform(Player(character, {seed}), trace, kRate).quality;
       EXPECT_LE(reached, best) << name;
-      EXPECT_GT(reached, 0) << name;
+      EXPECT_GT(reached, 0.3 * best) << name;
     }
   }
 }

@@ -69,6 +69,7 @@ TEST(SpeedRipples, AreOfASpeedEachBesideTheTakes) {
     EXPECT_NEAR(row.takes_ripple, ripple / count, 1e-9);
     EXPECT_NEAR(row.takes_bob, bob / count, 1e-9);
   }
+  EXPECT_NEAR(rows[1].speed, 1, 0.15);
 }
 
 TEST(SpeedRipples, HaveNothingToCompareWhereNoTakeGoes) {

@@ -75,7 +75,7 @@ TEST(FragmentSelector, LeavesAFragmentWithinItsTimeAndAtOnceWhereWaitingCostsMuc
       moments.insert(free);
     }
   }
-  EXPECT_GT(moments.size(), 1U);
+  EXPECT_GT(moments.size(), 5U);
 }
 
 // When a fragment is left for a class whose representative performs the control.
@@ -92,15 +92,19 @@ double exit_for(Choice& choice, int fragment, int next_class) {
 TEST(FragmentSelector, LeavesAFragmentAtTheSameMomentWhereTheSameLimbsAreOfMoreBones) {
   Choice whole(1), split(1, with_split_bones(*gait_character()));
   const Character& c = *whole.character;
+  int exits = 0, same = 0;
   double waited = 0, waited_of_split = 0;
   for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 5) {
     for (int k = 0; k < c.classes.count; ++k) {
       const double one = exit_for(whole, fragment, k), other = exit_for(split, fragment, k);
+      ++exits;
+      same += std::abs(one - other) < 1e-9 ? 1 : 0;
       waited += one;
       waited_of_split += other;
     }
   }
-  EXPECT_GT(waited, 0);
+  EXPECT_GT(same, 0.96 * exits);
+  EXPECT_GT(waited / exits, 0.005);
   EXPECT_NEAR(waited_of_split / waited, 1, 0.2);
 }
 
@@ -155,8 +159,8 @@ TEST(FragmentSelector, GoesOnInTheTakeWhereThatPerformsTheControlNearlyAsWell) {
                 choice.selector.error(representative, control) + FragmentSelector::kNearly);
     }
   }
-  EXPECT_GT(stays, 0);
-  EXPECT_GT(leaves, 0);
+  EXPECT_GT(stays, 20);
+  EXPECT_GT(leaves, stays);
 }
 
 // What is foretold of a fragment's end is what is measured there.

@@ -102,7 +102,7 @@ TEST(PlayerMoves, BeginWhereTheyJoinBetterThanWhereTheyWerePressed) {
     });
     begun += last;
   }
-  EXPECT_LT(begun, pressed);
+  EXPECT_LT(begun, 0.95 * pressed);
 }
 
 TEST(PlayerMoves, KeepTheirRootMotion) {
@@ -120,17 +120,17 @@ TEST(PlayerMoves, KeepTheirRootMotion) {
 }
 
 TEST(PlayerMoves, GoIntoWhatTheControlSaysAtTheirEnd) {
-  const auto way = [](const Control& control) {
+  for (const bool goes : {false, true}) {
+    const Control control = goes ? kForward : kStand;
     Player player(moving_character());
     settle(player, kStand);
     player.start_move(kLunge);
     steps_until(player, kStand, 1, [&] { return lunges(player); });
     steps_until(player, control, 2, [&] { return !lunges(player); });
-    const CharacterFrame from = player.frame();
+    const Vector2 from = player.frame().position;
     settle(player, control, 2);
-    return from.to_local({player.frame().position.x(), player.frame().position.y(), 0}).y();
-  };
-  EXPECT_GT(way(kForward), std::abs(way(kStand)));
+    EXPECT_NEAR((player.frame().position - from).norm(), goes ? 2.2 : 0, 0.4);
+  }
 }
 
 TEST(PlayerMoves, LoopWhileTheyAreHeldAndPlayToTheirEnd) {
