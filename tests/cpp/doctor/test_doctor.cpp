@@ -3,103 +3,12 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <numeric>
 #include <utility>
 
-#include "doctor/patient.hpp"
-#include "fragmotion/doctor/examine.hpp"
-#include "fragmotion/doctor/mend.hpp"
-#include "walker.hpp"
+#include "examined_walks.hpp"
 
 namespace fragmotion {
 namespace {
-
-constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
-
-Take take_of(const Skeleton& skeleton, const Clip& clip) {
-  Take take{skeleton, clip.name, clip.rate, clip.frames, {}, clip.rotations};
-  for (int f = 0; f < clip.frames; ++f) {
-    for (int b = 0; b < skeleton.size(); ++b) {
-      const Vector3 place = b == 0 ? load_vector(&clip.root_positions[3 * f]) : skeleton.offsets[b];
-      take.translations.insert(take.translations.end(), {place.x(), place.y(), place.z()});
-    }
-  }
-  return make_take(take);
-}
-
-Take with_basis(const Take& take, const Eigen::Matrix3d& basis, double scale = 1) {
-  Patient patient(take);
-  patient.change_basis(basis, scale);
-  Take changed = patient.take();
-  changed.unit = take.unit;
-  return changed;
-}
-
-Take walk(const Gait& gait = {}) { return take_of(humanoid(), gait_clip(gait, "walk")); }
-
-std::vector<Finding> findings_of(const Take& take) { return examine({take}, 1)[0].findings; }
-
-std::vector<std::string> codes_of(const Take& take) {
-  std::vector<std::string> codes;
-  for (const Finding& finding : findings_of(take)) codes.push_back(finding.code);
-  return codes;
-}
-
-double* rotation(Take& take, int frame, const std::string& bone) {
-  return &take.rotations[std::size_t{4} * (frame * take.skeleton.size() + take.skeleton.find(bone))];
-}
-
-double* place(Take& take, int frame, int bone = 0) {
-  return &take.translations[std::size_t{3} * (frame * take.skeleton.size() + bone)];
-}
-
-Take picked(const Take& take, const std::vector<int>& frames) {
-  Take result = take;
-  result.frames = 0;
-  result.translations.clear();
-  result.rotations.clear();
-  const std::size_t bones = take.skeleton.names.size();
-  for (const int f : frames) {
-    ++result.frames;
-    const auto t = take.translations.begin() + static_cast<std::ptrdiff_t>(3 * bones * f);
-    const auto r = take.rotations.begin() + static_cast<std::ptrdiff_t>(4 * bones * f);
-    result.translations.insert(result.translations.end(), t, t + static_cast<std::ptrdiff_t>(3 * bones));
-    result.rotations.insert(result.rotations.end(), r, r + static_cast<std::ptrdiff_t>(4 * bones));
-  }
-  return result;
-}
-
-std::vector<int> counted(int count, int first = 0) {
-  std::vector<int> frames(count);
-  std::iota(frames.begin(), frames.end(), first);
-  return frames;
-}
-
-void expect_near(const Take& take, const Take& clean, double tolerance) {
-  ASSERT_EQ(take.frames, clean.frames);
-  std::vector<double> ours, theirs, rotations;
-  world_transforms(take, ours, rotations);
-  world_transforms(clean, theirs, rotations);
-  double farthest = 0;
-  for (std::size_t i = 0; i < ours.size(); ++i) farthest = std::max(farthest, std::abs(ours[i] - theirs[i]));
-  EXPECT_LE(farthest, tolerance);
-}
-
-/// Exactly one finding, of this code and these frames; mended it is gone, and the take is the clean one again.
-void expect_mended(const Take& damaged, const std::string& code, int begin, int end, const Take& clean,
-                   double tolerance = 1e-9) {
-  const std::vector<Finding> findings = findings_of(damaged);
-  ASSERT_EQ(codes_of(damaged), std::vector<std::string>{code});
-  EXPECT_EQ(findings[0].begin, begin);
-  EXPECT_EQ(findings[0].end, end);
-  EXPECT_FALSE(findings[0].text.empty());
-  EXPECT_TRUE(findings[0].mendable);
-  const Take mended = mend(damaged, findings);
-  EXPECT_EQ(codes_of(mended), std::vector<std::string>{});
-  expect_near(mended, clean, tolerance);
-  EXPECT_EQ(mend(mended, findings).rotations, mended.rotations);
-}
 
 TEST(Doctor, FindsNothingInCleanMotion) {
   for (const double rate : {60.0, 120.0}) {
@@ -405,62 +314,6 @@ TEST(Doctor, SaysTheSameOnAnyNumberOfThreads) {
     for (std::size_t f = 0; f < one[i].findings.size(); ++f)
       EXPECT_EQ(one[i].findings[f].text, two[i].findings[f].text);
   }
-}
-
-/// To and fro through a walk.
-Take long_walk(int frames) {
-  const Take once = walk();
-  std::vector<int> order;
-  for (int f = 0, step = 1; static_cast<int>(order.size()) < frames; f += step) {
-    order.push_back(f);
-    if (f + step < 0 || f + step >= once.frames) step = -step;
-  }
-  return picked(once, order);
-}
-
-// Longer than what is looked at in one piece.
-TEST(Doctor, LosesNothingWhereThePiecesOfALongTakeMeet) {
-  const Take clean = long_walk(9000);
-  EXPECT_EQ(codes_of(clean), std::vector<std::string>{});
-  for (const int at : {4095, 4096, 8190, 8191}) {
-    Take torn = clean;
-    for (int f = at; f < torn.frames; ++f) place(torn, f)[0] += 3;
-    const std::vector<Finding> findings = findings_of(torn);
-    ASSERT_EQ(codes_of(torn), std::vector<std::string>{"jump"}) << at;
-    EXPECT_EQ(findings[0].begin, at - 1);
-    EXPECT_EQ(findings[0].end, at);
-    Take high = clean;
-    for (int f = 0; f < high.frames; ++f) place(high, f)[2] += 0.3;
-    for (int i = 0; i < 4; ++i) rotation(high, at, "spine")[i] = i == 1 ? 1 : 0;
-    const std::vector<Finding> both = findings_of(high);
-    EXPECT_EQ(codes_of(high), (std::vector<std::string>{"flip", "ground"})) << at;
-    const Take mended = mend(high, both);
-    EXPECT_EQ(codes_of(mended), std::vector<std::string>{});
-    expect_near(mended, clean, 0.02);
-  }
-}
-
-TEST(Doctor, IsStoppedInTheMiddleOfATakeOnAnyThread) {
-  const std::vector<Take> takes = {walk(), long_walk(9000)};
-  for (const int threads : {1, 2}) {
-    int reports = 0;
-    double last = 0;
-    examine(takes, threads, [&](double fraction, const std::string&) {
-      EXPECT_GE(fraction, last);
-      EXPECT_LE(fraction, 1);
-      last = fraction;
-      return ++reports, true;
-    });
-    EXPECT_EQ(last, 1);
-    int heard = 0;
-    EXPECT_THROW(examine(takes, threads, [&](double, const std::string&) { return ++heard < 3; }), Cancelled);
-    EXPECT_EQ(heard, 3);
-    EXPECT_GT(reports, threads == 1 ? 50 : 0);
-  }
-  Take high = takes[1];
-  for (int f = 0; f < high.frames; ++f) place(high, f)[2] += 0.3;
-  int heard = 0;
-  EXPECT_THROW(mend(high, findings_of(high), [&](double, const std::string&) { return ++heard < 3; }), Cancelled);
 }
 
 TEST(Doctor, MendsOnlyWhatItIsAskedTo) {

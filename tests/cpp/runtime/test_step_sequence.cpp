@@ -82,7 +82,9 @@ TEST(StepSequence, TellsHowLongTheStepsOfAFragmentTake) {
   for (std::size_t i = 0; i < seconds.size(); ++i) {
     const Fragment& f = c.pool.fragments[i];
     const std::string& name = c.pool.clips[f.clip].name;
-    if (name == "stand") EXPECT_EQ(seconds[i], kLongestStep);
+    if (name == "stand") {
+      EXPECT_EQ(seconds[i], kLongestStep);
+    }
     if (f.origin != Origin::captured || (name != "walk" && name != "run")) continue;
     ++walking;
     EXPECT_NEAR(seconds[i], name == "walk" ? 0.5 : 0.3, 1 / c.pool.clips[f.clip].rate);  // of two in a Gait::cycle
