@@ -45,6 +45,11 @@ _FILES = (
     "blender/test_trace_files.py",
     "blender/test_what_is_reopened.py",
 )
+# The same of the binding: the core's bits are compared with those of Linux besides.
+_BINDING_FILES = tuple(
+    f"python/test_{name}.py"
+    for name in ("arrays", "bvh", "crowd", "errors", "names", "policy_files", "progress", "threads", "wrong_arguments")
+)
 _THREADED_TESTS = "Thread|ParallelFor|Crowd"
 # Whole characters made again and again for their figures, an hour's takes: what these call, others call as well.
 # Neither under sanitizers nor among the quick ones.
@@ -66,6 +71,7 @@ _THOROUGH = (
     "Crowd.ShowsTheSameBitsWhateverTheThreads",
     "Doctor.FindsAndFillsSpikes",
     "Doctor.FindsNothingInCleanMotion",
+    "Doctor.LosesNothingWhereThePiecesOfALongTakeMeet",
     "Doctor.PutsRightAnyUnit",
     "FragmentSelector.Leaves*",
     "GroundFollower.GoesTheSameWayOnTheSlopeAndIsTheSameEveryTime",
@@ -76,6 +82,7 @@ _THOROUGH = (
     "OwnControls.AreSaidToBeHeldOrNot",
     "OwnControls.AreTheChangesThatAreTimed",
     "OwnControls.AreWhatEverythingAsksFor",
+    "OwnControls.ComeBackFromAFile",
     "OwnControls.ReplayWhatWasRecordedWithOthers",
     "PackedClip.KeepsAllTakesInLessThanAQuarterOfTheirSize",
     "Path.FindsTheNearestPlaceAsBruteForceDoes",
@@ -225,10 +232,11 @@ def _marked(part: Part, *more: str) -> tuple[str, ...]:
 
 
 def windows_python(expression: str | None) -> Counts:
-    """The binding's quick tests in Windows' Python, by Wine, and whether its core makes what Linux's makes."""
+    """The binding's tests of what Windows does otherwise, by Wine, and whether its core makes what Linux's makes."""
     core = compiling.unpacked_core(packages.wheels_for(WINDOWS)[BPY_PYTHON], WINDOWS)
     path = windows.path(core)
-    return _windows("windows", BPY_PYTHON, ["python"], {"PYTHONPATH": path}, expression) + _same_bits(path, expression)
+    tests = _windows("windows", BPY_PYTHON, _BINDING_FILES, {"PYTHONPATH": path}, expression)
+    return tests + _same_bits(path, expression)
 
 
 def _same_bits(windows_path: str, expression: str | None) -> Counts:
