@@ -14,6 +14,7 @@ from tools.docs import pages
 from tools.measuring import benchmarks, running
 from tools.measuring.beside import inputs as beside_inputs
 from tools.measuring.directing import inputs as directing_inputs
+from tools.measuring.tuning import inputs as tuning_inputs
 from tools.platforms import PLATFORMS
 from tools.setup import machine, maven
 from tools.shell import Failure
@@ -46,6 +47,8 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
         "directing", help="measure how a character follows paths and pins, and stands on ground"
     )
     directing_inputs.add_arguments(directing)
+    tune = commands.add_parser("tune", help="fit the run time's constants to sets of takes")
+    tuning_inputs.add_arguments(tune)
     docs = commands.add_parser("docs", help="make the pictures and tables of README.md and docs")
     pages.add_arguments(docs)
     package = commands.add_parser("package", help="build the zips that Blender installs, into build/packages")

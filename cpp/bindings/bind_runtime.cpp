@@ -268,7 +268,17 @@ void bind_player_options(py::module_& m) {
           [](PlayerOptions& o, const std::string& name) { o.stitching = to_stitching(name); })
       .def_readwrite("lock_feet", &PlayerOptions::lock_feet)
       .def_readwrite("root_adjustment", &PlayerOptions::root_adjustment)
-      .def_readwrite("responsiveness", &PlayerOptions::responsiveness);
+      .def_readwrite("responsiveness", &PlayerOptions::responsiveness)
+      .def_property(
+          "constants",
+          [](PlayerOptions& o) {
+            std::map<std::string, double> values;
+            for_each_constant(o.constants, [&](const char* name, double value) { values[name] = value; });
+            return values;
+          },
+          [](PlayerOptions& o, const std::map<std::string, double>& values) {
+            o.constants = player_constants(values);
+          });
 }
 
 Stitching to_stitching(const std::string& name) {

@@ -12,7 +12,7 @@ RuntimeError on a call in the middle of another, as of another thread's or from 
 """
 
 import pathlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import overload
 
@@ -530,6 +530,7 @@ class PlayerOptions:
         lock_feet: bool = True,
         root_adjustment: float = 1.0,
         responsiveness: float = 0.5,
+        constants: Mapping[str, float] = ...,
     ) -> None: ...
     seed: int
     """Draws which fragment of a class plays."""
@@ -545,6 +546,9 @@ class PlayerOptions:
     """How much the root does of the command beyond its fragments, 0 .. 1."""
     responsiveness: float
     """How soon a change of the control is followed, 0 .. 1: at 1 at once, at the default as a body does."""
+    constants: Mapping[str, float]
+    """Those of the run time by their names, all of them when read; others than are named when written are as they are.
+    `dev.py tune` fits them. ValueError on a name that there is not, and on a value not over 0 and at most 1000."""
 
 class Player:
     """The run-time (Sec. 3.3, Fig. 3): policy, fragments and stitching to poses."""
@@ -562,6 +566,7 @@ class Player:
         lock_feet: bool = True,
         root_adjustment: float = 1.0,
         responsiveness: float = 0.5,
+        constants: Mapping[str, float] = ...,
     ) -> None: ...
     def reset(self, x: float = 0.0, y: float = 0.0, heading: float = 0.0, style: int = 0) -> None:
         """Stand at a place, facing `heading` (radians, counter-clockwise from +y), in a style, and draw again from the
@@ -649,6 +654,7 @@ class Crowd:
         lock_feet: bool = True,
         root_adjustment: float = 1.0,
         responsiveness: float = 0.5,
+        constants: Mapping[str, float] = ...,
         threads: int = 0,
     ) -> None: ...
     def __len__(self) -> int: ...
@@ -879,6 +885,7 @@ def response_times(
     lock_feet: bool = True,
     root_adjustment: float = 1.0,
     responsiveness: float = 0.5,
+    constants: Mapping[str, float] = ...,
 ) -> Doubles: ...
 @overload
 def about_face_times(character: Character, options: PlayerOptions) -> Doubles:
@@ -896,6 +903,7 @@ def about_face_times(
     lock_feet: bool = True,
     root_adjustment: float = 1.0,
     responsiveness: float = 0.5,
+    constants: Mapping[str, float] = ...,
 ) -> Doubles: ...
 
 class SpeedRipple:
@@ -931,6 +939,7 @@ def speed_ripples(
     lock_feet: bool = True,
     root_adjustment: float = 1.0,
     responsiveness: float = 0.5,
+    constants: Mapping[str, float] = ...,
 ) -> list[SpeedRipple]: ...
 @overload
 def change_pushes(character: Character, options: PlayerOptions) -> dict[str, Pushes]:
@@ -948,6 +957,7 @@ def change_pushes(
     lock_feet: bool = True,
     root_adjustment: float = 1.0,
     responsiveness: float = 0.5,
+    constants: Mapping[str, float] = ...,
 ) -> dict[str, Pushes]: ...
 
 class Motion:
@@ -1013,6 +1023,7 @@ def find_pin(
     lock_feet: bool = True,
     root_adjustment: float = 1.0,
     responsiveness: float = 0.5,
+    constants: Mapping[str, float] = ...,
     begin: float = 0.0,
     distance: float = 0.02,
     angle: float = ...,

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -28,9 +30,9 @@ template <typename... First, typename... Last, typename Function>
 auto with_options(Types<First...> /*before*/, Types<Last...> /*after*/, Function function) {
   return [function](First... first, std::uint64_t seed, double stitch, const std::string& policy,
                     const std::string& stitching, bool lock_feet, double root_adjustment, double responsiveness,
-                    Last... last) {
-    const PlayerOptions options{seed,      stitch,          policy,        to_stitching(stitching),
-                                lock_feet, root_adjustment, responsiveness};
+                    const std::map<std::string, double>& constants, Last... last) {
+    const PlayerOptions options{seed,      stitch,          policy,         to_stitching(stitching),
+                                lock_feet, root_adjustment, responsiveness, player_constants(constants)};
     return function(std::move(first)..., options, std::move(last)...);
   };
 }
@@ -41,7 +43,8 @@ void for_option_arguments(const Define& define) {
   const PlayerOptions defaults;
   define(py::arg("seed") = defaults.seed, py::arg("stitch") = defaults.stitch, py::arg("policy") = defaults.policy,
          py::arg("stitching") = "inertialize", py::arg("lock_feet") = defaults.lock_feet,
-         py::arg("root_adjustment") = defaults.root_adjustment, py::arg("responsiveness") = defaults.responsiveness);
+         py::arg("root_adjustment") = defaults.root_adjustment, py::arg("responsiveness") = defaults.responsiveness,
+         py::arg("constants") = std::map<std::string, double>{});
 }
 
 /// Defines a function of a character and a player's options, given as PlayerOptions or one by one.

@@ -70,6 +70,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "lock_feet": True,
         "root_adjustment": 1.0,
         "responsiveness": 0.5,
+        "constants": {"stitch_fades": 2.0},
     }
     path = core.Path([[0, 0], [0, 1.0]])
     following = {

@@ -25,7 +25,7 @@ Crowd::Crowd(std::shared_ptr<const Character> character, int count, const Player
     : bones_(character->pool.skeleton.size()), parts_(std::clamp(parts, 1, std::max(1, checked_count(count)))) {
   players_.reserve(count);
   for (int part = 0; part < parts_; ++part) {
-    const auto workspace = std::make_shared<Workspace>(*character);
+    const auto workspace = std::make_shared<Workspace>(*character, options.constants);
     while (size() < first_player(part + 1, parts_, count)) {
       PlayerOptions own = options;
       own.seed += players_.size();

@@ -10,9 +10,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kFades = 2.4;  // (1 + kFades) exp(-kFades) is three tenths
-constexpr double kCalms = 12;   // 1/s: at least so fast fade speeds, which carry a pose too far in a long stitch
-constexpr double kLasts = 4;    // times that, until nothing is seen of it
+constexpr double kLasts = 4;  // times the seconds of a stitch, until nothing is seen of it
 
 // A rotation as axis * tan(angle / 4): free of trigonometry, and smooth up to a whole turn. Of a quaternion and its
 // negative, which are the same rotation, one is the long way round.
@@ -51,11 +49,12 @@ FRAGMOTION_VECTORISED void add_turns(const BoneOffsets* blocks, int bones, float
 
 }  // namespace
 
-Inertialization::Inertialization(int bones) : bones_(bones), blocks_((bones + kBoneBlock - 1) / kBoneBlock) {}
+Inertialization::Inertialization(int bones, const StitchConstants& constants)
+    : constants_(constants), bones_(bones), blocks_((bones + kBoneBlock - 1) / kBoneBlock) {}
 
 Vector2 Inertialization::begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh,
                                const WorldPose& fresh_later, double apart, double seconds) {
-  damping_ = kFades / seconds;
+  damping_ = constants_.fades / seconds;
   end_ = kLasts * seconds;
   root_ = old.root - fresh.root;
   const Vector3 faster = (old.root - old_before.root - (fresh_later.root - fresh.root)) / apart;
@@ -82,7 +81,7 @@ Vector2 Inertialization::begin(const WorldPose& old_before, const WorldPose& old
 void Inertialization::apply(double time, WorldPose& pose) const {
   if (!active(time)) return;
   const double offset = (1 + damping_ * time) * std::exp(-damping_ * time),
-               speed = time * std::exp(-std::max(damping_, kCalms) * time);
+               speed = time * std::exp(-std::max(damping_, constants_.calms) * time);
   pose.root += offset * root_ + speed * root_speed_;
   pose.heading += offset * heading_ + speed * heading_speed_;
   add_turns(blocks_.data(), bones_, static_cast<float>(offset), static_cast<float>(speed), pose.rotations.data());

@@ -19,7 +19,7 @@ Playback::Playback(const Character& character, Workspace& workspace, Stitching s
       workspace_(&workspace),
       stitching_(stitching),
       stitch_(stitch),
-      inertialization_(workspace.kinematics.bones()) {}
+      inertialization_(workspace.kinematics.bones(), workspace.constants.stitch) {}
 
 void Playback::reset(int fragment, const CharacterFrame& frame) {
   faded_ = 0;

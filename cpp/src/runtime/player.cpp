@@ -31,7 +31,7 @@ double acceleration_of(double responsiveness, const ControlSpace& space) {
 }  // namespace
 
 Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options)
-    : Player(character, options, std::make_shared<Workspace>(*character)) {
+    : Player(character, options, std::make_shared<Workspace>(*character, options.constants)) {
   make_extras(options);
 }
 

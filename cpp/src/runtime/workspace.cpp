@@ -9,8 +9,9 @@
 
 namespace fragmotion {
 
-Workspace::Workspace(const Character& character)
-    : kinematics(character.pool.skeleton),
+Workspace::Workspace(const Character& character, const PlayerConstants& constants)
+    : constants(constants),
+      kinematics(character.pool.skeleton),
       body(std::make_shared<FootLock::Body>(kinematics, character.legs)),
       floors(usual_floors(character.contacts)),
       move_entries(entry_poses(character.pool, character.move_parts)),

@@ -5,6 +5,7 @@
 
 #include "fragmotion/base/simd.hpp"
 #include "fragmotion/motion/pose.hpp"
+#include "fragmotion/runtime/player_constants.hpp"
 
 namespace fragmotion {
 
@@ -21,7 +22,7 @@ struct BoneOffsets {
 /// is a body's velocity (pose_correction.hpp).
 class Inertialization {
  public:
-  explicit Inertialization(int bones);
+  explicit Inertialization(int bones, const StitchConstants& constants = {});
 
   /// Nothing to fade.
   void clear() { end_ = 0; }
@@ -29,9 +30,9 @@ class Inertialization {
   /// Whether anything is left `time` seconds after the beginning.
   bool active(double time) const { return time < end_; }
 
-  /// From `old` to `fresh`: after `seconds` three tenths of the offset are left, after four times that nothing. The old
-  /// motion is also given `apart` seconds before, the new one `apart` seconds later: speeds are those inside either.
-  /// Returns how much faster the old root goes over the ground, m/s.
+  /// From `old` to `fresh`: after `seconds` little of the offset is left (StitchConstants), after four times that
+  /// nothing. The old motion is also given `apart` seconds before, the new one `apart` seconds later: speeds are those
+  /// inside either. Returns how much faster the old root goes over the ground, m/s.
   Vector2 begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh, const WorldPose& fresh_later,
                 double apart, double seconds);
 
@@ -42,6 +43,7 @@ class Inertialization {
   void apply(double time, WorldPose& pose) const;
 
  private:
+  StitchConstants constants_;
   double damping_ = 0, end_ = 0;  // 1/s, s
   Vector3 root_ = Vector3::Zero(), root_speed_ = Vector3::Zero();
   double heading_ = 0, heading_speed_ = 0;

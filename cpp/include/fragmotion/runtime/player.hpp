@@ -33,6 +33,7 @@ struct PlayerOptions {
   /// 0, by 4.8 at the default, which is what a body does, and at once at 1; and a fragment is left at 0 at the moment
   /// of it from which the next one is joined best, at 1 at once.
   double responsiveness = 0.5;
+  PlayerConstants constants{};  ///< As they are: what `dev.py tune` changes.
 };
 
 /// s in which a change of style looks for the moment that joins best.

@@ -9,6 +9,7 @@
 #include "fragmotion/character/character.hpp"
 #include "fragmotion/fragments/body_tips.hpp"
 #include "fragmotion/motion/foot_lock.hpp"
+#include "fragmotion/runtime/player_constants.hpp"
 #include "fragmotion/runtime/step_sequence.hpp"
 
 namespace fragmotion {
@@ -26,7 +27,9 @@ struct FragmentLists {
 /// What players of one character that step in turn share: what never changes, and room to work in.
 struct Workspace {
   /// The character must outlive it.
-  explicit Workspace(const Character& character);
+  explicit Workspace(const Character& character, const PlayerConstants& constants = {});
+
+  PlayerConstants constants;
 
   Kinematics kinematics;
   std::shared_ptr<FootLock::Body> body;

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""`dev.py tune`: the search finds what is best, and the player's constants are what it changes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+
+import fragmotion_core as core
+import numpy as np
+import pytest
+
+from tools.measuring.quality.sample import sample_recordings
+from tools.measuring.tuning import inputs, objective
+from tools.measuring.tuning.search import fit
+from tools.shell import Failure
+
+
+@pytest.fixture(scope="module")
+def sample() -> core.Character:
+    return core.build(*sample_recordings(), [core.simulate_trace("explorer", 60, 1)])
+
+
+def test_the_search_finds_the_least_cost_and_never_more_than_it_began_with() -> None:
+    best = {"a": 2.0, "b": 0.3, "c": 30.0}
+
+    def cost(some: Mapping[str, float]) -> float:
+        return sum(math.log(some[name] / best[name]) ** 2 for name in best)
+
+    start = {"a": 1.0, "b": 0.5, "c": 20.0}
+    found = fit(start, cost, 0.05, seed=0)
+    assert found == pytest.approx(best, rel=0.01)
+    assert fit(best, cost, 0.0001, seed=1) == best
+
+
+def test_a_cost_counts_each_figure_by_its_goal() -> None:
+    at_goal = {**objective.AT_MOST, **objective.AT_ONE}
+    assert objective.cost(at_goal) == pytest.approx(math.log(2))
+    for name in at_goal:
+        assert objective.cost({**at_goal, name: 2 * at_goal[name]}) > objective.cost(at_goal)
+    for name, far in objective.AT_ONE.items():
+        assert objective.cost({**at_goal, name: 1 / far}) == pytest.approx(objective.cost(at_goal))
+    assert objective.cost({"nearest": objective.AT_MOST["nearest"]}) == pytest.approx(math.log(2))
+
+
+def test_every_constant_changes_what_is_shown(sample: core.Character) -> None:
+    options = core.PlayerOptions()
+    trace = core.simulate_trace("explorer", 30, 1, sample.space)
+    usual = core.Player(sample, options).run(trace, 60).rotations
+    for name, value in options.constants.items():
+        other = core.Player(sample, constants={name: value / 2}).run(trace, 60).rotations
+        assert not np.array_equal(other, usual), name
+    same = core.Player(sample, constants=options.constants).run(trace, 60).rotations
+    assert np.array_equal(same, usual)
+    assert len(options.constants) <= 30
+
+
+def test_constants_that_cannot_be_are_refused(sample: core.Character) -> None:
+    with pytest.raises(ValueError, match='no constant "haste"'):
+        core.Player(sample, constants={"haste": 1.0})
+    for value in (0.0, -1.0, 1001.0, math.nan, math.inf):
+        with pytest.raises(ValueError, match="the constant stitch_fades must be"):
+            core.PlayerOptions(constants={"stitch_fades": value})
+
+
+def test_a_set_without_takes_is_named(tmp_path: Path) -> None:
+    with pytest.raises(Failure, match="there are no takes"):
+        inputs.files_of(f"{tmp_path}/nothing*.bvh")
