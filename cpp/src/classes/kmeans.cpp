@@ -24,10 +24,6 @@ int draw(const std::vector<double>& cumulated, double share) {
   return static_cast<int>(std::min(found, last) - cumulated.begin());
 }
 
-void add(double* sums, double weight, const float* values, std::size_t count) {
-  for (std::size_t j = 0; j < count; ++j) sums[j] += weight * values[j];
-}
-
 }  // namespace
 
 KMeans::KMeans(const Points& points, int classes, int threads)
@@ -36,6 +32,9 @@ KMeans::KMeans(const Points& points, int classes, int threads)
       threads_(threads),
       width_(std::size_t{3} * points.stride),
       means_(n_ * width_),
+      sums_(n_ * width_, 0),
+      masses_(n_, 0),
+      masses_of_ones_(n_, 0),
       kinds_(n_, 0),
       labels_(points.count, 0),
       averaged_(points.count, -1),
@@ -187,46 +186,40 @@ bool KMeans::move_means() {
   return refilled;
 }
 
-// The means of those classes that are not what they were the last time.
+// The means follow the points whose class is not what it was the last time.
 void KMeans::average() {
+  std::vector<int> moved;
   std::vector<char> changed(n_, 0);
-  std::vector<double> masses(n_, 0);
+  const auto count = [&](int label, double weight, char kind) {
+    if (label < 0) return;
+    changed[label] = 1;
+    masses_[label] += weight;
+    masses_of_ones_[label] += weight * kind;
+  };
   for (int i = 0; i < points_.count; ++i) {
-    const int now = labels_[i], before = averaged_[i];
-    if (now >= 0) masses[now] += points_.weights[i];
-    if (now == before) continue;
-    if (now >= 0) changed[now] = 1;
-    if (before >= 0) changed[before] = 1;
+    if (labels_[i] == averaged_[i]) continue;
+    moved.push_back(i);
+    count(averaged_[i], -points_.weights[i], points_.kinds[i]);
+    count(labels_[i], points_.weights[i], points_.kinds[i]);
   }
+  for (int k = 0; k < n_; ++k) kinds_[k] = masses_of_ones_[k] > masses_[k] / 2 ? 1 : 0;
+  parallel_for(static_cast<int>(width_), threads_, [&](int begin, int end) {
+    for (const int i : moved) {
+      add(averaged_[i], -points_.weights[i], points_.row(i), begin, end);
+      add(labels_[i], points_.weights[i], points_.row(i), begin, end);
+    }
+    for (int k = 0; k < n_; ++k) {
+      if (changed[k] == 0) continue;
+      for (int j = begin; j < end; ++j) mean(k)[j] = static_cast<float>(sums_[k * width_ + j] / masses_[k]);
+    }
+  });
   averaged_ = labels_;
-  for (int k = 0; k < n_; ++k) masses[k] *= changed[k];
-  average_kinds(masses);
-  parallel_for(static_cast<int>(width_), threads_, [&](int begin, int end) { average_columns(masses, begin, end); });
 }
 
-// Of the classes whose mass is not 0: each is of the kind that most of it is of.
-void KMeans::average_kinds(const std::vector<double>& masses) {
-  std::vector<double> ones(n_, 0);
-  for (int i = 0; i < points_.count; ++i) {
-    if (labels_[i] >= 0) ones[labels_[i]] += points_.weights[i] * points_.kinds[i];
-  }
-  for (int k = 0; k < n_; ++k) {
-    if (masses[k] > 0) kinds_[k] = ones[k] > masses[k] / 2 ? 1 : 0;
-  }
-}
-
-// Of the classes whose mass is not 0.
-void KMeans::average_columns(const std::vector<double>& masses, int begin, int end) {
-  const std::size_t width = end - begin;
-  std::vector<double> sums(n_ * width, 0);
-  for (int i = 0; i < points_.count; ++i) {
-    if (labels_[i] < 0 || masses[labels_[i]] == 0) continue;
-    add(&sums[labels_[i] * width], points_.weights[i], points_.row(i) + begin, width);
-  }
-  for (int k = 0; k < n_; ++k) {
-    if (masses[k] == 0) continue;
-    for (std::size_t j = 0; j < width; ++j) mean(k)[begin + j] = static_cast<float>(sums[k * width + j] / masses[k]);
-  }
+void KMeans::add(int label, double weight, const float* values, int begin, int end) {
+  if (label < 0) return;
+  double* sums = &sums_[label * width_];
+  for (int j = begin; j < end; ++j) sums[j] += weight * values[j];
 }
 
 // Moves each point to its nearest mean. Returns how many moved.

@@ -67,8 +67,7 @@ class KMeans {
 
   bool refill_empty_classes();
   void average();
-  void average_kinds(const std::vector<double>& masses);
-  void average_columns(const std::vector<double>& masses, int begin, int end);
+  void add(int label, double weight, const float* values, int begin, int end);
   bool move_means();
   int assign();
   bool assign(int i);
@@ -76,12 +75,15 @@ class KMeans {
   Points points_;
   int n_, threads_;
   std::size_t width_;
-  std::vector<float> means_;   // [n, 3, stride]
-  std::vector<char> kinds_;    // [n] of means
-  std::vector<int> labels_;    // [points]
-  std::vector<int> averaged_;  // [points] the labels whose means these are, -1 none
-  std::vector<float> upper_;   // [points] at least the distance to the own mean
-  std::vector<float> lower_;   // [points, n] at most the distance to each mean
+  std::vector<float> means_;            // [n, 3, stride]
+  std::vector<double> sums_;            // [n, 3, stride] of what averaged_ has in each class, by weight,
+  std::vector<double> masses_;          // [n] its weights,
+  std::vector<double> masses_of_ones_;  // [n] and those of the second kind
+  std::vector<char> kinds_;             // [n] of means
+  std::vector<int> labels_;             // [points]
+  std::vector<int> averaged_;           // [points] the labels whose means these are, -1 none
+  std::vector<float> upper_;            // [points] at least the distance to the own mean
+  std::vector<float> lower_;            // [points, n] at most the distance to each mean
 };
 
 }  // namespace fragmotion
