@@ -16,6 +16,7 @@ from ..errors import SinglePose, UserError, core_errors
 from ..files import read_regular
 from ..jobs import Report
 from ..mocap import actions
+from ..mocap.curve_points import read_once
 from ..mocap.sampling import sample_parts
 from ..mocap.styles import grouped, style_of
 from ..recordings.traces import make_traces
@@ -25,7 +26,7 @@ from ..rig.skeletons import difference
 from . import classes
 from .control_layout import keep_layout, layout_of
 from .coverage import Row, makes_its_jumps, measure_coverage
-from .staleness import sources_of
+from .staleness import digest_of, sources_of
 from .storing import keep_policy, key_of, read_policy
 
 if TYPE_CHECKING:
@@ -129,7 +130,9 @@ def _sample_all(
     poses, warnings = [], []
     for action in takes:
         try:
-            clips.extend((style_of(action), clip) for clip in sample_parts(context, obj, action, rig))
+            with read_once():
+                clips.extend((style_of(action), clip) for clip in sample_parts(context, obj, action, rig))
+                digest_of(action)  # kept for sources_of
         except SinglePose:
             poses.append(action.name)
             if len(poses) == len(takes):

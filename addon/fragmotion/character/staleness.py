@@ -12,6 +12,7 @@ from bpy.app.handlers import persistent
 
 from ..compat import versions
 from ..mocap.actions import RATE, SCENE_RATE, ticked
+from ..mocap.curve_points import points_of
 from ..mocap.styles import style_of
 from ..rig.writing import LINEAR
 
@@ -108,11 +109,13 @@ def _keys(curve: bpy.types.FCurve) -> bytes:
     keys = curve.keyframe_points
     kinds = np.empty(len(keys), np.int32)
     keys.foreach_get("interpolation", kinds)
-    names = ("co",) if (kinds == LINEAR).all() else ("co", "handle_left", "handle_right")
-    values = np.empty((len(names), 2 * len(keys)), np.float32)
-    for row, name in zip(values, names):
-        keys.foreach_get(name, row)
-    return values.tobytes() + kinds.tobytes()
+    told = points_of(curve).tobytes()
+    if not (kinds == LINEAR).all():
+        handles = np.empty((2, 2 * len(keys)), np.float32)
+        keys.foreach_get("handle_left", handles[0])
+        keys.foreach_get("handle_right", handles[1])
+        told += handles.tobytes()
+    return told + kinds.tobytes()
 
 
 def _joined(digests: list[str]) -> str:

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection, Generator, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -100,37 +102,49 @@ def _read_all(
 ) -> Generator[float, None, tuple[list[_ReadFile], list[Path]]]:
     """Each file's takes, and the files of a folder in which nothing moves."""
     read, without = [], []
-    for index, file in enumerate(files):
-        yield _STAGE * index / len(files)
-        takes = _read_or_none(context, file, unit or _UNIT, character, is_needed=file.named or len(files) == 1)
-        if takes is None:
-            without.append(file.path)
-        else:
-            read.append(_ReadFile(file.path, takes, unit is not None and file.path.suffix.lower() == _BVH))
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        by_core = {f: pool.submit(_read_by_core, f, unit or _UNIT) for f in files if not _is_by_blender(f)}
+        try:
+            for index, file in enumerate(files):
+                yield _STAGE * index / len(files)
+                is_needed = file.named or len(files) == 1
+                takes = (
+                    by_core[file].result() if file in by_core else _read_or_none(context, file, character, is_needed)
+                )
+                if takes is None:
+                    without.append(file.path)
+                    continue
+                _check_names(file, takes)
+                read.append(_ReadFile(file.path, takes, unit is not None and file.path.suffix.lower() == _BVH))
+        finally:
+            for reading in by_core.values():
+                reading.cancel()
     if not read:
         raise UserError(f"'{without[0]}' and {len(without) - 1} more: no armature in them is animated")
     return read, without
 
 
-def _read_or_none(
-    context: bpy.types.Context, file: TakeFile, unit: float, character: str, is_needed: bool
-) -> list[Take] | None:
+def _read_or_none(context: bpy.types.Context, file: TakeFile, character: str, is_needed: bool) -> list[Take] | None:
     try:
-        takes = read_takes(context, file, unit, character)
+        return _read_by_blender(context, file, character)
     except NoTakes:
         if is_needed:
             raise
         return None
-    _check_names(file, takes)
-    return takes
 
 
-def read_takes(context: bpy.types.Context, file: TakeFile, unit: float, character: str) -> list[Take]:
-    """Read a file's takes: one, but for files that Blender reads, into its scratch scene. The core's message names file
-    and line."""
-    if file.path.suffix.lower() in BY_BLENDER:
-        with scratch_scene(context):
-            return by_blender.read_takes(context, file.path, character)
+def _is_by_blender(file: TakeFile) -> bool:
+    return file.path.suffix.lower() in BY_BLENDER
+
+
+def _read_by_blender(context: bpy.types.Context, file: TakeFile, character: str) -> list[Take]:
+    """The file's takes, read into a scratch scene."""
+    with scratch_scene(context):
+        return by_blender.read_takes(context, file.path, character)
+
+
+def _read_by_core(file: TakeFile, unit: float) -> list[Take]:
+    """The file's one take; the core's message names file and line."""
     for path in (file.asf, file.path):
         if path is not None:
             check_regular(path)

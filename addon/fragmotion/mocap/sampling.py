@@ -17,6 +17,7 @@ from ..rig.keys import to_quaternions
 from ..rig.rigs import bone_path, is_tied
 from . import left_out
 from .actions import RATE, SCENE_RATE, animated_bones, rate_of
+from .curve_points import points_of
 
 if TYPE_CHECKING:
     from fragmotion_core import Clip, Doubles, Rig
@@ -161,10 +162,9 @@ def read_curve(curve: bpy.types.FCurve, times: Doubles) -> Doubles:
     """An F-curve's values at the times: its keys where they sit on them, else evaluated."""
     keys = curve.keyframe_points
     if len(keys) >= len(times) and not curve.modifiers:
-        points = np.empty(2 * len(keys), np.float32)
-        keys.foreach_get("co", points)
-        first = int(np.searchsorted(points[::2], times[0] - _SAME_FRAME))
-        near = points.reshape(-1, 2)[first : first + len(times)]
+        points = points_of(curve)
+        first = int(np.searchsorted(points[:, 0], times[0] - _SAME_FRAME))
+        near = points[first : first + len(times)]
         if len(near) == len(times) and np.abs(near[:, 0] - times).max() < _SAME_FRAME:
             return near[:, 1].astype(float)
     return np.fromiter((curve.evaluate(time) for time in times), float, len(times))

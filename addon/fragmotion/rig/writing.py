@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from fragmotion_core import Doubles, Ints
     from numpy.typing import NDArray
 
+    Floats = NDArray[np.float32]
+
 LINEAR, _BEZIER = 1, 2
 """RNA's numbers of the interpolations 'LINEAR' and 'BEZIER'."""
 
@@ -48,13 +50,22 @@ def write_tracks(
     if replace:
         holder.fcurves.clear()
     for track in tracks:
-        for index, values in enumerate(track.values.T):
+        points = _points(times, track)
+        for index in range(len(points)):
             curve = holder.fcurves.find(track.path, index=index)
             if curve is None:
                 curve = versions.new_curve(holder, track.path, index, track.group or _OBJECT_GROUP)
             _clear_span(curve, times[0], times[-1])
             slopes = None if track.slopes is None else track.slopes[:, index]
-            _add_keys(curve, times[track.kept], values[track.kept], _handles(times, track.kept, slopes))
+            _add_keys(curve, points[index], _handles(times, track.kept, slopes))
+
+
+def _points(times: Doubles, track: Track) -> Floats:
+    """Where the keys are of each of a track's curves [N,K,2]: scene frames and values."""
+    points = np.empty((track.values.shape[1], len(track.kept), 2), np.float32)
+    points[:, :, 0] = times[track.kept]
+    points[:, :, 1] = track.values[track.kept].T
+    return points
 
 
 def _clear_span(curve: bpy.types.FCurve, first: float, last: float) -> None:
@@ -81,12 +92,11 @@ def _handles(times: Doubles, kept: Ints, slopes: Doubles | None) -> _Handles | N
     return _Handles(np.column_stack((-before, -rise_before)), np.column_stack((after, rise_after)))
 
 
-def _add_keys(curve: bpy.types.FCurve, times: Doubles, values: Doubles, handles: _Handles | None) -> None:
-    """Keys beside those that the curve has: Bezier ones with handles, linear ones without."""
+def _add_keys(curve: bpy.types.FCurve, points: Floats, handles: _Handles | None) -> None:
+    """Keys [K,2] beside those that the curve has: Bezier ones with handles, linear ones without."""
     keys = curve.keyframe_points
     former = len(keys)
-    keys.add(len(times))
-    points = np.column_stack((times, values))
+    keys.add(len(points))
     _set_last(keys, "co", former, points.ravel(), np.float32)
     _set_last(keys, "interpolation", former, LINEAR if handles is None else _BEZIER, np.int32)
     if handles is not None:
@@ -97,11 +107,12 @@ def _add_keys(curve: bpy.types.FCurve, times: Doubles, values: Doubles, handles:
     curve.update()
 
 
-def _set_last(keys: Any, name: str, former: int, values: Doubles | int, kind: type) -> None:
+def _set_last(keys: Any, name: str, former: int, values: NDArray[Any] | int, kind: type) -> None:
     """A property of the keys from the number `former` on."""
     width = 2 if isinstance(values, np.ndarray) else 1
     every: NDArray[Any] = np.empty(width * len(keys), kind)
-    keys.foreach_get(name, every)
+    if former > 0:
+        keys.foreach_get(name, every)
     every[width * former :] = values
     keys.foreach_set(name, every)
 
