@@ -87,7 +87,6 @@ void bind_measures(py::module_& m) {
       .def_readonly("center_of_mass", &MotionMeasures::center_of_mass)
       .def_readonly("hips", &MotionMeasures::hips)
       .def_readonly("yaw", &MotionMeasures::yaw)
-      .def_readonly("unsupported", &MotionMeasures::unsupported)
       .def_readonly("jumps", &MotionMeasures::jumps)
       .def_readonly("footfalls", &MotionMeasures::footfalls)
       .def_readonly("turns", &MotionMeasures::turns);

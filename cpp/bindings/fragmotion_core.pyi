@@ -1150,10 +1150,6 @@ class MotionMeasures:
     hips: Pushes
     yaw: Spread
     """rad/s^2: the change over 0.2 s of the mean turn rate over 0.2 s of where the body faces."""
-    unsupported: float
-    """Share of the time in which nothing under the body can give its centre of mass the acceleration that it has, which
-    is more than 3 m/s^2 from falling: on feet whose hull the zero-moment point leaves by more than 0.27 m, or in the
-    air. NaN without feet."""
     jumps: JumpMeans
     footfalls: Footfalls
     turns: Excess

@@ -159,9 +159,7 @@ def test_weight_is_that_of_the_performances(run: Run, built: core.Character) -> 
     played = [core.Player(built, SEED + i, policy="iterate").run(t, 60) for t in traces for i in range(3)]
     yardstick = core.MotionMetrics(built)
     measured = [yardstick.of(p) for p in played]
-    figures, takes = run.result["controllers"]["iterate"]["run_time"], run.result["takes"]
-    assert figures["unsupported"] == pytest.approx(np.mean([m.unsupported for m in measured]))
-    assert 0 <= figures["unsupported"] <= 1 and takes["unsupported"] == yardstick.takes.unsupported
+    figures = run.result["controllers"]["iterate"]["run_time"]
     steps = sum(m.footfalls.count for m in measured)
     assert figures["same_foot"] == pytest.approx(sum(m.footfalls.same_foot for m in measured) / steps)
     assert figures["quick_steps"] == pytest.approx(sum(m.footfalls.quick for m in measured) / steps)

@@ -72,7 +72,7 @@ Character with_moves(const Character& character, const std::vector<MoveClip>& mo
     };
     added.push_back({move.name, static_cast<int>(result.pool.clips.size()), move.upper_body, move.wait,
                      frame(move.loop[0]), frame(move.loop[1])});
-    result.contacts.push_back(find_contacts(kinematics, clip, &floors));
+    result.contacts.push_back(find_plants(kinematics, clip, &floors));
     result.pool.clips.push_back(pack(skeleton, grid, clip));
   }
   result.moves = std::move(added);

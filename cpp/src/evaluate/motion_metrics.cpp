@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "evaluate/tracks.hpp"
-#include "fragmotion/evaluate/support.hpp"
 #include "fragmotion/skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
@@ -67,7 +66,6 @@ class Measurement {
     append(hips_pushes_, ground_accelerations(track.hips, track.rate));
     append(yaw_, angular_accelerations(track.heading, track.rate));
     append(jumps_, find_jumps(track, usual_));
-    support_.add(find_support(track));
     footfalls_.add(count_footfalls(track));
   }
 
@@ -82,7 +80,6 @@ class Measurement {
     m.center_of_mass = pushes(std::move(center_pushes_));
     m.hips = pushes(std::move(hips_pushes_));
     m.yaw = spread(std::move(yaw_));
-    m.unsupported = support_.unsupported_share();
     m.jumps = jumps();
     m.footfalls = footfalls_;
     return m;
@@ -141,7 +138,6 @@ class Measurement {
   double skate_ = 0, count_ = 0, low_ = 0, sliding_ = 0, depth_ = 0;
   std::vector<double> positions_, velocities_, accelerations_, center_pushes_, hips_pushes_, yaw_;
   std::vector<Jump> jumps_;
-  Support support_;
   Footfalls footfalls_;
 };
 

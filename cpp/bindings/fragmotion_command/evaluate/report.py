@@ -151,7 +151,6 @@ def acceleration_table(result: Result) -> Table:
 
 
 _WEIGHT: tuple[tuple[str, Callable[[Result], str]], ...] = (
-    ("unsupported, %", lambda r: number(_percent(r["unsupported"]), 2)),
     ("yaw p50, deg/s\u00b2", lambda r: number(r["yaw_acceleration_p50"], 0)),
     ("p99", lambda r: number(r["yaw_acceleration_p99"], 0)),
     ("p99.9", lambda r: number(r["yaw_acceleration_p999"], 0)),

@@ -29,7 +29,7 @@ struct Character {
   /// [controls, controls]: control_model() of the traces that taught the policies, with kGenericPrior.
   std::vector<double> control_model;
   Coverage coverage;
-  std::vector<Contacts> contacts;  ///< Of each clip of the pool: contacts_of(); of a move, find_contacts().
+  std::vector<Contacts> contacts;  ///< Of each clip of the pool: contacts_of(); of a move, find_plants().
   Legs legs;                       ///< As they bend in the clips.
   std::vector<Move> moves;         ///< Their clips are the pool's last ones.
   std::string style;               ///< What its takes have in common; empty where there is one style alone.

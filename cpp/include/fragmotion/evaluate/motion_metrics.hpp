@@ -32,8 +32,7 @@ struct MotionMeasures {
   Steps velocities;          ///< m/s
   Steps accelerations;       ///< m/s^2
   Pushes center_of_mass, hips;
-  Spread yaw;              ///< rad/s^2: the change over 0.2 s of the mean turn rate over 0.2 s, of facing().
-  double unsupported = 0;  ///< find_support(): share of the time; NaN without feet.
+  Spread yaw;  ///< rad/s^2: the change over 0.2 s of the mean turn rate over 0.2 s, of facing().
   JumpMeans jumps;
   Footfalls footfalls;
   Excess turns;  ///< Beyond what joints do in the takes; of a take, in all others.

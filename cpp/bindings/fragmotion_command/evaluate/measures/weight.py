@@ -13,7 +13,6 @@ from ...core import core
 
 Figures = dict[str, float | None]
 SEEN = (
-    "unsupported",
     "jump_dip",
     "landing_dip",
     "flight_time_ratio",
@@ -31,13 +30,12 @@ TRIALS = ("speed_ripple_ratio", "bob_ratio", "speed_ripple", "acceleration_by_ch
 
 
 def seen(measured: Sequence[core.MotionMeasures]) -> Figures:
-    """Of motions: share of the time unsupported; how far the hips dip before and after a jump's flight (m), and its
+    """Of motions: how far the hips dip before and after a jump's flight (m), and its
     time over a ballistic one's; shares of the steps; yaw accelerations over 0.2 s (degrees/s^2)."""
     steps = [m.footfalls for m in measured]
     count = sum(each.count for each in steps)
     yaw = [m.yaw for m in measured]
     return {
-        "unsupported": _mean(m.unsupported for m in measured),
         "jump_dip": _of_jumps(measured, lambda jumps: jumps.dip),
         "landing_dip": _of_jumps(measured, lambda jumps: jumps.landing_dip),
         "flight_time_ratio": _of_jumps(measured, lambda jumps: jumps.flight_ratio),
