@@ -108,3 +108,10 @@ def test_in_ci_only_what_is_on_the_list_may_be_skipped(monkeypatch: pytest.Monke
     assert testing._summarise(results, 2.0) == 0
     monkeypatch.setenv("FRAGMOTION_NO_SKIPS", "true")
     assert testing._summarise(results, 2.0) == (reason == "no takes here")
+
+
+def test_a_program_that_ends_without_a_report_fails_whatever_was_selected(tmp_path: Path) -> None:
+    stage = "ends-without-a-report"
+    for expression in (None, "something"):
+        with pytest.raises(Failure, match="this failed"):
+            stages._counted(["false"], stage, {}, expression)
