@@ -8,7 +8,7 @@
 
 #include "base/max_accumulate.hpp"
 #include "base/transposed.hpp"
-#include "fragmotion/runtime/command_limit.hpp"
+#include "fragmotion/control/command_limit.hpp"
 
 namespace fragmotion {
 namespace {

@@ -12,10 +12,14 @@ namespace {
 constexpr double kEnd = 0.1;  // s
 constexpr int kMoments = 8;
 
-Vector2 velocity_between(const PackedClip& clip, double begin, double end) {
+Travel travel_between(const PackedClip& clip, double begin, double end) {
   const CharacterFrame from = frame_at(clip, begin), to = frame_at(clip, end);
-  const double heading = from.heading + std::remainder(to.heading - from.heading, 2 * kPi) / 2;
-  return Eigen::Rotation2Dd(-heading) * (to.position - from.position) * (clip.rate / (end - begin));
+  const double angle = std::remainder(to.heading - from.heading, 2 * kPi), rate = clip.rate / (end - begin);
+  return {Eigen::Rotation2Dd(-from.heading - angle / 2) * (to.position - from.position) * rate, angle * rate};
+}
+
+Vector2 velocity_between(const PackedClip& clip, double begin, double end) {
+  return travel_between(clip, begin, end).velocity;
 }
 
 }  // namespace
@@ -24,9 +28,13 @@ Vector2 hips_velocity(const PackedClip& clip, const Fragment& fragment) {
   return velocity_between(clip, fragment.begin, fragment.end);
 }
 
-Vector2 hips_velocity_around(const PackedClip& clip, double frame, double seconds) {
+Travel travel_around(const PackedClip& clip, double frame, double seconds) {
   const double half = seconds * clip.rate / 2, last = clip.frames - 1, middle = std::clamp(frame, 0.0, last);
-  return velocity_between(clip, std::max(0.0, middle - half), std::min(last, middle + half));
+  return travel_between(clip, std::max(0.0, middle - half), std::min(last, middle + half));
+}
+
+Vector2 hips_velocity_around(const PackedClip& clip, double frame, double seconds) {
+  return travel_around(clip, frame, seconds).velocity;
 }
 
 Vector2 mean_velocity_around(const PackedClip& clip, const Fragment& fragment, double seconds) {

@@ -10,8 +10,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLasts = 4;  // times the seconds of a stitch, until nothing is seen of it
-
 // A rotation as axis * tan(angle / 4): free of trigonometry, and smooth up to a whole turn. Of a quaternion and its
 // negative, which are the same rotation, one is the long way round.
 Vector3 turn_of(const Quaternion& q) { return q.vec() / (1 + q.w()); }
@@ -19,13 +17,15 @@ Vector3 turn_of(const Quaternion& q) { return q.vec() / (1 + q.w()); }
 using Lanes = float[kBoneBlock];
 
 // Turns the rotations [bones, 4] further by what is left of the offsets and the speeds.
-FRAGMOTION_VECTORISED void add_turns(const BoneOffsets* blocks, int bones, float offset, float speed,
-                                     double* rotations) {
-  for (; bones > 0; bones -= kBoneBlock, ++blocks, rotations += 4 * kBoneBlock) {
-    const int values = 4 * std::min(kBoneBlock, bones);
+FRAGMOTION_VECTORISED void add_turns(const float* offsets, int bones, float offset, float speed, double* rotations) {
+  for (; bones > 0; bones -= kBoneBlock, rotations += 4 * kBoneBlock) {
+    const int count = std::min(kBoneBlock, bones), values = 4 * count;
     float q[kBoneBlock][4] = {};
     std::copy_n(rotations, values, &q[0][0]);
-    const auto& [turn, turning] = *blocks;
+    Lanes turn[3] = {}, turning[3] = {};
+    for (Lanes* lanes : {turn, turning}) {
+      for (int axis = 0; axis < 3; ++axis, offsets += count) std::copy_n(offsets, count, lanes[axis]);
+    }
     Lanes w, x, y, z;
     for (int i = 0; i < kBoneBlock; ++i) {
       const float a = offset * turn[0][i] + speed * turning[0][i], b = offset * turn[1][i] + speed * turning[1][i],
@@ -49,42 +49,75 @@ FRAGMOTION_VECTORISED void add_turns(const BoneOffsets* blocks, int bones, float
 
 }  // namespace
 
+TurnOffset turn_offset(const double* old_before, const double* old, const double* fresh, const double* fresh_later,
+                       double apart) {
+  const Quaternion is = load_quaternion(old);
+  Quaternion offset = is * load_quaternion(fresh).conjugate();
+  if (offset.w() < 0) offset.coeffs() *= -1;
+  // What the old bone turns in `apart`, and then the new one, both about the world of the parent.
+  const Quaternion next_old = is * load_quaternion(old_before).conjugate() * is;
+  Quaternion next = next_old * load_quaternion(fresh_later).conjugate();
+  if (next.dot(offset) < 0) next.coeffs() *= -1;
+  const Vector3 turn = turn_of(offset);
+  return {turn, (turn_of(next) - turn) / apart};
+}
+
 Inertialization::Inertialization(int bones, const StitchConstants& constants)
-    : constants_(constants), bones_(bones), blocks_((bones + kBoneBlock - 1) / kBoneBlock) {}
+    : constants_(&constants), offsets_(std::size_t{6} * bones) {}
 
 Vector2 Inertialization::begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh,
                                const WorldPose& fresh_later, double apart, double seconds) {
-  damping_ = constants_.fades / seconds;
+  damping_ = constants_->fades / seconds;
   end_ = kLasts * seconds;
   root_ = old.root - fresh.root;
   const Vector3 faster = (old.root - old_before.root - (fresh_later.root - fresh.root)) / apart;
   root_speed_ = {0, 0, faster.z()};
   heading_ = old.heading - fresh.heading;
   heading_speed_ = (old.heading - old_before.heading - (fresh_later.heading - fresh.heading)) / apart;
-  for (std::size_t b = 0; b < static_cast<std::size_t>(bones_); ++b) {
-    const double *was = &old_before.rotations[4 * b], *is = &old.rotations[4 * b], *starts = &fresh.rotations[4 * b];
-    Quaternion offset = load_quaternion(is) * load_quaternion(starts).conjugate();
-    if (offset.w() < 0) offset.coeffs() *= -1;
-    // What the old bone turns in `apart`, and then the new one, both about the world of the parent.
-    const Quaternion next_old = load_quaternion(is) * load_quaternion(was).conjugate() * load_quaternion(is);
-    Quaternion next = next_old * load_quaternion(&fresh_later.rotations[4 * b]).conjugate();
-    if (next.dot(offset) < 0) next.coeffs() *= -1;
-    const Vector3 turn = turn_of(offset), turning = (turn_of(next) - turn) / apart;
-    for (int axis = 0; axis < 3; ++axis) {
-      blocks_[b / kBoneBlock].turn[axis][b % kBoneBlock] = static_cast<float>(turn[axis]);
-      blocks_[b / kBoneBlock].turning[axis][b % kBoneBlock] = static_cast<float>(turning[axis]);
-    }
+  for (int b = 0; b < bones(); ++b) {
+    const std::ptrdiff_t at = std::ptrdiff_t{4} * b;
+    keep(b, turn_offset(&old_before.rotations[at], &old.rotations[at], &fresh.rotations[at], &fresh_later.rotations[at],
+                        apart));
   }
   return faster.head<2>();
 }
 
+// Where one of the six values of a bone is kept.
+std::size_t Inertialization::slot(int bone, int value) const {
+  const int lane = bone % kBoneBlock, first = bone - lane, count = std::min(kBoneBlock, bones() - first);
+  return std::size_t{6} * first + std::size_t(value) * count + lane;
+}
+
+void Inertialization::keep(int bone, const TurnOffset& offset) {
+  for (int axis = 0; axis < 3; ++axis) {
+    offsets_[slot(bone, axis)] = static_cast<float>(offset.turn[axis]);
+    offsets_[slot(bone, 3 + axis)] = static_cast<float>(offset.turning[axis]);
+  }
+}
+
+Quaternion Inertialization::left(int bone, const Fade& fade) const {
+  Vector3 turn;
+  for (int axis = 0; axis < 3; ++axis) {
+    turn[axis] = fade.offset * offsets_[slot(bone, axis)] + fade.speed * offsets_[slot(bone, 3 + axis)];
+  }
+  const double square = turn.squaredNorm();
+  Quaternion q;
+  q.w() = (1 - square) / (1 + square);
+  q.vec() = 2 / (1 + square) * turn;
+  return q;
+}
+
+Fade Inertialization::fade(double damping, double time) const {
+  return {(1 + damping * time) * std::exp(-damping * time),
+          time * std::exp(-std::max(damping, constants_->calms) * time)};
+}
+
 void Inertialization::apply(double time, WorldPose& pose) const {
   if (!active(time)) return;
-  const double offset = (1 + damping_ * time) * std::exp(-damping_ * time),
-               speed = time * std::exp(-std::max(damping_, constants_.calms) * time);
+  const auto [offset, speed] = fade(damping_, time);
   pose.root += offset * root_ + speed * root_speed_;
   pose.heading += offset * heading_ + speed * heading_speed_;
-  add_turns(blocks_.data(), bones_, static_cast<float>(offset), static_cast<float>(speed), pose.rotations.data());
+  add_turns(offsets_.data(), bones(), static_cast<float>(offset), static_cast<float>(speed), pose.rotations.data());
 }
 
 }  // namespace fragmotion

@@ -9,7 +9,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kShare = 0.5;     // of the angle that would balance the body
-constexpr double kFollows = 0.12;  // s: time constant
+constexpr double kFollows = 0.12;  // s: time constant of each of two filters, so that no lean begins with a jerk
 constexpr double kMost = 6,
                  kLeast = 0.1;  // m/s^2 of a 1.8 m character that it follows, and below which nothing is seen
 
@@ -17,7 +17,9 @@ constexpr double kMost = 6,
 
 void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, double seconds) {
   const Vector2 wanted = clamp_length(scale_ * acceleration, kMost);
-  acceleration_ += filtered(seconds, kFollows) * (wanted - acceleration_);
+  const double part = filtered(seconds, kFollows);
+  pushed_ += part * (wanted - pushed_);
+  acceleration_ += part * (pushed_ - acceleration_);
   const double strength = acceleration_.norm();
   if (strength < kLeast || trunk_.base < 0) return;
   const double angle = kShare * std::atan(strength / kGravity);

@@ -14,8 +14,9 @@ constexpr double kLatest = 0.8;    // s that are looked ahead
 // What a body's feet do next.
 class LookAhead {
  public:
-  LookAhead(const Playback& playback, const PoseCorrection& correction, Workspace& workspace)
-      : playback_(playback), correction_(correction), workspace_(workspace) {}
+  LookAhead(const Playback& playback, const RootGovernor& governor, const PoseCorrection& correction,
+            Workspace& workspace)
+      : playback_(playback), governor_(governor), correction_(correction), workspace_(workspace) {}
 
   FootAhead foot(int side) const {
     FootAhead foot;
@@ -47,7 +48,7 @@ class LookAhead {
 
   void look(int side, FootAhead& foot) const {
     const double stepping = correction_.stepping(side);
-    foot.due = std::clamp(playback_.until_standing(side) / correction_.tempo(), std::max(stepping, kSoonest), kLatest);
+    foot.due = std::clamp(playback_.until_standing(side) / governor_.tempo(), std::max(stepping, kSoonest), kLatest);
     const Vector2 held = (foot.now.ball - later(side, 0).ball).head<2>();
     for (std::size_t i = 0; i < FootAhead::kPoints; ++i) {
       const double seconds = foot.due * static_cast<double>(i + 1) / FootAhead::kPoints;
@@ -65,7 +66,7 @@ class LookAhead {
   // The sole in so many seconds, with steps edited, and moved as the root is adjusted now.
   Sole later(int side, double seconds) const {
     WorldPose& pose = workspace_.poses[0];
-    playback_.sample(playback_.seconds() + correction_.tempo() * seconds, pose);
+    playback_.sample(playback_.seconds() + governor_.tempo() * seconds, pose);
     Sole at = sole(pose, side);
     at = at.moved(correction_.steps().moved(at.place() - pose.root.head<2>(), pose.heading));
     for (Vector3* point : {&at.heel, &at.ball, &at.tip}) *point = in_time(*point, seconds);
@@ -75,23 +76,25 @@ class LookAhead {
   // Where the root's adjustment takes what plays, in so many seconds.
   Vector3 in_time(const Vector3& point, double seconds) const {
     const CharacterFrame& frame = playback_.frame();
-    const Eigen::Rotation2Dd turn(correction_.turn_rate() * seconds), heading(frame.heading);
+    const Eigen::Rotation2Dd turn(governor_.turn_rate() * seconds), heading(frame.heading);
     const Vector2 moved = frame.position + turn * Vector2{point.head<2>() - frame.position} +
-                          heading * Vector2{seconds * correction_.velocity()};
+                          heading * Vector2{seconds * governor_.velocity()};
     return {moved.x(), moved.y(), point.z()};
   }
 
   const Playback& playback_;
+  const RootGovernor& governor_;
   const PoseCorrection& correction_;
   Workspace& workspace_;
 };
 
 }  // namespace
 
-FeetAhead look_ahead(const Playback& playback, const PoseCorrection& correction, Workspace& workspace) {
+FeetAhead look_ahead(const Playback& playback, const RootGovernor& governor, const PoseCorrection& correction,
+                     Workspace& workspace) {
   const Legs& legs = workspace.body->legs;
   if (!legs[0].exists() || !legs[1].exists() || playback.contacts().feet[0].empty()) return {};
-  const LookAhead ahead(playback, correction, workspace);
+  const LookAhead ahead(playback, governor, correction, workspace);
   return {ahead.foot(0), ahead.foot(1)};
 }
 

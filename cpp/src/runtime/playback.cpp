@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fragmotion/fragments/hips_velocity.hpp"
 #include "fragmotion/motion/pose.hpp"
 
 namespace fragmotion {
@@ -19,11 +18,13 @@ Playback::Playback(const Character& character, Workspace& workspace, Stitching s
       workspace_(&workspace),
       stitching_(stitching),
       stitch_(stitch),
-      inertialization_(workspace.kinematics.bones(), workspace.constants.stitch) {}
+      inertialization_(workspace.kinematics.bones(), workspace.constants.stitch),
+      look_(workspace) {}
 
 void Playback::reset(int fragment, const CharacterFrame& frame) {
-  faded_ = 0;
+  faded_ = turning_ = 0;
   inertialization_.clear();
+  look_.clear();
   play(place(style_, fragment, frame));
   steps_ = {standing_feet(0), -1, 0};
   show();
@@ -62,7 +63,7 @@ void Playback::sample(const Placed& placed, WorldPose& pose) const {
 void Playback::sample_stitched(Placed placed, double seconds, WorldPose& pose) const {
   placed.seconds = seconds;
   sample(placed, pose);
-  if (stitching_ == Stitching::inertialize) inertialization_.apply(std::max(0.0, seconds), pose);
+  if (stitching_ == Stitching::inertialize) look_.apply(std::max(0.0, seconds), inertialization_, pose);
 }
 
 void Playback::sample(double seconds, WorldPose& pose) const { sample_stitched(now_, seconds, pose); }
@@ -92,6 +93,7 @@ Vector2 Playback::begin_stitch(const Placed& old) {
   later.seconds += kApart;
   sample(later, fresh_later);
   const Vector2 faster = inertialization_.begin(old_before, old_now, fresh, fresh_later, kApart, stitch_);
+  look_.begin(old_before, old_now, fresh, fresh_later, kApart, stitch_, turning_, inertialization_);
   return Eigen::Rotation2Dd(-frame_.heading) * faster;
 }
 
@@ -102,6 +104,7 @@ void Playback::advance(double seconds) {
 }
 
 void Playback::move(const Vector2& velocity, double turn_rate, double seconds) {
+  turning_ = turn_rate;
   const Vector2 root = frame_.position, way = seconds * (Eigen::Rotation2Dd(frame_.heading) * velocity);
   const Eigen::Matrix2d turned = Eigen::Rotation2Dd(seconds * turn_rate).toRotationMatrix();
   for (Placed* placed : {&now_, &before_}) {
@@ -114,7 +117,7 @@ void Playback::show() {
   WorldPose& shown = workspace_->shown;
   sample(now_, shown);
   if (stitching_ == Stitching::inertialize) {
-    inertialization_.apply(now_.seconds, shown);
+    look_.apply(now_.seconds, inertialization_, shown);
   } else if (now_.seconds < faded_) {
     crossfade(ease_in_ease_out(now_.seconds / faded_), shown);
   }
@@ -178,10 +181,11 @@ double Playback::step_seconds() const {
   return plays_move() ? kLongestStep : workspace_->styles[now_.style].step_seconds[now_.number];
 }
 
-Vector2 Playback::velocity_of_hips() const {
+Travel Playback::mean_travel() const {
   const PackedClip& source = clip(now_);
-  return hips_velocity_around(source, fragment().first_played() + now_.seconds * source.rate, step_seconds()) +
-         beside_ends_;
+  Travel travel = travel_around(source, fragment().first_played() + now_.seconds * source.rate, step_seconds());
+  travel.velocity += beside_ends_;
+  return travel;
 }
 
 Vector2 Playback::velocity() const {

@@ -16,16 +16,11 @@ namespace {
 
 constexpr double kLongest = 3600;   // s that a step may last
 constexpr double kRounding = 1e-9;  // of a step: less that is left of it is what sums of its parts are off
-constexpr double kLaziest = 2.4;    // m/s^2 of a 1.8 m character, at a responsiveness of 0
 constexpr double kMiddle = 0.2;     // s from now to that of a fragment that begins soon
 
 double within_one(double value, const char* name) {
   if (value >= 0 && value <= 1) return value;
   throw std::invalid_argument(std::string("the ") + name + " must be 0 to 1");
-}
-
-double acceleration_of(double responsiveness, const ControlSpace& space) {
-  return kLaziest / (1 - responsiveness) / space.scale();
 }
 
 }  // namespace
@@ -39,12 +34,12 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
                std::shared_ptr<Workspace> workspace)
     : character_(std::move(character)),
       workspace_(std::move(workspace)),
-      limit_(acceleration_of(options.responsiveness, character_->space)),
-      director_(*character_, character_->policy(options.policy), within_one(options.responsiveness, "responsiveness")),
+      governor_(*character_, workspace_->constants.root, within_one(options.root_adjustment, "root adjustment"),
+                within_one(options.responsiveness, "responsiveness")),
+      director_(*character_, character_->policy(options.policy), options.responsiveness),
       selector_(*workspace_, options.seed),
       playback_(*character_, *workspace_, options.stitching, within_one(options.stitch, "stitching time, in s,")),
-      correction_(*character_, *workspace_, within_one(options.root_adjustment, "root adjustment"),
-                  acceleration_of(options.responsiveness, character_->space), options.lock_feet) {
+      correction_(*character_, *workspace_, options.lock_feet) {
   reset();
 }
 
@@ -73,7 +68,7 @@ void Player::reset(const CharacterFrame& frame, int style) {
   check_style(*character_, style);
   for (const double value : {frame.position.x(), frame.position.y(), frame.heading})
     require_range("the place and the heading to stand at", value, -kFarthestPlace, kFarthestPlace);
-  limit_.reset(frame.heading);
+  governor_.reset(frame.heading);
   if (extras_ != nullptr) {
     set_style(style);
     extras_->whole_body.reset();
@@ -81,9 +76,8 @@ void Player::reset(const CharacterFrame& frame, int style) {
   }
   director_.reset();
   selector_.reset();
-  correction_.reset(frame.heading);
+  correction_.reset();
   if (follower_ != nullptr) follower_->reset();
-  acceleration_ = Vector2::Zero();
   fragment_ = styled_character().classes.representatives[director_.playing_class()];
   playback_.reset(fragment_, frame);
   correct(0);
@@ -111,16 +105,15 @@ void Player::go_on(const Control& control) {
 
 void Player::play(int fragment) { keep(playback_.start(fragment)); }
 
-// Goes on as fast as what played, which was so much faster than what begins to.
 void Player::keep(const Vector2& faster) {
-  correction_.keep_velocity(correction_.tempo() * faster);
+  governor_.keep(faster);
   ++entered_;
 }
 
 void Player::correct(double seconds) {
-  correction_.correct(playback_, acceleration_, seconds);
+  correction_.correct(playback_, governor_, seconds);
   if (follower_ != nullptr) {
-    follower_->apply(workspace_->shown, look_ahead(playback_, correction_, *workspace_), seconds);
+    follower_->apply(workspace_->shown, look_ahead(playback_, governor_, correction_, *workspace_), seconds);
   }
   root_ = workspace_->shown.root;
 }
@@ -181,14 +174,11 @@ double Player::advance(const Control& control, double most) {
 }
 
 double Player::advance_by_policy(const Control& control, double most) {
-  const double heading = frame().heading;
-  const Control soon = limit_.after(control, heading, most + kMiddle);
+  const Control soon = governor_.command(control, frame().heading, most + kMiddle);
   if (director_.is_due(soon, playback_, selector_)) go_on(soon);
-  const double tempo = correction_.tempo(), played = director_.until_due(playback_, most * tempo),
-               part = played / tempo;
-  acceleration_ = playback_.is_in_the_air() ? Vector2::Zero() : limit_.advance(control, heading, part);
+  const double tempo = governor_.tempo(), played = director_.until_due(playback_, most * tempo), part = played / tempo;
   playback_.advance(played);
-  correction_.adjust_root(limit_.after(control, heading, PoseCorrection::kLag), part, playback_);
+  governor_.steer(control, part, playback_);
   return part;
 }
 

@@ -47,7 +47,7 @@ std::array<int, 2> Player::waiting_moves() const {
 
 // Is where another player is, which has no moves that play or wait.
 void Player::imitate(const Player& other) {
-  limit_ = other.limit_;
+  governor_ = other.governor_;
   director_ = other.director_;
   selector_ = other.selector_;
   playback_ = other.playback_;
@@ -107,9 +107,8 @@ bool Player::continue_move(const Control& control) {
 
 double Player::advance_by_move(double most) {
   const double part = std::min(most, playback_.left());
-  acceleration_ = Vector2::Zero();
   playback_.advance(part);
-  correction_.leave_root(part, playback_);
+  governor_.leave(part, playback_);
   return part;
 }
 
@@ -118,8 +117,8 @@ double Player::advance_by_move(double most) {
 void Player::resume(const Control& control) {
   const double heading = frame().heading;
   if (waiting_style() >= 0) set_style(waiting_style());
-  limit_.reset(heading, playback_.velocity());
-  enter_best_class(director_.wanted(limit_.after(control, heading, kAhead)));
+  governor_.resume(heading, playback_.velocity());
+  enter_best_class(director_.wanted(governor_.command(control, heading, kAhead)));
 }
 
 void Player::enter_best_class(const Control& wanted) {

@@ -17,13 +17,13 @@ void Player::set_style(int style) {
   director_.change_style(character, character.policies[extras_->policy]);
   selector_.change_style(style);
   playback_.change_style(style);
-  correction_.change_style(character);
+  governor_.change_style(character);
   extras_->style.playing = style;
   extras_->style.waiting = -1;
 }
 
 Control Player::wanted(const Control& control) const {
-  return director_.wanted(limit_.after(control, frame().heading, kFinest));
+  return director_.wanted(governor_.command(control, frame().heading, kFinest));
 }
 
 // How badly another style joins on to what is shown, m a metre of tip_reach().

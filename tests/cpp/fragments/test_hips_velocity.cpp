@@ -51,6 +51,23 @@ TEST(HipsVelocity, FollowsABodyThatBrakesButHardlyItsSteps) {
   for (int f = 10; f <= 40; ++f) EXPECT_NEAR(hips_velocity_around(walking.clips[0], f, 0.5).y(), 1.2, 0.02) << f;
 }
 
+TEST(HipsVelocity, TurnsAsTheBodyDoesAndNotAsItSwaysInAStep) {
+  constexpr double kStep = 0.5, kSway = 0.1;  // s, rad
+  Gait gait;
+  gait.turn = 0.4;
+  Clip clip = gait_clip(gait);
+  for (int f = 0; f < clip.frames; ++f) {
+    clip.headings[f] += kSway * std::sin(2 * kPi * f / clip.rate / kStep);
+  }
+  const PackedPool pool = one_fragment(std::move(clip), 20, 40);
+  double fastest = 0;
+  for (double f = 20; f <= 40; f += 0.5) {
+    EXPECT_NEAR(travel_around(pool.clips[0], f, kStep).turn_rate, 0.4, 0.02) << f;
+    fastest = std::max(fastest, travel_around(pool.clips[0], f, 0.05).turn_rate);
+  }
+  EXPECT_GT(fastest, 1);
+}
+
 TEST(HipsVelocity, IsOverAFragmentThatOfTheFragmentAndAtATakesEndThatOfWhatIsLeft) {
   const PackedPool pool = one_fragment(braking_clip(), 6, 24);
   const PackedClip& clip = pool.clips[0];

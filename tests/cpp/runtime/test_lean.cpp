@@ -73,6 +73,22 @@ TEST(Lean, ComesAndGoesSmoothly) {
   EXPECT_LT((before - upright).norm(), 1e-3);
 }
 
+TEST(Lean, TurnsTheTrunkNoFasterThanPeopleDoWhereAPushIsReversed) {
+  constexpr double kFastest = 1.6;  // rad/s
+  LeaningBody body;
+  const auto upright = body.after({0, 0}, kStep);
+  const double spine = (upright[2] - upright[1]).norm();
+  Vector3 before = body.after({0, 4.8}, 2)[2];
+  double fastest = 0;
+  for (int f = 0; f < 60; ++f) {
+    const Vector3 now = body.after({0, -4.8}, kStep / 2)[2];
+    fastest = std::max(fastest, (now - before).norm() / spine / kStep);
+    before = now;
+  }
+  EXPECT_LT(fastest, kFastest);
+  EXPECT_GT(fastest, 0.5 * kFastest);
+}
+
 TEST(Lean, LeavesASkeletonWithoutASpineAsItIs) {
   LeaningBody body;
   body.skeleton.roles.left_hand = body.skeleton.roles.right_hand = -1;

@@ -11,8 +11,15 @@ namespace fragmotion {
 /// takes. Its evident velocity is that of the centre of mass, which in a part of a step is another.
 Vector2 hips_velocity(const PackedClip& clip, const Fragment& fragment);
 
-/// The same over so many seconds around a frame of a clip, as far as the clip has them: over those of a step it is how
-/// a body gets faster or slower, without the sway and the ripple of its steps.
+/// How the hips go over the ground: m/s in the character frame halfway, and rad/s.
+struct Travel {
+  Vector2 velocity = Vector2::Zero();
+  double turn_rate = 0;
+};
+
+/// How they go over so many seconds around a frame of a clip, as far as the clip has them: over those of a step it is
+/// how a body gets faster or slower and turns, without the sway and the ripple of its steps.
+Travel travel_around(const PackedClip& clip, double frame, double seconds);
 Vector2 hips_velocity_around(const PackedClip& clip, double frame, double seconds);
 
 /// The mean of that over a fragment's time. It is hips_velocity() but for what is around its ends.

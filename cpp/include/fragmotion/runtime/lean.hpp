@@ -15,7 +15,7 @@ class Lean {
   Lean(const Trunk& trunk, double scale) : trunk_(trunk), scale_(scale) {}
 
   /// Stands upright.
-  void reset() { acceleration_ = Vector2::Zero(); }
+  void reset() { pushed_ = acceleration_ = Vector2::Zero(); }
   /// Which it has followed, m/s^2 of a 1.8 m character, in the character frame.
   const Vector2& acceleration() const { return acceleration_; }
   /// Changes the pose that is shown `seconds` after the last one, of a body that is accelerated by so many m/s^2 in the
@@ -25,7 +25,7 @@ class Lean {
  private:
   Trunk trunk_;
   double scale_;
-  Vector2 acceleration_ = Vector2::Zero();  // as the lean follows it
+  Vector2 pushed_ = Vector2::Zero(), acceleration_ = Vector2::Zero();  // halfway, and as the lean follows it
 };
 
 }  // namespace fragmotion

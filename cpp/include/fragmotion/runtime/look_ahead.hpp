@@ -9,6 +9,7 @@ namespace fragmotion {
 
 /// What the feet of the body that Workspace::shown shows do next, if what plays goes on to where they stand, and in its
 /// take where it ends before. Uses Workspace::poses.
-FeetAhead look_ahead(const Playback& playback, const PoseCorrection& correction, Workspace& workspace);
+FeetAhead look_ahead(const Playback& playback, const RootGovernor& governor, const PoseCorrection& correction,
+                     Workspace& workspace);
 
 }  // namespace fragmotion

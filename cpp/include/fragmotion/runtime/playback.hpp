@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fragmotion/runtime/inertialization.hpp"
+#include "fragmotion/fragments/hips_velocity.hpp"
+#include "fragmotion/runtime/look_stitch.hpp"
 #include "fragmotion/runtime/step_sequence.hpp"
 #include "fragmotion/runtime/workspace.hpp"
 
@@ -46,9 +47,11 @@ class Playback {
   const Control& evident() const { return fragment().evident; }
   /// evident(), but with hips_velocity().
   const Control& evident_of_hips() const { return evident_of_hips_; }
-  /// At which the hips go over the ground now, m/s in the character frame, without the sway and the ripple of a step:
-  /// over the fragment, that of evident_of_hips().
-  Vector2 velocity_of_hips() const;
+  /// How the hips go over the ground now, without the sway and the ripple of a step: over the fragment, at the velocity
+  /// of evident_of_hips().
+  Travel mean_travel() const;
+  /// Those of the steps that what plays is one of or a part of.
+  double step_seconds() const;
   /// Its number, as Character::played() has it in its style.
   int number() const { return now_.number; }
   bool plays_move() const { return now_.number >= static_cast<int>(styled(now_).pool.fragments.size()); }
@@ -100,7 +103,6 @@ class Playback {
   void sample(const Placed& placed, WorldPose& pose) const;
   void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
   Vector2 begin_stitch(const Placed& old);
-  double step_seconds() const;
   std::size_t frame_of_clip(double seconds) const;
   void crossfade(double weight, WorldPose& pose) const;
 
@@ -115,6 +117,8 @@ class Playback {
   double faded_ = 0;
   StepSequence steps_;
   Inertialization inertialization_;
+  LookStitch look_;
+  double turning_ = 0;  // rad/s, at which it was moved last
   CharacterFrame frame_;
 };
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "fragmotion/ground/ground.hpp"
-#include "fragmotion/runtime/command_limit.hpp"
 #include "fragmotion/runtime/director.hpp"
 #include "fragmotion/runtime/pose_correction.hpp"
 #include "fragmotion/runtime/upper_body.hpp"
@@ -39,9 +38,10 @@ struct PlayerOptions {
 /// s in which a change of style looks for the moment that joins best.
 constexpr double kStyleWait = 0.8;
 
-/// The run time (Sec. 3.3, Fig. 3): a CommandLimit asks of the body what it can do, a Director decides which class
-/// comes next and when, a FragmentSelector chooses one of its fragments, Playback stitches that on to what is shown,
-/// and PoseCorrection lets the pose do better what is asked. Moves play in between (MoveTrack) or over it (UpperBody).
+/// The run time (Sec. 3.3, Fig. 3): a RootGovernor asks of the body what it can do and says where it goes, a Director
+/// decides which class comes next and when, a FragmentSelector chooses one of its fragments, Playback stitches that on
+/// to what is shown, and PoseCorrection lets the pose go with the root. Moves play in between (MoveTrack) or over it
+/// (UpperBody).
 class Player {
  public:
   /// Throws std::invalid_argument on an option that is out of its range.
@@ -172,7 +172,7 @@ class Player {
 
   std::shared_ptr<const Character> character_;
   std::shared_ptr<Workspace> workspace_;
-  CommandLimit limit_;
+  RootGovernor governor_;
   Director director_;
   FragmentSelector selector_;
   Playback playback_;
@@ -181,8 +181,7 @@ class Player {
   std::shared_ptr<GroundFollower> follower_;  // its own; null without ground
   int entered_ = 0;
   int fragment_ = 0;
-  Vector3 root_ = Vector3::Zero();          // as it is shown
-  Vector2 acceleration_ = Vector2::Zero();  // of the command, m/s^2 in the character frame
+  Vector3 root_ = Vector3::Zero();  // as it is shown
 };
 
 }  // namespace fragmotion

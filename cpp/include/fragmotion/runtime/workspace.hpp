@@ -35,7 +35,9 @@ struct Workspace {
   std::shared_ptr<FootLock::Body> body;
   Floors floors;  ///< The medians of those of the takes.
   std::vector<FragmentLists> styles;
-  std::vector<float> move_entries;  ///< entry_poses() of the moves' parts
+  std::vector<int> look;             ///< look_bones()
+  std::vector<float> fastest_looks;  ///< fastest_looks() of all styles
+  std::vector<float> move_entries;   ///< entry_poses() of the moves' parts
 
   // Of the FragmentSelector's: rows as those of Character::entry_poses.
   std::array<BodyTips, 3> tips;
@@ -44,6 +46,7 @@ struct Workspace {
 
   WorldPose shown;                 ///< By the player that stepped last.
   std::array<WorldPose, 4> poses;  ///< Of a stitch.
+  std::array<WorldPose, 4> looks;  ///< Neck and head in them, as bodies of their own.
 };
 
 }  // namespace fragmotion

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/runtime/pose_correction.hpp"
+#include "fragmotion/runtime/root_governor.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {
@@ -19,25 +19,33 @@ int forward_fragment(const Character& c) {
   return best;
 }
 
+// One that lets a body be accelerated so much, m/s^2.
+RootGovernor governor_of(const Character& character, double adjustment, double acceleration) {
+  static const RootLimits limits;
+  return {character, limits, adjustment, 1 - limits.acceleration / 2 / character.space.scale() / acceleration};
+}
+
 // How far the character gets in half a second in which only the root adjustment moves it, m in its own frame, and the
 // angle that it turns by, rad.
 std::pair<Vector2, double> adjusted(double adjustment, const Control& beyond) {
   const auto character = gait_character();
   Workspace workspace(*character);
   Playback playback(*character, workspace, Stitching::inertialize, 0.2);
-  PoseCorrection correction(*character, workspace, adjustment, kAcceleration, true);
+  RootGovernor governor = governor_of(*character, adjustment, kAcceleration);
   playback.reset(forward_fragment(*character), {});
-  correction.reset(0);
+  governor.reset(0);
   const Control& ev = playback.evident_of_hips();
-  const Control control{ev.x + beyond.x, ev.y + beyond.y, ev.turn + beyond.turn, 0};
+  const double turn = playback.mean_travel().turn_rate / character->space.turn_rate();
+  const Control control{ev.x + beyond.x, ev.y + beyond.y, turn + beyond.turn, 0};
+  governor.resume(0, {control.x, control.y});
   for (int i = 0; i < 30; ++i) {
-    correction.adjust_root(control, 1.0 / 60, playback);
+    governor.steer(control, 1.0 / 60, playback);
     playback.show();
   }
   return {playback.frame().position, playback.frame().heading};
 }
 
-TEST(PoseCorrection, MovesTheRootByWhatIsMissingUpToALimit) {
+TEST(RootGovernor, MovesTheRootByWhatIsMissingUpToALimit) {
   const auto [still, straight] = adjusted(0, {0, 0.2, 1, 0});
   EXPECT_LT(still.norm(), 1e-9);
   EXPECT_NEAR(straight, 0, 1e-9);
@@ -54,19 +62,20 @@ TEST(PoseCorrection, MovesTheRootByWhatIsMissingUpToALimit) {
   EXPECT_LT(most, 0.6 * speed * 0.5);
 }
 
-TEST(PoseCorrection, LetsGoOfAVelocityNoFasterThanABodyCan) {
+TEST(RootGovernor, LetsGoOfAVelocityNoFasterThanABodyCan) {
   const auto character = gait_character();
   Workspace workspace(*character);
   Playback playback(*character, workspace, Stitching::inertialize, 0.2);
-  PoseCorrection correction(*character, workspace, 1, 5, true);
+  RootGovernor governor = governor_of(*character, 1, 5);
   playback.reset(character->classes.representatives[0], {});
-  correction.reset(0);
-  correction.keep_velocity({0, 2});
+  governor.reset(0);
+  governor.keep({0, 2});
   const Control& ev = playback.evident_of_hips();
+  governor.resume(0, {ev.x, ev.y});
   double before = 2;
   for (int i = 0; i < 60; ++i) {
     const double from = playback.frame().position.y();
-    correction.adjust_root(ev, 0.01, playback);
+    governor.steer(ev, 0.01, playback);
     playback.show();
     const double speed = (playback.frame().position.y() - from) / 0.01;
     EXPECT_LE(std::abs(speed - before), 0.05 + 1e-6) << i;
@@ -76,22 +85,23 @@ TEST(PoseCorrection, LetsGoOfAVelocityNoFasterThanABodyCan) {
 }
 
 // Whatever is asked, and however the hips of the fragment sway.
-TEST(PoseCorrection, AcceleratesWithWhatPlaysNoFasterThanABodyCan) {
+TEST(RootGovernor, AcceleratesWithWhatPlaysNoFasterThanABodyCan) {
   constexpr double kLeast = 0.5;  // m/s^2
   const auto character = gait_character();
   Workspace workspace(*character);
   Playback playback(*character, workspace, Stitching::inertialize, 0.2);
-  PoseCorrection correction(*character, workspace, 1, kLeast, true);
+  RootGovernor governor = governor_of(*character, 1, kLeast);
   double greatest = 0;
   for (const double asked : {0.3, 1.2, 3.0}) {
     playback.reset(forward_fragment(*character), {});
-    correction.reset(0);
-    correction.adjust_root({0, asked, 0, 0}, 0.01, playback);
-    Vector2 before = correction.velocity() + correction.tempo() * playback.velocity_of_hips();
+    governor.reset(0);
+    governor.resume(0, {0, asked});
+    governor.steer({0, asked, 0, 0}, 0.01, playback);
+    Vector2 before = governor.velocity() + governor.tempo() * playback.mean_travel().velocity;
     while (playback.left() > 0.01) {
       playback.advance(0.01);
-      correction.adjust_root({0, asked, 0, 0}, 0.01, playback);
-      const Vector2 now = correction.velocity() + correction.tempo() * playback.velocity_of_hips();
+      governor.steer({0, asked, 0, 0}, 0.01, playback);
+      const Vector2 now = governor.velocity() + governor.tempo() * playback.mean_travel().velocity;
       EXPECT_LE((now - before).norm(), 0.01 * kLeast + 1e-9);
       greatest = std::max(greatest, (now - before).norm());
       before = now;
@@ -100,18 +110,19 @@ TEST(PoseCorrection, AcceleratesWithWhatPlaysNoFasterThanABodyCan) {
   EXPECT_GT(greatest, 0.009 * kLeast);
 }
 
-TEST(PoseCorrection, StepsSlowerWhereLessIsAskedForAndFasterWhereMoreIs) {
+TEST(RootGovernor, StepsSlowerWhereLessIsAskedForAndFasterWhereMoreIs) {
   const auto character = gait_character();
   Workspace workspace(*character);
   Playback playback(*character, workspace, Stitching::inertialize, 0.2);
   playback.reset(forward_fragment(*character), {});
   const Control& ev = playback.evident_of_hips();
   const auto tempo = [&](double adjustment, double share) {
-    PoseCorrection correction(*character, workspace, adjustment, kAcceleration, true);
-    correction.reset(0);
-    EXPECT_EQ(correction.tempo(), 1);
-    for (int i = 0; i < 120; ++i) correction.adjust_root({share * ev.x, share * ev.y, 0, 0}, 0.01, playback);
-    return correction.tempo();
+    RootGovernor governor = governor_of(*character, adjustment, kAcceleration);
+    governor.reset(0);
+    governor.resume(0, {share * ev.x, share * ev.y});
+    EXPECT_EQ(governor.tempo(), 1);
+    for (int i = 0; i < 120; ++i) governor.steer({share * ev.x, share * ev.y, 0, 0}, 0.01, playback);
+    return governor.tempo();
   };
   EXPECT_NEAR(tempo(1, 0.7), std::sqrt(0.7), 0.01);
   EXPECT_NEAR(tempo(0.5, 0.7), (1 + std::sqrt(0.7)) / 2, 0.01);
@@ -121,28 +132,51 @@ TEST(PoseCorrection, StepsSlowerWhereLessIsAskedForAndFasterWhereMoreIs) {
   EXPECT_EQ(tempo(0, 0.2), 1);
 }
 
-TEST(PoseCorrection, BringsBackTheHeadingThatWasLost) {
+TEST(RootGovernor, BringsBackTheHeadingThatWasLost) {
   const auto character = gait_character();
   Workspace workspace(*character);
   Playback playback(*character, workspace, Stitching::inertialize, 0.2);
-  PoseCorrection correction(*character, workspace, 1, 5, true);
+  RootGovernor governor = governor_of(*character, 1, 5);
   playback.reset(forward_fragment(*character), {});
-  correction.reset(0);
-  playback.move({0, 0}, 0.3, 1);  // turned by something else
+  governor.reset(0);
+  playback.move({0, 0}, 0.2, 1);  // turned by something else
   playback.show();
-  const double turn = playback.evident().turn;
   for (int i = 0; i < 60; ++i) {
-    correction.adjust_root({0, 1, turn, 0}, 0.02, playback);
-    playback.move({0, 0}, -turn * character->space.turn_rate(), 0.02);  // as if the fragment did not
+    governor.steer({0, 1, 0, 0}, 0.02, playback);
+    playback.move({0, 0}, governor.tempo() * playback.mean_travel().turn_rate, 0.02);  // as if it played on
     playback.show();
   }
   EXPECT_NEAR(playback.frame().heading, 0, 0.01);
 }
 
-TEST(PoseCorrection, TurnsTheWayThatIsAsked) {
+TEST(RootGovernor, TurnsTheWayThatIsAsked) {
   const auto left = adjusted(1, {0, 0, 0.3, 0}).second, right = adjusted(1, {0, 0, -0.3, 0}).second;
   EXPECT_GT(left, 0.05);
   EXPECT_NEAR(left, -right, 1e-9);
+}
+
+// However far the heading is behind.
+TEST(RootGovernor, TurnsLittleFasterThanTheCharacterOrThanIsAsked) {
+  const auto character = gait_character();
+  const double unit = character->space.turn_rate();
+  Workspace workspace(*character);
+  for (const double asked : {0.0, 0.5, 1.0, 2.0}) {
+    Playback playback(*character, workspace, Stitching::inertialize, 0.2);
+    RootGovernor governor = governor_of(*character, 1, 5);
+    playback.reset(forward_fragment(*character), {});
+    governor.reset(0);
+    playback.move({0, 0}, -1, 2);  // turned by something else
+    playback.show();
+    double fastest = 0;
+    for (int i = 0; i < 120; ++i) {
+      governor.steer({0, 1, asked, 0}, 0.01, playback);
+      fastest = std::max(fastest, governor.turn_rate() + governor.tempo() * playback.mean_travel().turn_rate);
+      playback.show();
+    }
+    const double most = kTurnsAtMost * std::max(1.0, asked) * unit;
+    EXPECT_LT(fastest, most + 1e-6) << asked;
+    EXPECT_GT(fastest, 0.5 * most) << asked;
+  }
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "fragmotion/base/random.hpp"
-#include "fragmotion/runtime/command_limit.hpp"
+#include "fragmotion/control/command_limit.hpp"
 
 namespace fragmotion {
 namespace {

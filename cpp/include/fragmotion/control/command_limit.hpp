@@ -12,6 +12,8 @@ class CommandLimit {
   /// `acceleration`: m/s^2 at most; infinity: none.
   explicit CommandLimit(double acceleration) : acceleration_(acceleration) {}
 
+  double acceleration() const { return acceleration_; }
+
   /// Goes at `velocity`, m/s in the character frame, facing `heading`.
   void reset(double heading, const Vector2& velocity = Vector2::Zero());
   /// What the control becomes `seconds` from the last advance(), of a body that faces `heading` then.

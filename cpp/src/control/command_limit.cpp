@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fragmotion/runtime/command_limit.hpp"
+#include "fragmotion/control/command_limit.hpp"
 
 namespace fragmotion {
 
