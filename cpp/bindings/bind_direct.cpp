@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "fragmotion/direct/follow_path.hpp"
+#include "fragmotion/direct/steering.hpp"
 #include "player_options.hpp"
 
 namespace fragmotion::bindings {
@@ -156,12 +157,37 @@ void bind_walk(py::module_& m) {
   });
 }
 
+void bind_steering(py::module_& m) {
+  py::class_<Steering>(m, "Steering", py::module_local())
+      .def(py::init([](const ControlSpace& space, bool walk_turns, bool run_turns) {
+             return Steering(space, {walk_turns, run_turns});
+           }),
+           py::arg("space"), py::arg("walk_turns"), py::arg("run_turns"), py::keep_alive<1, 2>())
+      .def(
+          "control",
+          [](Steering& steering, double right, double ahead, double turn, bool jump, double heading,
+             std::optional<double> view) {
+            const Control c = steering.control({right, ahead, turn, jump}, heading, view);
+            return py::make_tuple(c.x, c.y, c.turn, c.jump);
+          },
+          py::arg("right"), py::arg("ahead"), py::arg("turn"), py::arg("jump"), py::arg("heading"), py::arg("view"));
+  m.def("stick_speed", &stick_speed, py::arg("space"), py::arg("push"));
+  m.def(
+      "turns_well",
+      [](const SharedCharacter& character, const std::string& policy, int style) {
+        const TurnsWell turns = without_gil([&] { return turns_well(character, policy, style); });
+        return py::make_tuple(turns.walking, turns.running);
+      },
+      py::arg("character").none(false), py::arg("policy") = "", py::arg("style") = 0);
+}
+
 }  // namespace
 
 void bind_direct(py::module_& m) {
   bind_path(m);
   bind_follower(m);
   bind_walk(m);
+  bind_steering(m);
 }
 
 }  // namespace fragmotion::bindings

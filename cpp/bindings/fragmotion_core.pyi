@@ -777,6 +777,27 @@ class PathFollower:
     seconds_left: float
     """Until it is at the path's end, s, of a character on the path."""
 
+class Steering:
+    """Steers by the view or by the character, as third-person games do. By the view, the stick says where on the screen
+    to go: a character that turns well as it goes turns there and goes ahead, on the spot first where that is behind it;
+    one that does not goes there at once, sidewards or backwards if need be, and so does any while the user turns it. By
+    the character, the stick says where to go as the character sees it, and it turns only as the user turns it."""
+
+    def __init__(self, space: ControlSpace, walk_turns: bool, run_turns: bool) -> None:
+        """Whether the character turns well as it walks, and as it runs: turns_well()."""
+    def control(
+        self, right: float, ahead: float, turn: float, jump: bool, heading: float, view: float | None
+    ) -> tuple[float, float, float, float]:
+        """The control for a stick within the unit circle, a turn -1 to 1 (left) and a jump button, of a character that
+        faces `heading`; `view`: where the screen's up points on the ground, radians as headings are, None: by the
+        character."""
+
+def stick_speed(space: ControlSpace, push: float) -> float:
+    """m/s of a stick pushed 0 to 1: a walk half way, a run at the end, straight lines between."""
+
+def turns_well(character: Character, policy: str = "", style: int = 0) -> tuple[bool, bool]:
+    """Whether a character turns about as fast as it is told while it walks, and while it runs: a player is let try."""
+
 class PathWalk:
     """What a player did along a path."""
 

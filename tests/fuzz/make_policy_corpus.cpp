@@ -42,6 +42,11 @@ void write_corpus(const std::filesystem::path& folder) {
              moving = std::make_shared<const Character>(character_with_moves());
   write(folder / "forged_policy" / "moves", core_of(to_bytes(*moving)));
   write(folder / "forged_policy" / "styles", core_of(to_bytes(with_styles({{"own", moving}, {"other", walking}}))));
+  // Cores with calls after them, all kinds of them (fuzz_game.cpp).
+  std::string calls;
+  for (int i = 0; i < 160; ++i) calls += static_cast<char>(i * 37 % 251);
+  write(folder / "game" / "moves", core_of(to_bytes(*moving)) + calls);
+  write(folder / "game" / "styles", core_of(to_bytes(with_styles({{"own", moving}, {"other", walking}}))) + calls);
   write(folder / "policy" / "header", tiny.substr(0, kHeaderBytes));
   write(folder / "policy" / "cut", tiny.substr(0, 400));
   write(folder / "policy" / "empty", file_with_core(""));

@@ -260,6 +260,18 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         },
         "Path": {"points": np.array([[0, 0], [0, 1], [1, 1.0]]), "closed": False, "speeds": np.ones(3)},
         "Path.places": {"self": path, "ways": np.zeros(3)},
+        "Steering": {"space": made.space, "walk_turns": True, "run_turns": False},
+        "Steering.control": {
+            "self": core.Steering(made.space, True, False),
+            "right": 0.3,
+            "ahead": 0.9,
+            "turn": 0.0,
+            "jump": False,
+            "heading": 1.0,
+            "view": 2.0,
+        },
+        "stick_speed": {"space": made.space, "push": 0.7},
+        "turns_well": {"character": made, "policy": "", "style": 1},
         "PathFollower": {"space": made.space, "path": path, **following},
         "PathFollower.reset": {"self": core.PathFollower(made.space, path)},
         "PathFollower.steer": {

@@ -126,3 +126,22 @@ def test_a_cusp_is_walked_to_and_back(character: core.Character) -> None:
     player = core.Player(character)
     player.reset(*path.start)
     assert player.run(walk.trace, FRAMES).path[:, 1].max() > 4.6
+
+
+def test_a_stick_is_steered_by_the_view_or_by_the_character() -> None:
+    space = core.ControlSpace(1.2, 3.3)
+    by_character, well = core.Steering(space, False, False), core.Steering(space, True, True)
+    badly = core.Steering(space, False, False)
+    assert by_character.control(0.5, 0, 0, True, 2.0, None) == pytest.approx((1.2, 0, 0, 1))
+    assert well.control(0, 1, 0, False, 0.0, 0.5)[:2] == pytest.approx((0, 3.3)), "it goes ahead as it turns"
+    assert well.control(0, 1, 0, False, 0.0, 2.5)[:2] == (0, 0), "on the spot"
+    right, forward, turn, _ = badly.control(0, 1, 0, False, 0.0, math.pi / 2)
+    assert (right, forward) == pytest.approx((-3.3, 0)) and turn == space.quickest_turn
+    assert [core.stick_speed(space, push) for push in (0, 0.5, 1)] == pytest.approx([0, 1.2, 3.3])
+    for wrong in (math.nan, math.inf, 1e9):
+        with pytest.raises(ValueError, match="what the stick says"):
+            by_character.control(wrong, 0, 0, False, 0.0, None)
+    with pytest.raises(ValueError, match="a heading"):
+        by_character.control(0, 1, 0, False, math.nan, None)
+    with pytest.raises(ValueError, match="pushed"):
+        core.stick_speed(space, 1.1)

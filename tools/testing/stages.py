@@ -178,6 +178,11 @@ def python(expression: str | None, part: Part = Part.ALL) -> Counts:
     return _pytest("python", HOST, TOP / "tests" / "python", core, expression, _marked(part))
 
 
+def game(expression: str | None) -> Counts:
+    """libfragmotion as games get it: installed, found, and linked by games of any standard."""
+    return _pytest("game", HOST, TOP / "tests" / "game", {}, expression)
+
+
 def package(expression: str | None) -> Counts:
     """Build the zips for the platforms that the next stages run them on, and look into them."""
     return packages_of(TESTED_PLATFORMS, expression)

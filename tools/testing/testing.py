@@ -62,6 +62,7 @@ STAGES = {
         stages.blender_debian, lambda: machine.BLENDER_DEBIAN, ("package",), _in_parts(stages.blender_debian)
     ),
     "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
+    "game": Stage(stages.game, lambda: machine.GAME_TESTS),
     "tidy": Stage(stages.tidy, lambda: machine.TIDY),
     "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),
 }

@@ -190,7 +190,7 @@ class Session:
         """How the stick steers in the style that plays."""
         actor, space = self.actor, self.actor.space
         if actor.style not in self._steerings:
-            self._steerings[actor.style] = Steering(space, actor.turns_well(space.walk), actor.turns_well(space.run))
+            self._steerings[actor.style] = Steering(space, *actor.turns_well())
         return self._steerings[actor.style]
 
     def _ask_beside(self, held: set[int]) -> None:

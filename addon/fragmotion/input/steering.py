@@ -14,10 +14,6 @@ if TYPE_CHECKING:
 HALF = 0.5
 """How far the stick is pushed for a walk; fully pushed it is a run."""
 
-_RUNS = 0.75  # of the stick's way; the speed beyond is nearer to a run
-_ON_THE_SPOT = math.radians(100)  # off by more, a character that turns well stops for it
-_BEHIND = math.radians(160)  # off by more, a turn goes on to the side on which it began
-
 
 class Control(NamedTuple):
     """Velocity to the right and forward in m/s, turn (1 is left at the character's turn rate; more where it has to face
@@ -55,11 +51,6 @@ def respond(x: float, y: float, dead_zone: float, curve: float) -> tuple[float, 
     return x / length * share, y / length * share
 
 
-def speed(push: float, walk: float, run: float) -> float:
-    """m/s of a stick pushed 0 .. 1: a walk half way, a run at the end, straight lines between."""
-    return walk * push / HALF if push <= HALF else walk + (run - walk) * (push - HALF) / (1 - HALF)
-
-
 def rotate(x: float, y: float, angle: float) -> tuple[float, float]:
     """A vector turned counter-clockwise by an angle in radians."""
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -67,41 +58,18 @@ def rotate(x: float, y: float, angle: float) -> tuple[float, float]:
 
 
 class Steering:
-    """Steers by the view or by the character.
-
-    By the view, the stick says where on the screen to go. A character that turns well as it goes turns there and goes
-    ahead, on the spot first where that is behind it. One that does not goes there at once, sidewards or backwards if
-    need be, and so does any while the user turns it. By the character, the stick says where to go as the character sees
-    it, and it turns only as the user turns it.
-    """
+    """The core's steering, from an Intent to a Control."""
 
     def __init__(self, space: ControlSpace, walk_turns: bool, run_turns: bool) -> None:
         """Whether the character turns well as it walks, and as it runs."""
-        self._space, self._walk_turns, self._run_turns = space, walk_turns, run_turns
-        self._side = 1.0  # of the turn under way
+        self._core = core.Steering(space, walk_turns, run_turns)
 
     def control(self, intent: Intent, heading: float, view: float | None) -> Control:
         """The control for a character that faces `heading`; `view` is where the screen's up points on the ground, None
         to steer by the character. Both are in radians, counter-clockwise from +Y."""
         if intent.control is not None:
             return intent.control
-        push, turn, jump = min(math.hypot(intent.right, intent.ahead), 1.0), intent.turn, float(intent.jump)
-        if push == 0:
-            return Control(turn=turn, jump=jump)
-        pace = speed(push, self._space.walk, self._space.run)
-        right, forward = rotate(intent.right / push, intent.ahead / push, 0.0 if view is None else view - heading)
-        if turn == 0 and view is not None:
-            off = math.atan2(-right, forward)
-            turn = self._turn_to(off)
-            if self._run_turns if push > _RUNS else self._walk_turns:
-                right, forward = 0.0, float(abs(off) < _ON_THE_SPOT)
-        return Control(pace * right, pace * forward, turn, jump)
-
-    def _turn_to(self, off: float) -> float:
-        """The turn that brings round what is off by an angle, positive to the left."""
-        if abs(off) < _BEHIND:
-            self._side = math.copysign(1.0, off)
-        return self._side * self._space.turn_towards(abs(off))
+        return Control(*self._core.control(intent.right, intent.ahead, intent.turn, intent.jump, heading, view))
 
 
 def view_heading(rotation: list[list[float]]) -> float:

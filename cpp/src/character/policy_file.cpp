@@ -25,7 +25,6 @@ namespace {
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "policy files are little-endian");
 
 constexpr char kMagic[9] = "FRAGMOTN";
-constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
 // Memory of the entry poses, which a player needs beside the file: a file takes at most 20 times its size, beyond 50
@@ -333,7 +332,7 @@ std::string unchecked_bytes(const Character& character) {
   exchange(payload, const_cast<Character&>(character));
   Writer file;
   file.raw(kMagic, 8);
-  file.number<std::uint32_t>(kVersion);
+  file.number<std::uint32_t>(kPolicyVersion);
   file.number<std::uint64_t>(payload.bytes.size());
   file.bytes += payload.bytes;
   file.number<std::uint64_t>(checksum(payload.bytes.data(), payload.bytes.size()));
@@ -351,7 +350,7 @@ std::string to_bytes(const Character& character) {
   }
 }
 
-Character from_bytes(const std::string& bytes, const std::string& name) {
+Character from_bytes(std::string_view bytes, const std::string& name) {
   try {
     if (bytes.size() < kHeader || std::memcmp(bytes.data(), kMagic, 8) != 0) {
       throw std::invalid_argument("it is no Fragmotion policy file");
@@ -360,9 +359,11 @@ Character from_bytes(const std::string& bytes, const std::string& name) {
     std::uint64_t length = 0;
     std::memcpy(&version, bytes.data() + 8, 4);
     std::memcpy(&length, bytes.data() + 12, 8);
-    if (version != kVersion) {
-      throw std::invalid_argument("it is of version " + std::to_string(version) + ", and this program reads version " +
-                                  std::to_string(kVersion) + ": build the policy again");
+    if (version != kPolicyVersion) {
+      const std::string which = "it is of version " + std::to_string(version) + ", and this program reads version " +
+                                std::to_string(kPolicyVersion);
+      throw std::invalid_argument(which +
+                                  (version > kPolicyVersion ? ": get a newer Fragmotion" : ": build the policy again"));
     }
     if (bytes.size() < kHeader + kChecksum || length != bytes.size() - kHeader - kChecksum) {
       throw std::invalid_argument("it is cut short or has bytes too many");

@@ -97,6 +97,11 @@ Control PathFollower::steer(const CharacterFrame& frame, double seconds) {
   return {local.x(), local.y(), turn, 0};
 }
 
+void PathFollower::moved(const CharacterFrame& to) {
+  velocity_ = Eigen::Rotation2Dd(to.heading - before_.heading) * velocity_;
+  before_ = to;
+}
+
 void PathFollower::observe(const CharacterFrame& frame, double seconds) {
   if (observed_ && seconds > 0) {
     const Vector2 now = (frame.position - before_.position) / seconds;

@@ -16,9 +16,13 @@ constexpr double kWorthIt = 0.05;           // s that must be left of a fragment
 }  // namespace
 
 Director::Director(const Character& character, const Policy& policy, double responsiveness)
-    : character_(&character),
-      policy_(&policy),
-      haste_(kHaste * responsiveness / std::max(1 - responsiveness, kInstant)) {}
+    : character_(&character), policy_(&policy) {
+  set_responsiveness(responsiveness);
+}
+
+void Director::set_responsiveness(double responsiveness) {
+  haste_ = kHaste * responsiveness / std::max(1 - responsiveness, kInstant);
+}
 
 void Director::reset() {
   const Quality& quality = character_->quality;

@@ -43,6 +43,17 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
   reset();
 }
 
+void Player::set_options(const PlayerOptions& options) {
+  const double responsiveness = within_one(options.responsiveness, "responsiveness"),
+               stitch = within_one(options.stitch, "stitching time, in s,"),
+               adjustment = within_one(options.root_adjustment, "root adjustment");
+  governor_.set(adjustment, responsiveness);
+  director_.set_responsiveness(responsiveness);
+  playback_.set_stitch(stitch);
+  correction_.set_lock_feet(options.lock_feet);
+  if (extras_ != nullptr) extras_->upper_body.set_stitch(stitch);
+}
+
 Player Player::branch() const {
   Player player(*this);
   if (extras_ != nullptr) player.extras_ = std::make_shared<Extras>(*extras_);

@@ -18,6 +18,11 @@ PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace,
       foot_lock_(workspace.body),
       lean_(Trunk(workspace.kinematics.skeleton()), scale_) {}
 
+void PoseCorrection::set_lock_feet(bool lock_feet) {
+  if (lock_feet != lock_feet_) foot_lock_.reset();
+  lock_feet_ = lock_feet;
+}
+
 void PoseCorrection::reset() {
   steps_ = {};
   foot_lock_.reset();

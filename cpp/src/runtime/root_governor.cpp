@@ -23,6 +23,11 @@ RootGovernor::RootGovernor(const Character& character, const RootLimits& limits,
       root_adjustment_(root_adjustment),
       limit_(acceleration_of(limits, responsiveness, character.space)) {}
 
+void RootGovernor::set(double root_adjustment, double responsiveness) {
+  root_adjustment_ = root_adjustment;
+  limit_.set_acceleration(acceleration_of(*limits_, responsiveness, *space_));
+}
+
 void RootGovernor::reset(double heading) {
   limit_.reset(heading);
   acceleration_ = velocity_ = Vector2::Zero();

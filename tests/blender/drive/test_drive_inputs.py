@@ -46,8 +46,8 @@ def test_a_stick_does_nothing_in_the_dead_zone_and_all_at_its_rim(steering: Modu
     assert pushes == sorted(pushes)
 
 
-def test_half_way_is_a_walk_and_fully_is_a_run(steering: ModuleType) -> None:
-    speeds = [steering.speed(push, WALK, RUN) for push in (0, 0.25, 0.5, 0.75, 1)]
+def test_half_way_is_a_walk_and_fully_is_a_run(addon: ModuleType) -> None:
+    speeds = [addon.compat.core.core.stick_speed(space(addon), push) for push in (0, 0.25, 0.5, 0.75, 1)]
     assert speeds == pytest.approx([0, WALK / 2, WALK, (WALK + RUN) / 2, RUN])
 
 
@@ -107,7 +107,7 @@ def test_how_well_a_character_turns_is_asked_of_the_policy_that_drives(addon: Mo
             player = addon.compat.core.core.Player(character, 1, policy=policy)
             frames = player.run(np.repeat([(0, space.run, 0, 0), (0, space.run, turn, 0)], (10, 20), axis=0), 60).path
             turned += turn * (frames[-1, 2] - frames[60, 2]) / 2
-        turns_well = addon.drive.acting.actor.Actor(bpy.context, obj, 1, policy).turns_well(space.run)
+        turns_well = addon.drive.acting.actor.Actor(bpy.context, obj, 1, policy).turns_well()[1]
         assert turns_well == (turned > 0.75 * space.turn_rate * seconds)
 
 

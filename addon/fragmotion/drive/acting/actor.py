@@ -20,13 +20,9 @@ from .joined import Joined, Pose
 from .slider import Slider
 
 if TYPE_CHECKING:
-    from fragmotion_core import ControlSpace, Doubles, Player
+    from fragmotion_core import ControlSpace, Doubles
 
     from ...rig.motion import Motion
-
-_TURNS_WELL = 0.75  # of the turn rate that is asked for
-_START, _TRIAL = 1.0, 2.0  # s of going straight, and of turning then
-_STEP = 1 / 60  # s
 
 
 class Actor:
@@ -82,16 +78,12 @@ class Actor:
         """What controls mean in the style that plays."""
         return self._spaces[self.style if len(self._spaces) > 1 else 0]
 
-    def turns_well(self, pace: float) -> bool:
-        """Whether it turns about as fast as it is told while it goes ahead at a speed in m/s."""
+    def turns_well(self) -> tuple[bool, bool]:
+        """Whether it turns about as fast as it is told while it walks, and while it runs."""
         if self.character is None:
-            return True
-        turned = 0.0
-        for turn in (1, -1):
-            player = make_player(self._obj, self.character, 1, self.policy)
-            player.reset(style=self.style)
-            turned += _turned(player, pace, turn)
-        return bool(turned / 2 > _TURNS_WELL * self.space.turn_rate * _TRIAL)
+            return True, True
+        walking, running = core.turns_well(self.character, self.policy, self.style)
+        return walking, running
 
     def join_on(self, shown: Motion, first: int) -> None:
         """Show what a recording showed that begins now, and from its control `first` on what is played, joined on."""
@@ -122,14 +114,3 @@ class Actor:
         """Where the character is, m, and its heading, radians from +Y."""
         frame: tuple[float, float, float] = self.player.frame if self._joined is None else self._pose.frame
         return frame
-
-
-def _turned(player: Player, pace: float, turn: float) -> float:
-    """How far a player turns to the asked side in a trial, radians."""
-    for _ in range(round(_START / _STEP)):
-        player.step(Control(forward=pace), _STEP)
-    before: float = player.frame[2]
-    for _ in range(round(_TRIAL / _STEP)):
-        player.step(Control(forward=pace, turn=turn), _STEP)
-    after: float = player.frame[2]
-    return turn * (after - before)

@@ -13,6 +13,7 @@ class CommandLimit {
   explicit CommandLimit(double acceleration) : acceleration_(acceleration) {}
 
   double acceleration() const { return acceleration_; }
+  void set_acceleration(double acceleration) { acceleration_ = acceleration; }
 
   /// Goes at `velocity`, m/s in the character frame, facing `heading`.
   void reset(double heading, const Vector2& velocity = Vector2::Zero());
@@ -22,6 +23,8 @@ class CommandLimit {
   Vector2 advance(const Control& control, double heading, double seconds);
 
  private:
+  friend struct PlayerState;
+
   double acceleration_;
   Vector2 velocity_ = Vector2::Zero();  // m/s, in the character frame
   double heading_ = 0;                  // of that frame, rad

@@ -49,6 +49,9 @@ class PathFollower {
   /// one each 1/kTraceRate s. Throws std::invalid_argument unless the frame is finite and `seconds` 0 to 3600.
   Control steer(const CharacterFrame& frame, double seconds);
 
+  /// The character was put to another place: it goes on from there, at the velocity that it had.
+  void moved(const CharacterFrame& to);
+
   const Path& path() const { return path_; }
   /// How far it has come, m; round a path that loops this goes on lap after lap.
   double way() const { return way_; }
@@ -63,6 +66,8 @@ class PathFollower {
   double asked_speed() const;
 
  private:
+  friend struct PlayerState;
+
   struct Aim {
     Vector2 off;       // m, from where it is to its place on the path
     double left = 0;   // m to the end, infinity where it does not stand there

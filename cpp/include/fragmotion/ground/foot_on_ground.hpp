@@ -33,6 +33,8 @@ class FootOnGround {
   bool arrived() const { return error_.rests() && turn_[0].rests() && turn_[1].rests() && lift_ == 0; }
 
  private:
+  friend struct PlayerState;
+
   bool stand(const FootAhead& foot, const GroundProbe& probe);
   bool swing(const FootAhead& foot, const GroundProbe& probe);
   Vector2 beside_edges(const FootAhead& foot, const GroundProbe& probe) const;

@@ -30,6 +30,8 @@ class GroundFollower {
   double missed() const { return missed_; }
 
  private:
+  friend struct PlayerState;
+
   void follow_hips(WorldPose& pose, double seconds, const GroundProbe& probe);
   double above(const WorldPose& pose) const;
   void get_exact(double seconds);

@@ -22,6 +22,8 @@ class HipsOnGround {
   double sunk() const { return sunk_.value; }
 
  private:
+  friend struct PlayerState;
+
   bool fresh_ = true;
   Vector2 place_ = Vector2::Zero();
   double level_ = 0, speed_ = 0;  // m and m/s

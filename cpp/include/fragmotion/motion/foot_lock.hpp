@@ -61,6 +61,8 @@ class FootLock {
   double stepping(int side) const;
 
  private:
+  friend struct PlayerState;
+
   // Places of a ball on the ground, m, and speeds, m/s.
   struct Foot {
     bool locked = false;

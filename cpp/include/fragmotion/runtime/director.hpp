@@ -16,6 +16,8 @@ class Director {
   /// `responsiveness` as PlayerOptions::responsiveness. Character and policy must outlive it.
   Director(const Character& character, const Policy& policy, double responsiveness);
 
+  /// As PlayerOptions::responsiveness.
+  void set_responsiveness(double responsiveness);
   /// Plays the class that best performs standing still.
   void reset();
   /// Decides among another style's classes from now on, by its policy; a class that was forced is forgotten. resume()
@@ -48,6 +50,8 @@ class Director {
   int previous_class() const { return previous_; }
 
  private:
+  friend struct PlayerState;
+
   double soonest(const Playback& playback) const;
   bool makes_way(const Playback& playback) const;
   bool leaves_early(const Control& wanted, const Playback& playback, const FragmentSelector& selector);
@@ -60,7 +64,7 @@ class Director {
 
   const Character* character_;
   const Policy* policy_;
-  double haste_;
+  double haste_ = 0;
   int class_ = 0, previous_ = 0;
   int waiting_ = -1;  // the class that follows a stand-in-place fragment
   int forced_ = -1;   // the class that force() asked for and that does not play yet

@@ -61,6 +61,8 @@ class FragmentSelector {
   Exit best_exit(int next_class, const Control& control, const Playback& playback, double haste) const;
 
  private:
+  friend struct PlayerState;
+
   CharacterFrame pose_tips(const Playback& playback, double seconds, BodyTips& tips) const;
   void extrapolate(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const;
   void extrapolate(const Playback& playback) const;

@@ -63,6 +63,8 @@ class Inertialization {
   Quaternion left(int bone, const Fade& fade) const;
 
  private:
+  friend struct PlayerState;
+
   int bones() const { return static_cast<int>(offsets_.size()) / 6; }
   std::size_t slot(int bone, int value) const;
 

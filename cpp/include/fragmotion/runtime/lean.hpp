@@ -23,6 +23,8 @@ class Lean {
   void apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, double seconds);
 
  private:
+  friend struct PlayerState;
+
   Trunk trunk_;
   double scale_;
   Vector2 pushed_ = Vector2::Zero(), acceleration_ = Vector2::Zero();  // halfway, and as the lean follows it

@@ -28,6 +28,8 @@ class LookStitch {
   void apply(double time, const Inertialization& body, WorldPose& pose) const;
 
  private:
+  friend struct PlayerState;
+
   void see(const WorldPose& pose, double heading, WorldPose& look) const;
   Quaternion turn_below(const WorldPose& pose) const;
   bool active(double time, const Inertialization& body) const;

@@ -37,6 +37,8 @@ class Moment {
   }
 
  private:
+  friend struct PlayerState;
+
   static constexpr double kOtherwise = 0.5;  // ControlDis to the control that was planned for that makes a plan void
 
   explicit Moment(double patience) : patience_(patience) {}

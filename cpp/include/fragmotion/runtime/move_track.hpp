@@ -36,6 +36,8 @@ class MoveTrack {
   Moment moment;  ///< Of the move that waits.
 
  private:
+  friend struct PlayerState;
+
   const Character* character_;
   int playing_ = -1, waiting_ = -1;
   bool held_ = false, waiting_is_held_ = false;

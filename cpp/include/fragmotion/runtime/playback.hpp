@@ -26,6 +26,8 @@ class Playback {
 
   /// What is begun from now on is of this style, but for moves, which are the character's.
   void change_style(int style) { style_ = style; }
+  /// As PlayerOptions::stitch, of the stitches that begin from now on.
+  void set_stitch(double stitch) { stitch_ = stitch; }
   /// Nothing but this fragment plays, from its first pose, placed at `frame`.
   void reset(int fragment, const CharacterFrame& frame);
   /// Stitches a fragment on to what is shown. Returns how much faster what played went over the ground, m/s in the
@@ -85,6 +87,8 @@ class Playback {
   void prefetch() const { inertialization_.prefetch(); }
 
  private:
+  friend struct PlayerState;
+
   // A fragment that plays, placed in the world: its clip turned by `heading` about z and moved by `offset`.
   struct Placed {
     int style = 0;

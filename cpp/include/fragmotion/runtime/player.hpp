@@ -57,6 +57,10 @@ class Player {
   /// rad and the style exists.
   void reset(const CharacterFrame& frame = {}, int style = 0);
 
+  /// Plays on by other options, but for the seed, the policy and the kind of stitching, which stay. Throws
+  /// std::invalid_argument on an option that is out of its range.
+  void set_options(const PlayerOptions& options);
+
   /// Draws from another seed, from the next reset on.
   void reseed(std::uint64_t seed) { selector_.reseed(seed); }
 
@@ -101,6 +105,8 @@ class Player {
   /// [bones, 4] as in Clip; of a crowd's player see Crowd::step.
   const std::vector<double>& rotations() const { return workspace_->shown.rotations; }
   CharacterFrame frame() const { return playback_.frame(); }
+  /// What plays.
+  const Playback& playback() const { return playback_; }
   int playing_class() const { return director_.playing_class(); }
   /// While a move of the whole body plays, that before it, as playing_class().
   int playing_fragment() const { return fragment_; }
@@ -120,6 +126,7 @@ class Player {
 
  private:
   friend class Crowd;
+  friend struct PlayerState;
 
   Player(const Player&) = default;
   Player(std::shared_ptr<const Character> character, const PlayerOptions& options,

@@ -15,6 +15,8 @@ class PoseCorrection {
   PoseCorrection(const Character& character, Workspace& workspace, bool lock_feet);
 
   void reset();
+  /// As it was told when it was made. Feet that were held and are not any more are free.
+  void set_lock_feet(bool lock_feet);
   const StepEdit& steps() const { return steps_; }
   /// Whether a foot stands: it is held where it is, or, where feet are not held, it is to stand and is low.
   bool plants(int side, bool stands) const { return lock_feet_ ? foot_lock_.locked(side) : stands; }
@@ -25,6 +27,8 @@ class PoseCorrection {
   void correct(const Playback& playback, const RootGovernor& governor, double seconds);
 
  private:
+  friend struct PlayerState;
+
   void edit_steps(const Control& evident, const RootGovernor& governor, double seconds);
   void lock_feet(const Playback& playback, double seconds);
 

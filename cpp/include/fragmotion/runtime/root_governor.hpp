@@ -16,6 +16,8 @@ class RootGovernor {
   /// `root_adjustment` and `responsiveness` as in PlayerOptions. The character and the limits must outlive it.
   RootGovernor(const Character& character, const RootLimits& limits, double root_adjustment, double responsiveness);
 
+  /// As it was told when it was made.
+  void set(double root_adjustment, double responsiveness);
   /// Stands.
   void reset(double heading);
   /// Controls are asked of this style from now on.
@@ -47,6 +49,8 @@ class RootGovernor {
   void leave(double seconds, Playback& playback);
 
  private:
+  friend struct PlayerState;
+
   void steer_tempo(const Control& command, const Playback& playback, double seconds);
   void steer_velocity(const Control& command, const Vector2& mean, bool in_the_air, double seconds);
   void steer_turn(double asked, double mean, const Playback& playback, double seconds);

@@ -15,6 +15,8 @@ class UpperBody {
   /// As Playback.
   UpperBody(const Character& character, Workspace& workspace, Stitching stitching, double stitch);
 
+  /// As Playback.
+  void set_stitch(double stitch) { playback_.set_stitch(stitch); }
   void reset();
   /// Begins the move that waits in the track.
   void begin();
@@ -29,6 +31,8 @@ class UpperBody {
   MoveTrack track;
 
  private:
+  friend struct PlayerState;
+
   bool is_ending() const;
   void lay(const WorldPose& move, double weight, WorldPose& pose) const;
 

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: MIT
+"""A reader of policy files that shares no code with the core: what docs/game.md says of the format."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+BLOCK = 8
+ROLES = ("hips", "head", "left_hand", "right_hand", "left_foot", "right_foot", "left_toe", "right_toe")
+THIGHS = ("left_thigh", "right_thigh")
+
+
+@dataclass
+class Clip:
+    """A take: hips' places [F,3], headings [F], and rotations [F,B,4]."""
+
+    name: str
+    rate: float
+    places: Array
+    headings: Array
+    rotations: Array
+
+
+@dataclass
+class Style:
+    """What a style of a character has."""
+
+    name: str = ""
+    clips: list[Clip] = field(default_factory=list)
+    fragments: list[tuple[int, int, int, int, tuple[float, ...]]] = field(default_factory=list)
+    speeds: list[float] = field(default_factory=list)
+    controls: int = 0
+    labels: Array = field(default_factory=lambda: np.zeros(0))
+    representatives: Array = field(default_factory=lambda: np.zeros(0))
+    tables: dict[str, Array] = field(default_factory=dict)
+
+
+@dataclass
+class Policy:
+    """What a policy file holds."""
+
+    bones: list[str]
+    parents: Array
+    rest: Array
+    offsets: Array
+    tips: Array
+    roles: dict[str, int]
+    styles: list[Style]
+    moves: list[tuple[str, int, bool, float, int, int]]
+
+
+class Bytes:
+    """Little-endian numbers, lists and texts one after the other."""
+
+    def __init__(self, data: bytes) -> None:
+        self._data, self._at = data, 0
+
+    def one(self, kind: str) -> Any:
+        (value,) = struct.unpack_from("<" + kind, self._data, self._at)
+        self._at += struct.calcsize("<" + kind)
+        return value
+
+    def some(self, kind: str, count: int) -> list[Any]:
+        return [self.one(kind) for _ in range(count)]
+
+    def numbers(self, dtype: str) -> Array:
+        """A count of 8 bytes, and so many numbers."""
+        count = self.one("Q")
+        values = np.frombuffer(self._data, np.dtype(dtype).newbyteorder("<"), count, self._at)
+        self._at += values.nbytes
+        return values
+
+    def text(self) -> str:
+        size = self.one("I")
+        self._at += size
+        return self._data[self._at - size : self._at].decode()
+
+    def section(self, name: str) -> bool:
+        """Whether a part follows that only some files have, which begins with its name."""
+        follows = self._data.startswith(name.encode(), self._at)
+        self._at += len(name) if follows else 0
+        return follows
+
+    @property
+    def done(self) -> bool:
+        return self._at == len(self._data)
+
+
+def checksum(data: bytes) -> int:
+    """FNV-1a of 64 bits."""
+    value = 0xCBF29CE484222325
+    for byte in data:
+        value = (value ^ byte) * 0x100000001B3 % 2**64
+    return value
+
+
+def read_policy(data: bytes) -> Policy:
+    """Read a file's bytes, all of them."""
+    assert data[:8] == b"FRAGMOTN"
+    version, size = struct.unpack_from("<IQ", data, 8)
+    payload = data[20 : 20 + size]
+    assert version == 3 and len(data) == 20 + size + 8 and struct.unpack("<Q", data[-8:]) == (checksum(payload),)
+    read = Bytes(payload)
+    bones = [read.text() for _ in range(read.one("Q"))]
+    parents = read.numbers("i4")
+    rest, offsets, tips = (np.array([read.some("d", n) for _ in range(read.one("Q"))]) for n in (4, 3, 3))
+    roles = dict(zip((*ROLES, *THIGHS), read.some("i", 10)))
+    styles = [read_style(read)]
+    moves: list[tuple[str, int, bool, float, int, int]] = []
+    if read.section("moves"):
+        for _ in range(read.one("Q")):
+            moves.append((read.text(), read.one("i"), bool(read.one("B")), read.one("d"), read.one("i"), read.one("i")))
+    if read.section("styles"):
+        styles[0].name = read.text()
+        for _ in range(read.one("Q")):
+            name = read.text()
+            styles.append(read_style(read))
+            styles[-1].name = name
+    assert read.done
+    return Policy(bones, parents, rest[:, [3, 0, 1, 2]], offsets, tips, roles, styles, moves)
+
+
+def read_style(read: Bytes) -> Style:
+    """Read all of a style but its name."""
+    style = Style()
+    bones, usual, steps = read.one("i"), read.numbers("f4"), read.numbers("f4")
+    usual = usual.reshape(-1, 4, BLOCK).transpose(0, 2, 1).reshape(-1, 4)[:bones]
+    style.clips = [read_clip(read, usual, steps[:bones]) for _ in range(read.one("Q"))]
+    for _ in range(read.one("Q")):
+        clip, begin, end = read.some("i", 3)
+        style.fragments.append((clip, begin, end, read.one("B"), tuple(read.some("d", 4))))
+    style.speeds = read.some("d", 2)
+    read.some("d", 5)  # turn rate, 1.8 m over the stature, weights of velocity, turn and jump
+    directions, turn, jump = 8, 1, 1
+    if read.section("controls"):
+        style.speeds = list(read.numbers("f8"))
+        directions, turn, jump = read.some("B", 3)
+    style.controls = (1 + len(style.speeds) * directions) * (3 if turn else 1) * (2 if jump else 1)
+    read.one("i")  # classes
+    style.labels, style.representatives = read.numbers("i4"), read.numbers("i4")
+    read.one("d"), read.one("i"), read.numbers("f8"), read.numbers("f8")  # inertia; quality: smoothness and match
+    for _ in range(read.one("Q")):
+        name, classes, table = read.text(), read.one("i"), read.numbers("i4")
+        style.tables[name] = table.reshape(classes, style.controls)
+    read.numbers("i4"), read.numbers("f8")  # bridges; how controls follow each other
+    for _ in range(read.one("Q")):  # contacts of each clip
+        read.numbers("u1"), read.some("d", 4)
+    read.some("d", 6)  # what the knees bend about
+    return style
+
+
+def read_clip(read: Bytes, usual: Array, steps: Array) -> Clip:
+    """Read a clip, and unpack its poses."""
+    name, rate, frames = read.text(), read.one("d"), read.one("i")
+    origin, step = np.array(read.some("d", 4)), np.array(read.some("d", 4))
+    least, bits, packed = read.numbers("i4"), read.numbers("u1"), read.numbers("u1")
+    width = (len(packed) - 4) // frames
+    stream = np.unpackbits(packed[: width * frames].reshape(frames, width), axis=1, bitorder="little")
+    ends = np.cumsum(bits.astype(int))
+    numbers = np.zeros((frames, len(bits)), np.int64)
+    for i, (end, count) in enumerate(zip(ends, bits)):
+        numbers[:, i] = stream[:, end - count : end].astype(np.int64) @ (1 << np.arange(count, dtype=np.int64))
+    root = origin + step * numbers[:, :4]
+    turns = (numbers[:, 4:] + least).reshape(frames, -1, 3, BLOCK).transpose(0, 1, 3, 2).reshape(frames, -1, 3)
+    axis = turns[:, : len(usual)] * steps[None, :, None].astype(float)
+    square = (axis**2).sum(-1, keepdims=True)
+    turned = np.concatenate([1 - square, 2 * axis], -1) / (1 + square)
+    return Clip(name, rate, root[:, :3], root[:, 3], product(usual.astype(float)[None], turned))
+
+
+def product(a: Array, b: Array) -> Array:
+    """Of quaternions w, x, y, z."""
+    w, x, y, z = np.moveaxis(a, -1, 0)
+    p, q, r, s = np.moveaxis(b, -1, 0)
+    parts = (
+        w * p - x * q - y * r - z * s,
+        w * q + x * p + y * s - z * r,
+        w * r - x * s + y * p + z * q,
+        w * s + x * r - y * q + z * p,
+    )
+    return np.stack(parts, -1)

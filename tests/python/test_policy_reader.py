@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: MIT
+"""The file format is what docs/game.md says: a reader that shares no code with the core reads the same."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import fragmotion_core as core
+import numpy as np
+from conftest import make_skeleton, walking_clips
+from policy_reader import read_policy
+
+DATA = Path(__file__).parents[1] / "data"
+
+
+def test_a_reader_of_its_own_reads_the_same_poses(character: core.Character) -> None:
+    clips = walking_clips(make_skeleton())
+    moving = character.with_moves([core.Move("stroll", clips[0]), core.Move("nod", clips[1], upper_body=True)])
+    made = core.with_styles([("normal", moving), ("tired", character)])
+    policy = read_policy(made.to_bytes())
+    assert policy.bones == made.skeleton.names
+    assert [move[0] for move in policy.moves] == made.move_names
+    for (_, clip, upper_body, _, _, _), move in zip(policy.moves, made.moves):
+        read = policy.styles[0].clips[clip]
+        assert upper_body == move.upper_body
+        assert np.abs(read.places - move.clip.root_positions).max() < 1e-6
+        signs = np.sign((read.rotations * move.clip.rotations).sum(-1, keepdims=True))
+        assert np.abs(signs * read.rotations - move.clip.rotations).max() < 1e-6
+    for number, style in enumerate(policy.styles):
+        told = made.in_style(number)
+        assert style.name == made.style_names[number]
+        assert [clip.name for clip in style.clips][: len(told.clip_names)] == told.clip_names
+        assert (style.labels == told.labels).all() and (style.representatives == told.representatives).all()
+        assert (style.tables[told.policy] == told.table).all()
+        assert [f[0] for f in style.fragments] == told.fragment_clips.tolist()
+        assert np.array_equal([f[4] for f in style.fragments], told.evident)
+        assert style.speeds == list(told.space.speeds)
+
+
+def test_it_reads_the_files_of_earlier_programs() -> None:
+    data = (DATA / "version-3.policy").read_bytes()
+    policy, character = read_policy(data), core.Character.from_bytes(data)
+    assert policy.bones == character.skeleton.names
+    assert (policy.styles[0].labels == character.labels).all()  # tables are repaired as they are loaded
+    for clip in policy.styles[0].clips:
+        assert np.allclose(np.linalg.norm(clip.rotations, axis=-1), 1, atol=1e-6)
