@@ -58,7 +58,7 @@ std::vector<int> look_bones(const Skeleton& skeleton) {
   if (head < 0 || head == skeleton.roles.hips || !skeleton.is_below(head, skeleton.roles.hips)) return {};
   const Trunk trunk(skeleton);
   std::vector<int> bones{head};
-  if (trunk.chest < 0 || trunk.head < 0) return bones;
+  if (trunk.chest < 0 || trunk.head < 0 || head == trunk.chest) return bones;
   while (skeleton.parents[bones.back()] != trunk.chest) bones.push_back(skeleton.parents[bones.back()]);
   std::reverse(bones.begin(), bones.end());
   return bones;

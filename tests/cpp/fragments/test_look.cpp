@@ -18,6 +18,12 @@ TEST(Look, IsOfTheBonesAboveTheArms) {
   EXPECT_EQ(look_bones(kneeless_skeleton(true)), std::vector<int>{kneeless_skeleton(true).roles.head});
 }
 
+TEST(Look, IsOfTheHeadAloneWhereTheArmsHangFromIt) {
+  Skeleton skeleton = humanoid();
+  skeleton.roles.head = skeleton.parents[look_bones(skeleton).front()];
+  EXPECT_EQ(look_bones(skeleton), std::vector<int>{skeleton.roles.head});
+}
+
 TEST(Look, IsOfNoBonesWithoutAHead) {
   Skeleton skeleton = humanoid();
   skeleton.roles.head = -1;
