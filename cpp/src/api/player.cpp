@@ -16,7 +16,6 @@ constexpr std::uint32_t kStateVersion = 1;  // of what exchange() and PlayerStat
 constexpr char kStateMagic[9] = "FRAGSTAT";
 constexpr std::size_t kStateHeader = 16, kStateEnd = 8;  // bytes: magic, version and size; hash
 constexpr double kLongestCall = 3600;                    // s that a step may last, and plays
-constexpr double kShortestStitch = 0.001;                // s of one that takes any time
 constexpr double kMostSteps = 64;                        // that a level of detail puts together
 
 Eigen::Rotation2Dd turn_by(double heading) { return Eigen::Rotation2Dd(heading); }

@@ -14,6 +14,9 @@ namespace {
 // negative, which are the same rotation, one is the long way round.
 Vector3 turn_of(const Quaternion& q) { return q.vec() / (1 + q.w()); }
 
+// Rounding errors are no offset: their squares are denormal numbers, with which processors are slow.
+float rounded(double value) { return std::abs(value) < 1e-12 ? 0.0F : static_cast<float>(value); }
+
 using Lanes = float[kBoneBlock];
 
 // Turns the rotations [bones, 4] further by what is left of the offsets and the speeds.
@@ -90,8 +93,8 @@ std::size_t Inertialization::slot(int bone, int value) const {
 
 void Inertialization::keep(int bone, const TurnOffset& offset) {
   for (int axis = 0; axis < 3; ++axis) {
-    offsets_[slot(bone, axis)] = static_cast<float>(offset.turn[axis]);
-    offsets_[slot(bone, 3 + axis)] = static_cast<float>(offset.turning[axis]);
+    offsets_[slot(bone, axis)] = rounded(offset.turn[axis]);
+    offsets_[slot(bone, 3 + axis)] = rounded(offset.turning[axis]);
   }
 }
 

@@ -17,9 +17,10 @@ Playback::Playback(const Character& character, Workspace& workspace, Stitching s
     : character_(&character),
       workspace_(&workspace),
       stitching_(stitching),
-      stitch_(stitch),
       inertialization_(workspace.kinematics.bones(), workspace.constants.stitch),
-      look_(workspace) {}
+      look_(workspace) {
+  set_stitch(stitch);
+}
 
 void Playback::reset(int fragment, const CharacterFrame& frame) {
   faded_ = turning_ = 0;

@@ -69,6 +69,20 @@ TEST(Inertialization, BeginsWithTheOldMotionAndItsSpeedAndEndsWithTheNewOne) {
   }
 }
 
+TEST(Inertialization, TakesRoundingForNoOffset) {
+  Random random(3);
+  const WorldPose pose = Motion(random).at(0);
+  WorldPose rounded = pose;
+  for (double& value : rounded.rotations) value += 1e-16;
+  Inertialization inertia(kBones);
+  inertia.begin(rounded, rounded, pose, pose, 1.0 / 60, kSeconds);
+  WorldPose shown = pose;
+  for (double& value : shown.rotations) value = static_cast<float>(value);
+  const std::vector<double> before = shown.rotations;
+  inertia.apply(kSeconds, shown);
+  EXPECT_EQ(shown.rotations, before);
+}
+
 TEST(Inertialization, LeavesThreeTenthsOfAnOffsetAfterItsTime) {
   WorldPose old{{1, 2, 3}, 0.5, {1, 0, 0, 0}}, fresh{{0, 0, 0}, 0, {1, 0, 0, 0}};
   Inertialization inertia(1);

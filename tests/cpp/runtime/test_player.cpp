@@ -204,6 +204,23 @@ std::pair<double, double> joined(double responsiveness) {
   return {apart, waited};
 }
 
+TEST(Player, TakesAStitchOfNoTimeForNone) {
+  for (const Stitching stitching : {Stitching::inertialize, Stitching::crossfade}) {
+    PlayerOptions options;
+    options.stitching = stitching;
+    options.stitch = 0;
+    Player none(gait_character(), options);
+    options.stitch = 1e-300;
+    Player shortest(gait_character(), options);
+    for (int i = 0; i < 300; ++i) {
+      const Control control{0, i % 100 < 50 ? 1.5 : -1.5, 0, 0};
+      none.step(control, 1.0 / 60);
+      shortest.step(control, 1.0 / 60);
+      ASSERT_EQ(shortest.rotations(), none.rotations()) << i;
+    }
+  }
+}
+
 TEST(Player, ResponsivenessIsPaidForWithWorseStitches) {
   const auto [rough, soon] = joined(1);
   const auto [smooth, late] = joined(0);

@@ -10,6 +10,8 @@ namespace fragmotion {
 
 /// Shorter than this is no time, s.
 constexpr double kInstant = 1e-9;
+/// A stitch that is to take less is none, s.
+constexpr double kShortestStitch = 0.001;
 
 /// How the next fragment joins on to what is shown (Fig. 3).
 enum class Stitching {
@@ -27,7 +29,7 @@ class Playback {
   /// What is begun from now on is of this style, but for moves, which are the character's.
   void change_style(int style) { style_ = style; }
   /// As PlayerOptions::stitch, of the stitches that begin from now on.
-  void set_stitch(double stitch) { stitch_ = stitch; }
+  void set_stitch(double stitch) { stitch_ = stitch < kShortestStitch ? 0 : stitch; }
   /// Nothing but this fragment plays, from its first pose, placed at `frame`.
   void reset(int fragment, const CharacterFrame& frame);
   /// Stitches a fragment on to what is shown. Returns how much faster what played went over the ground, m/s in the
@@ -114,7 +116,7 @@ class Playback {
   Workspace* workspace_;
   Stitching stitching_;
   int style_ = 0;
-  double stitch_;
+  double stitch_ = 0;
   Placed now_, before_;
   Control evident_of_hips_;
   Vector2 beside_ends_ = Vector2::Zero();  // evident_of_hips_ without mean_velocity_around()
