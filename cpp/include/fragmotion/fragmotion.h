@@ -14,19 +14,30 @@
  *
  * docs/game.md is the way from a .policy to a walking mesh in ten minutes. In C++, fragmotion.hpp wraps this.
  *
- * Results    Every function that can fail returns a FragmotionResult. What was wrong, in words, is
+ * Results: every function that can fail returns a FragmotionResult. What was wrong, in words, is
  * fragmotion_last_error() of the same thread. A call that fails changes nothing, and writes nothing but where it says
- * so. Axes       Chosen once, as the character is loaded (FragmotionAxes, units_per_metre): all that goes in and comes
- * out is in the engine's axes, handedness and unit. Angles are in radians, time is in seconds. Headings   The engine's
- * own yaw: about its up axis, by its hand's rule; 0 faces the character's forward axis. Those that come out are within
- * half a turn to either side. Rotations  Unit quaternions x, y, z, w. Matrices are 4 x 4, column by column, and for
- * column vectors. Structs    Those that may grow begin with their size: make them with the function of their name, as
- * in FragmotionInput input = fragmotion_input(); Memory     Stepping, posing, saving, restoring, blending and asking
- * for the state allocate nothing; what loads, creates, sets, finds, describes and releases may, and so may the words of
- * an error. What you create you release; a character, in any order with its players. Threads    There are none inside,
- * and nothing global but the words of each thread's last error and the list of what is alive. A character and a rig may
- * be used by any number of threads at the same time; a player, and a part of a crowd, by one at a time. Same bits  The
- * same file, seed, options and calls give the same poses, whatever else the program does.
+ * so.
+ *
+ * Axes are chosen once, as the character is loaded (FragmotionAxes, units_per_metre): all that goes in and comes out is
+ * in the engine's axes, handedness and unit. Angles are in radians, time is in seconds.
+ *
+ * Headings are the engine's own yaw: about its up axis, by its hand's rule; 0 faces the character's forward axis. Those
+ * that come out are within half a turn to either side.
+ *
+ * Rotations are unit quaternions x, y, z, w. Matrices are 4 x 4, column by column, and for column vectors.
+ *
+ * Structs that may grow begin with their size: make them with the function of their name, as in
+ * FragmotionInput input = fragmotion_input();
+ *
+ * Memory: stepping, posing, saving, restoring, blending and asking for the state allocate nothing; what loads, creates,
+ * sets, finds, describes and releases may, and so may the words of an error. What you create you release; a character,
+ * in any order with its players.
+ *
+ * Threads: there are none inside, and nothing global but the words of each thread's last error and the list of what is
+ * alive. A character and a rig may be used by any number of threads at the same time; a player, and a part of a crowd,
+ * by one at a time.
+ *
+ * Same bits: the same file, seed, options and calls give the same poses, whatever else the program does.
  */
 #ifndef FRAGMOTION_FRAGMOTION_H
 #define FRAGMOTION_FRAGMOTION_H
@@ -277,7 +288,7 @@ FRAGMOTION_EXPORT int32_t fragmotion_rig_bone(const FragmotionRig* rig, int32_t 
 
 typedef struct FragmotionPlayerOptions {
   uint32_t size;
-  uint32_t step_interval; /* level of detail: it plays on each so-manieth step, by their time in all; 1 .. 64; 1 */
+  uint32_t step_interval; /* level of detail: it plays on every n-th step, by their time in all; 1 .. 64; 1 */
   uint64_t seed;          /* of what it chooses, from the next reset on; 1 */
   double responsiveness;  /* 0 .. 1: how soon what is asked for is done; 0.5 is what a body does */
   double root_adjustment; /* 0 .. 1: how much the body does of what is asked for beyond its motion; 1 */
