@@ -42,6 +42,7 @@
 #ifndef FRAGMOTION_FRAGMOTION_H
 #define FRAGMOTION_FRAGMOTION_H
 
+/* NOLINTBEGIN(modernize-*): this is C */
 #include <stddef.h>
 #include <stdint.h>
 
@@ -542,5 +543,6 @@ FRAGMOTION_EXPORT FragmotionResult fragmotion_crowd_step_part(FragmotionCrowd* c
 #ifdef __cplusplus
 }
 #endif
+/* NOLINTEND(modernize-*) */
 
 #endif

@@ -38,11 +38,11 @@ class Axes {
  private:
   Quaternion mirrored(const Quaternion& rotation) const;
 
-  std::array<int, 3> from_;  // theirs[i] = sign_[i] ours[from_[i]]
-  std::array<double, 3> sign_;
-  std::array<double, 3> bone_;  // of places in a bone's frame
-  std::array<double, 3> turn_;  // of what rotations turn about in it
-  Quaternion bones_;            // of the world's axes, seen from the bones'
+  std::array<int, 3> from_{};  // theirs[i] = sign_[i] ours[from_[i]]
+  std::array<double, 3> sign_{};
+  std::array<double, 3> bone_;    // of places in a bone's frame
+  std::array<double, 3> turn_{};  // of what rotations turn about in it
+  Quaternion bones_;              // of the world's axes, seen from the bones'
   double yaw_, unit_;
 };
 

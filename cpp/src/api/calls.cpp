@@ -66,7 +66,7 @@ class Alive {
 
   std::vector<Handle>::iterator find(const void* handle) {
     return std::lower_bound(handles_.begin(), handles_.end(), handle,
-                            [](const Handle& a, const void* b) { return std::less<const void*>()(a.first, b); });
+                            [](const Handle& a, const void* b) { return std::less<>()(a.first, b); });
   }
 
   std::atomic_flag busy_ = ATOMIC_FLAG_INIT;
@@ -90,6 +90,7 @@ const char* name_of(Kind kind) {
 
 void begin_call(const char* name) noexcept { words().call = name; }
 
+// NOLINTNEXTLINE(modernize-avoid-variadic-functions): as printf, so that the compiler checks the words
 FragmotionResult fail(FragmotionResult result, const char* format, ...) noexcept {
   char* text = words().text;
   const auto begun = static_cast<std::size_t>(std::snprintf(text, kLongestError, "%s: ", words().call));

@@ -14,7 +14,8 @@
 namespace fragmotion {
 
 /// What a call of the C API fails with.
-struct CallError {
+struct CallError : std::exception {
+  explicit CallError(FragmotionResult result) : result(result) {}
   FragmotionResult result;
 };
 
@@ -34,7 +35,8 @@ void demand(bool holds, FragmotionResult result, const char* format, const Words
   if (!holds) throw CallError{fail(result, format, words...)};
 }
 
-inline void demand_given(const void* pointer, const char* what) {
+template <typename T>
+void demand_given(const T* pointer, const char* what) {
   demand(pointer != nullptr, FRAGMOTION_ERROR_ARGUMENT, "%s is null", what);
 }
 inline void demand_range(const char* what, double value, double least, double most) {

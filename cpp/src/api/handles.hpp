@@ -68,7 +68,7 @@ struct Scratch {
 
 /// What a step leaves to be asked for.
 struct StepReport {
-  std::array<FragmotionEvent, FRAGMOTION_MOST_EVENTS> events;
+  std::array<FragmotionEvent, FRAGMOTION_MOST_EVENTS> events{};
   int count = 0;
   Vector3 motion = Vector3::Zero(), velocity = Vector3::Zero();
   double turned = 0;

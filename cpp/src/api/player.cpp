@@ -181,7 +181,7 @@ Control FragmotionPlayer::towards(const Vector3& velocity, double turn, bool jum
 
 Control FragmotionPlayer::control(const FragmotionInput& input, double seconds) {
   const Axes& axes = hero->axes;
-  const double turn = static_cast<double>(input.turn);
+  const auto turn = static_cast<double>(input.turn);
   const bool jump = input.jump != 0;
   const Vector3 facing = axes.ours(input.facing);
   const bool faces = facing.head<2>().norm() > kDirection;
@@ -470,7 +470,7 @@ std::size_t FragmotionPlayer::save(unsigned char* bytes) const {
   if (bytes == nullptr) return size;
   const std::uint32_t numbers[2] = {kStateVersion, static_cast<std::uint32_t>(writer.size())};
   const std::uint64_t hash = writer.hash();
-  std::memcpy(bytes, kStateMagic, 8);
+  std::copy_n(kStateMagic, 8, bytes);
   std::memcpy(bytes + 8, numbers, 8);
   std::memcpy(bytes + size - kStateEnd, &hash, 8);
   return size;

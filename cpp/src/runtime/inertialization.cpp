@@ -88,7 +88,7 @@ Vector2 Inertialization::begin(const WorldPose& old_before, const WorldPose& old
 // Where one of the six values of a bone is kept.
 std::size_t Inertialization::slot(int bone, int value) const {
   const int lane = bone % kBoneBlock, first = bone - lane, count = std::min(kBoneBlock, bones() - first);
-  return std::size_t{6} * first + std::size_t(value) * count + lane;
+  return std::size_t{6} * first + static_cast<std::size_t>(value) * count + lane;
 }
 
 void Inertialization::keep(int bone, const TurnOffset& offset) {
