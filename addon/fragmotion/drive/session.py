@@ -15,6 +15,7 @@ from ..character import classes
 from ..character.building import has_character, load
 from ..character.moves import bring_up_to_date, check_keys, names_of, triggers_of
 from ..compat.data_blocks import is_alive
+from ..compat.event_keys import name_of
 from ..edits.replaying import play_again, shown_poses
 from ..errors import UserError
 from ..ground.meshes import find_ground
@@ -65,8 +66,10 @@ class Session:
 
     def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, seed: int, policy: str) -> None:
         context.view_layer.update()
-        keys = preferences.get(context)
-        check_keys(obj, {key: action for action, key in keys.keys().items()})
+        preferred = preferences.get(context)
+        self.keys: dict[str, str] = preferred.keys()
+        """What a key does, and the key."""
+        check_keys(obj, {key: action for action, key in self.keys.items()})
         bring_up_to_date(context, obj)
         self.obj = obj
         self.seed = self.settings.seed if seed < 0 else seed
@@ -90,7 +93,9 @@ class Session:
         """What the user should be told when it has ended."""
         self.windows: set[int] = set()
         """Those whose keys it hears, by their addresses."""
-        self.inputs = Inputs(keys, RATE, triggers_of(obj, self.actor.character))
+        self.triggers = triggers_of(obj, self.actor.character)
+        """The key and the button of each move."""
+        self.inputs = Inputs(preferred, RATE, self.triggers)
         self._held: set[int] = set()
         self._own_held: set[int] = set()  # those that a recording holds that is recorded over
         self._missed = False
@@ -127,8 +132,9 @@ class Session:
         """The armature's, asked for anew each time: Blender frees them with it."""
         return self.obj.fragmotion.drive
 
-    def update(self, seconds: float) -> None:
-        """Go on by the time since the last update: read the inputs, step, and pose the armature."""
+    def update(self, seconds: float) -> bool:
+        """Go on by the time since the last update: read the inputs, step, and pose the armature; whether a step was
+        due, so that there is something new to be seen."""
         begin = time.perf_counter()
         if self.inputs.poll():
             self.toggle_recording()
@@ -139,12 +145,13 @@ class Session:
         for _ in range(due):
             pose = self._step()
         if pose is None:
-            return
+            return False
         self._armature.pose(*pose)
         self._tell_missed()
         self._follow_actor(due / RATE)
         self.cost = _running(self.cost, time.perf_counter() - begin)
         self.interval = _running(self.interval, seconds)
+        return True
 
     def _step(self) -> tuple[Doubles, Doubles]:
         control = self._control()
@@ -348,9 +355,7 @@ class Session:
         if self.trouble():
             return None
         recording, inputs = self.recording, self.inputs
-        title = f"Recording {recording.seconds:.1f} s" if recording else f"Driving {self.armature}: Esc ends"
-        if inputs.trace.playing and not recording:
-            title = f"{self.playing}: Esc ends"
+        title = f"Recording {recording.seconds:.1f} s" if recording else self.playing or f"Driving {self.armature}"
         return Shown(
             title,
             recording is not None,
@@ -363,7 +368,13 @@ class Session:
             self.interval,
             self.move,
             self.styling.words,
+            self._steps / RATE,
+            self._go_keys,
         )
+
+    @property
+    def _go_keys(self) -> str:
+        return " ".join(name_of(self.keys[name]) for name in ("forward", "left", "back", "right"))
 
     def give_back(self) -> None:
         """Let the armature have its own pose and animation until the next update: the file is saved."""

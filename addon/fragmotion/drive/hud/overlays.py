@@ -50,33 +50,32 @@ def _draw_ground(look: Look) -> None:
     shown = look()
     if shown is None:
         return
-    settings, readings = shown.settings, shown.readings
+    settings, readings, batch = shown.settings, shown.readings, paint.Batch()
     x, y, _ = readings.frame
     level = readings.level
-    with paint.blending():
-        if settings.show_ideal:
-            paint.draw_line([_lifted(*point, level) for point in readings.ideal_path.points], _IDEAL, 2)
-            _draw_ghost(*readings.ideal.frame, level)
-        if settings.show_path:
-            paint.draw_line([_lifted(*point, level) for point in (*readings.path.points, (x, y))], _PATH, 2)
-        if settings.show_velocity:
-            _draw_velocity(_lifted(x, y, level), readings.commanded, COMMANDED)
-            _draw_velocity(_lifted(x, y, level, 2), readings.velocity, ACTUAL)
-        if settings.show_feet:
-            for place in readings.standing_feet.tolist():
-                paint.draw_fan(paint.circle(place, _FOOT)[:-1], _PLANTED)
+    if settings.show_ideal:
+        batch.line([_lifted(*point, level) for point in readings.ideal_path.points], _IDEAL)
+        _add_ghost(batch, *readings.ideal.frame, level)
+    if settings.show_path:
+        batch.line([_lifted(*point, level) for point in (*readings.path.points, (x, y))], _PATH)
+    if settings.show_velocity:
+        _add_velocity(batch, _lifted(x, y, level), readings.commanded, COMMANDED)
+        _add_velocity(batch, _lifted(x, y, level, 2), readings.velocity, ACTUAL)
+    if settings.show_feet:
+        for place in readings.standing_feet.tolist():
+            batch.area(paint.circle(place, _FOOT)[:-1], _PLANTED)
+    batch.draw()
 
 
-def _draw_velocity(start: paint.Point, velocity: tuple[float, float], color: paint.Color) -> None:
-    paint.draw_arrow(start, (_REACH * velocity[0], _REACH * velocity[1]), color, _ARROW)
+def _add_velocity(batch: paint.Batch, start: paint.Point, velocity: tuple[float, float], color: paint.Color) -> None:
+    batch.arrow(start, (_REACH * velocity[0], _REACH * velocity[1]), color, _ARROW)
 
 
-def _draw_ghost(x: float, y: float, heading: float, level: float) -> None:
+def _add_ghost(batch: paint.Batch, x: float, y: float, heading: float, level: float) -> None:
     """A ring that shows by its nose where it faces."""
-    ring = paint.circle(_lifted(x, y, level), _GHOST)
-    paint.draw_line(ring, _IDEAL, 2)
+    batch.line(paint.circle(_lifted(x, y, level), _GHOST), _IDEAL)
     nose = _lifted(x - 2 * _GHOST * math.sin(heading), y + 2 * _GHOST * math.cos(heading), level)
-    paint.draw_line([_lifted(x, y, level), nose], _IDEAL, 2)
+    batch.line([_lifted(x, y, level), nose], _IDEAL)
 
 
 def _lifted(x: float, y: float, level: float, times: int = 1) -> paint.Point:
@@ -87,19 +86,22 @@ def _draw_front(look: Look, where: views.Views) -> None:
     area, shown = bpy.context.area, look()
     if shown is None or not where.is_main(area):
         return
-    free, scale = views.free_part(area), bpy.context.preferences.system.ui_scale
+    free, scale, batch = views.free_part(area), bpy.context.preferences.system.ui_scale, paint.Batch()
     if shown.settings.show_stick:
         shown.stick.place(free.left, free.bottom, scale)
-        with paint.blending():
-            _draw_stick(shown.stick, shown.intent)
-    if shown.settings.show_figures:
-        figures.draw(shown, free, scale)
+        _add_stick(batch, shown.stick, shown.intent)
+    box = figures.lay_out(shown, free, scale) if shown.settings.show_figures else None
+    if box is not None:
+        batch.area(box.corners, figures.BACK)
+    batch.draw()
+    if box is not None:
+        figures.write(box, scale)
 
 
-def _draw_stick(stick: ScreenStick, intent: Intent) -> None:
+def _add_stick(batch: paint.Batch, stick: ScreenStick, intent: Intent) -> None:
     (x, y), radius = stick.center, stick.radius
     knob = (x + radius * intent.right, y + radius * intent.ahead, 0.0)
-    paint.draw_fan(paint.circle((x, y, 0), radius)[:-1], _DISC)
-    paint.draw_line(paint.circle((x, y, 0), radius), _RIM, 2)
-    paint.draw_line(paint.circle((x, y, 0), radius / 2), _RIM, 1)
-    paint.draw_fan(paint.circle(knob, stick.knob)[:-1], _KNOB)
+    batch.area(paint.circle((x, y, 0), radius)[:-1], _DISC)
+    batch.ring((x, y, 0), radius, 2, _RIM)
+    batch.ring((x, y, 0), radius / 2, 1, _RIM)
+    batch.area(paint.circle(knob, stick.knob)[:-1], _KNOB)

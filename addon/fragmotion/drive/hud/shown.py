@@ -32,3 +32,7 @@ class Shown(NamedTuple):
     """The moves that play or wait, in words."""
     style: str = ""
     """The style that plays, and the one that waits, in words."""
+    seconds: float = 0.0
+    """Since the drive began."""
+    go_keys: str = ""
+    """The keys that let it go, in words."""
