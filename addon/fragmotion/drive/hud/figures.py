@@ -25,7 +25,8 @@ Row = tuple[str, str]
 def rows(shown: Shown) -> list[Row]:
     """What the display says: labels and values with their units."""
     readings, space = shown.readings, shown.readings.space
-    asked = describe(readings.control, space) if shown.input else f"nothing yet: push a stick, or press {shown.go_keys}"
+    is_asked = shown.input or any(readings.control)
+    asked = describe(readings.control, space) if is_asked else f"nothing yet: push a stick, or press {shown.go_keys}"
     table = [("Asked", asked), ("Does", _done(shown)), ("Style", shown.style), ("Move", shown.move)]
     table.append(("Time", f"{shown.seconds:.1f} s"))
     if shown.interval > LONGEST_UPDATE:

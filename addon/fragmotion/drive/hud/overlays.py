@@ -11,7 +11,7 @@ import bpy
 
 from ...input.screen_stick import ScreenStick
 from ...input.steering import Intent
-from . import figures, paint, views
+from . import figures, paint, timeline, views
 from .shown import Shown
 
 Look = Callable[[], "Shown | None"]
@@ -23,6 +23,7 @@ _IDEAL = (0.10, 0.45, 1.0, 0.5)
 _PATH = (1.0, 0.45, 0.05, 0.6)
 _PLANTED = (0.25, 1.0, 0.35, 0.6)
 _RIM, _DISC, _KNOB = (1.0, 1.0, 1.0, 0.5), (0.0, 0.0, 0.0, 0.35), (0.85, 0.85, 0.85, 0.8)
+_OVER = (1.0, 0.1, 0.1, 0.35)
 _REACH = 0.5  # s: an arrow shows where the character would be after that
 _ARROW = 0.08  # m, width
 _FOOT = 0.09  # m, radius
@@ -35,15 +36,22 @@ _handlers: list[Any] = []
 def add(look: Look, where: views.Views) -> None:
     """Draw a drive in every 3D view, and its stick and figures in the main one, until `remove`."""
     space = bpy.types.SpaceView3D
-    _handlers.append(space.draw_handler_add(_draw_ground, (look,), "WINDOW", "POST_VIEW"))
-    _handlers.append(space.draw_handler_add(_draw_front, (look, where), "WINDOW", "POST_PIXEL"))
+    _handlers.append((space, space.draw_handler_add(_draw_ground, (look,), "WINDOW", "POST_VIEW")))
+    _handlers.append((space, space.draw_handler_add(_draw_front, (look, where), "WINDOW", "POST_PIXEL")))
+    timeline.mark(lambda: _marked(look()))
 
 
 def remove() -> None:
     """Draw nothing any more."""
-    for handler in _handlers:
-        bpy.types.SpaceView3D.draw_handler_remove(handler, "WINDOW")
+    for space, handler in _handlers:
+        space.draw_handler_remove(handler, "WINDOW")
     _handlers.clear()
+    timeline.unmark()
+
+
+def _marked(shown: Shown | None) -> list[timeline.Span]:
+    """What is marked on the timeline."""
+    return [] if shown is None or shown.span is None else [timeline.Span(*shown.span, _OVER)]
 
 
 def _draw_ground(look: Look) -> None:

@@ -36,3 +36,5 @@ class Shown(NamedTuple):
     """Since the drive began."""
     go_keys: str = ""
     """The keys that let it go, in words."""
+    span: tuple[float, float] | None = None
+    """The scene's frames from and to which a recording is recorded over, if one is."""

@@ -24,7 +24,7 @@ from ...rig.external_motion import external_motion
 from ...settings import preferences
 from ..base import status
 from ..base.background import poll_idle
-from ..base.context import active_armature, playhead, poll_armature
+from ..base.context import active_armature, frame_rate, playhead, poll_armature
 from ..base.woken import Woken
 from .drive_hints import hints
 
@@ -165,7 +165,11 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
         if self.source == "OVER":
             begin = playhead(context, recordings[self.recording])
             end = begin + obj.fragmotion.drive.over_seconds
-            return session.record_over(context, obj, recordings[self.recording], begin, end)
+            driven = session.record_over(context, obj, recordings[self.recording], begin, end)
+            seconds = min(end, recordings[self.recording].seconds) - begin
+            frame = context.scene.frame_current_final
+            driven.span = frame, frame + seconds * frame_rate(context, recordings[self.recording])
+            return driven
         return session.replay(context, obj, recordings[self.recording], self.seed, self.policy)
 
     def cancel(self, context: bpy.types.Context) -> None:
