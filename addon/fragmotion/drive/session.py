@@ -101,6 +101,7 @@ class Session:
         self._own_held: set[int] = set()  # those that a recording holds that is recorded over
         self._own_style = 0  # that it was in last
         self._news, self._news_until = "", 0
+        self._target_level = 0.0
         self.span: tuple[float, float] | None = None
         """The scene's frames from and to which a recording is recorded over, for the timeline."""
         self._missed = False
@@ -322,8 +323,10 @@ class Session:
         self.inputs.messages.append(text)
         self._news, self._news_until = text, self._steps + _NEWS * RATE
 
-    def walk_to(self, place: tuple[float, float], runs: bool = False) -> None:
-        """Let the character go to a place on the ground, until it is there or another input is touched."""
+    def walk_to(self, place: tuple[float, float], runs: bool = False, level: float = 0.0) -> None:
+        """Let the character go to a place on the ground, which is so high there, until it is there or another input is
+        touched."""
+        self._target_level = level
         self.inputs.walk(self.actor.space, self.actor.frame, place, runs)
 
     @property
@@ -401,6 +404,7 @@ class Session:
             self._steps / RATE,
             self._go_keys,
             self.span if self.punch is not None else None,
+            None if inputs.target.place is None else (*inputs.target.place, self._target_level),
         )
 
     @property

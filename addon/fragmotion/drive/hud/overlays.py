@@ -11,6 +11,7 @@ import bpy
 
 from ...input.screen_stick import ScreenStick
 from ...input.steering import Intent
+from ...input.walk_target import NEAR
 from . import figures, paint, timeline, views
 from .shown import Shown
 
@@ -69,6 +70,8 @@ def _draw_ground(look: Look) -> None:
     if settings.show_velocity:
         _add_velocity(batch, _lifted(x, y, level), readings.commanded, COMMANDED)
         _add_velocity(batch, _lifted(x, y, level, 2), readings.velocity, ACTUAL)
+    if shown.target is not None:
+        _add_target(batch, _lifted(*shown.target))
     if settings.show_feet:
         for place in readings.standing_feet.tolist():
             batch.area(paint.circle(place, _FOOT)[:-1], _PLANTED)
@@ -84,6 +87,12 @@ def _add_ghost(batch: paint.Batch, x: float, y: float, heading: float, level: fl
     batch.line(paint.circle(_lifted(x, y, level), _GHOST), _IDEAL)
     nose = _lifted(x - 2 * _GHOST * math.sin(heading), y + 2 * _GHOST * math.cos(heading), level)
     batch.line([_lifted(x, y, level), nose], _IDEAL)
+
+
+def _add_target(batch: paint.Batch, place: paint.Point) -> None:
+    """Where it counts as being there, and the middle of that."""
+    batch.ring(place, NEAR, NEAR / 4, COMMANDED)
+    batch.area(paint.circle(place, NEAR / 4)[:-1], COMMANDED)
 
 
 def _lifted(x: float, y: float, level: float, times: int = 1) -> paint.Point:

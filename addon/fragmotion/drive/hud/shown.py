@@ -38,3 +38,5 @@ class Shown(NamedTuple):
     """The keys that let it go, in words."""
     span: tuple[float, float] | None = None
     """The scene's frames from and to which a recording is recorded over, if one is."""
+    target: tuple[float, float, float] | None = None
+    """Where it was sent by a click, if it is on its way there."""

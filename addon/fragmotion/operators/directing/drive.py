@@ -331,7 +331,7 @@ def _send_there(
         return False
     place = ground_under(area, x, y, driven.ground)
     if place is not None:
-        driven.walk_to((place.x, place.y), event.shift)
+        driven.walk_to((place.x, place.y), event.shift, place.z)
     return place is not None
 
 
