@@ -296,7 +296,9 @@ def bake_and_undo(obj: bpy.types.Object, before: dict[str, Any]) -> Generator[No
     _, motion = recordings.shown_of(recording)
     window.show_only("Bake")
     yield from window.click_button("fragmotion.bake")
-    yield from window.until(lambda: obj.animation_data.action.name == recording.name, "the bake of the recording")
+    yield from window.until(
+        lambda: obj.animation_data.action.name == f"{recording.name} Bake", "the bake of the recording"
+    )
     scene = bpy.context.scene
     last = round(obj.animation_data.action.frame_range[1])
     shown = making.play(obj, obj.animation_data.action, last)
