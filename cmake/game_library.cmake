@@ -15,7 +15,7 @@ set(fragmotion_fast ${fragmotion_runtime_sources})
 list(REMOVE_ITEM fragmotion_fast ${fragmotion_small})
 foreach(kind fast small)
   add_library(fragmotion_${kind} OBJECT ${fragmotion_${kind}})
-  target_include_directories(fragmotion_${kind} PRIVATE cpp/include cpp/src)
+  target_include_directories(fragmotion_${kind} PRIVATE cpp/include cpp/src/play)
   target_link_libraries(fragmotion_${kind} PRIVATE Eigen3::Eigen)
   target_compile_definitions(fragmotion_${kind} PRIVATE FRAGMOTION_BUILDS_SHARED EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MPL2_ONLY)
   target_compile_options(fragmotion_${kind} PRIVATE -Wall -Wextra -Wpedantic -fno-rtti -ffunction-sections

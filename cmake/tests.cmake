@@ -10,14 +10,14 @@ endif()
 find_package(GTest REQUIRED)
 include(GoogleTest)
 add_executable(fragmotion_tests ${fragmotion_test_sources})
-target_include_directories(fragmotion_tests PRIVATE cpp/src tests/cpp)
+target_include_directories(fragmotion_tests PRIVATE tests/cpp)
 target_link_libraries(fragmotion_tests PRIVATE fragmotion GTest::gtest_main)
 # What is optimised, debugged and sanitized is the core; its tests are compiled in half the time without optimisation.
 compile_by_stage(fragmotion_tests)
 target_compile_options(fragmotion_tests PRIVATE -Wall -Wextra -Wpedantic -O0)
 gtest_discover_tests(fragmotion_tests WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" DISCOVERY_TIMEOUT 60)
 
-# What a game does, with fragmotion_runtime and its public headers alone.
+# What a game does, with fragmotion_runtime alone.
 add_executable(fragmotion_runtime_tests tests/cpp/test_runtime_alone.cpp)
 target_link_libraries(fragmotion_runtime_tests PRIVATE fragmotion_runtime GTest::gtest_main)
 target_compile_options(fragmotion_runtime_tests PRIVATE -Wall -Wextra -Wpedantic)

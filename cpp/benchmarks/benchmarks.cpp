@@ -2,14 +2,14 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/build/build.hpp"
-#include "fragmotion/policy/iterate.hpp"
-#include "fragmotion/policy/optimal.hpp"
-#include "fragmotion/policy/quality_table.hpp"
-#include "fragmotion/policy/svm.hpp"
-#include "fragmotion/runtime/step_on_threads.hpp"
+#include "base/random.hpp"
+#include "build/build.hpp"
 #include "large.hpp"
+#include "policy/iterate.hpp"
+#include "policy/optimal.hpp"
+#include "policy/quality_table.hpp"
+#include "policy/svm.hpp"
+#include "runtime/step_on_threads.hpp"
 #include "workload.hpp"
 
 namespace fragmotion::benchmarks {

@@ -4,9 +4,9 @@
 #include <string>
 #include <type_traits>
 
-#include "fragmotion/policy/iterate.hpp"
-#include "fragmotion/policy/optimal.hpp"
-#include "fragmotion/policy/svm.hpp"
+#include "policy/iterate.hpp"
+#include "policy/optimal.hpp"
+#include "policy/svm.hpp"
 #include "workload.hpp"
 
 namespace fragmotion::benchmarks {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/policy/iterate.hpp"
-#include "fragmotion/policy/optimal.hpp"
-#include "fragmotion/policy/quality_table.hpp"
+#include "base/random.hpp"
+#include "policy/iterate.hpp"
+#include "policy/optimal.hpp"
+#include "policy/quality_table.hpp"
 
 namespace fragmotion::benchmarks {
 namespace {

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/skeleton/kinematics.hpp"
+#include "base/random.hpp"
+#include "skeleton/kinematics.hpp"
+#include "skeleton/roles.hpp"
 
 namespace fragmotion::benchmarks {
 namespace {

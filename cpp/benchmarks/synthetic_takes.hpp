@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "fragmotion/motion/clip.hpp"
+#include "motion/clip.hpp"
 
 namespace fragmotion::benchmarks {
 

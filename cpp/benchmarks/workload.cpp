@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "workload.hpp"
 
-#include "fragmotion/build/build.hpp"
-#include "fragmotion/control/simulated_players.hpp"
-#include "fragmotion/policy/quality_table.hpp"
-#include "fragmotion/policy/svm.hpp"
+#include "build/build.hpp"
+#include "control/simulated_players.hpp"
+#include "policy/quality_table.hpp"
+#include "policy/svm.hpp"
 #include "synthetic_takes.hpp"
 
 namespace fragmotion::benchmarks {

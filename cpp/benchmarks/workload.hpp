@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "fragmotion/character/character.hpp"
-#include "fragmotion/classes/clustering.hpp"
-#include "fragmotion/control/trace.hpp"
+#include "character/character.hpp"
+#include "classes/clustering.hpp"
+#include "control/trace.hpp"
 
 namespace fragmotion::benchmarks {
 

@@ -6,8 +6,8 @@
 #include <locale>
 #include <sstream>
 
-#include "fragmotion/base/utf8.hpp"
-#include "fragmotion/control/control.hpp"
+#include "base/utf8.hpp"
+#include "control/control.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fragmotion/control/trace.hpp"
+#include "control/trace.hpp"
 #include "threads.hpp"
 
 namespace fragmotion::bindings {

@@ -6,10 +6,10 @@
 #include <tuple>
 
 #include "arrays.hpp"
-#include "fragmotion/bake/fit_keys.hpp"
-#include "fragmotion/bake/loop.hpp"
-#include "fragmotion/bake/reduce_keys.hpp"
-#include "fragmotion/bake/resample.hpp"
+#include "bake/fit_keys.hpp"
+#include "bake/loop.hpp"
+#include "bake/reduce_keys.hpp"
+#include "bake/resample.hpp"
 
 namespace fragmotion::bindings {
 namespace {

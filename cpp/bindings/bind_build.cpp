@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "arrays.hpp"
-#include "fragmotion/build/styles.hpp"
+#include "build/styles.hpp"
 
 namespace fragmotion::bindings {
 namespace {

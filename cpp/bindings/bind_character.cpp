@@ -3,13 +3,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "arrays.hpp"
-#include "fragmotion/build/exclude_classes.hpp"
-#include "fragmotion/build/moves.hpp"
-#include "fragmotion/build/styles.hpp"
-#include "fragmotion/character/naming.hpp"
-#include "fragmotion/character/policy_file.hpp"
-#include "fragmotion/control/trace.hpp"
-#include "fragmotion/policy/optimal.hpp"
+#include "build/exclude_classes.hpp"
+#include "build/moves.hpp"
+#include "build/styles.hpp"
+#include "character/naming.hpp"
+#include "character/policy_file.hpp"
+#include "control/trace.hpp"
+#include "policy/optimal.hpp"
 
 namespace fragmotion::bindings {
 namespace {

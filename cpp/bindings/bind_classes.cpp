@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "arrays.hpp"
-#include "fragmotion/classes/clustering.hpp"
+#include "classes/clustering.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "arrays.hpp"
-#include "fragmotion/character/character.hpp"
-#include "fragmotion/control/gaits.hpp"
-#include "fragmotion/control/simulated_players.hpp"
+#include "character/character.hpp"
+#include "control/gaits.hpp"
+#include "control/simulated_players.hpp"
 
 namespace fragmotion::bindings {
 namespace {

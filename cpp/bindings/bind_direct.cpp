@@ -2,8 +2,8 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "fragmotion/direct/follow_path.hpp"
-#include "fragmotion/direct/steering.hpp"
+#include "direct/follow_path.hpp"
+#include "direct/steering.hpp"
 #include "player_options.hpp"
 
 namespace fragmotion::bindings {

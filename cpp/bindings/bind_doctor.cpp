@@ -2,8 +2,8 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "fragmotion/doctor/examine.hpp"
-#include "fragmotion/doctor/mend.hpp"
+#include "doctor/examine.hpp"
+#include "doctor/mend.hpp"
 
 namespace fragmotion::bindings {
 namespace {

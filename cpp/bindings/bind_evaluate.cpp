@@ -2,13 +2,13 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "fragmotion/evaluate/about_face.hpp"
-#include "fragmotion/evaluate/change_pushes.hpp"
-#include "fragmotion/evaluate/explain.hpp"
-#include "fragmotion/evaluate/motion_metrics.hpp"
-#include "fragmotion/evaluate/response.hpp"
-#include "fragmotion/evaluate/speed_ripple.hpp"
-#include "fragmotion/evaluate/suggest.hpp"
+#include "evaluate/about_face.hpp"
+#include "evaluate/change_pushes.hpp"
+#include "evaluate/explain.hpp"
+#include "evaluate/motion_metrics.hpp"
+#include "evaluate/response.hpp"
+#include "evaluate/speed_ripple.hpp"
+#include "evaluate/suggest.hpp"
 #include "player_options.hpp"
 
 namespace fragmotion::bindings {

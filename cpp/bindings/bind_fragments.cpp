@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "arrays.hpp"
-#include "fragmotion/character/character.hpp"
-#include "fragmotion/fragments/distance.hpp"
+#include "character/character.hpp"
+#include "fragments/distance.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -5,10 +5,10 @@
 #include <map>
 
 #include "arrays.hpp"
-#include "fragmotion/io/asf_amc.hpp"
-#include "fragmotion/io/bvh.hpp"
-#include "fragmotion/io/rig.hpp"
-#include "fragmotion/io/rotation.hpp"
+#include "io/asf_amc.hpp"
+#include "io/bvh.hpp"
+#include "io/rig.hpp"
+#include "io/rotation.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -2,9 +2,9 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "fragmotion/motion/clip.hpp"
-#include "fragmotion/motion/mirror.hpp"
-#include "fragmotion/skeleton/kinematics.hpp"
+#include "motion/clip.hpp"
+#include "motion/mirror.hpp"
+#include "skeleton/kinematics.hpp"
 
 namespace fragmotion::bindings {
 namespace {

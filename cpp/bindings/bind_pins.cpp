@@ -2,8 +2,8 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "fragmotion/direct/join.hpp"
-#include "fragmotion/direct/pin.hpp"
+#include "direct/join.hpp"
+#include "direct/pin.hpp"
 #include "player_options.hpp"
 
 namespace fragmotion::bindings {

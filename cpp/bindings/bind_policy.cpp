@@ -2,12 +2,12 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "fragmotion/character/character.hpp"
-#include "fragmotion/policy/anticipate.hpp"
-#include "fragmotion/policy/greedy.hpp"
-#include "fragmotion/policy/iterate.hpp"
-#include "fragmotion/policy/optimal.hpp"
-#include "fragmotion/policy/svm.hpp"
+#include "character/character.hpp"
+#include "policy/anticipate.hpp"
+#include "policy/greedy.hpp"
+#include "policy/iterate.hpp"
+#include "policy/optimal.hpp"
+#include "policy/svm.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "arrays.hpp"
-#include "fragmotion/retarget/retarget.hpp"
+#include "retarget/retarget.hpp"
 
 namespace fragmotion::bindings {
 namespace {

@@ -2,9 +2,9 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "fragmotion/evaluate/performance.hpp"
-#include "fragmotion/runtime/step_on_threads.hpp"
+#include "evaluate/performance.hpp"
 #include "player_options.hpp"
+#include "runtime/step_on_threads.hpp"
 
 namespace fragmotion::bindings {
 namespace {

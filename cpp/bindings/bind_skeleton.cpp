@@ -4,10 +4,11 @@
 #include <map>
 
 #include "arrays.hpp"
-#include "fragmotion/skeleton/role_map.hpp"
-#include "fragmotion/skeleton/role_names.hpp"
-#include "fragmotion/skeleton/same_skeleton.hpp"
-#include "fragmotion/skeleton/skeleton.hpp"
+#include "skeleton/role_map.hpp"
+#include "skeleton/role_names.hpp"
+#include "skeleton/roles.hpp"
+#include "skeleton/same_skeleton.hpp"
+#include "skeleton/skeleton.hpp"
 
 namespace fragmotion::bindings {
 namespace {

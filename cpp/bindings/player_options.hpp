@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "fragmotion/runtime/player.hpp"
+#include "runtime/player.hpp"
 
 namespace fragmotion::bindings {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "fragmotion/base/progress.hpp"
+#include "base/progress.hpp"
 
 namespace fragmotion::bindings {
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "doctor/examine.hpp"
+#include "doctor/mend.hpp"
 #include "doctor/patient.hpp"
-#include "fragmotion/doctor/examine.hpp"
-#include "fragmotion/doctor/mend.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fragmotion/skeleton/skeleton.hpp"
+#include "skeleton/skeleton.hpp"
 
 namespace fragmotion {
 

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "fragmotion/build/moves.hpp"
-#include "fragmotion/motion/pose.hpp"
+#include "build/moves.hpp"
+#include "motion/pose.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "fragmotion/build/styles.hpp"
+#include "build/styles.hpp"
 #include "made_moves.hpp"
 
 namespace fragmotion {

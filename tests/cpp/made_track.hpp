@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "fragmotion/evaluate/body_track.hpp"
+#include "evaluate/body_track.hpp"
 
 namespace fragmotion {
 

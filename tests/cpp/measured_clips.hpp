@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "fragmotion/motion/pose.hpp"
+#include "motion/pose.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

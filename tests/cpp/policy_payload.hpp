@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fragmotion/character/policy_file.hpp"
+#include "character/policy_file.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/policy/quality.hpp"
+#include "base/random.hpp"
+#include "policy/quality.hpp"
 
 namespace fragmotion {
 

@@ -3,9 +3,10 @@
 
 #include <memory>
 
-#include "fragmotion/build/build.hpp"
-#include "fragmotion/character/character.hpp"
-#include "fragmotion/control/simulated_players.hpp"
+#include "build/build.hpp"
+#include "character/character.hpp"
+#include "control/simulated_players.hpp"
+#include "skeleton/roles.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

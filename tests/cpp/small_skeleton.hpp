@@ -3,9 +3,10 @@
 
 #include <cstdint>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/motion/clip.hpp"
-#include "fragmotion/motion/take.hpp"
+#include "base/random.hpp"
+#include "motion/clip.hpp"
+#include "motion/take.hpp"
+#include "skeleton/roles.hpp"
 
 namespace fragmotion {
 

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <memory>
 
-#include "fragmotion/character/character.hpp"
-#include "fragmotion/fragments/distance.hpp"
-#include "fragmotion/fragments/entry_poses.hpp"
-#include "fragmotion/fragments/packed_pool.hpp"
-#include "fragmotion/policy/bridge.hpp"
+#include "character/character.hpp"
+#include "fragments/distance.hpp"
+#include "fragments/entry_poses.hpp"
+#include "fragments/packed_pool.hpp"
+#include "policy/bridge.hpp"
+#include "skeleton/roles.hpp"
 
 namespace fragmotion {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "fragmotion/runtime/player.hpp"
+#include "runtime/player.hpp"
 
 namespace fragmotion {
 

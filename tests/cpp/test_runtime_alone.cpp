@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fragmotion/character/naming.hpp"
-#include "fragmotion/character/policy_file.hpp"
-#include "fragmotion/runtime/crowd.hpp"
+#include "character/naming.hpp"
+#include "character/policy_file.hpp"
+#include "runtime/crowd.hpp"
 
 namespace fragmotion {
 namespace {

@@ -6,10 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "base/random.hpp"
 #include "base/turn_between.hpp"
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/fragments/cutting.hpp"
-#include "fragmotion/fragments/evident.hpp"
+#include "fragments/cutting.hpp"
+#include "fragments/evident.hpp"
+#include "skeleton/roles.hpp"
 
 namespace fragmotion {
 

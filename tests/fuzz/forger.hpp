@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "fragmotion/character/character.hpp"
-#include "fragmotion/skeleton/role_names.hpp"
+#include "character/character.hpp"
+#include "skeleton/role_names.hpp"
 
 namespace fragmotion {
 

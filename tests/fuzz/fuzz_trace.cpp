@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "base/utf8.hpp"
 #include "control/parse_trace.hpp"
-#include "fragmotion/base/utf8.hpp"
 #include "fuzzing.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "fragmotion/motion/take.hpp"
+#include "motion/take.hpp"
 
 namespace fragmotion {
 

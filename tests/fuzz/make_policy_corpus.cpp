@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "fragmotion/build/build.hpp"
+#include "build/build.hpp"
 #include "made_styles.hpp"
 #include "policies.hpp"
 

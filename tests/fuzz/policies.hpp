@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 
-#include "fragmotion/character/policy_file.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "character/policy_file.hpp"
 #include "fuzzing.hpp"
+#include "runtime/player.hpp"
 
 namespace fragmotion {
 

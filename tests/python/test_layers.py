@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import re
-from fnmatch import fnmatch
 from pathlib import Path
 
 import pytest
@@ -30,30 +29,28 @@ STAGES = [
     "build",
     "evaluate",
 ]
-ROOTS = [TOP / "cpp" / "include" / "fragmotion", TOP / "cpp" / "src"]
-
-
-RUNTIME_PARTS = re.search(
-    r"set\(fragmotion_runtime_parts\s+([^)]+)\)", (TOP / "CMakeLists.txt").read_text(encoding="utf-8")
-)
+SOURCES = TOP / "cpp" / "src"
+PLAY, MAKE = SOURCES / "play", SOURCES / "make"
 
 
 def sources(stage: str) -> list[Path]:
     """The headers and sources of a stage."""
-    return [path for root in ROOTS for path in sorted((root / stage).glob("*.?pp"))]
+    return [path for root in (PLAY, MAKE) for path in sorted((root / stage).glob("*.?pp"))]
 
 
 def stages_needed_by(path: Path) -> set[str]:
     """The stages whose headers a file includes."""
-    return set(
-        re.findall(r'^#include "(?:fragmotion/)?(\w+)/\w+\.hpp"', path.read_text(encoding="utf-8"), re.MULTILINE)
-    )
+    return {name.partition("/")[0] for name in headers_needed_by(path)}
 
 
-@pytest.mark.parametrize("root", ROOTS, ids=["include", "src"])
+def headers_needed_by(path: Path) -> set[str]:
+    """The private headers that a file includes, as they are named: "stage/name.hpp"."""
+    return set(re.findall(r'^#include "(\w+/\w+\.hpp)"', path.read_text(encoding="utf-8"), re.MULTILINE))
+
+
+@pytest.mark.parametrize("root", [PLAY, MAKE], ids=["play", "make"])
 def test_every_folder_is_a_stage(root: Path) -> None:
-    games = {"fragmotion.h", "fragmotion.hpp"}  # what games see: the C API, and its C++
-    assert {path.name for path in root.iterdir()} - games <= set(STAGES)
+    assert {path.name for path in root.iterdir()} <= set(STAGES)
 
 
 @pytest.mark.parametrize("stage", STAGES)
@@ -61,33 +58,24 @@ def test_a_stage_needs_none_further_down(stage: str) -> None:
     assert_in_order(STAGES, stage, {path: stages_needed_by(path) for path in sources(stage)})
 
 
-def of_runtime(path: Path) -> bool:
-    """Whether a header or source belongs to fragmotion_runtime, by the list in CMakeLists.txt."""
-    assert RUNTIME_PARTS
-    name = f"{path.parent.name}/{path.stem}"
-    return any(fnmatch(name, part) for part in RUNTIME_PARTS[1].split())
+def test_games_see_the_c_api_and_its_wrapper_alone() -> None:
+    headers = [path for path in (TOP / "cpp" / "include").rglob("*") if path.is_file()]
+    assert {path.name for path in headers} == {"fragmotion.h", "fragmotion.hpp"}
+    for path in headers:
+        assert headers_needed_by(path) <= {"fragmotion/fragmotion.h"}, path.relative_to(TOP)
 
 
-def headers_needed_by(path: Path) -> set[Path]:
-    """The project's headers that a file includes."""
-    names = re.findall(r'^#include "([\w/]+\.hpp)"', path.read_text(encoding="utf-8"), re.MULTILINE)
-    return {
-        root / name
-        for name in names
-        for root in (TOP / "cpp" / "include", TOP / "cpp" / "src")
-        if (root / name).exists()
+def test_what_plays_needs_nothing_of_what_makes_and_no_thread() -> None:
+    files = sorted(PLAY.glob("*/*.?pp"))
+    assert {path.parent.name for path in files} >= {"character", "runtime"}
+    for path in files:
+        missing = {name for name in headers_needed_by(path) if not (PLAY / name).exists()}
+        assert missing <= {"fragmotion/fragmotion.hpp"}, path.relative_to(TOP)
+        lines = path.read_text(encoding="utf-8")
+        assert not re.search(r"^#include <(thread|future|mutex|svm\.h)>", lines, re.MULTILINE), path
+
+
+def test_no_header_of_what_makes_is_named_as_one_of_what_plays() -> None:
+    assert not {f"{path.parent.name}/{path.name}" for path in MAKE.glob("*/*.hpp")} & {
+        f"{path.parent.name}/{path.name}" for path in PLAY.glob("*/*.hpp")
     }
-
-
-def test_the_runtime_library_needs_no_header_of_another_and_no_thread() -> None:
-    left = [path for stage in STAGES for path in sources(stage) if path.suffix == ".cpp" and of_runtime(path)]
-    assert {path.parent.name for path in left} >= {"character", "runtime"}
-    seen: set[Path] = set()
-    while left:
-        path = left.pop()
-        assert of_runtime(path), path.relative_to(TOP)
-        assert not re.search(
-            r"^#include <(thread|future|mutex|svm\.h)>", path.read_text(encoding="utf-8"), re.MULTILINE
-        ), path
-        seen.add(path)
-        left += headers_needed_by(path) - seen

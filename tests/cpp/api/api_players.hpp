@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fragmotion/character/policy_file.hpp"
+#include "character/policy_file.hpp"
 #include "fragmotion/fragmotion.h"
 #include "made_styles.hpp"
 

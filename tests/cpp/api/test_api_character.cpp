@@ -3,7 +3,7 @@
 #include <set>
 
 #include "api_players.hpp"
-#include "fragmotion/character/naming.hpp"
+#include "character/naming.hpp"
 
 namespace fragmotion {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "allocations.hpp"
 #include "api_players.hpp"
-#include "fragmotion/direct/steering.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "direct/steering.hpp"
+#include "runtime/player.hpp"
 
 namespace fragmotion {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fragmotion/bake/fit_keys.hpp"
+#include "bake/fit_keys.hpp"
 
 namespace fragmotion {
 namespace {

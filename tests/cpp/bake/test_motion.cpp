@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/bake/motion.hpp"
+#include "bake/motion.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

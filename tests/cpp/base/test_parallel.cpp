@@ -7,7 +7,7 @@
 #include <string>
 #include <system_error>
 
-#include "fragmotion/base/parallel.hpp"
+#include "base/parallel.hpp"
 
 namespace fragmotion {
 namespace {

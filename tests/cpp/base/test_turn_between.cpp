@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/random.hpp"
 #include "base/turn_between.hpp"
-#include "fragmotion/base/random.hpp"
 
 namespace fragmotion {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <set>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/base/utf8.hpp"
+#include "base/random.hpp"
+#include "base/utf8.hpp"
 
 namespace fragmotion {
 namespace {

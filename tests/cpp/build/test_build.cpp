@@ -6,15 +6,16 @@
 #include <functional>
 #include <limits>
 
-#include "fragmotion/build/build.hpp"
-#include "fragmotion/character/character.hpp"
-#include "fragmotion/character/policy_file.hpp"
-#include "fragmotion/control/simulated_players.hpp"
-#include "fragmotion/evaluate/performance.hpp"
-#include "fragmotion/policy/greedy.hpp"
-#include "fragmotion/policy/optimal.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "build/build.hpp"
+#include "character/character.hpp"
+#include "character/policy_file.hpp"
+#include "control/simulated_players.hpp"
+#include "evaluate/performance.hpp"
 #include "mocap_files.hpp"
+#include "policy/greedy.hpp"
+#include "policy/optimal.hpp"
+#include "runtime/player.hpp"
+#include "skeleton/roles.hpp"
 #include "small_character.hpp"
 #include "small_skeleton.hpp"
 

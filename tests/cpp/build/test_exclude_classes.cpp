@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "fragmotion/build/exclude_classes.hpp"
-#include "fragmotion/character/policy_file.hpp"
-#include "fragmotion/evaluate/explain.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "build/exclude_classes.hpp"
+#include "character/policy_file.hpp"
+#include "evaluate/explain.hpp"
+#include "runtime/player.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/build/find_controls.hpp"
+#include "base/random.hpp"
+#include "build/find_controls.hpp"
 
 namespace fragmotion {
 namespace {

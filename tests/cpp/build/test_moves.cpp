@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/character/policy_file.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "character/policy_file.hpp"
 #include "made_moves.hpp"
 #include "mocap_files.hpp"
+#include "runtime/player.hpp"
 
 namespace fragmotion {
 namespace {

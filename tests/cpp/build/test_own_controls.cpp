@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
-#include "fragmotion/build/exclude_classes.hpp"
-#include "fragmotion/character/policy_file.hpp"
-#include "fragmotion/evaluate/change_pushes.hpp"
-#include "fragmotion/evaluate/explain.hpp"
-#include "fragmotion/evaluate/performance.hpp"
-#include "fragmotion/evaluate/response.hpp"
-#include "fragmotion/policy/optimal.hpp"
+#include "build/exclude_classes.hpp"
+#include "character/policy_file.hpp"
+#include "evaluate/change_pushes.hpp"
+#include "evaluate/explain.hpp"
+#include "evaluate/performance.hpp"
+#include "evaluate/response.hpp"
+#include "policy/optimal.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

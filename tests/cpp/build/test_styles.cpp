@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "fragmotion/build/exclude_classes.hpp"
-#include "fragmotion/build/styles.hpp"
-#include "fragmotion/character/policy_file.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "build/exclude_classes.hpp"
+#include "build/styles.hpp"
+#include "character/policy_file.hpp"
 #include "made_styles.hpp"
 #include "mocap_files.hpp"
+#include "runtime/player.hpp"
 
 namespace fragmotion {
 namespace {

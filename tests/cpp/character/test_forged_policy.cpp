@@ -9,12 +9,13 @@
 
 #include "allocations.hpp"
 #include "character/policy_bytes.hpp"
-#include "fragmotion/fragments/packed_pool.hpp"
-#include "fragmotion/policy/anticipate.hpp"
-#include "fragmotion/runtime/player.hpp"
-#include "fragmotion/skeleton/role_names.hpp"
+#include "fragments/packed_pool.hpp"
 #include "mocap_files.hpp"
+#include "policy/anticipate.hpp"
 #include "policy_payload.hpp"
+#include "runtime/player.hpp"
+#include "skeleton/role_names.hpp"
+#include "skeleton/roles.hpp"
 
 namespace fragmotion {
 namespace {

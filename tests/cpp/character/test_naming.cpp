@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "fragmotion/character/naming.hpp"
+#include "character/naming.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "fragmotion/control/simulated_players.hpp"
-#include "fragmotion/evaluate/performance.hpp"
+#include "control/simulated_players.hpp"
+#include "evaluate/performance.hpp"
 #include "mocap_files.hpp"
 #include "policy_payload.hpp"
 

@@ -7,8 +7,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/classes/clustering.hpp"
+#include "base/random.hpp"
+#include "classes/clustering.hpp"
 #include "mocap_files.hpp"
 
 namespace fragmotion {

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/control/command_limit.hpp"
+#include "base/random.hpp"
+#include "control/command_limit.hpp"
 
 namespace fragmotion {
 namespace {

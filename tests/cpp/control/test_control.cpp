@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/control/control.hpp"
+#include "base/random.hpp"
+#include "control/control.hpp"
 
 namespace fragmotion {
 namespace {

@@ -5,10 +5,10 @@
 #include <limits>
 #include <set>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/character/naming.hpp"
-#include "fragmotion/control/gaits.hpp"
-#include "fragmotion/control/simulated_players.hpp"
+#include "base/random.hpp"
+#include "character/naming.hpp"
+#include "control/gaits.hpp"
+#include "control/simulated_players.hpp"
 
 namespace fragmotion {
 namespace {

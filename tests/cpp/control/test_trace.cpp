@@ -10,9 +10,9 @@
 #include <string>
 
 #include "allocations.hpp"
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/control/simulated_players.hpp"
-#include "fragmotion/control/trace.hpp"
+#include "base/random.hpp"
+#include "control/simulated_players.hpp"
+#include "control/trace.hpp"
 
 namespace fragmotion {
 namespace {

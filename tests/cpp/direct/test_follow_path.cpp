@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "fragmotion/direct/follow_path.hpp"
-#include "fragmotion/evaluate/performance.hpp"
+#include "direct/follow_path.hpp"
+#include "evaluate/performance.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/direct/join.hpp"
+#include "direct/join.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "fragmotion/direct/path.hpp"
+#include "direct/path.hpp"
 
 namespace fragmotion {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "allocations.hpp"
-#include "fragmotion/direct/path_follower.hpp"
+#include "direct/path_follower.hpp"
 
 namespace fragmotion {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/control/simulated_players.hpp"
-#include "fragmotion/direct/pin.hpp"
+#include "control/simulated_players.hpp"
+#include "direct/pin.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

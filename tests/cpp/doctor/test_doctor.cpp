@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "examined_walks.hpp"
+#include "skeleton/roles.hpp"
 
 namespace fragmotion {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "fragmotion/evaluate/about_face.hpp"
+#include "evaluate/about_face.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

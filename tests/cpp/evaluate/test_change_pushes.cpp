@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/evaluate/change_pushes.hpp"
+#include "evaluate/change_pushes.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -3,8 +3,8 @@
 
 #include <set>
 
-#include "fragmotion/evaluate/explain.hpp"
-#include "fragmotion/policy/anticipate.hpp"
+#include "evaluate/explain.hpp"
+#include "policy/anticipate.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "fragmotion/evaluate/footfalls.hpp"
+#include "evaluate/footfalls.hpp"
 #include "made_track.hpp"
 
 namespace fragmotion {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/evaluate/joint_limits.hpp"
-#include "fragmotion/fragments/packed_pool.hpp"
+#include "evaluate/joint_limits.hpp"
+#include "fragments/packed_pool.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/evaluate/jumps.hpp"
+#include "evaluate/jumps.hpp"
 #include "made_track.hpp"
 
 namespace fragmotion {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/control/simulated_players.hpp"
-#include "fragmotion/evaluate/motion_metrics.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "control/simulated_players.hpp"
+#include "evaluate/motion_metrics.hpp"
+#include "runtime/player.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "fragmotion/build/build.hpp"
-#include "fragmotion/control/simulated_players.hpp"
-#include "fragmotion/evaluate/performance.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "build/build.hpp"
+#include "control/simulated_players.hpp"
+#include "evaluate/performance.hpp"
+#include "runtime/player.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

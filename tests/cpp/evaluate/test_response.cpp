@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "fragmotion/evaluate/response.hpp"
+#include "evaluate/response.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

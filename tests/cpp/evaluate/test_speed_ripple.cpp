@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "evaluate/speed_ripple.hpp"
 #include "evaluate/tracks.hpp"
-#include "fragmotion/evaluate/speed_ripple.hpp"
 #include "made_track.hpp"
 #include "small_character.hpp"
 

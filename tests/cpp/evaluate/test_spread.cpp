@@ -3,8 +3,8 @@
 
 #include <numeric>
 
-#include "fragmotion/evaluate/body_track.hpp"
-#include "fragmotion/evaluate/spread.hpp"
+#include "evaluate/body_track.hpp"
+#include "evaluate/spread.hpp"
 
 namespace fragmotion {
 namespace {

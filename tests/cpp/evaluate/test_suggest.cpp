@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "fragmotion/build/build.hpp"
-#include "fragmotion/control/simulated_players.hpp"
-#include "fragmotion/evaluate/performance.hpp"
-#include "fragmotion/evaluate/suggest.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "build/build.hpp"
+#include "control/simulated_players.hpp"
+#include "evaluate/performance.hpp"
+#include "evaluate/suggest.hpp"
+#include "runtime/player.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/fragments/body_tips.hpp"
+#include "base/random.hpp"
+#include "fragments/body_tips.hpp"
 #include "small_skeleton.hpp"
 
 namespace fragmotion {

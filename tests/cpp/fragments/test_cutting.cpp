@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "fragmotion/motion/discontinuities.hpp"
 #include "mocap_files.hpp"
+#include "motion/discontinuities.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

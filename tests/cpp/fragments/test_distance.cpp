@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fragmotion/fragments/distance.hpp"
-#include "fragmotion/motion/pose.hpp"
+#include "fragments/distance.hpp"
+#include "motion/pose.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

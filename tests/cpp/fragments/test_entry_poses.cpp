@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/fragments/body_tips.hpp"
-#include "fragmotion/fragments/entry_poses.hpp"
-#include "fragmotion/fragments/packed_pool.hpp"
-#include "fragmotion/motion/pose.hpp"
+#include "fragments/body_tips.hpp"
+#include "fragments/entry_poses.hpp"
+#include "fragments/packed_pool.hpp"
+#include "motion/pose.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

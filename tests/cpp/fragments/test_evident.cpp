@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "fragmotion/fragments/coverage.hpp"
-#include "fragmotion/motion/facing.hpp"
+#include "fragments/coverage.hpp"
+#include "motion/facing.hpp"
 #include "small_skeleton.hpp"
 #include "walker.hpp"
 

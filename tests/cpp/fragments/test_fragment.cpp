@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/fragments/fragment.hpp"
+#include "fragments/fragment.hpp"
 
 namespace fragmotion {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "fragmotion/fragments/hips_velocity.hpp"
-#include "fragmotion/fragments/packed_pool.hpp"
+#include "fragments/hips_velocity.hpp"
+#include "fragments/packed_pool.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "fragmotion/fragments/standing.hpp"
-#include "fragmotion/motion/legs.hpp"
-#include "fragmotion/motion/mirror.hpp"
+#include "fragments/standing.hpp"
 #include "measured_clips.hpp"
+#include "motion/legs.hpp"
+#include "motion/mirror.hpp"
 
 namespace fragmotion {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "fragmotion/fragments/successors.hpp"
+#include "fragments/successors.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <limits>
 
-#include "fragmotion/fragments/blend.hpp"
-#include "fragmotion/fragments/coverage.hpp"
-#include "fragmotion/fragments/distance.hpp"
-#include "fragmotion/fragments/gait_edit.hpp"
-#include "fragmotion/fragments/synthesis.hpp"
-#include "fragmotion/motion/legs.hpp"
-#include "fragmotion/motion/pose.hpp"
+#include "fragments/blend.hpp"
+#include "fragments/coverage.hpp"
+#include "fragments/distance.hpp"
+#include "fragments/gait_edit.hpp"
+#include "fragments/synthesis.hpp"
 #include "measured_clips.hpp"
 #include "mocap_files.hpp"
+#include "motion/legs.hpp"
+#include "motion/pose.hpp"
 
 namespace fragmotion {
 namespace {

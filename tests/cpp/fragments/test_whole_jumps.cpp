@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "fragmotion/fragments/packed_pool.hpp"
-#include "fragmotion/fragments/whole_jumps.hpp"
+#include "fragments/packed_pool.hpp"
+#include "fragments/whole_jumps.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

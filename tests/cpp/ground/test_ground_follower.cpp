@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "allocations.hpp"
-#include "fragmotion/control/simulated_players.hpp"
-#include "fragmotion/ground/ground_follower.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "control/simulated_players.hpp"
+#include "ground/ground_follower.hpp"
+#include "runtime/player.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <limits>
 
-#include "fragmotion/io/bvh.hpp"
+#include "io/bvh.hpp"
 #include "mocap_files.hpp"
 
 namespace fragmotion {

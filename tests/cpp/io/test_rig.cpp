@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fragmotion/io/rig.hpp"
+#include "io/rig.hpp"
 #include "small_skeleton.hpp"
 
 namespace fragmotion {

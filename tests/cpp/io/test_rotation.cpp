@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fragmotion/io/rotation.hpp"
+#include "io/rotation.hpp"
 #include "small_skeleton.hpp"
 
 namespace fragmotion {

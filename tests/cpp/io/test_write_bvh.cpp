@@ -7,8 +7,8 @@
 #include <iterator>
 #include <limits>
 
-#include "fragmotion/io/asf_amc.hpp"
-#include "fragmotion/io/bvh.hpp"
+#include "io/asf_amc.hpp"
+#include "io/bvh.hpp"
 #include "mocap_files.hpp"
 #include "small_skeleton.hpp"
 

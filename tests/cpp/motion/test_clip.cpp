@@ -7,8 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "fragmotion/motion/clip.hpp"
-#include "fragmotion/skeleton/kinematics.hpp"
+#include "motion/clip.hpp"
+#include "skeleton/kinematics.hpp"
+#include "skeleton/roles.hpp"
 #include "small_skeleton.hpp"
 
 namespace fragmotion {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/motion/contacts.hpp"
-#include "fragmotion/motion/foot_paths.hpp"
+#include "motion/contacts.hpp"
+#include "motion/foot_paths.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

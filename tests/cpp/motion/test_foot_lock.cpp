@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/motion/foot_lock.hpp"
-#include "fragmotion/motion/legs.hpp"
+#include "motion/foot_lock.hpp"
+#include "motion/legs.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

@@ -3,9 +3,10 @@
 
 #include <cmath>
 
-#include "fragmotion/io/bvh.hpp"
-#include "fragmotion/motion/mirror.hpp"
+#include "io/bvh.hpp"
 #include "mocap_files.hpp"
+#include "motion/mirror.hpp"
+#include "skeleton/roles.hpp"
 #include "small_skeleton.hpp"
 #include "walker.hpp"
 

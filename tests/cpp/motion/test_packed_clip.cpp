@@ -5,10 +5,11 @@
 #include <cmath>
 #include <iostream>
 
-#include "fragmotion/fragments/packed_pool.hpp"
-#include "fragmotion/io/bvh.hpp"
-#include "fragmotion/motion/pose.hpp"
+#include "fragments/packed_pool.hpp"
+#include "io/bvh.hpp"
 #include "mocap_files.hpp"
+#include "motion/pose.hpp"
+#include "skeleton/roles.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

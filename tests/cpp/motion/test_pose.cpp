@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "fragmotion/motion/pose.hpp"
+#include "motion/pose.hpp"
 #include "small_skeleton.hpp"
 
 namespace fragmotion {

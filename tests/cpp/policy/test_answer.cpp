@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "fragmotion/policy/answer.hpp"
-#include "fragmotion/policy/greedy.hpp"
+#include "policy/answer.hpp"
+#include "policy/greedy.hpp"
 #include "random_quality.hpp"
 
 namespace fragmotion {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/policy/bridge.hpp"
+#include "base/random.hpp"
+#include "policy/bridge.hpp"
 #include "small_character.hpp"
 #include "split_bones.hpp"
 

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "fragmotion/classes/clustering.hpp"
-#include "fragmotion/policy/anticipate.hpp"
-#include "fragmotion/policy/greedy.hpp"
-#include "fragmotion/policy/optimal.hpp"
-#include "fragmotion/policy/quality_table.hpp"
+#include "classes/clustering.hpp"
 #include "mocap_files.hpp"
+#include "policy/anticipate.hpp"
+#include "policy/greedy.hpp"
+#include "policy/optimal.hpp"
+#include "policy/quality_table.hpp"
 #include "random_quality.hpp"
 #include "walker.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/policy/repair.hpp"
+#include "policy/repair.hpp"
 #include "random_quality.hpp"
 
 namespace fragmotion {

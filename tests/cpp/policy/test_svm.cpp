@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "fragmotion/policy/greedy.hpp"
-#include "fragmotion/policy/optimal.hpp"
-#include "fragmotion/policy/svm.hpp"
 #include "mocap_files.hpp"
+#include "policy/greedy.hpp"
+#include "policy/optimal.hpp"
+#include "policy/svm.hpp"
 #include "random_quality.hpp"
 #include "walker.hpp"
 

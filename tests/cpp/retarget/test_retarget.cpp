@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "fragmotion/retarget/retarget.hpp"
 #include "humanoids.hpp"
 #include "mocap_files.hpp"
+#include "retarget/retarget.hpp"
+#include "skeleton/roles.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

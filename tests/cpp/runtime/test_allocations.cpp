@@ -6,7 +6,7 @@
 #include <new>
 
 #include "allocations.hpp"
-#include "fragmotion/runtime/crowd.hpp"
+#include "runtime/crowd.hpp"
 #include "small_character.hpp"
 
 std::atomic<std::size_t> fragmotion::allocations{0}, fragmotion::largest_allocation{0}, fragmotion::allocated_bytes{0};

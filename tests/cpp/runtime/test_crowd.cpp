@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "fragmotion/runtime/step_on_threads.hpp"
 #include "mocap_files.hpp"
+#include "runtime/step_on_threads.hpp"
 #include "small_character.hpp"
 #include "steering.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fragmotion/runtime/player.hpp"
+#include "runtime/player.hpp"
 #include "small_character.hpp"
 #include "steering.hpp"
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "fragmotion/build/exclude_classes.hpp"
-#include "fragmotion/fragments/successors.hpp"
-#include "fragmotion/policy/answer.hpp"
-#include "fragmotion/runtime/fragment_selector.hpp"
+#include "build/exclude_classes.hpp"
+#include "fragments/successors.hpp"
+#include "policy/answer.hpp"
+#include "runtime/fragment_selector.hpp"
 #include "small_character.hpp"
 #include "split_bones.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/runtime/inertialization.hpp"
+#include "base/random.hpp"
+#include "runtime/inertialization.hpp"
 
 namespace fragmotion {
 namespace {

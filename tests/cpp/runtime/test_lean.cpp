@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "fragmotion/runtime/lean.hpp"
-#include "fragmotion/skeleton/two_bone_ik.hpp"
+#include "runtime/lean.hpp"
+#include "skeleton/two_bone_ik.hpp"
 #include "steering.hpp"
 #include "walker.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/runtime/look_stitch.hpp"
+#include "runtime/look_stitch.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/motion/pose.hpp"
-#include "fragmotion/runtime/playback.hpp"
+#include "motion/pose.hpp"
+#include "runtime/playback.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -6,12 +6,13 @@
 #include <limits>
 #include <utility>
 
-#include "fragmotion/control/simulated_players.hpp"
-#include "fragmotion/evaluate/performance.hpp"
-#include "fragmotion/fragments/successors.hpp"
-#include "fragmotion/motion/pose.hpp"
-#include "fragmotion/runtime/player.hpp"
+#include "control/simulated_players.hpp"
+#include "evaluate/performance.hpp"
+#include "fragments/successors.hpp"
 #include "mocap_files.hpp"
+#include "motion/pose.hpp"
+#include "runtime/player.hpp"
+#include "skeleton/roles.hpp"
 #include "small_character.hpp"
 #include "steering.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "fragmotion/runtime/player_constants.hpp"
+#include "runtime/player_constants.hpp"
 
 namespace fragmotion {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "allocations.hpp"
-#include "fragmotion/character/policy_file.hpp"
-#include "fragmotion/control/simulated_players.hpp"
-#include "fragmotion/evaluate/performance.hpp"
-#include "fragmotion/runtime/crowd.hpp"
+#include "character/policy_file.hpp"
+#include "control/simulated_players.hpp"
+#include "evaluate/performance.hpp"
 #include "made_moves.hpp"
 #include "mocap_files.hpp"
+#include "runtime/crowd.hpp"
 #include "steering.hpp"
 
 namespace fragmotion {

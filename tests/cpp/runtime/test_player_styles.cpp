@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "allocations.hpp"
-#include "fragmotion/control/simulated_players.hpp"
-#include "fragmotion/evaluate/motion_metrics.hpp"
-#include "fragmotion/evaluate/performance.hpp"
-#include "fragmotion/runtime/crowd.hpp"
+#include "control/simulated_players.hpp"
+#include "evaluate/motion_metrics.hpp"
+#include "evaluate/performance.hpp"
 #include "made_styles.hpp"
 #include "mocap_files.hpp"
+#include "runtime/crowd.hpp"
 #include "steering.hpp"
 
 namespace fragmotion {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/runtime/root_governor.hpp"
+#include "runtime/root_governor.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "fragmotion/runtime/step_sequence.hpp"
+#include "runtime/step_sequence.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

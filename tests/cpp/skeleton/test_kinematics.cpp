@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "fragmotion/skeleton/kinematics.hpp"
+#include "skeleton/kinematics.hpp"
 #include "small_skeleton.hpp"
 
 namespace fragmotion {

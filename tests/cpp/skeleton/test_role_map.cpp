@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <set>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/skeleton/role_map.hpp"
+#include "base/random.hpp"
 #include "humanoids.hpp"
 #include "mocap_files.hpp"
+#include "skeleton/role_map.hpp"
+#include "skeleton/roles.hpp"
 
 namespace fragmotion {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "fragmotion/skeleton/same_skeleton.hpp"
+#include "skeleton/same_skeleton.hpp"
 #include "small_skeleton.hpp"
 
 namespace fragmotion {

@@ -6,11 +6,12 @@
 #include <map>
 #include <utility>
 
-#include "fragmotion/io/asf_amc.hpp"
-#include "fragmotion/io/bvh.hpp"
-#include "fragmotion/motion/take.hpp"
-#include "fragmotion/skeleton/skeleton.hpp"
+#include "io/asf_amc.hpp"
+#include "io/bvh.hpp"
 #include "mocap_files.hpp"
+#include "motion/take.hpp"
+#include "skeleton/roles.hpp"
+#include "skeleton/skeleton.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {

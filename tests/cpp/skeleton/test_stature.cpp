@@ -11,11 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "fragmotion/io/asf_amc.hpp"
-#include "fragmotion/io/bvh.hpp"
-#include "fragmotion/skeleton/skeleton.hpp"
 #include "humanoids.hpp"
+#include "io/asf_amc.hpp"
+#include "io/bvh.hpp"
 #include "mocap_files.hpp"
+#include "skeleton/roles.hpp"
+#include "skeleton/skeleton.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

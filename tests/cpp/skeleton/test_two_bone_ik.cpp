@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragmotion/base/random.hpp"
-#include "fragmotion/motion/legs.hpp"
+#include "base/random.hpp"
+#include "motion/legs.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {

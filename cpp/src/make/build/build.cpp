@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+#include "build/build.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "base/listed.hpp"
+#include "base/parallel.hpp"
+#include "base/ranges.hpp"
+#include "build/stages.hpp"
+#include "classes/clustering.hpp"
+#include "fragments/entry_poses.hpp"
+#include "fragments/evident.hpp"
+#include "fragments/packed_pool.hpp"
+#include "fragments/synthesis.hpp"
+#include "fragments/whole_jumps.hpp"
+#include "motion/legs.hpp"
+#include "motion/mirror.hpp"
+#include "policy/anticipate.hpp"
+#include "policy/bridge.hpp"
+#include "policy/greedy.hpp"
+#include "policy/iterate.hpp"
+#include "policy/optimal.hpp"
+#include "policy/quality_table.hpp"
+#include "policy/svm.hpp"
+#include "skeleton/roles.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kBalance = -0.75;    // each of k fragments that perform one control counts k^(-3/4) in clustering
+constexpr double kSideHop = 0.2;      // weight of a hop that goes to a side,
+constexpr double kTurningHop = 0.02;  // and of one that turns
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Cuts the clips from `first` on and marks their fragments.
+void cut(FragmentPool& pool, const Kinematics& kinematics, std::size_t first, Origin origin,
+         const CutOptions& options) {
+  for (std::size_t c = first; c < pool.clips.size(); ++c) {
+    const std::size_t before = pool.fragments.size();
+    cut_fragments(pool, static_cast<int>(c), find_contacts(kinematics, pool.clips[c]), options);
+    for (std::size_t i = before; i < pool.fragments.size(); ++i) pool.fragments[i].origin = origin;
+  }
+}
+
+// The captured and mirrored fragments, without their evident controls.
+FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>& clips, const BuildOptions& options) {
+  const Skeleton& skeleton = kinematics.skeleton();
+  FragmentPool pool{skeleton, {}, {}};
+  for (const Clip& clip : clips) pool.clips.push_back(make_clip(skeleton, clip));
+  cut(pool, kinematics, 0, Origin::captured, options.cut);
+  if (pool.fragments.empty()) {
+    throw std::invalid_argument("the takes are too short: none holds a fragment of " +
+                                std::to_string(options.cut.shortest) + " s");
+  }
+  if (options.mirror) {
+    const Mirror mirror(kinematics, pool.clips);
+    for (std::size_t c = 0; c < clips.size(); ++c) pool.clips.push_back(mirror(pool.clips[c]));
+    cut(pool, kinematics, clips.size(), Origin::mirrored, options.cut);
+  }
+  return pool;
+}
+
+// Fills the evident controls; returns the space that fits them and the usual height of the centre of mass.
+ControlSpace perform(FragmentPool& pool, const Kinematics& kinematics, const ControlOptions& options, double& usual) {
+  const double scale = standard_scale(pool.skeleton);
+  std::vector<BodyMotion> motions;
+  for (const Clip& clip : pool.clips) motions.push_back(body_motion(kinematics, clip));
+  usual = usual_height(motions);
+  const ControlSpace standard(1.2, 3.3, ControlSpace().turn_rate(), scale);
+  std::vector<Control> evident;
+  for (Fragment& f : pool.fragments) {
+    f.evident = evident_control(motions[f.clip], pool.clips[f.clip].rate, f.begin, f.end, usual, standard);
+    evident.push_back(f.evident);
+  }
+  const ControlSpace space = control_space_of(evident, scale, options);
+  for (Fragment& f : pool.fragments) f.evident.turn *= standard.turn_rate() / space.turn_rate();
+  return space;
+}
+
+// What the takes hold of the controls, beside what was asked for.
+void report_held(Character& c, const FragmentPool& pool) {
+  std::vector<Control> evident;
+  for (const Fragment& f : pool.fragments) evident.push_back(f.evident);
+  const HeldControls held = held_controls(evident, c.space);
+  c.report["speeds_held"] = held.speeds;
+  c.report["directions_held"] = held.directions;
+  c.report["turn_held"] = held.turn ? 1 : 0;
+  c.report["jump_held"] = held.jump ? 1 : 0;
+}
+
+// Fragments that differ by less than single precision are the same.
+void round_to_single(std::vector<Clip>& clips) {
+  for (Clip& clip : clips) {
+    for (double& value : clip.root_positions) value = static_cast<float>(value);
+    for (double& value : clip.rotations) value = static_cast<float>(value);
+    for (double& value : clip.headings) value = static_cast<float>(value);
+  }
+}
+
+// What many fragments perform must not take all classes from what few do. Hops that turn may be in a class with those
+// that do not, where the player draws them; those that are pressed for most, on the spot and ahead, should not be in
+// one with those to the side.
+std::vector<float> balanced_weights(const Character& c) {
+  std::vector<float> weights;
+  for (const Fragment& f : c.pool.fragments) {
+    const int nearest = c.space.nearest(f.evident);
+    const Control control = c.space.point(nearest);
+    const double share = std::pow(c.coverage.counts[nearest], kBalance);
+    const bool turns = control.turn != 0, ahead = control.x == 0 && control.y >= 0;
+    const double wanted = !control.jumps() ? 1 : turns ? kTurningHop : ahead ? 1 : kSideHop;
+    weights.push_back(static_cast<float>(share * wanted));
+  }
+  return weights;
+}
+
+// Which fragments jump: 1 each.
+std::vector<char> jumping(const std::vector<Fragment>& fragments) {
+  std::vector<char> jumping;
+  for (const Fragment& f : fragments) jumping.push_back(f.evident.jumps() ? 1 : 0);
+  return jumping;
+}
+
+// Scores classes by the quality of Optimal's paths over the traces.
+ClassScore serves_traces(const Character& c, const Trajectories& t, const std::vector<std::vector<int>>& traces) {
+  return [&](const Classes& classes) {
+    const Quality quality = quality_table(c.pool.fragments, t, classes, c.space);
+    double sum = 0;
+    for (const std::vector<int>& trace : traces) sum += optimal_path(quality, trace).quality;
+    return sum;
+  };
+}
+
+Policy policy_named(const std::string& name, const Character& c, const Trajectories& t,
+                    const std::vector<std::vector<int>>& traces, int threads, const Progress& progress) {
+  if (name == "greedy") return greedy_policy(c.quality);
+  if (name == "anticipate") return anticipate_policy(c.quality, traces);
+  if (name == "iterate") return iterate_policy(c.quality, traces);
+  SvmOptions options;
+  options.threads = threads;
+  return svm_policy(c.quality, traces, class_features(t, c.classes), c.space, options, progress).policy;
+}
+
+void check(const Trace& trace, std::size_t number) {
+  if (trace.size() < 2) throw std::invalid_argument("a trace must hold at least two controls");
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    for (const double value : {trace[i].x, trace[i].y, trace[i].turn, trace[i].jump}) {
+      if (std::isfinite(value)) continue;
+      throw std::invalid_argument("control " + std::to_string(i) + " of trace " + std::to_string(number) +
+                                  " is not a number");
+    }
+  }
+}
+
+// Before the stages that would find it, which take their time.
+void check(const BuildOptions& options) {
+  check(options.cut);
+  check(options.controls.layout);
+  require_range("the number of classes", options.classes, 1, kMostClasses);
+  require_range("the number of restarts", std::max(1, options.restarts), 1, kMostRestarts);
+}
+
+void check(const std::vector<Clip>& clips, const std::vector<Trace>& traces, const BuildOptions& options) {
+  if (clips.empty()) throw std::invalid_argument("there are no takes to build from");
+  if (traces.empty()) throw std::invalid_argument("there is no trace to learn from");
+  for (std::size_t i = 0; i < traces.size(); ++i) check(traces[i], i);
+  check(options);
+  if (options.policies.empty()) throw std::invalid_argument("no policy is asked for");
+  const std::vector<std::string>& names = policy_names();
+  for (const std::string& name : options.policies) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw std::invalid_argument("there is no policy \"" + name + "\"; the policies are " + listed(names));
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& policy_names() {
+  static const std::vector<std::string> names{"anticipate", "iterate", "svm", "greedy"};
+  return names;
+}
+
+std::vector<Contacts> contacts_of(const FragmentPool& pool, int threads) {
+  std::vector<bool> captured(pool.clips.size(), false);
+  for (const Fragment& f : pool.fragments) {
+    captured[f.clip] = f.origin == Origin::captured || f.origin == Origin::mirrored;
+  }
+  std::vector<Contacts> contacts(pool.clips.size());
+  const auto find = [&](bool whether, const Floors* floors) {
+    parallel_for(static_cast<int>(contacts.size()), thread_count(threads), [&](int begin, int end) {
+      const Kinematics kinematics(pool.skeleton);
+      for (int c = begin; c < end; ++c) {
+        if (captured[c] == whether) contacts[c] = find_plants(kinematics, pool.clips[c], floors);
+      }
+    });
+  };
+  find(true, nullptr);
+  std::vector<Contacts> of_takes;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (captured[c]) of_takes.push_back(contacts[c]);
+  }
+  const Floors usual = usual_floors(of_takes);
+  find(false, &usual);
+  return contacts;
+}
+
+Progress part_of(const Progress& progress, double from, double to) {
+  if (!progress) return {};
+  return [=](double fraction, const std::string& stage) { return progress(from + (to - from) * fraction, stage); };
+}
+
+Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
+                 const BuildOptions& options, const Progress& progress) {
+  check(clips, traces, options);
+  Material material{std::make_shared<Character>(), {}, {}};
+  Character& c = *material.character;
+  Stopwatch stage;
+  report(progress, 0, "Cutting fragments");
+  const Kinematics kinematics(make_skeleton(skeleton));
+  check_stature(kinematics.skeleton());
+  FragmentPool pool = captured_pool(kinematics, clips, options);
+  c.report["captured"] = static_cast<double>(pool.fragments.size());
+  double usual = 0;
+  c.space = perform(pool, kinematics, options.controls, usual);
+  report_held(c, pool);
+  c.report["cut_seconds"] = stage.lap();
+  report(progress, 0.5, "Synthesizing fragments");
+  if (options.synthesize) synthesize(pool, c.space, usual, options.cut.longest);
+  round_to_single(pool.clips);
+  c.contacts = contacts_of(pool, options.threads);
+  c.legs = find_legs(kinematics, pool.clips);
+  c.pool = pack(pool, options.threads);
+  find_whole_jumps(c.pool);
+  pool.fragments = c.pool.fragments;
+  c.coverage = coverage(c.pool.fragments, c.space);
+  c.report["fragments"] = static_cast<double>(c.pool.fragments.size());
+  c.report["synthesize_seconds"] = stage.lap();
+  report(progress, 0.9, "Measuring fragments");
+  material.trajectories = trajectories(pool, kPoses, options.threads);
+  c.entry_poses = entry_poses(c.pool);
+  for (const Trace& trace : traces) material.traces.push_back(snap(c.space, trace));
+  c.report["measure_seconds"] = stage.lap();
+  return material;
+}
+
+void learn(const Material& material, const BuildOptions& options, const Progress& progress) {
+  Character& c = *material.character;
+  const Trajectories& t = material.trajectories;
+  Stopwatch stage;
+  ClusterOptions clustering;
+  clustering.classes = options.classes;
+  clustering.restarts = options.restarts;
+  clustering.seed = options.seed;
+  clustering.threads = options.threads;
+  clustering.kinds = jumping(c.pool.fragments);
+  c.classes =
+      cluster(t, balanced_weights(c), clustering, serves_traces(c, t, material.traces), part_of(progress, 0, 0.5));
+  c.report["classes"] = c.classes.count;
+  c.report["cluster_seconds"] = stage.lap();
+  c.quality = quality_table(c.pool.fragments, t, c.classes, c.space);
+  c.bridges = stand_bridges(c.pool.fragments, t, c.classes, c.space);
+  c.report["quality_seconds"] = stage.lap();
+  c.control_model = control_model(material.traces, kGenericPrior, c.space.size());
+  c.policies.clear();
+  for (const std::string& name : options.policies) {
+    c.policies.push_back(policy_named(name, c, t, material.traces, options.threads, part_of(progress, 0.5, 1)));
+    c.report[name + "_seconds"] = stage.lap();
+  }
+  repair_policies(c);
+}
+
+Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
+                const BuildOptions& options, const Progress& progress) {
+  Stopwatch whole;
+  const Material material = prepare(skeleton, clips, traces, options, part_of(progress, 0, 0.35));
+  learn(material, options, part_of(progress, 0.35, 1));
+  Character& c = *material.character;
+  c.report["seconds"] = whole.lap();
+  report(progress, 1, "Done");
+  return std::move(c);
+}
+
+}  // namespace fragmotion

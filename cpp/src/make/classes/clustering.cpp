@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include "classes/clustering.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+
+#include "base/parallel.hpp"
+#include "base/random.hpp"
+#include "base/ranges.hpp"
+#include "classes/kmeans.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr int kPosesSummed = 8;
+constexpr int kSampled = 100;     // fragments for each class
+constexpr int kHardlyAny = 1000;  // one fragment in so many
+constexpr float kLargest = 1e9F;  // m
+constexpr int kMostIterations = 1000000;
+const char* const kStage = "Clustering";
+
+// Renumbers the classes by their representatives' order.
+Classes ordered(const KMeans& run, int count) {
+  const std::vector<int> medoids = run.medoids();
+  std::vector<int> order(count), rank(count);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return medoids[a] < medoids[b]; });
+  Classes classes;
+  classes.count = count;
+  classes.inertia = run.inertia();
+  for (int k = 0; k < count; ++k) {
+    rank[order[k]] = k;
+    classes.representatives.push_back(medoids[order[k]]);
+  }
+  for (const int label : run.labels()) classes.labels.push_back(rank[label]);
+  return classes;
+}
+
+// Sums of every few poses of each bone tip. Their Dis is at most that of the poses, and hardly less: neighbouring poses
+// differ alike. Returns [count, 3, stride].
+std::vector<float> summed_poses(const Trajectories& t, int threads, int& stride) {
+  const int tips = t.tips > 0 ? t.tips : t.stride, group = t.tips > 0 ? kPosesSummed * tips : tips;
+  stride = padded((t.stride + group - 1) / group * tips);
+  std::vector<float> sums(static_cast<std::size_t>(t.count) * 3 * stride, 0);
+  parallel_for(3 * t.count, threads, [&](int begin, int end) {
+    for (int row = begin; row < end; ++row) {
+      const float* from = &t.whole[static_cast<std::size_t>(row) * t.stride];
+      float* to = &sums[static_cast<std::size_t>(row) * stride];
+      for (int pose = 0; pose < t.stride; pose += tips) {
+        float* sum = to + pose / group * tips;
+        for (int i = 0; i < std::min(tips, t.stride - pose); ++i) sum[i] += from[pose + i];
+      }
+    }
+  });
+  return sums;
+}
+
+// What the rounding of coordinates may add to a distance of sums of poses.
+float rounding(const Trajectories& t) {
+  float largest = 0;
+  for (const float x : t.whole) largest = std::max(largest, std::abs(x));
+  return 8 * std::numeric_limits<float>::epsilon() * static_cast<float>(t.stride) * largest;
+}
+
+// Every few of the fragments, with one at least of each kind.
+std::vector<int> even_sample(const std::vector<char>& kinds, int count) {
+  const auto pool = static_cast<long long>(kinds.size());
+  std::vector<int> fragments(count);
+  for (int i = 0; i < count; ++i) fragments[i] = static_cast<int>(pool * i / count);
+  for (const char kind : {0, 1}) {
+    const auto is = [&](int i) { return kinds[i] == kind; };
+    const auto first = std::find(kinds.begin(), kinds.end(), kind);
+    if (first == kinds.end() || std::any_of(fragments.begin(), fragments.end(), is)) continue;
+    fragments.back() = static_cast<int>(first - kinds.begin());
+  }
+  return fragments;
+}
+
+template <typename T>
+std::vector<T> some(const std::vector<T>& values, const std::vector<int>& fragments) {
+  std::vector<T> chosen;
+  for (const int i : fragments) chosen.push_back(values[i]);
+  return chosen;
+}
+
+Trajectories some(const Trajectories& t, const std::vector<int>& fragments) {
+  Trajectories chosen;
+  chosen.count = static_cast<int>(fragments.size());
+  chosen.tips = t.tips;
+  chosen.stride = t.stride;
+  const std::size_t width = std::size_t{3} * t.stride;
+  chosen.whole.reserve(fragments.size() * width);
+  for (const int i : fragments) {
+    chosen.whole.insert(chosen.whole.end(), t.trajectory(i), t.trajectory(i) + width);
+  }
+  return chosen;
+}
+
+// Finds classes at two resolutions: first among the sums of poses, then, from there, among the poses.
+class Clustering {
+ public:
+  Clustering(const Trajectories& t, const std::vector<float>& weights, const std::vector<char>& kinds,
+             const ClusterOptions& options)
+      : classes_(options.classes),
+        iterations_(options.iterations),
+        few_(t.count / kHardlyAny),
+        fine_{t.count, t.stride, t.whole.data(), weights.data(), kinds.data()},
+        coarse_{t.count, 0, nullptr, weights.data(), kinds.data()},
+        sums_(summed_poses(t, thread_count(options.threads), coarse_.stride)),
+        rounding_(rounding(t)) {
+    coarse_.rows = sums_.data();
+  }
+  Clustering(const Clustering&) = delete;
+  Clustering& operator=(const Clustering&) = delete;
+
+  // From a random start.
+  Classes operator()(Random random, int threads) const {
+    KMeans coarse(coarse_, classes_, threads);
+    coarse.seed(random);
+    return settled(coarse, threads);
+  }
+
+  // From the labels of some of the fragments; -1 is none.
+  Classes operator()(const std::vector<int>& labels, int threads) const {
+    KMeans coarse(coarse_, classes_, threads);
+    coarse.start(labels, std::vector<float>(labels.size() * classes_, 0));
+    return settled(coarse, threads);
+  }
+
+ private:
+  Classes settled(KMeans& coarse, int threads) const {
+    coarse.settle(iterations_, few_);
+    std::vector<float> lower = coarse.take_lower();
+    for (float& bound : lower) bound -= rounding_;
+    KMeans fine(fine_, classes_, threads);
+    fine.start(coarse.labels(), std::move(lower));
+    fine.settle(iterations_, few_);
+    return ordered(fine, classes_);
+  }
+
+  int classes_, iterations_;
+  int few_;  // fragments of which it does not matter that they still move
+  Points fine_, coarse_;
+  std::vector<float> sums_;
+  float rounding_;
+};
+
+// Finds classes among an even sample first where the pool is large.
+class SampledClustering {
+ public:
+  SampledClustering(const Trajectories& t, const std::vector<float>& weights, const std::vector<char>& kinds,
+                    const ClusterOptions& options)
+      : pool_(t.count),
+        fragments_(even_sample(kinds, kSampled * options.classes)),
+        sample_(some(t, fragments_)),
+        weights_(some(weights, fragments_)),
+        kinds_(some(kinds, fragments_)),
+        among_sample_(sample_, weights_, kinds_, options),
+        among_all_(t, weights, kinds, options) {}
+
+  Classes operator()(Random random, int threads) const {
+    const Classes found = among_sample_(random, threads);
+    std::vector<int> labels(pool_, -1);
+    for (std::size_t i = 0; i < fragments_.size(); ++i) labels[fragments_[i]] = found.labels[i];
+    return among_all_(labels, threads);
+  }
+
+ private:
+  int pool_;
+  std::vector<int> fragments_;
+  Trajectories sample_;
+  std::vector<float> weights_;
+  std::vector<char> kinds_;
+  Clustering among_sample_, among_all_;
+};
+
+// The best of all restarts; each runs on one thread, unless there are more threads than restarts.
+template <typename Find>
+Classes best_run(const Find& find, const ClusterOptions& options, const ClassScore& score, const Progress& progress) {
+  const int runs = std::max(1, options.restarts), threads = thread_count(options.threads);
+  Random seeds(options.seed);
+  std::vector<Random> starts;
+  for (int run = 0; run < runs; ++run) starts.emplace_back(seeds.next());
+  std::vector<Classes> found(runs);
+  parallel_for(runs, threads, [&](int begin, int end) {
+    const bool calling = begin == 0;
+    for (int run = begin; run < end; ++run) {
+      if (calling) report(progress, static_cast<double>(run) / end, kStage);
+      found[run] = find(starts[run], std::max(1, threads / runs));
+    }
+  });
+  report(progress, 1, kStage);
+  std::vector<double> scores;
+  for (const Classes& classes : found) scores.push_back(score ? score(classes) : -classes.inertia);
+  return found[std::max_element(scores.begin(), scores.end()) - scores.begin()];
+}
+
+void check(const Trajectories& t, const std::vector<float>& weights, const std::vector<char>& kinds) {
+  if (t.stride < 1) throw std::invalid_argument("a fragment needs at least one point");
+  if (t.whole.size() != std::size_t{3} * t.count * t.stride || t.stride % kLanes != 0) {
+    throw std::invalid_argument("every fragment needs as many points");
+  }
+  if (static_cast<int>(weights.size()) != t.count) throw std::invalid_argument("every fragment needs a weight");
+  if (static_cast<int>(kinds.size()) != t.count ||
+      std::any_of(kinds.begin(), kinds.end(), [](char kind) { return kind != 0 && kind != 1; })) {
+    throw std::invalid_argument("every fragment needs a kind, 0 or 1");
+  }
+  for (int i = 0; i < t.count; ++i) {
+    if (!(weights[i] > 0 && std::isfinite(weights[i]))) {
+      throw std::invalid_argument("fragment " + std::to_string(i) + ": its weight must be a number over 0");
+    }
+    const float* row = t.trajectory(i);
+    if (!std::all_of(row, row + std::size_t{3} * t.stride, [](float x) { return std::abs(x) <= kLargest; })) {
+      throw std::invalid_argument("fragment " + std::to_string(i) +
+                                  ": a coordinate is not a number, or more than a million kilometres");
+    }
+  }
+}
+
+// The number of different fragments, if it is below `most`.
+int distinct(const Trajectories& t, int most) {
+  const std::size_t width = std::size_t{3} * t.stride;
+  const auto before = [&](int a, int b) {
+    return std::lexicographical_compare(t.trajectory(a), t.trajectory(a) + width, t.trajectory(b),
+                                        t.trajectory(b) + width);
+  };
+  std::set<int, decltype(before)> different(before);
+  for (int i = 0; i < t.count && static_cast<int>(different.size()) < most; ++i) different.insert(i);
+  return static_cast<int>(different.size());
+}
+
+void check_count(const Trajectories& t, int classes) {
+  require_range("the number of classes", classes, 1, kMostClasses);
+  const auto too_few = [&](const char* kind, int count) {
+    return std::invalid_argument(std::to_string(classes) + " classes need as many " + kind + ", but there are only " +
+                                 std::to_string(count) + ": ask for fewer classes or add takes");
+  };
+  if (classes > t.count) throw too_few("fragments", t.count);
+  const int different = distinct(t, classes);
+  if (classes > different) throw too_few("distinct fragments", different);
+}
+
+}  // namespace
+
+Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
+                const ClassScore& score, const Progress& progress) {
+  const std::vector<char> kinds = options.kinds.empty() ? std::vector<char>(t.count, 0) : options.kinds;
+  require_range("the number of restarts", std::max(1, options.restarts), 1, kMostRestarts);
+  require_range("the number of iterations", options.iterations, 1, kMostIterations);
+  check(t, weights, kinds);
+  check_count(t, options.classes);
+  if (t.count / kSampled < options.classes) {
+    return best_run(Clustering(t, weights, kinds, options), options, score, progress);
+  }
+  return best_run(SampledClustering(t, weights, kinds, options), options, score, progress);
+}
+
+}  // namespace fragmotion

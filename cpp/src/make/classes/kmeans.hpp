@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "base/random.hpp"
+#include "fragments/distance.hpp"
+
+namespace fragmotion {
+
+/// Fragments as points of a space in which tip_distance is a norm, each with what it counts (> 0). Points of two kinds
+/// are a thousand kilometres further apart.
+struct Points {
+  int count = 0;
+  int stride = 0;
+  const float* rows = nullptr;     ///< [count, 3, stride]
+  const float* weights = nullptr;  ///< [count]
+  const char* kinds = nullptr;     ///< [count]: 0 or 1
+
+  const float* row(int i) const { return rows + static_cast<std::size_t>(i) * 3 * stride; }
+};
+
+/// k-means with the lower bounds of Elkan ("Using the triangle inequality to accelerate k-means", ICML 2003).
+/// The result does not depend on the number of threads.
+class KMeans {
+ public:
+  KMeans(const Points& points, int classes, int threads);
+
+  /// Greedy k-means++ (Arthur and Vassilvitskii 2007): of several points drawn by their weighted squared distance to
+  /// the nearest mean so far, the one that leaves the smallest inertia is the next mean.
+  void seed(Random& random);
+
+  /// Starts from labels instead; -1 is none yet, and every class needs a label. `lower` are lower bounds [count,
+  /// classes] of the distances between the points and the labels' means; 0 where nothing is known.
+  void start(const std::vector<int>& labels, std::vector<float> lower);
+
+  /// Moves means and points in turns until no more than `few` points move, or `iterations` times. Then the means are
+  /// those of the labels, and no class is empty: one that was has got the point furthest from its mean.
+  void settle(int iterations, int few);
+
+  const std::vector<int>& labels() const { return labels_; }
+  /// Lower bounds [count, classes] of the distances between points and means, which it then no longer has.
+  std::vector<float> take_lower() { return std::move(lower_); }
+  /// Sum over points of weight times squared distance to the own mean.
+  double inertia() const;
+  /// The member of each class that is nearest to its mean.
+  std::vector<int> medoids() const;
+
+ private:
+  static constexpr float kKindsApart = 1e6F;  // m
+
+  struct Candidate;
+
+  float* mean(int k) { return &means_[k * width_]; }
+  const float* mean(int k) const { return &means_[k * width_]; }
+  float& lower(int i, int k) { return lower_[static_cast<std::size_t>(i) * n_ + k]; }
+  float distance(int i, int k) const {
+    return tip_distance(points_.row(i), mean(k), points_.stride) + apart(points_.kinds[i], kinds_[k]);
+  }
+  static float apart(char kind, char other) { return kind == other ? 0 : kKindsApart; }
+
+  std::vector<double> cumulated_squares() const;
+  void measure(Candidate& candidate, int begin, int end) const;
+  double inertia_with(const Candidate& candidate) const;
+  void add_mean(const Candidate& candidate, int k);
+
+  bool refill_empty_classes();
+  void average();
+  void add(int label, double weight, const float* values, int begin, int end);
+  bool move_means();
+  int assign();
+  bool assign(int i);
+
+  Points points_;
+  int n_, threads_;
+  std::size_t width_;
+  std::vector<float> means_;            // [n, 3, stride]
+  std::vector<double> sums_;            // [n, 3, stride] of what averaged_ has in each class, by weight,
+  std::vector<double> masses_;          // [n] its weights,
+  std::vector<double> masses_of_ones_;  // [n] and those of the second kind
+  std::vector<char> kinds_;             // [n] of means
+  std::vector<int> labels_;             // [points]
+  std::vector<int> averaged_;           // [points] the labels whose means these are, -1 none
+  std::vector<float> upper_;            // [points] at least the distance to the own mean
+  std::vector<float> lower_;            // [points, n] at most the distance to each mean
+};
+
+}  // namespace fragmotion

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+#include "control/trace.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/read_file.hpp"
+#include "base/text_reader.hpp"
+#include "base/write_file.hpp"
+#include "control/parse_trace.hpp"
+
+namespace fragmotion {
+
+namespace {
+
+constexpr const char* kColumns[] = {"velocity_x", "velocity_y", "turn", "jump"};
+constexpr double kFastest = 1e9;  // m/s: three times as fast as light
+constexpr const char* kHeader = "velocity_x,velocity_y,turn,jump";
+constexpr std::size_t kNumbers = 4;  // the columns of a control
+constexpr const char* kMove = "move";
+constexpr const char* kStyle = "style";
+constexpr const char* kBlanks = " \t\r";
+
+[[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& cause) {
+  throw std::invalid_argument(file + ":" + std::to_string(line) + ": " + cause);
+}
+
+std::string_view trim(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+}
+
+/// Takes the text up to the next `separator`, trimmed, and drops both from `text`.
+std::string_view take_piece(std::string_view& text, char separator) {
+  const std::size_t end = text.find(separator);
+  const std::string_view piece = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return trim(piece);
+}
+
+/// Takes the next cell and its comma off a row: trimmed, or what its quotes hold, where two of them are one. Nothing
+/// where quotes are elsewhere.
+std::optional<std::string> take_cell(std::string_view& row) {
+  const std::size_t begin = row.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos || row[begin] != '"') {
+    const std::string_view plain = take_piece(row, ',');
+    return plain.find('"') == std::string_view::npos ? std::optional<std::string>(plain) : std::nullopt;
+  }
+  row.remove_prefix(begin + 1);
+  std::string cell;
+  for (bool open = true; open;) {
+    const std::size_t quote = row.find('"');
+    if (quote == std::string_view::npos) return std::nullopt;
+    open = row.substr(quote + 1, 1) == "\"";
+    cell += row.substr(0, quote + (open ? 1 : 0));
+    row.remove_prefix(quote + (open ? 2 : 1));
+  }
+  return take_piece(row, ',').empty() ? std::optional<std::string>(cell) : std::nullopt;
+}
+
+std::size_t count_cells(std::string_view row) {
+  std::size_t count = 1;
+  bool quoted = false;
+  for (const char c : row) {
+    if (c == '"') quoted = !quoted;
+    if (c == ',' && !quoted) ++count;
+  }
+  return count;
+}
+
+/// The columns after the numbers, as the header names them.
+std::vector<std::string> parse_header(const std::string& file, std::string_view line) {
+  const auto refuse = [&] {
+    fail(file, 1,
+         "the header is '" + std::string(line.substr(0, 80)) + "', expected '" + kHeader +
+             "', after which there may be columns 'move' and one 'style'");
+  };
+  std::vector<std::string> further;
+  std::string_view left = line;
+  const std::size_t count = count_cells(line);
+  if (count < kNumbers) refuse();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::optional<std::string> name = take_cell(left);
+    const bool again = name == kStyle && std::count(further.begin(), further.end(), kStyle) > 0;
+    if (i < kNumbers ? name != kColumns[i] : again || (name != kStyle && name != kMove)) refuse();
+    if (i >= kNumbers) further.push_back(*name);
+  }
+  return further;
+}
+
+void check_control(const std::string& file, std::size_t line, const Control& control) {
+  const double values[] = {control.x, control.y, control.turn, control.jump};
+  for (int i = 0; i < 4; ++i) {
+    if (!std::isfinite(values[i])) fail(file, line, std::string(kColumns[i]) + " is not a finite number");
+  }
+  for (int i = 0; i < 2; ++i) {
+    if (std::abs(values[i]) > kFastest) fail(file, line, std::string(kColumns[i]) + " is over 1e9 m/s");
+  }
+  if (std::abs(control.turn) > kMostTurn) {
+    fail(file, line,
+         "turn is " + std::to_string(control.turn) +
+             ", expected -1 (right) to 1 (left), or up to 6 times that to face about");
+  }
+  if (control.jump < 0 || control.jump > 1)
+    fail(file, line, "jump is " + std::to_string(control.jump) + ", expected 0 to 1");
+}
+
+Control parse_control(const std::string& file, std::size_t line, const std::string* cells) {
+  double values[kNumbers];
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    const std::optional<double> value = parse_double(cells[i]);
+    if (!value) {
+      fail(file, line, std::string(kColumns[i]) + " is '" + cells[i].substr(0, 40) + "', expected a finite number");
+    }
+    values[i] = *value;
+  }
+  const Control control{values[0], values[1], values[2], values[3]};
+  check_control(file, line, control);
+  return control;
+}
+
+/// Reads the rows below a header.
+class RowParser {
+ public:
+  RowParser(const std::string& file, std::vector<std::string> further)
+      : file_(file), further_(std::move(further)), cells_(kNumbers + further_.size()), held_(further_.size(), -1) {}
+
+  void parse(std::size_t line, std::string_view row) {
+    split(line, row);
+    found_.trace.push_back(parse_control(file_, line, cells_.data()));
+    for (std::size_t i = 0; i < further_.size(); ++i) {
+      std::string name = as_utf8(std::move(cells_[kNumbers + i]));
+      if (further_[i] == kMove) {
+        hold(held_[i], std::move(name));
+      } else {
+        change(std::move(name));
+      }
+    }
+  }
+
+  TraceFile take() { return std::move(found_); }
+
+ private:
+  void split(std::size_t line, std::string_view row) {
+    const std::size_t count = count_cells(row);
+    if (count != cells_.size()) {
+      std::string header = kHeader;
+      for (const std::string& name : further_) header += "," + name;
+      fail(file_, line,
+           "expected " + std::to_string(cells_.size()) + " values (" + header + "), found " +
+               (row.empty() ? "an empty line" : std::to_string(count)));
+    }
+    for (std::string& cell : cells_) {
+      std::optional<std::string> found = take_cell(row);
+      if (!found) fail(file_, line, "quotes are not closed, or not around a whole value");
+      cell = std::move(*found);
+    }
+  }
+
+  /// `held` is the number of the move that the row before holds in this column, or -1.
+  void hold(int& held, std::string name) {
+    std::vector<Asked::Move>& moves = found_.asked.moves;
+    if (name.empty()) {
+      held = -1;
+    } else if (held >= 0 && moves[held].name == name) {
+      ++moves[held].held;
+    } else {
+      held = static_cast<int>(moves.size());
+      moves.push_back({now(), std::move(name), 1});
+    }
+  }
+
+  void change(std::string name) {
+    std::vector<Asked::Style>& styles = found_.asked.styles;
+    if (name.empty() || (!styles.empty() && styles.back().name == name)) return;
+    styles.push_back({now(), std::move(name)});
+  }
+
+  int now() const { return static_cast<int>(found_.trace.size()) - 1; }
+
+  const std::string& file_;
+  std::vector<std::string> further_, cells_;
+  std::vector<int> held_;
+  TraceFile found_;
+};
+
+void append_number(double value, std::string& text) {
+  char buffer[32];
+#ifdef __cpp_lib_to_chars
+  text.append(buffer, std::to_chars(buffer, buffer + sizeof(buffer), value).ptr);
+#else  // Apple's standard library; 17 digits read back the same, too
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  stream.precision(std::numeric_limits<double>::max_digits10);
+  stream << value;
+  text += stream.str();
+#endif
+}
+
+void append_control(const Control& control, std::string& text) {
+  append_number(control.x, text);
+  for (const double value : {control.y, control.turn, control.jump}) {
+    text += ',';
+    append_number(value, text);
+  }
+}
+
+void append_name(const std::string& name, std::string& text) {
+  text += ',';
+  if (name.find_first_of(",\"") == std::string::npos && trim(name) == name) {
+    text += name;
+    return;
+  }
+  text += '"';
+  for (const char c : name) text.append(c == '"' ? 2 : 1, c);
+  text += '"';
+}
+
+void check_asked(const std::string& what, const std::string& name, int control, std::size_t controls) {
+  if (name.empty()) throw std::invalid_argument("a " + what + " has no name");
+  if (name.find('\n') != std::string::npos)
+    throw std::invalid_argument(what + " '" + name + "' has a line break in its name: a trace file cannot hold that");
+  if (control < 0 || static_cast<std::size_t>(control) >= controls) {
+    throw std::invalid_argument(what + " '" + name + "' is asked for before control " + std::to_string(control) +
+                                " of " + std::to_string(controls));
+  }
+}
+
+/// A name, or none, for each control.
+using Names = std::vector<const std::string*>;
+
+/// Each move in the first column that is free, and that does not hold the same move right before it.
+std::vector<Names> columns_of(std::vector<Asked::Move>& moves, std::size_t controls) {
+  std::stable_sort(moves.begin(), moves.end(), [](const auto& a, const auto& b) { return a.control < b.control; });
+  std::vector<Names> columns;
+  for (const Asked::Move& move : moves) {
+    check_asked(kMove, move.name, move.control, controls);
+    const auto is_free = [&](const Names& names) {
+      const std::string* before = move.control > 0 ? names[move.control - 1] : nullptr;
+      return names[move.control] == nullptr && (before == nullptr || *before != move.name);
+    };
+    auto column = std::find_if(columns.begin(), columns.end(), is_free);
+    if (column == columns.end()) column = columns.insert(column, Names(controls));
+    const std::size_t held = std::min<std::size_t>(std::max(move.held, 1), controls - move.control);
+    std::fill_n(column->begin() + move.control, held, &move.name);
+  }
+  return columns;
+}
+
+Names column_of(const std::vector<Asked::Style>& styles, std::size_t controls) {
+  Names names(controls);
+  for (const Asked::Style& style : styles) {
+    check_asked(kStyle, style.name, style.control, controls);
+    std::fill(names.begin() + style.control, names.end(), &style.name);
+  }
+  return names;
+}
+
+std::string format_trace(const Trace& trace, Asked asked) {
+  std::vector<Names> columns = columns_of(asked.moves, trace.size());
+  std::string text = kHeader;
+  for (std::size_t i = 0; i < columns.size(); ++i) text += std::string(",") + kMove;
+  if (!asked.styles.empty()) {
+    columns.push_back(column_of(asked.styles, trace.size()));
+    text += std::string(",") + kStyle;
+  }
+  text += '\n';
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    append_control(trace[i], text);
+    for (const Names& names : columns) append_name(names[i] == nullptr ? "" : *names[i], text);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+TraceFile parse_trace(const std::string& text, const std::string& file) {
+  std::string_view left = text;
+  if (left.substr(0, 3) == "\xEF\xBB\xBF") left.remove_prefix(3);  // UTF-8 byte order mark
+  left = left.substr(0, left.find_last_not_of(" \t\r\n") + 1);     // blank lines at the end
+  RowParser rows(file, parse_header(file, take_piece(left, '\n')));
+  std::size_t line = 1;
+  while (!left.empty()) rows.parse(++line, take_piece(left, '\n'));
+  if (line < 3) {
+    fail(file, line, "the trace ends after " + std::to_string(line - 1) + " rows, expected at least 2");
+  }
+  return rows.take();
+}
+
+namespace {
+
+TraceFile read_trace_file(const std::filesystem::path& path) {
+  return parse_trace(read_file(path), path.filename().u8string());
+}
+
+}  // namespace
+
+std::vector<int> snap(const ControlSpace& space, const Trace& trace) {
+  std::vector<int> indices;
+  for (const Control& control : trace) indices.push_back(space.nearest(control));
+  return indices;
+}
+
+Trace read_trace(const std::filesystem::path& path) { return read_trace_file(path).trace; }
+
+Asked read_asked(const std::filesystem::path& path) { return read_trace_file(path).asked; }
+
+void write_trace(const std::filesystem::path& path, const Trace& trace, const Asked& asked) {
+  const std::string file = path.filename().u8string();
+  for (std::size_t i = 0; i < trace.size(); ++i) check_control(file, i + 2, trace[i]);
+  if (trace.size() < 2)
+    throw std::invalid_argument(file + ": the trace has " + std::to_string(trace.size()) +
+                                " controls, expected at least 2");
+  write_file(path, format_trace(trace, asked));
+}
+
+}  // namespace fragmotion

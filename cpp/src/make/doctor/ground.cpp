@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/quantile.hpp"
+#include "doctor/check.hpp"
+#include "doctor/lengths.hpp"
+#include "motion/contacts.hpp"
+
+namespace fragmotion {
+namespace {
+
+// Of a character of 1.8 m. The lowest joint of a foot is inside it, and not every file has the toes' ends.
+constexpr double kUnder = -0.02, kOver = 0.08;  // m: where it may be on the ground
+constexpr double kRise = 0.08;                  // m: of the ground from one place of the take to another
+constexpr double kExplained = 0.7;              // of the heights' variance, by a slope
+constexpr int kFewestStands = 10;               // places where feet stand
+constexpr double kLow = 0.045;                  // m over its lowest: a foot that could stand
+constexpr double kAnyHeight = 1e9;              // m
+constexpr double kSlides = 0.5, kStays = 0.4;   // m/s; m: feet that slide under hips that stay
+
+/// The lowest joint of a foot, or its end, and where. Ends of what is below the toes' are nobody's: files invent them.
+Vector3 sole(const Patient& patient, int frame, int side) {
+  const int end = patient.toes[side] >= 0 ? patient.toes[side] : patient.legs[side].end;
+  Vector3 lowest = patient.tip(frame, end);
+  const auto look_at = [&](const Vector3& point) {
+    if (point.z() < lowest.z()) lowest = point;
+  };
+  look_at(patient.tip(frame, patient.legs[side].end));
+  for (const int joint : patient.feet[side]) look_at(patient.head(frame, joint));
+  return lowest;
+}
+
+/// Where and when the lower of the feet that stand does: place and frame.
+using Stands = std::vector<Eigen::Vector4d>;
+
+/// `level`: near the lowest that they come; else told by their speeds alone, as the ground may be anywhere.
+Stands stands_of(const Patient& patient, bool level) {
+  if (!patient.has_legs() || patient.scale() == 0 || !patient.tracks()) return {};
+  const Tracks& tracks = *patient.tracks();
+  const FootHeights anywhere{kAnyHeight, kAnyHeight};
+  const Floors floors = {anywhere, anywhere};
+  const Contacts contacts =
+      find_contacts(patient.skeleton(), tracks.feet, tracks.hips, patient.rate(), level ? nullptr : &floors);
+  Stands stands;
+  for (int f = 0; f < static_cast<int>(contacts.feet[0].size()); ++f) {
+    if (!contacts.feet[0][f] && !contacts.feet[1][f]) continue;
+    const Vector3 left = sole(patient, f, 0), right = sole(patient, f, 1);
+    const int side = left.z() < right.z() ? 0 : 1;
+    const Vector3& place = side == 0 ? left : right;
+    if (contacts.feet[side][f]) stands.emplace_back(place.x(), place.y(), place.z(), f);
+  }
+  return stands;
+}
+
+/// The median height over the ground at which feet stand, m; nothing where none does.
+std::optional<double> ground_of(const Patient& patient) {
+  std::vector<double> heights;
+  for (const Eigen::Vector4d& stand : stands_of(patient, true)) heights.push_back(stand.z());
+  return heights.empty() ? std::nullopt : std::optional(median(std::move(heights)));
+}
+
+/// How much the ground that feet stand on rises or falls over the take, as a plane or with time, m; 0 where it is
+/// level.
+double rise_of(const Patient& patient) {
+  const Stands stands = stands_of(patient, false);
+  if (stands.size() < kFewestStands) return 0;
+  Eigen::MatrixXd places(stands.size(), 4);
+  Eigen::VectorXd heights(stands.size());
+  for (std::size_t i = 0; i < stands.size(); ++i) {
+    places.row(static_cast<Eigen::Index>(i)) << 1, stands[i].x(), stands[i].y(), stands[i].w();
+    heights[static_cast<Eigen::Index>(i)] = stands[i].z();
+  }
+  const Eigen::VectorXd fitted = places * places.colPivHouseholderQr().solve(heights).eval();
+  const double all = (heights.array() - heights.mean()).square().sum(), left = (heights - fitted).squaredNorm();
+  const double rise = fitted.maxCoeff() - fitted.minCoeff();
+  return left < (1 - kExplained) * all && rise * patient.scale() >= kRise ? rise : 0;
+}
+
+double lowest_sole(const Patient& patient, int side) {
+  double lowest = sole(patient, 0, side).z();
+  for (int f = 1; f < patient.frames(); ++f) lowest = std::min(lowest, sole(patient, f, side).z());
+  return lowest;
+}
+
+double farthest_hips(const Patient& patient) {
+  double farthest = 0;
+  for (int f = 1; f < patient.frames(); ++f) {
+    const Vector3 way = patient.head(f, patient.hips) - patient.head(0, patient.hips);
+    farthest = std::max(farthest, way.head<2>().norm());
+  }
+  return farthest;
+}
+
+/// The speed at which feet slide that are low enough to stand: of the slower one where both are, a mean, m/s.
+double sliding(const Patient& patient) {
+  const std::array<double, 2> lowest = {lowest_sole(patient, 0), lowest_sole(patient, 1)};
+  double sum = 0;
+  int frames = 0;
+  for (int f = 1; f < patient.frames(); ++f) {
+    double slowest = -1;
+    for (int side = 0; side < 2; ++side) {
+      const int foot = patient.legs[side].end;
+      const Vector3 moved = patient.head(f, foot) - patient.head(f - 1, foot);
+      const double way = moved.head<2>().norm();
+      if ((sole(patient, f, side).z() - lowest[side]) * patient.scale() > kLow) continue;
+      slowest = slowest < 0 ? way : std::min(slowest, way);
+    }
+    if (slowest >= 0) sum += slowest, ++frames;
+  }
+  return frames > 0 ? sum / frames * patient.rate() * patient.scale() : 0;
+}
+
+}  // namespace
+
+Findings find_ground(const Patient& patient) {
+  const std::optional<double> ground = ground_of(patient);
+  if (!ground || rise_of(patient) > 0) return {};
+  const double height = *ground * patient.scale();
+  if (height >= kUnder && height <= kOver) return {};
+  return {mendable(found(patient, "ground", Severity::kWarning,
+                         "the feet stand " + centimetres(std::abs(*ground)) + (height < 0 ? " under" : " over") +
+                             " the ground; move the take " + (height < 0 ? "up" : "down")))};
+}
+
+void put_on_ground(Patient& patient, const Findings&) { patient.move({0, 0, -*ground_of(patient)}); }
+
+Findings find_slope(const Patient& patient) {
+  const double rise = rise_of(patient);
+  if (rise == 0) return {};
+  return {found(patient, "slope", Severity::kWarning,
+                "the ground that the feet stand on rises or falls by " + centimetres(rise) +
+                    " over the take: a hill or stairs, or the capture drifted; leave out the part that is not level")};
+}
+
+Findings find_in_place(const Patient& patient) {
+  if (!patient.has_legs() || patient.hips < 0 || patient.scale() == 0 || patient.frames() < 3) return {};
+  if (farthest_hips(patient) * patient.scale() > kStays || sliding(patient) < kSlides) return {};
+  return {found(patient, "in_place", Severity::kWarning,
+                "the body goes in place: feet slide under hips that stay, so that its speed cannot be told; export the "
+                "take with its root motion")};
+}
+
+}  // namespace fragmotion

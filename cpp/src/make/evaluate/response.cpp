@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "evaluate/response.hpp"
+
+#include "evaluate/runner.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kOfStep = 0.9;  // of the step
+
+double response(Runner& runner, const Control& from, const Control& to) {
+  const Vector2 before{from.x, from.y}, step = Vector2{to.x, to.y} - before;
+  for (int f = 1; f <= kNoResponse * Runner::kRate; ++f) {
+    runner.frame(to);
+    if ((runner.velocity() - before).dot(step) >= kOfStep * step.squaredNorm()) return f / Runner::kRate;
+  }
+  return kNoResponse;
+}
+
+}  // namespace
+
+std::vector<double> response_times(const std::shared_ptr<const Character>& character, const PlayerOptions& options) {
+  Player player(character, options);
+  Runner runner(player);
+  Random random(options.seed);
+  const ControlSpace& space = character->space;
+  const auto point = [&](int velocity) { return space.point(space.layout().index(velocity, 0, false)); };
+  std::vector<double> times;
+  for (int from = 0; from < space.layout().velocities(); ++from) {
+    for (int to = 0; to < space.layout().velocities(); ++to) {
+      if (to == from) continue;
+      runner.hold(point(from), random);
+      times.push_back(response(runner, point(from), point(to)));
+    }
+  }
+  return times;
+}
+
+}  // namespace fragmotion

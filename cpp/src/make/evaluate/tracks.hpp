@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "evaluate/performance.hpp"
+#include "fragments/fragment.hpp"
+
+namespace fragmotion {
+
+/// Frames a second of the clips that are measured here.
+constexpr double kTrackRate = 60;
+
+/// Height over the floor under which a ball or a heel may touch it, m.
+constexpr double kLow = 0.045;
+
+/// The clips of a pool that hold captured fragments, at 60 frames a second; they have no headings.
+std::vector<Clip> captured_takes(const PackedPool& pool);
+
+/// What was played, as a clip without headings.
+Clip clip_of(const Performance& performance);
+
+}  // namespace fragmotion

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "fragments/distance.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "base/parallel.hpp"
+#include "motion/pose.hpp"
+
+namespace fragmotion {
+
+template <typename AnyClip>
+Trajectories trajectories(const Pool<AnyClip>& pool, int poses, int threads) {
+  if (poses < 2 || poses > kMostPoses) {
+    throw std::invalid_argument("a trajectory has 2 to " + std::to_string(kMostPoses) + " poses, not " +
+                                std::to_string(poses));
+  }
+  const int points = BodyTips(pool.skeleton).points();
+  Trajectories t;
+  t.count = static_cast<int>(pool.fragments.size());
+  t.tips = points;
+  t.reach = tip_reach(pool.skeleton);
+  t.stride = padded(points * poses);
+  t.pose_stride = padded(points);
+  t.whole.assign(static_cast<std::size_t>(t.count) * 3 * t.stride, 0);
+  t.first.assign(static_cast<std::size_t>(t.count) * 3 * t.pose_stride, 0);
+  t.last = t.first;
+  parallel_for(t.count, thread_count(threads), [&](int begin, int end) {
+    BodyTips tips(pool.skeleton);
+    std::vector<double> rotations(std::size_t{4} * pool.skeleton.size());
+    const auto sample = [&](const AnyClip& clip, double frame) {
+      tips.pose(sample_pose(clip, frame, rotations.data()), rotations.data());
+      return frame_at(clip, frame);
+    };
+    for (int i = begin; i < end; ++i) {
+      const Fragment& f = pool.fragments[i];
+      const AnyClip& clip = pool.clips[f.clip];
+      CharacterFrame start;
+      for (int pose = 0; pose < poses; ++pose) {
+        const double at = f.begin + (f.end - f.begin) * static_cast<double>(pose) / (poses - 1);
+        const CharacterFrame frame = sample(clip, at);
+        if (pose == 0) start = frame;
+        tips.write(start, &t.whole[static_cast<std::size_t>(i) * 3 * t.stride], t.stride, pose * points);
+      }
+      const auto end_pose = [&](int at, std::vector<float>& poses_at) {
+        const CharacterFrame frame = sample(clip, at);
+        tips.write(frame, &poses_at[static_cast<std::size_t>(i) * 3 * t.pose_stride], t.pose_stride, 0);
+      };
+      end_pose(f.first_played(), t.first);
+      end_pose(f.last_played(), t.last);
+    }
+  });
+  return t;
+}
+
+template Trajectories trajectories(const FragmentPool& pool, int poses, int threads);
+template Trajectories trajectories(const PackedPool& pool, int poses, int threads);
+
+float fragment_distance(const Trajectories& t, int f, int g) {
+  return tip_distance(t.trajectory(f), t.trajectory(g), t.stride);
+}
+
+float transition_distance(const Trajectories& t, int f, int g) {
+  return tip_distance(t.last_pose(f), t.first_pose(g), t.pose_stride);
+}
+
+}  // namespace fragmotion

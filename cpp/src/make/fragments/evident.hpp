@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "fragments/fragment.hpp"
+#include "motion/center_of_mass.hpp"
+
+namespace fragmotion {
+
+/// What Ev needs to know of a clip.
+struct BodyMotion {
+  std::vector<Vector3> center;  ///< [frames] m: the centre of mass
+  std::vector<double> heading;  ///< [frames] rad: Clip::headings
+};
+
+BodyMotion body_motion(const Kinematics& kinematics, const Clip& clip);
+
+/// The height of the centre of mass above which a body is in a jump: the median over all clips, m.
+double usual_height(const std::vector<BodyMotion>& motions);
+
+/// Ev(f) (Sec. 3.2), "estimated by the center-of-mass motion": mean velocity of the centre of mass in the character
+/// frame halfway, mean turn rate over space.turn_rate(), and how much of a jump's rise (8 cm: none, 20 cm: all, of
+/// a 1.8 m character) the centre of mass shows above `usual`. What takes off or lands so fast that it would fly, or has
+/// flown, as high shows two fifths of a jump: it is neither a step nor the flight.
+Control evident_control(const BodyMotion& motion, double rate, int begin, int end, double usual,
+                        const ControlSpace& space);
+
+}  // namespace fragmotion

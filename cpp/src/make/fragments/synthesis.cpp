@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: MIT
+#include "fragments/synthesis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "base/quantile.hpp"
+#include "base/ranges.hpp"
+#include "fragments/blend.hpp"
+#include "fragments/distance.hpp"
+#include "fragments/gait_edit.hpp"
+#include "fragments/standing.hpp"
+#include "fragments/successors.hpp"
+#include "motion/contacts.hpp"
+#include "motion/legs.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kPerformed = 0.3;               // ControlDis from a control at which a fragment performs it, at most
+constexpr int kWanted = 4;                       // fragments that should perform each control
+constexpr double kTail = 0.3;                    // s kept beyond a fragment's end, for stitching
+constexpr double kJumpHeight = 0.22;             // m, of a 1.8 m character
+constexpr double kLeastDip = 0.16;               // m that it crouches for a jump on the spot where no take jumps,
+constexpr double kMostDip = 0.3;                 // and at most where takes do
+constexpr double kCrouching = 0.5;               // s before a jump in which takes crouch
+constexpr double kRunningDip = 0.6;              // of that dip, as it runs
+constexpr double kSinking = 0.2;                 // s into a crouch; half of that as it runs
+constexpr double kSimilar = 2.52 / kTunedReach;  // m a metre of reach: fragments this near may be interpolated
+constexpr int kCandidates = 24;                  // neighbours of a control that interpolation tries in pairs
+constexpr double kMostTempo = 1.2;               // the most by which steps ahead are hurried, or slowed down
+constexpr double kSideways = 1.2;                // how much more often feet step sideways, where strides are short
+constexpr double kStandSeconds = 0.5;
+constexpr double kStandsLong = 3;  // s that a take stands, so that one does not see it begin again
+constexpr int kStands = 48;        // fragments that stand, one after the other, until they begin again
+constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
+constexpr double kBackward = 1;                              // of effort: to be played backward
+constexpr double kAlike = 1e-6;                              // of effort
+constexpr double kClosed = 3 / kTunedReach;                  // m a metre of reach between the ends of a cycle
+constexpr double kOpen = kTunedReach;                        // of effort, for each such between them
+
+double angle_between(const Control& a, const Control& b) {
+  return std::remainder(std::atan2(b.y, b.x) - std::atan2(a.y, a.x), 2 * kPi);
+}
+
+Control mix(const Control& a, const Control& b, double w) {
+  return {a.x + w * (b.x - a.x), a.y + w * (b.y - a.y), a.turn + w * (b.turn - a.turn), a.jump + w * (b.jump - a.jump)};
+}
+
+// Adds a fragment that stands in place, for others to be made of.
+void add_standing(FragmentPool& pool) {
+  const Kinematics kinematics(pool.skeleton);
+  const double rate = pool.clips[0].rate;
+  Fragment fragment;
+  fragment.clip = static_cast<int>(pool.clips.size());
+  fragment.end = std::max(1, static_cast<int>(std::lround(kStandSeconds * rate)));
+  fragment.origin = Origin::transformed;
+  const int frames = fragment.end + 1 + static_cast<int>(std::lround(kTail * rate));
+  pool.clips.push_back(
+      make_clip(pool.skeleton, standing(kinematics, find_legs(kinematics, pool.clips), pool, frames, rate)));
+  pool.fragments.push_back(fragment);
+}
+
+// Adds a take of a character that stands for long, fragment after fragment, as this clip.
+void add_living_stand(FragmentPool& pool, const ControlSpace& space, double usual, int into) {
+  const Kinematics kinematics(pool.skeleton);
+  const double rate = pool.clips[0].rate;
+  const int length = std::max(1, static_cast<int>(std::lround(kStandSeconds * rate))), cycle = kStands * length,
+            frames = cycle + 1 + static_cast<int>(std::lround(kTail * rate));
+  Clip clip = living_stand(kinematics, find_legs(kinematics, pool.clips), pool, cycle, frames, rate);
+  const BodyMotion motion = body_motion(kinematics, clip);
+  for (int begin = 0; begin < cycle; begin += length) {
+    Fragment fragment;
+    fragment.clip = into;
+    fragment.begin = begin;
+    fragment.end = begin + length;
+    fragment.origin = Origin::transformed;
+    fragment.evident = evident_control(motion, rate, begin, begin + length, usual, space);
+    pool.fragments.push_back(fragment);
+  }
+  pool.clips.resize(std::max(pool.clips.size(), std::size_t{1} + into));
+  pool.clips[into] = make_clip(pool.skeleton, std::move(clip));
+}
+
+// How long a take stands at most, s, where these fragments stand.
+double longest_stand(const FragmentPool& pool, const std::vector<int>& standing) {
+  const std::vector<int> next = successors(pool.fragments);
+  double longest = 0;
+  for (const int first : standing) {
+    double seconds = 0;
+    for (int f = first; std::binary_search(standing.begin(), standing.end(), f); f = next[f]) {
+      seconds += pool.seconds(pool.fragments[f]);
+    }
+    longest = std::max(longest, seconds);
+  }
+  return longest;
+}
+
+// Fills the holes of a pool's control space.
+class Synthesizer {
+ public:
+  Synthesizer(FragmentPool& pool, const ControlSpace& space, double usual, double longest)
+      : pool_(pool),
+        space_(space),
+        usual_(usual),
+        longest_(longest),
+        kinematics_(pool.skeleton),
+        legs_(find_legs(kinematics_, pool.clips)),
+        trajectories_(trajectories(pool)),
+        originals_(static_cast<int>(pool.fragments.size())) {
+    find_cycles();
+    find_dip();
+  }
+
+  // Who stands does so as the takes do, or as living_stand().
+  void fill() {
+    const int stand = space_.nearest({});
+    std::vector<int> missing;
+    for (int c = 0; c < space_.size(); ++c) missing.push_back(std::max(0, kWanted - performers(c)));
+    for (int c = 0; c < space_.size(); ++c) {
+      if (missing[c] == 0 || c == stand) continue;
+      interpolate(space_.point(c), missing[c]);
+      transform(space_.point(c));
+    }
+  }
+
+ private:
+  double distance(int fragment, const Control& control) const {
+    return space_.distance(pool_.fragments[fragment].evident, control);
+  }
+
+  int performers(int c) const {
+    int count = 0;
+    for (int i = 0; i < originals_; ++i) count += distance(i, space_.point(c)) <= kPerformed ? 1 : 0;
+    return count;
+  }
+
+  // Frames kept beyond a fragment's end.
+  int tail(double rate) const { return static_cast<int>(std::lround(kTail * rate)); }
+
+  // Adds a clip whose frames ends[i] .. ends[i + 1] are fragments.
+  void add(Clip clip, const std::vector<int>& ends, Origin origin) {
+    const BodyMotion motion = body_motion(kinematics_, clip);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      Fragment fragment;
+      fragment.clip = static_cast<int>(pool_.clips.size());
+      fragment.begin = ends[i];
+      fragment.end = ends[i + 1];
+      fragment.origin = origin;
+      fragment.evident = evident_control(motion, clip.rate, ends[i], ends[i + 1], usual_, space_);
+      pool_.fragments.push_back(fragment);
+    }
+    pool_.clips.push_back(make_clip(pool_.skeleton, std::move(clip)));
+  }
+
+  std::vector<int> nearest_originals(const Control& control) const {
+    std::vector<int> order(originals_);
+    for (int i = 0; i < originals_; ++i) order[i] = i;
+    const int count = std::min(kCandidates, originals_);
+    std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](int a, int b) {
+      const double da = distance(a, control), db = distance(b, control);
+      return da != db ? da < db : a < b;
+    });
+    order.resize(count);
+    return order;
+  }
+
+  struct Pair {
+    int a, b;
+    double weight, distance;
+  };
+
+  // The weight in [0, 1] that brings (1 - w) Ev(a) + w Ev(b) nearest to the control.
+  Pair pair_for(int a, int b, const Control& control) const {
+    Pair best{a, b, 0, std::numeric_limits<double>::infinity()};
+    for (int i = 1; i < 10; ++i) {
+      const double w = 0.1 * i;
+      const double d = space_.distance(mix(pool_.fragments[a].evident, pool_.fragments[b].evident, w), control);
+      if (d < best.distance) best.weight = w, best.distance = d;
+    }
+    return best;
+  }
+
+  // Interpolates up to `count` pairs of similar fragments that together perform the control.
+  void interpolate(const Control& control, int count) {
+    const auto similar = static_cast<float>(kSimilar * kPoses * trajectories_.reach);
+    const std::vector<int> near = nearest_originals(control);
+    std::vector<Pair> pairs;
+    for (const int a : near) {
+      for (const int b : near) {
+        if (a >= b) continue;
+        const Pair pair = pair_for(a, b, control);
+        if (pair.distance > kPerformed || fragment_distance(trajectories_, a, b) > similar) continue;
+        pairs.push_back(pair);
+      }
+    }
+    std::sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) {
+      return p.distance != q.distance ? p.distance < q.distance : p.a != q.a ? p.a < q.a : p.b < q.b;
+    });
+    const int used = std::min(count, static_cast<int>(pairs.size()));
+    for (int i = 0; i < used; ++i) {
+      const Fragment a = pool_.fragments[pairs[i].a], b = pool_.fragments[pairs[i].b];
+      const int frames = tail(pool_.clips[a.clip].rate);
+      Clip clip = interpolated(kinematics_, pool_, a, b, pairs[i].weight, frames);
+      const int end = clip.frames - 1 - frames;
+      add(std::move(clip), {0, end}, Origin::interpolated);
+    }
+  }
+
+  // Fragments that follow each other in a take and end nearly as they began: played again and again, they are a gait.
+  // Played backward, they go where they came from.
+  struct Cycle {
+    int clip = 0, begin = 0, end = 0;  // frames
+    Control evident;
+    double gap = 0;  // m a metre of reach from its last pose to its first
+
+    bool backward() const { return end < begin; }
+  };
+
+  static Cycle backward(const Cycle& cycle) {
+    const Control& ev = cycle.evident;
+    return {cycle.clip, cycle.end, cycle.begin, {-ev.x, -ev.y, -ev.turn, ev.jump}, cycle.gap};
+  }
+
+  void find_cycles() {
+    for (int first = 0; first < originals_; ++first) {
+      Cycle cycle;
+      double seconds = 0;
+      for (int last = first; last < originals_; ++last) {
+        const Fragment& f = pool_.fragments[last];
+        if (last > first && (f.clip != cycle.clip || f.begin != cycle.end)) break;
+        const double length = pool_.seconds(f), share = length / (seconds += length);
+        if (last == first) cycle.clip = f.clip, cycle.begin = f.begin;
+        cycle.end = f.end;
+        cycle.evident = mix(cycle.evident, f.evident, share);
+        if (seconds > kLongestCycle) break;
+        cycle.gap = double{transition_distance(trajectories_, last, first)} / trajectories_.reach;
+        if (seconds < kShortestCycle || cycle.gap > kClosed) continue;
+        cycles_.push_back(cycle);
+        cycles_.push_back(backward(cycle));
+      }
+    }
+  }
+
+  // The median dip of the takes' hips, under their usual height, before a jump.
+  void find_dip() {
+    std::vector<double> heights, dips;
+    for (const Clip& clip : pool_.clips) {
+      for (int f = 0; f < clip.frames; ++f) heights.push_back(clip.root_positions[std::size_t{3} * f + 2]);
+    }
+    const double usual = median(std::move(heights));
+    for (const Fragment& f : pool_.fragments) {
+      if (!f.evident.jumps()) continue;
+      const Clip& clip = pool_.clips[f.clip];
+      double lowest = usual;
+      for (int at = std::max(0, f.begin - static_cast<int>(kCrouching * clip.rate)); at <= f.begin; ++at)
+        lowest = std::min(lowest, clip.root_positions[std::size_t{3} * at + 2]);
+      dips.push_back((usual - lowest) * space_.scale());
+    }
+    if (!dips.empty()) dip_ = std::clamp(median(std::move(dips)), kLeastDip, kMostDip);
+  }
+
+  // What it costs a cycle's looks to be made to perform a control. Whether it jumps makes no difference: what hops is
+  // made of what goes, so that the one follows the other.
+  double effort(const Cycle& cycle, const Control& control) const {
+    const Control& ev = cycle.evident;
+    const double moving = kMoving / space_.scale();
+    const bool moves = ev.speed() > moving, wants = control.speed() > moving, steps = wants || control.turn != 0;
+    if (moves != steps) return std::numeric_limits<double>::infinity();
+    double effort = kOpen * cycle.gap + 0.5 * std::abs(control.turn - ev.turn) + 2 * ev.jump;
+    if (cycle.backward()) effort += kBackward;
+    if (steps && !wants) effort += ev.speed() / space_.walk();  // it steps in place
+    if (wants) {
+      effort += std::abs(angle_between(ev, control)) / (kPi / 4);
+      const double faster = std::log(control.speed() / ev.speed()) / std::log(1.5);
+      effort += faster > 0 ? faster * faster : -faster;
+    }
+    return effort;
+  }
+
+  // The cycle that performs the control with the least effort, the first of those that are alike but for rounding.
+  const Cycle* cheapest(const Control& control) const {
+    const Cycle* best = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Cycle& cycle : cycles_) {
+      const double cost = effort(cycle, control);
+      if (cost < least - kAlike) least = cost, best = &cycle;
+    }
+    return best;
+  }
+
+  const Contacts& contacts(int clip) {
+    const auto [found, fresh] = contacts_.try_emplace(clip);
+    if (fresh) found->second = find_contacts(kinematics_, pool_.clips[clip]);
+    return found->second;
+  }
+
+  // Transforms the cheapest cycle for the control, in pieces that follow each other as in the take.
+  void transform(const Control& control) {
+    const Cycle* best = cheapest(control);
+    if (!best) return;
+    const Clip& clip = pool_.clips[best->clip];
+    GaitEdit change;
+    change.turn = (control.turn - best->evident.turn) * space_.turn_rate();
+    const bool moves = best->evident.speed() > kMoving / space_.scale();
+    const double faster = moves ? control.speed() / best->evident.speed() : 1;
+    if (moves && control.speed() > 0) change.direction = angle_between(best->evident, control);
+    const int length = std::abs(best->end - best->begin);
+    const double usual = length / (longest_ * clip.rate);  // pieces, each as long as may be
+    const int pieces = std::max(1, static_cast<int>(std::ceil(usual / kMostTempo - 1e-6)));
+    const double sideways = std::abs(std::sin(change.direction)), cadence = 1 + sideways * (kSideways - 1);
+    change.tempo = std::max(usual / pieces, cadence * std::clamp(std::sqrt(faster), 1 / kMostTempo, kMostTempo));
+    change.speed = faster / change.tempo;
+    const int beyond = tail(clip.rate * change.tempo);
+    const Hop hop = hop_at(control.speed());
+    const int whole = static_cast<int>(std::ceil(hop.seconds() * clip.rate * change.tempo));
+    const Clip made = transformed(kinematics_, legs_, clip, contacts(best->clip), best->begin, best->end,
+                                  length + whole + beyond, change);
+    std::vector<int> ends;
+    for (int piece = 0; piece <= pieces; ++piece) ends.push_back(length * piece / pieces);
+    if (control.jump <= best->evident.jump) return add(part(made, 0, length + beyond), ends, Origin::transformed);
+    for (int piece = 0; piece < pieces; ++piece) add_jump(part(made, ends[piece], ends[piece] + whole + beyond), hop);
+  }
+
+  // Of a character that goes so fast.
+  Hop hop_at(double speed) const {
+    const double running = std::min(1.0, speed / space_.run());
+    return {kJumpHeight, dip_ * (1 + running * (kRunningDip - 1)), kSinking * (1 - running / 2)};
+  }
+
+  // Adds a clip with a hop in it, whose flight is the fragment.
+  void add_jump(Clip clip, const Hop& hop) {
+    add_hop(kinematics_, legs_, clip, hop);
+    const auto frame = [&](double seconds) { return static_cast<int>(std::lround(seconds * clip.rate)); };
+    add(std::move(clip), {frame(hop.crouch()), frame(hop.crouch() + hop.flight())}, Origin::transformed);
+  }
+
+  FragmentPool& pool_;
+  const ControlSpace& space_;
+  double usual_;
+  double longest_;
+  Kinematics kinematics_;
+  Legs legs_;
+  Trajectories trajectories_;
+  int originals_;
+  std::vector<Cycle> cycles_;
+  double dip_ = kLeastDip;            // m of a 1.8 m character that jumps on the spot
+  std::map<int, Contacts> contacts_;  // of the clips that were transformed
+};
+
+}  // namespace
+
+void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, double longest) {
+  require_range("the longest fragment (s)", longest, 0.1, 10);
+  std::vector<int> standing;
+  for (std::size_t f = 0; f < pool.fragments.size(); ++f) {
+    if (space.distance(pool.fragments[f].evident, {}) <= kPerformed) standing.push_back(static_cast<int>(f));
+  }
+  const std::size_t fragments = pool.fragments.size(), clips = pool.clips.size();
+  if (standing.empty()) add_standing(pool);
+  const bool stands_long = longest_stand(pool, standing) >= kStandsLong;
+  Synthesizer(pool, space, usual, longest).fill();
+  if (stands_long) return;
+  add_living_stand(pool, space, usual, static_cast<int>(standing.empty() ? clips : pool.clips.size()));
+  if (standing.empty()) pool.fragments.erase(pool.fragments.begin() + static_cast<std::ptrdiff_t>(fragments));
+}
+
+}  // namespace fragmotion

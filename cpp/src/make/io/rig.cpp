@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: MIT
+#include "io/rig.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <unordered_set>
+#include <utility>
+
+#include "base/quantile.hpp"
+#include "io/rigid_matrix.hpp"
+#include "skeleton/role_names.hpp"
+#include "skeleton/roles.hpp"
+
+namespace fragmotion {
+
+namespace {
+
+constexpr double kOverlong = 3;  // times as long as the way to the next bone: no lengths of this body
+constexpr double kRigid = 1e-3;  // Blender's matrices are floats; anything worse is no rigid transform
+
+std::size_t offset_of(int frame, int bones, int bone) { return static_cast<std::size_t>(frame) * bones + bone; }
+
+std::string bone_label(const Armature& armature, int bone) { return "bone '" + armature.names[bone] + "'"; }
+
+std::string frame_label(const std::string& clip, int frame) {
+  return "clip '" + clip + "': frame " + std::to_string(frame);
+}
+
+void check_size(std::size_t found, std::size_t expected, const char* what) {
+  if (found != expected)
+    fail("armature", "has " + std::to_string(found) + " " + what + ", expected " + std::to_string(expected));
+}
+
+void check_bones(const Armature& armature) {
+  std::unordered_set<std::string> seen;
+  for (int b = 0; b < static_cast<int>(armature.names.size()); ++b) {
+    const int parent = armature.parents[b];
+    if (!seen.insert(armature.names[b]).second) fail(bone_label(armature, b), "the name appears twice");
+    if (parent < -1 || parent >= b)
+      fail(bone_label(armature, b), "has parent " + std::to_string(parent) + "; parents must come before children");
+    if (!std::isfinite(armature.lengths[b])) fail(bone_label(armature, b), "the length is not finite");
+  }
+  for (const auto& [role, bone] : armature.roles) {
+    if (seen.count(bone) == 0) fail("role '" + role + "'", "the armature has no bone '" + bone + "'");
+  }
+}
+
+/// By how much bones are too long: the median over those with one child, of their lengths in ways to the child.
+double overlength(const Armature& armature) {
+  const auto head = [&](std::size_t b) -> Vector3 { return RowMajor(&armature.rest[16 * b]).topRightCorner<3, 1>(); };
+  std::vector<int> children(armature.names.size(), 0);
+  for (const int parent : armature.parents) {
+    if (parent >= 0) ++children[parent];
+  }
+  std::vector<double> ratios;
+  for (std::size_t b = 0; b < armature.names.size(); ++b) {
+    const int parent = armature.parents[b];
+    if (parent < 0 || children[parent] != 1) continue;
+    const double way = (head(b) - head(parent)).norm();
+    if (way > 0) ratios.push_back(armature.lengths[parent] / way);
+  }
+  return ratios.empty() ? 1 : median(std::move(ratios));
+}
+
+/// Blender's importer of glTF makes all bones a hundred times too long where the file's armature is scaled by 0.01.
+void shorten_bones(Armature& armature) {
+  const double times = overlength(armature);
+  if (!(times > kOverlong)) return;
+  for (double& length : armature.lengths) length /= times;
+}
+
+Armature checked(Armature armature) {
+  const std::size_t bones = armature.names.size();
+  if (bones == 0) fail("armature", "has no bones");
+  if (armature.inherit_rotation.empty()) armature.inherit_rotation.assign(bones, true);
+  if (armature.local_location.empty()) armature.local_location.assign(bones, true);
+  check_size(armature.parents.size(), bones, "parents");
+  check_size(armature.rest.size(), bones * 16, "values in rest matrices");
+  check_size(armature.lengths.size(), bones, "lengths");
+  check_size(armature.world.size(), 16, "values in the world matrix");
+  check_size(armature.inherit_rotation.size(), bones, "inherit_rotation flags");
+  check_size(armature.local_location.size(), bones, "local_location flags");
+  check_bones(armature);
+  shorten_bones(armature);
+  return armature;
+}
+
+Quaternion checked_rotation(const double* wxyz, const std::string& clip, int frame, const std::string& bone) {
+  const Quaternion q = load_quaternion(wxyz);
+  const double norm = q.norm();
+  if (!std::isfinite(norm)) fail(frame_label(clip, frame) + ", " + bone, "the rotation is not finite");
+  if (norm < kFlat) fail(frame_label(clip, frame) + ", " + bone, "the rotation is a zero quaternion");
+  return q.normalized();
+}
+
+Vector3 checked_location(const double* xyz, const std::string& clip, int frame, const std::string& bone) {
+  Vector3 location = load_vector(xyz);
+  if (!location.allFinite()) fail(frame_label(clip, frame) + ", " + bone, "the location is not finite");
+  return location;
+}
+
+void check_pose(const Skeleton& skeleton, const double* root_position, const double* rotations, int frame) {
+  const std::string label = "pose " + std::to_string(frame);
+  if (!(load_vector(root_position).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kFarthestHips))
+    fail(label, "the root position is not finite, or more than 1000 km from the origin");
+  for (int b = skeleton.roles.hips; b < skeleton.size(); ++b) {
+    if (skeleton.is_below(b, skeleton.roles.hips) &&
+        !(std::abs(load_quaternion(rotations + 4 * b).norm() - 1) < kRigid))
+      fail(label + ", bone '" + skeleton.names[b] + "'", "the rotation is not a unit quaternion");
+  }
+}
+
+/// Successive quaternions on the same side.
+void align_rotations(int bones, Channels& channels) {
+  for (int f = 1; f < channels.frames; ++f) {
+    for (int b = 0; b < bones; ++b) {
+      double* now = &channels.rotations[4 * offset_of(f, bones, b)];
+      const Quaternion before = load_quaternion(&channels.rotations[4 * offset_of(f - 1, bones, b)]);
+      Quaternion q = load_quaternion(now);
+      if (q.dot(before) < 0) q.coeffs() *= -1;
+      store_quaternion(q, now);
+    }
+  }
+}
+
+/// How much a tree looks like the character: given roles first, then those that its names tell.
+int count_roles(const Armature& armature, const Skeleton& tree) {
+  int count = 0;
+  for (const auto& [role, bone] : armature.roles) count += tree.find(bone) >= 0 ? 1000 : 0;
+  const Roles found = find_roles(tree);
+  for (const auto& [name, member] : role_names()) count += found.*member >= 0 ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+// ---- Reading the armature
+
+Rig::Rig(Armature armature)
+    : armature_(checked(std::move(armature))),
+      object_(parse_object(armature_.world.data(), "armature")),
+      rest_(parse_rest(armature_)),
+      local_(rest_in_parents()),
+      kinematics_(choose_tree(skeleton_bones_)) {}
+
+Rig::Object Rig::parse_object(const double* matrix, const std::string& label) {
+  const RowMajor world(matrix);
+  const double scale = uniform_scale(world, label);
+  return {scale, {world.topRightCorner<3, 1>(), extract_rotation(world, label)}};
+}
+
+std::vector<Rig::Rigid> Rig::parse_rest(const Armature& armature) {
+  std::vector<Rigid> rest(armature.names.size());
+  for (int b = 0; b < static_cast<int>(rest.size()); ++b) {
+    const RowMajor matrix(&armature.rest[16 * static_cast<std::size_t>(b)]);
+    const std::string label = bone_label(armature, b) + " at rest";
+    rest[b] = {matrix.topRightCorner<3, 1>(), extract_rotation(matrix, label)};
+    if ((column_lengths(matrix).array() - 1).abs().maxCoeff() > kRigid || !is_square(matrix, kRigid))
+      fail(label, "the matrix scales by " + print_scale(column_lengths(matrix)) + " or shears, expected a rotation");
+  }
+  return rest;
+}
+
+std::vector<Rig::Rigid> Rig::rest_in_parents() const {
+  std::vector<Rigid> local = rest_;
+  for (int b = 0; b < bones(); ++b) {
+    const int parent = armature_.parents[b];
+    if (parent < 0) continue;
+    const Quaternion inverse = rest_[parent].rotation.conjugate();
+    local[b] = {inverse * (rest_[b].head - rest_[parent].head), inverse * rest_[b].rotation};
+  }
+  return local;
+}
+
+/// The tree below `root` as a skeleton; `members` are its bones.
+Skeleton Rig::make_tree(int root, std::vector<int>& members) const {
+  Skeleton tree;
+  std::vector<int> index(bones(), -1);
+  members.clear();
+  for (int b = root; b < bones(); ++b) {
+    const int parent = armature_.parents[b];
+    if (b != root && (parent < 0 || index[parent] < 0)) continue;
+    index[b] = tree.size();
+    members.push_back(b);
+    tree.names.push_back(armature_.names[b]);
+    tree.parents.push_back(b == root ? -1 : index[parent]);
+    tree.rest_rotations.push_back(local_[b].rotation);
+    tree.offsets.emplace_back(object_.scale * local_[b].head);
+    tree.tips.emplace_back(0, object_.scale * armature_.lengths[b], 0);
+  }
+  tree.offsets[0] = object_.rigid.head + object_.rigid.rotation * tree.offsets[0];
+  tree.rest_rotations[0] = object_.rigid.rotation * tree.rest_rotations[0];
+  return tree;
+}
+
+/// The tree with the most roles; the one with more bones, or else the first, of equals.
+Skeleton Rig::choose_tree(std::vector<int>& members) const {
+  Skeleton best;
+  int best_roles = -1;
+  for (int root = 0; root < bones(); ++root) {
+    if (armature_.parents[root] >= 0) continue;
+    std::vector<int> tree_members;
+    Skeleton tree = make_tree(root, tree_members);
+    const int roles = count_roles(armature_, tree);
+    if (std::pair(roles, tree.size()) <= std::pair(best_roles, best.size())) continue;
+    best = std::move(tree);
+    best_roles = roles;
+    members = std::move(tree_members);
+  }
+  for (const auto& [role, bone] : armature_.roles) {
+    if (best.find(bone) < 0)
+      fail("role '" + role + "'", "bone '" + bone + "' does not hang on '" + best.names[0] + "'");
+  }
+  assign_roles(armature_.roles, best);
+  return make_skeleton(std::move(best));
+}
+
+// ---- Spaces
+
+Rig::Object Rig::object_at(const std::string& clip, const double* worlds, int frame) const {
+  if (worlds == nullptr) return object_;
+  const std::string label = frame_label(clip, frame);
+  Object object = parse_object(worlds + 16 * static_cast<std::size_t>(frame), label);
+  if (std::abs(object.scale - object_.scale) > kRigid * object_.scale)
+    fail(label, "the object's scale is " + std::to_string(object.scale) + ", at rest it is " +
+                    std::to_string(object_.scale) + ": remove the keys on the object's scale");
+  return object;
+}
+
+Rig::Rigid Rig::to_armature(const Vector3& head, const Quaternion& rotation) const {
+  const Quaternion inverse = object_.rigid.rotation.conjugate();
+  return {inverse * (head - object_.rigid.head) / object_.scale, inverse * rotation};
+}
+
+// ---- Forward kinematics as Blender does it (BKE_bone_parent_transform_calc_from_matrices)
+
+/// Where the bone is when its own channels are zero.
+Rig::Rigid Rig::unmoved(int bone, const Rigid* pose) const {
+  const int parent = armature_.parents[bone];
+  if (parent < 0) return rest_[bone];
+  return {pose[parent].head + pose[parent].rotation * local_[bone].head,
+          armature_.inherit_rotation[bone] ? pose[parent].rotation * local_[bone].rotation : rest_[bone].rotation};
+}
+
+/// Local locations follow the parent even where the rotation is not inherited; others are along the parent's own axes,
+/// without a parent along the armature's.
+Quaternion Rig::location_axes(int bone, const Rigid* pose) const {
+  const int parent = armature_.parents[bone];
+  const Quaternion above = parent < 0 ? Quaternion::Identity() : pose[parent].rotation;
+  return armature_.local_location[bone] ? above * local_[bone].rotation : above;
+}
+
+Rig::Rigid Rig::moved(int bone, const Rigid* pose, const Vector3& location, const Quaternion& rotation) const {
+  const Rigid base = unmoved(bone, pose);
+  return {base.head + location_axes(bone, pose) * location, (base.rotation * rotation).normalized()};
+}
+
+// ---- To clips
+
+Clip Rig::empty_clip(const std::string& name, double rate, int frames) const {
+  Clip clip{name, rate, frames, {}, {}, {}};
+  clip.root_positions.resize(3 * offset_of(frames, 1, 0));
+  clip.rotations.resize(4 * offset_of(frames, skeleton().size(), 0));
+  return clip;
+}
+
+void Rig::store_pose(const Object& object, const Rigid* pose, int frame, Clip& clip) const {
+  const int hips = skeleton().roles.hips;
+  for (int b = hips; b < skeleton().size(); ++b) {
+    if (!skeleton().is_below(b, hips)) continue;
+    const int bone = skeleton_bones_[b];
+    const Quaternion above = b == hips ? object.rigid.rotation : pose[armature_.parents[bone]].rotation.conjugate();
+    store_quaternion(above * pose[bone].rotation, &clip.rotations[4 * offset_of(frame, skeleton().size(), b)]);
+  }
+  const Vector3 head = pose[skeleton_bones_[hips]].head;
+  store_vector(object.rigid.head + object.scale * (object.rigid.rotation * head),
+               &clip.root_positions[3 * offset_of(frame, 1, 0)]);
+}
+
+Clip Rig::clip(const std::string& name, double rate, int frames, const double* locations, const double* rotations,
+               const double* worlds) const {
+  Clip clip = empty_clip(name, rate, frames);
+  std::vector<Rigid> pose(bones());
+  for (int f = 0; f < frames; ++f) {
+    for (const int b : skeleton_bones_) {
+      const std::string label = bone_label(armature_, b);
+      const std::size_t at = offset_of(f, bones(), b);
+      pose[b] = moved(b, pose.data(), checked_location(locations + 3 * at, name, f, label),
+                      checked_rotation(rotations + 4 * at, name, f, label));
+    }
+    store_pose(object_at(name, worlds, f), pose.data(), f, clip);
+  }
+  return make_clip(skeleton(), std::move(clip));
+}
+
+Clip Rig::clip_from_matrices(const std::string& name, double rate, int frames, const double* matrices,
+                             const double* worlds) const {
+  Clip clip = empty_clip(name, rate, frames);
+  std::vector<Rigid> pose(bones());
+  for (int f = 0; f < frames; ++f) {
+    for (const int b : skeleton_bones_) {
+      const RowMajor matrix(matrices + 16 * offset_of(f, bones(), b));
+      const std::string label = frame_label(name, f) + ", " + bone_label(armature_, b);
+      pose[b] = {matrix.topRightCorner<3, 1>(), extract_rotation(matrix, label)};
+    }
+    store_pose(object_at(name, worlds, f), pose.data(), f, clip);
+  }
+  return make_clip(skeleton(), std::move(clip));
+}
+
+// ---- To channels
+
+Channels Rig::resting_channels(int frames) const {
+  Channels channels{frames, {}, {}};
+  channels.locations.resize(3 * offset_of(frames, bones(), 0));
+  channels.rotations.resize(4 * offset_of(frames, bones(), 0));
+  for (std::size_t i = 0; i < channels.rotations.size(); i += 4) channels.rotations[i] = 1;
+  return channels;
+}
+
+void Rig::store_rotation(int bone, const Rigid* pose, int frame, Channels& channels) const {
+  const Quaternion q = unmoved(bone, pose).rotation.conjugate() * pose[bone].rotation;
+  store_quaternion(q.normalized(), &channels.rotations[4 * offset_of(frame, bones(), bone)]);
+}
+
+void Rig::store_location(int bone, const Rigid* pose, int frame, Channels& channels) const {
+  const Vector3 shift = pose[bone].head - unmoved(bone, pose).head;
+  store_vector(location_axes(bone, pose).conjugate() * shift, &channels.locations[3 * offset_of(frame, bones(), bone)]);
+}
+
+Channels Rig::channels(int frames, const double* root_positions, const double* rotations) const {
+  Channels channels = resting_channels(frames);
+  const int size = skeleton().size();
+  std::vector<Vector3> heads(size);
+  std::vector<Quaternion> orientations(size);
+  std::vector<Rigid> pose(bones());
+  for (int f = 0; f < frames; ++f) {
+    const double* root_position = root_positions + 3 * offset_of(f, 1, 0);
+    const double* local = rotations + 4 * offset_of(f, size, 0);
+    check_pose(skeleton(), root_position, local, f);
+    kinematics_.world(load_vector(root_position), local, heads.data(), orientations.data());
+    for (int b = 0; b < size; ++b) {
+      const int bone = skeleton_bones_[b];
+      pose[bone] = to_armature(heads[b], orientations[b]);
+      store_rotation(bone, pose.data(), f, channels);
+      if (b == 0 || b == skeleton().roles.hips) store_location(bone, pose.data(), f, channels);
+    }
+  }
+  align_rotations(bones(), channels);
+  return channels;
+}
+
+/// For each of the armature's bones the take's of the same name, or -1.
+std::vector<int> Rig::match_take(const Take& take) const {
+  std::vector<int> found(bones(), -1);
+  std::string missing;
+  for (int b = 0; b < take.skeleton.size(); ++b) {
+    const auto name = std::find(armature_.names.begin(), armature_.names.end(), take.skeleton.names[b]);
+    if (name != armature_.names.end())
+      found[name - armature_.names.begin()] = b;
+    else
+      missing += (missing.empty() ? "'" : ", '") + take.skeleton.names[b] + "'";
+  }
+  if (!missing.empty()) fail("take '" + take.name + "'", "the armature lacks its bones " + missing);
+  return found;
+}
+
+Channels Rig::take_channels(const Take& take) const {
+  const std::vector<int> found = match_take(take);
+  std::vector<Vector3> rest_heads;
+  std::vector<Quaternion> take_rest;
+  rest_pose(take.skeleton, rest_heads, take_rest);
+  std::vector<double> positions, rotations;
+  world_transforms(take, positions, rotations);
+
+  Channels channels = resting_channels(take.frames);
+  std::vector<Rigid> pose(bones());
+  for (int f = 0; f < take.frames; ++f) {
+    for (int b = 0; b < bones(); ++b) {
+      pose[b] = unmoved(b, pose.data());
+      if (found[b] < 0) continue;
+      const std::size_t at = offset_of(f, take.skeleton.size(), found[b]);
+      const Quaternion away = load_quaternion(&rotations[4 * at]) * take_rest[found[b]].conjugate();
+      pose[b] = to_armature(load_vector(&positions[3 * at]), away * object_.rigid.rotation * rest_[b].rotation);
+      store_rotation(b, pose.data(), f, channels);
+      store_location(b, pose.data(), f, channels);
+    }
+  }
+  align_rotations(bones(), channels);
+  return channels;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "motion/clip.hpp"
+
+namespace fragmotion {
+
+/// An armature as an animation package stores it (Blender's conventions). Matrices are row-major.
+struct Armature {
+  std::vector<std::string> names;
+  std::vector<int> parents;            ///< Parents before children; -1 where a bone has none, which several may.
+  std::vector<double> rest;            ///< [bones, 4, 4]: rest matrices in the armature's space, y along the bone
+  std::vector<double> lengths;         ///< [bones]: along y, in the armature's units; far too long: shortened
+  std::vector<double> world;           ///< [4, 4]: the object's matrix; its scale makes metres of the armature's units
+  std::vector<bool> inherit_rotation;  ///< [bones], or empty: all true
+  std::vector<bool> local_location;    ///< [bones], or empty: all true
+  std::map<std::string, std::string> roles;  ///< Role ("hips", "left_foot" ...) -> bone, over what the names tell
+};
+
+/// What an animation keys: per frame each bone's location and rotation relative to its rest in its parent.
+struct Channels {
+  int frames = 0;
+  std::vector<double> locations;  ///< [frames, bones, 3] in the armature's units
+  std::vector<double> rotations;  ///< [frames, bones, 4] unit quaternions, successive ones on the same side
+};
+
+/// Turns an armature's channels into clips, and poses back into channels. Its skeleton is the tree of bones that holds
+/// the hips, in world metres; bones of other trees rest. A bone that Blender connects to its parent ignores its
+/// location: the hips and the first bone must not be connected, for take_channels no bone.
+class Rig {
+ public:
+  /// Throws std::invalid_argument on wrong sizes or order, on rest matrices that are not rigid, on a world matrix whose
+  /// scale is not uniform and positive (naming it), and on roles or bones that do not exist or lie in different trees.
+  explicit Rig(Armature armature);
+
+  int bones() const { return static_cast<int>(armature_.names.size()); }
+  const Skeleton& skeleton() const { return kinematics_.skeleton(); }
+  /// The armature's bone that each of the skeleton's is.
+  const std::vector<int>& skeleton_bones() const { return skeleton_bones_; }
+
+  /// Channels [frames, bones, 3] and [frames, bones, 4] (need not be unit) to a clip. `worlds` [frames, 4, 4], or null
+  /// where the object stands still; its scale must stay. Of the locations only what they do to the hips is kept.
+  /// Throws std::invalid_argument naming the clip, frame and bone.
+  Clip clip(const std::string& name, double rate, int frames, const double* locations, const double* rotations,
+            const double* worlds = nullptr) const;
+
+  /// Pose matrices [frames, bones, 4, 4] in the armature's space to a clip; their scale is dropped. Throws as clip
+  /// does, also on a mirrored or flat matrix.
+  Clip clip_from_matrices(const std::string& name, double rate, int frames, const double* matrices,
+                          const double* worlds = nullptr) const;
+
+  /// Poses as in Clip, [frames, 3] and [frames, skeleton's bones, 4], to channels for the object at `Armature::world`.
+  /// The bones above the hips follow the character frame. Inverse of clip.
+  Channels channels(int frames, const double* root_positions, const double* rotations) const;
+
+  /// The take as channels of an armature made from a take's skeleton (equal names and directions at rest, any roll):
+  /// every head's world position and every bone's rotation away from rest are the take's. Bones that the take lacks
+  /// rest. Throws std::invalid_argument naming the take's bones that the rig lacks.
+  Channels take_channels(const Take& take) const;
+
+ private:
+  struct Rigid {
+    Vector3 head = Vector3::Zero();
+    Quaternion rotation = Quaternion::Identity();
+  };
+  struct Object {
+    double scale = 1;
+    Rigid rigid;
+  };
+
+  static Object parse_object(const double* matrix, const std::string& label);
+  static std::vector<Rigid> parse_rest(const Armature& armature);
+  std::vector<Rigid> rest_in_parents() const;
+  Skeleton make_tree(int root, std::vector<int>& members) const;
+  Skeleton choose_tree(std::vector<int>& members) const;
+
+  Object object_at(const std::string& clip, const double* worlds, int frame) const;
+  Rigid to_armature(const Vector3& head, const Quaternion& rotation) const;
+
+  /// Forward kinematics in the armature's space; `pose` holds the bone's parent.
+  Rigid unmoved(int bone, const Rigid* pose) const;
+  Quaternion location_axes(int bone, const Rigid* pose) const;
+  Rigid moved(int bone, const Rigid* pose, const Vector3& location, const Quaternion& rotation) const;
+
+  Clip empty_clip(const std::string& name, double rate, int frames) const;
+  void store_pose(const Object& object, const Rigid* pose, int frame, Clip& clip) const;
+  Channels resting_channels(int frames) const;
+  void store_rotation(int bone, const Rigid* pose, int frame, Channels& channels) const;
+  void store_location(int bone, const Rigid* pose, int frame, Channels& channels) const;
+  std::vector<int> match_take(const Take& take) const;
+
+  Armature armature_;
+  Object object_;
+  std::vector<Rigid> rest_;   // in the armature's space
+  std::vector<Rigid> local_;  // in the parent at rest
+  std::vector<int> skeleton_bones_;
+  Kinematics kinematics_;
+};
+
+}  // namespace fragmotion

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "base/types.hpp"
+
+namespace fragmotion {
+
+constexpr double kUniform = 1e-4;  // relative difference of scales
+constexpr double kFlat = 1e-12;
+
+using RowMajor = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>;
+
+[[noreturn]] inline void fail(const std::string& label, const std::string& cause) {
+  throw std::invalid_argument(label + ": " + cause);
+}
+
+inline Vector3 column_lengths(const RowMajor& matrix) { return matrix.topLeftCorner<3, 3>().colwise().norm(); }
+
+/// The rotation in a matrix that may scale; keeps the direction of y, along the bone, where it also shears.
+inline Quaternion extract_rotation(const RowMajor& matrix, const std::string& label) {
+  const Eigen::Matrix3d m = matrix.topLeftCorner<3, 3>();
+  if (!matrix.allFinite()) fail(label, "the matrix is not finite");
+  if (m.colwise().norm().minCoeff() < kFlat) fail(label, "the matrix is flat (a scale of zero)");
+  if (m.determinant() <= 0) fail(label, "the matrix is mirrored (a negative scale) or flat");
+  const Vector3 y = m.col(1).normalized();
+  const Vector3 x = m.col(0).normalized();
+  const Vector3 square = (x - y * y.dot(x)).normalized();
+  Eigen::Matrix3d rotation;
+  rotation << square, y, square.cross(y);
+  return Quaternion{rotation}.normalized();
+}
+
+inline bool is_square(const RowMajor& matrix, double tolerance) {
+  const Eigen::Matrix3d m = matrix.topLeftCorner<3, 3>().colwise().normalized();
+  return (m.transpose() * m - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < tolerance;
+}
+
+inline std::string print_scale(const Vector3& scale) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(4);
+  text << "(" << scale.x() << ", " << scale.y() << ", " << scale.z() << ")";
+  return text.str();
+}
+
+inline double uniform_scale(const RowMajor& matrix, const std::string& label) {
+  const std::string advice = ": apply the scale (Ctrl+A); only a uniform, positive one can be used";
+  if (!matrix.allFinite()) fail(label, "the world matrix is not finite");
+  const Vector3 scale = column_lengths(matrix);
+  const double mean = scale.mean();
+  if (matrix.topLeftCorner<3, 3>().determinant() < 0) fail(label, "the scale is " + print_scale(-scale) + advice);
+  if (mean < kFlat || (scale.array() - mean).abs().maxCoeff() > kUniform * mean)
+    fail(label, "the scale is " + print_scale(scale) + advice);
+  if (!is_square(matrix, kUniform)) fail(label, "the object is sheared, with scale " + print_scale(scale) + advice);
+  return mean;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "motion/clip.hpp"
+
+namespace fragmotion {
+
+/// The frames of a clip that no body gets to from the frame before, in order: the second frame of many files follows a
+/// calibration pose, and markers get mixed up. There a bone turns by 60 degrees at once, or the hips go faster than
+/// 20 m/s (of a character of 1.8 m). Bones that Dis leaves out, as fingers, do not count.
+std::vector<int> discontinuities(const Skeleton& skeleton, const Clip& clip);
+
+}  // namespace fragmotion

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "motion/mirror.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "motion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+using Matrix3 = Eigen::Matrix3d;
+
+const Matrix3 kReflection = Vector3{-1, 1, 1}.asDiagonal();
+constexpr double kSymmetric = 0.03;          // of the stature
+const double kSnap = 1 + 2 * std::cos(0.5);  // trace of a rotation by 0.5 rad (29 degrees)
+
+struct Pose {
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> orientations;
+  explicit Pose(int bones) : heads(bones), orientations(bones) {}
+};
+
+Matrix3 nearest_orthogonal(const Matrix3& m) {
+  const Eigen::JacobiSVD<Matrix3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
+// World orientations of the rest pose in its character frame, or nothing where that pose is not symmetric.
+std::vector<Matrix3> symmetric_rest(const Kinematics& kinematics, const std::vector<int>& counterpart) {
+  const Skeleton& skeleton = kinematics.skeleton();
+  Pose pose(kinematics.bones());
+  rest_pose(skeleton, pose.heads, pose.orientations);
+  const CharacterFrame& frame = kinematics.rest_frame();
+  const double tolerance = kSymmetric * stature(skeleton);
+  std::vector<Matrix3> result;
+  for (int b = 0; b < kinematics.bones(); ++b) {
+    if (skeleton.is_below(b, skeleton.roles.hips)) {
+      const Vector3 mirrored = kReflection * frame.to_local(pose.heads[counterpart[b]]);
+      if ((mirrored - frame.to_local(pose.heads[b])).norm() > tolerance) return {};
+    }
+    result.push_back((frame.rotation().inverse() * pose.orientations[b]).toRotationMatrix());
+  }
+  return result;
+}
+
+// The mean world orientation of each bone over all frames, in the character frame.
+std::vector<Matrix3> mean_orientations(const Kinematics& kinematics, const std::vector<Clip>& clips) {
+  std::vector<Matrix3> sums(kinematics.bones(), Matrix3::Zero());
+  Pose pose(kinematics.bones());
+  for (const Clip& clip : clips) {
+    for (int f = 0; f < clip.frames; ++f) {
+      world(kinematics, clip, f, pose.heads.data(), pose.orientations.data());
+      const Quaternion to_character = frame_at(clip, f).rotation().inverse();
+      for (int b = 0; b < kinematics.bones(); ++b) sums[b] += (to_character * pose.orientations[b]).toRotationMatrix();
+    }
+  }
+  for (Matrix3& sum : sums) sum = nearest_orthogonal(sum);
+  return sums;
+}
+
+// A mean pose is only nearly symmetric, but rigs mirror axes exactly: the nearest map of axes to axes, where one is
+// near.
+Matrix3 snapped_to_axes(const Matrix3& turn) {
+  std::array<int, 3> axes{0, 1, 2};
+  Matrix3 best = turn;
+  double nearest = kSnap;
+  do {
+    for (int signs = 0; signs < 8; ++signs) {
+      Matrix3 candidate = Matrix3::Zero();
+      for (int row = 0; row < 3; ++row) candidate(row, axes[row]) = (signs >> row & 1) != 0 ? -1 : 1;
+      if (candidate.determinant() * turn.determinant() < 0) continue;
+      const double trace = (candidate.transpose() * turn).trace();
+      if (trace > nearest) nearest = trace, best = candidate;
+    }
+  } while (std::next_permutation(axes.begin(), axes.end()));
+  return best;
+}
+
+}  // namespace
+
+Mirror::Mirror(const Kinematics& kinematics, const std::vector<Clip>& clips)
+    : kinematics_(kinematics), counterpart_(mirror_bones(kinematics.skeleton())) {
+  std::vector<Matrix3> symmetric = symmetric_rest(kinematics, counterpart_);
+  const bool by_rest = !symmetric.empty();
+  if (!by_rest) symmetric = mean_orientations(kinematics, clips);
+  for (int b = 0; b < kinematics.bones(); ++b) {
+    const Matrix3 turn = (kReflection * symmetric[counterpart_[b]]).transpose() * symmetric[b];
+    turn_.push_back(by_rest ? turn : snapped_to_axes(turn));
+  }
+}
+
+Clip Mirror::operator()(const Clip& clip) const {
+  const Skeleton& skeleton = kinematics_.skeleton();
+  const int bones = kinematics_.bones();
+  Clip result = clip;
+  result.name += " mirrored";
+  Pose pose(bones);
+  std::vector<Quaternion> mirrored(bones);
+  for (int f = 0; f < clip.frames; ++f) {
+    world(kinematics_, clip, f, pose.heads.data(), pose.orientations.data());
+    for (int b = 0; b < bones; ++b) {
+      mirrored[b] = Quaternion{kReflection * pose.orientations[counterpart_[b]].toRotationMatrix() * turn_[b]};
+    }
+    for (int b = 0; b < bones; ++b) {
+      if (!skeleton.is_below(b, skeleton.roles.hips)) continue;
+      const bool hips = b == skeleton.roles.hips;
+      store_quaternion(hips ? mirrored[b] : mirrored[skeleton.parents[b]].inverse() * mirrored[b],
+                       &result.rotations[4 * (static_cast<std::size_t>(f) * bones + b)]);
+    }
+    result.root_positions[3 * f] = -clip.root_positions[3 * f];
+    result.headings[f] = -clip.headings[f];
+  }
+  return make_clip(skeleton, std::move(result));
+}
+
+}  // namespace fragmotion

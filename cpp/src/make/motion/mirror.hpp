@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "motion/clip.hpp"
+
+namespace fragmotion {
+
+/// Turns a motion into its mirror image, left for right. Each bone's frame is reflected and then turned by a constant
+/// that makes it a frame of its counterpart: told by the rest pose where that is symmetric, else by the takes' mean
+/// pose, which gait makes symmetric.
+class Mirror {
+ public:
+  Mirror(const Kinematics& kinematics, const std::vector<Clip>& clips);
+
+  /// The mirror image of a clip, reflected in the world's plane x = 0; named "NAME mirrored".
+  Clip operator()(const Clip& clip) const;
+
+ private:
+  const Kinematics& kinematics_;
+  std::vector<int> counterpart_;
+  std::vector<Eigen::Matrix3d> turn_;  // improper: W' = S W_counterpart turn
+};
+
+}  // namespace fragmotion

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "motion/contacts.hpp"
+#include "skeleton/role_map.hpp"
+#include "skeleton/two_bone_ik.hpp"
+
+namespace fragmotion {
+
+/// A skeleton as a body: what its bones are, and the pose in which bodies are compared. In that pose a body faces +y,
+/// its arms and fingers point straight to the sides, its legs straight down, its feet straight ahead and flat; trunk,
+/// neck and head are as they stand.
+struct Body {
+  Kinematics kinematics;  ///< Of the skeleton with the roles of the map.
+  RoleMap map;
+  bool stands = false;                ///< Whether a rest pose or clips tell that pose; else it is a guess.
+  std::vector<Quaternion> reference;  ///< World rotation of each bone in that pose.
+  Legs legs;
+  std::array<Vector3, 2> feet;  ///< From the foot's head to the ball in that pose, m.
+  Floors soles;                 ///< Heights of ball and heel over the ground where a foot stands flat, m.
+  double leg = 0;               ///< Length of thigh and shin, mean of both legs, m.
+  double hip_width = 0;         ///< Between the thighs' heads, m.
+
+  Body(Kinematics posed, RoleMap roles) : kinematics(std::move(posed)), map(std::move(roles)) {}
+
+  const Skeleton& skeleton() const { return kinematics.skeleton(); }
+};
+
+/// The body of a skeleton by its map of roles. The pose is told by the rest pose where that is one of a standing body,
+/// however its arms are held and wherever it faces, else by how it goes in `clips` of it; flat feet by the clips where
+/// they stand in them. Throws std::invalid_argument naming what is missing of hips and legs, or hangs wrong.
+Body make_body(const Skeleton& skeleton, const RoleMap& map, const std::vector<Clip>& clips = {});
+
+}  // namespace fragmotion

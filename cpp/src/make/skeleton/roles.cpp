@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "skeleton/roles.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "skeleton/role_map.hpp"
+#include "skeleton/role_names.hpp"
+
+namespace fragmotion {
+namespace {
+
+/// The first bone that carries three others or more, as hips do, else bone 0.
+int first_branching(const Skeleton& skeleton) {
+  std::vector<int> children(skeleton.names.size(), 0);
+  for (int bone = 1; bone < skeleton.size(); ++bone) ++children[skeleton.parents[bone]];
+  const auto branching = std::find_if(children.begin(), children.end(), [](int count) { return count >= 3; });
+  return branching == children.end() ? 0 : static_cast<int>(branching - children.begin());
+}
+
+}  // namespace
+
+Roles roles_of(const RoleMap& map) {
+  Roles roles;
+  roles.hips = map.bone(Role::kHips);
+  roles.head = map.bone(Role::kHead);
+  roles.left_hand = map.bone(Role::kHand, Side::kLeft);
+  roles.right_hand = map.bone(Role::kHand, Side::kRight);
+  roles.left_foot = map.bone(Role::kFoot, Side::kLeft);
+  roles.right_foot = map.bone(Role::kFoot, Side::kRight);
+  roles.left_toe = map.bone(Role::kToe, Side::kLeft);
+  roles.right_toe = map.bone(Role::kToe, Side::kRight);
+  roles.left_thigh = map.bone(Role::kThigh, Side::kLeft);
+  roles.right_thigh = map.bone(Role::kThigh, Side::kRight);
+  return roles;
+}
+
+Roles find_roles(const Skeleton& skeleton) {
+  Roles roles = roles_of(find_role_map(skeleton));
+  if (roles.hips < 0) roles.hips = first_branching(skeleton);
+  return roles;
+}
+
+Skeleton make_skeleton(Skeleton given) {
+  Skeleton skeleton = checked_skeleton(std::move(given));
+  const Roles found = find_roles(skeleton);
+  for (const auto& [name, member] : role_names()) {
+    if (skeleton.roles.*member == -1) skeleton.roles.*member = found.*member;
+  }
+  return skeleton;
+}
+
+}  // namespace fragmotion

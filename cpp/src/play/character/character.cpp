@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "character/character.hpp"
+
+#include <stdexcept>
+
+#include "base/listed.hpp"
+#include "policy/answer.hpp"
+#include "policy/repair.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr int kRounds = 16;  // of repairs: classes that an answer leads to may repair what lacked them; two are usual
+
+}  // namespace
+
+const Policy& Character::policy(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const Policy& policy : policies) {
+    if (name.empty() || policy.name == name) return policy;
+    names.push_back(policy.name);
+  }
+  throw std::invalid_argument("this character has no policy \"" + name + "\"; it has " + listed(names));
+}
+
+void check_style(const Character& character, int style) {
+  if (style >= 0 && style < character.style_count()) return;
+  throw std::invalid_argument("style " + std::to_string(style) + " does not exist; the character has " +
+                              std::to_string(character.style_count()));
+}
+
+std::vector<Control> evident_of_classes(const Character& character) {
+  std::vector<Control> evident;
+  for (const int fragment : character.classes.representatives)
+    evident.push_back(character.pool.fragments[fragment].evident);
+  return evident;
+}
+
+void repair_policies(Character& character) {
+  const std::vector<Control> evident = evident_of_classes(character);
+  for (Policy& policy : character.policies) {
+    std::vector<int> before;
+    for (int round = 0; round < kRounds && policy.next != before; ++round) {
+      before = policy.next;
+      repair_policy(policy, character.quality, character.space, evident);
+      answer_motion(policy, character.quality, character.space, evident, character.bridges);
+    }
+  }
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: MIT
+#include "character/policy_file.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <type_traits>
+
+#include "base/read_file.hpp"
+#include "base/utf8.hpp"
+#include "base/write_file.hpp"
+#include "character/check_character.hpp"
+#include "character/policy_bytes.hpp"
+#include "fragments/body_tips.hpp"
+#include "fragments/entry_poses.hpp"
+#include "fragments/whole_jumps.hpp"
+#include "skeleton/role_names.hpp"
+#include "skeleton/two_bone_ik.hpp"
+
+namespace fragmotion {
+namespace {
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "policy files are little-endian");
+
+constexpr char kMagic[9] = "FRAGMOTN";
+constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
+// Memory of the entry poses, which a player needs beside the file: a file takes at most 20 times its size, beyond 50
+// MB.
+constexpr std::size_t kRoom = 48000000, kTimes = 16;  // bytes, and for each byte of the file
+
+std::uint64_t checksum(const char* data, std::size_t size) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ static_cast<unsigned char>(data[i])) * 0x100000001b3ULL;
+  return hash;
+}
+
+// Writes and Reads share their spelling, so that one function, exchange(), says what a file holds and in which order.
+class Writer {
+ public:
+  static constexpr bool kReads = false;
+  std::string bytes;
+
+  template <typename T>
+  void raw(const T* values, std::size_t count) {
+    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+  }
+  template <typename Stored, typename T>
+  void number(const T& value) {
+    const auto stored = static_cast<Stored>(value);
+    raw(&stored, 1);
+  }
+  template <typename Stored, typename T>
+  void numbers(const std::vector<T>& values) {
+    number<std::uint64_t>(values.size());
+    for (const T& value : values) number<Stored>(value);
+  }
+  void text(const std::string& value) {
+    number<std::uint32_t>(value.size());
+    raw(value.data(), value.size());
+  }
+  // Whether a section follows that only some files have; it begins with its name.
+  bool section(const std::string& name, bool wanted) {
+    if (wanted) raw(name.data(), name.size());
+    return wanted;
+  }
+  template <typename T, typename Each>
+  void list(std::vector<T>& values, std::size_t /*least*/, const Each& each, std::size_t /*most*/ = 0) {
+    number<std::uint64_t>(values.size());
+    for (T& value : values) each(value);
+  }
+};
+
+class Reader {
+ public:
+  static constexpr bool kReads = true;
+  Reader(const char* data, std::size_t size) : data_(data), left_(size) {}
+
+  template <typename Stored, typename T>
+  void number(T& value) {
+    Stored stored;
+    std::memcpy(&stored, take(sizeof(Stored)), sizeof(Stored));
+    value = static_cast<T>(stored);
+  }
+  template <typename Stored, typename T>
+  void numbers(std::vector<T>& values) {
+    values.resize(count(sizeof(Stored)));
+    for (T& value : values) number<Stored>(value);
+  }
+  void text(std::string& value) {
+    std::uint32_t size = 0;
+    number<std::uint32_t>(size);
+    value = as_utf8(std::string(take(size), size));
+  }
+  // `least`: bytes that an element takes at the least, and `most`: elements that there may be, so that a count that
+  // cannot be is refused before it is believed.
+  template <typename T, typename Each>
+  void list(std::vector<T>& values, std::size_t least, const Each& each, std::size_t most = kAnyNumber) {
+    const std::size_t announced = count(least);
+    if (announced > most) throw std::invalid_argument("it announces more than there can be");
+    values.resize(announced);
+    for (T& value : values) each(value);
+  }
+  bool section(const std::string& name, bool /*wanted*/) {
+    const bool follows = left_ >= name.size() && std::memcmp(data_, name.data(), name.size()) == 0;
+    if (follows) take(name.size());
+    return follows;
+  }
+  bool done() const { return left_ == 0; }
+
+ private:
+  const char* take(std::size_t size) {
+    if (size > left_) throw std::invalid_argument("it ends too early");
+    const char* at = data_;
+    data_ += size;
+    left_ -= size;
+    return at;
+  }
+  std::size_t count(std::size_t least) {
+    std::uint64_t count = 0;
+    number<std::uint64_t>(count);
+    if (count > left_ / least) throw std::invalid_argument("it announces more than it holds");
+    return static_cast<std::size_t>(count);
+  }
+
+  const char* data_;
+  std::size_t left_;
+};
+
+template <typename Archive, typename V>
+void exchange_vector(Archive& a, V& v) {
+  for (int i = 0; i < 3; ++i) a.template number<double>(v[i]);
+}
+
+template <typename Archive, typename Q>
+void exchange_quaternion(Archive& a, Q& q) {
+  for (int i = 0; i < 4; ++i) a.template number<double>(q.coeffs()[i]);
+}
+
+template <typename Archive, typename S>
+void exchange_skeleton(Archive& a, S& s) {
+  a.list(s.names, 4, [&](auto& name) { a.text(name); });
+  a.template numbers<std::int32_t>(s.parents);
+  a.list(s.rest_rotations, 32, [&](auto& q) { exchange_quaternion(a, q); });
+  a.list(s.offsets, 24, [&](auto& v) { exchange_vector(a, v); });
+  a.list(s.tips, 24, [&](auto& v) { exchange_vector(a, v); });
+  for (const auto& [name, member] : role_names()) a.template number<std::int32_t>(s.roles.*member);
+}
+
+template <typename Archive, typename C>
+void exchange_control(Archive& a, C& c) {
+  for (auto* value : {&c.x, &c.y, &c.turn, &c.jump}) a.template number<double>(*value);
+}
+
+template <typename Archive>
+void exchange_clip(Archive& a, PackedClip& clip) {
+  a.text(clip.name);
+  a.template number<double>(clip.rate);
+  a.template number<std::int32_t>(clip.frames);
+  for (auto* values : {&clip.origin, &clip.steps}) {
+    for (double& value : *values) a.template number<double>(value);
+  }
+  a.template numbers<std::int32_t>(clip.least);
+  a.template numbers<std::uint8_t>(clip.bits);
+  a.template numbers<std::uint8_t>(clip.poses);
+}
+
+// One byte a frame: 1 where the left foot stands, and 2 where the right one does.
+template <typename Archive>
+void exchange_contacts(Archive& a, Contacts& contacts) {
+  auto& [left, right] = contacts.feet;
+  std::vector<std::uint8_t> standing;
+  for (std::size_t f = 0; f < left.size(); ++f) standing.push_back((left[f] ? 1 : 0) | (right[f] ? 2 : 0));
+  a.template numbers<std::uint8_t>(standing);
+  for (auto& floor : contacts.floors) {
+    a.template number<double>(floor.ball);
+    a.template number<double>(floor.heel);
+  }
+  if (!Archive::kReads) return;
+  for (const std::uint8_t feet : standing) {
+    left.push_back((feet & 1) != 0);
+    right.push_back((feet & 2) != 0);
+  }
+}
+
+template <typename Archive>
+void exchange_clips(Archive& a, PackedPool& pool) {
+  PoseGrid grid = pool.clips.empty() ? PoseGrid() : *pool.clips[0].grid;
+  a.template number<std::int32_t>(grid.bones);
+  a.template numbers<float>(grid.usual);
+  a.template numbers<float>(grid.steps);
+  const auto shared = std::make_shared<const PoseGrid>(std::move(grid));
+  a.list(pool.clips, 104, [&](auto& clip) {
+    if (Archive::kReads) clip.grid = shared;
+    exchange_clip(a, clip);
+  });
+  a.list(pool.fragments, 45, [&](auto& f) {
+    for (auto* value : {&f.clip, &f.begin, &f.end}) a.template number<std::int32_t>(*value);
+    a.template number<std::uint8_t>(f.origin);
+    exchange_control(a, f.evident);
+  });
+}
+
+// Of a space that is not the paper's, whose two speeds are before it.
+template <typename Archive>
+void exchange_layout(Archive& a, ControlLayout& layout, std::vector<double>& speeds) {
+  a.template numbers<double>(speeds);
+  layout.speeds = static_cast<int>(std::min<std::size_t>(speeds.size(), kMostSpeeds + 1));  // more are refused
+  a.template number<std::uint8_t>(layout.directions);
+  for (bool* part : {&layout.turn, &layout.jump}) a.template number<std::uint8_t>(*part);
+}
+
+template <typename Archive>
+void exchange_space(Archive& a, ControlSpace& space) {
+  ControlLayout layout = space.layout();
+  double values[] = {space.slowest(),          space.run(),          space.turn_rate(),   space.scale(),
+                     space.weights().velocity, space.weights().turn, space.weights().jump};
+  for (double& value : values) a.template number<double>(value);
+  std::vector<double> speeds = Archive::kReads ? std::vector{values[0], values[1]} : space.speeds();
+  if (a.section("controls", layout != ControlLayout())) exchange_layout(a, layout, speeds);
+  if (Archive::kReads) {
+    space = ControlSpace(layout, speeds, values[2], values[3], {values[4], values[5], values[6]});
+  }
+}
+
+template <typename Archive>
+void exchange_moves(Archive& a, std::vector<Move>& moves) {
+  const auto exchange_move = [&](auto& move) {
+    a.text(move.name);
+    a.template number<std::int32_t>(move.clip);
+    a.template number<std::uint8_t>(move.upper_body);
+    a.template number<double>(move.wait);
+    a.template number<std::int32_t>(move.loop_begin);
+    a.template number<std::int32_t>(move.loop_end);
+  };
+  a.list(moves, 25, exchange_move, kMostMoves);
+}
+
+// All of a style but its skeleton.
+template <typename Archive>
+void exchange_style(Archive& a, Character& c) {
+  exchange_clips(a, c.pool);
+  exchange_space(a, c.space);
+  a.template number<std::int32_t>(c.classes.count);
+  a.template numbers<std::int32_t>(c.classes.labels);
+  a.template numbers<std::int32_t>(c.classes.representatives);
+  a.template number<double>(c.classes.inertia);
+  a.template number<std::int32_t>(c.quality.classes);
+  a.template numbers<double>(c.quality.smoothness);
+  a.template numbers<double>(c.quality.match);
+  if (Archive::kReads) c.quality.controls = c.space.size();
+  a.list(c.policies, 16, [&](auto& policy) {
+    a.text(policy.name);
+    a.template number<std::int32_t>(policy.classes);
+    a.template numbers<std::int32_t>(policy.next);
+    if (Archive::kReads) policy.controls = c.space.size();
+  });
+  a.template numbers<std::int32_t>(c.bridges);
+  a.template numbers<double>(c.control_model);
+  a.list(c.contacts, 40, [&](auto& contacts) { exchange_contacts(a, contacts); });
+  for (Leg& leg : c.legs) exchange_vector(a, leg.hinge);  // the bones are found anew by their roles
+}
+
+// One of `copies`, made only where the file has poses of as many bones, which are its share of the memory.
+void give_skeleton(const Skeleton& skeleton, std::size_t copies, PackedPool& pool) {
+  std::size_t names = 0;
+  for (const std::string& name : skeleton.names) names += name.size();
+  if (names > kRoom / copies) throw std::invalid_argument("its bones' names are too long for so many styles");
+  const std::size_t rotations = pool.clips.empty() ? 0 : pool.clips[0].grid->usual.size();
+  for (const std::size_t bones : {skeleton.names.size(), skeleton.parents.size(), skeleton.rest_rotations.size(),
+                                  skeleton.offsets.size(), skeleton.tips.size()}) {
+    if (rotations < 4 * bones) throw std::invalid_argument("its styles do not fit together");
+  }
+  pool.skeleton = skeleton;
+}
+
+// What the other styles are of a character that has its skeleton.
+template <typename Archive>
+void exchange_styles(Archive& a, Character& c) {
+  a.text(c.style);
+  a.list(
+      c.styles, 200,
+      [&](auto& style) {
+        const auto other = Archive::kReads ? std::make_shared<Character>() : std::const_pointer_cast<Character>(style);
+        a.text(other->style);
+        exchange_style(a, *other);
+        if (Archive::kReads) give_skeleton(c.pool.skeleton, c.styles.size(), other->pool);
+        style = other;
+      },
+      kMostStyles - 1);
+}
+
+template <typename Archive>
+void exchange(Archive& a, Character& c) {
+  exchange_skeleton(a, c.pool.skeleton);
+  exchange_style(a, c);
+  if (a.section("moves", !c.moves.empty())) exchange_moves(a, c.moves);
+  if (a.section("styles", !c.style.empty())) exchange_styles(a, c);
+}
+
+// That the entry poses of a file of `size` bytes are in proportion.
+void check_memory(const Character& c, std::size_t size) {
+  std::size_t fragments = kMoveParts * c.moves.size();
+  for (int style = 0; style < c.style_count(); ++style) fragments += c.in_style(style).pool.fragments.size();
+  const std::size_t tips = measured_bones(c.pool.skeleton).size(),
+                    bytes = fragments * 3 * padded(2 * static_cast<int>(tips)) * sizeof(float);
+  if (bytes <= kRoom + kTimes * size) return;
+  throw std::invalid_argument(std::to_string(fragments) + " fragments of " + std::to_string(tips) +
+                              " bones would take " + std::to_string(bytes / 1000000) + " MB of memory, more than " +
+                              std::to_string(kRoom / 1000000) + " MB and " + std::to_string(kTimes) +
+                              " times the file's size");
+}
+
+// Makes anew what a file does not hold.
+void complete(Character& c) {
+  Legs legs = resting_legs(c.pool.skeleton);
+  for (std::size_t side = 0; side < legs.size(); ++side) legs[side].hinge = c.legs[side].hinge;
+  c.legs = legs;
+  repair_policies(c);  // of a program that repaired as it played
+  c.coverage = coverage(c.pool.fragments, c.space);
+  find_whole_jumps(c.pool);
+  c.entry_poses = entry_poses(c.pool);
+  c.move_parts = move_parts(c.pool, c.moves);
+}
+
+}  // namespace
+
+std::string unchecked_bytes(const Character& character) {
+  Writer payload;
+  exchange(payload, const_cast<Character&>(character));
+  Writer file;
+  file.raw(kMagic, 8);
+  file.number<std::uint32_t>(kPolicyVersion);
+  file.number<std::uint64_t>(payload.bytes.size());
+  file.bytes += payload.bytes;
+  file.number<std::uint64_t>(checksum(payload.bytes.data(), payload.bytes.size()));
+  return file.bytes;
+}
+
+std::string to_bytes(const Character& character) {
+  try {
+    check_character(character);
+    std::string bytes = unchecked_bytes(character);
+    check_memory(character, bytes.size());
+    return bytes;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("the policy cannot be saved: ") + error.what());
+  }
+}
+
+Character from_bytes(std::string_view bytes, const std::string& name) {
+  try {
+    if (bytes.size() < kHeader || std::memcmp(bytes.data(), kMagic, 8) != 0) {
+      throw std::invalid_argument("it is no Fragmotion policy file");
+    }
+    std::uint32_t version = 0;
+    std::uint64_t length = 0;
+    std::memcpy(&version, bytes.data() + 8, 4);
+    std::memcpy(&length, bytes.data() + 12, 8);
+    if (version != kPolicyVersion) {
+      const std::string which = "it is of version " + std::to_string(version) + ", and this program reads version " +
+                                std::to_string(kPolicyVersion);
+      throw std::invalid_argument(which +
+                                  (version > kPolicyVersion ? ": get a newer Fragmotion" : ": build the policy again"));
+    }
+    if (bytes.size() < kHeader + kChecksum || length != bytes.size() - kHeader - kChecksum) {
+      throw std::invalid_argument("it is cut short or has bytes too many");
+    }
+    std::uint64_t expected = 0;
+    std::memcpy(&expected, bytes.data() + kHeader + length, 8);
+    if (checksum(bytes.data() + kHeader, length) != expected) throw std::invalid_argument("it is damaged (checksum)");
+    Character character;
+    Reader reader(bytes.data() + kHeader, length);
+    exchange(reader, character);
+    if (!reader.done()) throw std::invalid_argument("it has bytes too many");
+    check_character(character);
+    check_memory(character, bytes.size());
+    complete(character);
+    for (const auto& style : character.styles) complete(const_cast<Character&>(*style));  // which from_bytes() made
+    return character;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(name + " is refused: " + error.what());
+  }
+}
+
+void save_policy(const std::filesystem::path& path, const Character& character) {
+  write_file(path, to_bytes(character));
+}
+
+Character load_policy(const std::filesystem::path& path) {
+  return from_bytes(read_file(path), path.filename().u8string());
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "skeleton/two_bone_ik.hpp"
+
+namespace fragmotion {
+
+/// Bone tips as Dis sees them: x, y and z each in a row of floats, padded with zeros to whole blocks of kLanes.
+constexpr int kLanes = 8;
+
+/// What Dis grows with from rig to rig: the length of the bones from the hips to each of its tips, summed, m of a
+/// character of 1.8 m. A tip moves the more the further out it is, so that the number of tips does not do where limbs
+/// are divided otherwise. Thresholds on Dis are told for one metre of it, to mean the same on any rig.
+double tip_reach(const Skeleton& skeleton);
+
+/// That of Bandai-Namco's skeleton of 21 tips, on which the thresholds were found.
+constexpr double kTunedReach = 17.4;
+
+/// The floats in a row of so many points.
+constexpr int padded(int points) { return (points + kLanes - 1) / kLanes * kLanes; }
+
+/// Sum over points of the Euclidean distance between two such vectors of `stride` floats a row (Sec. 3.1): a norm of
+/// their difference. The same bits on every x86-64, with AVX2 or without.
+float tip_distance(const float* a, const float* b, int stride);
+
+/// The bone tips of poses, as Dis sees them. Allocates nothing once it is made.
+class BodyTips {
+ public:
+  explicit BodyTips(const Skeleton& skeleton);
+
+  int points() const { return static_cast<int>(bones_.size()); }
+  /// tip_reach() of the skeleton.
+  double reach() const { return reach_; }
+  /// Takes a pose: the hips' place and rotations [bones, 4] as in Clip.
+  void pose(const Vector3& root, const double* rotations);
+  /// Writes its tips as seen from `frame`, as points offset .. of three rows of `stride` floats.
+  void write(const CharacterFrame& frame, float* rows, int stride, int offset) const;
+
+ private:
+  Kinematics kinematics_;
+  std::vector<int> bones_;
+  double scale_, reach_;
+  PosedBones posed_;
+};
+
+}  // namespace fragmotion

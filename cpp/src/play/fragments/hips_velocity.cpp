@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "fragments/hips_velocity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kEnd = 0.1;  // s
+constexpr int kMoments = 8;
+
+Travel travel_between(const PackedClip& clip, double begin, double end) {
+  const CharacterFrame from = frame_at(clip, begin), to = frame_at(clip, end);
+  const double angle = std::remainder(to.heading - from.heading, 2 * kPi), rate = clip.rate / (end - begin);
+  return {Eigen::Rotation2Dd(-from.heading - angle / 2) * (to.position - from.position) * rate, angle * rate};
+}
+
+Vector2 velocity_between(const PackedClip& clip, double begin, double end) {
+  return travel_between(clip, begin, end).velocity;
+}
+
+}  // namespace
+
+Vector2 hips_velocity(const PackedClip& clip, const Fragment& fragment) {
+  return velocity_between(clip, fragment.begin, fragment.end);
+}
+
+Travel travel_around(const PackedClip& clip, double frame, double seconds) {
+  const double half = seconds * clip.rate / 2, last = clip.frames - 1, middle = std::clamp(frame, 0.0, last);
+  return travel_between(clip, std::max(0.0, middle - half), std::min(last, middle + half));
+}
+
+Vector2 hips_velocity_around(const PackedClip& clip, double frame, double seconds) {
+  return travel_around(clip, frame, seconds).velocity;
+}
+
+Vector2 mean_velocity_around(const PackedClip& clip, const Fragment& fragment, double seconds) {
+  Vector2 sum = Vector2::Zero();
+  for (int moment = 0; moment < kMoments; ++moment) {
+    const double frame = fragment.begin + (moment + 0.5) / kMoments * (fragment.end - fragment.begin);
+    sum += hips_velocity_around(clip, frame, seconds);
+  }
+  return sum / kMoments;
+}
+
+std::vector<double> velocity_changes(const PackedPool& pool) {
+  const double scale = standard_scale(pool.skeleton);
+  std::vector<double> changes;
+  for (const Fragment& f : pool.fragments) {
+    const PackedClip& clip = pool.clips[f.clip];
+    const double first = f.first_played(), last = f.last_played(), end = std::min(kEnd * clip.rate, last - first);
+    changes.push_back(scale *
+                      (velocity_between(clip, last - end, last) - velocity_between(clip, first, first + end)).norm());
+  }
+  return changes;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "ground/foot_on_ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kSettle = 0.03;     // s in which a foot that stands gets onto its footing, where it is not on it
+constexpr double kFastestError = 3;  // m/s at which it does so
+constexpr double kSlid = 0.02;       // m that a foot may slide on the same footing
+constexpr double kPace = 0.1;        // m/s with which a foot that steps on the spot is on its way
+constexpr double kLoading = 0.12;    // s before it stands, and
+constexpr double kUnloading = 0.15;  // s after it, in which a foot bears more and more, and less and less
+constexpr double kQuickest = 0.06;   // s in which it does so at least
+constexpr double kSole = 0.08;  // s before it stands, and after it, in which its sole is more and less on its footing
+
+constexpr double kMargin = 0.03;        // m by which it clears what is in its way
+constexpr double kClearing = 0.1;       // s in which its clearance gets as high as it must
+constexpr double kLeast = 0.2;          // of the arch's height, below which it is not told from that what it is to be
+constexpr double kMostClearance = 0.5;  // m
+
+constexpr double kTried = 0.02;      // m by which a sole is moved off an edge,
+constexpr int kTrials = 8;           // times that, to the front and to the back
+constexpr double kSameTread = 0.05;  // m between heights of one tread
+constexpr double kHysteresis = 0.1;  // s: the sooner it lands, the more it keeps to the tread that was foreseen
+
+// The height of a foot's clearance at a part of its way.
+double arch(double part) { return 1 - std::pow(2 * part - 1, 4); }
+
+}  // namespace
+
+bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, const GroundProbe& probe) {
+  due_ = foot.stands ? 0 : foot.due;
+  swing_time_ = foot.stands ? 0 : swing_time_ + seconds;
+  const Vector2 place = foot.now.place() + shift();
+  Footing before = on_way(place, 0);
+  if (foot.stands) before.height += lift_;
+  const bool found = foot.stands ? stand(foot, probe) : swing(foot, probe);
+  advance_shift(foot, fresh_ ? kSettle : seconds);
+  if (!fresh_) {
+    const Footing now = on_way(place, 0);
+    error_.value += before.height - now.height;
+    for (int axis = 0; axis < 2; ++axis) turn_[axis].value += before.slope[axis] - now.slope[axis];
+  }
+  plane_ = on_way(foot.now.place() + shift(), 0);
+  advance_errors(seconds);
+  clear(foot, lower, seconds, probe);
+  bear(foot, seconds);
+  stood_ = foot.stands;
+  fresh_ = false;
+  return found;
+}
+
+bool FootOnGround::stand(const FootAhead& foot, const GroundProbe& probe) {
+  const bool lands = fresh_ || !stood_;
+  if (lands) beside_ = shift();
+  const double edges = probe.edges(foot.landing().moved(beside_), false);
+  const bool slid = (foot.landing().place() + beside_ - last_.place).norm() > kSlid;
+  if (!lands && !slid && edges < GroundProbe::kInTheWay) return true;
+  if (edges > 0) beside_ = beside_edges(foot, probe);
+  const Sole sole = foot.landing().moved(beside_);
+  const std::optional<Footing> under = probe.under(sole);
+  next_ = under.value_or(lands && !fresh_ ? Footing{sole.place(), next_.height, next_.slope}
+                                          : Footing{sole.place(), last_.at(sole.place()), last_.slope});
+  last_ = next_;
+  return under.has_value();
+}
+
+bool FootOnGround::swing(const FootAhead& foot, const GroundProbe& probe) {
+  if (fresh_ || stood_) next_ = last_;
+  beside_ = beside_edges(foot, probe);
+  const Sole sole = foot.landing().moved(beside_);
+  const std::optional<Footing> under = probe.under(sole);
+  next_ = under.value_or(Footing{sole.place(), next_.height, next_.slope});
+  if (fresh_) last_ = next_;
+  return under.has_value();
+}
+
+// The least move that sets a sole beside edges, rather on the tread that it was on its way to.
+Vector2 FootOnGround::beside_edges(const FootAhead& foot, const GroundProbe& probe) const {
+  const Sole& sole = foot.landing();
+  const Vector2 along = (sole.tip - sole.heel).head<2>().normalized();
+  const bool planned = !fresh_ && !stood_;
+  const double keeps = kHysteresis / std::max(due_, kTried);
+  const bool descends = !fresh_ && next_.height < last_.height;
+  double least = std::numeric_limits<double>::infinity();
+  Vector2 best = Vector2::Zero();
+  for (int i = 0; i <= 2 * kTrials; ++i) {
+    const int steps = (i + 1) / 2;
+    const Vector2 moved = (i % 2 == 0 ? kTried : -kTried) * steps * along;
+    if (moved.norm() >= least) break;
+    const Sole there = sole.moved(moved);
+    const std::optional<GroundPoint> ground = planned ? probe.at(there.place()) : std::nullopt;
+    const double off = ground ? std::max(0.0, std::abs(ground->height - next_.height) - kSameTread) : 0;
+    const double cost = moved.norm() + keeps * off + probe.edges(there, descends);
+    if (cost < least) least = cost, best = moved;
+  }
+  return best;
+}
+
+void FootOnGround::advance_shift(const FootAhead& foot, double seconds) {
+  const double due = fresh_ ? 0 : foot.stands ? kSettle : std::max(due_, kSettle);
+  for (int axis = 0; axis < 2; ++axis) shift_[axis].advance(beside_[axis], due, seconds);
+}
+
+double FootOnGround::part_of_way(const Vector2& place, double later) const {
+  const double gone = (place - last_.place).norm() + kPace * (swing_time_ + later),
+               left = (next_.place - place).norm() + kPace * std::max(0.0, due_ - later);
+  return gone + left > 0 ? gone / (gone + left) : 1;
+}
+
+// The plane under the foot at a place on its way, so many seconds from now.
+Footing FootOnGround::on_way(const Vector2& place, double later) const {
+  const double part = part_of_way(place, later);
+  return {place, (1 - part) * last_.at(place) + part * next_.at(place), (1 - part) * last_.slope + part * next_.slope};
+}
+
+void FootOnGround::advance_errors(double seconds) {
+  const double due = std::max({due_, kSettle, std::abs(error_.value) / kFastestError});
+  error_.advance(0, due, seconds);
+  for (Approach& turn : turn_) turn.advance(0, due, seconds);
+}
+
+// Steps over what is in its way, in one arch.
+void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, const GroundProbe& probe) {
+  if (foot.stands) {
+    clearance_ = {};
+    lift_ = 0;
+    return;
+  }
+  double wanted = 0;
+  for (std::size_t i = 0; i < FootAhead::kPoints; ++i) {
+    const double u = static_cast<double>(i + 1) / FootAhead::kPoints, later = u * due_;
+    const Sole at = foot.way[i].moved(shift() + u * (beside_ - shift()));
+    const double over = probe.over(at, lower, on_way(at.place(), later));
+    const double height = arch(part_of_way(at.place(), later));
+    if (over > 0 && height > kLeast) wanted = std::max(wanted, (over + std::min(over, kMargin)) / height);
+  }
+  clearance_.advance(std::min(wanted, kMostClearance), fresh_ ? 0 : kClearing, seconds);
+  const Sole now = foot.now.moved(shift());
+  Footing shown = plane_;
+  shown.height += error_.value;
+  lift_ = std::max(std::max(clearance_.value, 0.0) * arch(part_of_way(now.place(), 0)), probe.over(now, lower, shown));
+}
+
+void FootOnGround::bear(const FootAhead& foot, double seconds) {
+  const auto ramp = [](double time, double over) { return std::clamp(1 - time / over, 0.0, 1.0); };
+  const double wanted = foot.stands ? 1 : std::max(ramp(due_, kLoading), ramp(swing_time_, kUnloading)),
+               most = fresh_ ? 1 : seconds / kQuickest;
+  contact_weight_ += std::clamp(wanted - contact_weight_, -most, most);
+  const double sole_weight = foot.stands ? 1 : std::max(ramp(due_, kSole), ramp(swing_time_, kSole)),
+               step = fresh_ ? 1 : seconds / kSole;
+  sole_weight_ += std::clamp(sole_weight - sole_weight_, -step, step);
+}
+
+}  // namespace fragmotion

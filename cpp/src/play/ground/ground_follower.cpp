@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "ground/ground_follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/filtered.hpp"
+#include "base/turn_between.hpp"
+
+namespace fragmotion {
+namespace {
+
+// Lengths are those of a character of 1.8 m.
+constexpr double kHighestStep = 0.7;  // m over the level under the body, of ground that it may step on
+constexpr double kSky = 1e5;          // m: over all ground
+constexpr double kUneven = 0.03;      // m by which ground differs where feet stand on it exactly
+constexpr double kFootLength = 0.25;  // m over which a slope counts
+constexpr double kGetsExact = 0.15;   // s in which they come to
+constexpr double kContact = 0.06;     // m over its floor, within which a sole that was captured is lowered to it
+constexpr double kReached = 0.985;    // of a leg's length, that the hips leave it at most
+constexpr double kStretched = 0.998;  // and that it is stretched to
+constexpr double kSoft = 0.02;        // m: by how much what a leg lacks is rounded off
+constexpr double kLookAhead = 0.4;    // s before a foot lands, from which on the hips sink for it
+constexpr double kDeepest = 0.45;     // m that they sink
+constexpr double kMostRaised = 1;     // rad of a heel
+constexpr double kToesUp = 0.05;      // m that a heel is lower than the ball, where it is not raised
+constexpr double kMostUpright = 1.3;  // rad from the level, of a foot whose heel is raised
+constexpr int kHalvings = 12;         // of that, to find how much it must
+constexpr double kHips = 0.15;        // s: time constant of hips without legs
+
+Quaternion turned_by(const Vector2& slope) {
+  if (slope.isZero(0)) return Quaternion::Identity();
+  return turn_between(Vector3::UnitZ(), Vector3{-slope.x(), -slope.y(), 1});
+}
+
+// How far a leg's upper end is too high to reach its ankle, m; less than 0 where it might be higher.
+double missing(double length, const Vector3& hip, const Vector3& ankle) {
+  const double most = kReached * length, aside = std::min((ankle - hip).head<2>().norm(), kReached * most);
+  return hip.z() - ankle.z() - std::sqrt(most * most - aside * aside);
+}
+
+// At least 0, without a kink.
+double softly_positive(double value, double soft) {
+  return value > 30 * soft ? value : soft * std::log1p(std::exp(value / soft));
+}
+
+}  // namespace
+
+void GroundFollower::reset() {
+  feet_ = {};
+  hips_ = {};
+  fresh_ = true;
+  exact_ = level_ = missed_ = 0;
+}
+
+// From where to ask for the ground.
+double GroundFollower::above(const WorldPose& pose) const {
+  const double highest = kHighestStep / body_->scale;
+  if (!fresh_) return level_ + highest;
+  const auto from = [&](double height) { return GroundProbe(ground_, height).at(pose.root.head<2>()); };
+  const std::optional<GroundPoint> near = from(highest);
+  if (near && near->normal.z() > 0) return highest;
+  const std::optional<GroundPoint> top = from(kSky);
+  return top ? top->height + highest : highest;
+}
+
+void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double seconds) {
+  const GroundProbe probe(ground_, above(pose));
+  auto& [kinematics, legs, scale, bones, posed] = *body_;
+  if (!legs[0].exists() || !legs[1].exists()) return follow_hips(pose, seconds, probe);
+  bool found = true;
+  for (int side = 0; side < 2; ++side)
+    found = feet_[side].advance(feet[side], lower(side, feet[side]), seconds, probe) && found;
+  if (!found) missed_ += seconds;
+  get_exact(seconds);
+  hips_.advance(pose.root.head<2>(), feet_, seconds);
+  level_ = hips_.level();
+  pose.root.z() += level_;
+  const double since = fresh_ ? kLookAhead : seconds;
+  fresh_ = false;
+  if (is_flat()) return;
+  kinematics.world(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
+  std::array<Vector3, 2> ankles{place_foot(0, feet[0]), place_foot(1, feet[1])};
+  sink(feet, ankles, since);
+  pose.root.z() -= hips_.sunk();
+  for (Vector3& head : posed.heads) head.z() -= hips_.sunk();
+  for (int side = 0; side < 2; ++side) {
+    raise_heel(side, feet[side], ankles[side]);
+    const double length = leg_length(legs[side], posed);
+    reach(kinematics.skeleton(), legs[side], posed, ankles[side], Reach{0.2 * length, kStretched * length},
+          pose.rotations.data());
+    turn_foot(side, pose.rotations.data());
+  }
+}
+
+// Feet stand exactly on ground that is not level.
+void GroundFollower::get_exact(double seconds) {
+  double lowest = feet_[0].last().height, highest = lowest, steepest = 0;
+  for (const FootOnGround& foot : feet_) {
+    for (const Footing* footing : {&foot.last(), &foot.next()}) {
+      lowest = std::min(lowest, footing->height);
+      highest = std::max(highest, footing->height);
+      steepest = std::max(steepest, footing->slope.norm());
+    }
+  }
+  const double uneven = highest - lowest + steepest * kFootLength / body_->scale;
+  const double wanted = std::clamp(uneven * body_->scale / kUneven, 0.0, 1.0), most = fresh_ ? 1 : seconds / kGetsExact;
+  exact_ += std::clamp(wanted - exact_, -most, most);
+}
+
+// How much lower than captured a foot is shown, m: one that is low comes down to its floor, softly.
+double GroundFollower::lower(int side, const FootAhead& foot) const {
+  const double contact = kContact / body_->scale, height = foot.now.height();
+  const double lowered = height <= 0 ? 0 : height < contact ? height * height / (2 * contact) : height - contact / 2;
+  return exact_ * feet_[side].sole_weight() * (height - lowered);
+}
+
+// Whether the body stands as on level ground.
+bool GroundFollower::is_flat() const {
+  const auto level = [&](const FootOnGround& foot) {
+    return foot.height() == level_ && foot.slope().isZero(0) && foot.shift().isZero(0);
+  };
+  return level(feet_[0]) && level(feet_[1]) && exact_ == 0 && hips_.sunk() == 0;
+}
+
+void GroundFollower::follow_hips(WorldPose& pose, double seconds, const GroundProbe& probe) {
+  const std::optional<GroundPoint> under = probe.at(pose.root.head<2>());
+  if (!under) missed_ += seconds;
+  const double wanted = under ? under->height : level_;
+  level_ += (fresh_ ? 1 : filtered(seconds, kHips)) * (wanted - level_);
+  fresh_ = false;
+  pose.root.z() += level_;
+}
+
+// Where the foot's head is to be: the ball stays over its place.
+Vector3 GroundFollower::place_foot(int side, const FootAhead& foot) {
+  const Leg& leg = body_->legs[side];
+  const FootOnGround& placed = feet_[side];
+  turns_[side] = turned_by(placed.slope());
+  const Vector3 from = ball(body_->kinematics.skeleton(), leg, body_->posed);
+  const Vector2 over = from.head<2>() + placed.shift();
+  const Vector3 to = Vector3{over.x(), over.y(), placed.height() + foot.now.ball.z() - lower(side, foot)} +
+                     turns_[side] * Vector3{0, 0, foot.floor.ball};
+  return to + turns_[side] * (body_->posed.heads[leg.foot] - from);
+}
+
+// Lowers the hips for legs that bear the body, and for those that are about to.
+void GroundFollower::sink(const FeetAhead& feet, const std::array<Vector3, 2>& ankles, double seconds) {
+  const double soft = kSoft / body_->scale, deepest = kDeepest / body_->scale;
+  double now = 0, soon = 0, due = kLookAhead;
+  for (int side = 0; side < 2; ++side) {
+    const Leg& leg = body_->legs[side];
+    const double length = leg_length(leg, body_->posed),
+                 lacks = missing(length, body_->posed.heads[leg.thigh], ankles[side]);
+    now = std::max(now, feet_[side].contact_weight() * softly_positive(lacks, soft));
+    if (feet[side].stands || feet[side].due > due) continue;
+    const FootAhead& foot = feet[side];
+    const Footing& next = feet_[side].next();
+    const Vector2 shifted = foot.ankle.head<2>() + next.place - foot.landing().place();
+    const Vector3 hip = foot.hip + Vector3{0, 0, level_between(feet_, foot.hips.head<2>())},
+                  ankle{shifted.x(), shifted.y(), foot.ankle.z() + next.at(shifted)};
+    soon = softly_positive(missing(length, hip, ankle), soft);
+    due = foot.due;
+  }
+  hips_.sink(std::min(exact_ * now, deepest), std::min(exact_ * soon, deepest), due, seconds);
+}
+
+// Raises the heel, and the ankle with it, about the ball where the leg is too short still.
+void GroundFollower::raise_heel(int side, const FootAhead& foot, Vector3& ankle) {
+  const Leg& leg = body_->legs[side];
+  const PosedBones& posed = body_->posed;
+  heels_[side] = Quaternion::Identity();
+  const double flat = std::clamp((foot.now.heel.z() - foot.now.ball.z()) * body_->scale / kToesUp + 1, 0.0, 1.0),
+               reached = kReached * leg_length(leg, posed);
+  const Vector3 from_ball = turns_[side] * (posed.heads[leg.foot] - ball(body_->kinematics.skeleton(), leg, posed)),
+                ball = ankle - from_ball, axis = from_ball.cross(Vector3::UnitZ()).normalized();
+  const double upright = kMostUpright - std::atan2(from_ball.z(), from_ball.head<2>().norm()),
+               most = std::min(kMostRaised, upright) * exact_ * feet_[side].contact_weight() * flat;
+  const auto raised = [&](double angle) { return Quaternion{Eigen::AngleAxisd(angle, axis)}; };
+  const auto reaches = [&](double angle) {
+    return (ball + raised(angle) * from_ball - posed.heads[leg.thigh]).norm() <= reached;
+  };
+  if (most <= 0 || reaches(0)) return;
+  double low = 0, high = most;
+  for (int i = 0; i < kHalvings && reaches(most); ++i) {
+    const double middle = (low + high) / 2;
+    (reaches(middle) ? high : low) = middle;
+  }
+  heels_[side] = raised(high);
+  ankle = ball + heels_[side] * from_ball;
+}
+
+void GroundFollower::turn_foot(int side, double* rotations) const {
+  const Leg& leg = body_->legs[side];
+  const Quaternion foot = body_->posed.rotations[leg.foot], toe = turns_[side], turn = heels_[side] * toe;
+  const auto turned = [&](int bone, const Quaternion& by, const Quaternion& world) {
+    double* local = rotations + std::ptrdiff_t{4} * bone;
+    store_quaternion((load_quaternion(local) * (world.conjugate() * by * world)).normalized(), local);
+  };
+  turned(leg.foot, turn, foot);
+  if (leg.toe < 0) return;
+  // The toe stays on the ground when the heel is raised.
+  const Quaternion back = toe.conjugate() * heels_[side].conjugate() * toe;
+  double* local = rotations + std::ptrdiff_t{4} * leg.toe;
+  const Quaternion above = body_->posed.rotations[body_->kinematics.skeleton().parents[leg.toe]];
+  store_quaternion((above.conjugate() * back * above * load_quaternion(local)).normalized(), local);
+}
+
+}  // namespace fragmotion

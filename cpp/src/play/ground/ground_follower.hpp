@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "ground/hips_on_ground.hpp"
+#include "motion/foot_lock.hpp"
+
+namespace fragmotion {
+
+/// Puts a body that moves on level ground at height 0 onto ground of any height: feet that stand, stand on it, turned
+/// along its slope; feet on their way clear what is before them; the hips go along with both, as low as both legs
+/// reach. Places from above stay as they are, but that a foot is set beside an edge. On level ground a pose is only
+/// lifted, by 0 not at all. A body without legs follows the ground under its hips. Allocates nothing once it is made.
+class GroundFollower {
+ public:
+  GroundFollower(std::shared_ptr<FootLock::Body> body, Ground ground)
+      : body_(std::move(body)), ground_(std::move(ground)) {}
+
+  /// Forgets where it was: the next pose stands on the ground under it, on the highest where several are one above the
+  /// other, unless one of them is met from a step's height over 0.
+  void reset();
+  /// Moves a pose that is shown `seconds` after the last one.
+  void apply(WorldPose& pose, const FeetAhead& feet, double seconds);
+
+  /// The height of the ground under the body, m, as its hips follow it.
+  double level() const { return level_; }
+  /// Since reset(): s in which there was no ground under it. Meanwhile it goes on at the height that it had.
+  double missed() const { return missed_; }
+
+ private:
+  friend struct PlayerState;
+
+  void follow_hips(WorldPose& pose, double seconds, const GroundProbe& probe);
+  double above(const WorldPose& pose) const;
+  void get_exact(double seconds);
+  double lower(int side, const FootAhead& foot) const;
+  bool is_flat() const;
+  Vector3 place_foot(int side, const FootAhead& foot);
+  void sink(const FeetAhead& feet, const std::array<Vector3, 2>& ankles, double seconds);
+  void raise_heel(int side, const FootAhead& foot, Vector3& ankle);
+  void turn_foot(int side, double* rotations) const;
+
+  std::shared_ptr<FootLock::Body> body_;
+  Ground ground_;
+  FeetOnGround feet_;
+  HipsOnGround hips_;
+  std::array<Quaternion, 2> turns_, heels_;  // of the feet: along the slope, and up at the heel after that
+  bool fresh_ = true;
+  double exact_ = 0;  // how exactly a sole stands on its footing: 0 (as high as it was captured) .. 1
+  double level_ = 0, missed_ = 0;
+};
+
+}  // namespace fragmotion

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "motion/contacts.hpp"
+
+#include <utility>
+
+#include "base/quantile.hpp"
+#include "motion/foot_paths.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kDeeper = 0.02;  // of a path's points, that may be under its floor
+
+// The frames from which on a foot stands, or does not.
+std::vector<int> changes(const Contacts& contacts, bool stands) {
+  std::vector<int> frames;
+  for (int f = 1; f < static_cast<int>(contacts.feet[0].size()); ++f) {
+    for (const std::vector<bool>& foot : contacts.feet) {
+      const bool changes = foot[f] == stands && foot[f - 1] != stands;
+      if (changes && (frames.empty() || frames.back() != f)) frames.push_back(f);
+    }
+  }
+  return frames;
+}
+
+}  // namespace
+
+double floor_of(const std::vector<Vector3>& path) {
+  std::vector<double> heights;
+  for (const Vector3& p : path) heights.push_back(p.z());
+  return quantile(std::move(heights), kDeeper);
+}
+
+Floors usual_floors(const std::vector<Contacts>& contacts) {
+  if (contacts.empty()) return {};
+  const auto usual = [&](int side, double FootHeights::*point) {
+    std::vector<double> heights;
+    for (const Contacts& each : contacts) heights.push_back(each.floors[side].*point);
+    return median(std::move(heights));
+  };
+  Floors floors;
+  for (int side = 0; side < 2; ++side)
+    floors[side] = {usual(side, &FootHeights::ball), usual(side, &FootHeights::heel)};
+  return floors;
+}
+
+Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
+  std::vector<Vector3> hips;
+  for (int f = 0; f < clip.frames; ++f) hips.push_back(load_vector(&clip.root_positions[3 * f]));
+  return find_contacts(kinematics.skeleton(), foot_paths(kinematics, clip), hips, clip.rate, floors);
+}
+
+Contacts find_contacts(const Skeleton& skeleton, const std::array<FootPath, 2>& paths, const std::vector<Vector3>& hips,
+                       double rate, const Floors* floors) {
+  if (paths[0].ball.empty()) return {};
+  const double scale = standard_scale(skeleton);
+  Contacts contacts;
+  for (int side = 0; side < 2; ++side) {
+    contacts.floors[side] =
+        floors ? (*floors)[side] : FootHeights{floor_of(paths[side].ball), floor_of(paths[side].heel)};
+    contacts.feet[side] = foot_contacts(paths[side], contacts.floors[side], hips, rate, scale);
+  }
+  return contacts;
+}
+
+Contacts find_plants(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
+  Contacts contacts = find_contacts(kinematics, clip, floors);
+  const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
+  const double scale = standard_scale(kinematics.skeleton());
+  for (int side = 0; side < 2; ++side) end_where_ball_rises(paths[side], clip.rate, scale, contacts.feet[side]);
+  return contacts;
+}
+
+std::vector<int> foot_strikes(const Contacts& contacts) { return changes(contacts, true); }
+
+std::vector<int> foot_lifts(const Contacts& contacts) { return changes(contacts, false); }
+
+}  // namespace fragmotion

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "motion/clip.hpp"
+
+namespace fragmotion {
+
+/// Heights of a foot's ball (the toe's head, else the foot's tip) and heel (the foot's head), m.
+struct FootHeights {
+  double ball = 0, heel = 0;
+};
+
+using Floors = std::array<FootHeights, 2>;  ///< Of the left and the right foot, where they stand.
+
+/// Which feet stand on the ground in each frame of a clip.
+struct Contacts {
+  std::array<std::vector<bool>, 2> feet;  ///< left, right: [frames]; empty where the skeleton has no feet
+  Floors floors;
+};
+
+/// Where a point of a foot stands: the height over which it is all but 2 % of the time, so that neither a hard landing
+/// nor a bad frame is taken for the floor.
+double floor_of(const std::vector<Vector3>& path);
+
+/// Where feet stand in most clips: the medians, 0 where there are none.
+Floors usual_floors(const std::vector<Contacts>& contacts);
+
+/// A foot stands while its lower end is within 4.5 cm of its floor and nearly still: slower than 0.5 m/s plus a fifth
+/// of the hips' speed (lengths of a character of 1.8 m). Gaps and contacts shorter than 0.06 s are closed. The floor is
+/// floor_of() ball and heel in the clip, unless one is given: a short clip need not touch it.
+Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors = nullptr);
+
+/// The contacts for which feet are held in place (foot_lock.hpp): those of find_contacts(), each of which ends as soon
+/// as the ball rises and goes away, though it is low and slow enough to stand still.
+Contacts find_plants(const Kinematics& kinematics, const Clip& clip, const Floors* floors = nullptr);
+
+/// The frames in which a foot strikes the ground, in order: the gait events between fragments.
+std::vector<int> foot_strikes(const Contacts& contacts);
+
+/// The frames in which a foot leaves the ground, in order.
+std::vector<int> foot_lifts(const Contacts& contacts);
+
+}  // namespace fragmotion

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "motion/foot_lock.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/filtered.hpp"
+#include "motion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+// Lengths are those of a character of 1.8 m.
+constexpr double kTooFar = 0.3;        // m from its motion at which a foot is let go,
+constexpr double kTooFarAlone = 0.5;   // and at which the only one that stands is
+constexpr double kLanding = 0.06;      // m over the floor within which a foot is planted
+constexpr double kStrained = 0.1;      // m that the hips would have to sink for a foot: from there it steps on
+constexpr double kForgets = 4;         // times kRelease, until nothing is seen of a foot that was let go
+constexpr double kSettle = 0.02;       // s: time constant of a foot that comes to rest
+constexpr double kSoftGround = 0.006;  // m: a foot sinks in at most half of that
+constexpr double kHovers = 0.015;      // m over the floor from where a planted foot is lowered,
+constexpr double kLowering = 0.05;     // s: time constant of that
+constexpr double kRaising = 0.05;      // s: time constant of a heel that rises,
+constexpr double kHighest = 0.6;       // rad, by so much at most
+constexpr double kLevel = 1e-4;        // rad, below which nothing is seen of it
+constexpr double kPatience = 0.3;      // s that both feet stand before one steps to where its motion has it
+constexpr double kAstray = 0.07;       // m from its motion at least, for a foot to step there rather than slide
+constexpr double kStepHeight = 0.04;   // m
+constexpr double kDeepest = 0.08;      // m that the hips may sink
+constexpr double kSinking = 0.1;       // s: time constant of the hips
+
+// The least angle, rad, by which `from_ball` must turn about `axis`, upright to it, to come within `length` of a place
+// that is `hip` from the ball; 0 where that brings it no nearer.
+double turn_to_reach(const Vector3& hip, const Vector3& from_ball, const Vector3& axis, double length) {
+  const double along = -hip.dot(from_ball), across = -hip.dot(axis.cross(from_ball)),
+               wanted = (length * length - hip.squaredNorm() - from_ball.squaredNorm()) / 2;
+  if (along <= wanted || across >= 0) return 0;
+  return std::atan2(across, along) + std::acos(std::max(-1.0, wanted / std::hypot(along, across)));
+}
+
+// How far a foot is lifted that is so deep in the ground: softly at first.
+double lifted(double depth) {
+  if (depth < 0) return 0;
+  return depth < kSoftGround ? depth * depth / (2 * kSoftGround) : depth - kSoftGround / 2;
+}
+
+}  // namespace
+
+Vector2 StepEdit::moved(const Vector2& from_hips, double heading) const {
+  const Matrix2 turn = Eigen::Rotation2Dd(heading).toRotationMatrix();
+  return turn * stride * turn.transpose() * from_hips + turn * shift;
+}
+
+FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs)
+    : kinematics(kinematics),
+      legs(legs),
+      scale(standard_scale(kinematics.skeleton())),
+      bones(kinematics.chains({legs[0].foot, legs[0].toe, legs[1].foot, legs[1].toe})),
+      posed(kinematics.bones()) {}
+
+FootLock::FootLock(const Kinematics& kinematics, const Legs& legs)
+    : FootLock(std::make_shared<Body>(kinematics, legs)) {}
+
+FootLock::FootLock(std::shared_ptr<Body> body) : body_(std::move(body)) { reset(); }
+
+void FootLock::reset() {
+  feet_ = {};
+  feet_[0].free = feet_[1].free = kRelease;
+  sunk_ = stood_ = 0;
+  fresh_ = true;
+}
+
+void FootLock::lock(Foot& foot, const Vector2& shown, double seconds) const {
+  foot.locked = true;
+  foot.place = fresh_ ? shown : foot.shown;
+  foot.drift = seconds > 0 && !fresh_ ? Vector2{(shown - foot.shown) / seconds} : Vector2::Zero();
+}
+
+// A body that has come to stand does not stay in the middle of a stride.
+void FootLock::settle(double seconds) {
+  stood_ = feet_[0].locked && feet_[1].locked ? stood_ + seconds : 0;
+  if (stood_ < kPatience) return;
+  const auto astray = [&](const Foot& foot) { return (foot.place - foot.moved).norm() * body_->scale; };
+  Foot& foot = astray(feet_[0]) > astray(feet_[1]) ? feet_[0] : feet_[1];
+  if (astray(foot) < kAstray) return;
+  release(foot, foot.place - foot.moved);
+}
+
+Vector2 FootLock::coming_to_rest(int side) const {
+  const Foot& foot = feet_[side];
+  return foot.locked ? Vector2{kSettle * foot.drift} : Vector2::Zero();
+}
+
+double FootLock::stepping(int side) const {
+  const Foot& foot = feet_[side];
+  return foot.steps ? std::max(0.0, kRelease - foot.free) : 0;
+}
+
+// The height of a foot that steps to where its motion has it.
+double FootLock::step_height(const Foot& foot) const {
+  if (!foot.steps || foot.free >= kRelease) return 0;
+  const double phase = foot.free / kRelease;
+  return 4 * phase * (1 - phase) * kStepHeight / body_->scale;
+}
+
+// How far a foot is lowered: where the hips are too high for what plays, its motion would let a planted one hover.
+double FootLock::lowered(Foot& foot, double over, double seconds) const {
+  const double hovers = foot.locked ? std::max(0.0, over - kHovers / body_->scale) : 0;
+  foot.lowered += filtered(seconds, kLowering) * (hovers - foot.lowered);
+  return std::min(foot.lowered, std::max(0.0, over));
+}
+
+// Of a planted foot that is left behind further than the leg is long the heel rises about the ball.
+void FootLock::raise_heel(int side, const Vector3& ball, double seconds, Vector3& ankle, double* rotations) {
+  Foot& foot = feet_[side];
+  const Leg& leg = body_->legs[side];
+  PosedBones& posed = body_->posed;
+  const Vector3 from_ball = ankle - ball, axis = from_ball.cross(Vector3::UnitZ()).normalized();
+  const double lacks =
+      foot.locked ? turn_to_reach(posed.heads[leg.thigh] - ball, from_ball, axis, longest(leg, posed)) : 0;
+  foot.raised += filtered(seconds, kRaising) * (std::min(lacks, kHighest) - foot.raised);
+  if (foot.raised < kLevel) return;
+  const Quaternion turn{Eigen::AngleAxisd(foot.raised, axis)};
+  ankle = ball + turn * from_ball;
+  if (leg.toe >= 0) {  // it stays as it is
+    const Quaternion above = turn * posed.rotations[body_->kinematics.skeleton().parents[leg.toe]];
+    store_quaternion((above.conjugate() * posed.rotations[leg.toe]).normalized(),
+                     rotations + std::ptrdiff_t{4} * leg.toe);
+  }
+  posed.rotations[leg.foot] = turn * posed.rotations[leg.foot];
+}
+
+void FootLock::release(Foot& foot, const Vector2& held) const {
+  foot.locked = false;
+  foot.steps = held.norm() * body_->scale > kAstray;
+  foot.offset = held;
+  foot.offset_speed = foot.drift - foot.speed;
+  foot.free = 0;
+}
+
+// How far the foot is shown from where its motion has it.
+Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double seconds) const {
+  foot.speed = seconds > 0 && !fresh_ ? Vector2{(moved - foot.moved) / seconds} : Vector2::Zero();
+  foot.moved = moved;
+  foot.free += seconds;
+  Vector2 away = Vector2::Zero();
+  if (foot.free < kForgets * kRelease) {
+    const Vector2 rate = foot.offset_speed + kReturns * foot.offset;
+    away = std::exp(-kReturns * foot.free) * (foot.offset + foot.free * rate);
+  }
+  const bool stepping = foot.steps && foot.free < kRelease;
+  const double too_far = feet_[0].locked && feet_[1].locked ? kTooFar : kTooFarAlone;
+  if (planted && !foot.locked && !stepping && away.norm() * body_->scale < kTooFar) lock(foot, moved + away, seconds);
+  if (foot.locked) {
+    const double goes_on = std::exp(-seconds / kSettle);
+    foot.place += kSettle * (1 - goes_on) * foot.drift;
+    foot.drift *= goes_on;
+    away = foot.place - moved;
+    if (!planted || away.norm() * body_->scale > too_far) release(foot, away);
+  }
+  foot.shown = moved + away;
+  return away;
+}
+
+double FootLock::height(int side, const FootHeights& floor) const {
+  const Leg& leg = body_->legs[side];
+  const PosedBones& posed = body_->posed;
+  const double toe = ball(body_->kinematics.skeleton(), leg, posed).z(), heel = posed.heads[leg.foot].z();
+  return std::min(toe - floor.ball, heel - floor.heel);
+}
+
+void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds,
+                     const StepEdit& edit) {
+  auto& [kinematics, legs, scale, bones, posed] = *body_;
+  if (!legs[0].exists() || !legs[1].exists()) return;
+  const Skeleton& skeleton = kinematics.skeleton();
+  kinematics.world(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
+  const Matrix2 heading = Eigen::Rotation2Dd(pose.heading).toRotationMatrix(),
+                longer = heading * edit.stride * heading.transpose();
+  const Vector2 shift = heading * edit.shift;
+  std::array<Vector3, 2> ankles;
+  double sink = 0;
+  settle(seconds);
+  for (int side = 0; side < 2; ++side) {
+    const double over = height(side, contacts.floors[side]);
+    const bool locked = feet_[side].locked, low = over * scale < kLanding;
+    const bool hands_over = locked && contacts.feet[1 - side][frame] && !feet_[1 - side].locked;
+    const bool stands = hands_over || (contacts.feet[side][frame] && (locked || low));
+    const Vector3 place = ball(skeleton, legs[side], posed);
+    const Vector2 edited = longer * (place - pose.root).head<2>() + shift;
+    const Vector2 held = away(feet_[side], place.head<2>() + edited, stands, seconds), by = edited + held;
+    const double lift = lifted(-over * scale) / scale + step_height(feet_[side]) - lowered(feet_[side], over, seconds);
+    const Vector3 moved{by.x(), by.y(), lift};
+    ankles[side] = posed.heads[legs[side].foot] + moved;
+    raise_heel(side, place + moved, seconds, ankles[side], pose.rotations.data());
+    if (by.isZero(1e-9) && lift == 0) continue;
+    const double strain = sinking(legs[side], posed, ankles[side]);
+    if (feet_[side].locked && strain * scale > kStrained) release(feet_[side], held);
+    sink = std::max(sink, std::min(kDeepest / scale, strain));
+  }
+  fresh_ = false;
+  sunk_ += (sink - sunk_) * filtered(seconds, kSinking);
+  pose.root.z() -= sunk_;
+  for (Vector3& head : posed.heads) head.z() -= sunk_;
+  for (int side = 0; side < 2; ++side) {
+    reach(skeleton, legs[side], posed, ankles[side], pose.rotations.data());
+  }
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "motion/contacts.hpp"
+#include "motion/pose.hpp"
+#include "skeleton/two_bone_ik.hpp"
+
+namespace fragmotion {
+
+/// How steps differ from those of the motion, in the character frame: each foot is moved by `stride` times its place
+/// from the hips, and by `shift`, m.
+struct StepEdit {
+  Matrix2 stride = Matrix2::Zero();
+  Vector2 shift = Vector2::Zero();
+
+  /// By how much a foot is moved that is so far from the hips, m in the world, of a body that faces `heading`.
+  Vector2 moved(const Vector2& from_hips, double heading) const;
+};
+
+/// Keeps planted feet where they are: the ball of a foot that is planted comes to rest and stays there, the leg follows
+/// (leg.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion smoothly, with
+/// a step where that is far; but the only foot that stands is kept for longer, and until the other one has come down
+/// whose turn it is. Where a leg would be a little too short, the heel of a foot that is left behind rises and the hips
+/// sink; where it would be much too short, the foot steps on. A planted foot that hovers is lowered to the floor. A
+/// body that has stood for a while in the middle of a stride steps out of it. Does nothing to a skeleton without legs.
+/// Allocates nothing once it is made.
+class FootLock {
+ public:
+  /// s in which a foot that is let go gets back to its motion, most of the way; it is critically damped, 1/s.
+  static constexpr double kRelease = 0.33, kReturns = 3.5 / kRelease;
+
+  /// What the foot locks of one body share that are applied in turn: what never changes, and room to work in.
+  struct Body {
+    Body(const Kinematics& kinematics, const Legs& legs);
+
+    Kinematics kinematics;
+    Legs legs;
+    double scale;
+    std::vector<int> bones;  // of the legs
+    PosedBones posed;
+  };
+
+  FootLock(const Kinematics& kinematics, const Legs& legs);
+  explicit FootLock(std::shared_ptr<Body> body);
+
+  /// Both feet are free, and where their motion has them.
+  void reset();
+
+  /// Moves the legs of the pose that is shown `seconds` after the last one, and is, or is to become, a frame with these
+  /// contacts. A foot that stands in that frame is planted once it is near the ground, where the
+  /// edited step has it.
+  void apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds, const StepEdit& edit = {});
+
+  bool locked(int side) const { return feet_[side].locked; }
+  /// How far a locked foot goes on until it is at rest, m.
+  Vector2 coming_to_rest(int side) const;
+  /// Until a foot that steps to where its motion has it is there, s; 0 where none does.
+  double stepping(int side) const;
+
+ private:
+  friend struct PlayerState;
+
+  // Places of a ball on the ground, m, and speeds, m/s.
+  struct Foot {
+    bool locked = false;
+    bool steps = false;                                        // it was let go to step to where its motion has it
+    Vector2 moved = Vector2::Zero(), shown = Vector2::Zero();  // last, by its motion and as it was shown
+    Vector2 speed = Vector2::Zero();                           // of its motion
+    Vector2 place = Vector2::Zero(), drift = Vector2::Zero();  // of the lock; the drift comes to rest
+    Vector2 offset = Vector2::Zero(), offset_speed = Vector2::Zero();  // from the motion, when it was let go
+    double free = 0;                                                   // s since then
+    double lowered = 0;                                                // m, while it is planted and would hover
+    double raised = 0;  // rad, its heel, while the leg would be too short
+  };
+
+  double height(int side, const FootHeights& floor) const;
+  Vector2 away(Foot& foot, const Vector2& moved, bool planted, double seconds) const;
+  void lock(Foot& foot, const Vector2& shown, double seconds) const;
+  void settle(double seconds);
+  double step_height(const Foot& foot) const;
+  double lowered(Foot& foot, double over, double seconds) const;
+  void raise_heel(int side, const Vector3& ball, double seconds, Vector3& ankle, double* rotations);
+  void release(Foot& foot, const Vector2& held) const;
+
+  std::shared_ptr<Body> body_;
+  std::array<Foot, 2> feet_;
+  bool fresh_ = true;  // no pose was shown yet
+  double stood_ = 0;   // s that both feet are locked
+  double sunk_ = 0;    // m that the hips are lowered
+};
+
+}  // namespace fragmotion

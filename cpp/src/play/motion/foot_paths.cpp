@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "motion/foot_paths.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "skeleton/two_bone_ik.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kHeight = 0.045, kSlow = 0.5, kSpeedShare = 0.2, kLeaves = 0.25, kShortest = 0.06;
+
+double speed_at(const std::vector<Vector3>& path, int f, double rate) {
+  const int last = static_cast<int>(path.size()) - 1, a = std::max(0, f - 1), b = std::min(last, f + 1);
+  return (path[b] - path[a]).norm() * rate / (b - a);
+}
+
+// Flips runs of `value` shorter than `frames`, those at the ends of the clip excepted.
+void close_short_runs(std::vector<bool>& flags, bool value, int frames) {
+  const int count = static_cast<int>(flags.size());
+  for (int begin = 0; begin < count;) {
+    int end = begin;
+    while (end < count && flags[end] == flags[begin]) ++end;
+    if (flags[begin] == value && end - begin < frames && begin > 0 && end < count) {
+      std::fill(flags.begin() + begin, flags.begin() + end, !value);
+    }
+    begin = end;
+  }
+}
+
+}  // namespace
+
+std::array<FootPath, 2> foot_paths(const Kinematics& kinematics, const Clip& clip) {
+  const Skeleton& skeleton = kinematics.skeleton();
+  const Roles& roles = skeleton.roles;
+  if (roles.left_foot < 0 || roles.right_foot < 0) return {};
+  const int feet[] = {roles.left_foot, roles.right_foot}, toes[] = {roles.left_toe, roles.right_toe};
+  const std::vector<int> bones = kinematics.chains({feet[0], feet[1], toes[0], toes[1]});
+  PosedBones posed(kinematics.bones());
+  std::array<FootPath, 2> paths;
+  for (int f = 0; f < clip.frames; ++f) {
+    world(kinematics, clip, f, bones, posed.heads.data(), posed.rotations.data());
+    for (int side = 0; side < 2; ++side) {
+      paths[side].ball.push_back(ball(skeleton, feet[side], toes[side], posed));
+      paths[side].heel.push_back(posed.heads[feet[side]]);
+    }
+  }
+  return paths;
+}
+
+std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, const std::vector<Vector3>& hips,
+                                double rate, double scale) {
+  std::vector<bool> flags(path.ball.size());
+  for (int f = 0; f < static_cast<int>(flags.size()); ++f) {
+    const double limit = kSlow + kSpeedShare * speed_at(hips, f, rate) * scale;
+    const auto stands = [&](const std::vector<Vector3>& point, double lowest) {
+      return (point[f].z() - lowest) * scale < kHeight && speed_at(point, f, rate) * scale < limit;
+    };
+    flags[f] = stands(path.ball, floor.ball) || stands(path.heel, floor.heel);
+  }
+  const int frames = static_cast<int>(std::ceil(kShortest * rate));
+  close_short_runs(flags, false, frames);
+  close_short_runs(flags, true, frames);
+  return flags;
+}
+
+void end_where_ball_rises(const FootPath& path, double rate, double scale, std::vector<bool>& contacts) {
+  const std::vector<Vector3>& ball = path.ball;
+  for (int f = static_cast<int>(contacts.size()) - 2; f > 0; --f) {
+    const bool ends = contacts[f] && !contacts[f + 1], rises = ball[f + 1].z() > ball[f].z();
+    if (ends && rises && speed_at(ball, f, rate) * scale > kLeaves) contacts[f] = false;
+  }
+}
+
+}  // namespace fragmotion

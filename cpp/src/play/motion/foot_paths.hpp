@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "motion/contacts.hpp"
+
+namespace fragmotion {
+
+/// The path of a foot's ball, its lower end, and of its heel, the foot's head: [frames] m.
+struct FootPath {
+  std::vector<Vector3> ball, heel;
+};
+
+/// Of the left and the right foot in a clip; empty where the skeleton has not both.
+std::array<FootPath, 2> foot_paths(const Kinematics& kinematics, const Clip& clip);
+
+/// When a foot of this path stands on this floor, as find_contacts() tells it: [frames]. `hips`: their path; times
+/// `scale`, lengths are those of a character of 1.8 m.
+std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, const std::vector<Vector3>& hips,
+                                double rate, double scale);
+
+/// Ends each contact as soon as the ball rises and goes away, faster than 0.25 m/s of a character of 1.8 m.
+void end_where_ball_rises(const FootPath& path, double rate, double scale, std::vector<bool>& contacts);
+
+/// find_contacts() of feet and hips that went so.
+Contacts find_contacts(const Skeleton& skeleton, const std::array<FootPath, 2>& paths, const std::vector<Vector3>& hips,
+                       double rate, const Floors* floors = nullptr);
+
+}  // namespace fragmotion

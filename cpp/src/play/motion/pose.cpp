@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "motion/pose.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fragmotion {
+namespace {
+
+// The frames on both sides of a time, and how near it is to the second.
+struct Between {
+  int frame, next;
+  double weight;
+
+  Between(const Clip& clip, double at)
+      : frame(std::clamp(static_cast<int>(std::floor(at)), 0, clip.frames - 1)),
+        next(std::min(frame + 1, clip.frames - 1)),
+        weight(std::clamp(at - frame, 0.0, 1.0)) {}
+
+  Vector3 root(const Clip& clip) const {
+    return (1 - weight) * load_vector(&clip.root_positions[3 * frame]) +
+           weight * load_vector(&clip.root_positions[3 * next]);
+  }
+};
+
+}  // namespace
+
+void add_rotation(const double* rotation, double* sum) {
+  const Eigen::Map<const Eigen::Vector4d> q(rotation);
+  Eigen::Map<Eigen::Vector4d> all(sum);
+  all += all.dot(q) < 0 ? Eigen::Vector4d{-q} : Eigen::Vector4d{q};
+}
+
+void blend_rotations(const double* a, const double* b, double weight, int bones, double* out) {
+  for (int i = 0; i < 4 * bones; i += 4) {
+    store_quaternion(load_quaternion(a + i).slerp(weight, load_quaternion(b + i)), out + i);
+  }
+}
+
+Vector3 sample_pose(const Clip& clip, double at, double* rotations) {
+  const Between between(clip, at);
+  const std::size_t width = clip.rotations.size() / clip.frames;
+  const double *a = &clip.rotations[width * between.frame], *b = &clip.rotations[width * between.next];
+  if (between.weight == 0) {
+    std::copy(a, a + width, rotations);
+  } else {
+    blend_rotations(a, b, between.weight, static_cast<int>(width / 4), rotations);
+  }
+  return between.root(clip);
+}
+
+CharacterFrame frame_at(const Clip& clip, double at) {
+  const Between between(clip, at);
+  const double heading = clip.headings[between.frame], next = clip.headings[between.next];
+  return {between.root(clip).head<2>(), heading + between.weight * (next - heading)};
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "policy/answer.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kSlowest = 0.5;  // of the speed that is asked for
+
+bool asks_for_motion(const Control& control) { return control.speed() > 0 && !control.jumps(); }
+
+bool goes_along(const Vector2& velocity, const Control& wanted) {
+  const double along = velocity.x() * wanted.x + velocity.y() * wanted.y,
+               across = velocity.x() * wanted.y - velocity.y() * wanted.x;
+  return along >= kSlowest * wanted.speed() * wanted.speed() && along >= std::abs(across);
+}
+
+// The classes that may play and answer a control.
+std::vector<int> answering_classes(const Quality& quality, const Control& wanted, int control,
+                                   const std::vector<Control>& evident) {
+  std::vector<int> answering;
+  for (int k = 0; k < quality.classes; ++k) {
+    const bool plays = quality.match[static_cast<std::size_t>(k) * quality.controls + control] > 0;
+    if (plays && answers(evident[k], wanted)) answering.push_back(k);
+  }
+  return answering;
+}
+
+// What a table does while one control is held.
+class HeldControl {
+ public:
+  HeldControl(Policy& policy, const Quality& quality, const ControlSpace& space, const std::vector<Control>& evident,
+              const std::vector<int>& bridges, int control)
+      : policy_(policy),
+        quality_(quality),
+        wanted_(space.point(control)),
+        evident_(evident),
+        bridges_(bridges),
+        control_(control),
+        answering_(answering_classes(quality, wanted_, control, evident)) {}
+
+  void answer() {
+    find_cycles();
+    if (answering_.empty() || std::count(leads_to_answer_.begin(), leads_to_answer_.end(), 0) == 0) return;
+    if (goals().empty()) {
+      for (const int k : answering_) next(k) = best_of(answering_, k);
+      find_cycles();
+    }
+    const std::vector<int> goals = this->goals();
+    for (const int k : unanswered_) next(k) = goals.empty() ? next(k) : best_of(goals, k);
+  }
+
+ private:
+  int& next(int from) { return policy_.next[static_cast<std::size_t>(from) * policy_.controls + control_]; }
+  int bridge(int from, int to) const { return bridges_[static_cast<std::size_t>(from) * quality_.classes + to]; }
+
+  // Classes that answer, and lead to what does.
+  std::vector<int> goals() const {
+    std::vector<int> goals;
+    for (const int k : answering_) {
+      if (leads_to_answer_[k]) goals.push_back(k);
+    }
+    return goals;
+  }
+
+  // Without a stand in between, if there is one.
+  int best_of(const std::vector<int>& classes, int from) const {
+    const auto is_better = [&](int a, int b) {
+      const bool direct = bridge(from, a) < 0;
+      if (direct != (bridge(from, b) < 0)) return direct;
+      return quality_(from, a, control_) > quality_(from, b, control_);
+    };
+    return *std::min_element(classes.begin(), classes.end(), is_better);
+  }
+
+  bool is_answered(const std::vector<int>& cycle) {
+    Vector2 sum = Vector2::Zero();
+    double played = 0;
+    const auto play = [&](int k) { sum += Vector2(evident_[k].x, evident_[k].y), ++played; };
+    for (const int k : cycle) {
+      play(k);
+      if (bridge(k, next(k)) >= 0) play(bridge(k, next(k)));
+    }
+    return goes_along(sum / played, wanted_);
+  }
+
+  // Finds which classes lead to a cycle that answers, and those of the cycles that do not.
+  void find_cycles() {
+    constexpr char kUnknown = 2;
+    leads_to_answer_.assign(quality_.classes, kUnknown);
+    unanswered_.clear();
+    for (int begin = 0; begin < quality_.classes; ++begin) {
+      std::vector<int> way;
+      int k = begin;
+      while (leads_to_answer_[k] == kUnknown && std::find(way.begin(), way.end(), k) == way.end()) {
+        way.push_back(k);
+        k = next(k);
+      }
+      char answered = leads_to_answer_[k];
+      if (answered == kUnknown) {
+        const std::vector<int> cycle(std::find(way.begin(), way.end(), k), way.end());
+        answered = is_answered(cycle) ? 1 : 0;
+        if (answered == 0) unanswered_.insert(unanswered_.end(), cycle.begin(), cycle.end());
+      }
+      for (const int on_the_way : way) leads_to_answer_[on_the_way] = answered;
+    }
+  }
+
+  Policy& policy_;
+  const Quality& quality_;
+  const Control& wanted_;
+  const std::vector<Control>& evident_;
+  const std::vector<int>& bridges_;
+  int control_;
+  std::vector<int> answering_, unanswered_;
+  std::vector<char> leads_to_answer_;
+};
+
+}  // namespace
+
+bool answers(const Control& evident, const Control& wanted) {
+  return matches_jump(evident, wanted) && goes_along({evident.x, evident.y}, wanted);
+}
+
+std::vector<int> answered_controls(const Quality& quality, const ControlSpace& space,
+                                   const std::vector<Control>& evident) {
+  const int controls = space.size();
+  std::vector<int> answered;
+  for (int c = 0; c < controls; ++c) {
+    const Control& wanted = space.point(c);
+    if (asks_for_motion(wanted) && !answering_classes(quality, wanted, c, evident).empty()) answered.push_back(c);
+  }
+  std::vector<int> performed(controls);
+  for (int c = 0; c < controls; ++c) {
+    const auto nearer = [&](int a, int b) {
+      return space.distance(space.point(a), space.point(c)) < space.distance(space.point(b), space.point(c));
+    };
+    const bool fails = asks_for_motion(space.point(c)) && !answered.empty();
+    performed[c] = fails ? *std::min_element(answered.begin(), answered.end(), nearer) : c;
+  }
+  return performed;
+}
+
+void answer_motion(Policy& policy, const Quality& quality, const ControlSpace& space,
+                   const std::vector<Control>& evident, const std::vector<int>& bridges) {
+  for (int c = 0; c < policy.controls; ++c) {
+    if (asks_for_motion(space.point(c))) HeldControl(policy, quality, space, evident, bridges, c).answer();
+  }
+  const std::vector<int> performed = answered_controls(quality, space, evident);
+  for (std::size_t row = 0; row < policy.next.size(); row += policy.controls) {
+    for (int c = 0; c < policy.controls; ++c) policy.next[row + c] = policy.next[row + performed[c]];
+  }
+}
+
+}  // namespace fragmotion

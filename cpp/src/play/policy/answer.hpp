@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "policy/policy.hpp"
+#include "policy/quality.hpp"
+
+namespace fragmotion {
+
+/// Whether what is evident goes as a control asks for that is held: without a jump, within 45 degrees of its direction,
+/// and along it at no less than half its speed. What all of some do, their mean does, too.
+bool answers(const Control& evident, const Control& wanted);
+
+/// [controls]: the control that is performed in place of each. It is itself, but where it asks for motion that no class
+/// answers(): then it is the nearest one (ControlDis) that a class does answer, if there is any. `evident`: of the
+/// classes' representatives. A class that matches a control by 0 does not play.
+std::vector<int> answered_controls(const Quality& quality, const ControlSpace& space,
+                                   const std::vector<Control>& evident);
+
+/// Makes a table answer motion with motion. Staying joins perfectly, so that Eq. 2 may prefer it to what is asked for,
+/// for ever. Where a control that asks for motion and is held leads into a cycle of classes that does not answer() it
+/// on average, each class of the cycle is followed by the one of the greatest quality that leads to an answer instead;
+/// and a control that no class answers is performed as answered_controls() says. `bridges`: stand_bridges(), which play
+/// in between. A table that is mended stays as it is when it is mended again.
+void answer_motion(Policy& policy, const Quality& quality, const ControlSpace& space,
+                   const std::vector<Control>& evident, const std::vector<int>& bridges);
+
+}  // namespace fragmotion

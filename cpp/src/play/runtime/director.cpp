@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/director.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kSame = 1e-6;              // ControlDis between controls that differ by rounding alone
+constexpr double kChange = 1;               // ControlDis between controls that is "a lot"
+constexpr double kHaste = 5 / kTunedReach;  // m a metre of reach that a second of waiting costs by default
+constexpr double kSkips = 1 / kTunedReach;  // m a metre of reach less that skipping a class must cost
+constexpr double kWorthIt = 0.05;           // s that must be left of a fragment for leaving it early
+
+}  // namespace
+
+Director::Director(const Character& character, const Policy& policy, double responsiveness)
+    : character_(&character), policy_(&policy) {
+  set_responsiveness(responsiveness);
+}
+
+void Director::set_responsiveness(double responsiveness) {
+  haste_ = kHaste * responsiveness / std::max(1 - responsiveness, kInstant);
+}
+
+void Director::reset() {
+  const Quality& quality = character_->quality;
+  const int still = character_->space.nearest({});
+  class_ = 0;
+  for (int k = 1; k < quality.classes; ++k) {
+    const auto match = [&](int q) { return quality.match[static_cast<std::size_t>(q) * quality.controls + still]; };
+    if (match(k) > match(class_)) class_ = k;
+  }
+  previous_ = class_;
+  waiting_ = forced_ = -1;
+  plays_forced_ = false;
+  soonest_ = 0;
+  exit_ = {};
+  jump_latched_ = jump_pressed_ = false;
+  decided_for_ = {};
+}
+
+void Director::change_style(const Character& style, const Policy& policy) {
+  character_ = &style;
+  policy_ = &policy;
+  forced_ = -1;
+}
+
+void Director::observe(const Control& control) {
+  const bool pressed = control.jumps();
+  jump_latched_ = jump_latched_ || (pressed && !jump_pressed_);
+  jump_pressed_ = pressed;
+}
+
+Control Director::wanted(const Control& control) const {
+  Control wanted = control;
+  wanted.jump = jump_latched_ ? 1 : 0;
+  return wanted;
+}
+
+double Director::soonest(const Playback& playback) const { return std::max(soonest_, playback.faded()); }
+
+bool Director::has_changed(const Control& wanted) const {
+  return character_->space.distance(wanted, decided_for_) > kChange;
+}
+
+// Whatever goes slower than the slowest speed, and does not stand, goes at that.
+int Director::look_up_class(int playing, const Control& wanted) const {
+  const ControlSpace& space = character_->space;
+  Control asked = wanted;
+  const double speed = wanted.speed();
+  if (speed * space.scale() > kMoving && speed < space.slowest()) {
+    asked.x *= space.slowest() / speed;
+    asked.y *= space.slowest() / speed;
+  }
+  return (*policy_)(playing, space.nearest(asked));
+}
+
+int Director::bridge_between(int previous, int next) const {
+  return character_->bridges[static_cast<std::size_t>(previous) * character_->classes.count + next];
+}
+
+bool Director::is_planned(const Control& wanted) const {
+  return exit_.next_class >= 0 && character_->space.distance(wanted, planned_for_) < kSame;
+}
+
+int Director::next_class(const Control& control, const Playback& playback, const FragmentSelector& selector) {
+  const Control wanted = this->wanted(control);
+  const int waiting = std::exchange(waiting_, -1);
+  int next = waiting;
+  if (waiting < 0 || has_changed(wanted)) {
+    decided_for_ = wanted;
+    next = (is_planned(wanted) ? exit_ : plan_exit(wanted, playback, selector)).next_class;
+    const int bridge = bridge_between(class_, next);
+    // The jump, too, waits for the end of the stand-in-place fragment.
+    if (bridge >= 0) return waiting_ = next, bridge;
+  }
+  jump_latched_ = false;
+  decided_for_.jump = 0;
+  return next;
+}
+
+bool Director::makes_way(const Playback& playback) const {
+  return forced_ >= 0 && playback.seconds() > soonest(playback) - kInstant;
+}
+
+bool Director::leaves_early(const Control& wanted, const Playback& playback, const FragmentSelector& selector) {
+  const bool too_soon = playback.seconds() <= soonest(playback) - kInstant;
+  if (too_soon || playback.left() <= kWorthIt || waiting_ >= 0 || plays_forced_) return false;
+  if (playback.is_jumping() || !has_changed(wanted)) return false;
+  if (!is_planned(wanted)) {
+    exit_ = plan_exit(wanted, playback, selector);
+    planned_for_ = wanted;
+  }
+  return playback.seconds() > exit_.seconds - kInstant;
+}
+
+// Where what plays is left in the middle of a step, or at the end of its take, the class that the table gives may begin
+// with the wrong foot: then the one that follows it is entered.
+Exit Director::plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector) const {
+  const int next = look_up_class(class_, wanted), after = look_up_class(next, wanted);
+  const Exit exit = selector.best_exit(next, wanted, playback, haste_);
+  if (after == next || wanted.jumps() || bridge_between(class_, next) >= 0 || bridge_between(class_, after) >= 0)
+    return exit;
+  const Exit skips = selector.best_exit(after, wanted, playback, haste_);
+  return skips.cost + kSkips < exit.cost ? skips : exit;
+}
+
+bool Director::is_due(const Control& control, const Playback& playback, const FragmentSelector& selector) {
+  return makes_way(playback) || playback.left() < kInstant || leaves_early(wanted(control), playback, selector);
+}
+
+// The end of a take is no reason to follow it: it is left now where that joins better than after its next fragment.
+int Director::continuation(const Control& control, const Playback& playback, const FragmentSelector& selector) const {
+  if (makes_way(playback) || playback.left() > kInstant) return -1;
+  const Control wanted = this->wanted(control);
+  const int next = waiting_ >= 0 && !has_changed(wanted) ? waiting_ : look_up_class(class_, wanted),
+            found = selector.continuation(playback.number(), next, wanted);
+  if (found < 0) return -1;
+  const int entered = selector.class_of(found), after = look_up_class(entered, wanted);
+  if (bridge_between(entered, after) >= 0 || !selector.goes_as_asked(after, wanted)) return -1;
+  if (selector.continuation(found, after, wanted) >= 0) return found;
+  const double later = selector.distance_after(found, after, wanted, playback.steps());
+  return later <= selector.distance_to_class(next, wanted, playback) ? found : -1;
+}
+
+int Director::decide(const Control& control, const Playback& playback, const FragmentSelector& selector) {
+  plays_forced_ = makes_way(playback);
+  if (plays_forced_) waiting_ = -1;
+  const int next = plays_forced_ ? std::exchange(forced_, -1) : next_class(control, playback, selector);
+  previous_ = std::exchange(class_, next);
+  exit_ = {};
+  soonest_ = kSoonest;
+  return next;
+}
+
+void Director::resume(int next_class, const Control& control) {
+  previous_ = std::exchange(class_, next_class);
+  decided_for_ = wanted(control);
+  decided_for_.jump = 0;
+  waiting_ = -1;
+  plays_forced_ = jump_latched_ = false;
+  exit_ = {};
+  soonest_ = kSoonest;
+}
+
+double Director::until_due(const Playback& playback, double most) const {
+  const auto until = [&](double time) {
+    return time - playback.seconds() > kInstant ? time - playback.seconds() : most;
+  };
+  return std::min({most, playback.left(), until(soonest(playback)), until(exit_.next_class < 0 ? -1 : exit_.seconds)});
+}
+
+}  // namespace fragmotion

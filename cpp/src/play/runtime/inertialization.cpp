@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/inertialization.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vectorised.hpp"
+#include "motion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+// A rotation as axis * tan(angle / 4): free of trigonometry, and smooth up to a whole turn. Of a quaternion and its
+// negative, which are the same rotation, one is the long way round.
+Vector3 turn_of(const Quaternion& q) { return q.vec() / (1 + q.w()); }
+
+// Rounding errors are no offset: their squares are denormal numbers, with which processors are slow.
+float rounded(double value) { return std::abs(value) < 1e-12 ? 0.0F : static_cast<float>(value); }
+
+using Lanes = float[kBoneBlock];
+
+// Turns the rotations [bones, 4] further by what is left of the offsets and the speeds.
+FRAGMOTION_VECTORISED void add_turns(const float* offsets, int bones, float offset, float speed, double* rotations) {
+  for (; bones > 0; bones -= kBoneBlock, rotations += 4 * kBoneBlock) {
+    const int count = std::min(kBoneBlock, bones), values = 4 * count;
+    float q[kBoneBlock][4] = {};
+    std::copy_n(rotations, values, &q[0][0]);
+    Lanes turn[3] = {}, turning[3] = {};
+    for (Lanes* lanes : {turn, turning}) {
+      for (int axis = 0; axis < 3; ++axis, offsets += count) std::copy_n(offsets, count, lanes[axis]);
+    }
+    Lanes w, x, y, z;
+    for (int i = 0; i < kBoneBlock; ++i) {
+      const float a = offset * turn[0][i] + speed * turning[0][i], b = offset * turn[1][i] + speed * turning[1][i],
+                  c = offset * turn[2][i] + speed * turning[2][i], square = a * a + b * b + c * c,
+                  scale = 1 / (1 + square);
+      w[i] = (1 - square) * scale;
+      x[i] = 2 * scale * a;
+      y[i] = 2 * scale * b;
+      z[i] = 2 * scale * c;
+    }
+    for (int i = 0; i < kBoneBlock; ++i) {
+      const float a = q[i][0], b = q[i][1], c = q[i][2], d = q[i][3];
+      q[i][0] = w[i] * a - x[i] * b - y[i] * c - z[i] * d;
+      q[i][1] = w[i] * b + x[i] * a + y[i] * d - z[i] * c;
+      q[i][2] = w[i] * c - x[i] * d + y[i] * a + z[i] * b;
+      q[i][3] = w[i] * d + x[i] * c - y[i] * b + z[i] * a;
+    }
+    std::copy_n(&q[0][0], values, rotations);
+  }
+}
+
+}  // namespace
+
+TurnOffset turn_offset(const double* old_before, const double* old, const double* fresh, const double* fresh_later,
+                       double apart) {
+  const Quaternion is = load_quaternion(old);
+  Quaternion offset = is * load_quaternion(fresh).conjugate();
+  if (offset.w() < 0) offset.coeffs() *= -1;
+  // What the old bone turns in `apart`, and then the new one, both about the world of the parent.
+  const Quaternion next_old = is * load_quaternion(old_before).conjugate() * is;
+  Quaternion next = next_old * load_quaternion(fresh_later).conjugate();
+  if (next.dot(offset) < 0) next.coeffs() *= -1;
+  const Vector3 turn = turn_of(offset);
+  return {turn, (turn_of(next) - turn) / apart};
+}
+
+Inertialization::Inertialization(int bones, const StitchConstants& constants)
+    : constants_(&constants), offsets_(std::size_t{6} * bones) {}
+
+Vector2 Inertialization::begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh,
+                               const WorldPose& fresh_later, double apart, double seconds) {
+  damping_ = constants_->fades / seconds;
+  end_ = kLasts * seconds;
+  root_ = old.root - fresh.root;
+  const Vector3 faster = (old.root - old_before.root - (fresh_later.root - fresh.root)) / apart;
+  root_speed_ = {0, 0, faster.z()};
+  heading_ = old.heading - fresh.heading;
+  heading_speed_ = (old.heading - old_before.heading - (fresh_later.heading - fresh.heading)) / apart;
+  for (int b = 0; b < bones(); ++b) {
+    const std::ptrdiff_t at = std::ptrdiff_t{4} * b;
+    keep(b, turn_offset(&old_before.rotations[at], &old.rotations[at], &fresh.rotations[at], &fresh_later.rotations[at],
+                        apart));
+  }
+  return faster.head<2>();
+}
+
+// Where one of the six values of a bone is kept.
+std::size_t Inertialization::slot(int bone, int value) const {
+  const int lane = bone % kBoneBlock, first = bone - lane, count = std::min(kBoneBlock, bones() - first);
+  return std::size_t{6} * first + static_cast<std::size_t>(value) * count + lane;
+}
+
+void Inertialization::keep(int bone, const TurnOffset& offset) {
+  for (int axis = 0; axis < 3; ++axis) {
+    offsets_[slot(bone, axis)] = rounded(offset.turn[axis]);
+    offsets_[slot(bone, 3 + axis)] = rounded(offset.turning[axis]);
+  }
+}
+
+Quaternion Inertialization::left(int bone, const Fade& fade) const {
+  Vector3 turn;
+  for (int axis = 0; axis < 3; ++axis) {
+    turn[axis] = fade.offset * offsets_[slot(bone, axis)] + fade.speed * offsets_[slot(bone, 3 + axis)];
+  }
+  const double square = turn.squaredNorm();
+  Quaternion q;
+  q.w() = (1 - square) / (1 + square);
+  q.vec() = 2 / (1 + square) * turn;
+  return q;
+}
+
+Fade Inertialization::fade(double damping, double time) const {
+  return {(1 + damping * time) * std::exp(-damping * time),
+          time * std::exp(-std::max(damping, constants_->calms) * time)};
+}
+
+void Inertialization::apply(double time, WorldPose& pose) const {
+  if (!active(time)) return;
+  const auto [offset, speed] = fade(damping_, time);
+  pose.root += offset * root_ + speed * root_speed_;
+  pose.heading += offset * heading_ + speed * heading_speed_;
+  add_turns(offsets_.data(), bones(), static_cast<float>(offset), static_cast<float>(speed), pose.rotations.data());
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "base/simd.hpp"
+#include "motion/pose.hpp"
+#include "runtime/player_constants.hpp"
+
+namespace fragmotion {
+
+/// How far a bone is turned from its motion, as modified Rodrigues parameters, and how fast that changes a second.
+struct TurnOffset {
+  Vector3 turn, turning;
+};
+
+/// From a new motion to an old one, whose rotations [4] are also given `apart` seconds before, the new one's as much
+/// later: speeds are those inside either.
+TurnOffset turn_offset(const double* old_before, const double* old, const double* fresh, const double* fresh_later,
+                       double apart);
+
+/// What is left of the offsets and of the speeds of a stitch that fades like a critically damped spring.
+struct Fade {
+  double offset, speed;
+};
+
+/// A stitch that keeps pose and velocity (D. Bollo, "Inertialization: high-performance animation transitions in Gears
+/// of War", GDC 2018): the new motion is shown with the old one's offset and relative speed, which fade like a
+/// critically damped spring. (Against Bollo's polynomials and the paper's ease-in-ease-out weights of the same
+/// smoothness at the beginning, it is at its fastest little more than half as fast.) It needs nothing of the old motion
+/// once it has begun, so it may begin anew at any time. How fast the root goes over the ground is not faded here: that
+/// is a body's velocity (root_governor.hpp).
+class Inertialization {
+ public:
+  static constexpr double kLasts = 4;  ///< Times its seconds, until nothing is seen of a stitch.
+
+  /// The constants must outlive it.
+  explicit Inertialization(int bones, const StitchConstants& constants = kUsualStitch);
+
+  /// Nothing to fade.
+  void clear() { end_ = 0; }
+
+  /// Whether anything is left `time` seconds after the beginning.
+  bool active(double time) const { return time < end_; }
+
+  /// From `old` to `fresh`: after `seconds` little of the offset is left (StitchConstants), after four times that
+  /// nothing. The poses are those of turn_offset(). Returns how much faster the old root goes over the ground, m/s.
+  Vector2 begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh, const WorldPose& fresh_later,
+                double apart, double seconds);
+
+  /// Lets its memory be on its way to the processor.
+  void prefetch() const { fragmotion::prefetch(offsets_.data(), offsets_.size()); }
+
+  /// Adds what is left `time` seconds after the beginning.
+  void apply(double time, WorldPose& pose) const;
+
+  const StitchConstants& constants() const { return *constants_; }
+  /// `time` seconds after the beginning of a stitch of this damping, 1/s.
+  Fade fade(double damping, double time) const;
+  /// Keeps another offset of a bone, whose own is lost.
+  void keep(int bone, const TurnOffset& offset);
+  /// The rotation that is left of what is kept of a bone.
+  Quaternion left(int bone, const Fade& fade) const;
+
+ private:
+  friend struct PlayerState;
+
+  int bones() const { return static_cast<int>(offsets_.size()) / 6; }
+  std::size_t slot(int bone, int value) const;
+
+  const StitchConstants* constants_;
+  double damping_ = 0, end_ = 0;  // 1/s, s
+  Vector3 root_ = Vector3::Zero(), root_speed_ = Vector3::Zero();
+  double heading_ = 0, heading_speed_ = 0;
+  // Of kBoneBlock bones, or those that are left, x, y and z of the turn and then of its change.
+  std::vector<float> offsets_;
+};
+
+}  // namespace fragmotion

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "motion/pose.hpp"
+#include "motion/trunk.hpp"
+
+namespace fragmotion {
+
+/// Leans the trunk of a body that gets faster, slower or turns aside into its acceleration, as what pushes at its feet
+/// must not tip it over: by part of the angle whose tangent is the acceleration over gravity. The head goes back by
+/// half of that. Does nothing to a skeleton without a spine. Allocates nothing once it is made.
+class Lean {
+ public:
+  /// `scale` as ControlSpace::scale().
+  Lean(const Trunk& trunk, double scale) : trunk_(trunk), scale_(scale) {}
+
+  /// Stands upright.
+  void reset() { pushed_ = acceleration_ = Vector2::Zero(); }
+  /// Which it has followed, m/s^2 of a 1.8 m character, in the character frame.
+  const Vector2& acceleration() const { return acceleration_; }
+  /// Changes the pose that is shown `seconds` after the last one, of a body that is accelerated by so many m/s^2 in the
+  /// character frame.
+  void apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, double seconds);
+
+ private:
+  friend struct PlayerState;
+
+  Trunk trunk_;
+  double scale_;
+  Vector2 pushed_ = Vector2::Zero(), acceleration_ = Vector2::Zero();  // halfway, and as the lean follows it
+};
+
+}  // namespace fragmotion

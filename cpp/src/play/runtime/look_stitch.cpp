@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/look_stitch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace fragmotion {
+
+// How the bone that the neck is on is turned in the world.
+Quaternion LookStitch::turn_below(const WorldPose& pose) const {
+  const Skeleton& skeleton = workspace_->kinematics.skeleton();
+  Quaternion world = Quaternion::Identity();
+  for (int b = workspace_->look.front(); b != skeleton.roles.hips;) {
+    b = skeleton.parents[b];
+    world = load_quaternion(&pose.rotations[std::size_t{4} * b]) * world;
+  }
+  return world;
+}
+
+// Writes how neck and head are turned, seen from a heading, as the pose of a body that is these bones.
+void LookStitch::see(const WorldPose& pose, double heading, WorldPose& look) const {
+  Quaternion seen = CharacterFrame{{}, -heading}.rotation() * turn_below(pose);
+  double* out = look.rotations.data();
+  for (const int bone : workspace_->look) {
+    seen = seen * load_quaternion(&pose.rotations[std::size_t{4} * bone]);
+    store_quaternion(seen, out);
+    out += 4;
+  }
+}
+
+// An offset fades exp(-1) times its damping as fast at its fastest.
+void LookStitch::begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh,
+                       const WorldPose& fresh_later, double apart, double seconds, double turning,
+                       Inertialization& body) {
+  if (workspace_->look.empty()) return;
+  auto& looks = workspace_->looks;
+  const std::array poses{&old_before, &old, &fresh, &fresh_later};
+  for (std::size_t i = 0; i < looks.size(); ++i) see(*poses[i], fresh.heading, looks[i]);
+  const double fades = body.constants().fades;
+  damping_ = fades / seconds;
+  for (std::size_t i = 0; i < workspace_->look.size(); ++i) {
+    const auto rotation = [&](int pose) { return &looks[pose].rotations[4 * i]; };
+    const TurnOffset offset = turn_offset(rotation(0), rotation(1), rotation(2), rotation(3), apart);
+    const double most = std::max(0.0, (kTurnsAtMost - 1) * workspace_->fastest_looks[i] - std::abs(turning));
+    damping_ = std::min(damping_, most / (std::exp(-1) * 4 * std::atan(offset.turn.norm())));
+    body.keep(workspace_->look[i], offset);
+  }
+  damping_ = std::max(damping_, fades / std::max(kSlowestStitch, seconds));
+}
+
+bool LookStitch::active(double time, const Inertialization& body) const {
+  return damping_ > 0 && time < Inertialization::kLasts * body.constants().fades / damping_;
+}
+
+void LookStitch::apply(double time, const Inertialization& body, WorldPose& pose) const {
+  if (!active(time, body)) return body.apply(time, pose);
+  WorldPose& look = workspace_->looks[0];
+  const double heading = pose.heading;
+  see(pose, heading, look);
+  body.apply(time, pose);
+  const Fade fade = body.fade(damping_, time);
+  Quaternion from = CharacterFrame{{}, -heading}.rotation() * turn_below(pose);
+  const double* seen = look.rotations.data();
+  for (const int bone : workspace_->look) {
+    const Quaternion turned = body.left(bone, fade) * load_quaternion(seen);
+    store_quaternion((from.conjugate() * turned).normalized(), &pose.rotations[std::size_t{4} * bone]);
+    from = turned;
+    seen += 4;
+  }
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "fragments/body_tips.hpp"
+#include "runtime/player.hpp"
+
+namespace fragmotion {
+
+// Finds the moment at which `cost` of what would be shown is least, of those where it `can` be, as another player shows
+// ahead.
+template <typename Cost>
+void Player::plan(Moment& moment, const Control& control, bool (Player::*can)() const, const Cost& cost) {
+  Player& ahead = *extras_->rehearsal;
+  constexpr double kLook = 0.05;                   // s between the moments that are looked at
+  constexpr double kImpatience = 1 / kTunedReach;  // m a metre of reach that a second of waiting costs
+  ahead.imitate(*this);
+  ahead.playback_.show();
+  double best = moment.patience(), least = std::numeric_limits<double>::infinity();
+  for (double wait = 0;;) {
+    const double total = cost(ahead) + kImpatience * wait;
+    if ((ahead.*can)() && total < least) least = total, best = wait;
+    const double next = std::min(wait + kLook, moment.patience());
+    if (next - wait < kInstant) break;
+    for (double rest = next - wait; rest > kInstant;) rest -= ahead.advance(control, std::min(rest, kFinest));
+    wait = next;
+  }
+  moment.plan(best, control);
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/playback.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kApart = 1.0 / 60;  // s over which speeds are measured, within a fragment
+
+}  // namespace
+
+Playback::Playback(const Character& character, Workspace& workspace, Stitching stitching, double stitch)
+    : character_(&character),
+      workspace_(&workspace),
+      stitching_(stitching),
+      inertialization_(workspace.kinematics.bones(), workspace.constants.stitch),
+      look_(workspace) {
+  set_stitch(stitch);
+}
+
+void Playback::reset(int fragment, const CharacterFrame& frame) {
+  faded_ = turning_ = 0;
+  inertialization_.clear();
+  look_.clear();
+  play(place(style_, fragment, frame));
+  steps_ = {standing_feet(0), -1, 0};
+  show();
+}
+
+void Playback::play(const Placed& placed) {
+  now_ = placed;
+  const Vector2 velocity = hips_velocity(clip(now_), fragment());
+  evident_of_hips_ = {velocity.x(), velocity.y(), evident().turn, evident().jump};
+  beside_ends_ = velocity - mean_velocity_around(clip(now_), fragment(), step_seconds());
+}
+
+Playback::Placed Playback::place(int style, int number, const CharacterFrame& frame) const {
+  Placed placed;
+  placed.style = style;
+  placed.number = number;
+  const CharacterFrame first = frame_at(clip(placed), fragment(placed).first_played());
+  placed.heading = frame.heading - first.heading;
+  placed.offset = frame.position - Eigen::Rotation2Dd(placed.heading) * first.position;
+  return placed;
+}
+
+void Playback::sample(const Placed& placed, WorldPose& pose) const {
+  const PackedClip& source = clip(placed);
+  const double at = fragment(placed).first_played() + placed.seconds * source.rate;
+  const Vector3 root = sample_pose(source, at, pose.rotations.data());
+  // By half the angle, for the quaternion as well as for the plane.
+  const double w = std::cos(placed.heading / 2), z = std::sin(placed.heading / 2), c = w * w - z * z, s = 2 * w * z;
+  pose.root = {placed.offset.x() + c * root.x() - s * root.y(), placed.offset.y() + s * root.x() + c * root.y(),
+               root.z()};
+  pose.heading = placed.heading + frame_at(source, at).heading;
+  double* hips = &pose.rotations[std::size_t{4} * character_->pool.skeleton.roles.hips];
+  store_quaternion(Quaternion{w, 0, 0, z} * load_quaternion(hips), hips);
+}
+
+void Playback::sample_stitched(Placed placed, double seconds, WorldPose& pose) const {
+  placed.seconds = seconds;
+  sample(placed, pose);
+  if (stitching_ == Stitching::inertialize) look_.apply(std::max(0.0, seconds), inertialization_, pose);
+}
+
+void Playback::sample(double seconds, WorldPose& pose) const { sample_stitched(now_, seconds, pose); }
+
+Vector2 Playback::start(int fragment) { return start(place(style_, fragment, frame_)); }
+
+Vector2 Playback::start_move(int part) { return start(place(0, part, frame_)); }
+
+Vector2 Playback::start(const Placed& next) {
+  before_ = now_;
+  play(next);
+  const bool inertializes = stitching_ == Stitching::inertialize;
+  const Vector2 faster = inertializes && stitch_ > 0 ? begin_stitch(before_) : Vector2::Zero();
+  faded_ = inertializes ? 0 : std::min(stitch_, left());
+  steps_.advance(standing_feet(0), 0);
+  show();
+  return faster;
+}
+
+// Begins a stitch from the old fragment, as it is shown, to the one that plays now; returns what start() does.
+Vector2 Playback::begin_stitch(const Placed& old) {
+  auto& [old_before, old_now, fresh, fresh_later] = workspace_->poses;
+  sample_stitched(old, old.seconds, old_now);
+  sample_stitched(old, old.seconds - kApart, old_before);
+  sample(now_, fresh);
+  Placed later = now_;
+  later.seconds += kApart;
+  sample(later, fresh_later);
+  const Vector2 faster = inertialization_.begin(old_before, old_now, fresh, fresh_later, kApart, stitch_);
+  look_.begin(old_before, old_now, fresh, fresh_later, kApart, stitch_, turning_, inertialization_);
+  return Eigen::Rotation2Dd(-frame_.heading) * faster;
+}
+
+void Playback::advance(double seconds) {
+  now_.seconds += seconds;
+  before_.seconds += seconds;
+  steps_.advance(standing_feet(now_.seconds), seconds);
+}
+
+void Playback::move(const Vector2& velocity, double turn_rate, double seconds) {
+  turning_ = turn_rate;
+  const Vector2 root = frame_.position, way = seconds * (Eigen::Rotation2Dd(frame_.heading) * velocity);
+  const Eigen::Matrix2d turned = Eigen::Rotation2Dd(seconds * turn_rate).toRotationMatrix();
+  for (Placed* placed : {&now_, &before_}) {
+    placed->heading += seconds * turn_rate;
+    placed->offset = root + way + turned * (placed->offset - root);
+  }
+}
+
+void Playback::show() {
+  WorldPose& shown = workspace_->shown;
+  sample(now_, shown);
+  if (stitching_ == Stitching::inertialize) {
+    look_.apply(now_.seconds, inertialization_, shown);
+  } else if (now_.seconds < faded_) {
+    crossfade(ease_in_ease_out(now_.seconds / faded_), shown);
+  }
+  frame_ = {shown.root.head<2>(), shown.heading};
+}
+
+// Goes so far from what played before to the pose.
+void Playback::crossfade(double weight, WorldPose& pose) const {
+  WorldPose& old = workspace_->poses[0];
+  sample(before_, old);
+  blend_rotations(old.rotations.data(), pose.rotations.data(), weight, workspace_->kinematics.bones(),
+                  pose.rotations.data());
+  pose.root = old.root + weight * (pose.root - old.root);
+  pose.heading = old.heading + weight * (pose.heading - old.heading);
+}
+
+bool Playback::is_jumping() const {
+  const Fragment& f = fragment();
+  const double landed = f.end + f.lead_out / 2.0 - f.first_played();
+  return f.evident.jumps() && now_.seconds * clip(now_).rate < landed;
+}
+
+bool Playback::has_landed() const {
+  if (contacts().feet[0].empty()) return !is_jumping();
+  const Fragment& f = fragment();
+  const bool flown = now_.seconds * clip(now_).rate >= f.end - f.first_played();
+  return !f.evident.jumps() || (flown && !is_in_the_air());
+}
+
+std::size_t Playback::frame_of_clip(double seconds) const {
+  const PackedClip& source = clip(now_);
+  const long at = std::lround(fragment().first_played() + seconds * source.rate);
+  return static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(source.frames) - 1));
+}
+
+std::array<bool, 2> Playback::standing_feet(double seconds) const {
+  return fragmotion::standing_feet(contacts(), frame_of_clip(seconds));
+}
+
+double Playback::until_standing(int side) const {
+  const Fragment& f = fragment();
+  const double rate = clip(now_).rate, at = f.first_played() + now_.seconds * rate;
+  const std::vector<bool>& stands = contacts().feet[side];
+  const auto next = std::find(stands.begin() + static_cast<std::ptrdiff_t>(frame_of_clip()), stands.end(), true);
+  return std::max(0.0, (static_cast<double>(next - stands.begin()) - at) / rate);
+}
+
+bool Playback::is_in_the_air() const {
+  if (!evident().jumps()) return false;
+  const auto& [left, right] = contacts().feet;
+  const std::size_t frame = frame_of_clip();
+  return !left.empty() && !left[frame] && !right[frame];
+}
+
+double Playback::left() const {
+  const Fragment& f = fragment();
+  return (f.last_played() - f.first_played()) / clip(now_).rate - now_.seconds;
+}
+
+double Playback::step_seconds() const {
+  return plays_move() ? kLongestStep : workspace_->styles[now_.style].step_seconds[now_.number];
+}
+
+Travel Playback::mean_travel() const {
+  const PackedClip& source = clip(now_);
+  Travel travel = travel_around(source, fragment().first_played() + now_.seconds * source.rate, step_seconds());
+  travel.velocity += beside_ends_;
+  return travel;
+}
+
+Vector2 Playback::velocity() const {
+  auto& [before, now, unused, unused_too] = workspace_->poses;
+  sample(now_.seconds - kApart, before);
+  sample(now_.seconds, now);
+  return Eigen::Rotation2Dd(-frame_.heading) * (now.root - before.root).head<2>() / kApart;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/player.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "base/ranges.hpp"
+#include "base/simd.hpp"
+#include "ground/ground_follower.hpp"
+#include "runtime/look_ahead.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kLongest = 3600;   // s that a step may last
+constexpr double kRounding = 1e-9;  // of a step: less that is left of it is what sums of its parts are off
+constexpr double kMiddle = 0.2;     // s from now to that of a fragment that begins soon
+
+double within_one(double value, const char* name) {
+  if (value >= 0 && value <= 1) return value;
+  throw std::invalid_argument(std::string("the ") + name + " must be 0 to 1");
+}
+
+}  // namespace
+
+Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options)
+    : Player(character, options, std::make_shared<Workspace>(*character, options.constants)) {
+  make_extras(options);
+}
+
+Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options,
+               std::shared_ptr<Workspace> workspace)
+    : character_(std::move(character)),
+      workspace_(std::move(workspace)),
+      governor_(*character_, workspace_->constants.root, within_one(options.root_adjustment, "root adjustment"),
+                within_one(options.responsiveness, "responsiveness")),
+      director_(*character_, character_->policy(options.policy), options.responsiveness),
+      selector_(*workspace_, options.seed),
+      playback_(*character_, *workspace_, options.stitching, within_one(options.stitch, "stitching time, in s,")),
+      correction_(*character_, *workspace_, options.lock_feet) {
+  reset();
+}
+
+void Player::set_options(const PlayerOptions& options) {
+  const double responsiveness = within_one(options.responsiveness, "responsiveness"),
+               stitch = within_one(options.stitch, "stitching time, in s,"),
+               adjustment = within_one(options.root_adjustment, "root adjustment");
+  governor_.set(adjustment, responsiveness);
+  director_.set_responsiveness(responsiveness);
+  playback_.set_stitch(stitch);
+  correction_.set_lock_feet(options.lock_feet);
+  if (extras_ != nullptr) extras_->upper_body.set_stitch(stitch);
+}
+
+Player Player::branch() const {
+  Player player(*this);
+  if (extras_ != nullptr) player.extras_ = std::make_shared<Extras>(*extras_);
+  if (follower_ != nullptr) player.follower_ = std::make_shared<GroundFollower>(*follower_);
+  return player;
+}
+
+// A crowd's memory is more than the processor's caches hold.
+void Player::prefetch() const {
+  fragmotion::prefetch(this, 1);
+  playback_.prefetch();
+}
+
+void Player::check_step(const Control& control, double seconds) {
+  for (const double value : {control.x, control.y, control.turn, control.jump}) {
+    if (!std::isfinite(value)) throw std::invalid_argument("the control holds what is not a number");
+    if (std::abs(value) > kMostControl) throw std::invalid_argument("the control holds a number beyond a million");
+  }
+  if (!(seconds >= 0 && seconds <= kLongest)) throw std::invalid_argument("a step must last 0 s to an hour");
+}
+
+void Player::reset(const CharacterFrame& frame, int style) {
+  check_style(*character_, style);
+  for (const double value : {frame.position.x(), frame.position.y(), frame.heading})
+    require_range("the place and the heading to stand at", value, -kFarthestPlace, kFarthestPlace);
+  governor_.reset(frame.heading);
+  if (extras_ != nullptr) {
+    set_style(style);
+    extras_->whole_body.reset();
+    extras_->upper_body.reset();
+  }
+  director_.reset();
+  selector_.reset();
+  correction_.reset();
+  if (follower_ != nullptr) follower_->reset();
+  fragment_ = styled_character().classes.representatives[director_.playing_class()];
+  playback_.reset(fragment_, frame);
+  correct(0);
+}
+
+void Player::force(int next_class) {
+  if (next_class < 0 || next_class >= styled_character().classes.count) {
+    throw std::invalid_argument("class " + std::to_string(next_class) + " does not exist");
+  }
+  director_.force(next_class);
+}
+
+// Goes on in the take that plays, or plays a fragment of the class that is decided on.
+void Player::go_on(const Control& control) {
+  const Control wanted = director_.wanted(control);
+  fragment_ = director_.continuation(control, playback_, selector_);
+  if (fragment_ >= 0) {
+    director_.resume(selector_.class_of(fragment_), control);
+  } else {
+    const int next = director_.decide(control, playback_, selector_);
+    fragment_ = director_.plays_forced() ? selector_.choose_any(next) : selector_.choose(next, wanted, playback_);
+  }
+  play(fragment_);
+}
+
+void Player::play(int fragment) { keep(playback_.start(fragment)); }
+
+void Player::keep(const Vector2& faster) {
+  governor_.keep(faster);
+  ++entered_;
+}
+
+void Player::correct(double seconds) {
+  correction_.correct(playback_, governor_, seconds);
+  if (follower_ != nullptr) {
+    follower_->apply(workspace_->shown, look_ahead(playback_, governor_, correction_, *workspace_), seconds);
+  }
+  root_ = workspace_->shown.root;
+}
+
+void Player::stand_on(Ground ground) {
+  follower_ = ground ? std::make_shared<GroundFollower>(workspace_->body, std::move(ground)) : nullptr;
+}
+
+double Player::ground_level() const { return follower_ != nullptr ? follower_->level() : 0; }
+
+double Player::ground_missed() const { return follower_ != nullptr ? follower_->missed() : 0; }
+
+double Player::quality(int control) const {
+  if (control < 0 || control >= styled_character().space.size()) {
+    throw std::invalid_argument("control " + std::to_string(control) + " does not exist");
+  }
+  return styled_character().quality(director_.previous_class(), director_.playing_class(), control);
+}
+
+std::array<std::optional<Vector3>, 2> Player::standing_feet() const {
+  const Kinematics& kinematics = workspace_->kinematics;
+  const Roles& roles = kinematics.skeleton().roles;
+  const std::array feet{roles.left_foot, roles.right_foot}, toes{roles.left_toe, roles.right_toe};
+  const std::array<bool, 2> stands = playback_.standing_feet(playback_.seconds());
+  PosedBones posed(kinematics.bones());
+  kinematics.world(root_, rotations().data(), posed.heads.data(), posed.rotations.data());
+  std::array<std::optional<Vector3>, 2> soles;
+  for (int side = 0; side < 2; ++side) {
+    if (!stands[side] || feet[side] < 0) continue;
+    const Vector3 heel = posed.heads[feet[side]], front = ball(kinematics.skeleton(), feet[side], toes[side], posed),
+                  middle = (heel + front) / 2;
+    soles[side] = Vector3{middle.x(), middle.y(), std::min(heel.z(), front.z())};
+  }
+  return soles;
+}
+
+void Player::step(const Control& given, double seconds) {
+  check_step(given, seconds);
+  const Control control = styled_character().space.admitted(given);
+  director_.observe(control);
+  if (seconds == 0) playback_.show();
+  for (double rest = seconds; rest > kRounding * seconds;) rest -= advance(control, std::min(rest, kFinest));
+  if (extras_ != nullptr) extras_->upper_body.lay(workspace_->shown);
+  correct(seconds);
+}
+
+// Plays on for a while, which it returns, and shows it.
+double Player::advance(const Control& control, double most) {
+  if (extras_ != nullptr) most = begin_style(control, begin_moves(control, most));
+  const double part = continue_move(control) ? advance_by_move(most) : advance_by_policy(control, most);
+  if (extras_ != nullptr) {
+    for (MoveTrack* track : {&extras_->whole_body, &extras_->upper_body.track}) track->moment.wait(part);
+    extras_->style.moment.wait(part);
+    extras_->upper_body.advance(part);
+  }
+  playback_.show();
+  return part;
+}
+
+double Player::advance_by_policy(const Control& control, double most) {
+  const Control soon = governor_.command(control, frame().heading, most + kMiddle);
+  if (director_.is_due(soon, playback_, selector_)) go_on(soon);
+  const double tempo = governor_.tempo(), played = director_.until_due(playback_, most * tempo), part = played / tempo;
+  playback_.advance(played);
+  governor_.steer(control, part, playback_);
+  return part;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/pose_correction.hpp"
+
+#include "base/filtered.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kSetOff = 0.15;   // of what balances it that the feet are set off for a body's acceleration
+constexpr double kStriding = 0.3;  // s: time constant of the steps'
+
+}  // namespace
+
+PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace, bool lock_feet)
+    : workspace_(&workspace),
+      scale_(character.space.scale()),
+      lock_feet_(lock_feet),
+      foot_lock_(workspace.body),
+      lean_(Trunk(workspace.kinematics.skeleton()), scale_) {}
+
+void PoseCorrection::set_lock_feet(bool lock_feet) {
+  if (lock_feet != lock_feet_) foot_lock_.reset();
+  lock_feet_ = lock_feet;
+}
+
+void PoseCorrection::reset() {
+  steps_ = {};
+  foot_lock_.reset();
+  lean_.reset();
+}
+
+void PoseCorrection::correct(const Playback& playback, const RootGovernor& governor, double seconds) {
+  const Skeleton& skeleton = workspace_->kinematics.skeleton();
+  lean_.apply(skeleton, workspace_->shown, governor.acceleration(), seconds);
+  edit_steps(playback.evident_of_hips(), governor, seconds);
+  if (lock_feet_) lock_feet(playback, seconds);
+}
+
+// A foot that stands goes back under the hips as fast as the fragment goes forward; by what the root makes that faster
+// or slower its place from the hips, which grows with the same time, must change. And the feet of a body that is
+// accelerated are set where their push goes through it: behind one that gets faster, ahead of one that brakes.
+void PoseCorrection::edit_steps(const Control& evident, const RootGovernor& governor, double seconds) {
+  const Vector2 velocity{evident.x, evident.y};
+  const bool goes = evident.speed() * scale_ > kMoving;
+  const Matrix2 wanted =
+      goes ? Matrix2{governor.velocity() * velocity.transpose() / (governor.tempo() * velocity.squaredNorm())}
+           : Matrix2{Matrix2::Zero()};
+  steps_.stride += filtered(seconds, kStriding) * (wanted - steps_.stride);
+  const Vector2 behind = -kSetOff * workspace_->shown.root.z() / kGravity * lean_.acceleration();
+  steps_.shift += filtered(seconds, kStriding) * (behind - steps_.shift);
+}
+
+void PoseCorrection::lock_feet(const Playback& playback, double seconds) {
+  const Contacts& contacts = playback.contacts();
+  if (contacts.feet[0].empty()) return;
+  foot_lock_.apply(workspace_->shown, contacts, playback.frame_of_clip(), seconds, steps_);
+}
+
+}  // namespace fragmotion

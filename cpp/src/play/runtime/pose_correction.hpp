@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "runtime/lean.hpp"
+#include "runtime/root_governor.hpp"
+
+namespace fragmotion {
+
+/// Lets the pose go with the root: a body that is accelerated leans (lean.hpp) and sets its feet for it, steps are as
+/// long as the way that the root goes in them, and planted feet stay where they are (foot_lock.hpp). Allocates nothing
+/// once it is made.
+class PoseCorrection {
+ public:
+  /// `lock_feet` as in PlayerOptions. Character and workspace must outlive it.
+  PoseCorrection(const Character& character, Workspace& workspace, bool lock_feet);
+
+  void reset();
+  /// As it was told when it was made. Feet that were held and are not any more are free.
+  void set_lock_feet(bool lock_feet);
+  const StepEdit& steps() const { return steps_; }
+  /// Whether a foot stands: it is held where it is, or, where feet are not held, it is to stand and is low.
+  bool plants(int side, bool stands) const { return lock_feet_ ? foot_lock_.locked(side) : stands; }
+  /// Of a foot that is held, as FootLock has it.
+  Vector2 coming_to_rest(int side) const { return lock_feet_ ? foot_lock_.coming_to_rest(side) : Vector2::Zero(); }
+  double stepping(int side) const { return lock_feet_ ? foot_lock_.stepping(side) : 0; }
+  /// Corrects Workspace::shown, `seconds` after the pose that was shown last.
+  void correct(const Playback& playback, const RootGovernor& governor, double seconds);
+
+ private:
+  friend struct PlayerState;
+
+  void edit_steps(const Control& evident, const RootGovernor& governor, double seconds);
+  void lock_feet(const Playback& playback, double seconds);
+
+  Workspace* workspace_;
+  double scale_;
+  bool lock_feet_;
+  StepEdit steps_;
+  FootLock foot_lock_;
+  Lean lean_;
+};
+
+}  // namespace fragmotion

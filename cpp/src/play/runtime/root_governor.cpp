@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/root_governor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/filtered.hpp"
+
+namespace fragmotion {
+namespace {
+
+// m/s^2: half at a responsiveness of 0, without a limit at 1.
+double acceleration_of(const RootLimits& limits, double responsiveness, const ControlSpace& space) {
+  return limits.acceleration / 2 / (1 - responsiveness) / space.scale();
+}
+
+}  // namespace
+
+RootGovernor::RootGovernor(const Character& character, const RootLimits& limits, double root_adjustment,
+                           double responsiveness)
+    : limits_(&limits),
+      space_(&character.space),
+      root_adjustment_(root_adjustment),
+      limit_(acceleration_of(limits, responsiveness, character.space)) {}
+
+void RootGovernor::set(double root_adjustment, double responsiveness) {
+  root_adjustment_ = root_adjustment;
+  limit_.set_acceleration(acceleration_of(*limits_, responsiveness, *space_));
+}
+
+void RootGovernor::reset(double heading) {
+  limit_.reset(heading);
+  acceleration_ = velocity_ = Vector2::Zero();
+  begins_ = true;
+  turn_rate_ = 0;
+  tempo_ = 1;
+  target_heading_ = heading;
+}
+
+void RootGovernor::steer(const Control& control, double seconds, Playback& playback) {
+  const bool in_the_air = playback.is_in_the_air();
+  const double heading = playback.frame().heading;
+  acceleration_ = in_the_air ? Vector2::Zero() : limit_.advance(control, heading, seconds);
+  const Control command = limit_.after(control, heading, limits_->settles);  // by which what is added lags behind
+  const Travel mean = playback.mean_travel();
+  steer_tempo(command, playback, seconds);
+  steer_velocity(command, mean.velocity, in_the_air, seconds);
+  steer_turn(command.turn * space_->turn_rate(), mean.turn_rate, playback, seconds);
+  playback.move(velocity_, turn_rate_, seconds);
+}
+
+void RootGovernor::steer_tempo(const Control& command, const Playback& playback, double seconds) {
+  const Control& evident = playback.evident_of_hips();
+  const double least = kMoving / space_->scale();
+  const bool goes = evident.speed() > least && command.speed() > least && !evident.jumps();
+  const double faster = goes ? std::sqrt(command.speed() / evident.speed()) : 1,
+               wanted = 1 + root_adjustment_ * (std::clamp(faster, limits_->slowest, limits_->fastest) - 1);
+  tempo_ += filtered(seconds, playback.step_seconds() / 2) * (wanted - tempo_);
+}
+
+// The velocity that the strides lack, as far as they can be changed. Who stands may sway.
+Vector2 RootGovernor::velocity_to_add(const Control& command, const Vector2& mean) const {
+  if (command.speed() == 0 && mean.norm() * space_->scale() < limits_->sways) return Vector2::Zero();
+  const Vector2 lacks = Vector2{command.x, command.y} - tempo_ * mean;
+  return root_adjustment_ * clamp_length(lacks, limits_->stride * mean.norm());
+}
+
+// What plays and what is added to it together get no faster from their velocity than a body can.
+void RootGovernor::steer_velocity(const Control& command, const Vector2& mean, bool in_the_air, double seconds) {
+  const Vector2 played = tempo_ * mean, faster = (begins_ ? 0 : root_adjustment_) * (played - played_);
+  played_ = played;
+  begins_ = false;
+  if (in_the_air) return;
+  const Vector2 change = filtered(seconds, limits_->settles) * (velocity_to_add(command, mean) - velocity_);
+  velocity_ += clamp_length(change + faster, limit_.acceleration() * seconds) - faster;
+}
+
+// Draws the heading to that which is asked for, and turns little faster than is asked or than a control
+// of these takes asks.
+void RootGovernor::steer_turn(double asked, double mean, const Playback& playback, double seconds) {
+  const double time = playback.step_seconds() / 2, most = kTurnsAtMost * std::max(std::abs(asked), space_->turn_rate()),
+               heading = playback.frame().heading;
+  target_heading_ += seconds * asked;
+  const double behind = std::clamp(std::remainder(target_heading_ - heading, 2 * kPi), -most * time, most * time);
+  target_heading_ = heading + behind;
+  const double wanted = root_adjustment_ * (std::clamp(asked + behind / time, -most, most) - tempo_ * mean);
+  turn_rate_ += filtered(seconds, limits_->settles) * (wanted - turn_rate_);
+}
+
+void RootGovernor::leave(double seconds, Playback& playback) {
+  acceleration_ = Vector2::Zero();
+  tempo_ += filtered(seconds, playback.step_seconds() / 2) * (1 - tempo_);
+  velocity_ -= clamp_length(filtered(seconds, limits_->settles) * velocity_, limit_.acceleration() * seconds);
+  turn_rate_ -= filtered(seconds, limits_->settles) * turn_rate_;
+  playback.move(velocity_, turn_rate_, seconds);
+  target_heading_ = playback.frame().heading;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "control/command_limit.hpp"
+#include "runtime/playback.hpp"
+#include "runtime/player_constants.hpp"
+
+namespace fragmotion {
+
+/// Says where the body goes (a reference governor: E. Garone, S. Di Cairano, I. Kolmanovsky, "Reference and command
+/// governors for systems with constraints", Automatica 75, 2017): it limits what is asked to what a body can do, and
+/// draws the mean of the strides to that within half a step, so that what the hips do within a stride stays the
+/// actor's. Nothing else moves or turns what plays. Allocates nothing.
+class RootGovernor {
+ public:
+  /// `root_adjustment` and `responsiveness` as in PlayerOptions. The character and the limits must outlive it.
+  RootGovernor(const Character& character, const RootLimits& limits, double root_adjustment, double responsiveness);
+
+  /// As it was told when it was made.
+  void set(double root_adjustment, double responsiveness);
+  /// Stands.
+  void reset(double heading);
+  /// Controls are asked of this style from now on.
+  void change_style(const Character& style) { space_ = &style.space; }
+  /// What is asked of a body that goes so, m/s in the character frame, begins anew.
+  void resume(double heading, const Vector2& velocity) { limit_.reset(heading, velocity); }
+  /// Lets the root keep the velocity by which what played was faster than what begins to, m/s in the character frame.
+  void keep(const Vector2& faster) {
+    velocity_ += tempo_ * faster;
+    begins_ = true;
+  }
+
+  /// What a body that faces `heading` can do of a control in so many seconds from now.
+  Control command(const Control& control, double heading, double seconds) const {
+    return limit_.after(control, heading, seconds);
+  }
+  /// Of the command, m/s^2 in the character frame; 0 in the air and in moves.
+  const Vector2& acceleration() const { return acceleration_; }
+  /// How much faster than captured what plays is to be played: half of what the control is slower or faster than the
+  /// fragment is made up for by steps that follow each other later or sooner, the rest by shorter or longer ones.
+  double tempo() const { return tempo_; }
+  /// Of the root beyond what plays: m/s in the character frame, and rad/s.
+  const Vector2& velocity() const { return velocity_; }
+  double turn_rate() const { return turn_rate_; }
+
+  /// Moves and turns what plays, which went on for `seconds`, so that it does more of what the control says.
+  void steer(const Control& control, double seconds, Playback& playback);
+  /// Lets what plays go its own way over `seconds`: what was kept and added fades.
+  void leave(double seconds, Playback& playback);
+
+ private:
+  friend struct PlayerState;
+
+  void steer_tempo(const Control& command, const Playback& playback, double seconds);
+  void steer_velocity(const Control& command, const Vector2& mean, bool in_the_air, double seconds);
+  void steer_turn(double asked, double mean, const Playback& playback, double seconds);
+  Vector2 velocity_to_add(const Control& command, const Vector2& mean) const;
+
+  const RootLimits* limits_;
+  const ControlSpace* space_;  // of the style that plays
+  double root_adjustment_;
+  CommandLimit limit_;
+  Vector2 acceleration_ = Vector2::Zero();
+  Vector2 velocity_ = Vector2::Zero();  // that is added, m/s, in the character frame
+  Vector2 played_ = Vector2::Zero();    // m/s, of what played last,
+  bool begins_ = true;                  // but for when it has just begun
+  double turn_rate_ = 0;                // that is added, rad/s
+  double tempo_ = 1;
+  double target_heading_ = 0;  // rad: what the turn rates that were asked for add up to
+};
+
+}  // namespace fragmotion

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/workspace.hpp"
+
+#include <algorithm>
+
+#include "fragments/entry_poses.hpp"
+#include "fragments/hips_velocity.hpp"
+#include "fragments/look.hpp"
+#include "fragments/successors.hpp"
+
+namespace fragmotion {
+
+Workspace::Workspace(const Character& character, const PlayerConstants& constants)
+    : constants(constants),
+      kinematics(character.pool.skeleton),
+      body(std::make_shared<FootLock::Body>(kinematics, character.legs)),
+      floors(usual_floors(character.contacts)),
+      look(look_bones(kinematics.skeleton())),
+      fastest_looks(look.size()),
+      move_entries(entry_poses(character.pool, character.move_parts)),
+      tips{BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton)},
+      onward(character.entry_poses.size() / character.pool.fragments.size()) {
+  std::size_t most = 0;
+  for (int style = 0; style < character.style_count(); ++style) {
+    const Character& c = character.in_style(style);
+    styles.push_back({&c, c.classes.members(), entry_steps(c), velocity_changes(c.pool), step_seconds(c),
+                      successors(c.pool.fragments)});
+    const std::vector<float> turns = fragmotion::fastest_looks(c.pool);
+    for (std::size_t b = 0; b < turns.size(); ++b) fastest_looks[b] = std::max(fastest_looks[b], turns[b]);
+    most = std::max(most, c.pool.fragments.size());
+  }
+  candidates.reserve(most);
+  shown.rotations.resize(std::size_t{4} * kinematics.bones());
+  poses.fill(shown);
+  for (WorldPose& pose : looks) pose.rotations.resize(4 * look.size());
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "character/character.hpp"
+#include "fragments/body_tips.hpp"
+#include "motion/foot_lock.hpp"
+#include "runtime/player_constants.hpp"
+#include "runtime/step_sequence.hpp"
+
+namespace fragmotion {
+
+/// What is looked up of the fragments of one style.
+struct FragmentLists {
+  const Character* character;             ///< In that style.
+  std::vector<std::vector<int>> members;  ///< Classes::members()
+  std::vector<EntrySteps> entry_steps;    ///< entry_steps()
+  std::vector<double> velocity_changes;   ///< velocity_changes()
+  std::vector<double> step_seconds;       ///< step_seconds()
+  std::vector<int> successors;            ///< successors()
+};
+
+/// What players of one character that step in turn share: what never changes, and room to work in.
+struct Workspace {
+  /// The character must outlive it.
+  explicit Workspace(const Character& character, const PlayerConstants& constants = {});
+
+  PlayerConstants constants;
+
+  Kinematics kinematics;
+  std::shared_ptr<FootLock::Body> body;
+  Floors floors;  ///< The medians of those of the takes.
+  std::vector<FragmentLists> styles;
+  std::vector<int> look;             ///< look_bones()
+  std::vector<float> fastest_looks;  ///< fastest_looks() of all styles
+  std::vector<float> move_entries;   ///< entry_poses() of the moves' parts
+
+  // Of the FragmentSelector's: rows as those of Character::entry_poses.
+  std::array<BodyTips, 3> tips;
+  std::vector<float> onward;                      ///< Tips of what is shown, and of how it would go on.
+  std::vector<std::pair<float, int>> candidates;  ///< Fragments by their distance from it.
+
+  WorldPose shown;                 ///< By the player that stepped last.
+  std::array<WorldPose, 4> poses;  ///< Of a stitch.
+  std::array<WorldPose, 4> looks;  ///< Neck and head in them, as bodies of their own.
+};
+
+}  // namespace fragmotion

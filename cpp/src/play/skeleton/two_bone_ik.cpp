@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "skeleton/two_bone_ik.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/turn_between.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kStretched = 0.995;  // of a leg's length: what it reaches at most, unless it does already
+constexpr double kSoft = 0.03;        // of a leg's length, below that: where it follows less
+constexpr double kStraight = 0.1;     // rad: a knee that is bent less than that resists being bent backward
+constexpr double kFolded = 2.5;       // rad: a knee that is bent more resists being folded up
+constexpr double kNear = 0.02;      // of a leg's length: wanted so near to where it is, a foot may go as the knee does
+constexpr double kOpposite = 1e-6;  // 1 + cosine of an angle, below which half of it is not to be had from that
+constexpr double kTiny = 1e-12;     // m^2
+constexpr double kShortest = 1e-3;  // m of a 1.8 m character: a bone of a leg that is shorter has no direction
+
+const double kBendsWell = std::cos(kStraight), kFoldsWell = std::cos(kFolded);
+
+constexpr double kTires = kStretched - kSoft;  // of a leg's length: from where it follows less
+
+double softly(double distance) {
+  return distance < kTires ? distance : kTires + kSoft * (1 - std::exp((kTires - distance) / kSoft));
+}
+
+// How far apart the ends of a leg come that are `now` apart and would be `wanted`, all in lengths of the leg. Where
+// they are wanted as they are, they stay.
+double apart(double now, double wanted) {
+  if (wanted <= kTires) return wanted;
+  const double share = now > kTires ? std::min(1.0, (wanted - kTires) / (now - kTires)) : 0;
+  return std::min(softly(wanted) + share * (now - softly(now)), std::max(now, kStretched));
+}
+
+double square(double value) { return value * value; }
+
+// The rotation about a unit axis by an angle that is told by its cosine and its sine.
+Quaternion rotation(const Vector3& axis, double cosine, double sine) {
+  if (1 + cosine <= kOpposite) return Quaternion{Eigen::AngleAxisd(std::atan2(sine, cosine), axis)};
+  const double w = std::sqrt((1 + cosine) / 2), along = sine / (2 * w);
+  return {w, along * axis.x(), along * axis.y(), along * axis.z()};
+}
+
+// A knee that is bent about a hinge.
+class Knee {
+ public:
+  Knee(const Vector3& upper, const Vector3& lower, const Vector3& hinge)
+      : upper_(upper.squaredNorm()),
+        axis_((hinge - hinge.dot(upper) / upper_ * upper).normalized()),
+        beside_(square(lower.dot(axis_))),
+        across_(std::max(kTiny, lower.squaredNorm() - beside_)),
+        length_(std::sqrt(upper_) + std::sqrt(beside_ + across_)),
+        twice_(2 * std::sqrt(upper_ * across_)),
+        cosine_(2 * upper.dot(lower) / twice_),
+        sine_(2 * axis_.dot(upper.cross(lower)) / twice_) {}
+
+  // How far apart the leg's ends come that would be `wanted`, m.
+  double ends(double wanted) const {
+    const double now = distance(cosine_), natural = bends_well() ? now : distance(std::cos(bearable()));
+    wanted /= length_;
+    wanted += std::max(0.0, 1 - std::abs(wanted - now) / kNear) * (natural - now);
+    return length_ * apart(natural, wanted);
+  }
+
+  // What turns the lower leg for the leg's ends to be so far apart.
+  Quaternion bent_by(double ends) const {
+    const double cosine = std::clamp((ends * ends - beside_ - across_ - upper_) / twice_, -1.0, 1.0),
+                 sine = std::sqrt((1 - cosine) * (1 + cosine));
+    return rotation(axis_, cosine * cosine_ + sine * sine_, sine * cosine_ - cosine * sine_);
+  }
+
+ private:
+  bool bends_well() const { return sine_ > 0 && cosine_ < kBendsWell && cosine_ > kFoldsWell; }
+
+  // The knee's bend, rad, which neither goes backward nor folds up the leg: a stitch may overshoot.
+  double bearable() const {
+    double bend = std::atan2(sine_, cosine_);
+    if (bend < -kPi / 2) bend += 2 * kPi;  // it is folded further than flat, rather than bent backward
+    if (bend > kFolded) return kFolded + kStraight * (1 - std::exp((kFolded - bend) / kStraight));
+    return kStraight * std::exp(bend / kStraight - 1);
+  }
+
+  // Between the leg's ends, in lengths of the leg, by the cosine of the bend.
+  double distance(double cosine) const {
+    return std::sqrt(std::max(0.0, upper_ + across_ + beside_ + twice_ * cosine)) / length_;
+  }
+
+  double upper_;  // squares of lengths, m: of the upper leg, and of the lower one along the axis and across it
+  Vector3 axis_;
+  double beside_, across_;
+  double length_, twice_, cosine_, sine_;
+};
+
+Knee knee_of(const Leg& leg, const PosedBones& posed) {
+  return {posed.heads[leg.knee] - posed.heads[leg.thigh], posed.heads[leg.foot] - posed.heads[leg.knee],
+          posed.rotations[leg.thigh] * leg.hinge};
+}
+
+// Turns the lower leg by `bend` and swings the leg towards `ankle`; the foot keeps its rotation.
+void bend(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle,
+          const Quaternion& bend, double* rotations) {
+  const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
+                lower = posed.heads[leg.foot] - posed.heads[leg.knee];
+  const Quaternion thigh = turn_between(upper + bend * lower, ankle - posed.heads[leg.thigh]);
+  const auto store = [&](int bone, const Quaternion& parent, const Quaternion& world) {
+    store_quaternion((parent.conjugate() * world).normalized(), rotations + std::ptrdiff_t{4} * bone);
+  };
+  const auto above = [&](int bone) { return posed.rotations[skeleton.parents[bone]]; };
+  store(leg.thigh, above(leg.thigh), thigh * posed.rotations[leg.thigh]);
+  store(leg.knee, above(leg.knee), bend * posed.rotations[leg.knee]);
+  store(leg.foot, thigh * (bend * above(leg.foot)), posed.rotations[leg.foot]);
+}
+
+// The leg from a thigh to a foot that has a knee between them; none where the thigh carries the body or both legs. What
+// does not hang from the foot is no toe of it.
+Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe, int other_foot) {
+  const int hips = skeleton.roles.hips;
+  const bool hangs = thigh != hips && skeleton.is_below(thigh, hips) && skeleton.is_below(foot, thigh);
+  if (!hangs || foot == thigh || skeleton.is_below(other_foot, thigh)) return {};
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> rotations;
+  rest_pose(skeleton, heads, rotations);
+  const bool has_toe = toe != foot && skeleton.is_below(toe, foot);
+  Leg leg{thigh, -1, foot, has_toe ? toe : -1, skeleton.parents[foot]};
+  double most = kShortest / standard_scale(skeleton);
+  for (int b = leg.above_foot; b != thigh; b = skeleton.parents[b]) {
+    const double shorter = std::min((heads[b] - heads[thigh]).norm(), (heads[foot] - heads[b]).norm());
+    if (shorter > most) most = shorter, leg.knee = b;
+  }
+  return leg;
+}
+
+// To the character's left at rest, as the thighs see it.
+void hinge_at_rest(const Skeleton& skeleton, Legs& legs) {
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> rotations;
+  rest_pose(skeleton, heads, rotations);
+  const Vector3 left = heads[legs[0].thigh] - heads[legs[1].thigh];
+  for (Leg& leg : legs) leg.hinge = rotations[leg.thigh].conjugate() * left.normalized();
+}
+
+}  // namespace
+
+Legs resting_legs(const Skeleton& skeleton) {
+  const Roles& roles = skeleton.roles;
+  Legs legs{leg_of(skeleton, roles.left_thigh, roles.left_foot, roles.left_toe, roles.right_foot),
+            leg_of(skeleton, roles.right_thigh, roles.right_foot, roles.right_toe, roles.left_foot)};
+  if (!legs[0].exists() || !legs[1].exists()) return {};
+  hinge_at_rest(skeleton, legs);
+  return legs;
+}
+
+Vector3 ball(const Skeleton& skeleton, int foot, int toe, const PosedBones& posed) {
+  if (toe >= 0) return posed.heads[toe];
+  return posed.heads[foot] + posed.rotations[foot] * skeleton.tips[foot];
+}
+
+double leg_length(const Leg& leg, const PosedBones& posed) {
+  const Vector3& knee = posed.heads[leg.knee];
+  return (knee - posed.heads[leg.thigh]).norm() + (posed.heads[leg.foot] - knee).norm();
+}
+
+double longest(const Leg& leg, const PosedBones& posed) { return kStretched * leg_length(leg, posed); }
+
+double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle) {
+  const double length = longest(leg, posed);
+  const Vector3 way = ankle - posed.heads[leg.thigh];
+  const double square = length * length - way.head<2>().squaredNorm();
+  if (square <= 0) return std::numeric_limits<double>::infinity();
+  return std::max(0.0, -way.z() - std::sqrt(square));
+}
+
+void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations) {
+  const Knee knee = knee_of(leg, posed);
+  bend(skeleton, leg, posed, ankle, knee.bent_by(knee.ends((ankle - posed.heads[leg.thigh]).norm())), rotations);
+}
+
+void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, const Reach& within,
+           double* rotations) {
+  const double wanted = std::clamp((ankle - posed.heads[leg.thigh]).norm(), within.least, within.most);
+  bend(skeleton, leg, posed, ankle, knee_of(leg, posed).bent_by(wanted), rotations);
+}
+
+}  // namespace fragmotion

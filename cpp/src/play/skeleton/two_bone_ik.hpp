@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "skeleton/kinematics.hpp"
+
+namespace fragmotion {
+
+/// A leg by its roles: any chain of bones below the hips, from a thigh of its own to a foot, with a joint between them.
+/// `knee` is -1 where there is none, `toe` where none hangs from the foot.
+struct Leg {
+  int thigh = -1, knee = -1, foot = -1, toe = -1;
+  int above_foot = -1;               ///< The foot's parent.
+  Vector3 hinge = Vector3::UnitX();  ///< The axis that the knee bends about, as the thigh sees it.
+
+  bool exists() const { return knee >= 0; }
+};
+
+using Legs = std::array<Leg, 2>;
+
+/// The left and the right leg; none where the skeleton has not both. The knee is the joint that divides a leg most
+/// evenly; it bends to the front of the rest pose.
+Legs resting_legs(const Skeleton& skeleton);
+
+/// World places and rotations of all bones of one pose, which legs are bent in.
+struct PosedBones {
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> rotations;
+
+  explicit PosedBones(int bones) : heads(bones), rotations(bones) {}
+};
+
+/// The ball of a foot: the toe's head, or, where there is no toe (-1), the foot's tip.
+Vector3 ball(const Skeleton& skeleton, int foot, int toe, const PosedBones& posed);
+inline Vector3 ball(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed) {
+  return ball(skeleton, leg.foot, leg.toe, posed);
+}
+
+/// From the thigh's head over the knee to the foot's, m; and as much of it as the leg reaches.
+double leg_length(const Leg& leg, const PosedBones& posed);
+double longest(const Leg& leg, const PosedBones& posed);
+
+/// How far the hips must sink for the leg to reach `ankle`, m: 0 where it does, infinite where no sinking helps.
+double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle);
+
+/// Two-bone inverse kinematics: bends the knee, to the front where it is nearly straight, and swings the thigh, so that
+/// the foot's head comes to `ankle` or as near as the leg is long; near its length a leg follows ever less, so that its
+/// knee does not snap. Foot and toe keep their world rotations. Writes the local `rotations` [bones, 4] of thigh, knee
+/// and foot; `posed` stays as it was before.
+void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations);
+
+/// How far the ends of a leg may be from each other, m.
+struct Reach {
+  double least = 0, most = 0;
+};
+
+/// reach() to the very place, as far as the ends of the leg may be from each other.
+void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, const Reach& within,
+           double* rotations);
+
+}  // namespace fragmotion
