@@ -71,7 +71,8 @@ TEST(FragmentSelector, LeavesAFragmentWithinItsTimeAndAtOnceWhereWaitingCostsMuc
       const double free = choice.selector.best_exits({k, -1}, control, choice.playback, 0)[0].seconds;
       EXPECT_GE(free, choice.playback.seconds());
       EXPECT_LE(free, end + 1e-9);
-      EXPECT_EQ(choice.selector.best_exits({k, -1}, control, choice.playback, 1e9)[0].seconds, choice.playback.seconds());
+      EXPECT_EQ(choice.selector.best_exits({k, -1}, control, choice.playback, 1e9)[0].seconds,
+                choice.playback.seconds());
       moments.insert(free);
     }
   }
