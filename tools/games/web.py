@@ -46,7 +46,17 @@ def make(folder: Path) -> None:
 def module() -> Path:
     """Build the ES module `fragmotion` into a folder that npm can pack; the folder."""
     folder, package = _BUILT / "wasm", _BUILT / "fragmotion"
-    configure: list[str | Path] = ["emcmake", "cmake", "-S", _WEB / "module", "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"]
+    configure: list[str | Path] = [
+        "emcmake",
+        "cmake",
+        "-S",
+        _WEB / "module",
+        "-B",
+        folder,
+        "-G",
+        "Ninja",
+        "-DCMAKE_BUILD_TYPE=Release",
+    ]
     with COMPILING:
         run(unstable.command(configure), "cmake-web")
         run(unstable.command(["cmake", "--build", folder]), "build-web")

@@ -15,6 +15,7 @@ export class Overlay {
       new CircleGeometry(0.1, 20).rotateX(-Math.PI / 2), new MeshBasicMaterial({ color: STANDS, transparent: true, opacity: 0.6 })));
     scene.scene.add(...this.arrows, ...this.prints);
     this.texts = Object.fromEntries(["class", "asked", "done", "left", "right", "cost", "rate"].map((id) => [id, document.getElementById(id)]));
+    this.stood = [false, false]; // where it set its foot down is not told before it does
     this.frames = 0;
     this.due = 0;
   }
@@ -25,13 +26,15 @@ export class Overlay {
     this.#arrow(0, state, asked);
     this.#arrow(1, state, state.velocity);
     for (const event of actor.player.events()) this.#foot(event);
-    this.prints.forEach((print, foot) => (print.visible = state.footStands[foot] === 1));
+    this.prints.forEach((print, foot) => (print.visible = this.stood[foot] && state.footStands[foot] === 1));
     ++this.frames;
     if (now >= this.due) this.#write(actor, state, style, asked, followsPath, now);
   }
 
   #foot({ type, index, position: [x, y, z] }) {
-    if (type === "foot down") this.prints[index].position.set(x, y + ABOVE, z);
+    if (type !== "foot down") return;
+    this.prints[index].position.set(x, y + ABOVE, z);
+    this.stood[index] = true;
   }
 
   #arrow(index, { position: [x, y, z] }, [vx, , vz]) {

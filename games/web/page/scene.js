@@ -2,11 +2,12 @@
 // What is around the character: a floor with a slope, stairs and a hill, light, and a camera that follows.
 
 import {
-  AmbientLight, BoxGeometry, Color, DirectionalLight, Fog, GridHelper, Mesh, MeshStandardMaterial,
-  PerspectiveCamera, PlaneGeometry, Scene as ThreeScene, Vector3, WebGLRenderer,
+  AmbientLight, BoxGeometry, Color, DataTexture, DirectionalLight, Fog, LinearMipmapLinearFilter, Mesh, MeshStandardMaterial,
+  PerspectiveCamera, PlaneGeometry, RepeatWrapping, RingGeometry, Scene as ThreeScene, Vector3, WebGLRenderer,
 } from "three";
 
-const SKY = 0x2a3038, FLOOR = 0x4b525c, SOLID = 0x6b7480;
+const SKY = 0x2a3038, FLOOR = 0x8a93a0, SOLID = 0x6b7480;
+const SQUARE = 1; // m
 const SIZE = 120; // m
 const FOLLOWING = 6; // a second
 const LOWEST = 0.05, HIGHEST = 1.3; // rad that the camera looks down
@@ -88,9 +89,8 @@ export class Scene {
     const flat = new Mesh(new PlaneGeometry(SIZE, SIZE).rotateX(-Math.PI / 2), material(FLOOR));
     const parts = [flat, hillMesh(), wedge(SLOPE), ...[LANDING, ...STAIRS].map(box)];
     for (const part of parts) part.receiveShadow = true;
-    const grid = new GridHelper(SIZE, SIZE, 0x7a8390, 0x5a626d);
-    grid.position.y = 0.004;
-    this.scene.add(...parts, grid);
+    flat.material.map = squares();
+    this.scene.add(...parts);
     return parts;
   }
 
@@ -128,6 +128,17 @@ function material(color) {
   return new MeshStandardMaterial({ color, roughness: 0.9, flatShading: true });
 }
 
+/** Dark and pale ones in turn. */
+function squares() {
+  const [dark, pale] = [[120, 120, 120, 255], [150, 150, 150, 255]];
+  const texture = new DataTexture(new Uint8Array([dark, pale, pale, dark].flat()), 2, 2);
+  texture.wrapS = texture.wrapT = RepeatWrapping;
+  texture.repeat.setScalar(SIZE / (2 * SQUARE));
+  texture.minFilter = LinearMipmapLinearFilter;
+  texture.generateMipmaps = texture.needsUpdate = true;
+  return texture;
+}
+
 function box([x0, x1, z0, z1, height]) {
   const mesh = new Mesh(new BoxGeometry(x1 - x0, height, z1 - z0), material(SOLID));
   mesh.position.set((x0 + x1) / 2, height / 2, (z0 + z1) / 2);
@@ -147,7 +158,7 @@ function wedge([x0, x1, z0, z1, height]) {
 }
 
 function hillMesh() {
-  const geometry = new PlaneGeometry(2 * HILL.radius, 2 * HILL.radius, 48, 48).rotateX(-Math.PI / 2);
+  const geometry = new RingGeometry(0, HILL.radius, 48, 16).rotateX(-Math.PI / 2);
   const { position } = geometry.attributes;
   for (let i = 0; i < position.count; ++i) {
     position.setY(i, hillHeight(position.getX(i) + HILL.x, position.getZ(i) + HILL.z) + 0.002);

@@ -83,7 +83,16 @@ await withBrowser("crowd", [], async (browser) => {
   await browser.open(server.address);
   await browser.until("window.page?.actor && !document.getElementById('message').textContent");
   await hold(browser, ["KeyW"], "page.actor.player.state.position[2] < -2");
-  found.cost = 1000 * (await browser.tell("page.actor.cost"));
+  found.cost = await browser.tell(`(() => {
+    const input = { steer: "camera", move: [0.5, 0.5], facing: [0, 0, -1] }, times = [];
+    for (let round = 0; round < 40; ++round) {
+      const start = performance.now();
+      for (let i = 0; i < 200; ++i) page.actor.step(input, 1 / 60);
+      times.push((1000 * (performance.now() - start)) / 200);
+    }
+    page.actor.player.reset();
+    return Math.min(...times);
+  })()`);
   await browser.click("crowd");
   await browser.until("page.crowd && page.crowd.crowd.players.length === 500", 120);
   await browser.tell("page.scene.zoom(1.6)");
