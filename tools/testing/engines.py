@@ -12,7 +12,7 @@ TESTS = TOP / "tests" / "engines"
 
 ENGINES: dict[str, tuple[str, ...]] = {
     "web": ("chromium", "cmake", "emscripten", "libeigen3-dev", "ninja-build", "nodejs", "npm"),
-    "godot": ("cmake", "g++", "godot", "libeigen3-dev", "libgl1-mesa-dri", "ninja-build", "xauth", "xvfb"),
+    "godot": ("godot", "libgl1-mesa-dri", "xauth", "xvfb"),
     "csharp": ("mono-devel",),
     "raylib": ("cmake", "g++", "libeigen3-dev", "libgl1-mesa-dri", "libraylib-dev", "ninja-build", "xauth", "xvfb"),
 }

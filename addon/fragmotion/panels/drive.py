@@ -104,8 +104,11 @@ class FRAGMOTION_PT_drive_overlays(_OptionsPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         settings = _armature(context).fragmotion.drive
         grid = self.layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
-        for name in ("show_velocity", "show_path", "show_ideal", "show_feet", "show_figures", "show_stick"):
+        for name in ("show_velocity", "show_path", "show_ideal", "show_feet", "show_stick", "show_figures"):
             grid.prop(settings, name)
+        row = grid.row()
+        row.active = settings.show_figures
+        row.prop(settings, "show_details")
 
 
 class FRAGMOTION_PT_drive_trace(_OptionsPanel, bpy.types.Panel):
