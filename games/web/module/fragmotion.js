@@ -13,6 +13,7 @@ const EVENTS = [
 const ROLES = [
   "", "hips", "head", "left hand", "right hand", "left foot", "right foot", "left toe", "right toe", "left thigh",
   "right thigh"];
+const STATE = Object.keys(structs.state.fields);
 const MOST_EVENTS = 32;
 const TRANSFORM = 7, MATRIX = 16; // numbers
 
@@ -28,23 +29,42 @@ class Memory {
   }
 
   #look() {
-    if (this.buffer === this.wasm.wasmMemory.buffer) return;
-    this.buffer = this.wasm.wasmMemory.buffer;
-    this.looked = { view: new DataView(this.buffer), bytes: new Uint8Array(this.buffer) };
-  }
-
-  get view() {
-    this.#look();
-    return this.looked.view;
+    const { buffer } = this.wasm.wasmMemory;
+    if (this.buffer === buffer) return this.views;
+    this.buffer = buffer;
+    this.views = {
+      bytes: new Uint8Array(buffer), ints: new Int32Array(buffer), words: new Uint32Array(buffer),
+      reals: new Float32Array(buffer), doubles: new Float64Array(buffer), longs: new BigUint64Array(buffer),
+    };
+    return this.views;
   }
 
   get bytes() {
-    this.#look();
-    return this.looked.bytes;
+    return this.#look().bytes;
+  }
+
+  get ints() {
+    return this.#look().ints;
+  }
+
+  get words() {
+    return this.#look().words;
+  }
+
+  get reals() {
+    return this.#look().reals;
+  }
+
+  get doubles() {
+    return this.#look().doubles;
+  }
+
+  get longs() {
+    return this.#look().longs;
   }
 
   floats(address, count) {
-    return new Float32Array(this.wasm.wasmMemory.buffer, address, count);
+    return this.reals.subarray(address / 4, address / 4 + count);
   }
 
   allocate(size) {
@@ -247,9 +267,9 @@ class Rig extends Held {
     const { library } = character, { memory } = library;
     const texts = names.map((name) => memory.putText(name));
     const list = memory.allocate(4 * names.length);
-    texts.forEach((text, i) => memory.view.setUint32(list + 4 * i, text, true));
+    texts.forEach((text, i) => (memory.words[list / 4 + i] = text));
     const parentList = parents && memory.allocate(4 * names.length);
-    parents?.forEach((parent, i) => memory.view.setInt32(parentList + 4 * i, parent, true));
+    parents?.forEach((parent, i) => (memory.ints[parentList / 4 + i] = parent));
     const given = [rest, inverseBinds].map((values) => (values ? memory.putFloats(values) : 0));
     const options = library.value(structs.rigOptions);
     const values = { bones: names.length, names: list, parents: parentList ?? 0, rest: given[0], inverseBinds: given[1] };
@@ -290,8 +310,8 @@ class Player extends Held {
   get state() {
     if (this.#isTold) return this.#told;
     this.library.call("player_state", this.handle, this.#state.address);
-    for (const name in this.#state.struct.fields) {
-      if (this.#state.struct.fields[name].count) this.#state.getAll(name, this.#told[name]);
+    for (const name of STATE) {
+      if (structs.state.fields[name].count) this.#state.getAll(name, this.#told[name]);
       else this.#told[name] = this.#state.get(name);
     }
     this.#isTold = true;
@@ -323,13 +343,11 @@ class Player extends Held {
 
   setGround(ground) {
     const { wasm, memory } = this.library, before = this.#ground;
-    const { fields } = structs.groundHit;
     const ask = (_, from, hit) => {
-      const { view } = memory;
-      const found = ground(view.getFloat32(from, true), view.getFloat32(from + 4, true), view.getFloat32(from + 8, true));
+      const { reals } = memory, found = ground(reals[from / 4], reals[from / 4 + 1], reals[from / 4 + 2]);
       if (!found) return 0;
-      view.setFloat32(hit + fields.height.at, found.height, true);
-      for (let i = 0; i < 3; ++i) view.setFloat32(hit + fields.normal.at + 4 * i, found.normal[i], true);
+      memory.reals[hit / 4] = found.height;
+      memory.reals.set(found.normal, hit / 4 + 1);
       return 1;
     };
     this.#ground = ground ? wasm.addFunction(ask, "iiii") : 0;
@@ -374,9 +392,8 @@ class Player extends Held {
     this.#count ??= library.value(structs.number);
     library.call("player_events", this.handle, this.#events, MOST_EVENTS, this.#count.address);
     return Array.from({ length: this.#count.get("value") }, (_, i) => {
-      const at = this.#events + i * structs.event.size, { view } = library.memory;
-      const position = [8, 12, 16].map((offset) => view.getFloat32(at + offset, true));
-      return { type: EVENTS[view.getInt32(at, true)], index: view.getInt32(at + 4, true), position, seconds: view.getFloat32(at + 20, true) };
+      const at = (this.#events + i * structs.event.size) / 4, { ints, reals } = library.memory;
+      return { type: EVENTS[ints[at]], index: ints[at + 1], position: [...reals.subarray(at + 2, at + 5)], seconds: reals[at + 5] };
     });
   }
 

@@ -11,7 +11,7 @@ class Struct {
     for (const [, name, type, count] of text.matchAll(/(\w+):([iufpdq])(\d*)/g)) {
       const size = SIZES[type];
       end = Math.ceil(end / size) * size;
-      this.fields[name] = { at: end, type, count: Number(count) };
+      this.fields[name] = { at: end, index: end / size, size, view: VIEWS[type], count: Number(count) };
       end += size * (Number(count) || 1);
       align = Math.max(align, size);
     }
@@ -19,7 +19,7 @@ class Struct {
   }
 }
 
-const GETTERS = { i: "getInt32", u: "getUint32", f: "getFloat32", p: "getUint32", d: "getFloat64", q: "getBigUint64" };
+const VIEWS = { i: "ints", u: "words", f: "reals", p: "words", d: "doubles", q: "longs" }; // of Memory
 
 /** One of the struct's values, which lies at an address for good. */
 export class Value {
@@ -28,18 +28,17 @@ export class Value {
     this.memory = memory;
     this.address = memory.allocate(struct.size);
     this.memory.bytes.fill(0, this.address, this.address + struct.size);
-    if (struct.fields.size?.at === 0) this.set("size", struct.size);
+    if (struct.fields.size) this.set("size", struct.size);
   }
 
   get(name, index = 0) {
-    const { at, type } = this.struct.fields[name];
-    return this.memory.view[GETTERS[type]](this.address + at + index * SIZES[type], true);
+    const field = this.struct.fields[name];
+    return this.memory[field.view][this.address / field.size + field.index + index];
   }
 
   set(name, value, index = 0) {
-    const { at, type } = this.struct.fields[name];
-    const set = GETTERS[type].replace("get", "set");
-    this.memory.view[set](this.address + at + index * SIZES[type], type === "q" ? BigInt(value) : Number(value), true);
+    const field = this.struct.fields[name];
+    this.memory[field.view][this.address / field.size + field.index + index] = field.view === "longs" ? BigInt(value) : value;
   }
 
   /** Writes a list of numbers, or zeros. */

@@ -3,8 +3,9 @@
 
 import { Color, InstancedMesh, Matrix4, MeshStandardMaterial, OctahedronGeometry } from "three";
 
-const LIMB = 0.2, TRUNK = 0.7; // thickness, of a bone's length
-const LARGEST = 0.13, SMALLEST = 0.03; // m
+const LIMB = 0.2, TRUNK = 0.5; // thickness, of a bone's length
+const LARGEST = 0.12, SMALLEST = 0.03; // m
+const OVERLAP = 1.2; // of what is shown and a bone's length
 const LEFT = new Color(0x2f86a8), RIGHT = new Color(0xd06a2c), MIDDLE = new Color(0xcfcabd);
 
 export class BoneShapes {
@@ -45,7 +46,7 @@ export class BoneShapes {
 function shapeOf(bone) {
   const half = bone.role || bone.parent >= 0 ? bone.length / 2 : 0; // a root on the ground is no part of the body
   const radius = half && Math.min(LARGEST, Math.max(SMALLEST, (colorOf(bone) === MIDDLE ? TRUNK : LIMB) * bone.length));
-  return new Matrix4().makeTranslation(0, half, 0).multiply(new Matrix4().makeScale(radius, half, radius));
+  return new Matrix4().makeTranslation(0, half, 0).multiply(new Matrix4().makeScale(radius, OVERLAP * half, radius));
 }
 
 function colorOf(bone) {

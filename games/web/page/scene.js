@@ -28,8 +28,12 @@ function hillHeight(x, z) {
   return way < 1 ? 0.5 * HILL.height * (1 + Math.cos(Math.PI * way)) : 0;
 }
 
+const [WEST, EAST, NORTH, SOUTH] = [0, 1, 2, 3].map((i) =>
+  SOLIDS.reduce((far, solid) => (i % 2 ? Math.max(far, solid[i]) : Math.min(far, solid[i])), SOLIDS[0][i]));
+
 function solidAt(x, z) {
   let found = null, height = 0;
+  if (x < WEST || x > EAST || z < NORTH || z > SOUTH) return { found, height };
   for (const solid of SOLIDS) {
     const [x0, x1, z0, z1, h0, h1] = solid;
     if (x < x0 || x > x1 || z < z0 || z > z1) continue;
