@@ -136,8 +136,8 @@ def _run_in_window(script: str, folder: Path) -> None:
 
 PAGES: dict[str, Callable[[argparse.Namespace], None]] = {
     "readme": _readme,
-    "play": _play,
     "guide": _guide,
+    "play": _play,
     "motion": _motion,
     "directing": _directing,
     "ground": _ground,
