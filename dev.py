@@ -41,6 +41,9 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     fuzz.add_argument("--seconds", type=float, default=60.0, metavar="N", help="how long, all fuzzers together (60)")
     fuzz.add_argument("names", nargs="*", metavar="FUZZER", help=f"only these of {', '.join(fuzzing.names())}")
     bench = commands.add_parser("bench", help="measure the core against NumPy and scikit-learn")
+    bench.add_argument(
+        "--takes", type=Path, nargs="+", default=[], metavar="MOCAP", help="of a policy file (the sample's)"
+    )
     bench.add_argument("--json", type=Path, metavar="FILE", help="save the figures there too")
     beside = commands.add_parser("beside", help="measure Fragmotion beside motion matching, on the same takes")
     beside_inputs.add_arguments(beside)
@@ -102,7 +105,7 @@ def main(arguments: list[str]) -> int:
             machine.set_up(machine.FUZZ)
             return 1 if fuzzing.fuzz_for(options.seconds, options.names or fuzzing.names()).findings else 0
         if options.command == "bench":
-            return benchmarks.run_benchmarks(options.json)
+            return benchmarks.run_benchmarks(options.takes, options.json)
         if options.command == "unstable":
             return run_in_unstable(options.words)
         if options.command == "docs":
