@@ -13,7 +13,7 @@ namespace {
 
 // Lengths are those of a character of 1.8 m.
 constexpr double kMostOff = 0.045 * kPi / 180;  // rad that a turn may be off
-constexpr double kReach = 0.07e-3;              // m that a bone's end may be off because of its own turn
+constexpr double kReach = 0.08e-3;              // m that a bone's end may be off because of its own turn
 constexpr double kLever = 0.1;                  // m: at the end of longer bones places count for more than rotations
 constexpr double kPlace = 0.015e-3;             // m that the hips may be off
 constexpr double kHeading = 1e-3;               // rad

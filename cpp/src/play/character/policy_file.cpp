@@ -44,7 +44,7 @@ std::uint64_t checksum_of_bytes(std::string_view payload) {
 class Writer {
  public:
   static constexpr bool kReads = false;
-  static constexpr std::uint32_t version = kPolicyVersion;
+  const std::uint32_t version = kPolicyVersion;
   std::string bytes;
 
   template <typename T>
