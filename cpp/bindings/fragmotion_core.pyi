@@ -229,6 +229,9 @@ class Clip:
     rotations: Doubles
     def world_transforms(self, skeleton: Skeleton) -> tuple[Doubles, Doubles]:
         """World positions [F,B,3] of the heads, m, and rotations [F,B,4]."""
+    def led_by_feet(self, skeleton: Skeleton, speed: float = 0.0) -> tuple[Clip, float] | None:
+        """Of a clip on the spot, whose feet tread while the hips stay: the clip on the way that its feet tell, and how
+        fast they go, m/s. `speed`: how fast it shall go, 0 .. 1000 m/s; 0: as its feet do. None of any other clip."""
     def character_frames(self, skeleton: Skeleton) -> Doubles:
         """[F,3]: the character frame's x, y and heading (rad, within a half turn; of the hips' thighs, not
         smoothed)."""
@@ -890,6 +893,10 @@ def judge_clip(character: Character, trace: ArrayLike, clip: Clip, entered: Sequ
 def optimal_performance(character: Character, trace: ArrayLike, rate: float, shortest: float = 0.1) -> float:
     """The greatest `Performance.quality` that a player could reach who knew the whole trace: it may play a class for
     any time from `shortest` seconds (0 .. 3600) to the longest of its fragments."""
+
+def abilities(character: Character, threads: int = 0) -> list[bool]:
+    """Which of its controls the character does: those without a jump are asked for over four seconds, and done where
+    velocity and turn rate are within a fifth and 30 %; of those with a jump, which a fragment performs."""
 
 @overload
 def response_times(character: Character, options: PlayerOptions) -> Doubles:

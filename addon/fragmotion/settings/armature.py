@@ -228,6 +228,8 @@ def _show_style(figures: BuildFigures, number: int) -> None:
 class BuildFigures(_Coverage, bpy.types.PropertyGroup):
     """What the last build found."""
 
+    abilities: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    """What it can do, in words; empty of what an earlier version built."""
     captured: IntProperty()  # type: ignore[valid-type]
     fragments: IntProperty()  # type: ignore[valid-type]
     classes: IntProperty()  # type: ignore[valid-type]
