@@ -106,6 +106,13 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "offsets": np.array(OFFSETS, float),
             "tips": np.array(TIPS, float),
             "roles": {"head": "head"},
+            "hangs": {},
+        },
+        "find_hanging": {
+            "parents": PARENTS,
+            "rest": upright,
+            "poses": np.tile(upright, (2, 1, 1, 1)),
+            "candidates": [1],
         },
         "Skeleton.role_map": {"self": skeleton, "heads": np.stack([skeleton.rest_heads()] * 2)},
         "Skeleton.rest_heads": {"self": skeleton},

@@ -59,6 +59,4 @@ def _turns(done: dict[str, NDArray[np.bool_]]) -> list[str]:
     """What is lacking of the turns of each gait."""
     none = [gait for gait, some in done.items() if not some.any()]
     few = [gait for gait, some in done.items() if some.any() and some.mean() < _MOST]
-    return [
-        f"{much} turns at a {' or a '.join(gaits)}" for much, gaits in (("no", none), ("few", few)) if gaits
-    ]
+    return [f"{much} turns at a {' or a '.join(gaits)}" for much, gaits in (("no", none), ("few", few)) if gaits]

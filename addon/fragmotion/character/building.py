@@ -22,6 +22,7 @@ from ..mocap.sampling import sample_parts
 from ..mocap.styles import grouped, style_of
 from ..recordings.traces import make_traces
 from ..rig.external_motion import external_motion
+from ..rig.hanging import find_hanging
 from ..rig.rigs import carriers, make_rig
 from ..rig.skeletons import difference
 from . import classes
@@ -87,12 +88,13 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
     """Sample the ticked Actions; UserError on what cannot be built from."""
     takes = _ticked(obj)
     context.view_layer.update()
+    found = find_hanging(context, obj, takes)
     rig = make_rig(obj)
     carriers(obj, rig)
     options = make_options(settings)
     traces = make_traces(obj, settings, options.usual_space)
     styled, warnings = _sample_all(context, obj, takes, rig)
-    return Material(rig, grouped(styled), traces, options, warnings)
+    return Material(rig, grouped(styled), traces, options, found + warnings)
 
 
 def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Prepared:

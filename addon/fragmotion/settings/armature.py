@@ -24,6 +24,7 @@ from ..control_rig.binding import ControlRigSettings, is_source
 from ..ground.meshes import WITH_FACES
 from ..recordings.recordings import Recording
 from ..rig.bodies import RoleBone
+from ..rig.hanging import HangingBone
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import TraceFields, factor_field, length_field, player_field, policy_field, seed_field
@@ -266,6 +267,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
 
     roles: CollectionProperty(type=RoleBone)  # type: ignore[valid-type]
     """What the bones are to the body, where the user has looked at it."""
+    hanging: CollectionProperty(type=HangingBone)  # type: ignore[valid-type]
     source: PointerProperty(  # type: ignore[valid-type]
         name="From",
         description="Another armature of this file, whose Actions this one is to perform",

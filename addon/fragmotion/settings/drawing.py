@@ -122,8 +122,8 @@ def draw_populate(layout: bpy.types.UILayout, settings: PopulateFields) -> None:
 
 
 def draw_summary(layout: bpy.types.UILayout, context: bpy.types.Context, figures: BuildFigures) -> None:
-    """How good the last build is: what it can do, the quality of Optimal's, and how many of the controls have a fragment
-    that performs them well."""
+    """How good the last build is: what it can do, the quality of Optimal's, and how many of the controls it performs
+    well."""
     if figures.abilities:
         draw_wrapped(layout, context, figures.abilities, "ERROR" if figures.abilities == NOTHING else "CHECKMARK")
     layout.label(text=f"{figures.quality:.0f} % of Optimal", icon="CHECKMARK")

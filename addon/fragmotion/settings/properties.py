@@ -26,6 +26,7 @@ from ..mocap.doctor import TakeFinding
 from ..mocap.left_out import FrameSpan
 from ..recordings.recordings import Recording
 from ..rig.bodies import RoleBone
+from ..rig.hanging import HangingBone
 from .armature import (
     BakeSettings,
     BuildFigures,
@@ -97,6 +98,7 @@ CLASSES = (
     FrameSpan,
     TakeFinding,
     RoleBone,
+    HangingBone,
     FormerSwitch,
     ControlRigSettings,
     InspectorSettings,

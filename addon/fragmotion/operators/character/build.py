@@ -65,7 +65,8 @@ class FRAGMOTION_OT_build(BuildFields, Building, bpy.types.Operator):
         )
         self.report(
             {"INFO"},
-            f"{figures.abilities}. {figures.fragments} fragments in {figures.classes} classes, built in {figures.seconds:.1f} s; "
+            f"{figures.abilities}. {figures.fragments} fragments in {figures.classes} classes, built in "
+            f"{figures.seconds:.1f} s; "
             f"quality {figures.quality:.0f} % of Optimal; "
             f"{figures.performed} of {figures.controls} controls performed well{told}",
         )
