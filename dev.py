@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -16,9 +17,9 @@ from tools.measuring.beside import inputs as beside_inputs
 from tools.measuring.directing import inputs as directing_inputs
 from tools.measuring.tuning import inputs as tuning_inputs
 from tools.platforms import PLATFORMS
-from tools.setup import machine, maven
+from tools.setup import machine, maven, unstable
 from tools.shell import Failure
-from tools.testing import fuzzing, stages, testing
+from tools.testing import engines, fuzzing, stages, testing
 
 _STAGES_HELP = (
     f"only these, whole, of {', '.join(testing.STAGES)}; or `{testing.WHOLE}` of them; or `{testing.REST}`: "
@@ -51,6 +52,10 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     tuning_inputs.add_arguments(tune)
     docs = commands.add_parser("docs", help="make the pictures and tables of README.md and docs")
     pages.add_arguments(docs)
+    unstable_parser = commands.add_parser(
+        "unstable", help="set up Debian unstable for `test engines`, several gigabytes; or run a command in it"
+    )
+    unstable_parser.add_argument("words", nargs=argparse.REMAINDER, metavar="COMMAND", help="what to run")
     package = commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
     package.add_argument(
         "--platform",
@@ -77,6 +82,14 @@ def package(names: list[str] | None, python: str | None) -> int:
     return 1 if stages.packages_of(platforms).failed else 0
 
 
+def run_in_unstable(words: list[str]) -> int:
+    """Set Debian unstable up for the engines, or run a command in it, from this folder."""
+    if words:
+        return subprocess.run(unstable.command(words), check=False).returncode
+    unstable.set_up(engines.packages())
+    return 0
+
+
 def main(arguments: list[str]) -> int:
     """Run one command and return its exit code."""
     options = parse_arguments(arguments)
@@ -90,6 +103,8 @@ def main(arguments: list[str]) -> int:
             return 1 if fuzzing.fuzz_for(options.seconds, options.names or fuzzing.names()).findings else 0
         if options.command == "bench":
             return benchmarks.run_benchmarks(options.json)
+        if options.command == "unstable":
+            return run_in_unstable(options.words)
         if options.command == "docs":
             return pages.make_docs(options)
         if options.command in running.COMMANDS:

@@ -20,6 +20,7 @@ _CLASSES = (
     *operators.CLASSES,
     *operators.DROP_HANDLERS,
     *panel.CLASSES,
+    *menus.CLASSES,
 )
 
 

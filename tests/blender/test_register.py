@@ -67,11 +67,11 @@ def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleTy
 def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) -> None:
     panels = [cls for cls in addon.panels.panel.CLASSES if issubclass(cls, bpy.types.Panel)]
     assert [panel.bl_label for panel in panels] == [
-        *("Control Rig", "Mocap", "Left Out", "Doctor", "Bones"),
-        *("Build", "Numbers Tried", "Training", "Figures", "Classes", "Inspector", "Coverage", "Policy File"),
-        "Advanced",
+        *("Control Rig", "Mocap", "Style", "Left Out", "Doctor", "Bones"),
+        *("Build", "Build Options", "Numbers Tried", "Classes", "Coverage"),
+        *("Advanced", "Training", "Figures", "Inspector", "Policy File"),
         *("Drive", "Drive Options", "Feel", "Ground", "Gamepads", "Overlays", "Trace"),
-        *("Moves", "Path", "Recordings", "Change", "Bake", "Bake Options", "Populate"),
+        *("Moves", "Path", "Recordings", "Change", "Replay Options", "Bake", "Bake Options", "Populate"),
     ]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}
     assert {(panel.bl_space_type, panel.bl_region_type) for panel in panels} == {("VIEW_3D", "UI")}
@@ -90,7 +90,7 @@ def test_the_choice_of_policy_is_folded_away_under_advanced(addon: ModuleType) -
     advanced = panels.FRAGMOTION_PT_build_advanced
     assert advanced.bl_parent_id == panels.FRAGMOTION_PT_build.bl_idname and "DEFAULT_CLOSED" in advanced.bl_options
     assert fields_of(advanced) == ["policy", "cut", "seed"]
-    for panel in (panels.FRAGMOTION_PT_build, panels.FRAGMOTION_PT_training):
+    for panel in (panels.FRAGMOTION_PT_build_options, panels.FRAGMOTION_PT_training):
         assert fields_of(panel) and not {"policy", "cut", "seed"} & set(fields_of(panel))
     items = obj.fragmotion.build.bl_rna.properties["policy"].enum_items
     assert items.keys() == ["anticipate", "iterate", "svm", "greedy"]

@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from types import ModuleType
 
 import bpy
+import numpy as np
 import pytest
+from mathutils import Vector
 
 
 def test_it_is_added_ticked_and_builds_as_in_its_own_file(addon: ModuleType, obj: bpy.types.Object) -> None:
@@ -61,3 +64,42 @@ def test_it_can_be_added_twice(addon: ModuleType) -> None:
         assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
     armatures = [thing for thing in bpy.data.objects if thing.type == "ARMATURE"]
     assert len(armatures) == 2 and bpy.context.active_object in armatures
+
+
+def in_the_way(context: bpy.types.Context) -> list[set[str]]:
+    """Pairs of objects whose boxes meet above the ground."""
+    context.view_layer.update()
+    corners = {
+        thing.name: np.array([thing.matrix_world @ Vector(corner) for corner in thing.bound_box])
+        for thing in context.visible_objects
+        if thing.type in {"MESH", "ARMATURE"} and thing.dimensions.z > 0.1
+    }
+    return [
+        {one, other}
+        for one, other in combinations(corners, 2)
+        if (corners[one].min(0) < corners[other].max(0)).all() and (corners[other].min(0) < corners[one].max(0)).all()
+    ]
+
+
+def test_it_stands_beside_what_is_there(addon: ModuleType) -> None:
+    context = bpy.context
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    bpy.ops.mesh.primitive_cube_add(size=2, location=(2.4, 0, 1))
+    bpy.ops.mesh.primitive_plane_add(size=100)
+    bpy.ops.object.light_add()
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    own = {"Fragmotion Sample", "Fragmotion Sample Body"}
+    assert in_the_way(context) == [own]
+    body = context.active_object
+    assert body.location.x == pytest.approx(4.15, abs=0.05) and tuple(body.location)[1:] == (0, 0)
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    assert [own, {f"{name}.001" for name in own}] == sorted(in_the_way(context), key=lambda pair: sorted(pair))
+
+
+def test_it_stands_at_the_origin_where_nothing_is_in_its_way(addon: ModuleType) -> None:
+    bpy.ops.mesh.primitive_plane_add(size=100)
+    bpy.ops.mesh.primitive_cube_add(size=2, location=(0, 9, 0))
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    bpy.context.active_object.hide_set(True)
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    assert tuple(bpy.context.active_object.location) == (0, 0, 0)

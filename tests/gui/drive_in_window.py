@@ -140,12 +140,18 @@ def lead(pad: VirtualPad, right: float, up: float, seconds: float) -> Iterator[N
 
 
 def assert_nothing_is_left() -> Iterator[None]:
-    """No timer, no drawing, no SDL device after a drive."""
+    """No timer, no drawing, no SDL device, and nothing in the status bar after a drive."""
     assert session.current is None and overlays._handlers == []
     assert sdl.SDL_WasInit(0) == 0, "SDL is open"
     yield from window.until(lambda: waking._timers == [], "the end of the drive's operator", 20)
+    assert not says_keys(), "the status bar still names keys"
     yield from window.count_timers()
     assert window.TEST_OT_count_timers.count < 3, "a timer goes on"  # Blender's own may come once
+
+
+def says_keys() -> bool:
+    """Whether the status bar is drawn by the add-on."""
+    return window.ADDON in bpy.types.STATUSBAR_HT_header.draw.__module__
 
 
 def measure() -> None:
@@ -203,6 +209,7 @@ def drive_with_all_inputs(obj: bpy.types.Object, clock: Clock) -> Iterator[None]
     yield from window.send("D", "RELEASE", *MIDDLE, ctrl=True, shift=True)
     driven = session.current
     assert driven is not None, "the shortcut does not start the drive"
+    assert says_keys(), "the status bar names no keys"
     pad = VirtualPad()
     pad.push(0, 0.57)
     yield from wait(1)

@@ -7,19 +7,19 @@ import os
 import shutil
 import subprocess
 from collections.abc import Iterable
+from pathlib import Path
 
 from tools.shell import Failure, run, step
 
-_OPTIONS = ("-y", "--no-install-recommends", "-o", "DPkg::Lock::Timeout=300", "-o", "Acquire::Retries=3")
+OPTIONS = ("-y", "--no-install-recommends", "-o", "DPkg::Lock::Timeout=300", "-o", "Acquire::Retries=3")
 
 
-def missing(packages: Iterable[str]) -> list[str]:
-    """Those of the packages that are not installed."""
+def missing(packages: Iterable[str], root: Path = Path("/")) -> list[str]:
+    """Those of the packages that are not installed in the system that lies there."""
     if not shutil.which("dpkg-query"):
         raise Failure(f"this is set up for Debian 12; elsewhere install the like of: {' '.join(packages)}")
-    answer = subprocess.run(
-        ["dpkg-query", "-W", "-f=${binary:Package} ${Status}\n"], capture_output=True, text=True, check=True
-    )
+    query = ["dpkg-query", f"--admindir={root / 'var' / 'lib' / 'dpkg'}", "-W", "-f=${binary:Package} ${Status}\n"]
+    answer = subprocess.run(query, capture_output=True, text=True, check=True)
     installed = {line.split()[0].split(":")[0] for line in answer.stdout.splitlines() if line.endswith("ok installed")}
     return [package for package in packages if package not in installed]
 
@@ -42,7 +42,7 @@ def install(packages: Iterable[str], log: str) -> None:
     prefix = [*(_root_prefix() or ()), "env", "DEBIAN_FRONTEND=noninteractive", "apt-get"]
     with step(f"{len(absent)} Debian packages", " ".join(absent)):
         run([*prefix, "update", "-o", "Acquire::Retries=3"], f"{log}-update")
-        run([*prefix, "install", *_OPTIONS, *absent], log)
+        run([*prefix, "install", *OPTIONS, *absent], log)
 
 
 def _root_prefix() -> list[str] | None:

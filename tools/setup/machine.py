@@ -84,6 +84,7 @@ BLENDER_DEBIAN = DEMO | Needs(pytest_folder=True)
 GUI = BLENDER_DEBIAN | PYTHON_TESTS | Needs(_WINDOW_PACKAGES)
 WINDOWS_45 = Needs(windows.PACKAGES, {"3.11": ("numpy", "pytest")}, windows=("3.11",))
 WINDOWS_52 = Needs(windows.PACKAGES, {"3.13": ("pytest",)}, windows=("3.13",))
+ENGINES = DEMO | GAME_TESTS
 BENCH = CPP_TESTS | PYTHON_TESTS
 
 

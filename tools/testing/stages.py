@@ -20,6 +20,7 @@ from tools.platforms import LINUX, TESTED_PLATFORMS, WINDOWS, Platform
 from tools.setup import blender, environments, machine, windows
 from tools.setup.environments import BPY_PYTHON, HOST
 from tools.shell import Failure, run, say
+from tools.testing import engines as engine_tests
 from tools.testing import fuzzing, style
 from tools.testing.counts import Counts, read_report
 
@@ -181,6 +182,15 @@ def python(expression: str | None, part: Part = Part.ALL) -> Counts:
 def game(expression: str | None) -> Counts:
     """libfragmotion as games get it: installed, found, and linked by games of any standard."""
     return _pytest("game", HOST, TOP / "tests" / "game", {}, expression)
+
+
+def engines(expression: str | None) -> Counts:
+    """A character in each engine that Debian unstable has here."""
+    absent = engine_tests.absent()
+    tests = [path for name in engine_tests.ENGINES if (path := engine_tests.TESTS / f"test_{name}.py").exists()]
+    wanted = [path for path in tests if path.stem.removeprefix("test_") not in absent]
+    counts = engine_tests.skipped(absent)
+    return counts + _pytest("engines", HOST, wanted, engine_tests.environment(), expression) if wanted else counts
 
 
 def package(expression: str | None) -> Counts:
@@ -345,12 +355,13 @@ def _debian(sandbox: str, package: Path) -> dict[str, str]:
 def _pytest(
     stage: str,
     version: str,
-    folder: Path,
+    tests: Path | Sequence[Path],
     environment: Mapping[str, str],
     expression: str | None,
     options: Sequence[str] = (),
 ) -> Counts:
-    arguments = _pytest_arguments(stage, expression, *options, folder)
+    folders = [tests] if isinstance(tests, Path) else tests
+    arguments = _pytest_arguments(stage, expression, *options, *folders)
     command = [environments.environment_python(version), "-m", "pytest", *arguments]
     return _counted(command, stage, environment, expression)
 

@@ -13,7 +13,7 @@ from tools.paths import TOP
 from tools.setup.environments import HOST, environment
 from tools.shell import Failure, run, say
 
-_CPP = ("cpp", "tests")
+_CPP = ("cpp", "games", "tests")
 _STAGES = tuple((f"{target}.dir", "Unity") for target in ("fragmotion", "fragmotion_runtime"))
 _TYPED = ("dev.py", "tools", "cpp/bindings/fragmotion_command")
 

@@ -63,12 +63,14 @@ STAGES = {
     ),
     "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
     "game": Stage(stages.game, lambda: machine.GAME_TESTS),
+    "engines": Stage(stages.engines, lambda: machine.ENGINES),
     "tidy": Stage(stages.tidy, lambda: machine.TIDY),
     "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),
 }
 
 EXPECTED_SKIPS = (
     "this Blender",  # what a version or a kind of Blender lacks
+    "Debian unstable",  # several gigabytes, and root
     "Windows",  # what a file cannot be there
     "no motion capture beside the project",  # takes that are not ours to pass on; the sample's test the same code
 )

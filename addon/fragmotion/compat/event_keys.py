@@ -11,3 +11,24 @@ KEYS = tuple(
     if item.identifier
 )
 """Items of an EnumProperty."""
+
+_NAMES: dict[str, str] = {identifier: name for identifier, name, _, _ in KEYS}
+_ICONS = set(bpy.types.UILayout.bl_rna.functions["prop"].parameters["icon"].enum_items.keys())
+_OTHER_ICONS = {
+    "SPACE": "EVENT_SPACEKEY",
+    "RET": "EVENT_RETURN",
+    "LEFTMOUSE": "MOUSE_LMB",
+    "RIGHTMOUSE": "MOUSE_RMB",
+    **{f"{side}_{key}": f"EVENT_{key}" for side in ("LEFT", "RIGHT") for key in ("SHIFT", "CTRL", "ALT")},
+}
+
+
+def icon_of(key: str) -> str:
+    """Blender's icon of a key or a mouse button; empty where it has none."""
+    icon = _OTHER_ICONS.get(key, f"EVENT_{key}")
+    return icon if icon in _ICONS else ""
+
+
+def name_of(key: str) -> str:
+    """A key in words; what is none as it is."""
+    return _NAMES.get(key, key)

@@ -15,11 +15,12 @@ from ..character import classes
 from ..character.building import has_character, load
 from ..character.moves import bring_up_to_date, check_keys, names_of, triggers_of
 from ..compat.data_blocks import is_alive
+from ..compat.event_keys import name_of
 from ..edits.replaying import play_again, shown_poses
 from ..errors import UserError
 from ..ground.meshes import find_ground
 from ..input.inputs import Inputs
-from ..input.steering import Control, Steering, view_heading
+from ..input.steering import REST, Control, Intent, Steering, view_heading
 from ..preview.posed_armature import PosedArmature
 from ..recordings.curves import renew_curves
 from ..recordings.recordings import (
@@ -35,11 +36,11 @@ from ..recordings.recordings import (
 from ..recordings.styles import AS_EVER, Styled
 from ..settings import preferences
 from .acting.actor import Actor
-from .acting.punch import Own, Punch, style_before
+from .acting.punch import Own, Punch
 from .acting.recorder import Recorder, Taken
 from .acting.styling import Styling
 from .follow import FollowCamera
-from .hud import overlays, views
+from .hud import overlays, timeline, views
 from .hud.readings import Readings
 from .hud.shown import LONGEST_UPDATE, Shown
 from .scene_state import SceneState
@@ -54,6 +55,7 @@ RATE = POSE_RATE
 
 _STILL = 0.2  # m/s
 _LEAD = 2  # s that a recording plays before the stick takes over
+_NEWS = 3  # s that news stand over the view
 _SMOOTH = 0.05  # share of the newest in a running mean
 
 current: Session | None = None
@@ -65,8 +67,10 @@ class Session:
 
     def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, seed: int, policy: str) -> None:
         context.view_layer.update()
-        keys = preferences.get(context)
-        check_keys(obj, {key: action for action, key in keys.keys().items()})
+        preferred = preferences.get(context)
+        self.keys: dict[str, str] = preferred.keys()
+        """What a key does, and the key."""
+        check_keys(obj, {key: action for action, key in self.keys.items()})
         bring_up_to_date(context, obj)
         self.obj = obj
         self.seed = self.settings.seed if seed < 0 else seed
@@ -90,9 +94,16 @@ class Session:
         """What the user should be told when it has ended."""
         self.windows: set[int] = set()
         """Those whose keys it hears, by their addresses."""
-        self.inputs = Inputs(keys, RATE, triggers_of(obj, self.actor.character))
+        self.triggers = triggers_of(obj, self.actor.character)
+        """The key and the button of each move."""
+        self.inputs = Inputs(preferred, RATE, self.triggers)
         self._held: set[int] = set()
         self._own_held: set[int] = set()  # those that a recording holds that is recorded over
+        self._own_style = 0  # that it was in last
+        self._news, self._news_until = "", 0
+        self._target_level = 0.0
+        self.span: tuple[float, float] | None = None
+        """The scene's frames from and to which a recording is recorded over, for the timeline."""
         self._missed = False
         if ground is not None and ground.remark:
             self.inputs.messages.append(ground.remark)
@@ -127,8 +138,9 @@ class Session:
         """The armature's, asked for anew each time: Blender frees them with it."""
         return self.obj.fragmotion.drive
 
-    def update(self, seconds: float) -> None:
-        """Go on by the time since the last update: read the inputs, step, and pose the armature."""
+    def update(self, seconds: float) -> bool:
+        """Go on by the time since the last update: read the inputs, step, and pose the armature; whether a step was
+        due, so that there is something new to be seen."""
         begin = time.perf_counter()
         if self.inputs.poll():
             self.toggle_recording()
@@ -139,16 +151,21 @@ class Session:
         for _ in range(due):
             pose = self._step()
         if pose is None:
-            return
+            return False
         self._armature.pose(*pose)
         self._tell_missed()
         self._follow_actor(due / RATE)
         self.cost = _running(self.cost, time.perf_counter() - begin)
         self.interval = _running(self.interval, seconds)
+        return True
 
     def _step(self) -> tuple[Doubles, Doubles]:
-        control = self._control()
-        self._ask_beside(self.inputs.moves())
+        self.inputs.target.steer(self.actor.space, self.actor.frame, 1 / RATE)
+        intent, held = self.inputs.intent(), self.inputs.moves()
+        if self.punch is not None:
+            self._offer(self.punch, intent, held)
+        control = self._control(intent)
+        self._ask_beside(held)
         pose = self.actor.step(control, 1 / RATE)
         if self.recording is not None:
             self.recording.add(pose)
@@ -167,14 +184,19 @@ class Session:
             self._missed = True
             self.inputs.messages.append("There is no ground under its feet: it goes on at the height that it had")
 
-    def _control(self) -> Control:
-        self.inputs.target.steer(self.actor.space, self.actor.frame, 1 / RATE)
+    def _offer(self, punch: Punch, intent: Intent, held: set[int]) -> None:
+        """Let the user take over a recording by a stick, a move or another style."""
+        touched = intent != REST or bool(held) or self.styling.wanted != self._own_style
+        if punch.offer(touched, intent.jump, held):
+            self.actor.take_over()
+
+    def _control(self, intent: Intent) -> Control:
         by_view = self.settings.relative == "VIEW"
         view = view_heading(self.views.rotation()) if by_view else None
         style = self.inputs.trace.style()
         if style is not None:
             self.styling.want(style)
-        control = self._steering().control(self.inputs.intent(), self.actor.frame[2], view)
+        control = self._steering().control(intent, self.actor.frame[2], view)
         if self.punch is not None and not self.punch.takes:
             return self.punch.control
         return control if self._taken is None else self._taken.hold(control)
@@ -202,6 +224,7 @@ class Session:
         if punch is not None and not punch.takes:
             held = set()
             self.styling.want(punch.style)
+            self._own_style = punch.style
         self._held = self._hold_moves(self._held, held if taken is None else taken.hold_moves(held))
         self.styling.tell(taken)
 
@@ -257,9 +280,9 @@ class Session:
         begins, from shortly before the stretch on which the stick takes over."""
         self._begin(start, styled)
         if shown is not None:
-            self.actor.join_on(shown, punch.first)
-        self.punch = punch
-        for _ in range(max(punch.first * RATE // TRACE_RATE - _LEAD * RATE, 0)):
+            self.actor.join_on(shown)
+        self.punch, self._own_style = punch, styled.begin
+        for _ in range(max(punch.begin * RATE // TRACE_RATE - _LEAD * RATE, 0)):
             self._ask_beside(set())
             self.actor.step(punch.control, 1 / RATE)
             punch.advance()
@@ -270,22 +293,40 @@ class Session:
         was recorded as it is."""
         punch, self.punch = self.punch, None
         recording = self.obj.fragmotion.recordings.get(punch.own.name) if punch is not None else None
-        if punch is None or recording is None or not punch.begun:
+        if punch is None or recording is None:
             return False
+        timeline.tag_redraw()
         try:
-            play_again(self.obj, recording, punch.trace, punch.first, punch.asked)
+            if punch.begun:
+                play_again(self.obj, recording, punch.trace, punch.first, punch.asked)
         except UserError as error:
             self.inputs.messages.append(str(error))
             return False
+        self._go_on_after(punch)
+        if not punch.begun:
+            self._announce(f"Nothing was touched: '{recording.name}' is as it was")
+            return False
         renew_curves(self.obj, recording)
+        first, end = punch.first / TRACE_RATE, punch.first / TRACE_RATE + punch.taken.seconds
+        self._announce(f"Kept: '{recording.name}' is recorded over from {first:.1f} s to {end:.1f} s")
+        return True
+
+    def _go_on_after(self, punch: Punch) -> None:
+        """Let the rest of the recording play."""
         self._held, self._own_held = self._hold_moves(self._held, set()) | self._own_held, set()
         self.inputs.spend_moves()
         self.inputs.play(*punch.rest)
-        self.inputs.messages.append(f"Recorded over '{recording.name}' from {punch.first / TRACE_RATE:.1f} s on")
-        return True
+        self.actor.take_over()
 
-    def walk_to(self, place: tuple[float, float], runs: bool = False) -> None:
-        """Let the character go to a place on the ground, until it is there or another input is touched."""
+    def _announce(self, text: str) -> None:
+        """Tell the user, over the view for a while, too."""
+        self.inputs.messages.append(text)
+        self._news, self._news_until = text, self._steps + _NEWS * RATE
+
+    def walk_to(self, place: tuple[float, float], runs: bool = False, level: float = 0.0) -> None:
+        """Let the character go to a place on the ground, which is so high there, until it is there or another input is
+        touched."""
+        self._target_level = level
         self.inputs.walk(self.actor.space, self.actor.frame, place, runs)
 
     @property
@@ -347,13 +388,10 @@ class Session:
         """What is drawn of it now; None where it cannot go on."""
         if self.trouble():
             return None
-        recording, inputs = self.recording, self.inputs
-        title = f"Recording {recording.seconds:.1f} s" if recording else f"Driving {self.armature}: Esc ends"
-        if inputs.trace.playing and not recording:
-            title = f"{self.playing}: Esc ends"
+        inputs = self.inputs
         return Shown(
-            title,
-            recording is not None,
+            self._title,
+            self._taken is not None,
             inputs.label,
             inputs.shown,
             inputs.stick,
@@ -363,7 +401,26 @@ class Session:
             self.interval,
             self.move,
             self.styling.words,
+            self._steps / RATE,
+            self._go_keys,
+            self.span if self.punch is not None else None,
+            None if inputs.target.place is None else (*inputs.target.place, self._target_level),
         )
+
+    @property
+    def _title(self) -> str:
+        """What goes on, in words."""
+        if self.punch is not None:
+            return self.punch.words
+        if self.recording is not None:
+            return f"Recording {self.recording.seconds:.1f} s"
+        if self._steps < self._news_until:
+            return self._news
+        return self.playing or f"Driving {self.armature}"
+
+    @property
+    def _go_keys(self) -> str:
+        return " ".join(name_of(self.keys[name]) for name in ("forward", "left", "back", "right"))
 
     def give_back(self) -> None:
         """Let the armature have its own pose and animation until the next update: the file is saved."""
@@ -447,8 +504,7 @@ def record_over(
         character, asked = driven.actor.character, asked_of(recording)
         styled = numbered_styles(recording, driven.styling.names)
         own = Own(recording.name, trace, asked, numbered_moves(recording, names_of(character)), styled)
-        taken = Taken(character, style_before(styled, first), RATE)
-        driven.play_over(Punch(own, first, last, RATE, taken), start_frame, styled, shown)
+        driven.play_over(Punch(own, first, last, RATE, character), start_frame, styled, shown)
         return driven
 
 

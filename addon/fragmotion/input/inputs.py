@@ -96,6 +96,11 @@ class Inputs:
         return "" if self._arbiter.current is None else self._arbiter.current.label
 
     @property
+    def by_pad(self) -> bool:
+        """Whether a pad drives."""
+        return isinstance(self._arbiter.current, Pad)
+
+    @property
     def pads(self) -> list[Pad]:
         """The pads that are connected."""
         return [] if self._pads is None else self._pads.pads

@@ -53,5 +53,10 @@ class WalkTarget:
         """Stop where it is."""
         self._follower, self._control = None, Control()
 
+    @property
+    def place(self) -> tuple[float, float] | None:
+        """Where it goes; None where it goes nowhere."""
+        return None if self._follower is None else self._place
+
     def intent(self) -> Intent:
         return REST if self._follower is None else Intent(control=self._control)

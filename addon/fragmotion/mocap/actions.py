@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 import bpy
 
@@ -64,6 +65,16 @@ def ticked(obj: bpy.types.Object) -> list[bpy.types.Action]:
 def fitting(obj: bpy.types.Object) -> list[bpy.types.Action]:
     """All Actions that fit the armature, by name."""
     return [action for action in bpy.data.actions if fits_cached(action, obj)]
+
+
+def common_beginning(names: Sequence[str]) -> str:
+    """What all names begin with, up to a blank or a sign between words and short of any whole name; empty for one."""
+    if len(names) < 2:
+        return ""
+    first, last = min(names), max(names)
+    shared = first[: next((i for i, pair in enumerate(zip(first, last)) if len(set(pair)) > 1), len(first))]
+    words = re.match(r".*[\W_]", shared)
+    return words[0] if words and words[0] != first else ""
 
 
 def is_found(action: bpy.types.Action, search: str) -> bool:

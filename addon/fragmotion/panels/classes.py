@@ -111,6 +111,7 @@ class FRAGMOTION_PT_inspector(_ClassPanel, bpy.types.Panel):
 
     bl_idname = "FRAGMOTION_PT_inspector"
     bl_label = "Inspector"
+    bl_parent_id = "FRAGMOTION_PT_build_advanced"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, obj = self.layout, active_armature(context)
@@ -215,4 +216,5 @@ def _draw_tried(layout: bpy.types.UILayout, number: str, error: str, quality: st
 
 
 BUILD_PANELS = (FRAGMOTION_PT_tried,)
-CLASS_PANELS = (FRAGMOTION_UL_classes, FRAGMOTION_PT_classes, FRAGMOTION_PT_inspector)
+CLASS_PANELS = (FRAGMOTION_UL_classes, FRAGMOTION_PT_classes)
+ADVANCED_PANELS = (FRAGMOTION_PT_inspector,)

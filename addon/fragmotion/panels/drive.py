@@ -40,16 +40,9 @@ class FRAGMOTION_PT_drive(Sidebar, bpy.types.Panel):
         layout, driven, obj = self.layout, session.current, _armature(context)
         row = layout.row()
         row.scale_y = 1.6
-        if driven is None:
-            row.operator("fragmotion.drive", text="Drive", icon="PLAY")
-        else:
-            row.operator("fragmotion.drive", text="Stop", icon="SNAP_FACE")
-            layout.operator(
-                "fragmotion.record",
-                text="Record" if driven.recording is None else f"End Recording ({driven.recording.seconds:.0f} s)",
-                icon="REC" if driven.recording is None else "CHECKMARK",
-                depress=driven.recording is not None,
-            )
+        draw_drive(row, driven)
+        if driven is not None:
+            draw_record(layout, driven)
             _draw_input(layout, context, driven)
             _draw_styles(layout, driven)
         if obj is not None:
@@ -104,8 +97,11 @@ class FRAGMOTION_PT_drive_overlays(_OptionsPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         settings = _armature(context).fragmotion.drive
         grid = self.layout.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
-        for name in ("show_velocity", "show_path", "show_ideal", "show_feet", "show_figures", "show_stick"):
+        for name in ("show_velocity", "show_path", "show_ideal", "show_feet", "show_stick", "show_figures"):
             grid.prop(settings, name)
+        row = grid.row()
+        row.active = settings.show_figures
+        row.prop(settings, "show_details")
 
 
 class FRAGMOTION_PT_drive_trace(_OptionsPanel, bpy.types.Panel):
@@ -136,7 +132,7 @@ class FRAGMOTION_PT_drive_feel(_OptionsPanel, bpy.types.Panel):
             column.prop(settings, name)
 
 
-class FRAGMOTION_PT_drive_ground(_DriveSubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_drive_ground(_OptionsPanel, bpy.types.Panel):
     """What the character goes on; Bake and Populate go by it, too."""
 
     bl_idname = "FRAGMOTION_PT_drive_ground"
@@ -151,6 +147,23 @@ class FRAGMOTION_PT_drive_ground(_DriveSubPanel, bpy.types.Panel):
             column.prop(settings, "object")
         elif settings.kind == "COLLECTION":
             column.prop(settings, "collection")
+
+
+def draw_drive(layout: bpy.types.UILayout, driven: session.Session | None) -> None:
+    """The button that begins a drive, or ends it."""
+    text, icon = ("Drive", "PLAY") if driven is None else ("Stop", "SNAP_FACE")
+    layout.operator("fragmotion.drive", text=text, icon=icon)
+
+
+def draw_record(layout: bpy.types.UILayout, driven: session.Session | None) -> None:
+    """The button that begins a recording, or ends it."""
+    recording = driven.recording if driven is not None else None
+    layout.operator(
+        "fragmotion.record",
+        text="Record" if recording is None else f"End Recording ({recording.seconds:.0f} s)",
+        icon="REC" if recording is None else "CHECKMARK",
+        depress=recording is not None,
+    )
 
 
 def _draw_input(layout: bpy.types.UILayout, context: bpy.types.Context, driven: session.Session) -> None:

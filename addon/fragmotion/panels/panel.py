@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import ClassVar
 
 import bpy
 
@@ -15,13 +16,13 @@ from ..character.staleness import is_stale
 from ..compat import versions
 from ..control_rig.binding import own_armatures
 from ..jobs import SteppedJob
-from ..mocap.actions import chosen, fits_cached, fitting, is_found, seconds_of
+from ..mocap.actions import chosen, common_beginning, fits_cached, fitting, is_found, seconds_of
 from ..mocap.doctor import worst
 from ..operators.base import background
 from ..operators.base.context import active_armature
 from ..preview.take_preview import TakePreview
 from ..settings.drawing import (
-    draw_bake,
+    draw_baked,
     draw_build,
     draw_build_advanced,
     draw_coverage,
@@ -36,7 +37,7 @@ from . import bones, classes, control_rig, doctor, drive, left_out, moves, path,
 from .doctor import LIGHTS
 from .sidebar import Sidebar, SubPanel, draw_fold, draw_play, is_folded
 
-_FEWEST_ROWS, _MOST_ROWS = 5, 12  # of the list, unless the user draws it larger
+_FEWEST_ROWS, _MOST_ROWS = 5, 8  # of the list, unless the user draws it larger
 _NAME = 0.76  # of a row's width
 _LONG = 10.0  # s of a take whose tenths do not matter
 _FEW = 5  # takes among which there is nothing to be searched
@@ -46,6 +47,8 @@ class FRAGMOTION_UL_actions(bpy.types.UIList):
     """The file's Actions that fit the active armature, each with a tick and its length."""
 
     bl_idname = "FRAGMOTION_UL_actions"
+    beginning: ClassVar[str] = ""
+    """What the names of all takes of the list begin with: it is not said of each."""
 
     def draw_item(
         self,
@@ -60,7 +63,7 @@ class FRAGMOTION_UL_actions(bpy.types.UIList):
         row = layout.row(align=True)
         row.prop(item.fragmotion, "use", text="")
         split = row.split(factor=_NAME)
-        split.label(text=item.name, translate=False)
+        split.label(text=item.name.removeprefix(self.beginning), translate=False)
         length = split.row()
         length.alignment = "RIGHT"
         length.label(text=_length(seconds_of(item, context.scene)), translate=False)
@@ -74,6 +77,7 @@ class FRAGMOTION_UL_actions(bpy.types.UIList):
         by_name = bpy.types.UI_UL_list.filter_items_by_name(self.filter_name, self.bitflag_filter_item, actions)
         named = by_name or [self.bitflag_filter_item] * len(actions)
         found = [obj and fits_cached(action, obj) and is_found(action, settings.take_search) for action in actions]
+        FRAGMOTION_UL_actions.beginning = common_beginning([action.name for action in fitting(obj)] if obj else [])
         order = _order(actions, context.scene, settings.take_order)
         return [flag if fits else 0 for flag, fits in zip(named, found)], order
 
@@ -149,10 +153,29 @@ def _draw_takes(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy
     for text, use in (("All", True), ("None", False)):
         tick = row.operator("fragmotion.tick_actions", text=text)
         tick.use, tick.search = use, settings.take_search
-    action = chosen(context, obj)
-    if action is not None:
-        row = layout.row(align=True)
-        row.prop(action.fragmotion, "style")
+    beginning = FRAGMOTION_UL_actions.beginning
+    if beginning:
+        layout.label(text=f"All begin with '{beginning}'", icon="INFO", translate=False)
+
+
+class FRAGMOTION_PT_take_style(SubPanel, bpy.types.Panel):
+    """What style the chosen take is of."""
+
+    bl_idname = "FRAGMOTION_PT_take_style"
+    bl_label = "Style"
+    bl_parent_id = "FRAGMOTION_PT_mocap"
+    folds = "mocap"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and chosen(context, active_armature(context)) is not None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        action = chosen(context, active_armature(context))
+        if action is None:
+            return
+        row = self.layout.row(align=True)
+        row.prop(action.fragmotion, "style", text="")
         row.operator("fragmotion.set_style", text="", icon="PRESET")
 
 
@@ -180,8 +203,6 @@ class FRAGMOTION_PT_build(Sidebar, bpy.types.Panel):
                 layout.label(text="Stale: Actions changed", icon="ERROR")
         if is_folded(context, "build"):
             return
-        if obj is not None:
-            draw_build(layout, obj.fragmotion.build)
         layout.operator("fragmotion.build", icon="SHADERFX")
 
 
@@ -194,11 +215,22 @@ class _BuildSubPanel(SubPanel):
         return super().poll(context) and background.current is None
 
 
+class FRAGMOTION_PT_build_options(_BuildSubPanel, bpy.types.Panel):
+    """The fields of a build that are changed most."""
+
+    bl_idname = "FRAGMOTION_PT_build_options"
+    bl_label = "Build Options"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_build(self.layout, active_armature(context).fragmotion.build)
+
+
 class FRAGMOTION_PT_figures(_BuildSubPanel, bpy.types.Panel):
     """What the last build found."""
 
     bl_idname = "FRAGMOTION_PT_figures"
     bl_label = "Figures"
+    bl_parent_id = "FRAGMOTION_PT_build_advanced"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -233,6 +265,7 @@ class FRAGMOTION_PT_training(_BuildSubPanel, bpy.types.Panel):
 
     bl_idname = "FRAGMOTION_PT_training"
     bl_label = "Training"
+    bl_parent_id = "FRAGMOTION_PT_build_advanced"
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_training(self.layout, active_armature(context).fragmotion.build)
@@ -253,6 +286,7 @@ class FRAGMOTION_PT_policy(_BuildSubPanel, bpy.types.Panel):
 
     bl_idname = "FRAGMOTION_PT_policy"
     bl_label = "Policy File"
+    bl_parent_id = "FRAGMOTION_PT_build_advanced"
 
     def draw(self, context: bpy.types.Context) -> None:
         obj = active_armature(context)
@@ -272,7 +306,7 @@ class FRAGMOTION_PT_bake(Sidebar, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         obj = active_armature(context)
         if obj is not None:
-            draw_bake(self.layout, obj.fragmotion.bake, obj)
+            draw_baked(self.layout, obj.fragmotion.bake, obj)
         self.layout.operator("fragmotion.bake", icon="ACTION_TWEAK")
 
 
@@ -280,17 +314,20 @@ CLASSES = (
     *control_rig.CLASSES,
     FRAGMOTION_UL_actions,
     FRAGMOTION_PT_mocap,
+    FRAGMOTION_PT_take_style,
     *left_out.CLASSES,
     *doctor.CLASSES,
     *bones.CLASSES,
     FRAGMOTION_PT_build,
+    FRAGMOTION_PT_build_options,
     *classes.BUILD_PANELS,
-    FRAGMOTION_PT_training,
-    FRAGMOTION_PT_figures,
     *classes.CLASS_PANELS,
     FRAGMOTION_PT_coverage,
-    FRAGMOTION_PT_policy,
     FRAGMOTION_PT_build_advanced,
+    FRAGMOTION_PT_training,
+    FRAGMOTION_PT_figures,
+    *classes.ADVANCED_PANELS,
+    FRAGMOTION_PT_policy,
     *drive.CLASSES,
     *moves.CLASSES,
     *path.CLASSES,

@@ -9,7 +9,7 @@ import bpy
 
 from ..operators.base.context import active_armature
 from ..recordings.recordings import active_recording
-from ..settings.drawing import aligned, draw_bake_options, draw_populate
+from ..settings.drawing import aligned, draw_bake, draw_bake_options, draw_populate, draw_wrapped
 from .sidebar import Sidebar, SubPanel
 
 _ROWS = 4
@@ -51,24 +51,22 @@ class FRAGMOTION_PT_recordings(Sidebar, bpy.types.Panel):
             layout.label(text="No armature is active", icon="INFO")
             return
         settings = obj.fragmotion
+        if not len(settings.recordings):
+            layout.label(text="Record while you drive, or", icon="INFO")
+            layout.operator("fragmotion.import_recordings", text="Import...", icon="IMPORT")
+            return
         row = layout.row()
         row.template_list(
             "FRAGMOTION_UL_recordings", "", settings, "recordings", settings, "active_recording", rows=_ROWS
         )
         _draw_buttons(row.column(align=True))
-        recording = active_recording(obj)
-        if recording is None:
-            layout.label(text="Record or import one", icon="INFO")
-            return
-        _draw_figures(layout, recording)
-        _draw_uses(layout, settings)
+        if active_recording(obj) is not None:
+            draw_replay(layout, settings)
 
 
-class FRAGMOTION_PT_change(SubPanel, bpy.types.Panel):
-    """What changes the selected recording."""
+class _RecordingPanel(SubPanel):
+    """One about the selected recording."""
 
-    bl_idname = "FRAGMOTION_PT_change"
-    bl_label = "Change"
     bl_parent_id = "FRAGMOTION_PT_recordings"
 
     @classmethod
@@ -76,33 +74,67 @@ class FRAGMOTION_PT_change(SubPanel, bpy.types.Panel):
         obj = active_armature(context)
         return obj is not None and active_recording(obj) is not None
 
+
+class FRAGMOTION_PT_replay_options(_RecordingPanel, bpy.types.Panel):
+    """How the selected recording is replayed, and how good it is."""
+
+    bl_idname = "FRAGMOTION_PT_replay_options"
+    bl_label = "Replay Options"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        obj = active_armature(context)
+        drive, column = obj.fragmotion.drive, aligned(self.layout)
+        column.prop(drive, "replay", text="Replay")
+        if drive.replay != "RECORDED":
+            column.prop(drive, "seed")
+        _draw_figures(self.layout, active_recording(obj))
+
+
+class FRAGMOTION_PT_change(_RecordingPanel, bpy.types.Panel):
+    """What changes the selected recording."""
+
+    bl_idname = "FRAGMOTION_PT_change"
+    bl_label = "Change"
+
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, active_armature(context).fragmotion
-        row = layout.row(align=True)
+        row = _group(layout, context, "Edit what was asked for as curves; play it again").row(align=True)
         row.operator("fragmotion.edit_curves", icon="GRAPH")
         row.operator("fragmotion.play_again", icon="FILE_REFRESH")
-        row = layout.row(align=True)
+        row = _group(layout, context, "Leave out the timeline's preview range, or let the next one follow").row(
+            align=True
+        )
         row.operator("fragmotion.cut_recording", icon="UNLINKED")
         row.operator("fragmotion.glue_recording", icon="LINKED")
-        column = aligned(layout)
-        column.prop(settings.drive, "over_seconds", text="For")
-        over = layout.operator("fragmotion.drive", text="Record Over", icon="REC")
+        group = _group(layout, context, "Drive anew from the playhead on")
+        aligned(group).prop(settings.drive, "over_seconds", text="For")
+        over = group.operator("fragmotion.drive", text="Record Over", icon="REC")
         over.source, over.recording = "OVER", settings.active_recording
-        column = aligned(layout)
-        column.prop(settings, "pin_at", text="At")
+        group = _group(layout, context, "Be at a place at the playhead: the 3D cursor, or an object")
+        column = aligned(group)
+        column.prop(settings, "pin_at", text="Object")
         column.prop(settings.pin, "stretch")
-        layout.operator("fragmotion.pin_recording", icon="PINNED")
+        group.operator("fragmotion.pin_recording", icon="PINNED")
+
+
+def _group(layout: bpy.types.UILayout, context: bpy.types.Context, text: str) -> bpy.types.UILayout:
+    """A box that begins with what is in it for."""
+    box = layout.box().column()
+    draw_wrapped(box.column(align=True), context, text)
+    return box
 
 
 class FRAGMOTION_PT_bake_options(SubPanel, bpy.types.Panel):
-    """The fields of a bake that are changed less."""
+    """What is baked, and how."""
 
     bl_idname = "FRAGMOTION_PT_bake_options"
     bl_label = "Bake Options"
     bl_parent_id = "FRAGMOTION_PT_bake"
 
     def draw(self, context: bpy.types.Context) -> None:
-        draw_bake_options(self.layout, active_armature(context).fragmotion.bake)
+        obj = active_armature(context)
+        draw_bake(self.layout, obj.fragmotion.bake, obj)
+        draw_bake_options(self.layout, obj.fragmotion.bake)
 
 
 class FRAGMOTION_PT_populate(SubPanel, bpy.types.Panel):
@@ -139,17 +171,19 @@ def _draw_figures(layout: bpy.types.UILayout, recording: Any) -> None:
         row.label(text=value, translate=False)
 
 
-def _draw_uses(layout: bpy.types.UILayout, settings: Any) -> None:
+def draw_replay(layout: bpy.types.UILayout, settings: Any) -> None:
+    """The button that replays the selected recording as the panel says."""
     drive, index = settings.drive, settings.active_recording
-    column = aligned(layout)
-    column.prop(drive, "replay", text="Replay")
-    if drive.replay != "RECORDED":
-        column.prop(drive, "seed")
     replay = layout.operator("fragmotion.drive", text="Replay", icon="PLAY")
     replay.source, replay.recording = "RECORDING", index
     if drive.replay != "RECORDED":
         replay.policy, replay.seed = drive.replay, drive.seed
 
 
-CLASSES = (FRAGMOTION_UL_recordings, FRAGMOTION_PT_recordings, FRAGMOTION_PT_change)
+CLASSES = (
+    FRAGMOTION_UL_recordings,
+    FRAGMOTION_PT_recordings,
+    FRAGMOTION_PT_change,
+    FRAGMOTION_PT_replay_options,
+)
 BAKE_CLASSES = (FRAGMOTION_PT_bake_options, FRAGMOTION_PT_populate)

@@ -113,8 +113,13 @@ class DriveSettings(TraceFields, bpy.types.PropertyGroup):
     )
     show_figures: BoolProperty(  # type: ignore[valid-type]
         name="Figures",
-        description="Class, control, rest of the fragment, quality, response time and updates a second",
+        description="What is asked for, what the character does, what is recorded, and for how long",
         default=True,
+    )
+    show_details: BoolProperty(  # type: ignore[valid-type]
+        name="Details",
+        description="Below it the class that plays, its quality, how soon the stick was answered, and updates a second",
+        default=False,
     )
     show_stick: BoolProperty(  # type: ignore[valid-type]
         name="Stick",

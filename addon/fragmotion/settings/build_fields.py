@@ -19,7 +19,7 @@ _CUTS = (
 
 
 _CONTROLS = (
-    ("PAPER", "As in the Paper", "102: standing, 8 directions at a walk and at a run; turning or not; jumping or not"),
+    ("PAPER", "Standard", "102: standing, 8 directions at a walk and at a run; turning or not; jumping or not"),
     ("FOUND", "From the Takes", "As many speeds and directions as the takes hold, turns and jumps where they do"),
     ("TOLD", "These", "As many speeds and directions as you say, with turns and jumps or without"),
 )

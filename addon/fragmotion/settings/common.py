@@ -17,7 +17,10 @@ _SOURCES = (
 _HABITS = tuple((name, name.title(), f"A simulated player with the habits of a {name}") for name in core.PLAYERS)
 
 _POLICY_LABELS = {
-    "anticipate": ("Anticipate", "Looks ahead, as value iteration does, and knows how long any player keeps a control"),
+    "anticipate": (
+        "Looking Ahead",
+        "Looks ahead, as value iteration does, and knows how long any player keeps a control",
+    ),
     "iterate": ("Value Iteration", "Looks ahead, with a model of how the controls change learned from the trace alone"),
     "svm": ("SVM", "A support vector machine that learned from the best path through the trace"),
     "greedy": ("Greedy", "The best next class, without a look at what comes after it"),

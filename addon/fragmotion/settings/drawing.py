@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import textwrap
 
 import bpy
@@ -60,7 +61,7 @@ def _draw_controls(layout: bpy.types.UILayout, settings: BuildFields) -> None:
 
 
 def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.Object) -> None:
-    """The fields of a bake that are changed most."""
+    """What a bake is of, and what it goes to."""
     layout = aligned(layout)
     source = baked_source(obj, settings)
     if source == settings.trace_source:
@@ -79,6 +80,17 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.O
     if source != "RECORDING" and obj.fragmotion.figures.styles:
         layout.prop(settings, "style")
     layout.prop(settings, "target")
+
+
+def draw_baked(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.Object) -> None:
+    """What a bake is of, in words."""
+    source = baked_source(obj, settings)
+    if source == "RECORDING":
+        _draw_recording(layout, obj, settings)
+    elif source == "FILE":
+        layout.label(text=os.path.basename(settings.trace_file) or "Choose a CSV file", icon="FILE", translate=False)
+    else:
+        layout.label(text=f"{settings.seconds:.0f} s of a simulated {settings.player}", icon="INFO")
 
 
 def _draw_recording(layout: bpy.types.UILayout, obj: bpy.types.Object, settings: BakeFields) -> None:
@@ -126,7 +138,7 @@ def draw_summary(layout: bpy.types.UILayout, context: bpy.types.Context, figures
     well."""
     if figures.abilities:
         draw_wrapped(layout, context, figures.abilities, "ERROR" if figures.abilities == NOTHING else "CHECKMARK")
-    layout.label(text=f"{figures.quality:.0f} % of Optimal", icon="CHECKMARK")
+    layout.label(text=f"{figures.quality:.0f} % of the possible", icon="CHECKMARK")
     if figures.coverage:
         icon = "CHECKMARK" if figures.performed == figures.controls else "ERROR"
         layout.label(text=f"{figures.performed} of {figures.controls} controls", icon=icon)

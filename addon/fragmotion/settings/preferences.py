@@ -84,7 +84,7 @@ class FragmotionPreferences(bpy.types.AddonPreferences):
             row = grid.split(factor=0.5)
             row.label(text=label)
             row.prop(self, f"key_{name}", text="", event=True)
-        keymaps.draw_shortcut(layout, context)
+        keymaps.draw_shortcuts(layout, context)
 
 
 def get(context: bpy.types.Context) -> Any:

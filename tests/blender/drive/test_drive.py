@@ -184,9 +184,9 @@ def test_a_replay_says_how_far_it_is(addon: ModuleType, session: ModuleType, obj
     recording = addon.recordings.recordings.add_recording(obj, np.tile([0, 1.2, 0, 0], (40, 1)).astype(float))
     driven = session.replay(bpy.context, obj, recording)
     go_on(driven, 1.5)
-    assert driven.playing == "Replaying 1.5 of 4.0 s" and driven.shown().title == "Replaying 1.5 of 4.0 s: Esc ends"
+    assert driven.playing == "Replaying 1.5 of 4.0 s" and driven.shown().title == "Replaying 1.5 of 4.0 s"
     go_on(driven, 3)
-    assert driven.playing == "" and driven.shown().title == f"Driving {obj.name}: Esc ends"
+    assert driven.playing == "" and driven.shown().title == f"Driving {obj.name}"
     driven.play(np.tile([0, 1.2, 0, 0], (20, 1)).astype(float))
     go_on(driven, 0.5)
     assert driven.playing == "Playing 0.5 of 2.0 s"
@@ -234,21 +234,54 @@ def test_before_build_a_trace_is_recorded_too(addon: ModuleType, session: Module
     assert recording.policy == "" and recording.quality == 0
 
 
-def test_the_figures_say_what_plays(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:
+def test_the_figures_say_what_is_asked_and_done(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:
+    figures = import_module(f"{session.__package__}.hud.figures")
+    driven = start(session, obj)
+    driven.update(1 / RATE)
+    assert dict(figures.rows(driven.shown()))["Asked"] == "nothing yet: push a stick, or press W A S D"
+    driven.inputs.keyboard.press("W")
+    go_on(driven, 3)
+    rows = dict(figures.rows(driven.shown()))
+    assert list(rows) == ["Asked", "Does", "Time"] and rows["Time"] == "3.0 s"
+    assert rows["Asked"] == "walk forward" and rows["Does"].startswith("walk forward")
+    driven.toggle_recording()
+    go_on(driven, 1)
+    assert driven.shown().title == "Recording 1.0 s" and driven.shown().recording
+    for _ in range(100):
+        driven.update(0.2)
+    assert dict(figures.rows(driven.shown()))["Updates"] == "5 a second, too slow: slow motion"
+
+
+def test_details_say_how_well_it_is_done(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:
+    figures = import_module(f"{session.__package__}.hud.figures")
+    obj.fragmotion.drive.show_details = True
     driven = start(session, obj)
     driven.inputs.keyboard.press("W")
     go_on(driven, 3)
-    figures = import_module(f"{session.__package__}.hud.figures")
     rows = dict(figures.rows(driven.shown()))
-    assert rows["Input"] == "Keyboard" and rows["Control"] == "walk forward"
-    assert rows["Class"].startswith(f"{driven.player.playing[0]}: walk forward")
+    assert rows["Input"] == "Keyboard"
+    assert rows["Class"].startswith(f"{driven.player.playing[0]}, ")
     judge, character = driven.readings.judge, driven.actor.character
     assert 0 < judge.mean <= 1 and 0 < judge.quality <= 1
     assert 0 <= judge.left <= character.fragment_durations[driven.player.playing[1]]
     assert rows["Updates"].startswith("60 a second") and rows["Updates"].endswith("ms each")
-    for _ in range(100):
-        driven.update(0.2)
-    assert dict(figures.rows(driven.shown()))["Updates"] == "5 a second, too slow: slow motion"
+
+
+def test_the_status_bar_names_keys_and_buttons(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:
+    told = import_module(f"{addon.__name__}.operators.directing.drive_hints")
+    driven = start(session, obj)
+    keyboard = {hint.text: hint.keys for hint in told.hints(driven)}
+    assert keyboard["Go"] == ("W", "A", "S", "D") and keyboard["Record"] == ("R",) and keyboard["End"] == ("ESC",)
+    assert list(keyboard)[:2] == ["End", "Record"] and "Walk There" in keyboard
+    driven.settings.click_to_walk = False
+    driven.toggle_recording()
+    recording = {hint.text: hint.keys for hint in told.hints(driven)}
+    assert recording["End Recording"] == ("R",) and "Walk There" not in recording
+
+
+def test_the_view_is_drawn_anew_only_where_a_step_was_due(session: ModuleType, obj: bpy.types.Object) -> None:
+    driven = start(session, obj)
+    assert [driven.update(0.25 / RATE) for _ in range(8)].count(True) == 2
 
 
 def test_while_driving_nothing_else_may_change_the_armature(session: ModuleType, obj: bpy.types.Object) -> None:

@@ -30,6 +30,21 @@ def test_the_character_goes_where_it_is_sent_and_stands(session: ModuleType, obj
     assert not any(driven.control[:2])
 
 
+def test_where_it_goes_is_marked_until_it_is_there(session: ModuleType, obj: bpy.types.Object) -> None:
+    driven = driving.start(session, obj)
+    assert driven.shown().target is None
+    driven.walk_to(THERE, level=0.4)
+    driving.go_on(driven, 0.5)
+    assert driven.shown().target == (*THERE, 0.4)
+    driving.go_on(driven, 9)
+    assert driven.shown().target is None
+    driven.walk_to((0.0, 0.0))
+    driving.go_on(driven, 0.5)
+    driven.inputs.keyboard.press("W")
+    driving.go_on(driven, 0.1)
+    assert driven.shown().target is None, "another input has taken over"
+
+
 def test_it_is_sent_elsewhere_before_it_is_there(session: ModuleType, obj: bpy.types.Object) -> None:
     driven = driving.start(session, obj)
     driven.walk_to(THERE)

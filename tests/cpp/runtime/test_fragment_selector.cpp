@@ -68,10 +68,11 @@ TEST(FragmentSelector, LeavesAFragmentWithinItsTimeAndAtOnceWhereWaitingCostsMuc
     const double end = choice.playback.seconds() + choice.playback.left();
     for (int k = 0; k < c.classes.count; k += 5) {
       const Control& control = c.pool.fragments[c.classes.representatives[k]].evident;
-      const double free = choice.selector.best_exit(k, control, choice.playback, 0).seconds;
+      const double free = choice.selector.best_exits({k, -1}, control, choice.playback, 0)[0].seconds;
       EXPECT_GE(free, choice.playback.seconds());
       EXPECT_LE(free, end + 1e-9);
-      EXPECT_EQ(choice.selector.best_exit(k, control, choice.playback, 1e9).seconds, choice.playback.seconds());
+      EXPECT_EQ(choice.selector.best_exits({k, -1}, control, choice.playback, 1e9)[0].seconds,
+                choice.playback.seconds());
       moments.insert(free);
     }
   }
@@ -85,7 +86,7 @@ double exit_for(Choice& choice, int fragment, int next_class) {
   const Control& control = c.pool.fragments[c.classes.representatives[next_class]].evident;
   choice.playback.reset(fragment, {});
   choice.playback.advance(kSoon);
-  return choice.selector.best_exit(next_class, control, choice.playback, kHaste).seconds - kSoon;
+  return choice.selector.best_exits({next_class, -1}, control, choice.playback, kHaste)[0].seconds - kSoon;
 }
 
 // Dis itself is not quite the same of other bones, so that a few moments that are hardly better than others change.
@@ -124,7 +125,7 @@ int steps_out_of_turn_when_left(Choice& choice, bool known) {
       choice.playback.advance(choice.playback.left());
       choice.playback.start(fragment);
       choice.playback.advance(0.1);
-      const Exit exit = choice.selector.best_exit(k, control, choice.playback, 0.1);
+      const Exit exit = choice.selector.best_exits({k, -1}, control, choice.playback, 0.1)[0];
       choice.playback.advance(exit.seconds - choice.playback.seconds());
       const int chosen = choice.selector.choose(k, control, choice.playback);
       all += steps_out_of_turn(choice.playback.steps(), entries[chosen]);

@@ -85,12 +85,17 @@ class Actor:
         walking, running = core.turns_well(self.character, self.policy, self.style)
         return walking, running
 
-    def join_on(self, shown: Motion, first: int) -> None:
-        """Show what a recording showed that begins now, and from its control `first` on what is played, joined on."""
+    def join_on(self, shown: Motion) -> None:
+        """Show what a recording showed that begins now, until `take_over`."""
         assert self.character is not None
         root, rotations = self.step(Control(), 0.0)
         self._pose = Pose(root, rotations, self.frame)
-        self._joined = Joined(self.character, shown, first, self._pose)
+        self._joined = Joined(self.character, shown, self._pose)
+
+    def take_over(self) -> None:
+        """Show what is played from the next step on, joined on to what the recording showed."""
+        if self._joined is not None:
+            self._joined.take_over()
 
     @property
     def is_joined(self) -> bool:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...edits.replaying import STEPS, joined
+from ...edits.replaying import joined
 from ...recordings.recordings import POSE_RATE
 from ...rig.motion import Motion
 
@@ -26,13 +26,17 @@ class Pose(NamedTuple):
 
 
 class Joined:
-    """Until the recording's control `first` it shows the recording's own poses, POSE_RATE a second; from there on what
-    is played, carried to where the character is then and stitched."""
+    """It shows the recording's own poses, POSE_RATE a second, until `take_over` or their end; from there on what is
+    played, carried to where the character is then and stitched."""
 
-    def __init__(self, character: Character, shown: Motion, first: int, begin: Pose) -> None:
+    def __init__(self, character: Character, shown: Motion, begin: Pose) -> None:
         """`begin`: the pose before the first step."""
-        self._character, self._shown, self._end = character, shown, first * STEPS
+        self._character, self._shown, self._end = character, shown, len(shown.path) - 1
         self._steps, self._seam = 0, [begin]  # the poses that are played in the moment of the seam, and before it
+
+    def take_over(self) -> None:
+        """Show what is played from the next step on."""
+        self._end = min(self._end, self._steps)
 
     def show(self, played: Pose) -> Pose:
         """What is shown for the pose that the next step has led to."""

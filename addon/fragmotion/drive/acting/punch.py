@@ -13,7 +13,7 @@ from ...recordings.styles import AS_EVER, StyleChange, Styled
 from .recorder import Taken
 
 if TYPE_CHECKING:
-    from fragmotion_core import Doubles
+    from fragmotion_core import Character, Doubles
 
 
 class Own(NamedTuple):
@@ -28,14 +28,31 @@ class Own(NamedTuple):
 
 
 class Punch:
-    """A recording of which the controls `first` .. `last` - 1, and the moves and styles that are asked for in them, are
-    what the user does. What it asks for before goes on into the stretch; after it the recording's own style is back."""
+    """A recording with a stretch in which the user takes over by doing something: from then on until its end the
+    controls, and the moves and styles that are asked for in them, are what the user does. What was asked for before
+    goes on into it; after it the recording's own style is back. Where the user does nothing, nothing changes."""
 
-    def __init__(self, own: Own, first: int, last: int, rate: int, taken: Taken) -> None:
-        """Played in so many steps a second; `taken` begins in the style that `style_before(first)` tells."""
-        self.own, self.first, self.taken = own, first, taken
+    def __init__(self, own: Own, begin: int, last: int, rate: int, character: Character | None) -> None:
+        """The stretch is of the controls `begin` .. `last` - 1; played in so many steps a second."""
+        self.own, self.begin, self.taken = own, begin, Taken(character, 0, rate)
+        self.first = last
+        """The first control that is the user's; that after the stretch while none is."""
         self._last, self._rate = last, rate
+        self._touched = False
         self._steps = 0
+
+    def offer(self, touched: bool, jump: bool, held: set[int]) -> bool:
+        """Whether the user, who does something (`touched`) in the next step, or did since the control began, takes over
+        with it: that is where a control begins."""
+        if self.takes or not self.is_open:
+            return False
+        self._touched = self._touched or touched
+        self.taken.hear(jump, held)
+        if not self._touched or self._steps * TRACE_RATE % self._rate:
+            return False
+        self.first = self._now
+        self.taken.style_now = style_before(self.own.styled, self.first)
+        return True
 
     def advance(self) -> None:
         """A step has been made."""
@@ -45,6 +62,30 @@ class Punch:
     def takes(self) -> bool:
         """Whether the next step is the user's."""
         return self.first <= self._now < self._last
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the next step is in the stretch."""
+        return self.begin <= self._now < self._last
+
+    @property
+    def seconds_to_begin(self) -> float:
+        """Until the stretch; negative from then on."""
+        return self.begin / TRACE_RATE - self._steps / self._rate
+
+    @property
+    def seconds_left(self) -> float:
+        """Until the stretch is over."""
+        return self._last / TRACE_RATE - self._steps / self._rate
+
+    @property
+    def words(self) -> str:
+        """Whose turn it is."""
+        if not self.is_open:
+            return f"Playing what was there: yours in {max(self.seconds_to_begin, 0):.1f} s"
+        if not self.takes:
+            return f"Yours now, for {self.seconds_left:.1f} s: what was there stays until you do something"
+        return f"Recording over: {self.seconds_left:.1f} s left"
 
     @property
     def over(self) -> bool:

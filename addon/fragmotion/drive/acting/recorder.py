@@ -42,6 +42,11 @@ class Taken:
         self.styles: list[StyleChange] = []
         """Those to which it changed."""
 
+    def hear(self, jump: bool, held: set[int]) -> None:
+        """What is pressed before its first control goes into that, also where it is let go meanwhile."""
+        self._jumped = self._jumped or jump
+        self._tapped |= held
+
     def hold(self, control: Control) -> Control:
         """The control for the next step."""
         self._jumped = self._jumped or control.jump > 0

@@ -32,3 +32,11 @@ class Shown(NamedTuple):
     """The moves that play or wait, in words."""
     style: str = ""
     """The style that plays, and the one that waits, in words."""
+    seconds: float = 0.0
+    """Since the drive began."""
+    go_keys: str = ""
+    """The keys that let it go, in words."""
+    span: tuple[float, float] | None = None
+    """The scene's frames from and to which a recording is recorded over, if one is."""
+    target: tuple[float, float, float] | None = None
+    """Where it was sent by a click, if it is on its way there."""

@@ -126,9 +126,15 @@ def first_frame(obj: bpy.types.Object, recording: Recording) -> float:
 
 def playhead(context: bpy.types.Context, recording: Recording) -> float:
     """Where the playhead is in the recording, in seconds from its beginning."""
-    obj, render = active_armature(context), context.scene.render
-    rate = recording.curves_rate if curves_of(obj, recording) is not None else render.fps / render.fps_base
-    return float((context.scene.frame_current_final - first_frame(obj, recording)) / rate)
+    begin = first_frame(active_armature(context), recording)
+    return float(context.scene.frame_current_final - begin) / frame_rate(context, recording)
+
+
+def frame_rate(context: bpy.types.Context, recording: Recording) -> float:
+    """The scene's frames in a second of a recording: as its curves show it, or as Bake makes them."""
+    render = context.scene.render
+    shows_curves = curves_of(active_armature(context), recording) is not None
+    return float(recording.curves_rate if shows_curves else render.fps / render.fps_base)
 
 
 class OnTake:

@@ -12,8 +12,9 @@ from ...drive.hud import views
 from ...errors import UserError, ends_on_error
 from ...preview import previews
 from ...preview.waking import rest, wake
-from . import background
+from . import background, status
 from .context import active_armature, poll_armature
+from .status import Hint
 
 _RATE = 60  # steps a second
 _LONGEST = 0.25  # s that a step makes up for
@@ -74,7 +75,7 @@ class Previewing(Woken):
             return {"FINISHED"}
         obj = active_armature(context)
         self._show(context, obj, self._chosen(context, obj))
-        context.workspace.status_text_set(f"{self.bl_label}: click another one in the list to see it; Esc stops")
+        status.show(context.workspace, [Hint(("ESC",), "Stop"), Hint(("LEFTMOUSE",), "Another One in the List")])
         return self._begin(context, 1 / _RATE)
 
     @ends_on_error

@@ -59,15 +59,14 @@ class FRAGMOTION_OT_build(BuildFields, Building, bpy.types.Operator):
         figures, panels = obj.fragmotion.figures, context.window_manager.fragmotion
         panels.show_mocap = panels.show_build = False
         told = "".join(
-            f"; style '{style.name}': {style.classes} classes, {style.quality:.0f} % of Optimal, {style.performed} "
-            "controls performed well"
+            f"; style '{style.name}': {style.classes} classes, {style.quality:.0f} % of what its takes allow, "
+            f"{style.performed} controls performed well"
             for style in figures.styles
         )
         self.report(
             {"INFO"},
             f"{figures.abilities}. {figures.fragments} fragments in {figures.classes} classes, built in "
-            f"{figures.seconds:.1f} s; "
-            f"quality {figures.quality:.0f} % of Optimal; "
+            f"{figures.seconds:.1f} s; {figures.quality:.0f} % of what its takes allow; "
             f"{figures.performed} of {figures.controls} controls performed well{told}",
         )
         spare = say_lacking(built.character)

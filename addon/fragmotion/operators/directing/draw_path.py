@@ -11,11 +11,13 @@ from mathutils import Vector
 from ...errors import UserError, ends_on_error
 from ...ground.meshes import find_ground
 from ...paths.drawing import add_curve, ground_under
+from ..base import status
 from ..base.context import active_armature, poll_armature
+from ..base.status import Hint
 
 _APART = 8  # pixels between the points that are kept
 _ABOVE = Vector((0, 0, 0.01))  # the ground, m, so that the curve is seen
-_HINT = "Draw the path on the ground with the left mouse button; Esc or the right button: none"
+_HINTS = (Hint(("ESC", "RIGHTMOUSE"), "Draw None"), Hint(("LEFTMOUSE",), "Hold and Move Over the Ground"))
 
 
 class FRAGMOTION_OT_draw_path(bpy.types.Operator):
@@ -39,7 +41,7 @@ class FRAGMOTION_OT_draw_path(bpy.types.Operator):
         self._area, self._last = context.area, None
         self._points: list[Vector] = []
         context.window.cursor_modal_set("PAINT_BRUSH")
-        context.workspace.status_text_set(_HINT)
+        status.show(context.workspace, _HINTS)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 

@@ -22,9 +22,11 @@ from ...preview.waking import rest
 from ...recordings.traces import asked_beside, make_trace
 from ...rig.external_motion import external_motion
 from ...settings import preferences
+from ..base import status
 from ..base.background import poll_idle
-from ..base.context import active_armature, playhead, poll_armature
+from ..base.context import active_armature, frame_rate, playhead, poll_armature
 from ..base.woken import Woken
+from .drive_hints import hints
 
 _PANEL_INTERVAL = 0.2  # s between drawings of the sidebar, which holds the pads, and looks at the other windows
 _GIZMOS = 100, 330  # pixels from a view's upper right corner, at a UI scale of 1, where clicks turn the view
@@ -149,6 +151,8 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
         obj = active_armature(context) if session.current is None else driven_session().obj
         driven = self._session = self._start(context, obj)
         self._drawn = time.perf_counter()
+        self._hints: list[status.Hint] = []
+        self._show_hints(context)
         self._warn(obj)
         return self._listen(context, driven, 1 / session.RATE)
 
@@ -161,7 +165,11 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
         if self.source == "OVER":
             begin = playhead(context, recordings[self.recording])
             end = begin + obj.fragmotion.drive.over_seconds
-            return session.record_over(context, obj, recordings[self.recording], begin, end)
+            driven = session.record_over(context, obj, recordings[self.recording], begin, end)
+            seconds = min(end, recordings[self.recording].seconds) - begin
+            frame = context.scene.frame_current_final
+            driven.span = frame, frame + seconds * frame_rate(context, recordings[self.recording])
+            return driven
         return session.replay(context, obj, recordings[self.recording], self.seed, self.policy)
 
     def cancel(self, context: bpy.types.Context) -> None:
@@ -182,14 +190,22 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
         seconds, now = self._passed(), time.perf_counter()
         if not bpy.app.is_job_running("RENDER"):  # which reads the armature meanwhile
             with core_errors("Drive"):
-                self._session.update(seconds)
+                if self._session.update(seconds):
+                    views.tag_redraw()
         self._tell()
-        views.tag_redraw()
+        self._show_hints(context)
         if now - self._drawn > _PANEL_INTERVAL:
             views.tag_redraw("UI")
             self._drawn = now
             self._hear_other_windows(context)
         return {"PASS_THROUGH"}
+
+    def _show_hints(self, context: bpy.types.Context) -> None:
+        """Say in the status bar what can be pressed now, where that has changed."""
+        told = hints(self._session)
+        if told != self._hints:
+            self._hints = told
+            status.show(context.workspace, told)
 
     def _hear_other_windows(self, context: bpy.types.Context) -> None:
         """Those that show the scene in a 3D view, also when they are opened meanwhile."""
@@ -315,7 +331,7 @@ def _send_there(
         return False
     place = ground_under(area, x, y, driven.ground)
     if place is not None:
-        driven.walk_to((place.x, place.y), event.shift)
+        driven.walk_to((place.x, place.y), event.shift, place.z)
     return place is not None
 
 

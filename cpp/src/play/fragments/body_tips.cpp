@@ -21,18 +21,24 @@ BodyTips::BodyTips(const Skeleton& skeleton)
       bones_(measured_bones(skeleton)),
       scale_(standard_scale(skeleton)),
       reach_(tip_reach(skeleton)),
-      posed_(skeleton.size()) {}
+      chains_(kinematics_.chains(bones_)),
+      posed_(skeleton.size()),
+      tips_(bones_.size()) {}
 
 void BodyTips::pose(const Vector3& root, const double* rotations) {
-  kinematics_.world(root, rotations, posed_.heads.data(), posed_.rotations.data());
+  kinematics_.world(root, rotations, chains_, posed_.heads.data(), posed_.rotations.data());
+  const std::vector<Vector3>& tips = kinematics_.skeleton().tips;
+  for (std::size_t i = 0; i < tips_.size(); ++i) {
+    const int b = bones_[i];
+    tips_[i] = posed_.heads[b] + posed_.rotations[b] * tips[b];
+  }
 }
 
 void BodyTips::write(const CharacterFrame& frame, float* rows, int stride, int offset) const {
   const double c = scale_ * std::cos(frame.heading), s = scale_ * std::sin(frame.heading);
   float *to_x = rows + offset, *to_y = to_x + stride, *to_z = to_y + stride;
   for (int i = 0; i < points(); ++i) {
-    const int b = bones_[i];
-    const Vector3 tip = posed_.heads[b] + posed_.rotations[b] * kinematics_.skeleton().tips[b];
+    const Vector3& tip = tips_[i];
     const double x = tip.x() - frame.position.x(), y = tip.y() - frame.position.y();
     to_x[i] = static_cast<float>(c * x + s * y);
     to_y[i] = static_cast<float>(c * y - s * x);

@@ -42,7 +42,9 @@ class BodyTips {
   Kinematics kinematics_;
   std::vector<int> bones_;
   double scale_, reach_;
+  std::vector<int> chains_;  // the bones_ and those between them and the hips
   PosedBones posed_;
+  std::vector<Vector3> tips_;  // of the bones_, in the world
 };
 
 }  // namespace fragmotion

@@ -7,7 +7,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSame = 1e-6;              // ControlDis between controls that differ by rounding alone
+constexpr double kSame = 0.25;              // ControlDis between controls that one plan is good for
 constexpr double kChange = 1;               // ControlDis between controls that is "a lot"
 constexpr double kHaste = 5 / kTunedReach;  // m a metre of reach that a second of waiting costs by default
 constexpr double kSkips = 1 / kTunedReach;  // m a metre of reach less that skipping a class must cost
@@ -120,10 +120,9 @@ bool Director::leaves_early(const Control& wanted, const Playback& playback, con
 // with the wrong foot: then the one that follows it is entered.
 Exit Director::plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector) const {
   const int next = look_up_class(class_, wanted), after = look_up_class(next, wanted);
-  const Exit exit = selector.best_exit(next, wanted, playback, haste_);
-  if (after == next || wanted.jumps() || bridge_between(class_, next) >= 0 || bridge_between(class_, after) >= 0)
-    return exit;
-  const Exit skips = selector.best_exit(after, wanted, playback, haste_);
+  const bool may_skip =
+      after != next && !wanted.jumps() && bridge_between(class_, next) < 0 && bridge_between(class_, after) < 0;
+  const auto [exit, skips] = selector.best_exits({next, may_skip ? after : -1}, wanted, playback, haste_);
   return skips.cost + kSkips < exit.cost ? skips : exit;
 }
 

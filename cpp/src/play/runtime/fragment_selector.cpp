@@ -74,7 +74,7 @@ float FragmentSelector::error(int fragment, const Control& control) const {
 // Finds the members that perform the control nearly as well as any of them does; returns the error() that they may
 // have. Where the representative jumps, or does not, as is wanted, or answers a control that asks for motion, they do
 // so too.
-float FragmentSelector::find_candidates(int next_class, const Control& control) const {
+float FragmentSelector::find_candidates(int next_class, const Control& control, Candidates& candidates) const {
   const Character& c = *style_->character;
   const int representative = c.classes.representatives[next_class];
   const Control& usually = c.pool.fragments[representative].evident;
@@ -85,7 +85,6 @@ float FragmentSelector::find_candidates(int next_class, const Control& control) 
     const bool other = (matches && !matches_jump(evident, control)) || (goes && !answers(evident, control));
     return other ? std::numeric_limits<float>::infinity() : error(fragment, control);
   };
-  std::vector<std::pair<float, int>>& candidates = workspace_->candidates;
   candidates.clear();
   const float usual = error_of(representative);
   float best = usual;
@@ -101,7 +100,8 @@ float FragmentSelector::find_candidates(int next_class, const Control& control) 
 
 // How far the beginnings of the candidates are from how what plays would go on, and more for feet out of turn; tells
 // the least.
-float FragmentSelector::measure_candidates(const Control& evident, const StepSequence& steps) const {
+float FragmentSelector::measure_candidates(const Control& evident, const StepSequence& steps,
+                                           Candidates& candidates) const {
   const std::vector<float>& onward = workspace_->onward;
   const Character& c = *style_->character;
   const float* entries = c.entry_poses.data();
@@ -112,7 +112,7 @@ float FragmentSelector::measure_candidates(const Control& evident, const StepSeq
   const bool went = goes(evident);
   const auto out_of_turn = static_cast<float>(kOutOfTurn * workspace_->tips[0].reach());
   float least = std::numeric_limits<float>::infinity();
-  for (auto& [distance, fragment] : workspace_->candidates) {
+  for (auto& [distance, fragment] : candidates) {
     const float* entry = entries + onward.size() * fragment;
     distance = tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3) / 2;
     if (went && goes(fragments[fragment].evident)) {
@@ -141,14 +141,15 @@ int FragmentSelector::continuation(int fragment, int next_class, const Control& 
   const bool is_excluded =
       quality.match[static_cast<std::size_t>(class_of(next)) * quality.controls + c.space.nearest(control)] == 0;
   if (is_excluded || !matches_jump(evident, control) || !goes_as_asked(evident, control)) return -1;
-  return c.space.distance(evident, control) <= find_candidates(next_class, control) ? next : -1;
+  return c.space.distance(evident, control) <= find_candidates(next_class, control, workspace_->candidates[0]) ? next
+                                                                                                               : -1;
 }
 
 int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback) {
-  find_candidates(next_class, control);
+  Candidates& candidates = workspace_->candidates[0];
+  find_candidates(next_class, control, candidates);
   extrapolate(playback);
-  const float least = measure_candidates(playback.evident(), playback.steps());
-  std::vector<std::pair<float, int>>& candidates = workspace_->candidates;
+  const float least = measure_candidates(playback.evident(), playback.steps(), candidates);
   const double allowed = kJoinsWell * least + kJoinsNear * workspace_->tips[0].reach();
   const auto joins = [&](const auto& each) { return each.first <= allowed; };
   const auto end = std::partition(candidates.begin(), candidates.end(), joins);
@@ -178,9 +179,10 @@ int FragmentSelector::best_class(const Control& control, const Playback& playbac
 }
 
 double FragmentSelector::distance_to_class(int next_class, const Control& control, const Playback& playback) const {
-  find_candidates(next_class, control);
+  Candidates& candidates = workspace_->candidates[0];
+  find_candidates(next_class, control, candidates);
   extrapolate(playback);
-  return measure_candidates(playback.evident(), playback.steps()) / workspace_->tips[0].reach();
+  return measure_candidates(playback.evident(), playback.steps(), candidates) / workspace_->tips[0].reach();
 }
 
 double FragmentSelector::distance_after(int fragment, int next_class, const Control& control,
@@ -191,9 +193,10 @@ double FragmentSelector::distance_after(int fragment, int next_class, const Cont
   for (int frame = f.first_played(); frame < f.last_played(); ++frame) {
     steps.advance(standing_feet(contacts, frame + 1), 1 / c.pool.clips[f.clip].rate);
   }
-  find_candidates(next_class, control);
+  Candidates& candidates = workspace_->candidates[0];
+  find_candidates(next_class, control, candidates);
   extrapolate_end(f);
-  return measure_candidates(f.evident, steps) / workspace_->tips[0].reach();
+  return measure_candidates(f.evident, steps, candidates) / workspace_->tips[0].reach();
 }
 
 double FragmentSelector::distance_to(int move, const Playback& playback) const {
@@ -203,28 +206,37 @@ double FragmentSelector::distance_to(int move, const Playback& playback) const {
   return tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3) / 2 / workspace_->tips[0].reach();
 }
 
-// No later moment is looked at once waiting alone costs too much. What is shown kEntry before a moment is known from
-// the last but one.
-Exit FragmentSelector::best_exit(int next_class, const Control& control, const Playback& playback, double haste) const {
+// For neither class a moment is looked at once waiting alone costs too much. What is shown kEntry before a moment is
+// known from the last but one.
+std::array<Exit, 2> FragmentSelector::best_exits(const std::array<int, 2>& classes, const Control& control,
+                                                 const Playback& playback, double haste) const {
   const double seconds = playback.seconds(), rest = playback.left();
-  find_candidates(next_class, control);
   auto& [long_before, before, now] = workspace_->tips;
   haste *= now.reach();
+  std::array<Exit, 2> exits;
+  for (std::size_t i = 0; i < exits.size(); ++i) {
+    exits[i] = {classes[i], seconds, std::numeric_limits<double>::infinity()};
+    if (classes[i] >= 0) find_candidates(classes[i], control, workspace_->candidates[i]);
+  }
+  const auto is_open = [&](std::size_t i, double wait) { return classes[i] >= 0 && haste * wait < exits[i].cost; };
   pose_tips(playback, seconds - kEntry, long_before);
   pose_tips(playback, seconds - kLook, before);
   StepSequence steps = playback.steps();
-  double best = 0, least = std::numeric_limits<double>::infinity();
-  for (double wait = 0; haste * wait < least; wait = std::min(wait + kLook, rest)) {
+  for (double wait = 0; is_open(0, wait) || is_open(1, wait); wait = std::min(wait + kLook, rest)) {
     if (wait == rest) pose_tips(playback, seconds + wait - kEntry, long_before);
     extrapolate(pose_tips(playback, seconds + wait, now), long_before, now);
     if (wait > 0) steps.advance(playback.standing_feet(seconds + wait), kLook);
-    const double cost = measure_candidates(playback.evident(), steps) + haste * wait;
-    if (cost < least) least = cost, best = wait;
+    for (std::size_t i = 0; i < exits.size(); ++i) {
+      if (!is_open(i, wait)) continue;
+      const double cost = measure_candidates(playback.evident(), steps, workspace_->candidates[i]) + haste * wait;
+      if (cost < exits[i].cost) exits[i].cost = cost, exits[i].seconds = seconds + wait;
+    }
     if (wait >= rest) break;
     std::swap(long_before, before);
     std::swap(before, now);
   }
-  return {next_class, seconds + best, least / now.reach()};
+  for (Exit& exit : exits) exit.cost /= now.reach();
+  return exits;
 }
 
 }  // namespace fragmotion

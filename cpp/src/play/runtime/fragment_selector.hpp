@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+
 #include "base/random.hpp"
 #include "runtime/playback.hpp"
 
@@ -56,9 +58,11 @@ class FragmentSelector {
   /// How badly a move joins on to what is shown, m a metre of tip_reach(), of places and speeds.
   double distance_to(int move, const Playback& playback) const;
 
-  /// The moment at which what plays is best left for this class, s since the fragment's first pose: every second of
-  /// waiting costs as much as `haste` metres a metre of tip_reach() between the poses that are joined.
-  Exit best_exit(int next_class, const Control& control, const Playback& playback, double haste) const;
+  /// For each of two classes (-1: none) the moment at which what plays is best left for it, s since the fragment's
+  /// first pose: every second of waiting costs as much as `haste` metres a metre of tip_reach() between the poses that
+  /// are joined.
+  std::array<Exit, 2> best_exits(const std::array<int, 2>& classes, const Control& control, const Playback& playback,
+                                 double haste) const;
 
  private:
   friend struct PlayerState;
@@ -68,8 +72,8 @@ class FragmentSelector {
   void extrapolate(const Playback& playback) const;
   void extrapolate_end(const Fragment& fragment) const;
   bool goes_as_asked(const Control& evident, const Control& control) const;
-  float find_candidates(int next_class, const Control& control) const;
-  float measure_candidates(const Control& evident, const StepSequence& steps) const;
+  float find_candidates(int next_class, const Control& control, Candidates& candidates) const;
+  float measure_candidates(const Control& evident, const StepSequence& steps, Candidates& candidates) const;
 
   Workspace* workspace_;
   const FragmentLists* style_;  // that is chosen from

@@ -29,7 +29,7 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
     for (std::size_t b = 0; b < turns.size(); ++b) fastest_looks[b] = std::max(fastest_looks[b], turns[b]);
     most = std::max(most, c.pool.fragments.size());
   }
-  candidates.reserve(most);
+  for (Candidates& each : candidates) each.reserve(most);
   shown.rotations.resize(std::size_t{4} * kinematics.bones());
   poses.fill(shown);
   for (WorldPose& pose : looks) pose.rotations.resize(4 * look.size());

@@ -24,6 +24,9 @@ struct FragmentLists {
   std::vector<int> successors;            ///< successors()
 };
 
+/// Members of a class, with how far they are from what is wanted of them.
+using Candidates = std::vector<std::pair<float, int>>;
+
 /// What players of one character that step in turn share: what never changes, and room to work in.
 struct Workspace {
   /// The character must outlive it.
@@ -41,8 +44,8 @@ struct Workspace {
 
   // Of the FragmentSelector's: rows as those of Character::entry_poses.
   std::array<BodyTips, 3> tips;
-  std::vector<float> onward;                      ///< Tips of what is shown, and of how it would go on.
-  std::vector<std::pair<float, int>> candidates;  ///< Fragments by their distance from it.
+  std::vector<float> onward;             ///< Tips of what is shown, and of how it would go on.
+  std::array<Candidates, 2> candidates;  ///< Of one class, or of the two that are compared.
 
   WorldPose shown;                 ///< By the player that stepped last.
   std::array<WorldPose, 4> poses;  ///< Of a stitch.

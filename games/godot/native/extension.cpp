@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Where Godot enters.
+#include "help.hpp"
+#include "player.hpp"
+
+namespace fragmotion::godot {
+
+namespace {
+
+void begin(void* /*data*/, GDExtensionInitializationLevel level) {
+  if (level == GDEXTENSION_INITIALIZATION_SCENE) {
+    Policy::add();
+    Player::add();
+  }
+  if (level == GDEXTENSION_INITIALIZATION_EDITOR) {
+    for (const char* page : kHelp) engine.load_help(page);
+  }
+}
+
+void end(void* /*data*/, GDExtensionInitializationLevel level) {
+  if (level != GDEXTENSION_INITIALIZATION_SCENE) return;
+  for (const char* name : {Player::kName, Policy::kName}) {
+    const Name own(name);
+    engine.unregister_class(engine.library, &own);
+  }
+}
+
+}  // namespace
+
+}  // namespace fragmotion::godot
+
+extern "C" FRAGMOTION_EXPORT GDExtensionBool fragmotion_godot(GDExtensionInterfaceGetProcAddress get,
+                                                              GDExtensionClassLibraryPtr library,
+                                                              GDExtensionInitialization* initialization) {
+  if (!fragmotion::godot::load_engine(get, library)) return 0;
+  initialization->minimum_initialization_level = GDEXTENSION_INITIALIZATION_SCENE;
+  initialization->userdata = nullptr;
+  initialization->initialize = &fragmotion::godot::begin;
+  initialization->deinitialize = &fragmotion::godot::end;
+  return 1;
+}

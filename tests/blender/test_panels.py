@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: MIT
+"""What a user has in sight in the sidebar."""
+
+from __future__ import annotations
+
+from types import ModuleType, SimpleNamespace
+from typing import Any
+
+import bpy
+import numpy as np
+import pytest
+
+
+class Layout:
+    """Notes what a panel draws: fields by their names, buttons by their operators."""
+
+    def __init__(self, noted: dict[str, list[str]] | None = None) -> None:
+        self.__dict__["noted"] = {"fields": [], "buttons": [], "texts": []} if noted is None else noted
+
+    def __setattr__(self, name: str, value: object) -> None:
+        """Any layout's settings are welcome."""
+
+    def _part(self, *_arguments: Any, **_options: Any) -> Layout:
+        return Layout(self.noted)
+
+    row = column = box = split = grid_flow = column_flow = menu_pie = _part
+
+    def prop(self, _data: Any, name: str, **options: Any) -> None:
+        if not name.startswith("show_") or options.get("emboss", True):
+            self.noted["fields"].append(name)
+
+    def prop_search(self, _data: Any, name: str, *_others: Any, **_options: Any) -> None:
+        self.noted["fields"].append(name)
+
+    def operator(self, name: str, **_options: Any) -> SimpleNamespace:
+        self.noted["buttons"].append(name)
+        return SimpleNamespace()
+
+    def label(self, text: str = "", **_options: Any) -> None:
+        self.noted["texts"].append(text)
+
+    def template_list(self, *_arguments: Any, **_options: Any) -> None:
+        """A list is no field."""
+
+    progress = template_ID = template_icon = separator = menu = template_list
+
+
+def drawn(panel: Any) -> dict[str, list[str]]:
+    """What the panel draws."""
+    layout, context = Layout(), bpy.context.copy()
+    preferences = SimpleNamespace(addons=bpy.context.preferences.addons, system=SimpleNamespace(ui_scale=1.0))
+    context.update(region=SimpleNamespace(width=300), preferences=preferences)
+    panel.draw(SimpleNamespace(layout=layout), SimpleNamespace(**context))
+    return layout.noted
+
+
+def shown(addon: ModuleType, is_open: Any) -> list[Any]:
+    """The panels that are there now, below none that is closed."""
+    panels = {cls.bl_idname: cls for cls in addon.panels.panel.CLASSES if issubclass(cls, bpy.types.Panel)}
+
+    def is_shown(panel: Any) -> bool:
+        parent = panels.get(getattr(panel, "bl_parent_id", ""))
+        is_there = getattr(panel, "poll", bool)(bpy.context)
+        return is_there and (parent is None or (is_open(parent) and is_shown(parent)))
+
+    return [panel for panel in panels.values() if is_shown(panel)]
+
+
+def is_open_at_first(panel: Any) -> bool:
+    return "DEFAULT_CLOSED" not in getattr(panel, "bl_options", ())
+
+
+def in_sight(addon: ModuleType) -> dict[str, list[str]]:
+    """What a user sees who has opened and closed nothing; "panels" are the headers."""
+    panels = shown(addon, is_open_at_first)
+    noted = [drawn(panel) for panel in panels if is_open_at_first(panel)]
+    seen = {kind: [name for each in noted for name in each[kind]] for kind in ("fields", "buttons")}
+    return {"panels": [panel.bl_label for panel in panels], **seen}
+
+
+def test_a_new_user_has_few_fields_in_sight(addon: ModuleType) -> None:
+    stages = {"empty": in_sight(addon)}
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    stages["sample"] = in_sight(addon)
+    obj = bpy.context.active_object
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=20, synthesize=False) == {"FINISHED"}
+    stages["built"] = in_sight(addon)
+    addon.recordings.recordings.add_recording(obj, np.tile([0, 1.2, 0, 0], (20, 1)).astype(float))
+    stages["recorded"] = in_sight(addon)
+    assert max(len(seen["fields"]) for seen in stages.values()) <= 12
+    assert stages["sample"]["fields"] == ["take_search", "take_order", "relative"]
+    assert stages["recorded"]["fields"] == ["relative"]
+    for stage, needed in (("sample", "build"), ("built", "drive"), ("recorded", "bake")):
+        assert f"fragmotion.{needed}" in stages[stage]["buttons"]
+
+
+def test_every_panel_can_be_drawn(addon: ModuleType) -> None:
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    obj = bpy.context.active_object
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=20, synthesize=False) == {"FINISHED"}
+    addon.recordings.recordings.add_recording(obj, np.tile([0, 1.2, 0, 0], (20, 1)).astype(float))
+    manager = bpy.context.window_manager.fragmotion
+    manager.show_mocap = manager.show_build = True
+    panels = shown(addon, lambda _panel: True)
+    assert len(panels) > 20
+    assert all(any(drawn(panel).values()) for panel in panels if panel.bl_label != "Coverage"), "but for pictures"
+
+
+@pytest.mark.parametrize(
+    ("names", "beginning"),
+    [
+        (["dataset-1_walk_001", "dataset-1_walk_002"], "dataset-1_walk_"),
+        (["dataset-1_walk_001", "dataset-1_run_001"], "dataset-1_"),
+        (["walk forward", "walking", "walk back"], ""),
+        (["walk ", "walk back"], ""),
+        (["walk"], ""),
+        ([], ""),
+    ],
+)
+def test_names_of_takes_are_listed_without_what_all_begin_with(
+    addon: ModuleType, names: list[str], beginning: str
+) -> None:
+    assert addon.mocap.actions.common_beginning(names) == beginning
+
+
+def test_the_pie_offers_what_can_be_done_now(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:
+    pie = addon.panels.menus.FRAGMOTION_MT_pie
+    assert drawn(pie)["buttons"] == ["fragmotion.bake", "fragmotion.record", "fragmotion.drive"]
+    addon.recordings.recordings.add_recording(obj, np.tile([0, 1.2, 0, 0], (20, 1)).astype(float))
+    assert drawn(pie)["buttons"] == ["fragmotion.bake", "fragmotion.record", *["fragmotion.drive"] * 2]

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""What plays a character without Blender."""
