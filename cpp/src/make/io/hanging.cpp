@@ -70,4 +70,19 @@ std::map<int, int> find_hanging(const std::vector<int>& parents, const double* r
   return hanging;
 }
 
+std::vector<int> ordered_bones(const std::vector<int>& parents, const std::vector<int>& hangs) {
+  std::vector<int> order;
+  std::vector<char> placed(hangs.size(), 0);
+  const auto is_placed = [&](int bone) { return bone < 0 || placed[bone]; };
+  for (std::size_t before = 1; order.size() != before;) {
+    before = order.size();
+    for (int b = 0; b < static_cast<int>(hangs.size()); ++b) {
+      if (placed[b] || !is_placed(hangs[b]) || !is_placed(parents[b])) continue;
+      placed[b] = 1;
+      order.push_back(b);
+    }
+  }
+  return order;
+}
+
 }  // namespace fragmotion

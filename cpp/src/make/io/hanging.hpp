@@ -13,4 +13,8 @@ namespace fragmotion {
 std::map<int, int> find_hanging(const std::vector<int>& parents, const double* rest, const double* poses, int frames,
                                 const std::vector<int>& candidates);
 
+/// The bones, in their order but each after its parent and the one that it hangs on; without those that hang on a bone
+/// that they move.
+std::vector<int> ordered_bones(const std::vector<int>& parents, const std::vector<int>& hangs);
+
 }  // namespace fragmotion

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/quantile.hpp"
+#include "io/hanging.hpp"
 #include "io/rigid_matrix.hpp"
 #include "skeleton/role_names.hpp"
 #include "skeleton/roles.hpp"
@@ -61,21 +62,11 @@ std::vector<int> hanging(const Armature& armature) {
   return hangs;
 }
 
-/// All bones in their order, but each after its parent and the one that it hangs on.
-std::vector<int> ordered(const Armature& armature, const std::vector<int>& hangs) {
-  std::vector<int> order;
-  std::vector<char> placed(hangs.size(), 0);
-  const auto is_placed = [&](int bone) { return bone < 0 || placed[bone]; };
-  while (order.size() < hangs.size()) {
-    const std::size_t before = order.size();
-    for (int b = 0; b < static_cast<int>(hangs.size()); ++b) {
-      if (placed[b] || !is_placed(hangs[b]) || !is_placed(armature.parents[b])) continue;
-      placed[b] = 1;
-      order.push_back(b);
-    }
-    if (order.size() > before) continue;
-    const auto stuck = std::find(placed.begin(), placed.end(), 0) - placed.begin();
-    fail(bone_label(armature, static_cast<int>(stuck)), "hangs on a bone that it moves");
+std::vector<int> checked_order(const Armature& armature, const std::vector<int>& hangs) {
+  std::vector<int> order = ordered_bones(armature.parents, hangs);
+  for (int b = 0; b < static_cast<int>(hangs.size()); ++b) {
+    if (std::find(order.begin(), order.end(), b) == order.end())
+      fail(bone_label(armature, b), "hangs on a bone that it moves");
   }
   return order;
 }
@@ -177,7 +168,7 @@ Rig::Rig(Armature armature)
       rest_(parse_rest(armature_)),
       local_(rest_in(armature_.parents)),
       hangs_(hanging(armature_)),
-      order_(ordered(armature_, hangs_)),
+      order_(checked_order(armature_, hangs_)),
       kinematics_(choose_tree(skeleton_bones_)) {}
 
 Rig::Object Rig::parse_object(const double* matrix, const std::string& label) {

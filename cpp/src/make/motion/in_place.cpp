@@ -7,9 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "base/quantile.hpp"
 #include "motion/cycle.hpp"
-#include "motion/foot_paths.hpp"
+#include "motion/soles.hpp"
 
 namespace fragmotion {
 namespace {
@@ -19,7 +18,6 @@ constexpr double kStays = 0.4;                       // m that hips on the spot 
 constexpr double kGoes = 0.5;                        // m/s: what is slower stands
 constexpr double kTurns = kPi / 12;                  // rad/s: feet that stand turn by less in a gait that goes straight
 constexpr double kLow = 0.02;                        // m over its lowest: a sole on the ground
-constexpr double kThick = 0.1;                       // m at most from the joints of a foot to its sole
 constexpr double kHalfLow = 0.025;                   // m: a point so high counts for nothing in the first guess
 constexpr double kWindow = 1.0 / 30;                 // s over which velocities are told: keys and markers tremble
 constexpr double kGrip = kGravity;                   // m/s^2: friction seldom gives more than the weight
@@ -47,105 +45,6 @@ Velocities smoothed(const Velocities& values, const std::vector<double>& weights
   }
   return result;
 }
-
-// One point of a sole: its path, and the height over which it is all but 2 % of the time.
-struct SolePoint {
-  std::vector<Vector3> path;
-  double lowest = 0;
-};
-
-// A foot's sole under its heel, ball and the toe's end, where the foot has these.
-struct Sole {
-  std::vector<SolePoint> points;
-
-  const SolePoint& heel() const { return points[0]; }
-  const SolePoint& ball() const { return points[1]; }
-};
-
-// The joints of a foot, each seen from the bone that it moves with.
-struct Joint {
-  int bone = -1;
-  Vector3 place = Vector3::Zero();
-};
-
-std::vector<Joint> joints_of(const Skeleton& skeleton, int foot, int toe) {
-  if (toe < 0) return {{foot, Vector3::Zero()}, {foot, skeleton.tips[foot]}};
-  return {{foot, Vector3::Zero()}, {toe, Vector3::Zero()}, {toe, skeleton.tips[toe]}};
-}
-
-// Where the soles of a clip's feet are: what is under the joints, on the ground, when the foot stands flattest.
-class Soles {
- public:
-  Soles(const Kinematics& kinematics, const Clip& clip) : kinematics_(kinematics), clip_(clip) {
-    const Roles& roles = kinematics.skeleton().roles;
-    feet_[0] = joints_of(kinematics.skeleton(), roles.left_foot, roles.left_toe);
-    feet_[1] = joints_of(kinematics.skeleton(), roles.right_foot, roles.right_toe);
-    bones_ = kinematics.chains({roles.left_foot, roles.right_foot, roles.left_toe, roles.right_toe});
-  }
-
-  std::array<Sole, 2> find() {
-    std::array<int, 2> flattest = {0, 0};
-    std::array<double, 2> lowest = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    visit([&](int f, const PosedBones& posed) {
-      for (int side = 0; side < 2; ++side) {
-        const double height = at(posed, feet_[side][0]).z() + at(posed, feet_[side][1]).z();
-        if (height < lowest[side]) lowest[side] = height, flattest[side] = f;
-      }
-    });
-    visit([&](int f, const PosedBones& posed) {
-      for (int side = 0; side < 2; ++side) {
-        if (f == flattest[side]) drop(posed, feet_[side]);
-      }
-    });
-    return follow();
-  }
-
- private:
-  template <typename Visitor>
-  void visit(Visitor visitor) const {
-    PosedBones posed(kinematics_.bones());
-    for (int f = 0; f < clip_.frames; ++f) {
-      world(kinematics_, clip_, f, bones_, posed.heads.data(), posed.rotations.data());
-      visitor(f, posed);
-    }
-  }
-
-  static Vector3 at(const PosedBones& posed, const Joint& joint) {
-    return posed.heads[joint.bone] + posed.rotations[joint.bone] * joint.place;
-  }
-
-  // To the ground, which is at height 0 where that may be under the joints, else as high as the lowest of them.
-  void drop(const PosedBones& posed, std::vector<Joint>& joints) const {
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const Joint& joint : joints) lowest = std::min(lowest, at(posed, joint).z());
-    const bool is_over = lowest >= 0 && lowest * standard_scale(kinematics_.skeleton()) <= kThick;
-    for (Joint& joint : joints) {
-      Vector3 under = at(posed, joint);
-      under.z() = is_over ? 0 : lowest;
-      joint.place = posed.rotations[joint.bone].conjugate() * (under - posed.heads[joint.bone]);
-    }
-  }
-
-  std::array<Sole, 2> follow() const {
-    std::array<Sole, 2> soles;
-    for (int side = 0; side < 2; ++side) soles[side].points.resize(feet_[side].size());
-    visit([&](int, const PosedBones& posed) {
-      for (int side = 0; side < 2; ++side) {
-        for (std::size_t i = 0; i < feet_[side].size(); ++i)
-          soles[side].points[i].path.push_back(at(posed, feet_[side][i]));
-      }
-    });
-    for (Sole& sole : soles) {
-      for (SolePoint& point : sole.points) point.lowest = floor_of(point.path);
-    }
-    return soles;
-  }
-
-  const Kinematics& kinematics_;
-  const Clip& clip_;
-  std::array<std::vector<Joint>, 2> feet_;
-  std::vector<int> bones_;
-};
 
 // How the ground goes back under a clip's soles, over windows of `span` frames.
 class Treading {
@@ -349,7 +248,7 @@ Vector2 mean_of(const Velocities& velocities, const Clip& clip) {
 
 std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
   const double scale = standard_scale(kinematics.skeleton());
-  const std::array<Sole, 2> soles = Soles(kinematics, clip).find();
+  const std::array<Sole, 2> soles = find_soles(kinematics, clip);
   const Treading treading(soles, clip.rate, scale);
   if (!treading.is_long_enough()) return std::nullopt;
   FeetWay way;
