@@ -106,7 +106,6 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "offsets": np.array(OFFSETS, float),
             "tips": np.array(TIPS, float),
             "roles": {"head": "head"},
-            "hangs": {},
         },
         "find_hanging": {
             "parents": PARENTS,
@@ -148,6 +147,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "inherit_rotation": np.ones(bones, bool),
             "local_location": np.ones(bones, bool),
             "roles": {"head": "head"},
+            "hangs": {},
         },
         "Rig.clip": {
             "self": rig,

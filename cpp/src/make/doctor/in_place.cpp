@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "motion/in_place.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -15,9 +16,16 @@ struct Shown {
   Clip clip;
 };
 
+// Whether the hips go farther than the body is tall: a long take that does is not looked at whole.
+bool travels(const Patient& patient) {
+  const std::vector<Vector3>& hips = patient.tracks()->hips;
+  return std::any_of(hips.begin(), hips.end(),
+                     [&](const Vector3& place) { return (place - hips.front()).head<2>().norm() > patient.stature(); });
+}
+
 // The patient as a clip; nothing where it can be none.
 std::optional<Shown> shown(const Patient& patient) {
-  if (!patient.has_legs() || patient.frames() < 3 || !patient.tracks()) return std::nullopt;
+  if (!patient.has_legs() || patient.frames() < 3 || !patient.tracks() || travels(patient)) return std::nullopt;
   return Shown{Kinematics(patient.skeleton()), clip_from_take(patient.skeleton(), patient.take())};
 }
 
