@@ -173,7 +173,7 @@ void bind_abilities(py::module_& m) {
         const std::vector<char> done = without_gil([&] { return abilities(character, threads); });
         return std::vector<bool>(done.begin(), done.end());
       },
-      py::arg("character"), py::arg("threads") = 0);
+      py::arg("character").none(false), py::arg("threads") = 0);
 }
 
 void bind_explain(py::module_& m) {

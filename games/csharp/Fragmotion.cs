@@ -98,11 +98,16 @@ public struct PlayerOptions {
   public double TimeScale;
   public double FixedStep;
   private int holdFeet;
-  private int reserved;
+  private int crossFades;
 
   public bool HoldFeet {
     get { return holdFeet != 0; }
     set { holdFeet = value ? 1 : 0; }
+  }
+  /// Mixes both motions while one goes over into the next, for comparison; chosen as the player is made.
+  public bool CrossFades {
+    get { return crossFades != 0; }
+    set { crossFades = value ? 1 : 0; }
   }
   public static PlayerOptions Default {
     get {

@@ -19,7 +19,7 @@ from tools.paths import TOP
 Result = dict[str, Any]
 PAGE = TOP / "docs" / "evaluation.md"
 FIGURES = TOP / "docs" / "evaluation"
-_PLAYERS = TOP / "cpp" / "src" / "control" / "simulated_players.cpp"
+_PLAYERS = TOP / "cpp" / "src" / "make" / "control" / "simulated_players.cpp"
 _PLAYER = re.compile(r'^ +\{"(\w+)", +(.*)\},$', re.MULTILINE)
 
 # The paper's Table 1 and Sec. 4.

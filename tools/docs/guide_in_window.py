@@ -114,7 +114,7 @@ def pictures_of_building() -> Iterator[None]:
     window.press(bpy.ops.fragmotion.build, "EXEC_DEFAULT", True, synthesize=False)
     yield from panels("coverage", "Coverage")
     window.press(bpy.ops.fragmotion.build, "EXEC_DEFAULT", True, synthesize=True)
-    yield from panels("build", "Build", "Figures")
+    yield from panels("build", "Build", "Build Options", "Figures")
     manager, rows = bpy.context.window_manager.fragmotion, character().fragmotion.classes
     manager.active_class = next(number for number, row in enumerate(rows) if row.suggested.startswith("run"))
     yield from panels("classes", "Classes")

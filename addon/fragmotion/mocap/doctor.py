@@ -22,7 +22,8 @@ IN_PLACE = "in_place"
 """The code of a finding that the take goes on the spot."""
 
 _UNIT = "unit"  # a finding's code
-_WAIT = 0.1  # s
+WAIT = 0.1
+"""Seconds between looks at a thread that is waited for."""
 
 
 class TakeFinding(bpy.types.PropertyGroup):
@@ -69,7 +70,7 @@ def examine(
     job.start()
     try:
         while job.running:
-            job.wait(_WAIT)
+            job.wait(WAIT)
             yield begin + (end - begin) * job.fraction
     except GeneratorExit:
         job.cancel()

@@ -33,7 +33,7 @@ from ..settings.drawing import (
     draw_training,
     draw_wrapped,
 )
-from . import bones, classes, control_rig, doctor, drive, left_out, moves, path, recordings
+from . import bones, classes, control_rig, doctor, drive, game, left_out, moves, path, recordings
 from .doctor import LIGHTS
 from .sidebar import Sidebar, SubPanel, draw_fold, draw_play, is_folded
 
@@ -76,8 +76,10 @@ class FRAGMOTION_UL_actions(bpy.types.UIList):
         settings = context.window_manager.fragmotion
         by_name = bpy.types.UI_UL_list.filter_items_by_name(self.filter_name, self.bitflag_filter_item, actions)
         named = by_name or [self.bitflag_filter_item] * len(actions)
-        found = [obj and fits_cached(action, obj) and is_found(action, settings.take_search) for action in actions]
-        FRAGMOTION_UL_actions.beginning = common_beginning([action.name for action in fitting(obj)] if obj else [])
+        fitting_obj = [obj is not None and fits_cached(action, obj) for action in actions]
+        names = [action.name for action, fits in zip(actions, fitting_obj) if fits]
+        FRAGMOTION_UL_actions.beginning = common_beginning(names)
+        found = [fits and is_found(action, settings.take_search) for action, fits in zip(actions, fitting_obj)]
         order = _order(actions, context.scene, settings.take_order)
         return [flag if fits else 0 for flag, fits in zip(named, found)], order
 
@@ -334,4 +336,5 @@ CLASSES = (
     *recordings.CLASSES,
     FRAGMOTION_PT_bake,
     *recordings.BAKE_CLASSES,
+    *game.CLASSES,
 )

@@ -109,6 +109,8 @@ static class Tests {
         player.Options = options;
         Walk(player, 60);
         Expect(player.State.Place.Position == Vector3.Zero, "it pauses");
+        options.CrossFades = true;
+        using (var fading = new Player(hero, options)) Expect(fading.Options.CrossFades, "it cross-fades");
       }
     }
 

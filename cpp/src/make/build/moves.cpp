@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "build/stages.hpp"
+#include "motion/pack_clip.hpp"
 #include "motion/trunk.hpp"
 
 namespace fragmotion {
@@ -72,8 +73,8 @@ Character with_moves(const Character& character, const std::vector<MoveClip>& mo
     };
     added.push_back({move.name, static_cast<int>(result.pool.clips.size()), move.upper_body, move.wait,
                      frame(move.loop[0]), frame(move.loop[1])});
-    result.contacts.push_back(find_plants(kinematics, clip, &floors));
     result.pool.clips.push_back(pack(skeleton, grid, clip));
+    result.contacts.push_back(find_plants(kinematics, unpack(result.pool.clips.back()), &floors));  // of what is played
   }
   result.moves = std::move(added);
   result.move_parts = move_parts(result.pool, result.moves);

@@ -58,6 +58,7 @@ PlayerOptions to_options(const FragmotionPlayerOptions& options) {
   wanted.seed = options.seed;
   wanted.stitch = options.stitch;
   wanted.lock_feet = options.hold_feet != 0;
+  wanted.stitching = options.cross_fades != 0 ? Stitching::crossfade : Stitching::inertialize;
   wanted.root_adjustment = options.root_adjustment;
   wanted.responsiveness = options.responsiveness;
   return wanted;
@@ -70,6 +71,7 @@ void check_options(const FragmotionPlayerOptions& options) {
   if (options.stitch != 0) demand_range("stitch", options.stitch, kShortestStitch, 1);
   demand_range("time_scale", options.time_scale, 0, 100);
   demand_range("hold_feet", options.hold_feet, 0, 1);
+  demand_range("cross_fades", options.cross_fades, 0, 1);
   if (options.fixed_step != 0) demand_range("fixed_step", options.fixed_step, 0.001, 1);
 }
 
@@ -435,6 +437,7 @@ void FragmotionPlayer::exchange(Archive& a) {
   std::uint64_t step = 0;
   std::memcpy(&step, &options.fixed_step, sizeof step);
   a.same(step, "of a player with another fixed_step");
+  a.same(static_cast<std::uint64_t>(options.cross_fades), "of a player with other cross_fades");
   exchange_options(a, options);
   if constexpr (Archive::kKeeps) player.set_options(to_options(options));
   PlayerState::exchange(a, player);
