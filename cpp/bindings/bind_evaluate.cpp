@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
+#include "evaluate/abilities.hpp"
 #include "evaluate/about_face.hpp"
 #include "evaluate/change_pushes.hpp"
 #include "evaluate/explain.hpp"
@@ -165,6 +166,16 @@ void bind_suggestion(py::module_& m) {
       py::arg("progress") = py::none());
 }
 
+void bind_abilities(py::module_& m) {
+  m.def(
+      "abilities",
+      [](const std::shared_ptr<const Character>& character, int threads) {
+        const std::vector<char> done = without_gil([&] { return abilities(character, threads); });
+        return std::vector<bool>(done.begin(), done.end());
+      },
+      py::arg("character").none(false), py::arg("threads") = 0);
+}
+
 void bind_explain(py::module_& m) {
   py::class_<Alternative>(m, "Alternative", py::module_local())
       .def_readonly("next", &Alternative::next)
@@ -189,6 +200,7 @@ void bind_evaluate(py::module_& m) {
   bind_yardsticks(m);
   bind_speeds(m);
   bind_suggestion(m);
+  bind_abilities(m);
   bind_explain(m);
 }
 

@@ -5,8 +5,10 @@
 #include <map>
 
 #include "arrays.hpp"
+#include "base/ranges.hpp"
 #include "io/asf_amc.hpp"
 #include "io/bvh.hpp"
+#include "io/hanging.hpp"
 #include "io/rig.hpp"
 #include "io/rotation.hpp"
 
@@ -21,8 +23,8 @@ std::vector<bool> to_flags(const std::optional<Flags>& flags, const std::string&
 
 Rig new_rig(const std::vector<std::string>& names, const std::vector<int>& parents, const Doubles& rest,
             const Doubles& lengths, const Doubles& world, const std::optional<Flags>& inherit_rotation,
-            const std::optional<Flags>& local_location,
-            const std::optional<std::map<std::string, std::string>>& roles) {
+            const std::optional<Flags>& local_location, const std::optional<std::map<std::string, std::string>>& roles,
+            const std::optional<std::map<std::string, std::string>>& hangs) {
   const auto bones = static_cast<py::ssize_t>(names.size());
   check_shape(rest, "rest", {bones, 4, 4});
   check_shape(lengths, "lengths", {bones});
@@ -37,6 +39,7 @@ Rig new_rig(const std::vector<std::string>& names, const std::vector<int>& paren
   armature.inherit_rotation = to_flags(inherit_rotation, "inherit_rotation", bones);
   armature.local_location = to_flags(local_location, "local_location", bones);
   if (roles) armature.roles = *roles;
+  if (hangs) armature.hangs = *hangs;
   return Rig(std::move(armature));
 }
 
@@ -100,7 +103,7 @@ void bind_rig(py::module_& m) {
   py::class_<Rig>(m, "Rig", py::module_local())
       .def(py::init(&new_rig), py::arg("names"), py::arg("parents"), py::arg("rest"), py::arg("lengths"),
            py::arg("world"), py::arg("inherit_rotation") = py::none(), py::arg("local_location") = py::none(),
-           py::arg("roles") = py::none())
+           py::arg("roles") = py::none(), py::arg("hangs") = py::none())
       .def_property_readonly("skeleton", &Rig::skeleton)
       .def(
           "clip",
@@ -146,12 +149,24 @@ void bind_rig(py::module_& m) {
           py::arg("take"));
 }
 
+std::map<int, int> hanging(const std::vector<int>& parents, const Doubles& rest, const Doubles& poses,
+                           const std::vector<int>& candidates) {
+  const int bones = static_cast<int>(parents.size());
+  check_shape(rest, "rest", {bones, 4, 4});
+  check_shape(poses, "poses", {-1, bones, 4, 4});
+  for (int b = 0; b < bones; ++b) require_range("a bone's parent", parents[b], -1, b - 1);
+  for (const int bone : candidates) require_range("a candidate", bone, 0, bones - 1);
+  return without_gil(
+      [&] { return find_hanging(parents, rest.data(), poses.data(), static_cast<int>(poses.shape(0)), candidates); });
+}
+
 }  // namespace
 
 void bind_io(py::module_& m) {
   bind_files(m);
   bind_rotations(m);
   bind_rig(m);
+  m.def("find_hanging", &hanging, py::arg("parents"), py::arg("rest"), py::arg("poses"), py::arg("candidates"));
 }
 
 }  // namespace fragmotion::bindings

@@ -2,12 +2,16 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
+#include "base/ranges.hpp"
 #include "motion/clip.hpp"
+#include "motion/in_place.hpp"
 #include "motion/mirror.hpp"
 #include "skeleton/kinematics.hpp"
 
 namespace fragmotion::bindings {
 namespace {
+
+constexpr double kFastest = 1000;  // m/s
 
 // World positions [F, B, 3] and rotations [F, B, 4].
 struct Transforms {
@@ -69,6 +73,16 @@ Clip new_clip(const Skeleton& skeleton, const std::string& name, double rate, co
   check_shape(rotations, "rotations", {roots.shape(0), skeleton.size(), 4});
   Clip clip{name, rate, static_cast<int>(roots.shape(0)), to_vector(roots), to_vector(rotations), {}};
   return without_gil([&] { return make_clip(skeleton, std::move(clip)); });
+}
+
+/// The clip on the way that its feet tell, at `speed` m/s or, where that is 0, as fast as they tell; and how fast that
+/// is, m/s.
+std::optional<std::tuple<Clip, double>> led_by_feet(const Clip& clip, const Skeleton& skeleton, double speed) {
+  const Kinematics kinematics(skeleton);
+  const std::optional<FeetWay> way = find_feet_way(kinematics, clip);
+  if (!way) return std::nullopt;
+  const double found = way->mean.norm(), faster = speed > 0 && found > 0 ? speed / found : 1;
+  return std::tuple(led(kinematics, clip, *way, faster), found);
 }
 
 Take new_take(const Skeleton& skeleton, const std::string& name, double rate, const Doubles& translations,
@@ -150,6 +164,14 @@ void bind_clip(py::module_& m) {
             return to_tuple(without_gil([&] { return clip_transforms(clip, skeleton); }), clip.frames, skeleton.size());
           },
           py::arg("skeleton"))
+      .def(
+          "led_by_feet",
+          [](const Clip& clip, const Skeleton& skeleton, double speed) -> std::optional<std::tuple<Clip, double>> {
+            check_bones(clip, skeleton);
+            require_range("speed", speed, 0, kFastest);
+            return without_gil([&] { return led_by_feet(clip, skeleton, speed); });
+          },
+          py::arg("skeleton"), py::arg("speed") = 0.0)
       .def(
           "character_frames",
           [](const Clip& clip, const Skeleton& skeleton) {

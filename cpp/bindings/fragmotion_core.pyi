@@ -189,11 +189,13 @@ class Rig:
         inherit_rotation: ArrayLike | None = None,
         local_location: ArrayLike | None = None,
         roles: dict[str, str] | None = None,
+        hangs: dict[str, str] | None = None,
     ) -> None:
         """rest [B,4,4]: armature-space rest matrices (row-major, y along the bone), lengths [B] of the bones along y,
         world [4,4]: the armature object's matrix (a uniform scale only), inherit_rotation and local_location [B] bool
-        (default all True). Raises ValueError on a non-uniform or mirrored scale, naming it. Bones outside the tree of
-        the hips keep their rest pose."""
+        (default all True). hangs: bone -> the bone that it moves with, though it is another's child. Raises ValueError
+        on a non-uniform or mirrored scale, naming it, and on a bone that hangs on one that it moves. Bones outside the
+        tree of the hips keep their rest pose."""
     skeleton: Skeleton
     """In world metres."""
     def clip(
@@ -210,6 +212,14 @@ class Rig:
         """A take's transforms as channels of this rig, bones matched by name; every one of the rig's bones that the
         take lacks rests. The rig must have been made from a take's skeleton (same rest heads), its world matrix a
         uniform scale. Raises ValueError naming the take's bones that the rig lacks."""
+
+def find_hanging(
+    parents: Sequence[int], rest: ArrayLike, poses: ArrayLike, candidates: Sequence[int]
+) -> dict[int, int]:
+    """Bones that carry keys outside the chain of their parents, as feet that are the targets of a leg's IK: on which
+    bone each of the candidates hangs, where it does. rest [B,4,4] and poses [F,B,4,4] in the armature's space. A bone
+    hangs on the one in whose frame it strays least from its place at rest, where that is a fifth at most of what it
+    strays in its parent's."""
 
 class Clip:
     """One take on a skeleton at a fixed rate."""
@@ -229,6 +239,9 @@ class Clip:
     rotations: Doubles
     def world_transforms(self, skeleton: Skeleton) -> tuple[Doubles, Doubles]:
         """World positions [F,B,3] of the heads, m, and rotations [F,B,4]."""
+    def led_by_feet(self, skeleton: Skeleton, speed: float = 0.0) -> tuple[Clip, float] | None:
+        """Of a clip on the spot, whose feet tread while the hips stay: the clip on the way that its feet tell, and how
+        fast they go, m/s. `speed`: how fast it shall go, 0 .. 1000 m/s; 0: as its feet do. None of any other clip."""
     def character_frames(self, skeleton: Skeleton) -> Doubles:
         """[F,3]: the character frame's x, y and heading (rad, within a half turn; of the hips' thighs, not
         smoothed)."""
@@ -890,6 +903,10 @@ def judge_clip(character: Character, trace: ArrayLike, clip: Clip, entered: Sequ
 def optimal_performance(character: Character, trace: ArrayLike, rate: float, shortest: float = 0.1) -> float:
     """The greatest `Performance.quality` that a player could reach who knew the whole trace: it may play a class for
     any time from `shortest` seconds (0 .. 3600) to the longest of its fragments."""
+
+def abilities(character: Character, threads: int = 0) -> list[bool]:
+    """Which of its controls the character does: those without a jump are asked for over four seconds, and done where
+    velocity and turn rate are within a fifth and 30 %; of those with a jump, which a fragment performs."""
 
 @overload
 def response_times(character: Character, options: PlayerOptions) -> Doubles:

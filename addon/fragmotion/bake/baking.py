@@ -34,11 +34,12 @@ if TYPE_CHECKING:
 
 
 class Baked(NamedTuple):
-    """What a bake will write: tracks, the class that plays on each frame, and what to say of it."""
+    """What a bake will write: tracks, the class that plays on each frame, and what to say and to warn of."""
 
     tracks: list[Track]
     classes: Ints
     remark: str
+    warning: str
 
 
 class Stage(NamedTuple):
@@ -111,7 +112,7 @@ def hindrances(obj: bpy.types.Object, own_strip: bool = False) -> list[str]:
 
 
 def _compute(stage: Stage, options: Options, play: Callable[[Report], performing.Played], report: Report) -> Baked:
-    motion, remark = play(report)
+    motion, remark, warning = play(report)
     if options.looped_frames:
         motion = looped(motion, stage.hips, options.looped_frames)
     if options.root == "IN_PLACE":
@@ -126,7 +127,7 @@ def _compute(stage: Stage, options: Options, play: Callable[[Report], performing
             f"; {kept} keys instead of {every} ({100 * kept / every:.0f} %), at most "
             f"{1000 * found.distance:.1f} mm and {math.degrees(found.angle):.2f} degrees off"
         )
-    return Baked(tracks, motion.classes, remark)
+    return Baked(tracks, motion.classes, remark, warning)
 
 
 def _make_poses(stage: Stage, motion: Motion, options: Options) -> Poses:

@@ -33,14 +33,16 @@ if TYPE_CHECKING:
     from fragmotion_core import Character, Doubles, Performance, Player, Rig
 
 _JUDGING_RATE = 30.0  # frames a second at which a recording's quality is measured
+_HARDLY = 0.1  # of the way that it is asked to go
 _CLIP_FRAMES = 2  # a clip has at least so many
 
 
 class Played(NamedTuple):
-    """A motion, and how well it follows its trace in words."""
+    """A motion, how well it follows its trace in words, and what to warn of."""
 
     motion: Motion
     remark: str
+    warning: str = ""
 
 
 def chosen_recording(obj: bpy.types.Object, settings: Any) -> Recording | None:
@@ -123,7 +125,7 @@ def _played(
     performance = player.run(trace, rate, report, moves or None, styled.changes or None)
     motion = Motion(performance.root_positions, performance.rotations, performance.path, performance.classes)
     remarks = filter(None, (styled.remark, *remarks_of(player, ground)))
-    return Played(motion, "; ".join((_judge(performance), *remarks)))
+    return Played(motion, "; ".join((_judge(performance), *remarks)), _hardly_moves(performance))
 
 
 def measure_quality(obj: bpy.types.Object, recording: Recording) -> float:
@@ -192,3 +194,13 @@ def character_frame(context: bpy.types.Context, obj: bpy.types.Object, rig: Rig)
 def _judge(performance: Performance) -> str:
     error, speed = performance.velocity_error, performance.commanded_speed
     return f"velocity error {error:.2f} m/s of {speed:.2f} m/s"
+
+
+def _hardly_moves(performance: Performance) -> str:
+    """What to warn of where a motion goes nowhere though it is asked to; empty where it goes."""
+    path, asked = performance.path[:, :2], performance.commanded_speed
+    seconds = (len(path) - 1) / performance.rate
+    gone = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
+    if gone >= _HARDLY * asked * seconds:
+        return ""
+    return f"It hardly moves: {gone:.2f} m in {seconds:.0f} s, though {asked:.2f} m/s was asked for"

@@ -17,13 +17,16 @@ from ..files import read_regular
 from ..jobs import Report
 from ..mocap import actions
 from ..mocap.curve_points import read_once
+from ..mocap.on_the_spot import led_by_feet
 from ..mocap.sampling import sample_parts
 from ..mocap.styles import grouped, style_of
 from ..recordings.traces import make_traces
 from ..rig.external_motion import external_motion
+from ..rig.hanging import find_hanging
 from ..rig.rigs import carriers, make_rig
 from ..rig.skeletons import difference
 from . import classes
+from .abilities import say_abilities
 from .control_layout import keep_layout, layout_of
 from .coverage import Row, makes_its_jumps, measure_coverage
 from .staleness import digest_of, sources_of
@@ -46,6 +49,7 @@ class Built(NamedTuple):
     character: Character
     qualities: list[dict[str, float]]  # of each style: percent of Optimal; the first is of the policy that drives
     examiner: str
+    abilities: str = ""  # what it can do, in its first style
     sources: str = ""  # what it was built from, as staleness.sources_of tells it; empty where that is unknown
 
 
@@ -84,12 +88,13 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
     """Sample the ticked Actions; UserError on what cannot be built from."""
     takes = _ticked(obj)
     context.view_layer.update()
+    found = find_hanging(context, obj, takes)
     rig = make_rig(obj)
     carriers(obj, rig)
     options = make_options(settings)
     traces = make_traces(obj, settings, options.usual_space)
     styled, warnings = _sample_all(context, obj, takes, rig)
-    return Material(rig, grouped(styled), traces, options, warnings)
+    return Material(rig, grouped(styled), traces, options, found + warnings)
 
 
 def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Prepared:
@@ -113,7 +118,8 @@ def examine(character: Character, teacher: str) -> Built:
     for styled in in_styles(character):
         exam = core.simulate_trace(examiner, _EXAM_SECONDS, _EXAM_SEED, styled.space)
         qualities.append({name: styled.percent_of_optimal(exam, name) for name in styled.policies})
-    return Built(character, qualities, examiner)
+    first = in_styles(character)[0]
+    return Built(character, qualities, examiner, say_abilities(core.abilities(first), layout_of(first.space)))
 
 
 def in_styles(character: Character) -> list[Character]:
@@ -131,7 +137,8 @@ def _sample_all(
     for action in takes:
         try:
             with read_once():
-                clips.extend((style_of(action), clip) for clip in sample_parts(context, obj, action, rig))
+                parts = led_by_feet(action, sample_parts(context, obj, action, rig), rig.skeleton)
+                clips.extend((style_of(action), clip) for clip in parts)
                 digest_of(action)  # kept for sources_of
         except SinglePose:
             poses.append(action.name)
@@ -190,6 +197,7 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
         row.name, row.quality = policy, quality
     _keep_styles(figures, built, words)
     figures.examiner, figures.sources = built.examiner, built.sources
+    figures.abilities = built.abilities
     _keep_coverage(figures, character)
 
 

@@ -90,7 +90,7 @@ def digest_of(action: bpy.types.Action) -> str:
 
 def _told_by(action: bpy.types.Action) -> str:
     """A digest of all that Build reads of an Action."""
-    return digest_of(action) + style_of(action)
+    return f"{digest_of(action)}{style_of(action)}{action.fragmotion.speed or ''}"
 
 
 def _read(action: bpy.types.Action) -> str:

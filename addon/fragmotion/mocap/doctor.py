@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 DUPLICATE = "duplicate"
 """The code of a finding that is mended by leaving the take out."""
 
+IN_PLACE = "in_place"
+"""The code of a finding that the take goes on the spot."""
+
 _UNIT = "unit"  # a finding's code
 WAIT = 0.1
 """Seconds between looks at a thread that is waited for."""

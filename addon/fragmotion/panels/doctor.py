@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..mocap.actions import chosen
-from ..mocap.doctor import DUPLICATE
+from ..mocap.doctor import DUPLICATE, IN_PLACE
 from ..operators.base.context import active_armature
 from ..settings.drawing import draw_wrapped
 from .sidebar import SubPanel
@@ -34,6 +34,8 @@ class FRAGMOTION_PT_doctor(SubPanel, bpy.types.Panel):
             text = f"{row.text} (mended)" if row.mended else row.text
             column = self.layout.column(align=True)
             draw_wrapped(column, context, text, "CHECKMARK" if row.mended else LIGHTS[row.severity])
+            if row.code == IN_PLACE and not row.mended:
+                column.prop(action.fragmotion, "speed")
             if row.mendable and not row.mended:
                 label = "Untick" if row.code == DUPLICATE else "Mend"
                 column.operator("fragmotion.mend_finding", text=label, icon="MODIFIER").index = index

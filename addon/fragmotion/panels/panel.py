@@ -200,7 +200,7 @@ class FRAGMOTION_PT_build(Sidebar, bpy.types.Panel):
         if obj is not None and building.has_character(obj):
             column = layout.column(align=True)
             draw_fold(column, context, "build", f"{obj.fragmotion.figures.classes} classes")
-            draw_summary(column, obj.fragmotion.figures)
+            draw_summary(column, context, obj.fragmotion.figures)
             if is_stale(obj):
                 layout.label(text="Stale: Actions changed", icon="ERROR")
         if is_folded(context, "build"):

@@ -33,13 +33,16 @@ def make_rig(obj: bpy.types.Object) -> Rig:
             world=np.array(obj.matrix_world),
             inherit_rotation=[bone.use_inherit_rotation for bone in bones],
             local_location=[bone.use_local_location for bone in bones],
+            hangs={row.name: row.on for row in obj.fragmotion.hanging if row.name in bones and row.on in bones},
         )
         return rig
 
 
 def carriers(obj: bpy.types.Object, rig: Rig) -> list[str]:
-    """The bones whose location moves the character: its root bone and its hips."""
-    names = list(dict.fromkeys((rig.skeleton.names[0], rig.skeleton.roles["hips"])))
+    """The bones whose location moves the character: its root bone and its hips; and those that hang on others than
+    their parents."""
+    hanging = [row.name for row in obj.fragmotion.hanging if row.name in rig.skeleton.names]
+    names = list(dict.fromkeys((rig.skeleton.names[0], rig.skeleton.roles["hips"], *hanging)))
     tied = [name for name in names if is_tied(obj.data.bones[name])]
     if tied:
         raise UserError(

@@ -24,6 +24,7 @@ from ..control_rig.binding import ControlRigSettings, is_source
 from ..ground.meshes import WITH_FACES
 from ..recordings.recordings import Recording
 from ..rig.bodies import RoleBone
+from ..rig.hanging import HangingBone
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import TraceFields, factor_field, length_field, player_field, policy_field, seed_field
@@ -233,6 +234,8 @@ def _show_style(figures: BuildFigures, number: int) -> None:
 class BuildFigures(_Coverage, bpy.types.PropertyGroup):
     """What the last build found."""
 
+    abilities: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    """What it can do, in words; empty of what an earlier version built."""
     captured: IntProperty()  # type: ignore[valid-type]
     fragments: IntProperty()  # type: ignore[valid-type]
     classes: IntProperty()  # type: ignore[valid-type]
@@ -269,6 +272,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
 
     roles: CollectionProperty(type=RoleBone)  # type: ignore[valid-type]
     """What the bones are to the body, where the user has looked at it."""
+    hanging: CollectionProperty(type=HangingBone)  # type: ignore[valid-type]
     source: PointerProperty(  # type: ignore[valid-type]
         name="From",
         description="Another armature of this file, whose Actions this one is to perform",

@@ -76,7 +76,7 @@ class BuildFields(TraceFields):
     )
     classes: IntProperty(  # type: ignore[valid-type]
         name="Classes",
-        description="Number of clusters of similar fragments; there must be at least as many fragments",
+        description="Number of clusters of similar fragments, at most: there are no more than different fragments",
         default=_DEFAULTS.classes,
         min=2,
         soft_max=500,

@@ -9,6 +9,7 @@ from typing import Any
 
 import bpy
 
+from ..character.abilities import NOTHING
 from ..character.coverage import COLUMNS
 from ..character.storing import BESIDE, troubles
 from ..compat import versions
@@ -144,8 +145,11 @@ def draw_populate(layout: bpy.types.UILayout, settings: PopulateFields) -> None:
     layout.prop(settings, "seed")
 
 
-def draw_summary(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
-    """How good the last build is: the quality of Optimal's, and how many of the controls it performs well."""
+def draw_summary(layout: bpy.types.UILayout, context: bpy.types.Context, figures: BuildFigures) -> None:
+    """How good the last build is: what it can do, the quality of Optimal's, and how many of the controls it performs
+    well."""
+    if figures.abilities:
+        draw_wrapped(layout, context, figures.abilities, "ERROR" if figures.abilities == NOTHING else "CHECKMARK")
     layout.label(text=f"{figures.quality:.0f} % of the possible", icon="CHECKMARK")
     if figures.coverage:
         icon = "CHECKMARK" if figures.performed == figures.controls else "ERROR"

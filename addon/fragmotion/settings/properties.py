@@ -7,7 +7,15 @@ The fields of a stage are written down once: the panel's settings and the stage'
 from __future__ import annotations
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, EnumProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    EnumProperty,
+    FloatProperty,
+    IntProperty,
+    PointerProperty,
+    StringProperty,
+)
 
 from ..character.classes import ClassRow
 from ..character.inspector import InspectorSettings
@@ -18,6 +26,7 @@ from ..mocap.doctor import TakeFinding
 from ..mocap.left_out import FrameSpan
 from ..recordings.recordings import Recording
 from ..rig.bodies import RoleBone
+from ..rig.hanging import HangingBone
 from .armature import (
     BakeSettings,
     BuildFigures,
@@ -51,6 +60,14 @@ class ActionSettings(bpy.types.PropertyGroup):
         name="Style",
         description="What style the take is of, such as tired: a character has all styles of its takes",
     )
+    speed: FloatProperty(  # type: ignore[valid-type]
+        name="Speed",
+        description="How fast a take on the spot goes; 0: as its feet tell",
+        min=0.0,
+        soft_max=10.0,
+        max=1000.0,
+        unit="VELOCITY",
+    )
     left_out: CollectionProperty(type=FrameSpan)  # type: ignore[valid-type]
     findings: CollectionProperty(type=TakeFinding)  # type: ignore[valid-type]
 
@@ -81,6 +98,7 @@ CLASSES = (
     FrameSpan,
     TakeFinding,
     RoleBone,
+    HangingBone,
     FormerSwitch,
     ControlRigSettings,
     InspectorSettings,

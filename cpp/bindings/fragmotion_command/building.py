@@ -12,7 +12,7 @@ from typing import Any
 from .core import core
 from .files import UNIT, find_takes
 from .running import Done, listed
-from .takes import read_take
+from .takes import led_by_feet, read_take
 
 CONTROLS = ("paper", "found", "told")
 _NEUTRAL = "neutral"  # the style of takes that tell none, where others do
@@ -27,7 +27,7 @@ def build(options: argparse.Namespace) -> Done:
     settings = _settings(options)
     takes = [read_take(path, UNIT if options.unit is None else options.unit) for path in paths]
     skeleton = takes[0].skeleton
-    clips = [core.Clip.from_take(take, skeleton) for take in takes]
+    clips = [led_by_feet(core.Clip.from_take(take, skeleton), skeleton) for take in takes]
     teacher = core.simulate_trace("explorer", 60, settings.seed, settings.usual_space)
     if any(styles):
         named = {name: [clip for clip, own in zip(clips, styles) if own == name] for name in sorted(set(styles))}

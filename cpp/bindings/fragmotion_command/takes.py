@@ -14,3 +14,9 @@ def read_take(path: Path, unit: float = UNIT) -> core.Take:
     if path.suffix.lower() not in ENDINGS:
         raise ValueError(f"{path}: not motion capture that can be read ({', '.join(ENDINGS)})")
     return core.read_bvh(path, unit) if path.suffix.lower() == ".bvh" else core.read_asf_amc(core.find_asf(path), path)
+
+
+def led_by_feet(clip: core.Clip, skeleton: core.Skeleton) -> core.Clip:
+    """The clip; one that goes on the spot on the way that its feet tell."""
+    way = clip.led_by_feet(skeleton)
+    return way[0] if way else clip

@@ -59,6 +59,11 @@ TEST(ControlSpaceOf, FillsUpWithWhatPeopleGoAt) {
   expect_speeds(control_space_of(going({9}, 1), 1, told(2)), {9 / 2.75, 9});
 }
 
+TEST(ControlSpaceOf, TakesNoShuffleForAWalk) {
+  expect_speeds(control_space_of(going({0.4, 1.4}, 4), 1, {}), {1.4, 1.4 * 3.3 / 1.2});
+  expect_speeds(control_space_of(going({0.4, 3.5}, 4), 1, {}), {3.5 * 1.2 / 3.3, 3.5});
+}
+
 TEST(ControlSpaceOf, HasNoSpeedOfAFewStrayFragments) {
   std::vector<Control> evident = going({1.3}, 8, 40);
   evident.push_back({0, 5, 0, 0});

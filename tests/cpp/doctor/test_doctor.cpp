@@ -272,11 +272,28 @@ TEST(Doctor, TellsASlope) {
   EXPECT_EQ(codes_of(take), std::vector<std::string>{"slope"});
 }
 
-TEST(Doctor, TellsMotionInPlace) {
-  Take take = walk();
+Take in_place(Take take) {
   for (int f = 0; f < take.frames; ++f) place(take, f)[0] = place(take, f)[1] = 0;
-  EXPECT_EQ(codes_of(take), std::vector<std::string>{"in_place"});
-  EXPECT_FALSE(examine({take}, 1)[0].root_motion);
+  return take;
+}
+
+TEST(Doctor, LeadsByItsFeetWhatGoesInPlace) {
+  const Take clean = walk(), take = in_place(clean);
+  const std::vector<Examination> told = examine({take}, 1);
+  ASSERT_EQ(codes_of(take), std::vector<std::string>{"in_place"});
+  EXPECT_FALSE(told[0].root_motion);
+  EXPECT_NE(told[0].findings[0].text.find("1.2 m/s"), std::string::npos) << told[0].findings[0].text;
+  const Take mended = mend(take, told[0].findings);
+  EXPECT_EQ(codes_of(mended), std::vector<std::string>{});
+  Take moved = mended;  // where it goes is the same; where it begins is not told
+  const Vector2 begin(place(moved, 0)[0] - clean.translations[0], place(moved, 0)[1] - clean.translations[1]);
+  for (int f = 0; f < moved.frames; ++f) place(moved, f)[0] -= begin.x(), place(moved, f)[1] -= begin.y();
+  expect_near(moved, clean, 0.05);
+}
+
+TEST(Doctor, LeavesWhoStandsOnTheSpot) {
+  const Take swaying = walk({0, 0.2, 0.3});
+  EXPECT_EQ(codes_of(in_place(swaying)), std::vector<std::string>{});
 }
 
 TEST(Doctor, TellsARateThatCannotBe) {

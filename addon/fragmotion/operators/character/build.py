@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 import bpy
 
 from ...character import building
+from ...character.abilities import NOTHING
 from ...character.control_layout import say_lacking
 from ...character.coverage import lacking, say_unanswered
 from ...jobs import Job
@@ -64,13 +65,14 @@ class FRAGMOTION_OT_build(BuildFields, Building, bpy.types.Operator):
         )
         self.report(
             {"INFO"},
-            f"{figures.fragments} fragments in {figures.classes} classes, built in {figures.seconds:.1f} s; "
-            f"{figures.quality:.0f} % of what its takes allow; "
+            f"{figures.abilities}. {figures.fragments} fragments in {figures.classes} classes, built in "
+            f"{figures.seconds:.1f} s; {figures.quality:.0f} % of what its takes allow; "
             f"{figures.performed} of {figures.controls} controls performed well{told}",
         )
         spare = say_lacking(built.character)
         unanswered = say_unanswered(built.character)
         remarks = (
+            *filter(NOTHING.__eq__, (figures.abilities,)),
             *self._warnings,
             *filter(None, (spare, unanswered)),
             *lacking(building.coverage_by_style(built.character)),

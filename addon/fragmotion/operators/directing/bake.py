@@ -87,6 +87,8 @@ class FRAGMOTION_OT_bake(BakeFields, Baking, bpy.types.Operator):
             {"INFO"},
             f"Baked {frames} frames ({first}-{first + frames - 1}) to Action '{action.name}'; {baked.remark}",
         )
+        if baked.warning:
+            self.report({"WARNING"}, baked.warning)
         others = hindrances(obj, own_strip=self.target == "NLA")
         if others:
             self.report({"WARNING"}, f"The pose will differ from the bake because of {'; '.join(others)}")

@@ -17,6 +17,7 @@
 #include "fragments/packed_pool.hpp"
 #include "fragments/synthesis.hpp"
 #include "fragments/whole_jumps.hpp"
+#include "motion/cycle.hpp"
 #include "motion/legs.hpp"
 #include "motion/mirror.hpp"
 #include "policy/anticipate.hpp"
@@ -31,9 +32,10 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kBalance = -0.75;    // each of k fragments that perform one control counts k^(-3/4) in clustering
-constexpr double kSideHop = 0.2;      // weight of a hop that goes to a side,
-constexpr double kTurningHop = 0.02;  // and of one that turns
+constexpr double kBalance = -0.75;     // each of k fragments that perform one control counts k^(-3/4) in clustering
+constexpr double kRoundSeconds = 2.5;  // s that a shorter cycle is gone through, and twice at least
+constexpr double kSideHop = 0.2;       // weight of a hop that goes to a side,
+constexpr double kTurningHop = 0.02;   // and of one that turns
 
 class Stopwatch {
  public:
@@ -58,6 +60,13 @@ void cut(FragmentPool& pool, const Kinematics& kinematics, std::size_t first, Or
   }
 }
 
+// The clip, again and again where it is a short cycle: so that it goes on where it ends.
+Clip in_rounds(const Kinematics& kinematics, Clip clip) {
+  const int period = cycle_of(kinematics, clip), enough = static_cast<int>(std::ceil(kRoundSeconds * clip.rate));
+  if (period == 0 || period >= enough) return clip;
+  return unrolled(kinematics, clip, period, std::max(2 * period, enough) + 1);
+}
+
 // Of so many clips, after which their images come.
 MirrorImages mirror_images(MirrorTurns turns, int clips) {
   if (turns.counterparts.empty()) return {};
@@ -71,7 +80,7 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
                            MirrorImages& images) {
   const Skeleton& skeleton = kinematics.skeleton();
   FragmentPool pool{skeleton, {}, {}};
-  for (const Clip& clip : clips) pool.clips.push_back(make_clip(skeleton, clip));
+  for (const Clip& clip : clips) pool.clips.push_back(in_rounds(kinematics, make_clip(skeleton, clip)));
   cut(pool, kinematics, 0, Origin::captured, options.cut);
   if (pool.fragments.empty()) {
     throw std::invalid_argument("the takes are too short: none holds a fragment of " +
@@ -274,7 +283,7 @@ void learn(const Material& material, const BuildOptions& options, const Progress
   const Trajectories& t = material.trajectories;
   Stopwatch stage;
   ClusterOptions clustering;
-  clustering.classes = options.classes;
+  clustering.classes = distinct_fragments(t, options.classes);
   clustering.restarts = options.restarts;
   clustering.seed = options.seed;
   clustering.threads = options.threads;

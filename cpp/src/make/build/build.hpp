@@ -15,7 +15,7 @@ struct BuildOptions {
   ControlOptions controls;
   bool mirror = true;      ///< Add the mirror image of every take.
   bool synthesize = true;  ///< Fill the controls that the takes lack.
-  int classes = 97;        ///< 1 .. kMostClasses
+  int classes = 97;        ///< 1 .. kMostClasses; fewer where there are fewer distinct fragments.
   /// Clusterings, of which the one that serves Optimal best on the traces is taken: up to kMostRestarts; at least 1 is
   /// made.
   int restarts = 8;
@@ -28,12 +28,13 @@ struct BuildOptions {
 /// The policies that build() knows.
 const std::vector<std::string>& policy_names();
 
-/// Clips to a character: fragments, synthesis, classes, Eq. 2, policy. `traces` teach the policy.
+/// Clips to a character: fragments, synthesis, classes, Eq. 2, policy. `traces` teach the policy. A short clip that is
+/// a cycle (cycle_of()) is gone through again and again.
 /// Deterministic: the same input gives the same bits, whatever the number of threads.
 /// Skeleton and clips need not have been through make_skeleton and make_clip, and are refused as by them. Throws
-/// std::invalid_argument also where there is nothing to build from, fewer distinct fragments than classes, no trace, a
-/// trace of one control or with one that is not a number, an option out of its range, a character of no stature
-/// (check_stature), or an unknown policy; Cancelled where the progress callback says so.
+/// std::invalid_argument also where there is nothing to build from, no trace, a trace of one control or with one that
+/// is not a number, an option out of its range, a character of no stature (check_stature), or an unknown policy;
+/// Cancelled where the progress callback says so.
 Character build(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
                 const BuildOptions& options = {}, const Progress& progress = {});
 

@@ -13,6 +13,7 @@
 namespace fragmotion {
 namespace {
 
+constexpr double kShuffle = 0.5;    // m/s of a 1.8 m character: no walk, but what jumps and stands do between
 constexpr double kTwoGaits = 1.6;   // a run is at least so much faster than a walk
 constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gaits
 constexpr double kRunOverWalk = 3.3 / 1.2;
@@ -53,6 +54,8 @@ std::vector<double> going_speeds(const std::vector<Control>& evident, double sca
 std::vector<double> two_gaits(const std::vector<double>& speeds) {
   if (speeds.empty()) return {1.2, 3.3};
   const auto [slow, fast] = two_means(speeds);
+  const auto walking = std::lower_bound(speeds.begin(), speeds.end(), kShuffle);
+  if (slow < kShuffle && walking != speeds.end()) return two_gaits({walking, speeds.end()});
   if (fast > kTwoGaits * slow) return {slow, fast};
   const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
   return mean < kWalkOrRun ? std::vector{mean, mean * kRunOverWalk} : std::vector{mean / kRunOverWalk, mean};

@@ -221,8 +221,20 @@ void check(const Trajectories& t, const std::vector<float>& weights, const std::
   }
 }
 
-// The number of different fragments, if it is below `most`.
-int distinct(const Trajectories& t, int most) {
+void check_count(const Trajectories& t, int classes) {
+  require_range("the number of classes", classes, 1, kMostClasses);
+  const auto too_few = [&](const char* kind, int count) {
+    return std::invalid_argument(std::to_string(classes) + " classes need as many " + kind + ", but there are only " +
+                                 std::to_string(count) + ": ask for fewer classes or add takes");
+  };
+  if (classes > t.count) throw too_few("fragments", t.count);
+  const int different = distinct_fragments(t, classes);
+  if (classes > different) throw too_few("distinct fragments", different);
+}
+
+}  // namespace
+
+int distinct_fragments(const Trajectories& t, int most) {
   const std::size_t width = std::size_t{3} * t.stride;
   const auto before = [&](int a, int b) {
     return std::lexicographical_compare(t.trajectory(a), t.trajectory(a) + width, t.trajectory(b),
@@ -232,19 +244,6 @@ int distinct(const Trajectories& t, int most) {
   for (int i = 0; i < t.count && static_cast<int>(different.size()) < most; ++i) different.insert(i);
   return static_cast<int>(different.size());
 }
-
-void check_count(const Trajectories& t, int classes) {
-  require_range("the number of classes", classes, 1, kMostClasses);
-  const auto too_few = [&](const char* kind, int count) {
-    return std::invalid_argument(std::to_string(classes) + " classes need as many " + kind + ", but there are only " +
-                                 std::to_string(count) + ": ask for fewer classes or add takes");
-  };
-  if (classes > t.count) throw too_few("fragments", t.count);
-  const int different = distinct(t, classes);
-  if (classes > different) throw too_few("distinct fragments", different);
-}
-
-}  // namespace
 
 Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
                 const ClassScore& score, const Progress& progress) {

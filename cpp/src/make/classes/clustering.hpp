@@ -25,6 +25,9 @@ struct ClusterOptions {
   std::vector<char> kinds;
 };
 
+/// How many fragments differ from all others, or `most` where there are more.
+int distinct_fragments(const Trajectories& t, int most);
+
 /// What makes one clustering better than another: the greater score. By default the smaller inertia.
 using ClassScore = std::function<double(const Classes&)>;
 

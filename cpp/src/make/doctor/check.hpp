@@ -61,6 +61,7 @@ Findings find_ground(const Patient& patient);
 void put_on_ground(Patient& patient, const Findings& findings);
 Findings find_slope(const Patient& patient);
 Findings find_in_place(const Patient& patient);
+void lead_by_feet(Patient& patient, const Findings& findings);
 
 /// Rate, size, missing parts of the body, too few frames.
 Findings find_plain_facts(const Patient& patient);

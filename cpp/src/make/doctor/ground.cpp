@@ -19,9 +19,7 @@ constexpr double kUnder = -0.02, kOver = 0.08;  // m: where it may be on the gro
 constexpr double kRise = 0.08;                  // m: of the ground from one place of the take to another
 constexpr double kExplained = 0.7;              // of the heights' variance, by a slope
 constexpr int kFewestStands = 10;               // places where feet stand
-constexpr double kLow = 0.045;                  // m over its lowest: a foot that could stand
 constexpr double kAnyHeight = 1e9;              // m
-constexpr double kSlides = 0.5, kStays = 0.4;   // m/s; m: feet that slide under hips that stay
 
 /// The lowest joint of a foot, or its end, and where. Ends of what is below the toes' are nobody's: files invent them.
 Vector3 sole(const Patient& patient, int frame, int side) {
@@ -81,40 +79,6 @@ double rise_of(const Patient& patient) {
   return left < (1 - kExplained) * all && rise * patient.scale() >= kRise ? rise : 0;
 }
 
-double lowest_sole(const Patient& patient, int side) {
-  double lowest = sole(patient, 0, side).z();
-  for (int f = 1; f < patient.frames(); ++f) lowest = std::min(lowest, sole(patient, f, side).z());
-  return lowest;
-}
-
-double farthest_hips(const Patient& patient) {
-  double farthest = 0;
-  for (int f = 1; f < patient.frames(); ++f) {
-    const Vector3 way = patient.head(f, patient.hips) - patient.head(0, patient.hips);
-    farthest = std::max(farthest, way.head<2>().norm());
-  }
-  return farthest;
-}
-
-/// The speed at which feet slide that are low enough to stand: of the slower one where both are, a mean, m/s.
-double sliding(const Patient& patient) {
-  const std::array<double, 2> lowest = {lowest_sole(patient, 0), lowest_sole(patient, 1)};
-  double sum = 0;
-  int frames = 0;
-  for (int f = 1; f < patient.frames(); ++f) {
-    double slowest = -1;
-    for (int side = 0; side < 2; ++side) {
-      const int foot = patient.legs[side].end;
-      const Vector3 moved = patient.head(f, foot) - patient.head(f - 1, foot);
-      const double way = moved.head<2>().norm();
-      if ((sole(patient, f, side).z() - lowest[side]) * patient.scale() > kLow) continue;
-      slowest = slowest < 0 ? way : std::min(slowest, way);
-    }
-    if (slowest >= 0) sum += slowest, ++frames;
-  }
-  return frames > 0 ? sum / frames * patient.rate() * patient.scale() : 0;
-}
-
 }  // namespace
 
 Findings find_ground(const Patient& patient) {
@@ -135,14 +99,6 @@ Findings find_slope(const Patient& patient) {
   return {found(patient, "slope", Severity::kWarning,
                 "the ground that the feet stand on rises or falls by " + centimetres(rise) +
                     " over the take: a hill or stairs, or the capture drifted; leave out the part that is not level")};
-}
-
-Findings find_in_place(const Patient& patient) {
-  if (!patient.has_legs() || patient.hips < 0 || patient.scale() == 0 || patient.frames() < 3) return {};
-  if (farthest_hips(patient) * patient.scale() > kStays || sliding(patient) < kSlides) return {};
-  return {found(patient, "in_place", Severity::kWarning,
-                "the body goes in place: feet slide under hips that stay, so that its speed cannot be told; export the "
-                "take with its root motion")};
 }
 
 }  // namespace fragmotion

@@ -188,6 +188,12 @@ void Patient::move(const Vector3& way) {
   forget();
 }
 
+void Patient::place(std::vector<CharacterFrame> places) {
+  assert(places_.empty() && places.size() == shown_.size());
+  places_ = std::move(places);
+  forget();
+}
+
 // What was worked out of the take as it was.
 void Patient::forget() {
   for (Pose& pose : poses_) pose.frame = -1;
@@ -227,8 +233,12 @@ Local Patient::shown(int frame, int bone) const {
   const Shown& shown = shown_[frame];
   Local local = in_file(shown.frame, bone);
   if (shown.weight < 1) local = mix(in_file(shown.before, bone), local, shown.weight);
-  if (bone == 0) local.place += way_;
-  return local;
+  if (bone != 0) return local;
+  local.place += way_;
+  if (places_.empty()) return local;
+  const CharacterFrame& place = places_[frame];
+  const Vector2 ground = place.position + Eigen::Rotation2Dd(place.heading) * local.place.head<2>();
+  return {{ground.x(), ground.y(), local.place.z()}, place.rotation() * local.rotation};
 }
 
 // A bone in a frame of the file, as it is now.

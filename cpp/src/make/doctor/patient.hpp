@@ -104,6 +104,8 @@ class Patient {
   void fill_in(const std::vector<int>& counts);
   /// Moves the body.
   void move(const Vector3& way);
+  /// Takes the world of each frame, as long as no frame is added or left out, to the ground of a character frame.
+  void place(std::vector<CharacterFrame> places);
 
  private:
   /// A frame of the file; where `weight` is less than 1, that part of the way to it from the frame `before`.
@@ -138,6 +140,7 @@ class Patient {
   bool turned_ = false;
   Eigen::Matrix3d basis_ = Eigen::Matrix3d::Identity(), matrix_ = Eigen::Matrix3d::Identity();
   Vector3 way_ = Vector3::Zero();
+  std::vector<CharacterFrame> places_;              // by frame; none where all stays
   std::vector<char> is_bridged_;                    // by frame of the file
   std::unordered_map<std::size_t, Local> bridged_;  // by frame of the file and bone
   mutable std::vector<Pose> poses_;                 // that were looked at lately

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/quantile.hpp"
+#include "io/hanging.hpp"
 #include "io/rigid_matrix.hpp"
 #include "skeleton/role_names.hpp"
 #include "skeleton/roles.hpp"
@@ -45,6 +46,29 @@ void check_bones(const Armature& armature) {
   for (const auto& [role, bone] : armature.roles) {
     if (seen.count(bone) == 0) fail("role '" + role + "'", "the armature has no bone '" + bone + "'");
   }
+  for (const auto& [bone, on] : armature.hangs) {
+    if (seen.count(bone) == 0 || seen.count(on) == 0)
+      fail("bone '" + bone + "' hangs on '" + on + "'", "the armature has not both");
+  }
+}
+
+/// On which bone each hangs: its parent, where nothing else is said.
+std::vector<int> hanging(const Armature& armature) {
+  const auto number = [&](const std::string& name) {
+    return static_cast<int>(std::find(armature.names.begin(), armature.names.end(), name) - armature.names.begin());
+  };
+  std::vector<int> hangs = armature.parents;
+  for (const auto& [bone, on] : armature.hangs) hangs[number(bone)] = number(on);
+  return hangs;
+}
+
+std::vector<int> checked_order(const Armature& armature, const std::vector<int>& hangs) {
+  std::vector<int> order = ordered_bones(armature.parents, hangs);
+  for (int b = 0; b < static_cast<int>(hangs.size()); ++b) {
+    if (std::find(order.begin(), order.end(), b) == order.end())
+      fail(bone_label(armature, b), "hangs on a bone that it moves");
+  }
+  return order;
 }
 
 /// By how much bones are too long: the median over those with one child, of their lengths in ways to the child.
@@ -142,7 +166,9 @@ Rig::Rig(Armature armature)
     : armature_(checked(std::move(armature))),
       object_(parse_object(armature_.world.data(), "armature")),
       rest_(parse_rest(armature_)),
-      local_(rest_in_parents()),
+      local_(rest_in(armature_.parents)),
+      hangs_(hanging(armature_)),
+      order_(checked_order(armature_, hangs_)),
       kinematics_(choose_tree(skeleton_bones_)) {}
 
 Rig::Object Rig::parse_object(const double* matrix, const std::string& label) {
@@ -163,10 +189,10 @@ std::vector<Rig::Rigid> Rig::parse_rest(const Armature& armature) {
   return rest;
 }
 
-std::vector<Rig::Rigid> Rig::rest_in_parents() const {
+std::vector<Rig::Rigid> Rig::rest_in(const std::vector<int>& parents) const {
   std::vector<Rigid> local = rest_;
   for (int b = 0; b < bones(); ++b) {
-    const int parent = armature_.parents[b];
+    const int parent = parents[b];
     if (parent < 0) continue;
     const Quaternion inverse = rest_[parent].rotation.conjugate();
     local[b] = {inverse * (rest_[b].head - rest_[parent].head), inverse * rest_[b].rotation};
@@ -177,17 +203,18 @@ std::vector<Rig::Rigid> Rig::rest_in_parents() const {
 /// The tree below `root` as a skeleton; `members` are its bones.
 Skeleton Rig::make_tree(int root, std::vector<int>& members) const {
   Skeleton tree;
+  const std::vector<Rigid> local = rest_in(hangs_);
   std::vector<int> index(bones(), -1);
   members.clear();
-  for (int b = root; b < bones(); ++b) {
-    const int parent = armature_.parents[b];
+  for (const int b : order_) {
+    const int parent = hangs_[b];
     if (b != root && (parent < 0 || index[parent] < 0)) continue;
     index[b] = tree.size();
     members.push_back(b);
     tree.names.push_back(armature_.names[b]);
     tree.parents.push_back(b == root ? -1 : index[parent]);
-    tree.rest_rotations.push_back(local_[b].rotation);
-    tree.offsets.emplace_back(object_.scale * local_[b].head);
+    tree.rest_rotations.push_back(local[b].rotation);
+    tree.offsets.emplace_back(object_.scale * local[b].head);
     tree.tips.emplace_back(0, object_.scale * armature_.lengths[b], 0);
   }
   tree.offsets[0] = object_.rigid.head + object_.rigid.rotation * tree.offsets[0];
@@ -271,7 +298,7 @@ void Rig::store_pose(const Object& object, const Rigid* pose, int frame, Clip& c
   for (int b = hips; b < skeleton().size(); ++b) {
     if (!skeleton().is_below(b, hips)) continue;
     const int bone = skeleton_bones_[b];
-    const Quaternion above = b == hips ? object.rigid.rotation : pose[armature_.parents[bone]].rotation.conjugate();
+    const Quaternion above = b == hips ? object.rigid.rotation : pose[hangs_[bone]].rotation.conjugate();
     store_quaternion(above * pose[bone].rotation, &clip.rotations[4 * offset_of(frame, skeleton().size(), b)]);
   }
   const Vector3 head = pose[skeleton_bones_[hips]].head;
@@ -345,7 +372,8 @@ Channels Rig::channels(int frames, const double* root_positions, const double* r
       const int bone = skeleton_bones_[b];
       pose[bone] = to_armature(heads[b], orientations[b]);
       store_rotation(bone, pose.data(), f, channels);
-      if (b == 0 || b == skeleton().roles.hips) store_location(bone, pose.data(), f, channels);
+      const bool is_moved = hangs_[bone] != armature_.parents[bone];
+      if (b == 0 || b == skeleton().roles.hips || is_moved) store_location(bone, pose.data(), f, channels);
     }
   }
   align_rotations(bones(), channels);

@@ -19,6 +19,8 @@ struct Armature {
   std::vector<bool> inherit_rotation;  ///< [bones], or empty: all true
   std::vector<bool> local_location;    ///< [bones], or empty: all true
   std::map<std::string, std::string> roles;  ///< Role ("hips", "left_foot" ...) -> bone, over what the names tell
+  /// Bone -> the bone that it moves with, though it is the child of another: a foot that is the target of a leg's IK.
+  std::map<std::string, std::string> hangs = {};
 };
 
 /// What an animation keys: per frame each bone's location and rotation relative to its rest in its parent.
@@ -29,12 +31,14 @@ struct Channels {
 };
 
 /// Turns an armature's channels into clips, and poses back into channels. Its skeleton is the tree of bones that holds
-/// the hips, in world metres; bones of other trees rest. A bone that Blender connects to its parent ignores its
-/// location: the hips and the first bone must not be connected, for take_channels no bone.
+/// the hips, in world metres; bones of other trees rest. A bone that hangs on another than its parent is there in the
+/// skeleton, at its place at rest, and its channels are such that it keeps that. A bone that Blender connects to its
+/// parent ignores its location: the hips and the first bone must not be connected, for take_channels no bone.
 class Rig {
  public:
   /// Throws std::invalid_argument on wrong sizes or order, on rest matrices that are not rigid, on a world matrix whose
-  /// scale is not uniform and positive (naming it), and on roles or bones that do not exist or lie in different trees.
+  /// scale is not uniform and positive (naming it), on roles or bones that do not exist or lie in different trees, and
+  /// on a bone that hangs on one that it moves.
   explicit Rig(Armature armature);
 
   int bones() const { return static_cast<int>(armature_.names.size()); }
@@ -74,7 +78,7 @@ class Rig {
 
   static Object parse_object(const double* matrix, const std::string& label);
   static std::vector<Rigid> parse_rest(const Armature& armature);
-  std::vector<Rigid> rest_in_parents() const;
+  std::vector<Rigid> rest_in(const std::vector<int>& parents) const;
   Skeleton make_tree(int root, std::vector<int>& members) const;
   Skeleton choose_tree(std::vector<int>& members) const;
 
@@ -97,6 +101,8 @@ class Rig {
   Object object_;
   std::vector<Rigid> rest_;   // in the armature's space
   std::vector<Rigid> local_;  // in the parent at rest
+  std::vector<int> hangs_;    // on which bone each does: by default its parent
+  std::vector<int> order_;    // all bones, each after its parent and the one that it hangs on
   std::vector<int> skeleton_bones_;
   Kinematics kinematics_;
 };

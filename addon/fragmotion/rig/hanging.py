@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bones that carry keys outside the chain of their parents, as the feet of rigs whose legs' IK was baked: each is taken
+to hang on the bone that it moves with."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from bpy.props import StringProperty
+
+from ..compat import versions
+from ..compat.core import core
+from . import posing
+from .rigs import bone_path, carriers, is_tied, make_rig
+
+if TYPE_CHECKING:
+    from fragmotion_core import Doubles
+
+_STRAYS = 0.005  # of the armature's size: what moves a bone by less is no motion
+_FRAMES = 16  # of each Action that are looked at
+
+
+class HangingBone(bpy.types.PropertyGroup):
+    """The bone `name` moves with another than its parent."""
+
+    on: StringProperty()  # type: ignore[valid-type]
+
+
+def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Sequence[bpy.types.Action]) -> list[str]:
+    """Keep with the armature which of its bones hang on others in these Actions, and say so, and what is left out."""
+    bones = obj.data.bones
+    least = _STRAYS * float(np.ptp([bone.head_local for bone in bones], axis=0).max())
+    carrying = carriers(obj, make_rig(obj))
+    others = [bone for bone in bones if bone.name not in carrying]
+    candidates = [bone.name for bone in others if any(_is_moved(obj, action, bone, least) for action in actions)]
+    if candidates:
+        poses = np.concatenate([posing.sample_poses(context, obj, action, _times(action))[0] for action in actions])
+        parents = [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
+        rest = np.array([bone.matrix_local for bone in bones])
+        found = core.find_hanging(parents, rest, poses, [bones.find(name) for name in candidates])
+        obj.fragmotion.hanging.clear()
+        for bone, on in sorted(found.items()):
+            row = obj.fragmotion.hanging.add()
+            row.name, row.on = bones[bone].name, bones[on].name
+    return _say(obj, candidates)
+
+
+def _is_moved(obj: bpy.types.Object, action: bpy.types.Action, bone: bpy.types.Bone, least: float) -> bool:
+    """Whether an Action's keys move the bone against its parent by that much."""
+    if is_tied(bone):
+        return False
+    path = bone_path(bone.name, "location")
+    return any(_range(curve) > least for curve in versions.curves_of(action, obj) if curve.data_path == path)
+
+
+def _range(curve: bpy.types.FCurve) -> float:
+    keys = np.empty(2 * len(curve.keyframe_points), np.float32)
+    curve.keyframe_points.foreach_get("co", keys)
+    return float(np.ptp(keys[1::2])) if len(keys) else 0.0
+
+
+def _times(action: bpy.types.Action) -> Doubles:
+    first, last = action.frame_range
+    return np.linspace(float(first), float(last), _FRAMES)
+
+
+def _say(obj: bpy.types.Object, candidates: Sequence[str]) -> list[str]:
+    told, hanging = [], {row.name: row.on for row in obj.fragmotion.hanging}
+    if hanging:
+        pairs = ", ".join(f"'{name}' with '{on}'" for name, on in hanging.items())
+        told.append(f"Learned, and baked, as bones that move with others than their parents: {pairs}")
+    rest = [name for name in candidates if name not in hanging and name not in carriers(obj, make_rig(obj))]
+    if rest:
+        more = f" and {len(rest) - 1} more" if len(rest) > 1 else ""
+        told.append(f"Left out: what keys of bone '{rest[0]}'{more} move away from the parent")
+    return told

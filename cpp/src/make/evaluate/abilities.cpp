@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "evaluate/abilities.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "evaluate/performance.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kAsked = 4, kJudged = 2, kShown = 30;        // s; s; frames a second
+constexpr double kOfSpeed = 0.2, kOfTurn = 0.3, kSlow = 0.1;  // m/s of a 1.8 m character
+constexpr double kPerformed = 0.3;                            // ControlDis, as in synthesis
+
+bool is_done(const std::shared_ptr<const Character>& character, const Control& control) {
+  const ControlSpace& space = character->space;
+  Trace trace(static_cast<std::size_t>(kAsked * kTraceRate), control);
+  const Performance shown = perform(Player(character), trace, kShown);
+  const int begin = static_cast<int>((kAsked - kJudged) * kShown);
+  const auto at = [&](int f) { return &shown.path[std::size_t{3} * f]; };
+  Vector2 velocity = Vector2::Zero();
+  for (int f = begin; f + 1 < shown.frames; ++f) {
+    const Vector2 step(at(f + 1)[0] - at(f)[0], at(f + 1)[1] - at(f)[1]);
+    velocity += Eigen::Rotation2Dd(-at(f)[2]) * step;
+  }
+  const double seconds = (shown.frames - 1 - begin) / kShown;
+  velocity /= seconds;
+  const double turn = (at(shown.frames - 1)[2] - at(begin)[2]) / seconds / space.turn_rate();
+  const double least = kSlow / space.scale();
+  return (velocity - Vector2(control.x, control.y)).norm() <= std::max(kOfSpeed * control.speed(), least) &&
+         std::abs(turn - control.turn) <= kOfTurn;
+}
+
+}  // namespace
+
+std::vector<char> abilities(const std::shared_ptr<const Character>& character, int threads) {
+  const ControlSpace& space = character->space;
+  std::vector<char> done(space.size());
+  parallel_for(space.size(), thread_count(threads), [&](int begin, int end) {
+    for (int c = begin; c < end; ++c) {
+      const Control control = space.point(c);
+      done[c] = control.jumps() ? character->coverage.distances[c] <= kPerformed : is_done(character, control);
+    }
+  });
+  return done;
+}
+
+}  // namespace fragmotion

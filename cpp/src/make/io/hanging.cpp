@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "io/hanging.hpp"
+
+#include <Eigen/LU>
+
+#include "io/rigid_matrix.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kShare = 0.2;  // of what it strays from its parent: IK does not always reach
+
+class Straying {
+ public:
+  Straying(const std::vector<int>& parents, const double* rest, const double* poses, int frames)
+      : parents_(parents), rest_(rest), poses_(poses), frames_(frames) {}
+
+  // How far the head of a bone is from its place at rest as another bone sees it, a mean; -1: as the armature does.
+  double of(int bone, int from) const {
+    const Vector3 head = rest(bone).topRightCorner<3, 1>();
+    const Vector3 seen = from < 0 ? head : local(rest(from), head);
+    double sum = 0;
+    for (int f = 0; f < frames_; ++f) {
+      const Vector3 now = pose(f, bone).topRightCorner<3, 1>();
+      sum += ((from < 0 ? now : local(pose(f, from), now)) - seen).norm();
+    }
+    return frames_ > 0 ? sum / frames_ : 0;
+  }
+
+ private:
+  RowMajor rest(int bone) const { return RowMajor(rest_ + std::size_t{16} * bone); }
+
+  RowMajor pose(int frame, int bone) const {
+    return RowMajor(poses_ + 16 * (static_cast<std::size_t>(frame) * parents_.size() + bone));
+  }
+
+  static Vector3 local(const RowMajor& frame, const Vector3& point) {
+    return frame.topLeftCorner<3, 3>().inverse() * (point - frame.topRightCorner<3, 1>());
+  }
+
+  const std::vector<int>& parents_;
+  const double *rest_, *poses_;
+  int frames_;
+};
+
+// Whether a bone moves another, which hangs on its parent or, where that is told, on another bone.
+bool moves(const std::vector<int>& parents, const std::map<int, int>& hanging, int bone, int other) {
+  if (other < 0 || other == bone) return other == bone;
+  const auto on = hanging.find(other);
+  return moves(parents, hanging, bone, parents[other]) ||
+         (on != hanging.end() && moves(parents, hanging, bone, on->second));
+}
+
+}  // namespace
+
+std::map<int, int> find_hanging(const std::vector<int>& parents, const double* rest, const double* poses, int frames,
+                                const std::vector<int>& candidates) {
+  const Straying straying(parents, rest, poses, frames);
+  std::map<int, int> hanging;
+  for (const int bone : candidates) {
+    double least = kShare * straying.of(bone, parents[bone]);
+    int best = -1;
+    for (int other = 0; other < static_cast<int>(parents.size()); ++other) {
+      if (moves(parents, hanging, bone, other)) continue;
+      const double strays = straying.of(bone, other);
+      if (strays < least) least = strays, best = other;
+    }
+    if (best >= 0) hanging[bone] = best;
+  }
+  return hanging;
+}
+
+std::vector<int> ordered_bones(const std::vector<int>& parents, const std::vector<int>& hangs) {
+  std::vector<int> order;
+  std::vector<char> placed(hangs.size(), 0);
+  const auto is_placed = [&](int bone) { return bone < 0 || placed[bone]; };
+  for (std::size_t before = 1; order.size() != before;) {
+    before = order.size();
+    for (int b = 0; b < static_cast<int>(hangs.size()); ++b) {
+      if (placed[b] || !is_placed(hangs[b]) || !is_placed(parents[b])) continue;
+      placed[b] = 1;
+      order.push_back(b);
+    }
+  }
+  return order;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "motion/clip.hpp"
+
+namespace fragmotion {
+
+/// The frames after which a clip begins again: one less than it has where the last shows the first's pose once more,
+/// as many where the first would be the next. 0 where the clip is no cycle: its ends, seen from their character frames,
+/// are farther apart than the steps beside them.
+int cycle_of(const Kinematics& kinematics, const Clip& clip);
+
+/// Frames 0 .. `count` - 1 of the clip that goes round and round, `period` as of cycle_of(): each round begins where
+/// and as the last one ended.
+Clip unrolled(const Kinematics& kinematics, const Clip& clip, int period, int count);
+
+}  // namespace fragmotion

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+#include "motion/in_place.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "motion/cycle.hpp"
+#include "motion/soles.hpp"
+
+namespace fragmotion {
+namespace {
+
+// Of a character of 1.8 m.
+constexpr double kStays = 0.4;                       // m that hips on the spot go at most
+constexpr double kGoes = 0.5;                        // m/s: what is slower stands
+constexpr double kTurns = kPi / 12;                  // rad/s: feet that stand turn by less in a gait that goes straight
+constexpr double kLow = 0.02;                        // m over its lowest: a sole on the ground
+constexpr double kHalfLow = 0.025;                   // m: a point so high counts for nothing in the first guess
+constexpr double kWindow = 1.0 / 30;                 // s over which velocities are told: keys and markers tremble
+constexpr double kGrip = kGravity;                   // m/s^2: friction seldom gives more than the weight
+constexpr double kAsFast = 0.95;                     // of what grip tells: slower is a foot that lands or leaves
+constexpr double kSmooth[] = {0.5, 0.2, 0.1, 0.03};  // s, of the guesses, one after the other
+constexpr double kReturn = 0.5;                      // of the way: feet of one that treads come back,
+constexpr double kSlides = 0.5;                      // of the speed: and none of them stays where it stands
+
+using Velocities = std::vector<Vector2>;
+
+double gaussian(double x, double sigma) { return std::exp(-0.5 * x * x / (sigma * sigma)); }
+
+// Weighted by Gaussians and weights; 0 where there is no weight.
+Velocities smoothed(const Velocities& values, const std::vector<double>& weights, double sigma) {
+  const int count = static_cast<int>(values.size()), reach = static_cast<int>(std::ceil(3 * sigma));
+  Velocities result(count, Vector2::Zero());
+  for (int f = 0; f < count; ++f) {
+    double sum = 0;
+    for (int g = std::max(0, f - reach); g <= std::min(count - 1, f + reach); ++g) {
+      const double weight = weights[g] * gaussian(f - g, std::max(sigma, 1e-3));
+      result[f] += weight * values[g];
+      sum += weight;
+    }
+    if (sum > 0) result[f] /= sum;
+  }
+  return result;
+}
+
+// How the ground goes back under a clip's soles, over windows of `span` frames.
+class Treading {
+ public:
+  Treading(const std::array<Sole, 2>& soles, double rate, double scale)
+      : soles_(soles), rate_(rate), scale_(scale), span_(std::max(1, static_cast<int>(std::lround(kWindow * rate)))) {
+    windows_ = static_cast<int>(soles[0].heel().path.size()) - span_;
+  }
+
+  bool is_long_enough() const { return windows_ > 0; }
+
+  // The mean turn of what is flat on the ground, rad/s, to the other side: as the body turns against it.
+  double turn() const {
+    double sum = 0;
+    int count = 0;
+    for (const Sole& sole : soles_) {
+      for (int f = 0; f < windows_; ++f) {
+        if (std::max(height(sole.heel(), f), height(sole.ball(), f)) > kLow) continue;
+        sum -= std::remainder(direction(sole, f + span_) - direction(sole, f), 2 * kPi) * rate_ / span_;
+        ++count;
+      }
+    }
+    return count > 0 ? sum / count : 0;
+  }
+
+  // The body's velocity in each window, m/s, as it turns at `turn` about `center`; empty where no sole is low.
+  Velocities velocities(double turn, const Vector2& center) const {
+    Velocities way = guess(turn, center);
+    for (std::size_t round = 1; round < std::size(kSmooth); ++round) {
+      const Told told = fastest(way, turn, center);
+      if (told.windows.empty()) return {};
+      way = smoothed(joined(told), std::vector<double>(windows_, 1), kSmooth[round] * rate_);
+    }
+    return way;
+  }
+
+  // The speed at which what is low goes back, of the slower foot where both are, m/s: a mean.
+  double slowest() const {
+    double sum = 0;
+    int count = 0;
+    for (int f = 0; f < windows_; ++f) {
+      double slowest = std::numeric_limits<double>::infinity();
+      for (const Sole& sole : soles_) {
+        const double foot = fastest_low(sole, f);
+        if (foot >= 0) slowest = std::min(slowest, foot);
+      }
+      if (std::isfinite(slowest)) sum += slowest, ++count;
+    }
+    return count > 0 ? sum / count : 0;
+  }
+
+  // For each step from a frame to the next the window about it.
+  Velocities steps(const Velocities& windows) const {
+    Velocities steps;
+    for (int f = 0; f + 1 < windows_ + span_; ++f)
+      steps.push_back(windows[std::clamp(f - (span_ - 1) / 2, 0, windows_ - 1)]);
+    return steps;
+  }
+
+ private:
+  // Windows in which a sole stands, and what it tells there.
+  struct Told {
+    std::vector<int> windows;
+    Velocities velocities;
+  };
+
+  double height(const SolePoint& point, int f) const {
+    return (std::max(point.path[f].z(), point.path[f + span_].z()) - point.lowest) * scale_;
+  }
+
+  // m/s, of a foot's points that are low; -1 where none is.
+  double fastest_low(const Sole& sole, int f) const {
+    double fastest = -1;
+    for (const SolePoint& point : sole.points) {
+      if (height(point, f) <= kLow) fastest = std::max(fastest, velocity(point, f, 0, Vector2::Zero()).norm());
+    }
+    return fastest;
+  }
+
+  static double direction(const Sole& sole, int f) {
+    const Vector3 foot = sole.ball().path[f] - sole.heel().path[f];
+    return std::atan2(foot.y(), foot.x());
+  }
+
+  Vector2 velocity(const SolePoint& point, int f, double turn, const Vector2& center) const {
+    const Vector2 back = (point.path[f] - point.path[f + span_]).head<2>() * rate_ / span_;
+    const Vector2 arm = 0.5 * (point.path[f] + point.path[f + span_]).head<2>() - center;
+    return back - turn * Vector2(-arm.y(), arm.x());
+  }
+
+  Velocities guess(double turn, const Vector2& center) const {
+    Velocities means(windows_, Vector2::Zero());
+    std::vector<double> weights(windows_, 0);
+    for (const Sole& sole : soles_) {
+      for (const SolePoint& point : sole.points) {
+        for (int f = 0; f < windows_; ++f) {
+          const double weight = std::clamp(2 - std::exp2(height(point, f) / kHalfLow), 0.0, 1.0);
+          means[f] += weight * velocity(point, f, turn, center);
+          weights[f] += weight;
+        }
+      }
+    }
+    for (int f = 0; f < windows_; ++f) {
+      if (weights[f] > 0) means[f] /= weights[f];
+    }
+    return smoothed(means, weights, kSmooth[0] * rate_);
+  }
+
+  // Of the low points the one that tells the greatest speed along the way, where that is no slower than its
+  // neighbours and the body's grip allow.
+  Told fastest(const Velocities& way, double turn, const Vector2& center) const {
+    Velocities best(windows_, Vector2::Zero());
+    std::vector<double> along(windows_, -std::numeric_limits<double>::infinity());
+    for (const Sole& sole : soles_) {
+      for (const SolePoint& point : sole.points) {
+        for (int f = 0; f < windows_; ++f) {
+          if (height(point, f) > kLow) continue;
+          const Vector2 told = velocity(point, f, turn, center);
+          const double speed = told.dot(way[f].normalized());
+          if (speed > along[f]) along[f] = speed, best[f] = told;
+        }
+      }
+    }
+    const std::vector<double> least = gripped(along);
+    Told told;
+    for (int f = 0; f < windows_; ++f) {
+      if (along[f] <= 0 || along[f] < kAsFast * least[f]) continue;
+      told.windows.push_back(f);
+      told.velocities.push_back(best[f]);
+    }
+    return told;
+  }
+
+  // The least speeds that are as great as these and change no faster than kGrip.
+  std::vector<double> gripped(std::vector<double> speeds) const {
+    const double step = kGrip / scale_ / rate_;
+    for (int f = 1; f < windows_; ++f) speeds[f] = std::max(speeds[f], speeds[f - 1] - step);
+    for (int f = windows_ - 2; f >= 0; --f) speeds[f] = std::max(speeds[f], speeds[f + 1] - step);
+    return speeds;
+  }
+
+  // What is told, and between that on the way from the one to the other.
+  Velocities joined(const Told& told) const {
+    Velocities joined(windows_);
+    std::size_t next = 0;
+    for (int f = 0; f < windows_; ++f) {
+      while (next < told.windows.size() && told.windows[next] < f) ++next;
+      if (next == 0 || next == told.windows.size()) {
+        joined[f] = told.velocities[next == 0 ? 0 : next - 1];
+        continue;
+      }
+      const int before = told.windows[next - 1];
+      const double w = static_cast<double>(f - before) / (told.windows[next] - before);
+      joined[f] = (1 - w) * told.velocities[next - 1] + w * told.velocities[next];
+    }
+    return joined;
+  }
+
+  const std::array<Sole, 2>& soles_;
+  double rate_, scale_;
+  int span_, windows_ = 0;
+};
+
+Vector2 root_at(const Clip& clip, int f) { return load_vector(&clip.root_positions[std::size_t{3} * f]).head<2>(); }
+
+// Where the clip is turned about: the middle of its hips' places.
+Vector2 middle(const Clip& clip) {
+  Vector2 sum = Vector2::Zero();
+  for (int f = 0; f < clip.frames; ++f) sum += root_at(clip, f);
+  return sum / clip.frames;
+}
+
+bool stays(const Clip& clip, double scale) {
+  for (int f = 1; f < clip.frames; ++f) {
+    if ((root_at(clip, f) - root_at(clip, 0)).norm() * scale > kStays) return false;
+  }
+  return true;
+}
+
+// Whether the feet, which go back as they stand, come back.
+bool tread(const std::array<Sole, 2>& soles, double way) {
+  double gone = 0;
+  for (const Sole& sole : soles) {
+    const std::vector<Vector3>& path = sole.heel().path;
+    gone += 0.5 * (path.back() - path.front()).head<2>().norm();
+  }
+  return gone < kReturn * way;
+}
+
+// Whether the body is seen to turn: its feet may then turn with it as they stand.
+bool turns(const Clip& clip) {
+  return std::abs(clip.headings.back() - clip.headings.front()) * clip.rate > kTurns * (clip.frames - 1);
+}
+
+// The mean, as the body sees it.
+Vector2 mean_of(const Velocities& velocities, const Clip& clip) {
+  Vector2 sum = Vector2::Zero();
+  for (std::size_t f = 0; f < velocities.size(); ++f) sum += Eigen::Rotation2Dd(-clip.headings[f]) * velocities[f];
+  return velocities.empty() ? sum : Vector2(sum / static_cast<double>(velocities.size()));
+}
+
+std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
+  const double scale = standard_scale(kinematics.skeleton());
+  const std::array<Sole, 2> soles = find_soles(kinematics, clip);
+  const Treading treading(soles, clip.rate, scale);
+  if (!treading.is_long_enough()) return std::nullopt;
+  FeetWay way;
+  if (!turns(clip)) way.turn = treading.turn();
+  if (std::abs(way.turn) < kTurns) way.turn = 0;
+  const Velocities windows = treading.velocities(way.turn, middle(clip));
+  if (windows.empty()) return std::nullopt;
+  way.velocities = treading.steps(windows);
+  way.mean = mean_of(way.velocities, clip);
+  const double speed = way.mean.norm();
+  const bool treads = treading.slowest() > kSlides * speed && tread(soles, speed * (clip.frames - 1) / clip.rate);
+  if (speed * scale < kGoes || !treads) return std::nullopt;
+  return way;
+}
+
+}  // namespace
+
+std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& clip) {
+  const Roles& roles = kinematics.skeleton().roles;
+  const bool has_feet = roles.left_foot >= 0 && roles.right_foot >= 0;
+  if (!has_feet || !stays(clip, standard_scale(kinematics.skeleton()))) return std::nullopt;
+  const int period = cycle_of(kinematics, clip);
+  if (period == 0) return way_of(kinematics, clip);
+  std::optional<FeetWay> way = way_of(kinematics, unrolled(kinematics, clip, period, 2 * period + clip.frames));
+  if (!way) return way;
+  way->velocities.erase(way->velocities.begin(), way->velocities.begin() + period);
+  way->velocities.resize(clip.frames - 1);
+  way->mean = mean_of(way->velocities, clip);
+  return way;
+}
+
+std::vector<CharacterFrame> placements(const FeetWay& way, const Clip& clip, double faster) {
+  const Vector2 center = middle(clip);
+  std::vector<CharacterFrame> result(clip.frames);
+  Vector2 gone = Vector2::Zero();
+  for (int f = 0; f < clip.frames; ++f) {
+    const double turned = way.turn * faster * f / clip.rate;
+    const Eigen::Rotation2Dd rotation(turned);
+    result[f] = {center + gone - rotation * center, turned};
+    if (f + 1 < clip.frames) gone += rotation * way.velocities[f] * faster / clip.rate;
+  }
+  return result;
+}
+
+Clip led(const Kinematics& kinematics, Clip clip, const FeetWay& way, double faster) {
+  const std::vector<CharacterFrame> places = placements(way, clip, faster);
+  const std::size_t bones = kinematics.bones(), hips = kinematics.skeleton().roles.hips;
+  for (int f = 0; f < clip.frames; ++f) {
+    const Vector2 place = places[f].position + Eigen::Rotation2Dd(places[f].heading) * root_at(clip, f);
+    clip.root_positions[std::size_t{3} * f] = place.x();
+    clip.root_positions[std::size_t{3} * f + 1] = place.y();
+    double* rotation = &clip.rotations[4 * (bones * f + hips)];
+    store_quaternion(places[f].rotation() * load_quaternion(rotation), rotation);
+    clip.headings[f] += places[f].heading;
+  }
+  return clip;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "motion/clip.hpp"
+
+namespace fragmotion {
+
+/// One point of a sole: its path, and the height over which it is all but 2 % of the time.
+struct SolePoint {
+  std::vector<Vector3> path;
+  double lowest = 0;
+};
+
+/// A foot's sole under its heel, ball and the toe's end, where the foot has these.
+struct Sole {
+  std::vector<SolePoint> points;
+
+  const SolePoint& heel() const { return points[0]; }
+  const SolePoint& ball() const { return points[1]; }
+};
+
+/// The soles of the left and the right foot, of a skeleton that has both: what is under the feet's joints, on the
+/// ground, when each foot stands flattest. The ground is at height 0, or, where that is not under the joints or more
+/// than 10 cm (of a character of 1.8 m), as high as the lowest of them.
+std::array<Sole, 2> find_soles(const Kinematics& kinematics, const Clip& clip);
+
+}  // namespace fragmotion

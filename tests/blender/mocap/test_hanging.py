@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: MIT
+"""Feet that are targets of baked IK, and so no children of their legs, are learned and baked with them."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+import bpy
+import making
+import numpy as np
+import pytest
+
+FEET = {"foot.L": "shin.L", "foot.R": "shin.R"}
+
+
+@pytest.fixture
+def baked_ik(addon: ModuleType) -> bpy.types.Object:
+    """The sample, whose feet hang on the root, with keys that bring them to where the legs end, as they were."""
+    obj = making.open_sample()
+    obj.fragmotion.moves.clear()
+    action = bpy.data.actions["walk forward"]
+    for each in bpy.data.actions:
+        each.fragmotion.use = each == action
+    first, last = (int(frame) for frame in action.frame_range)
+    frames = range(first, last + 1)
+    with addon.rig.posing.playing(bpy.context, obj, action):
+        seen = {frame: _matrices(obj, frame) for frame in frames}
+    with making.editing(obj) as bones:
+        for name in FEET:
+            bones[name].use_connect, bones[name].parent = False, bones["root"]
+    addon.compat.versions.assign(obj, action)
+    for frame in frames:
+        bpy.context.scene.frame_set(frame)
+        for name in FEET:
+            obj.pose.bones[name].matrix = seen[frame][name]
+            for channel in ("location", "rotation_quaternion"):
+                obj.pose.bones[name].keyframe_insert(channel)
+    return obj
+
+
+def _matrices(obj: bpy.types.Object, frame: int) -> dict[str, object]:
+    bpy.context.scene.frame_set(frame)
+    posed = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return {name: posed.pose.bones[name].matrix.copy() for name in FEET}
+
+
+def test_they_are_learned_as_parts_of_their_legs(addon: ModuleType, baked_ik: bpy.types.Object) -> None:
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    assert {row.name: row.on for row in baked_ik.fragmotion.hanging} == FEET
+    skeleton = addon.character.building.load(baked_ik).skeleton
+    for foot, shin in FEET.items():
+        assert skeleton.names[skeleton.parents[skeleton.names.index(foot)]] == shin
+    assert "alks" in baked_ik.fragmotion.figures.abilities
+
+
+def test_bakes_bring_them_to_where_the_legs_end(addon: ModuleType, baked_ik: bpy.types.Object) -> None:
+    rest = {foot: _seen_from(baked_ik.data.bones, foot, shin, "matrix_local") for foot, shin in FEET.items()}
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    assert bpy.ops.fragmotion.bake("EXEC_DEFAULT", trace_source="PLAYER", seconds=4) == {"FINISHED"}
+    for frame in range(1, 90, 8):
+        bpy.context.scene.frame_set(frame)
+        for foot, shin in FEET.items():
+            place = _seen_from(baked_ik.pose.bones, foot, shin, "matrix")
+            assert np.linalg.norm(place - rest[foot]) < 1e-3
+
+
+def _seen_from(bones: object, foot: str, shin: str, matrix: str) -> np.ndarray:
+    """The head of a foot as its shin sees it, m."""
+    frames = (np.array(getattr(bones[name], matrix)) for name in (shin, foot))  # type: ignore[index]
+    above, below = frames
+    return (np.linalg.inv(above) @ below)[:3, 3]
+
+
+def test_build_says_which(addon: ModuleType, baked_ik: bpy.types.Object) -> None:
+    told = addon.rig.hanging.find_hanging(bpy.context, baked_ik, [bpy.data.actions["walk forward"]])
+    assert len(told) == 1
+    assert "'foot.L' with 'shin.L', 'foot.R' with 'shin.R'" in told[0]

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: MIT
+"""Actions that go on the spot, as games have them, are learned as if they went the way that their feet tell."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+import bpy
+import making
+import numpy as np
+import pytest
+
+GAITS = ("walk forward", "run forward")
+
+
+def speed_of(addon: ModuleType, obj: bpy.types.Object, name: str) -> float:
+    """How fast the hips go in an Action, m/s."""
+    clip = addon.mocap.sampling.sample(bpy.context, obj, bpy.data.actions[name], addon.rig.rigs.make_rig(obj))
+    way = clip.root_positions[-1, :2] - clip.root_positions[0, :2]
+    return float(np.linalg.norm(way)) / (len(clip.root_positions) - 1) * clip.rate
+
+
+@pytest.fixture
+def speeds(addon: ModuleType) -> dict[str, float]:
+    """The sample learns from a stand, a walk and a run alone; the latter two stay on the spot. How fast they went."""
+    obj = making.open_sample()
+    obj.fragmotion.moves.clear()
+    went = {name: speed_of(addon, obj, name) for name in GAITS}
+    for action in bpy.data.actions:
+        action.fragmotion.use = action.name in (*GAITS, "stand")
+    for name in GAITS:
+        for curve in addon.compat.versions.curves_of(bpy.data.actions[name], obj):
+            if curve.data_path == 'pose.bones["root"].location':
+                curve.mute = True
+    assert all(speed_of(addon, obj, name) < 0.1 for name in GAITS)
+    return went
+
+
+def test_the_doctor_tells_how_fast_the_feet_go(addon: ModuleType, speeds: dict[str, float]) -> None:
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    for name, speed in speeds.items():
+        rows = [row for row in bpy.data.actions[name].fragmotion.findings if row.code == "in_place"]
+        assert len(rows) == 1
+        found = float(rows[0].text.partition(" go at ")[2].partition(" m/s")[0])
+        assert found == pytest.approx(speed, rel=0.05)
+    assert not bpy.data.actions["stand"].fragmotion.findings
+
+
+def test_a_few_clips_make_a_character_that_goes_everywhere(addon: ModuleType, speeds: dict[str, float]) -> None:
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    obj = bpy.context.view_layer.objects.active
+    figures, character = obj.fragmotion.figures, addon.character.building.load(obj)
+    assert figures.abilities.startswith("Walks and runs in all directions")
+    assert character.space.speeds == pytest.approx(list(speeds.values()), rel=0.15)
+
+
+def test_the_user_knows_better_how_fast_it_goes(addon: ModuleType, speeds: dict[str, float]) -> None:
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    obj = bpy.context.view_layer.objects.active
+    assert not addon.character.staleness.is_stale(obj)
+    bpy.data.actions["run forward"].fragmotion.speed = 2 * speeds["run forward"]
+    assert addon.character.staleness.is_stale(obj)
+    before = addon.character.building.load(obj).space.speeds[-1]
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    assert addon.character.building.load(obj).space.speeds[-1] == pytest.approx(2 * before, rel=0.15)
+
+
+def test_one_clip_of_a_second_is_enough(addon: ModuleType, speeds: dict[str, float]) -> None:
+    for action in bpy.data.actions:
+        action.fragmotion.use = action.name == "walk forward"
+    walk = bpy.data.actions["walk forward"]
+    walk.use_frame_range, walk.frame_start, walk.frame_end = True, 1, 31
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    figures = bpy.context.view_layer.objects.active.fragmotion.figures
+    assert "alks" in figures.abilities
+    assert 1 < figures.classes <= 97
+
+
+def test_a_bake_that_hardly_moves_is_a_warning(addon: ModuleType, speeds: dict[str, float]) -> None:
+    for action in bpy.data.actions:
+        action.fragmotion.use = action.name == "stand"
+    obj = bpy.context.view_layer.objects.active
+    obj.fragmotion.build.synthesize = False
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    assert obj.fragmotion.figures.abilities == addon.character.abilities.NOTHING
+    obj.fragmotion.bake.trace_source = "PLAYER"
+    prepared = addon.bake.baking.prepare(bpy.context, obj, obj.fragmotion.bake)
+    assert "hardly moves" in prepared.task(lambda *_: None).warning

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "base/types.hpp"
+#include "io/hanging.hpp"
+#include "io/rig.hpp"
+
+namespace fragmotion {
+namespace {
+
+// root > hips > thigh > shin, and root > {foot > toe, pole}: the foot is where the shin ends, the pole before the knee.
+const std::vector<int> kParents = {-1, 0, 1, 2, 0, 4, 0};
+const std::vector<std::string> kNames = {"root", "hips", "thigh.L", "shin.L", "foot.L", "toe.L", "pole.L"};
+
+using Frame = Eigen::Isometry3d;
+
+Frame at(double y, double z, double angle = 0) {
+  return Eigen::Translation3d(0, y, z) * Eigen::AngleAxisd(angle, Vector3::UnitX());
+}
+
+void add_rows(const Frame& frame, std::vector<double>& values) {
+  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = frame.matrix();
+  values.insert(values.end(), rows.data(), rows.data() + 16);
+}
+
+// A leg that swings by `angle` from its hips.
+std::vector<double> leg_pose(double angle) {
+  const Frame thigh = at(0, 1, angle), shin = thigh * at(0, -0.5, -angle / 2), foot = shin * at(0, -0.4);
+  std::vector<double> values;
+  for (const Frame& frame : {at(0, 0), at(0, 1), thigh, shin, foot, foot * at(-0.1, 0), at(-0.5, 0.5 + angle / 9)})
+    add_rows(frame, values);
+  return values;
+}
+
+std::vector<double> swing() {
+  std::vector<double> poses;
+  for (int f = 0; f < 12; ++f) {
+    const std::vector<double> each = leg_pose(0.6 * std::sin(f));
+    poses.insert(poses.end(), each.begin(), each.end());
+  }
+  return poses;
+}
+
+TEST(Hanging, IsFoundOfAFootThatIsNoChildOfItsLeg) {
+  const std::vector<double> rest = leg_pose(0), poses = swing();
+  const auto found = find_hanging(kParents, rest.data(), poses.data(), 12, {4, 6});
+  EXPECT_EQ(found, (std::map<int, int>{{4, 3}}));
+}
+
+TEST(Hanging, IsNeverOnABoneThatItMoves) {
+  const std::vector<double> rest = leg_pose(0), poses = swing();
+  for (const auto& [bone, on] : find_hanging(kParents, rest.data(), poses.data(), 12, {1, 2, 3, 4, 5, 6}))
+    EXPECT_TRUE(bone != 4 || on == 3) << bone << " on " << on;
+}
+
+Armature armature() {
+  Armature armature;
+  armature.names = kNames;
+  armature.parents = kParents;
+  armature.rest = leg_pose(0);
+  armature.lengths.assign(kNames.size(), 0.1);
+  add_rows(Frame::Identity(), armature.world);
+  armature.roles = {{"hips", "hips"}};
+  armature.hangs = {{"foot.L", "shin.L"}};
+  return armature;
+}
+
+TEST(Rig, BringsAFootToWhereItsLegEnds) {
+  const Rig rig(armature());
+  const Skeleton& skeleton = rig.skeleton();
+  EXPECT_EQ(skeleton.parents[skeleton.find("foot.L")], skeleton.find("shin.L"));
+  EXPECT_EQ(skeleton.parents[skeleton.find("toe.L")], skeleton.find("foot.L"));
+  const std::vector<double> poses = swing();
+  const Clip clip = rig.clip_from_matrices("swing", 30, 12, poses.data());
+  const Channels channels = rig.channels(12, clip.root_positions.data(), clip.rotations.data());
+  for (int f = 0; f < 12; ++f) {  // at rest the foot is at (0, 0, 0.1) of a root that does not move
+    const double* foot = &poses[16 * (f * kNames.size() + 4)];
+    const Vector3 location = load_vector(&channels.locations[3 * (f * kNames.size() + 4)]);
+    EXPECT_LT((location - Vector3(foot[3], foot[7], foot[11] - 0.1)).norm(), 1e-9) << f;
+  }
+  const Clip again = rig.clip("again", 30, 12, channels.locations.data(), channels.rotations.data());
+  for (std::size_t i = 0; i < clip.rotations.size(); ++i) EXPECT_NEAR(again.rotations[i], clip.rotations[i], 1e-9);
+}
+
+TEST(Rig, RefusesABoneThatHangsOnWhatItMoves) {
+  Armature wrong = armature();
+  wrong.hangs = {{"foot.L", "toe.L"}};
+  EXPECT_THROW(Rig{wrong}, std::invalid_argument);
+  wrong.hangs = {{"foot.L", "shin.R"}};
+  EXPECT_THROW(Rig{wrong}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace fragmotion

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "io/asf_amc.hpp"
+#include "io/bvh.hpp"
+#include "mocap_files.hpp"
+#include "motion/in_place.hpp"
+#include "walker.hpp"
+
+namespace fragmotion {
+namespace {
+
+// The clip without its hips' way over the ground, and without their turning where that goes as well.
+Clip on_the_spot(const Skeleton& skeleton, Clip clip, bool straight = false) {
+  for (int f = 0; f < clip.frames; ++f) {
+    clip.root_positions[std::size_t{3} * f] = clip.root_positions[std::size_t{3} * f + 1] = 0;
+    if (!straight) continue;
+    double* hips = &clip.rotations[std::size_t{4} * (f * skeleton.size() + skeleton.roles.hips)];
+    const double turned = clip.headings[f] - clip.headings[0];
+    store_quaternion(CharacterFrame{{0, 0}, -turned}.rotation() * load_quaternion(hips), hips);
+  }
+  clip.headings.clear();
+  return make_clip(skeleton, std::move(clip));
+}
+
+double length(const std::vector<Vector2>& steps) {
+  double sum = 0;
+  for (const Vector2& step : steps) sum += step.norm();
+  return sum;
+}
+
+// The way of the hips in spans of a fourth of a second, m.
+double way_of_hips(const Clip& clip) {
+  const int span = static_cast<int>(std::lround(clip.rate / 4));
+  std::vector<Vector2> steps;
+  for (int f = span; f < clip.frames; f += span) {
+    const double* at = &clip.root_positions[std::size_t{3} * f];
+    steps.push_back((load_vector(at) - load_vector(at - std::size_t{3} * span)).head<2>());
+  }
+  return length(steps);
+}
+
+TEST(FeetWay, IsThatOfAWalkerInAnyDirection) {
+  for (const double size : {1.0, 10.0}) {
+    for (const Gait& gait : {Gait{0, 1.2}, Gait{0, -1}, Gait{1, 0}, Gait{-0.7, 0.7}}) {
+      Gait sized = gait;
+      sized.size = size;
+      const Kinematics kinematics(humanoid(size));
+      const Clip clip = on_the_spot(kinematics.skeleton(), gait_clip(sized));
+      const auto way = find_feet_way(kinematics, clip);
+      ASSERT_TRUE(way);
+      EXPECT_EQ(way->turn, 0);
+      EXPECT_NEAR(way->mean.x(), gait.x * size, 0.05 * size);
+      EXPECT_NEAR(way->mean.y(), gait.y * size, 0.05 * size);
+    }
+  }
+}
+
+TEST(FeetWay, KeepsItsVelocityInAFlight) {
+  const Gait gait{0, 3, 0, 3, 60, 0.6, 0.3};
+  const Kinematics kinematics(humanoid());
+  const auto way = find_feet_way(kinematics, on_the_spot(kinematics.skeleton(), gait_clip(gait)));
+  ASSERT_TRUE(way);
+  for (const Vector2& velocity : way->velocities) EXPECT_NEAR(velocity.norm(), 3, 0.3);
+}
+
+TEST(FeetWay, IsNoneOfWhatGoesOrStands) {
+  const Kinematics kinematics(humanoid());
+  EXPECT_FALSE(find_feet_way(kinematics, gait_clip({0, 1.2})));
+  EXPECT_FALSE(find_feet_way(kinematics, gait_clip({0, 0})));
+  EXPECT_FALSE(find_feet_way(kinematics, gait_clip({0, 0, 1})));
+}
+
+TEST(FeetWay, LeadsACycleIntoItself) {
+  const Kinematics kinematics(humanoid());
+  const Clip clip = on_the_spot(kinematics.skeleton(), gait_clip({0, 1.2, 0, 1, 30}));
+  const auto way = find_feet_way(kinematics, clip);
+  ASSERT_TRUE(way);
+  const Clip moved = led(kinematics, clip, *way), faster = led(kinematics, clip, *way, 1.5);
+  EXPECT_NEAR(way_of_hips(moved), 1.2 * 24 / 30, 0.03);
+  EXPECT_NEAR(way_of_hips(faster), 1.5 * way_of_hips(moved), 1e-9);
+}
+
+void expect_found_again(const Take& take) {
+  const Clip clip = clip_from_take(take.skeleton, take);
+  if (clip.frames < 2 * clip.rate) return;  // a stride and a half
+  const Kinematics kinematics(take.skeleton);
+  const Clip still = on_the_spot(take.skeleton, clip);
+  const auto way = find_feet_way(kinematics, still);
+  ASSERT_TRUE(way) << take.name;
+  EXPECT_NEAR(way_of_hips(led(kinematics, still, *way)) / way_of_hips(clip), 1, 0.05) << take.name;
+}
+
+TEST(FeetWay, IsThatOfRealTakesThatWereTakenAwayTheirs) {
+  const std::filesystem::path bandai = shared_mocap() / "bandai-namco", cmu = shared_mocap() / "cmu";
+  const auto files = files_in(bandai, ".bvh");
+  if (files.empty()) GTEST_SKIP() << "no motion capture beside the project";
+  for (std::size_t i = 0; i < files.size(); i += 3) expect_found_again(read_bvh(files[i]));
+  expect_found_again(read_asf_amc(cmu / "02.asf", cmu / "02_01.amc"));
+}
+
+TEST(FeetWay, TurnsAsTheFeetOfRealTakesTell) {
+  int takes = 0;
+  for (const auto& file : files_in(shared_mocap() / "bandai-namco", ".bvh")) {
+    if (file.filename().string().find("walk-turn") == std::string::npos || takes == 12) continue;
+    const Take take = read_bvh(file);
+    const Clip clip = clip_from_take(take.skeleton, take);
+    const double turned = clip.headings.back() - clip.headings.front();
+    if (std::abs(turned) * clip.rate < kPi / 9 * clip.frames) continue;
+    const Kinematics kinematics(take.skeleton);
+    const Clip straight = on_the_spot(take.skeleton, clip, true);
+    const auto way = find_feet_way(kinematics, straight);
+    ASSERT_TRUE(way) << take.name;
+    const Clip moved = led(kinematics, straight, *way);
+    const double seconds = (clip.frames - 1) / clip.rate;
+    EXPECT_NEAR(way->turn, turned / seconds, kPi / 18) << take.name;
+    EXPECT_NEAR(way_of_hips(moved) / way_of_hips(clip), 1, 0.05) << take.name;
+    ++takes;
+  }
+  if (takes == 0) GTEST_SKIP() << "no motion capture beside the project";
+}
+
+}  // namespace
+}  // namespace fragmotion
