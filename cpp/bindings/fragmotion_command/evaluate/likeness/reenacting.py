@@ -27,6 +27,7 @@ _FRAMES_A_ROW = 6  # of a trace
 _SESSIONS = 8
 _SETTLING, _LAST = 60, 6  # frames that do not count where a take begins and where it ends
 _SHORTEST = 2.2  # s of a take that is re-enacted
+_LEAST = 0.5  # s of one whose turns count
 _AROUND = 31  # frames over which velocities are told
 _SPLIT = 0  # seed by which the takes are halved
 _JOINS = 0.06  # s between a fragment's end and the beginning of the one that goes on in its take
@@ -56,7 +57,7 @@ class Likeness:
         if not own.poses or not self._unseen.poses:
             raise ValueError(f"that takes two halves of takes that are longer than {_SHORTEST:g} s")
         self._floor = motion.floor_of(self._body, own.poses)
-        self._fastest = motion.fastest_turns([*own.poses, *self._unseen.poses])
+        self._fastest = motion.fastest_turns(_all_poses(self._body, recordings.clips))
         self._own, unseen = _windows(self._body, own), _windows(self._body, self._unseen)
         known = np.concatenate(self._own)
         self._mean = known.mean(0)
@@ -121,6 +122,12 @@ def _part(body: Body, clips: Sequence[core.Clip]) -> _Part:
     long = [clip for clip in clips if len(clip.root_positions) > _SHORTEST * clip.rate]
     poses = [poses_of(body, clip) for clip in [*long, *core.mirrored(body.skeleton, long)]]
     return _Part(poses, [[(_SETTLING, len(each.heads) - _LAST)] for each in poses])
+
+
+def _all_poses(body: Body, clips: Sequence[core.Clip]) -> list[Poses]:
+    """Of takes, however short, and of their mirror images."""
+    some = [clip for clip in clips if len(clip.root_positions) > _LEAST * clip.rate]
+    return [poses_of(body, clip) for clip in [*some, *core.mirrored(body.skeleton, some)]]
 
 
 def _windows(body: Body, part: _Part) -> list[Array]:
