@@ -7,6 +7,7 @@
 
 #include "control/simulated_players.hpp"
 #include "evaluate/performance.hpp"
+#include "made_styles.hpp"
 #include "mocap_files.hpp"
 #include "policy_payload.hpp"
 
@@ -101,6 +102,8 @@ TEST(PolicyFile, SaysWhyItIsRefused) {
 const std::filesystem::path kVersion3 = "tests/data/version-3.policy";
 
 TEST(PolicyFile, DISABLED_WritesTheFileOfThisVersion) { save_policy(kVersion3, legged_character()); }
+
+TEST(PolicyFile, DISABLED_WritesTheFileOfStyles) { save_policy("tests/data/styles.policy", *styled_character()); }
 
 TEST(PolicyFile, OfVersion3IsReadForGood) {
   const auto character = std::make_shared<const Character>(load_policy(kVersion3));
