@@ -12,6 +12,7 @@ from pathlib import Path
 
 from tools import demo
 from tools.docs import pages
+from tools.games import web
 from tools.measuring import benchmarks, running
 from tools.measuring.beside import inputs as beside_inputs
 from tools.measuring.directing import inputs as directing_inputs
@@ -41,6 +42,9 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     fuzz.add_argument("--seconds", type=float, default=60.0, metavar="N", help="how long, all fuzzers together (60)")
     fuzz.add_argument("names", nargs="*", metavar="FUZZER", help=f"only these of {', '.join(fuzzing.names())}")
     bench = commands.add_parser("bench", help="measure the core against NumPy and scikit-learn")
+    bench.add_argument(
+        "--takes", type=Path, nargs="+", default=[], metavar="MOCAP", help="of a policy file (the sample's)"
+    )
     bench.add_argument("--json", type=Path, metavar="FILE", help="save the figures there too")
     beside = commands.add_parser("beside", help="measure Fragmotion beside motion matching, on the same takes")
     beside_inputs.add_arguments(beside)
@@ -56,6 +60,8 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
         "unstable", help="set up Debian unstable for `test engines`, several gigabytes; or run a command in it"
     )
     unstable_parser.add_argument("words", nargs=argparse.REMAINDER, metavar="COMMAND", help="what to run")
+    live = commands.add_parser("web", help="make the live page: a folder of static files for any web server")
+    live.add_argument("folder", type=Path, metavar="OUT", help="the folder: new, empty, or such a page")
     package = commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
     package.add_argument(
         "--platform",
@@ -102,9 +108,13 @@ def main(arguments: list[str]) -> int:
             machine.set_up(machine.FUZZ)
             return 1 if fuzzing.fuzz_for(options.seconds, options.names or fuzzing.names()).findings else 0
         if options.command == "bench":
-            return benchmarks.run_benchmarks(options.json)
+            return benchmarks.run_benchmarks(options.takes, options.json)
         if options.command == "unstable":
             return run_in_unstable(options.words)
+        if options.command == "web":
+            machine.set_up(machine.DEMO)
+            web.make(options.folder)
+            return 0
         if options.command == "docs":
             return pages.make_docs(options)
         if options.command in running.COMMANDS:

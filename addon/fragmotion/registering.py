@@ -8,6 +8,7 @@ import bpy
 from . import command_line, operators
 from .character import building, coverage_picture, inspector, staleness, storing
 from .drive import handlers
+from .games import serving
 from .mocap import actions
 from .operators.base import background
 from .panels import menus, panel
@@ -36,6 +37,7 @@ def register() -> None:
 def unregister() -> None:
     """Remove all that `register` added; a build or a drive that runs is stopped."""
     background.stop()
+    serving.stop()
     waking.unregister()
     for part in (command_line, handlers, menus, keymaps, storing, staleness, mending):
         part.unregister()

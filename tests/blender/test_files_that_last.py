@@ -80,7 +80,7 @@ def test_a_recording_is_replayed_and_baked(addon: ModuleType, session: ModuleTyp
     bpy.context.scene.render.fps = 60
     assert bpy.ops.fragmotion.bake(trace_source="RECORDING", recording=1, as_recorded=True) == {"FINISHED"}
     action = obj.animation_data.action
-    assert action.name == "Recorded" and tuple(action.frame_range) == (1, 61)
+    assert action.name == "Recorded Bake" and tuple(action.frame_range) == (1, 61)
 
 
 def test_a_drive_that_was_cut_off_by_the_save_is_healed_and_another_gives_all_back(

@@ -53,7 +53,7 @@ def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleTy
     own = [cls.bl_idname.partition(".")[2] for cls in addon.operators.CLASSES]
     assert {"import_mocap", "build", "suggest_classes", "force_class", "leave_out", "add_move", "bake"} <= set(own)
     unchanging = {"save_policy", "save_bones", "cancel", "export_recording", "solo_class", "force_class"}
-    unchanging |= {"play_take"}
+    unchanging |= {"play_take", "export_to_game", "open_in_browser"}
     unchanging |= {"drive", "listen", "record", "play_trace", "find_pads", "change_style"}
     for name in own:
         operator = getattr(bpy.ops.fragmotion, name).get_rna_type()
@@ -71,7 +71,7 @@ def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) ->
         *("Build", "Build Options", "Numbers Tried", "Classes", "Coverage"),
         *("Advanced", "Training", "Figures", "Inspector", "Policy File"),
         *("Drive", "Drive Options", "Feel", "Ground", "Gamepads", "Overlays", "Trace"),
-        *("Moves", "Path", "Recordings", "Change", "Replay Options", "Bake", "Bake Options", "Populate"),
+        *("Moves", "Path", "Recordings", "Change", "Replay Options", "Bake", "Bake Options", "Populate", "Game"),
     ]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}
     assert {(panel.bl_space_type, panel.bl_region_type) for panel in panels} == {("VIEW_3D", "UI")}

@@ -16,17 +16,24 @@ inline const std::string& tiny_file() {
   return bytes;
 }
 
-/// FNV-1a, as policy_file.hpp says.
-inline std::uint64_t fnv1a(const std::string& payload) {
+/// Of words of 8 bytes, as docs/game.md says.
+inline std::uint64_t checksum_of(std::string payload) {
+  payload.resize((payload.size() + 7) / 8 * 8, '\0');
   std::uint64_t hash = 14695981039346656037ULL;
-  for (const char byte : payload) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
+  for (std::size_t at = 0; at < payload.size(); at += 8) {
+    for (std::size_t byte = 0; byte < 8; ++byte) {
+      hash ^= std::uint64_t{static_cast<unsigned char>(payload[at + byte])} << 8 * byte;
+    }
+    hash *= 1099511628211ULL;
+    hash ^= hash >> 32;
+  }
   return hash;
 }
 
 /// A file around a payload: magic, version, length, payload, checksum.
 inline std::string file_around(const std::string& payload) {
   std::string bytes = tiny_file().substr(0, 12);
-  const std::uint64_t numbers[] = {payload.size(), fnv1a(payload)};
+  const std::uint64_t numbers[] = {payload.size(), checksum_of(payload)};
   bytes.append(reinterpret_cast<const char*>(&numbers[0]), 8);
   bytes += payload;
   bytes.append(reinterpret_cast<const char*>(&numbers[1]), 8);

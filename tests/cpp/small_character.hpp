@@ -68,7 +68,7 @@ inline Clip kneeless_clip(const Skeleton& skeleton, double speed) {
   return make_clip(skeleton, clip);
 }
 
-/// A small character with legs, feet and contacts, which stands, walks and hops.
+/// A small character with legs, feet and contacts, which stands, walks and hops, also mirrored.
 inline Character legged_character() {
   Gait stand, walk, hop;
   stand.y = hop.y = 0;
@@ -77,7 +77,7 @@ inline Character legged_character() {
   walk.seconds = 2;
   BuildOptions options;
   options.classes = 6;
-  options.mirror = options.synthesize = false;
+  options.synthesize = false;
   options.policies = {"anticipate", "greedy"};
   return build(humanoid(), {gait_clip(stand, "stand"), gait_clip(walk, "walk"), gait_clip(hop, "hop")},
                {simulate_trace("explorer", 20, 1, ControlSpace())}, options);
@@ -96,11 +96,12 @@ inline Clip tiny_clip(double speed, double hop = 0) {
   return make_clip(tiny_skeleton(), clip);
 }
 
-/// A character of tiny_clip()s, each a class of its own.
-inline Character tiny_character(const std::vector<Clip>& clips = {tiny_clip(0), tiny_clip(1.5)}) {
+/// A character of tiny_clip()s, each a class of its own, and perhaps their mirror images.
+inline Character tiny_character(const std::vector<Clip>& clips = {tiny_clip(0), tiny_clip(1.5)}, bool mirror = false) {
   BuildOptions options;
   options.classes = static_cast<int>(clips.size());
-  options.mirror = options.synthesize = false;
+  options.mirror = mirror;
+  options.synthesize = false;
   options.policies = {"greedy"};
   return build(tiny_skeleton(), clips, {{{}, {}}}, options);
 }

@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 from conftest import BUILD, TOP, Poses, Run, finished
 
+from tools.platforms import PLATFORMS
+
 OURS = TOP / "games" / "godot"
 TESTS = Path(__file__).parent / "godot"
 FOLDER = BUILD / "godot"
@@ -92,3 +94,11 @@ def test_help_and_icons_are_there() -> None:
         assert re.search(rf"^## .*\n(?:signal|func|enum|var) {name}\b", script, re.MULTILINE), name
     for icon in re.findall(r'"(icons/\w+\.svg)"', script + told):
         assert (OURS / "addons" / "fragmotion" / icon).exists()
+
+
+def test_the_native_part_has_the_name_of_its_platform() -> None:
+    told = (OURS / "addons" / "fragmotion" / "fragmotion.gdextension").read_text(encoding="utf-8")
+    suffixes = {"Linux": "linux.{}.so", "Windows": "windows.{}.dll", "Darwin": "macos.{}.dylib"}
+    for platform in PLATFORMS:
+        name = suffixes[platform.system].format(platform.target.partition("-")[0])
+        assert f'"bin/fragmotion.{name}"' in told, platform.name

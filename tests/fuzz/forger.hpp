@@ -153,18 +153,36 @@ class Forger {
 
   void forge_clip(Character& c) {
     PackedClip& clip = one_of(c.pool.clips);
-    switch (below(5)) {
+    switch (below(4)) {
       case 0:
         return number(clip.rate);
       case 1:
-        return number(clip.origin[below(4)]);
-      case 2:
-        return number(clip.steps[below(4)]);
-      case 3:
-        one_of(clip.least) += below(2001) - 1000;
+        clip.mirrored = !clip.mirrored;
         return;
       default:
-        one_of(clip.poses) = static_cast<std::uint8_t>(below(256));
+        return forge_poses(c, clip.poses);
+    }
+  }
+
+  // Of all clips that share them.
+  void forge_poses(Character& c, std::shared_ptr<const PackedPoses> shared) {
+    PackedPoses poses = *shared;
+    switch (below(4)) {
+      case 0:
+        number(poses.origin[below(4)]);
+        break;
+      case 1:
+        number(poses.steps[below(4)]);
+        break;
+      case 2:
+        one_of(poses.least) += below(2001) - 1000;
+        break;
+      default:
+        one_of(poses.bytes) = static_cast<std::uint8_t>(below(256));
+    }
+    const auto forged = std::make_shared<const PackedPoses>(std::move(poses));
+    for (PackedClip& clip : c.pool.clips) {
+      if (clip.poses == shared) clip.poses = forged;
     }
   }
 

@@ -10,7 +10,7 @@
 namespace fragmotion {
 namespace {
 
-/// Legs, contacts and measured feet: a humanoid that stands and walks.
+/// Legs, contacts and measured feet: a humanoid that stands and walks, also mirrored.
 Character walking_character() {
   Gait stand, walk;
   stand.y = 0;
@@ -18,7 +18,7 @@ Character walking_character() {
   stand.rate = walk.rate = 15;
   BuildOptions options;
   options.classes = 3;
-  options.mirror = options.synthesize = false;
+  options.synthesize = false;
   options.policies = {"greedy", "anticipate"};
   return build(humanoid(), {gait_clip(stand, "stand"), gait_clip(walk, "walk")}, {{{}, {}}}, options);
 }

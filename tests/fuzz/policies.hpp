@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "character/policy_bytes.hpp"
 #include "character/policy_file.hpp"
 #include "fuzzing.hpp"
 #include "runtime/player.hpp"
@@ -62,9 +63,8 @@ inline std::string file_with_core(std::string payload) {
     payload.insert(at, plain_model());
     at += plain_model().size();
   });
-  std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a
-  for (const char byte : payload) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
-  return "FRAGMOTN" + bytes_of(std::uint32_t{3}) + bytes_of(std::uint64_t{payload.size()}) + payload + bytes_of(hash);
+  return "FRAGMOTN" + bytes_of(kPolicyVersion) + bytes_of(std::uint64_t{payload.size()}) + payload +
+         bytes_of(policy_checksum(payload));
 }
 
 /// Tells at the program's end how often something was done, as libFuzzer tells its figures.

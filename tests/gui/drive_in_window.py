@@ -144,14 +144,9 @@ def assert_nothing_is_left() -> Iterator[None]:
     assert session.current is None and overlays._handlers == []
     assert sdl.SDL_WasInit(0) == 0, "SDL is open"
     yield from window.until(lambda: waking._timers == [], "the end of the drive's operator", 20)
-    assert not says_keys(), "the status bar still names keys"
+    assert not window.says_keys(), "the status bar still names keys"
     yield from window.count_timers()
     assert window.TEST_OT_count_timers.count < 3, "a timer goes on"  # Blender's own may come once
-
-
-def says_keys() -> bool:
-    """Whether the status bar is drawn by the add-on."""
-    return window.ADDON in bpy.types.STATUSBAR_HT_header.draw.__module__
 
 
 def measure() -> None:
@@ -209,7 +204,7 @@ def drive_with_all_inputs(obj: bpy.types.Object, clock: Clock) -> Iterator[None]
     yield from window.send("D", "RELEASE", *MIDDLE, ctrl=True, shift=True)
     driven = session.current
     assert driven is not None, "the shortcut does not start the drive"
-    assert says_keys(), "the status bar names no keys"
+    assert window.says_keys(), "the status bar names no keys"
     pad = VirtualPad()
     pad.push(0, 0.57)
     yield from wait(1)
@@ -296,7 +291,9 @@ def bake_and_undo(obj: bpy.types.Object, before: dict[str, Any]) -> Generator[No
     _, motion = recordings.shown_of(recording)
     window.show_only("Bake")
     yield from window.click_button("fragmotion.bake")
-    yield from window.until(lambda: obj.animation_data.action.name == recording.name, "the bake of the recording")
+    yield from window.until(
+        lambda: obj.animation_data.action.name == f"{recording.name} Bake", "the bake of the recording"
+    )
     scene = bpy.context.scene
     last = round(obj.animation_data.action.frame_range[1])
     shown = making.play(obj, obj.animation_data.action, last)

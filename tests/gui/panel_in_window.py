@@ -111,10 +111,12 @@ def steps() -> Iterator[None]:
 
     press(bpy.ops.fragmotion.build, **FIELDS)
     yield from picture("3 building")
+    assert window.says_keys(), "the status bar does not say how far it is"
     assert 0 < build.current.fraction < 0.5 and build.current.stage == "Clustering"
     assert not bpy.ops.fragmotion.build.poll(), "two builds at once"
     go_on.set()
     yield from finish_build(build)
+    assert not window.says_keys()
     assert obj.fragmotion.figures.classes == FIELDS["classes"], "the build left nothing"
     yield from picture("4 built")
     press(bpy.ops.fragmotion.bake, seconds=2.0)

@@ -122,6 +122,11 @@ def _hovered() -> str:
     return ""
 
 
+def says_keys() -> bool:
+    """Whether the status bar is drawn by the add-on."""
+    return ADDON in bpy.types.STATUSBAR_HT_header.draw.__module__
+
+
 def panels() -> list[Any]:
     """The add-on's panels, in the order of the sidebar."""
     return [cls for cls in module("panels.panel").CLASSES if issubclass(cls, bpy.types.Panel)]

@@ -17,14 +17,26 @@ THIGHS = ("left_thigh", "right_thigh")
 
 
 @dataclass
+class Grid:
+    """What a style's clips share, [bones]; how a mirror image follows, in files that have any."""
+
+    usual: Array
+    steps: Array
+    counterparts: Array = field(default_factory=lambda: np.zeros(0, int))
+    before: Array = field(default_factory=lambda: np.zeros((0, 4)))
+    after: Array = field(default_factory=lambda: np.zeros((0, 4)))
+
+
+@dataclass
 class Clip:
-    """A take: hips' places [F,3], headings [F], and rotations [F,B,4]."""
+    """A take: hips' places [F,3], headings [F], rotations [F,B,4], and bytes of the file that are its own."""
 
     name: str
     rate: float
     places: Array
     headings: Array
     rotations: Array
+    size: int
 
 
 @dataclass
@@ -59,11 +71,11 @@ class Bytes:
     """Little-endian numbers, lists and texts one after the other."""
 
     def __init__(self, data: bytes) -> None:
-        self._data, self._at = data, 0
+        self._data, self.at = data, 0
 
     def one(self, kind: str) -> Any:
-        (value,) = struct.unpack_from("<" + kind, self._data, self._at)
-        self._at += struct.calcsize("<" + kind)
+        (value,) = struct.unpack_from("<" + kind, self._data, self.at)
+        self.at += struct.calcsize("<" + kind)
         return value
 
     def some(self, kind: str, count: int) -> list[Any]:
@@ -72,31 +84,32 @@ class Bytes:
     def numbers(self, dtype: str) -> Array:
         """A count of 8 bytes, and so many numbers."""
         count = self.one("Q")
-        values = np.frombuffer(self._data, np.dtype(dtype).newbyteorder("<"), count, self._at)
-        self._at += values.nbytes
+        values = np.frombuffer(self._data, np.dtype(dtype).newbyteorder("<"), count, self.at)
+        self.at += values.nbytes
         return values
 
     def text(self) -> str:
         size = self.one("I")
-        self._at += size
-        return self._data[self._at - size : self._at].decode()
+        self.at += size
+        return self._data[self.at - size : self.at].decode()
 
     def section(self, name: str) -> bool:
         """Whether a part follows that only some files have, which begins with its name."""
-        follows = self._data.startswith(name.encode(), self._at)
-        self._at += len(name) if follows else 0
+        follows = self._data.startswith(name.encode(), self.at)
+        self.at += len(name) if follows else 0
         return follows
 
     @property
     def done(self) -> bool:
-        return self._at == len(self._data)
+        return self.at == len(self._data)
 
 
-def checksum(data: bytes) -> int:
-    """FNV-1a of 64 bits."""
-    value = 0xCBF29CE484222325
-    for byte in data:
-        value = (value ^ byte) * 0x100000001B3 % 2**64
+def checksum(data: bytes, version: int) -> int:
+    """FNV-1a of 64 bits; since version 4 of words of 8 bytes, each folded."""
+    value, width = 0xCBF29CE484222325, 1 if version == 3 else 8
+    for at in range(0, len(data), width):
+        value = (value ^ int.from_bytes(data[at : at + width], "little")) * 0x100000001B3 % 2**64
+        value ^= value >> 32 if version > 3 else 0
     return value
 
 
@@ -105,13 +118,14 @@ def read_policy(data: bytes) -> Policy:
     assert data[:8] == b"FRAGMOTN"
     version, size = struct.unpack_from("<IQ", data, 8)
     payload = data[20 : 20 + size]
-    assert version == 3 and len(data) == 20 + size + 8 and struct.unpack("<Q", data[-8:]) == (checksum(payload),)
+    assert version in (3, 4) and len(data) == 20 + size + 8
+    assert struct.unpack("<Q", data[-8:]) == (checksum(payload, version),)
     read = Bytes(payload)
     bones = [read.text() for _ in range(read.one("Q"))]
     parents = read.numbers("i4")
     rest, offsets, tips = (np.array([read.some("d", n) for _ in range(read.one("Q"))]) for n in (4, 3, 3))
     roles = dict(zip((*ROLES, *THIGHS), read.some("i", 10)))
-    styles = [read_style(read)]
+    styles = [read_style(read, version)]
     moves: list[tuple[str, int, bool, float, int, int]] = []
     if read.section("moves"):
         for _ in range(read.one("Q")):
@@ -120,18 +134,23 @@ def read_policy(data: bytes) -> Policy:
         styles[0].name = read.text()
         for _ in range(read.one("Q")):
             name = read.text()
-            styles.append(read_style(read))
+            styles.append(read_style(read, version))
             styles[-1].name = name
     assert read.done
     return Policy(bones, parents, rest[:, [3, 0, 1, 2]], offsets, tips, roles, styles, moves)
 
 
-def read_style(read: Bytes) -> Style:
+def read_style(read: Bytes, version: int) -> Style:
     """Read all of a style but its name."""
     style = Style()
-    bones, usual, steps = read.one("i"), read.numbers("f4"), read.numbers("f4")
-    usual = usual.reshape(-1, 4, BLOCK).transpose(0, 2, 1).reshape(-1, 4)[:bones]
-    style.clips = [read_clip(read, usual, steps[:bones]) for _ in range(read.one("Q"))]
+    grid = read_grid(read, version)
+    turns: list[Array] = []
+    for _ in range(read.one("Q")):
+        begin, name, original = read.at, read.text(), read.one("i") if version > 3 else -1
+        clip, turned = read_clip(read, name, grid) if original < 0 else (style.clips[original], turns[original])
+        style.clips.append(clip if original < 0 else mirrored(clip, name, turned, grid))
+        style.clips[-1].size = read.at - begin
+        turns.append(turned)
     for _ in range(read.one("Q")):
         clip, begin, end = read.some("i", 3)
         style.fragments.append((clip, begin, end, read.one("B"), tuple(read.some("d", 4))))
@@ -155,9 +174,22 @@ def read_style(read: Bytes) -> Style:
     return style
 
 
-def read_clip(read: Bytes, usual: Array, steps: Array) -> Clip:
-    """Read a clip, and unpack its poses."""
-    name, rate, frames = read.text(), read.one("d"), read.one("i")
+def read_grid(read: Bytes, version: int) -> Grid:
+    """Read what the clips share."""
+
+    def rotations() -> Array:
+        return read.numbers("f4").astype(float).reshape(-1, 4, BLOCK).transpose(0, 2, 1).reshape(-1, 4)[:bones]
+
+    bones = read.one("i")
+    grid = Grid(rotations(), read.numbers("f4")[:bones].astype(float))
+    if version > 3:
+        grid.counterparts, grid.before, grid.after = read.numbers("i4"), rotations(), rotations()
+    return grid
+
+
+def read_clip(read: Bytes, name: str, grid: Grid) -> tuple[Clip, Array]:
+    """Read a clip, and unpack its poses; also the turns from the usual rotations."""
+    rate, frames = read.one("d"), read.one("i")
     origin, step = np.array(read.some("d", 4)), np.array(read.some("d", 4))
     least, bits, packed = read.numbers("i4"), read.numbers("u1"), read.numbers("u1")
     width = (len(packed) - 4) // frames
@@ -168,10 +200,17 @@ def read_clip(read: Bytes, usual: Array, steps: Array) -> Clip:
         numbers[:, i] = stream[:, end - count : end].astype(np.int64) @ (1 << np.arange(count, dtype=np.int64))
     root = origin + step * numbers[:, :4]
     turns = (numbers[:, 4:] + least).reshape(frames, -1, 3, BLOCK).transpose(0, 1, 3, 2).reshape(frames, -1, 3)
-    axis = turns[:, : len(usual)] * steps[None, :, None].astype(float)
+    axis = turns[:, : len(grid.usual)] * grid.steps[None, :, None]
     square = (axis**2).sum(-1, keepdims=True)
     turned = np.concatenate([1 - square, 2 * axis], -1) / (1 + square)
-    return Clip(name, rate, root[:, :3], root[:, 3], product(usual.astype(float)[None], turned))
+    return Clip(name, rate, root[:, :3], root[:, 3], product(grid.usual[None], turned), 0), turned
+
+
+def mirrored(clip: Clip, name: str, turned: Array, grid: Grid) -> Clip:
+    """Return the mirror image of a clip whose bones turn so."""
+    rotations = np.empty_like(clip.rotations)
+    rotations[:, grid.counterparts] = product(product(grid.before[None], turned), grid.after[None])
+    return Clip(name, clip.rate, clip.places * [-1, 1, 1], -clip.headings, rotations, 0)
 
 
 def product(a: Array, b: Array) -> Array:

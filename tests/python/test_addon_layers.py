@@ -20,6 +20,7 @@ FOLDERS = [
     "ground",
     "recordings",
     "character",
+    "games",
     "paths",
     "input",
     "settings",
@@ -33,6 +34,7 @@ FOLDERS = [
     "operators/character",
     "operators/mocap",
     "operators/directing",
+    "operators/games",
     "operators",
     "panels",
 ]

@@ -10,6 +10,7 @@ from pathlib import Path
 import fragmotion_core as core
 import pytest
 from conftest import make_skeleton, walking_arrays
+from policy_reader import checksum
 
 NAMES = {"latin-1": ["Hüfte", "Rücken"], "shift_jis": ["腰", "ポンチ"], "utf-8": ["腰", "Rücken"]}
 
@@ -75,18 +76,10 @@ def test_errors_that_cut_a_letter_are_read(tmp_path: Path) -> None:
     assert type(refusal.value) is ValueError
 
 
-def checksum(data: bytes) -> int:
-    """FNV-1a, as a policy file ends with."""
-    value = 0xCBF29CE484222325
-    for byte in data:
-        value = ((value ^ byte) * 0x100000001B3) & (2**64 - 1)
-    return value
-
-
 def test_a_policy_files_names_may_be_any_bytes(character: core.Character) -> None:
     data = character.to_bytes()
     payload = data[20:-8].replace(b"spine", b"sp\xefne", 1)
-    forged = core.Character.from_bytes(data[:20] + payload + checksum(payload).to_bytes(8, "little"))
+    forged = core.Character.from_bytes(data[:20] + payload + checksum(payload, 4).to_bytes(8, "little"))
     assert forged.skeleton.names[1] == "spïne"
     assert core.Character.from_bytes(forged.to_bytes()).skeleton.names == forged.skeleton.names
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import fragmotion_core as core
 import numpy as np
+import pytest
 from conftest import make_skeleton, walking_clips
 from policy_reader import read_policy
 
@@ -37,8 +38,22 @@ def test_a_reader_of_its_own_reads_the_same_poses(character: core.Character) -> 
         assert style.speeds == list(told.space.speeds)
 
 
-def test_it_reads_the_files_of_earlier_programs() -> None:
-    data = (DATA / "version-3.policy").read_bytes()
+def test_mirrored_clips_are_the_mirror_images_of_their_originals(character: core.Character) -> None:
+    clips = {clip.name: clip for clip in read_policy(character.to_bytes()).styles[0].clips}
+    images = [name for name in clips if f"{name} mirrored" in clips]
+    assert images
+    for name in images:
+        clip, read = clips[name], clips[f"{name} mirrored"]
+        original = core.Clip(character.skeleton, name, clip.rate, clip.places, clip.rotations)
+        (image,) = core.mirrored(character.skeleton, [original])
+        assert np.abs(read.places - image.root_positions).max() < 1e-6
+        signs = np.sign((read.rotations * image.rotations).sum(-1, keepdims=True))
+        assert np.abs(signs * read.rotations - image.rotations).max() < 1e-6
+
+
+@pytest.mark.parametrize("version", [3, 4])
+def test_it_reads_the_files_of_all_versions(version: int) -> None:
+    data = (DATA / f"version-{version}.policy").read_bytes()
     policy, character = read_policy(data), core.Character.from_bytes(data)
     assert policy.bones == character.skeleton.names
     assert (policy.styles[0].labels == character.labels).all()  # tables are repaired as they are loaded

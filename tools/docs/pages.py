@@ -5,15 +5,17 @@ from __future__ import annotations
 
 import argparse
 import os
+import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
+from tools.games import web
 from tools.measuring.directing.inputs import SAMPLE
 from tools.packaging import packages
 from tools.packaging.compiling import installed_core
 from tools.paths import BLENDER, BUILD, LOGS, TOP
-from tools.setup import blender, machine
+from tools.setup import blender, machine, unstable
 from tools.setup.environments import BPY_PYTHON, environment_python
 from tools.shell import Failure, run, say
 
@@ -48,6 +50,15 @@ def make_docs(options: argparse.Namespace) -> int:
 
 def _readme(options: argparse.Namespace) -> None:
     _run_python("tools.docs.drive_picture")
+
+
+def _play(options: argparse.Namespace) -> None:
+    machine.set_up(machine.DEMO)
+    page, pictures = BUILD / "docs-play" / "page", BUILD / "docs-play" / "pictures"
+    web.make(page)
+    pictures.mkdir(parents=True, exist_ok=True)
+    run(unstable.command(["node", TOP / "tests" / "engines" / "web" / "page.mjs", page, pictures]), "docs-play")
+    shutil.copy(pictures / "play.png", _DOCS)
 
 
 def _guide(options: argparse.Namespace) -> None:
@@ -126,6 +137,7 @@ def _run_in_window(script: str, folder: Path) -> None:
 PAGES: dict[str, Callable[[argparse.Namespace], None]] = {
     "readme": _readme,
     "guide": _guide,
+    "play": _play,
     "motion": _motion,
     "directing": _directing,
     "ground": _ground,

@@ -12,11 +12,11 @@ from tools.shell import run, say
 
 FOLDER = BUILD / "sample"
 _MADE = tuple(FOLDER / name for name in ("sample.policy", "sample.glb"))
-_MADE_FROM = ("addon", "cpp", "sample_rigs", "tools/games/sample_in_blender.py")
+_MADE_FROM = ("addon", "cpp/src/make", "sample_rigs", "tools/games/sample_in_blender.py")
 
 
 def make() -> Path:
-    """The folder with both files, made anew if anything is younger that they are made from."""
+    """The folder with both files, made anew where what makes them is younger."""
     if not _is_up_to_date():
         say("build: the sample character, by Blender")
         FOLDER.mkdir(parents=True, exist_ok=True)

@@ -2,7 +2,10 @@
 """Compare the core's stages (Google Benchmark) with NumPy and scikit-learn: same run, same data, results compared.
 Then how time grows with the number of fragments, and each of the project's goals beside its figure.
 
-python -m tools.measuring.bench PROGRAM [--json FILE], from the top folder, with NumPy and scikit-learn.
+Last, what a policy file keeps of takes: the sample's, or those of `--takes`.
+
+python -m tools.measuring.bench PROGRAM [--takes MOCAP...] [--json FILE], from the top folder, with NumPy and
+scikit-learn.
 """
 
 from __future__ import annotations
@@ -20,14 +23,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from fragmotion_command.evaluate.loading import read_recordings
 from numpy.typing import NDArray
 
 from tests.reference import numpy_build as reference
+from tools.measuring.quality.sample import sample_recordings
+from tools.measuring.stored import Stored, measure_stored
 
 Arrays = dict[str, NDArray[Any]]
 Stage = Callable[[Arrays], tuple[float, str]]
 
 _UNITS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
+_UNIT = 0.01  # m of a BVH file's numbers
 _ENOUGH = 1.0  # s: a reference that took less is measured again
 _REPEATS = 3
 _FRAMES = 200  # of the NumPy player
@@ -244,7 +251,7 @@ def compare(core: dict[str, float], data: Arrays) -> tuple[list[Row], dict[str, 
     return rows, remarks
 
 
-def goals(rows: list[Row], measured: Measured) -> list[Goal]:
+def goals(rows: list[Row], measured: Measured, stored: Stored) -> list[Goal]:
     """The project's goals, for two cores, beside what was measured."""
     core, growth = {row.name: row for row in rows}, measured.growth
     return [
@@ -259,10 +266,14 @@ def goals(rows: list[Row], measured: Measured) -> list[Goal]:
         Goal(f"{growth.fragments[-1]} fragments", growth.seconds[-1], 60, _duration),
         Goal(f"memory of {growth.fragments[-1]} fragments", growth.peak_bytes[-1], 1e9, _megabytes),
         Goal("exponent of CPU time over fragments", growth.exponent, 1.1, "{:.2f}".format),
+        Goal("motion data, bytes a rotation", stored.bytes_a_rotation, 2, "{:.2f}".format),
+        Goal("its error at bones' ends", stored.off, 1e-4, "{:.1e} m".format),
+        Goal(f"policy file of {stored.takes} takes", stored.file_bytes, 2.6e6, "{:.0f} bytes".format),
+        Goal("its load", stored.load_seconds, 5e-3, _duration),
     ]
 
 
-def show(rows: list[Row], remarks: dict[str, str], measured: Measured, data: Arrays) -> None:
+def show(rows: list[Row], remarks: dict[str, str], measured: Measured, data: Arrays, stored: Stored) -> None:
     """Print the table."""
     print(
         f"{len(data['ranges'])} fragments, {len(data['representatives'])} classes, {len(data['points'])} controls, "
@@ -280,7 +291,7 @@ def show(rows: list[Row], remarks: dict[str, str], measured: Measured, data: Arr
     print(f"\nWhole build: {whole['fragments']:.0f} fragments ({whole['captured']:.0f} not synthesized), {cpu} of CPU")
     print(f"The fastest one's stages: {parts}")
     show_growth(measured.growth)
-    show_goals(goals(rows, measured))
+    show_goals(goals(rows, measured, stored))
 
 
 def show_growth(growth: Growth) -> None:
@@ -321,6 +332,7 @@ def main(arguments: list[str]) -> None:
     """Measure, print, and save where asked."""
     parser = argparse.ArgumentParser(prog="tools.measuring.bench", description=__doc__)
     parser.add_argument("program", type=Path, help="the Google Benchmark program")
+    parser.add_argument("--takes", type=Path, nargs="+", metavar="MOCAP", help="BVH in centimetres, or ASF and AMC")
     parser.add_argument("--json", type=Path, metavar="FILE", help="save the figures there too")
     options = parser.parse_args(arguments)
     with tempfile.TemporaryDirectory() as name:
@@ -328,9 +340,10 @@ def main(arguments: list[str]) -> None:
         measured = measure_core(options.program, folder)
         data: Arrays = {path.stem: np.load(path) for path in folder.glob("*.npy")}
     rows, remarks = compare(measured.seconds, data)
-    show(rows, remarks, measured, data)
+    stored = measure_stored(read_recordings(options.takes, _UNIT) if options.takes else sample_recordings())
+    show(rows, remarks, measured, data, stored)
     if options.json:
-        figures = {"stages": [asdict(row) for row in rows], "growth": asdict(measured.growth)}
+        figures = {"stages": [asdict(row) for row in rows], "growth": asdict(measured.growth), "stored": asdict(stored)}
         options.json.write_text(json.dumps(figures, indent=2) + "\n")
 
 

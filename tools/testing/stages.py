@@ -85,7 +85,7 @@ _THOROUGH = (
     "OwnControls.AreWhatEverythingAsksFor",
     "OwnControls.ComeBackFromAFile",
     "OwnControls.ReplayWhatWasRecordedWithOthers",
-    "PackedClip.KeepsAllTakesInLessThanAQuarterOfTheirSize",
+    "PackedClip.KeepsAllTakesInLessThanAnEighthOfTheirSize",
     "Path.FindsTheNearestPlaceAsBruteForceDoes",
     "Pin.Is*",
     "Player.NeverJumps",

@@ -21,6 +21,7 @@ from ..ground.belongings import belongings
 from ..ground.meshes import find_ground
 from ..jobs import Report
 from ..paths.following import shared
+from ..recordings.curves import curves_of
 from ..settings.bake_fields import MIXED, BakeFields
 from . import baking
 from .targets import Target, write
@@ -128,8 +129,10 @@ def _around(obj: bpy.types.Object, spot: Spot) -> Matrix:
 
 
 def _copy(obj: bpy.types.Object, moved: Matrix, number: int, collection: bpy.types.Collection) -> bpy.types.Object:
-    """A copy of the armature and of what it carries or deforms, moved; their data are the originals'."""
-    copies = {original: original.copy() for original in (obj, *belongings(obj))}
+    """A copy of the armature and of what it carries or deforms, but for the curves of its recordings, moved; their data
+    are the originals'."""
+    curves = [curves_of(obj, recording) for recording in obj.fragmotion.recordings]
+    copies = {original: original.copy() for original in (obj, *belongings(obj)) if original not in curves}
     for original, copy in copies.items():
         copy.name = f"{original.name} {number}"
         collection.objects.link(copy)

@@ -36,7 +36,7 @@ def find_target(context: bpy.types.Context, obj: bpy.types.Object, settings: Any
     """Where settings with BakeFields want the bake of a recording of that name; UserError where keys would be lost."""
     if settings.target == "CURRENT":
         return Target("CURRENT", _current_action(obj), "", context.scene.frame_current)
-    name = settings.action or recording or f"{obj.name} Bake"
+    name = settings.action or f"{recording or obj.name} Bake"
     return Target(settings.target, _replaceable(settings.action), name, settings.frame_start)
 
 

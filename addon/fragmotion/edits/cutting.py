@@ -20,7 +20,8 @@ from .replaying import STEPS, as_shown, joined, keep, shown_poses
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
 
-_SEARCH = 5  # controls to either side of a seam within which the poses may fit better
+_SEARCH = 5  # controls before a seam, and after it, within which the poses may fit better
+_BEFORE, _AFTER = 2, 3  # of them to either side of a cut: half a second together
 
 
 class Seam(NamedTuple):
@@ -33,8 +34,23 @@ class Seam(NamedTuple):
 
 
 def cut_out(obj: bpy.types.Object, recording: Recording, start: float, end: float) -> Seam:
-    """Take the seconds from `start` to `end` out of the middle, and up to half a second more on either side, so that
-    the poses fit. What follows is carried to where the character is then, and from 0.8 s on is as it was."""
+    """Take the seconds from `start` to `end` out of the middle, and up to half a second more, so that the poses fit.
+    What follows is carried to where the character is then, and from 0.8 s on is as it was."""
+    trace, shown, (first, last), seams = _cut(obj, recording, start, end)
+    return _glue(obj, (recording, trace, shown), (recording, trace, shown), seams, (first, last))
+
+
+def find_cut(obj: bpy.types.Object, recording: Recording, start: float, end: float) -> Seam:
+    """Where `cut_out` would cut, and how well the poses fit there; nothing changes."""
+    _, shown, asked, seams = _cut(obj, recording, start, end)
+    return Seam(*asked, None) if shown is None else _find_seam(obj, shown, shown, seams)
+
+
+def _cut(
+    obj: bpy.types.Object, recording: Recording, start: float, end: float
+) -> tuple[Doubles, Motion | None, tuple[int, int], tuple[list[int], list[int]]]:
+    """A recording's trace and what it showed, the controls between which it is to be cut, and those between which it
+    may be cut; UserError where that is no stretch of its middle."""
     trace = trace_of(recording)
     first, last = round(max(start, 0) * TRACE_RATE), min(round(end * TRACE_RATE), len(trace))
     if not 0 < first < last < len(trace):
@@ -42,12 +58,9 @@ def cut_out(obj: bpy.types.Object, recording: Recording, start: float, end: floa
             f"Recording '{recording.name}' lasts {recording.seconds:.1f} s: from {start:.1f} s to {end:.1f} s is no "
             "stretch of its middle. Trim takes off its ends"
         )
-    shown = shown_poses(obj, recording)
-    ends = range(max(first - _SEARCH, 1), first + 1)
-    beginnings = range(last, min(last + _SEARCH, len(trace) - 1) + 1)
-    return _glue(
-        obj, (recording, trace, shown), (recording, trace, shown), (list(ends), list(beginnings)), (first, last)
-    )
+    ends = range(max(first - _BEFORE, 1), first + 1)
+    beginnings = range(last, min(last + _AFTER, len(trace) - 1) + 1)
+    return trace, shown_poses(obj, recording), (first, last), (list(ends), list(beginnings))
 
 
 def append(obj: bpy.types.Object, recording: Recording, other: Recording) -> Seam:

@@ -26,11 +26,13 @@ if TYPE_CHECKING:
 
 
 class Goal(NamedTuple):
-    """The character frame to be in, `seconds` after the recording's beginning; controls before `begin` (s) stay."""
+    """The character frame to be in, `seconds` after the recording's beginning, with its heading or with any; controls
+    before `begin` (s) stay."""
 
     seconds: float
     begin: float
     frame: tuple[float, float, float]
+    any_heading: bool = False
 
 
 class Pinned(NamedTuple):
@@ -66,6 +68,7 @@ def prepare(obj: bpy.types.Object, recording: Recording, goal: Goal) -> Callable
     target = _seen_by_player(shown, played, first * STEPS, goal.frame)
     policy = recording.policy if recording.policy in character.policies else ""
     options = {**player_options(obj), "seed": recording.seed, "policy": policy}
+    options.update({"angle": math.pi} if goal.any_heading else {})
     start = np.array(recording.start)
 
     def search(report: Report) -> Pinned:
@@ -81,10 +84,11 @@ def keep_pin(obj: bpy.types.Object, recording: Any, goal: Goal, pinned: Pinned) 
     """Give the recording what was found, what is left spread over the stretch; UserError where it is not reached."""
     pin, first = pinned
     if not pin.fits:
+        easier = "" if goal.any_heading else ", let it face anywhere (Any Heading)"
         raise UserError(
-            f"The pin is {pin.asked:.2f} m and {math.degrees(pin.asked_angle):.0f} degrees from where recording "
-            f"'{recording.name}' leads; the nearest that {pin.tries} tries found is {pin.distance:.2f} m and "
-            f"{math.degrees(pin.angle):.0f} degrees from it. Move it nearer, or let the change begin earlier"
+            f"The pin is {say_off(goal, pin.asked, pin.asked_angle)} from where recording '{recording.name}' leads; "
+            f"the nearest that {pin.tries} tries found is {say_off(goal, pin.distance, pin.angle)} from it. Move it "
+            f"nearer{easier}, or let the change begin earlier"
         )
     character = load(obj)
     shown = shown_poses(obj, recording)
@@ -92,10 +96,16 @@ def keep_pin(obj: bpy.types.Object, recording: Any, goal: Goal, pinned: Pinned) 
     again = replay(obj, character, recording, pin.trace, pin.seed)
     shown = from_then_on(character, shown, again, first)
     end = round(goal.seconds * POSE_RATE)
-    there = core.spread(character.skeleton, as_shown(shown), first * STEPS, end, np.array(goal.frame))
+    heading = shown.path[end][2] if goal.any_heading else goal.frame[2]
+    there = core.spread(character.skeleton, as_shown(shown), first * STEPS, end, np.array((*goal.frame[:2], heading)))
     recording.seed = pin.seed
     keep(obj, recording, pin.trace, as_motion(there, shown.classes))
     renew_curves(obj, recording)
+
+
+def say_off(goal: Goal, distance: float, angle: float) -> str:
+    """How far from the goal that is, in words."""
+    return f"{distance:.2f} m" + ("" if goal.any_heading else f" and {math.degrees(angle):.0f} degrees")
 
 
 def _check_plain(recording: Recording, character: Character, goal: Goal) -> None:

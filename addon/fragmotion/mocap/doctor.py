@@ -19,7 +19,8 @@ DUPLICATE = "duplicate"
 """The code of a finding that is mended by leaving the take out."""
 
 _UNIT = "unit"  # a finding's code
-_WAIT = 0.1  # s
+WAIT = 0.1
+"""Seconds between looks at a thread that is waited for."""
 
 
 class TakeFinding(bpy.types.PropertyGroup):
@@ -66,7 +67,7 @@ def examine(
     job.start()
     try:
         while job.running:
-            job.wait(_WAIT)
+            job.wait(WAIT)
             yield begin + (end - begin) * job.fraction
     except GeneratorExit:
         job.cancel()

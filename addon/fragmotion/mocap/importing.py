@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Generator, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -22,7 +22,7 @@ from ..rig.selection import select
 from ..rig.writing import write_poses
 from . import by_blender
 from .by_blender import NoTakes
-from .doctor import examine, keep_findings
+from .doctor import WAIT, examine, keep_findings
 from .retargeting import Channels, has_names_of, key_times, make_action, retargeted_takes
 from .scratch import scratch_scene
 from .take_files import BY_BLENDER, TakeFile
@@ -108,9 +108,11 @@ def _read_all(
             for index, file in enumerate(files):
                 yield _STAGE * index / len(files)
                 is_needed = file.named or len(files) == 1
-                takes = (
-                    by_core[file].result() if file in by_core else _read_or_none(context, file, character, is_needed)
-                )
+                takes: list[Take] | None
+                if file in by_core:
+                    takes = yield from _awaited(by_core[file], _STAGE * index / len(files))
+                else:
+                    takes = _read_or_none(context, file, character, is_needed)
                 if takes is None:
                     without.append(file.path)
                     continue
@@ -122,6 +124,13 @@ def _read_all(
     if not read:
         raise UserError(f"'{without[0]}' and {len(without) - 1} more: no armature in them is animated")
     return read, without
+
+
+def _awaited(reading: Future[list[Take]], share: float) -> Generator[float, None, list[Take]]:
+    """What a file is read to; gives the share that is done before while it lasts."""
+    while not wait([reading], WAIT).done:
+        yield share
+    return reading.result()
 
 
 def _read_or_none(context: bpy.types.Context, file: TakeFile, character: str, is_needed: bool) -> list[Take] | None:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Generator, Sequence
 from typing import TYPE_CHECKING
 
 import bpy
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from fragmotion_core import Body, Clip, Doubles, Rig, Skeleton, Take
 
 Channels = tuple["Doubles", "Doubles"]
-Advance = Callable[[float], None]
 
 FIRST_FRAME = 1
 _SAMPLING = 0.5  # share of the progress that reading Actions takes
@@ -56,25 +55,28 @@ def retarget_actions(
     source: bpy.types.Object,
     obj: bpy.types.Object,
     actions: Sequence[bpy.types.Action],
-    advance: Advance,
-) -> list[bpy.types.Action]:
-    """New Actions, ticked, in which the armature does what the source does in its Actions; on an error there are
-    none."""
+) -> Generator[float, None, list[bpy.types.Action]]:
+    """New Actions, ticked, in which the armature does what the source does in its Actions. Gives the share that is
+    done; on an error, and where it is closed before its end, there are none."""
     source_rig, rig = make_rig(source), make_rig(obj)
     moving = carriers(obj, rig)
     clips = []
     for index, action in enumerate(actions):
         clips.append(sample(context, source, action, source_rig))
-        advance(_SAMPLING * index / len(actions))
-    made = []
-    for index, clip in enumerate(_retargeted(make_body(source, source_rig, clips), obj, rig, clips)):
-        channels = rig.channels(clip.root_positions, clip.rotations)
-        action = make_action(context.scene, f"{clip.name} on {obj.name}", clip.rate)
-        times = key_times(action, len(channels[1]))
-        write_poses(action, obj, times, *channels, moving)
-        take_after(actions[index], sample_times(context.scene, source, actions[index]), action, times)
-        made.append(action)
-        advance(_SAMPLING + (1 - _SAMPLING) * index / len(clips))
+        yield _SAMPLING * index / len(actions)
+    made: list[bpy.types.Action] = []
+    try:
+        for index, clip in enumerate(_retargeted(make_body(source, source_rig, clips), obj, rig, clips)):
+            channels = rig.channels(clip.root_positions, clip.rotations)
+            made.append(make_action(context.scene, f"{clip.name} on {obj.name}", clip.rate))
+            times = key_times(made[-1], len(channels[1]))
+            write_poses(made[-1], obj, times, *channels, moving)
+            take_after(actions[index], sample_times(context.scene, source, actions[index]), made[-1], times)
+            yield _SAMPLING + (1 - _SAMPLING) * index / len(clips)
+    except BaseException:
+        for action in made:
+            bpy.data.actions.remove(action)
+        raise
     return made
 
 

@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-from . import base, character, directing, mocap
+from . import base, character, directing, games, mocap
 
 __all__ = ["CLASSES", "DROP_HANDLERS"]
 
-CLASSES = (*base.CLASSES, *mocap.CLASSES, *character.CLASSES, *directing.CLASSES)
+CLASSES = (*base.CLASSES, *mocap.CLASSES, *character.CLASSES, *directing.CLASSES, *games.CLASSES)
 DROP_HANDLERS = mocap.DROP_HANDLERS

@@ -33,7 +33,7 @@ from ..settings.drawing import (
     draw_training,
     draw_wrapped,
 )
-from . import bones, classes, control_rig, doctor, drive, left_out, moves, path, recordings
+from . import bones, classes, control_rig, doctor, drive, game, left_out, moves, path, recordings
 from .doctor import LIGHTS
 from .sidebar import Sidebar, SubPanel, draw_fold, draw_play, is_folded
 
@@ -334,4 +334,5 @@ CLASSES = (
     *recordings.CLASSES,
     FRAGMOTION_PT_bake,
     *recordings.BAKE_CLASSES,
+    *game.CLASSES,
 )

@@ -13,6 +13,7 @@ from ..settings.drawing import aligned, draw_bake, draw_bake_options, draw_popul
 from .sidebar import Sidebar, SubPanel
 
 _ROWS = 4
+_INSIDE = 0.9  # of the sidebar's width: a box
 
 
 class FRAGMOTION_UL_recordings(bpy.types.UIList):
@@ -113,14 +114,15 @@ class FRAGMOTION_PT_change(_RecordingPanel, bpy.types.Panel):
         group = _group(layout, context, "Be at a place at the playhead: the 3D cursor, or an object")
         column = aligned(group)
         column.prop(settings, "pin_at", text="Object")
-        column.prop(settings.pin, "stretch")
+        column.prop(settings.pin, "any_heading")
+        column.prop(settings.pin, "stretch", text="Over")
         group.operator("fragmotion.pin_recording", icon="PINNED")
 
 
 def _group(layout: bpy.types.UILayout, context: bpy.types.Context, text: str) -> bpy.types.UILayout:
     """A box that begins with what is in it for."""
     box = layout.box().column()
-    draw_wrapped(box.column(align=True), context, text)
+    draw_wrapped(box.column(align=True), context, text, share=_INSIDE)
     return box
 
 

@@ -40,6 +40,7 @@ _LONGEST = 24 * 3600 * TRACE_RATE  # controls; what claims to be longer than a d
 _MOST_BYTES = 1 << 28  # of what was shown: over an hour of POSE_RATE on 70 bones
 _MOST_CLASSES = 1 << 16
 _SAME_TIME = 1e-4  # s
+_CHECKSUM = 4  # bytes at the end of what zlib compressed, which tell all that is in it
 _FARTHEST = 1e9  # m, and rad: where the core's player still stands
 _FIELDS = (
     *("name", "date", "seconds", "quality", "policy", "seed", "start", "train"),
@@ -92,6 +93,11 @@ class Recording(bpy.types.PropertyGroup):
     """The scene frame at which its first control is shown."""
     curves_rate: FloatProperty(options={"HIDDEN"}, min=0)  # type: ignore[valid-type]
     """Scene frames a second of the curves."""
+    baked: PointerProperty(  # type: ignore[valid-type]
+        name="Action", description="The Action to which the recording was baked last", type=bpy.types.Action
+    )
+    baked_digest: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    """Of what was baked: another one where the recording was changed since."""
     controls: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     moves: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
     """JSON of the moves that were started: [control, name, controls for which it was held] each; empty: none."""
@@ -229,6 +235,24 @@ def set_shown(recording: Recording, times: Doubles, motion: Motion) -> None:
 def set_trace(recording: Recording, trace: Doubles) -> None:
     """Replace the recording's trace; UserError on what is no trace."""
     _store(recording, _packed(trace), len(trace))
+
+
+def digest_of(recording: Recording) -> str:
+    """By which a recording is known that was changed; quick enough for drawing."""
+    number = zlib.crc32(recording.controls)
+    number = zlib.crc32(recording.shown[-_CHECKSUM:], number)
+    told = (recording.moves, recording.style, recording.styles, recording.policy, recording.seed, *recording.start)
+    return f"{zlib.crc32(repr(told).encode(), number):08x}"
+
+
+def tell_baked(recording: Recording, action: bpy.types.Action, digest: str) -> None:
+    """Note to which Action the recording was baked, as it was then."""
+    recording.baked, recording.baked_digest = action, digest
+
+
+def is_bake_stale(recording: Recording) -> bool:
+    """Whether the recording was changed since it was baked."""
+    return recording.baked is not None and recording.baked_digest != digest_of(recording)
 
 
 def duplicate_recording(obj: bpy.types.Object, index: int) -> Recording:

@@ -23,7 +23,7 @@ _RECORDING = (
 )
 
 _TARGETS = (
-    ("NEW", "New Action", "A new Action, named after the recording"),
+    ("NEW", "New Action", "A new Action, named after the recording: 'Stroll Bake'"),
     ("CURRENT", "Current Action", "The Action that plays, from the playhead on: its keys there are replaced"),
     (
         "NLA",

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import os
 import textwrap
+from typing import Any
 
 import bpy
 
 from ..character.coverage import COLUMNS
 from ..character.storing import BESIDE, troubles
 from ..compat import versions
-from ..recordings.recordings import active_recording, baked_source
+from ..recordings.recordings import active_recording, baked_source, is_bake_stale
 from .armature import BuildFigures, DriveSettings
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
@@ -86,10 +87,21 @@ def draw_baked(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.
     source = baked_source(obj, settings)
     if source == "RECORDING":
         _draw_recording(layout, obj, settings)
+        _draw_action(layout, active_recording(obj))
     elif source == "FILE":
         layout.label(text=os.path.basename(settings.trace_file) or "Choose a CSV file", icon="FILE", translate=False)
     else:
         layout.label(text=f"{settings.seconds:.0f} s of a simulated {settings.player}", icon="INFO")
+
+
+def _draw_action(layout: bpy.types.UILayout, recording: Any) -> None:
+    """The Action to which it was baked, whether that is what it was before a change, and what updates it."""
+    if recording is None or recording.baked is None:
+        return
+    stale = is_bake_stale(recording)
+    text = f"Changed since '{recording.baked.name}'" if stale else f"As in '{recording.baked.name}'"
+    layout.label(text=text, icon="ERROR" if stale else "CHECKMARK", translate=False)
+    layout.operator("fragmotion.bake", text="Update Bake", icon="FILE_REFRESH").update = True
 
 
 def _draw_recording(layout: bpy.types.UILayout, obj: bpy.types.Object, settings: BakeFields) -> None:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty
+from bpy.props import EnumProperty, FloatProperty, StringProperty
 
 from ..compat.core import ADDON
 from ..compat.event_keys import KEYS
@@ -34,7 +34,7 @@ def _key(name: str) -> Any:
 
 
 class FragmotionPreferences(bpy.types.AddonPreferences):
-    """Sticks and keys of Drive."""
+    """Sticks and keys of Drive; where the live page is."""
 
     bl_idname = ADDON
 
@@ -55,6 +55,11 @@ class FragmotionPreferences(bpy.types.AddonPreferences):
         default=1.0,
         min=0.3,
         max=4.0,
+    )
+    live_page: StringProperty(  # type: ignore[valid-type]
+        name="Live Page",
+        description="The folder of the live page that Open in Browser shows, as `dev.py web` makes it",
+        subtype="DIR_PATH",
     )
     key_forward: _key("forward")  # type: ignore[valid-type]
     key_back: _key("back")  # type: ignore[valid-type]
@@ -78,6 +83,7 @@ class FragmotionPreferences(bpy.types.AddonPreferences):
         column.use_property_split = True
         column.prop(self, "dead_zone")
         column.prop(self, "curve")
+        column.prop(self, "live_page")
         layout.label(text="Keys of Drive (click a key, then press another; the arrow keys work too):")
         grid = layout.grid_flow(row_major=True, columns=3, even_columns=True)
         for name, label in _LABELS.items():

@@ -299,7 +299,8 @@ typedef struct FragmotionPlayerOptions {
   double fixed_step; /* s, 0.001 .. 1: it plays on by whole steps of this, and poses between two are interpolated, so
                         that the frame rate changes nothing; 0: by the very time of each step; 0 */
   int32_t hold_feet; /* 1: feet that stand stay where they are; 1 */
-  int32_t reserved;  /* 0 */
+  int32_t cross_fades; /* 1: both motions are mixed while one goes over into the next, for comparison; chosen as the player
+                          is made; 0 */
 } FragmotionPlayerOptions;
 
 static inline FragmotionPlayerOptions fragmotion_player_options(void) {

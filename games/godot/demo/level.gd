@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+@tool
 extends StaticBody3D
 ## What there is to walk on: a floor, a ramp, stairs up and down, and walls; each a box that is seen and stood on.
 

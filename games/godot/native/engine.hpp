@@ -233,17 +233,19 @@ struct Bound<Method> {
     by_pointers(static_cast<C*>(self), given, result, std::index_sequence_for<A...>());
   }
 
-  /// Makes the method known under a name.
-  static void add(const char* class_name, const char* method_name) {
-    const Name owner(class_name), name(method_name), none("");
+  /// Makes the method known under a name, and each of its arguments.
+  template <typename... Names>
+  static void add(const char* class_name, const char* method_name, Names... argument_names) {
+    static_assert(sizeof...(Names) == count);
+    const Name owner(class_name), name(method_name), none(""), called[] = {Name(argument_names)..., none};
     const String hint;
-    const auto info = [&](GDExtensionVariantType type) {
-      return GDExtensionPropertyInfo{type, const_cast<Name*>(&none),   const_cast<Name*>(&none),
+    const auto info = [&](GDExtensionVariantType type, const Name& own) {
+      return GDExtensionPropertyInfo{type, const_cast<Name*>(&own),    const_cast<Name*>(&none),
                                      0,    const_cast<String*>(&hint), 6};
     };
     GDExtensionPropertyInfo list[count + 1];
     GDExtensionClassMethodArgumentMetadata metadata[count + 1];
-    for (std::size_t i = 0; i < count; ++i) list[i] = info(arguments[i]);
+    for (std::size_t i = 0; i < count; ++i) list[i] = info(arguments[i], called[i]);
     for (std::size_t i = 0; i < count; ++i) metadata[i] = GDEXTENSION_METHOD_ARGUMENT_METADATA_NONE;
     GDExtensionClassMethodInfo method{};
     method.name = const_cast<Name*>(&name);
@@ -255,7 +257,7 @@ struct Bound<Method> {
     method.arguments_metadata = metadata;
     GDExtensionPropertyInfo returned{};
     if constexpr (!std::is_void_v<R>) {
-      returned = info(Kind<R>::type);
+      returned = info(Kind<R>::type, none);
       method.has_return_value = 1;
       method.return_value_info = &returned;
     }

@@ -3,6 +3,12 @@
 #include "help.hpp"
 #include "player.hpp"
 
+#ifdef _WIN32
+#define FRAGMOTION_ENTRY __declspec(dllexport)
+#else
+#define FRAGMOTION_ENTRY __attribute__((visibility("default")))
+#endif
+
 namespace fragmotion::godot {
 
 namespace {
@@ -29,9 +35,9 @@ void end(void* /*data*/, GDExtensionInitializationLevel level) {
 
 }  // namespace fragmotion::godot
 
-extern "C" FRAGMOTION_EXPORT GDExtensionBool fragmotion_godot(GDExtensionInterfaceGetProcAddress get,
-                                                              GDExtensionClassLibraryPtr library,
-                                                              GDExtensionInitialization* initialization) {
+extern "C" FRAGMOTION_ENTRY GDExtensionBool fragmotion_godot(GDExtensionInterfaceGetProcAddress get,
+                                                             GDExtensionClassLibraryPtr library,
+                                                             GDExtensionInitialization* initialization) {
   if (!fragmotion::godot::load_engine(get, library)) return 0;
   initialization->minimum_initialization_level = GDEXTENSION_INITIALIZATION_SCENE;
   initialization->userdata = nullptr;

@@ -283,33 +283,33 @@ std::int64_t Player::get_checksum() { return static_cast<std::int64_t>(player_.c
 
 void Player::add() {
   add_class<Player>();
-  Bound<&Player::play>::add(kName, "play");
-  Bound<&Player::bind>::add(kName, "bind");
-  Bound<&Player::set_ground>::add(kName, "set_ground");
-  Bound<&Player::set_option>::add(kName, "set_option");
-  Bound<&Player::step>::add(kName, "step");
+  Bound<&Player::play>::add(kName, "play", "policy", "seed");
+  Bound<&Player::bind>::add(kName, "bind", "policy", "skeleton", "from_model", "rotation");
+  Bound<&Player::set_ground>::add(kName, "set_ground", "space", "query");
+  Bound<&Player::set_option>::add(kName, "set_option", "name", "value");
+  Bound<&Player::step>::add(kName, "step", "steer", "move", "facing", "turn", "jump", "seconds");
   Bound<&Player::show>::add(kName, "show");
-  Bound<&Player::reset>::add(kName, "reset");
-  Bound<&Player::move_to>::add(kName, "move_to");
+  Bound<&Player::reset>::add(kName, "reset", "place", "style");
+  Bound<&Player::move_to>::add(kName, "move_to", "place");
   Bound<&Player::get_place>::add(kName, "get_place");
   Bound<&Player::get_velocity>::add(kName, "get_velocity");
   Bound<&Player::get_style>::add(kName, "get_style");
   Bound<&Player::get_class_index>::add(kName, "get_class_index");
   Bound<&Player::get_whole_body_move>::add(kName, "get_whole_body_move");
   Bound<&Player::get_upper_body_move>::add(kName, "get_upper_body_move");
-  Bound<&Player::foot_stands>::add(kName, "foot_stands");
+  Bound<&Player::foot_stands>::add(kName, "foot_stands", "side");
   Bound<&Player::is_in_the_air>::add(kName, "is_in_the_air");
   Bound<&Player::has_arrived>::add(kName, "has_arrived");
   Bound<&Player::get_path_seconds_left>::add(kName, "get_path_seconds_left");
   Bound<&Player::get_ground_missed>::add(kName, "get_ground_missed");
   Bound<&Player::get_events>::add(kName, "get_events");
-  Bound<&Player::start_move>::add(kName, "start_move");
-  Bound<&Player::release_move>::add(kName, "release_move");
-  Bound<&Player::change_style>::add(kName, "change_style");
-  Bound<&Player::set_path>::add(kName, "set_path");
-  Bound<&Player::foresee>::add(kName, "foresee");
+  Bound<&Player::start_move>::add(kName, "start_move", "move");
+  Bound<&Player::release_move>::add(kName, "release_move", "move");
+  Bound<&Player::change_style>::add(kName, "change_style", "style");
+  Bound<&Player::set_path>::add(kName, "set_path", "points", "closed", "end", "speed");
+  Bound<&Player::foresee>::add(kName, "foresee", "steer", "move", "facing", "seconds", "count");
   Bound<&Player::save_state>::add(kName, "save_state");
-  Bound<&Player::restore_state>::add(kName, "restore_state");
+  Bound<&Player::restore_state>::add(kName, "restore_state", "state");
   Bound<&Player::get_checksum>::add(kName, "get_checksum");
 }
 

@@ -53,14 +53,14 @@ String Policy::get_class_name(std::int64_t style, std::int64_t index) {
 
 void Policy::add() {
   add_class<Policy>();
-  Bound<&Policy::set_data>::add(kName, "set_data");
+  Bound<&Policy::set_data>::add(kName, "set_data", "data");
   Bound<&Policy::get_data>::add(kName, "get_data");
   Bound<&Policy::is_valid>::add(kName, "is_valid");
   Bound<&Policy::get_bones>::add(kName, "get_bones");
   Bound<&Policy::get_moves>::add(kName, "get_moves");
   Bound<&Policy::get_styles>::add(kName, "get_styles");
-  Bound<&Policy::get_speeds>::add(kName, "get_speeds");
-  Bound<&Policy::get_class_name>::add(kName, "get_class_name");
+  Bound<&Policy::get_speeds>::add(kName, "get_speeds", "style");
+  Bound<&Policy::get_class_name>::add(kName, "get_class_name", "style", "index");
   const Name owner(kName), name("data"), none(""), set("set_data"), get("get_data");
   const String hint;
   const GDExtensionPropertyInfo info{Kind<ByteArray>::type,      const_cast<Name*>(&name),

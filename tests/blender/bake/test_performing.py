@@ -22,7 +22,7 @@ def test_a_recording_is_shown_as_the_player_plays_it(
     assert np.ptp(oracle.performance.path, axis=0).min() > 0.5, "the character neither travels nor turns"
     bake_recording(root=root, target=target)
     assert_seen(obj, on_a_treadmill(oracle) if root == "IN_PLACE" else oracle)
-    assert "Stroll" in bpy.data.actions
+    assert "Stroll Bake" in bpy.data.actions
     hips = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation
     travels = np.hypot(*(np.array(hips)[:2] - (2, -1))) > 0.5
     assert travels == (root == "OBJECT")

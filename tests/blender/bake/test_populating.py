@@ -187,3 +187,13 @@ def test_a_path_too_short_for_so_many_is_refused(obj: bpy.types.Object) -> None:
     with pytest.raises(RuntimeError, match=r"Way is 5\.0 m long, too short for 8 copies 2 m apart"):
         populate(count=8, layout="PATH", spacing=2.0)
     assert digest() == former
+
+
+def test_copies_carry_no_curves_of_recordings(addon: ModuleType, obj: bpy.types.Object) -> None:
+    addon.recordings.recordings.add_recording(obj, np.tile([0, 1.2, 0, 0], (20, 1)).astype(float))
+    assert bpy.ops.fragmotion.edit_curves() == {"FINISHED"}
+    bpy.context.view_layer.objects.active = obj
+    held = [child.name for child in obj.children]
+    copies = populate(count=2)
+    assert [child.name for child in obj.children] == held and len(held) == 3
+    assert all(len(copy.children) == 2 for copy in copies), "the body, and what is in the hand"

@@ -58,7 +58,7 @@ def test_an_nla_strip_covers_what_played_only_while_it_lasts(
     assert bpy.ops.fragmotion.bake(trace_source="RECORDING", target="NLA", frame_start=60) == {"FINISHED"}
     data = obj.animation_data
     assert data.action is None
-    assert [(track.name, len(track.strips)) for track in data.nla_tracks] == [("Run", 1), ("Stroll", 1)]
+    assert [(track.name, len(track.strips)) for track in data.nla_tracks] == [("Run", 1), ("Stroll Bake", 1)]
     assert_seen(obj, play(addon, obj, trace), first=60)
     np.testing.assert_allclose(seen_at(obj, outside, names)[0], before, atol=1e-5)
 
@@ -73,4 +73,4 @@ def test_a_strip_over_keys_that_move_the_object_shows_its_own_path(
     bpy.context.scene.frame_set(frame)
     bake_recording(target="NLA", root="BONE")
     assert_seen(obj, play(addon, obj, trace))
-    assert [track.name for track in obj.animation_data.nla_tracks][-2:] == ["Below", "Stroll"]
+    assert [track.name for track in obj.animation_data.nla_tracks][-2:] == ["Below", "Stroll Bake"]

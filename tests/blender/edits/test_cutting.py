@@ -38,8 +38,8 @@ def test_what_follows_a_cut_moves_as_it_did_and_what_comes_before_stays(
     after, rest = shown(addon, recording), addon.recordings.recordings.trace_of(recording)
     end = int(np.flatnonzero((rest != trace[: len(rest)]).any(1))[0])
     removed = len(trace) - len(rest)
-    seams = [e for e in range(35, 41) if np.array_equal(rest, np.concatenate((trace[:e], trace[e + removed :])))]
-    assert 20 <= removed <= 30 and seams, "half a second more on either side at most"
+    seams = [e for e in range(38, 41) if np.array_equal(rest, np.concatenate((trace[:e], trace[e + removed :])))]
+    assert 20 <= removed <= 25 and seams, "half a second more at most"
     end = seams[-1]
     np.testing.assert_array_equal(after.root_positions[: 6 * seams[0] + 1], before.root_positions[: 6 * seams[0] + 1])
     np.testing.assert_array_equal(after.rotations[: 6 * seams[0] + 1], before.rotations[: 6 * seams[0] + 1])
@@ -122,3 +122,11 @@ def test_recordings_without_a_character_are_cut_and_glued_as_controls(addon: Mod
     obj.fragmotion.active_recording = 1
     with pytest.raises(RuntimeError, match="No recording comes after it"):
         bpy.ops.fragmotion.glue_recording()
+
+
+def test_where_it_would_be_cut_is_found_before(addon: ModuleType, obj: bpy.types.Object, recording: Any) -> None:
+    controls, poses = recording.controls, recording.shown
+    seam = addon.edits.cutting.find_cut(obj, recording, 4.0, 6.0)
+    assert (recording.controls, recording.shown) == (controls, poses)
+    assert 38 <= seam.end <= 40 and 60 <= seam.beginning <= 63 and 0 <= seam.distance < 1
+    assert addon.edits.cutting.cut_out(obj, recording, 4.0, 6.0) == seam

@@ -26,7 +26,8 @@ def pin(frame: np.ndarray) -> None:
     bpy.context.scene.collection.objects.link(empty)
     empty.location, empty.rotation_euler.z = (frame[0], frame[1], 0), frame[2] - math.pi
     bpy.context.view_layer.update()
-    bpy.context.view_layer.objects.active.fragmotion.pin_at = empty
+    settings = bpy.context.view_layer.objects.active.fragmotion
+    settings.pin_at, settings.pin.any_heading = empty, False
 
 
 def playhead(seconds: float) -> int:
@@ -76,7 +77,7 @@ def test_a_pin_at_the_cursor_and_from_the_beginning_on(
     cursor = bpy.context.scene.cursor
     cursor.location, cursor.rotation_mode = (*goal[:2], 0), "XYZ"
     cursor.rotation_euler = (0, 0, goal[2] - math.pi)
-    press("pin_recording", place="CURSOR", stretch=10)
+    press("pin_recording", place="CURSOR", stretch=10, any_heading=False)
     frame = shown(addon, recording).path[pose]
     np.testing.assert_allclose(frame[:2], goal[:2], atol=1e-5)
     assert math.remainder(frame[2] - goal[2], 2 * math.pi) == pytest.approx(0, abs=1e-5)
@@ -116,3 +117,20 @@ def test_a_playhead_beside_the_recording_is_told(addon: ModuleType, obj: bpy.typ
             RuntimeError, match=r"The playhead is .* s after the beginning of recording 'Stroll', which"
         ):
             bpy.ops.fragmotion.pin_recording("EXEC_DEFAULT")
+
+
+def test_a_place_is_met_however_the_character_faces_there(
+    addon: ModuleType, obj: bpy.types.Object, recording: Any
+) -> None:
+    assert obj.fragmotion.pin.any_heading, "at first"
+    pose = playhead(8)
+    before = shown(addon, recording)
+    goal = before.path[pose] + (0.15, -0.1, 2.8)  # nearly the other way
+    pin(goal)
+    obj.fragmotion.pin.any_heading = True
+    press("pin_recording", stretch=4)
+    after = shown(addon, recording)
+    np.testing.assert_allclose(after.path[pose][:2], goal[:2], atol=1e-5)
+    turned = math.remainder(after.path[pose][2] - before.path[pose][2], 2 * math.pi)
+    assert abs(turned) < math.radians(60), "it faces about as it did, as nobody asked for another heading"
+    np.testing.assert_array_equal(after.rotations[:241], before.rotations[:241])

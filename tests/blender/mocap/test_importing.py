@@ -241,3 +241,17 @@ def test_an_import_that_stops_in_the_middle_removes_what_it_made(addon: ModuleTy
     assert len(bpy.data.objects) == 2, "nothing had been made, so nothing had to be removed"
     steps.close()
     assert making.contents() == before
+
+
+def test_blender_goes_on_while_one_long_file_is_read(
+    addon: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, importing = making.write_bvh(tmp_path / "long.bvh"), addon.mocap.importing
+    read, go_on = importing.core.read_bvh, threading.Event()
+    monkeypatch.setattr(importing.core, "read_bvh", lambda *told: go_on.wait(60) and read(*told))
+    files = addon.mocap.take_files.find_takes(tmp_path, [path.name])
+    steps = importing.import_takes(bpy.context, "long", files, 0.01)
+    assert [next(steps) for _ in range(3)] == [0, 0, 0]
+    go_on.set()
+    *_, last = steps
+    assert last < 1 and "long" in bpy.data.actions

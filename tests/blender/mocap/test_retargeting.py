@@ -167,3 +167,17 @@ def test_an_action_brought_over_keeps_its_style_and_what_is_left_out(
     ]
     assert len(parts[0]) == 2 and parts[1] == parts[0]
     assert addon.mocap.left_out.spans_of(made) == [(1, 5), (21, 30)]
+
+
+def test_retargeting_that_is_stopped_in_the_middle_leaves_nothing(addon: ModuleType) -> None:
+    source = making.open_sample()
+    other = making.add_armature()
+    bpy.context.view_layer.update()
+    actions = [bpy.data.actions[name] for name in ("stand", "walk forward", "run forward")]
+    before = making.contents()
+    steps = addon.mocap.retargeting.retarget_actions(bpy.context, source, other, actions)
+    done = [share for share, _ in zip(steps, range(5))]
+    assert done == sorted(done) and 0.5 < done[-1] < 1
+    assert len(bpy.data.actions) > len(before["actions"])
+    steps.close()
+    assert making.contents() == before

@@ -82,10 +82,11 @@ def test_bone_names_of_another_encoding_are_taken_for_latin_1(
 
 
 def with_checksum(policy: bytes) -> bytes:
-    """A policy file with its checksum (FNV-1a) put right."""
-    value = 0xCBF29CE484222325
-    for byte in policy[20:-8]:
-        value = (value ^ byte) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
+    """A policy file with its checksum put right."""
+    value, payload = 0xCBF29CE484222325, policy[20:-8]
+    for at in range(0, len(payload), 8):
+        value = (value ^ int.from_bytes(payload[at : at + 8], "little")) * 0x100000001B3 & 0xFFFFFFFFFFFFFFFF
+        value ^= value >> 32
     return policy[:-8] + struct.pack("<Q", value)
 
 

@@ -128,6 +128,11 @@ TEST(ApiErrors, SayWhichArgumentIsWrong) {
   refuse_options("step_interval");
   options.hold_feet = 2;
   refuse_options("hold_feet");
+  options.cross_fades = 2;
+  refuse_options("cross_fades");
+  options.cross_fades = 1;
+  expect_fails(fragmotion_player_set_options(player, &options), wrong, "chosen as a player is made");
+  options = fragmotion_player_options();
   options.size = 12;
   expect_fails(fragmotion_player_create(hero, &options, &made), size, "is 12");
   options = fragmotion_player_options();

@@ -84,6 +84,24 @@ TEST(ApiPlayer, AllocatesNothingAsItPlays) {
   EXPECT_EQ(allocations, before);
 }
 
+TEST(ApiPlayer, CrossFadesAsThePaperDoes) {
+  FragmotionPlayerOptions options = fragmotion_player_options();
+  options.cross_fades = 1;
+  options.hold_feet = 0;
+  const auto player = playing(styled_api_character(), options);
+  PlayerOptions same;
+  same.stitching = Stitching::crossfade;
+  same.lock_feet = false;
+  Player inside(std::make_shared<const Character>(from_bytes(to_bytes(*styled_character()))), same);
+  for (int frame = 0; frame < 300; ++frame) {
+    FragmotionInput input = fragmotion_input();
+    input.move[1] = frame / 60 % 2 == 0 ? 1.2F : 0.0F;
+    expect_ok(fragmotion_player_step(player.get(), &input, kGameFrame));
+    inside.step(control_of(input), kGameFrame);
+    ASSERT_EQ(state_of(player.get()).place.position[1], static_cast<float>(inside.frame().position.y()));
+  }
+}
+
 TEST(ApiPlayer, ForeseesWithoutAChange) {
   const auto player = playing(styled_api_character());
   expect_ok(fragmotion_player_set_ground(player.get(), &hills, nullptr));

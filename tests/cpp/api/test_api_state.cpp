@@ -80,6 +80,12 @@ TEST(ApiState, GoesBackToTheBitBetweenFixedSteps) {
   expect_rollback(options, false, false);
 }
 
+TEST(ApiState, GoesBackToTheBitWithinCrossFades) {
+  FragmotionPlayerOptions options = fragmotion_player_options();
+  options.cross_fades = 1;
+  expect_rollback(options, false, false);
+}
+
 TEST(ApiState, IsRefusedWhereItIsNoneOfThisPlayer) {
   const auto player = playing(styled_api_character());
   go_wildly(player.get(), 0, 200);

@@ -10,6 +10,7 @@
 #include "evaluate/performance.hpp"
 #include "evaluate/response.hpp"
 #include "policy/optimal.hpp"
+#include "policy_payload.hpp"
 #include "small_character.hpp"
 
 namespace fragmotion {
@@ -73,11 +74,9 @@ TEST(OwnControls, AddNothingToAFileOfThePapers) {
 
 // A file in which a number of the section is another one.
 std::string forged(const std::string& bytes, std::size_t after_name, char value) {
-  std::string payload = bytes.substr(20, bytes.size() - 28);
+  std::string payload = payload_of(bytes);
   payload[payload.find("controls") + 8 + after_name] = value;
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char byte : payload) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
-  return bytes.substr(0, 20) + payload + std::string(reinterpret_cast<const char*>(&hash), 8);
+  return file_around(payload);
 }
 
 TEST(OwnControls, AreRefusedWhereAFileForgesThem) {

@@ -65,22 +65,32 @@ std::function<void(Character&)> regrid(Spoil spoil) {
   };
 }
 
+// Spoils the poses of the first clip.
+template <typename Spoil>
+std::function<void(Character&)> repose(Spoil spoil) {
+  return [=](Character& c) {
+    PackedPoses poses = *c.pool.clips[0].poses;
+    spoil(poses);
+    c.pool.clips[0].poses = std::make_shared<const PackedPoses>(poses);
+  };
+}
+
 TEST(PolicyFile, RefusesCharactersThatDoNotFitTogether) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const struct {
     const char* label;
     std::function<void(Character&)> spoil;
   } cases[] = {
-      {"no poses", [](Character& c) { c.pool.clips[0].poses.clear(); }},
-      {"too few poses", [](Character& c) { c.pool.clips[0].poses.pop_back(); }},
-      {"too many bits", [](Character& c) { c.pool.clips[0].bits[4] = 25; }},
-      {"other bits", [](Character& c) { c.pool.clips[0].bits[5] += 9; }},
-      {"too few bits", [](Character& c) { c.pool.clips[0].bits.pop_back(); }},
-      {"too few turns", [](Character& c) { c.pool.clips[0].least.pop_back(); }},
-      {"turn without end", [](Character& c) { c.pool.clips[0].least[0] = 1 << 30; }},
-      {"position not finite", [=](Character& c) { c.pool.clips[0].origin[0] = nan; }},
-      {"position too far", [=](Character& c) { c.pool.clips[0].steps[1] = 1e300; }},
-      {"no step", [=](Character& c) { c.pool.clips[0].steps[3] = 0; }},
+      {"no poses", repose([](PackedPoses& poses) { poses.bytes.clear(); })},
+      {"too few poses", repose([](PackedPoses& poses) { poses.bytes.pop_back(); })},
+      {"too many bits", repose([](PackedPoses& poses) { poses.bits[4] = 25; })},
+      {"other bits", repose([](PackedPoses& poses) { poses.bits[5] += 9; })},
+      {"too few bits", repose([](PackedPoses& poses) { poses.bits.pop_back(); })},
+      {"too few turns", repose([](PackedPoses& poses) { poses.least.pop_back(); })},
+      {"turn without end", repose([](PackedPoses& poses) { poses.least[0] = 1 << 30; })},
+      {"position not finite", repose([=](PackedPoses& poses) { poses.origin[0] = nan; })},
+      {"position too far", repose([=](PackedPoses& poses) { poses.steps[1] = 1e300; })},
+      {"no step", repose([=](PackedPoses& poses) { poses.steps[3] = 0; })},
       {"zero rotation", regrid([](PoseGrid& grid) { grid.usual[0] = 0; })},
       {"no step of a turn", regrid([](PoseGrid& grid) { grid.steps[1] = 0; })},
       {"too few steps", regrid([](PoseGrid& grid) { grid.steps.pop_back(); })},
@@ -143,6 +153,55 @@ TEST(PolicyFile, RefusesCharactersThatDoNotFitTogether) {
     EXPECT_EQ(error_of([&] { from_bytes(unchecked_bytes(character), "forged"); }).find("forged is refused: "), 0U);
     EXPECT_EQ(error_of([&] { to_bytes(character); }).find("the policy cannot be saved: "), 0U);
   }
+}
+
+TEST(PolicyFile, RefusesMirrorImagesThatDoNotFit) {
+  const auto nan = std::numeric_limits<float>::quiet_NaN();
+  const struct {
+    const char* label;
+    std::function<void(Character&)> spoil;
+  } cases[] = {
+      {"counterpart that is no bone", regrid([](PoseGrid& grid) { grid.mirror.counterparts[1] = 4; })},
+      {"counterpart of another", regrid([](PoseGrid& grid) { grid.mirror.counterparts[1] = 2; })},
+      {"too few counterparts", regrid([](PoseGrid& grid) { grid.mirror.counterparts.pop_back(); })},
+      {"no turn before", regrid([](PoseGrid& grid) { grid.mirror.before[8] = 2; })},
+      {"turn after not finite", regrid([=](PoseGrid& grid) { grid.mirror.after[1] = nan; })},
+      {"too few turns after", regrid([](PoseGrid& grid) { grid.mirror.after.pop_back(); })},
+      {"no mirror", regrid([](PoseGrid& grid) { grid.mirror = {}; })},
+      {"image before its original", [](Character& c) { std::swap(c.pool.clips[0], c.pool.clips[2]); }},
+  };
+  const Character whole = tiny_character({tiny_clip(0), tiny_clip(1.5)}, true);
+  ASSERT_TRUE(accepts(to_bytes(whole)));
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.label);
+    Character character = whole;
+    c.spoil(character);
+    EXPECT_EQ(error_of([&] { from_bytes(unchecked_bytes(character), "forged"); }).find("forged is refused: "), 0U);
+    EXPECT_EQ(error_of([&] { to_bytes(character); }).find("the policy cannot be saved: "), 0U);
+  }
+}
+
+TEST(PolicyFile, RefusesImagesOfWhatIsNoOriginal) {
+  const std::string payload = payload_of(to_bytes(tiny_character({tiny_clip(0), tiny_clip(1.5)}, true)));
+  const std::size_t at = payload.rfind("take mirrored") + 13;  // of clip 3, whose original is clip 1
+  const auto with_original = [&](std::int32_t original) {
+    std::string forged = payload;
+    std::memcpy(&forged[at], &original, sizeof original);
+    return file_around(forged);
+  };
+  ASSERT_EQ(with_original(1), file_around(payload));
+  for (const int original : {2, 3, 4, 1000000, -1, std::numeric_limits<int>::min()}) {
+    EXPECT_FALSE(accepts(with_original(original))) << original;
+  }
+}
+
+TEST(PolicyFile, IsMadeOfImagesThatHaveTheirOriginals) {
+  Character character = tiny_character();
+  character.pool.clips[1].mirrored = true;
+  EXPECT_NE(error_of([&] { to_bytes(character); }), "no error");
+  Character orphaned = tiny_character({tiny_clip(0), tiny_clip(1.5)}, true);
+  orphaned.pool.clips[3].poses = std::make_shared<const PackedPoses>(*orphaned.pool.clips[3].poses);
+  EXPECT_NE(error_of([&] { to_bytes(orphaned); }).find("mirror images"), std::string::npos);
 }
 
 TEST(PolicyFile, IsNotMadeOfFeetOfDifferentFrames) {

@@ -31,7 +31,7 @@ Clip jumping_clip() {
 
 PackedPool pool_of(const Clip& clip, std::vector<Fragment> fragments) {
   const Skeleton skeleton = humanoid();
-  return pack(FragmentPool{skeleton, {make_clip(skeleton, clip)}, std::move(fragments)}, 1);
+  return pack(FragmentPool{skeleton, {make_clip(skeleton, clip)}, std::move(fragments)});
 }
 
 Fragment fragment(double begin, double end, double jump) {

@@ -6,6 +6,7 @@
 #include "io/bvh.hpp"
 #include "mocap_files.hpp"
 #include "motion/mirror.hpp"
+#include "rolled_humanoid.hpp"
 #include "skeleton/roles.hpp"
 #include "small_skeleton.hpp"
 #include "walker.hpp"
@@ -48,22 +49,6 @@ void expect_same(const Clip& a, const Clip& b, double tolerance) {
   EXPECT_LT(std::sqrt(worst), tolerance);
 }
 
-// The humanoid with bone frames turned at random: what bones' axes a rig has must not matter.
-Skeleton rolled_humanoid(std::uint64_t seed) {
-  const Skeleton straight = humanoid();
-  Skeleton skeleton = straight;
-  Random random(seed);
-  std::vector<Quaternion> turn;
-  for (int b = 0; b < skeleton.size(); ++b) turn.push_back(random_rotation(random));
-  for (int b = 0; b < skeleton.size(); ++b) {
-    const int parent = skeleton.parents[b];
-    skeleton.rest_rotations[b] = parent < 0 ? turn[b] : turn[parent].conjugate() * turn[b];
-    if (parent >= 0) skeleton.offsets[b] = turn[parent].conjugate() * straight.offsets[b];
-    skeleton.tips[b] = turn[b].conjugate() * straight.tips[b];
-  }
-  return make_skeleton(skeleton);
-}
-
 TEST(Mirror, ReflectsEveryTipOntoItsCounterpart) {
   for (const Skeleton& skeleton : {humanoid(), rolled_humanoid(3), small_skeleton()}) {
     const Kinematics kinematics(skeleton);
@@ -93,6 +78,32 @@ TEST(Mirror, SwapsTheFeetOnTheGround) {
     EXPECT_EQ(image.feet[0], original.feet[1]) << clip.name;
     EXPECT_EQ(image.feet[1], original.feet[0]) << clip.name;
   }
+}
+
+TEST(Mirror, TurnsOneRotationIntoAnother) {
+  for (const Skeleton& skeleton : {humanoid(), rolled_humanoid(3), small_skeleton()}) {
+    const Kinematics kinematics(skeleton);
+    const Clip clip = make_clip(skeleton, random_clip(skeleton, 8, 5));
+    const Mirror mirror(kinematics, {clip});
+    const MirrorTurns turns = mirror.turns();
+    Clip turned = mirror(clip);
+    ASSERT_EQ(turns.counterparts.size(), skeleton.names.size());
+    for (std::size_t i = 0; i < clip.rotations.size(); i += 4) {
+      const std::size_t bone = i / 4 % skeleton.names.size(), from = i + 4 * (turns.counterparts[bone] - bone);
+      store_quaternion(turns.before[bone] * load_quaternion(&clip.rotations[from]) * turns.after[bone],
+                       &turned.rotations[i]);
+    }
+    expect_same(turned, mirror(clip), 1e-7);
+  }
+}
+
+TEST(Mirror, HasNoTurnsWhereCounterpartsHangOnOtherBones) {
+  Skeleton skeleton = humanoid();
+  const int arm = skeleton.find("upper_arm.L");
+  ASSERT_GE(arm, 0);
+  skeleton.parents[arm] = skeleton.roles.hips;
+  const Kinematics kinematics(skeleton);
+  EXPECT_TRUE(Mirror(kinematics, {make_clip(skeleton, random_clip(skeleton, 8, 5))}).turns().counterparts.empty());
 }
 
 TEST(Mirror, MirrorsTheEvidentControl) {

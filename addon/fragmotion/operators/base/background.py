@@ -12,6 +12,7 @@ from ...compat.core import core
 from ...errors import UserError, core_errors, ends_on_error, reported
 from ...jobs import Job
 from ...preview.waking import rest, wake
+from . import status
 from .context import active_armature, adopt_settings, poll_armature, progress_shown
 
 _TICK = 0.1  # s between looks at the job
@@ -64,7 +65,9 @@ class Background:
             return {"RUNNING_MODAL"}
         if event.type == "TIMER":
             self._show(context)
-            self._go_on(context, job)
+            self._go_on(job)
+            told = status.Progress(f"{job.label}: {job.stage}", job.fraction)
+            status.show(context.workspace, [status.Hint(("ESC",), "Stop")], told)
             if not job.running:
                 self._end(context)
                 return self._finish(context, job)
@@ -113,7 +116,7 @@ class Background:
             raise UserError(f"Armature '{self._armature}' was deleted or renamed meanwhile")
         return obj
 
-    def _go_on(self, context: bpy.types.Context, job: Job) -> None:
+    def _go_on(self, job: Job) -> None:
         """Do what a job without a thread of its own needs."""
 
     def _show(self, context: bpy.types.Context) -> None:
@@ -135,9 +138,8 @@ class Exclusive(Background):
         outcome: set[str] = super().modal(context, event)
         return {"RUNNING_MODAL"} if outcome == {"PASS_THROUGH"} else outcome
 
-    def _go_on(self, context: bpy.types.Context, job: Job) -> None:
+    def _go_on(self, job: Job) -> None:
         job.wait(_SLICE)
-        context.workspace.status_text_set(f"{job.label}: {100 * job.fraction:.0f} %. Esc stops")
 
 
 class FRAGMOTION_OT_cancel(bpy.types.Operator):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the status bar says while something runs: its keys and buttons, as of Blender's own modal tools."""
+"""What the status bar says while something runs: how far it is, and its keys and buttons, as of Blender's own modal
+tools."""
 
 from __future__ import annotations
 
@@ -8,7 +9,10 @@ from typing import Any, NamedTuple
 
 import bpy
 
+from ...compat import versions
 from ...compat.event_keys import icon_of, name_of
+
+_BAR = 14  # times a button's height: the width of a progress bar
 
 
 class Hint(NamedTuple):
@@ -18,15 +22,31 @@ class Hint(NamedTuple):
     text: str
 
 
-def show(workspace: bpy.types.WorkSpace, hints: Sequence[Hint]) -> None:
-    """Say this until other hints are shown, or the status bar is cleared (`waking.rest`)."""
+class Progress(NamedTuple):
+    """What runs, in words, and what share of it is done."""
+
+    text: str
+    fraction: float
+
+
+def show(workspace: bpy.types.WorkSpace, hints: Sequence[Hint], progress: Progress | None = None) -> None:
+    """Say this until something else is shown, or the status bar is cleared (`waking.rest`)."""
 
     def draw(header: Any, _context: bpy.types.Context) -> None:
         row = header.layout.row(align=True)
+        if progress is not None:
+            _draw_progress(row, progress)
         for hint in hints:
             _draw(row, hint)
 
     workspace.status_text_set(draw)
+
+
+def _draw_progress(row: bpy.types.UILayout, progress: Progress) -> None:
+    bar = row.row()
+    bar.ui_units_x = _BAR
+    versions.draw_progress(bar, progress.fraction, progress.text)
+    row.separator(factor=2.0)
 
 
 def _draw(row: bpy.types.UILayout, hint: Hint) -> None:

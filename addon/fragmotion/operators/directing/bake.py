@@ -6,15 +6,20 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 import bpy
+from bpy.props import BoolProperty
 
 from ...bake.baking import Baked, hindrances, prepare
+from ...bake.performing import chosen_recording
 from ...bake.targets import find_target, write
+from ...errors import UserError
 from ...jobs import Job
-from ...recordings.recordings import baked_source
+from ...recordings.recordings import baked_source, digest_of, tell_baked
 from ...settings.bake_fields import BakeFields
 from ...settings.drawing import draw_bake, draw_bake_options
 from ..base.background import Background, poll_character
 from ..base.context import active_armature
+
+_UPDATES = "Write the recording as it is now into the Action to which it was baked before, in place of what was there"
 
 
 class Baking(Background):
@@ -40,6 +45,18 @@ class FRAGMOTION_OT_bake(BakeFields, Baking, bpy.types.Operator):
     verb = "Bake"
     settings = "bake"
 
+    update: BoolProperty(  # type: ignore[valid-type]
+        name="Update",
+        description="Write into the Action to which the recording was baked before",
+        default=False,
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: Any) -> str:
+        """The tip of the button."""
+        return _UPDATES if properties.update else cls.bl_description
+
     def _make_job(self, context: bpy.types.Context) -> Job:
         if not self.properties.is_property_set("trace_source"):
             obj = active_armature(context)
@@ -47,14 +64,24 @@ class FRAGMOTION_OT_bake(BakeFields, Baking, bpy.types.Operator):
         return super()._make_job(context)
 
     def _prepare(self, context: bpy.types.Context, obj: bpy.types.Object) -> Job:
-        prepared = prepare(context, obj, self)
+        recording = chosen_recording(obj, self)
+        if self.update:
+            if recording is None or recording.baked is None:
+                raise UserError("No Action is known to which this was baked: press Bake")
+            self.target, self.action = "NEW", recording.baked.name
         # Blender may replace an Action while the bake runs: only names stay valid.
-        self._name, self._first = prepared.target.name, prepared.target.first
+        self._recording = recording.name if recording is not None else ""
+        self._digest = digest_of(recording) if recording is not None else ""
+        prepared = prepare(context, obj, self)
+        self._first = prepared.target.first
         return Job(f"Baking '{obj.name}'", prepared.task)
 
     def _keep(self, context: bpy.types.Context, obj: bpy.types.Object, baked: Baked) -> None:
-        target = find_target(context, obj, self, self._name)._replace(first=self._first)
+        target = find_target(context, obj, self, self._recording)._replace(first=self._first)
         action = write(context, obj, target, baked.tracks, baked.classes, self)
+        recording = obj.fragmotion.recordings.get(self._recording)
+        if recording is not None and self.target == "NEW":
+            tell_baked(recording, action, self._digest)
         first, frames = target.first, len(baked.classes)
         self.report(
             {"INFO"},

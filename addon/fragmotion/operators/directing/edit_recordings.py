@@ -3,21 +3,23 @@
 
 from __future__ import annotations
 
-import math
+import textwrap
 from typing import Any, ClassVar
 
 import bpy
 from bpy.props import EnumProperty, FloatProperty
 
+from ...drive.hud import timeline
 from ...edits import cutting, pinning
 from ...edits.replaying import play_again
 from ...errors import UserError, reported
 from ...jobs import Job
 from ...recordings.curves import curves_of, read_curves, show_curves
 from ...recordings.recordings import TRACE_RATE, active_recording
+from ...settings.drawing import aligned
 from ...settings.pin_fields import PinFields
 from ..base.background import Background, poll_idle
-from ..base.context import active_armature, first_frame, playhead
+from ..base.context import active_armature, first_frame, frame_rate, playhead
 from .recordings import OnRecording, selected
 
 
@@ -77,10 +79,12 @@ class FRAGMOTION_OT_play_again(OnRecording, bpy.types.Operator):
         return {"FINISHED"}
 
 
+_CUT = (1.0, 0.1, 0.1, 0.35)
+_LETTERS = 44  # of a line of the dialog
+
+
 def _moment(name: str, description: str, default: float) -> Any:
-    return FloatProperty(
-        name=name, description=description, default=default, min=0.0, step=10, precision=1, unit="TIME_ABSOLUTE"
-    )
+    return FloatProperty(name=f"{name} (s)", description=description, default=default, min=0.0, step=10, precision=1)
 
 
 class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
@@ -89,8 +93,9 @@ class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
     bl_idname = "fragmotion.cut_recording"
     bl_label = "Cut Out"
     bl_description = (
-        "Cut a stretch out of the middle of the selected recording, and up to half a second more on either side, so "
-        "that the poses fit. What follows goes on from where the character is then, and moves as it did"
+        "Cut a stretch out of the middle of the selected recording, and up to half a second more, so that the "
+        "poses fit. At first it is the timeline's preview range, or the second after the playhead. What "
+        "follows goes on from where the character is then, and moves as it did"
     )
 
     start: _moment("From", "Where the stretch begins, in seconds from the recording's beginning", 1.0)  # type: ignore[valid-type]
@@ -98,13 +103,53 @@ class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
 
     @reported
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        now = playhead(context, selected(context))
-        self.start, self.end = max(now, 0.0), max(now, 0.0) + 1.0
+        recording, scene = selected(context), context.scene
+        self.start = max(playhead(context, recording), 0.0)
+        self.end = self.start + 1.0
+        if scene.use_preview_range:
+            begin, rate = first_frame(active_armature(context), recording), frame_rate(context, recording)
+            self.start = max((scene.frame_preview_start - begin) / rate, 0.0)
+            self.end = max((scene.frame_preview_end - begin) / rate, self.start)
+        self._show_joins(context)
         result: set[str] = context.window_manager.invoke_props_dialog(self)
         return result
 
+    def check(self, context: bpy.types.Context) -> bool:
+        """Show the joins anew where the dialog's fields have changed."""
+        self._show_joins(context)
+        return True
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        column = aligned(self.layout)
+        column.prop(self, "start")
+        column.prop(self, "end")
+        for line in self._told.split("\n"):
+            self.layout.label(text=line, translate=False)
+
+    def cancel(self, _context: bpy.types.Context) -> None:
+        """The dialog is left."""
+        timeline.unmark()
+
+    def _show_joins(self, context: bpy.types.Context) -> None:
+        """Say and mark on the timeline where it would be cut, and how well the poses fit there."""
+        obj, recording = active_armature(context), selected(context)
+        try:
+            seam = cutting.find_cut(obj, recording, self.start, self.end)
+        except UserError as error:
+            self._told = "\n".join(textwrap.wrap(str(error), _LETTERS))
+            timeline.unmark()
+            return
+        begin, rate = first_frame(obj, recording), frame_rate(context, recording)
+        first, last = (begin + rate * control / TRACE_RATE for control in (seam.end, seam.beginning))
+        timeline.mark(lambda: [timeline.Span(first, last, _CUT)])
+        fit = "" if seam.distance is None else f"\nThe poses there are {100 * seam.distance:.0f} cm apart"
+        self._told = (
+            f"Cuts {seam.end / TRACE_RATE:.1f} s to {seam.beginning / TRACE_RATE:.1f} s, red on the timeline{fit}"
+        )
+
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
+        timeline.unmark()
         recording = selected(context)
         seam = cutting.cut_out(active_armature(context), recording, self.start, self.end)
         self.report(
@@ -148,8 +193,9 @@ class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.
     bl_idname = "fragmotion.pin_recording"
     bl_label = "Pin Here"
     bl_description = (
-        "At the playhead's frame the character is to be at the 3D cursor, or at the object below, facing its -Y. The "
-        "stretch before is played with small changes of its controls until it gets there. What comes before that stays"
+        "At the playhead's frame the character is to be at the 3D cursor, or at the object above, facing anywhere or "
+        "its -Y. The stretch before is played with small changes of its controls until it gets there. What comes "
+        "before that stays"
     )
     bl_options: ClassVar[set[str]] = {"UNDO"}
     verb = "Pin"
@@ -174,7 +220,8 @@ class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.
         recording = selected(context)
         named = obj.fragmotion.pin_at if self.place == "PANEL" else None
         now = playhead(context, recording)
-        self._goal = pinning.Goal(now, now - self.stretch, pinning.frame_of(named or context.scene.cursor))
+        frame = pinning.frame_of(named or context.scene.cursor)
+        self._goal = pinning.Goal(now, now - self.stretch, frame, self.any_heading)
         self._recording, self._controls = recording.name, recording.controls
         return Job(f"Pinning '{recording.name}'", pinning.prepare(obj, recording, self._goal))
 
@@ -186,9 +233,8 @@ class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.
         pin = pinned.pin
         self.report(
             {"INFO"},
-            f"'{recording.name}' is at the pin: it was {pin.asked:.2f} m and {math.degrees(pin.asked_angle):.0f} "
-            f"degrees away, {pin.tries} tries left {100 * pin.distance:.1f} cm and {math.degrees(pin.angle):.1f} "
-            "degrees, which are spread",
+            f"'{recording.name}' is at the pin: it was {pinning.say_off(self._goal, pin.asked, pin.asked_angle)} away, "
+            f"{pin.tries} tries left {pinning.say_off(self._goal, pin.distance, pin.angle)}, spread over the change",
         )
 
 

@@ -8,30 +8,34 @@ from typing import ClassVar
 import bpy
 
 from ...control_rig.binding import is_source
-from ...errors import UserError, reported
+from ...errors import UserError
+from ...jobs import Job, SteppedJob
 from ...mocap.actions import ticked
 from ...mocap.retargeting import retarget_actions
-from ..base.context import active_armature, check_plain, poll_armature, progress_shown
+from ..base import background
+from ..base.background import Exclusive
+from ..base.context import active_armature, check_plain, poll_armature
 
 
-class FRAGMOTION_OT_retarget_actions(bpy.types.Operator):
+class FRAGMOTION_OT_retarget_actions(Exclusive, bpy.types.Operator):
     """Make the armature perform the ticked Actions of another one, whatever its bones are called"""
 
     bl_idname = "fragmotion.retarget_actions"
     bl_label = "Retarget Actions"
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+    verb = "Retarget"
+    patience = 0.5
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not poll_armature(cls, context):
+        if not poll_armature(cls, context) or not background.poll_idle(cls):
             return False
         if active_armature(context).fragmotion.source is None:
             cls.poll_message_set("Choose the armature that the Actions are from")
             return False
         return True
 
-    @reported
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def _make_job(self, context: bpy.types.Context) -> Job:
         obj = active_armature(context)
         check_plain(obj)
         source = obj.fragmotion.source
@@ -40,7 +44,9 @@ class FRAGMOTION_OT_retarget_actions(bpy.types.Operator):
         actions = ticked(source)
         if not actions:
             raise UserError(f"No Action of armature '{source.name}' is ticked: click it, and tick them")
-        with progress_shown(context) as advance:
-            made = retarget_actions(context, source, obj, actions, advance)
-        self.report({"INFO"}, f"Armature '{obj.name}' has {len(made)} Actions of '{source.name}'")
-        return {"FINISHED"}
+        self._armature = obj.name
+        steps = retarget_actions(context, source, obj, actions)
+        return SteppedJob(f"Retargeting onto '{obj.name}'", f"{len(actions)} Actions", steps)
+
+    def _keep(self, _context: bpy.types.Context, obj: bpy.types.Object, made: list[bpy.types.Action]) -> None:
+        self.report({"INFO"}, f"Armature '{obj.name}' has {len(made)} Actions of '{obj.fragmotion.source.name}'")

@@ -58,8 +58,17 @@ void cut(FragmentPool& pool, const Kinematics& kinematics, std::size_t first, Or
   }
 }
 
-// The captured and mirrored fragments, without their evident controls.
-FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>& clips, const BuildOptions& options) {
+// Of so many clips, after which their images come.
+MirrorImages mirror_images(MirrorTurns turns, int clips) {
+  if (turns.counterparts.empty()) return {};
+  MirrorImages images{std::vector<int>(clips, -1), std::move(turns)};
+  for (int c = 0; c < clips; ++c) images.originals.push_back(c);
+  return images;
+}
+
+// The captured and mirrored fragments, without their evident controls; tells which clips are mirrored.
+FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>& clips, const BuildOptions& options,
+                           MirrorImages& images) {
   const Skeleton& skeleton = kinematics.skeleton();
   FragmentPool pool{skeleton, {}, {}};
   for (const Clip& clip : clips) pool.clips.push_back(make_clip(skeleton, clip));
@@ -71,6 +80,7 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
   if (options.mirror) {
     const Mirror mirror(kinematics, pool.clips);
     for (std::size_t c = 0; c < clips.size(); ++c) pool.clips.push_back(mirror(pool.clips[c]));
+    images = mirror_images(mirror.turns(), static_cast<int>(clips.size()));
     cut(pool, kinematics, clips.size(), Origin::mirrored, options.cut);
   }
   return pool;
@@ -233,7 +243,8 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   report(progress, 0, "Cutting fragments");
   const Kinematics kinematics(make_skeleton(skeleton));
   check_stature(kinematics.skeleton());
-  FragmentPool pool = captured_pool(kinematics, clips, options);
+  MirrorImages images;
+  FragmentPool pool = captured_pool(kinematics, clips, options, images);
   c.report["captured"] = static_cast<double>(pool.fragments.size());
   double usual = 0;
   c.space = perform(pool, kinematics, options.controls, usual);
@@ -244,7 +255,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   round_to_single(pool.clips);
   c.contacts = contacts_of(pool, options.threads);
   c.legs = find_legs(kinematics, pool.clips);
-  c.pool = pack(pool, options.threads);
+  c.pool = pack(pool, images, options.threads);
   find_whole_jumps(c.pool);
   pool.fragments = c.pool.fragments;
   c.coverage = coverage(c.pool.fragments, c.space);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "build/stages.hpp"
+#include "motion/pack_clip.hpp"
 #include "motion/trunk.hpp"
 
 namespace fragmotion {

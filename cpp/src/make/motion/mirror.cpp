@@ -116,4 +116,26 @@ Clip Mirror::operator()(const Clip& clip) const {
   return make_clip(skeleton, std::move(result));
 }
 
+// Two reflections make a rotation: with W' = S W_counterpart turn, and S = -(half a turn about x), a bone's rotation in
+// its parent is turn_parent^T q_counterpart turn.
+MirrorTurns Mirror::turns() const {
+  const Skeleton& skeleton = kinematics_.skeleton();
+  const int hips = skeleton.roles.hips;
+  MirrorTurns turns{counterpart_, {}, {}};
+  if (counterpart_[hips] != hips) return {};
+  for (int b = 0; b < kinematics_.bones(); ++b) {
+    const int parent = skeleton.parents[b];
+    if (!skeleton.is_below(b, hips)) {
+      turns.counterparts[b] = b;
+      turns.before.push_back(Quaternion::Identity());
+      turns.after.push_back(Quaternion::Identity());
+      continue;
+    }
+    if (b != hips && skeleton.parents[counterpart_[b]] != counterpart_[parent]) return {};
+    turns.after.emplace_back(Matrix3{-turn_[b]});
+    turns.before.push_back(b == hips ? Quaternion{0, 1, 0, 0} : turns.after[parent].conjugate());
+  }
+  return turns;
+}
+
 }  // namespace fragmotion

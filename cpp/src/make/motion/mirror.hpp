@@ -7,6 +7,13 @@
 
 namespace fragmotion {
 
+/// How the rotations of a mirror image follow from the original's: that of bone b is before[b] * q * after[b], where q
+/// is the original's of bone counterparts[b]. The hips' are in the world, every other bone's in its parent.
+struct MirrorTurns {
+  std::vector<int> counterparts;  ///< Of each bone; empty where the rotations do not follow one by one.
+  std::vector<Quaternion> before, after;
+};
+
 /// Turns a motion into its mirror image, left for right. Each bone's frame is reflected and then turned by a constant
 /// that makes it a frame of its counterpart: told by the rest pose where that is symmetric, else by the takes' mean
 /// pose, which gait makes symmetric.
@@ -16,6 +23,9 @@ class Mirror {
 
   /// The mirror image of a clip, reflected in the world's plane x = 0; named "NAME mirrored".
   Clip operator()(const Clip& clip) const;
+
+  /// Empty where a bone and its counterpart do not hang on counterparts.
+  MirrorTurns turns() const;
 
  private:
   const Kinematics& kinematics_;

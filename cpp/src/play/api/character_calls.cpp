@@ -28,9 +28,9 @@ void check_version(std::string_view bytes) {
   demand(version <= kPolicyVersion, FRAGMOTION_ERROR_NEWER_VERSION,
          "the policy is of version %u, newer than the %u that this library knows: get a newer Fragmotion",
          static_cast<unsigned>(version), static_cast<unsigned>(kPolicyVersion));
-  demand(version == kPolicyVersion, FRAGMOTION_ERROR_OLDER_VERSION,
+  demand(version >= kOldestPolicyVersion, FRAGMOTION_ERROR_OLDER_VERSION,
          "the policy is of version %u, older than the %u that this library knows: build it again in Blender",
-         static_cast<unsigned>(version), static_cast<unsigned>(kPolicyVersion));
+         static_cast<unsigned>(version), static_cast<unsigned>(kOldestPolicyVersion));
 }
 
 Character read_character(std::string_view bytes) {

@@ -20,6 +20,7 @@ PlayerOptions to_options(const FragmotionPlayerOptions& options) {
   wanted.seed = options.seed;
   wanted.stitch = options.stitch;
   wanted.lock_feet = options.hold_feet != 0;
+  wanted.stitching = options.cross_fades != 0 ? Stitching::crossfade : Stitching::inertialize;
   wanted.root_adjustment = options.root_adjustment;
   wanted.responsiveness = options.responsiveness;
   return wanted;
@@ -32,6 +33,7 @@ void check_options(const FragmotionPlayerOptions& options) {
   if (options.stitch != 0) demand_range("stitch", options.stitch, kShortestStitch, 1);
   demand_range("time_scale", options.time_scale, 0, 100);
   demand_range("hold_feet", options.hold_feet, 0, 1);
+  demand_range("cross_fades", options.cross_fades, 0, 1);
   if (options.fixed_step != 0) demand_range("fixed_step", options.fixed_step, 0.001, 1);
 }
 

@@ -203,7 +203,11 @@ FragmotionResult fragmotion_player_set_options(FragmotionPlayer* player,
                                                const FragmotionPlayerOptions* options) noexcept {
   return call("fragmotion_player_set_options", [&] {
     demand_given(options, "the options");
-    alive(player).set_options(checked(options));
+    FragmotionPlayer& changed = alive(player);
+    const FragmotionPlayerOptions wanted = checked(options);
+    demand(wanted.cross_fades == changed.options.cross_fades, FRAGMOTION_ERROR_ARGUMENT,
+           "cross_fades is chosen as a player is made: make another");
+    changed.set_options(wanted);
   });
 }
 

@@ -48,6 +48,7 @@ void FragmotionPlayer::exchange(Archive& a) {
   std::uint64_t step = 0;
   std::memcpy(&step, &options.fixed_step, sizeof step);
   a.same(step, "of a player with another fixed_step");
+  a.same(static_cast<std::uint64_t>(options.cross_fades), "of a player with other cross_fades");
   exchange_options(a, options);
   if constexpr (Archive::kKeeps) player.set_options(to_options(options));
   PlayerState::exchange(a, player);

@@ -39,7 +39,12 @@ void check_pool(const PackedPool& pool) {
   require(pool.skeleton.roles.hips >= 0, "roles");
   checked_skeleton(pool.skeleton);
   check_stature(pool.skeleton);
-  for (const PackedClip& clip : pool.clips) check(clip, pool.skeleton);
+  for (std::size_t c = 0; c < pool.clips.size(); ++c) {
+    check(pool.clips[c], pool.skeleton);
+    const int original = original_of(pool.clips, c);
+    require(original < static_cast<int>(c) && (original >= 0 || !pool.clips[c].mirrored),
+            "clips and their mirror images");
+  }
   for (const Fragment& f : pool.fragments) {
     require(f.clip >= 0 && f.clip < static_cast<int>(pool.clips.size()) && f.begin >= 0 && f.begin < f.end &&
                 f.end < pool.clips[f.clip].frames && f.origin <= Origin::transformed,

@@ -31,9 +31,12 @@ constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
 // MB.
 constexpr std::size_t kRoom = 48000000, kTimes = 16;  // bytes, and for each byte of the file
 
-std::uint64_t checksum(const char* data, std::size_t size) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ static_cast<unsigned char>(data[i])) * 0x100000001b3ULL;
+constexpr std::uint64_t kSeed = 0xcbf29ce484222325ULL, kPrime = 0x100000001b3ULL;
+
+// FNV-1a, of files of version 3.
+std::uint64_t checksum_of_bytes(std::string_view payload) {
+  std::uint64_t hash = kSeed;
+  for (const char byte : payload) hash = (hash ^ static_cast<unsigned char>(byte)) * kPrime;
   return hash;
 }
 
@@ -41,6 +44,7 @@ std::uint64_t checksum(const char* data, std::size_t size) {
 class Writer {
  public:
   static constexpr bool kReads = false;
+  static constexpr std::uint32_t version = kPolicyVersion;
   std::string bytes;
 
   template <typename T>
@@ -54,8 +58,9 @@ class Writer {
   }
   template <typename Stored, typename T>
   void numbers(const std::vector<T>& values) {
+    static_assert(std::is_same_v<Stored, T>);
     number<std::uint64_t>(values.size());
-    for (const T& value : values) number<Stored>(value);
+    raw(values.data(), values.size());
   }
   void text(const std::string& value) {
     number<std::uint32_t>(value.size());
@@ -76,7 +81,9 @@ class Writer {
 class Reader {
  public:
   static constexpr bool kReads = true;
-  Reader(const char* data, std::size_t size) : data_(data), left_(size) {}
+  const std::uint32_t version;
+  Reader(std::uint32_t from_version, const char* data, std::size_t size)
+      : version(from_version), data_(data), left_(size) {}
 
   template <typename Stored, typename T>
   void number(T& value) {
@@ -86,8 +93,9 @@ class Reader {
   }
   template <typename Stored, typename T>
   void numbers(std::vector<T>& values) {
+    static_assert(std::is_same_v<Stored, T>);
     values.resize(count(sizeof(Stored)));
-    for (T& value : values) number<Stored>(value);
+    if (!values.empty()) std::memcpy(values.data(), take(values.size() * sizeof(T)), values.size() * sizeof(T));
   }
   void text(std::string& value) {
     std::uint32_t size = 0;
@@ -155,16 +163,34 @@ void exchange_control(Archive& a, C& c) {
 }
 
 template <typename Archive>
-void exchange_clip(Archive& a, PackedClip& clip) {
-  a.text(clip.name);
-  a.template number<double>(clip.rate);
-  a.template number<std::int32_t>(clip.frames);
-  for (auto* values : {&clip.origin, &clip.steps}) {
+void exchange_poses(Archive& a, PackedPoses& poses) {
+  for (auto* values : {&poses.origin, &poses.steps}) {
     for (double& value : *values) a.template number<double>(value);
   }
-  a.template numbers<std::int32_t>(clip.least);
-  a.template numbers<std::uint8_t>(clip.bits);
-  a.template numbers<std::uint8_t>(clip.poses);
+  a.template numbers<std::int32_t>(poses.least);
+  a.template numbers<std::uint8_t>(poses.bits);
+  a.template numbers<std::uint8_t>(poses.bytes);
+}
+
+// The number of a clip's original, or -1 and what the clip has itself.
+template <typename Archive>
+void exchange_clip(Archive& a, PackedPool& pool, std::size_t number) {
+  PackedClip& clip = pool.clips[number];
+  a.text(clip.name);
+  std::int32_t original = Archive::kReads ? -1 : original_of(pool.clips, number);
+  if (a.version >= 4) a.template number<std::int32_t>(original);
+  if (original < 0) {
+    a.template number<double>(clip.rate);
+    a.template number<std::int32_t>(clip.frames);
+    PackedPoses poses = Archive::kReads ? PackedPoses() : *clip.poses;
+    exchange_poses(a, poses);
+    if (Archive::kReads) clip.poses = std::make_shared<const PackedPoses>(std::move(poses));
+  } else if (Archive::kReads) {
+    if (static_cast<std::size_t>(original) >= number || pool.clips[original].mirrored) {
+      throw std::invalid_argument("its clips and their mirror images do not fit together");
+    }
+    clip = mirror_image(pool.clips[original], std::move(clip.name));
+  }
 }
 
 // One byte a frame: 1 where the left foot stands, and 2 where the right one does.
@@ -191,10 +217,15 @@ void exchange_clips(Archive& a, PackedPool& pool) {
   a.template number<std::int32_t>(grid.bones);
   a.template numbers<float>(grid.usual);
   a.template numbers<float>(grid.steps);
+  if (a.version >= 4) {
+    a.template numbers<std::int32_t>(grid.mirror.counterparts);
+    a.template numbers<float>(grid.mirror.before);
+    a.template numbers<float>(grid.mirror.after);
+  }
   const auto shared = std::make_shared<const PoseGrid>(std::move(grid));
-  a.list(pool.clips, 104, [&](auto& clip) {
+  a.list(pool.clips, 8, [&](auto& clip) {
     if (Archive::kReads) clip.grid = shared;
-    exchange_clip(a, clip);
+    exchange_clip(a, pool, &clip - pool.clips.data());
   });
   a.list(pool.fragments, 45, [&](auto& f) {
     for (auto* value : {&f.clip, &f.begin, &f.end}) a.template number<std::int32_t>(*value);
@@ -327,6 +358,18 @@ void complete(Character& c) {
 
 }  // namespace
 
+// Each word is folded, so that its high bits are mixed as well.
+std::uint64_t policy_checksum(std::string_view payload) {
+  std::uint64_t hash = kSeed;
+  for (std::size_t at = 0; at < payload.size(); at += sizeof hash) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, payload.data() + at, std::min(sizeof word, payload.size() - at));
+    hash = (hash ^ word) * kPrime;
+    hash ^= hash >> 32;
+  }
+  return hash;
+}
+
 std::string unchecked_bytes(const Character& character) {
   Writer payload;
   exchange(payload, const_cast<Character&>(character));
@@ -335,7 +378,7 @@ std::string unchecked_bytes(const Character& character) {
   file.number<std::uint32_t>(kPolicyVersion);
   file.number<std::uint64_t>(payload.bytes.size());
   file.bytes += payload.bytes;
-  file.number<std::uint64_t>(checksum(payload.bytes.data(), payload.bytes.size()));
+  file.number<std::uint64_t>(policy_checksum(payload.bytes));
   return file.bytes;
 }
 
@@ -359,9 +402,9 @@ Character from_bytes(std::string_view bytes, const std::string& name) {
     std::uint64_t length = 0;
     std::memcpy(&version, bytes.data() + 8, 4);
     std::memcpy(&length, bytes.data() + 12, 8);
-    if (version != kPolicyVersion) {
-      const std::string which = "it is of version " + std::to_string(version) + ", and this program reads version " +
-                                std::to_string(kPolicyVersion);
+    if (version < kOldestPolicyVersion || version > kPolicyVersion) {
+      const std::string which = "it is of version " + std::to_string(version) + ", and this program reads versions " +
+                                std::to_string(kOldestPolicyVersion) + " to " + std::to_string(kPolicyVersion);
       throw std::invalid_argument(which +
                                   (version > kPolicyVersion ? ": get a newer Fragmotion" : ": build the policy again"));
     }
@@ -370,9 +413,10 @@ Character from_bytes(std::string_view bytes, const std::string& name) {
     }
     std::uint64_t expected = 0;
     std::memcpy(&expected, bytes.data() + kHeader + length, 8);
-    if (checksum(bytes.data() + kHeader, length) != expected) throw std::invalid_argument("it is damaged (checksum)");
+    const auto sum_of = version < 4 ? checksum_of_bytes : policy_checksum;
+    if (sum_of(bytes.substr(kHeader, length)) != expected) throw std::invalid_argument("it is damaged (checksum)");
     Character character;
-    Reader reader(bytes.data() + kHeader, length);
+    Reader reader(version, bytes.data() + kHeader, length);
     exchange(reader, character);
     if (!reader.done()) throw std::invalid_argument("it has bytes too many");
     check_character(character);

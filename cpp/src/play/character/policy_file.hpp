@@ -10,11 +10,11 @@
 
 namespace fragmotion {
 
-/// Of the files that are written.
-constexpr std::uint32_t kPolicyVersion = 3;
+/// Of the files that are written, and of the oldest ones that are read.
+constexpr std::uint32_t kPolicyVersion = 4, kOldestPolicyVersion = 3;
 
-/// A character as bytes: "FRAGMOTN", version, length, payload, FNV-1a checksum of the payload; little-endian. Throws
-/// std::invalid_argument on a character that from_bytes would refuse.
+/// A character as bytes: "FRAGMOTN", version, length, payload, checksum of the payload (docs/game.md); little-endian.
+/// Throws std::invalid_argument on a character that from_bytes would refuse.
 std::string to_bytes(const Character& character);
 
 /// The character in `bytes`, which takes at most 20 times as much memory beyond 50 MB. No length and no number in them

@@ -12,39 +12,68 @@
 
 namespace fragmotion {
 
+/// How the mirror image of a packed pose follows from what the pose is packed in: the turn of bone b from its usual
+/// rotation, after before[b] and before after[b], is the image's rotation of bone counterparts[b].
+struct PoseMirror {
+  std::vector<int> counterparts;     ///< [bones], each the other's; empty: no clip is the image of another
+  std::vector<float> before, after;  ///< [blocks, 4, kBoneBlock]: unit quaternions
+
+  bool empty() const { return counterparts.empty(); }
+};
+
 /// What the packed clips of one skeleton share. A bone's rotation is kept as the turn from its usual one, as axis *
-/// tan(angle / 4) in whole steps. The steps are as wide as keeps every bone's rotation, in its parent and in the world,
-/// within 0.09 degrees, and every bone's tip within 0.9 mm, of a character of 1.8 m.
+/// tan(angle / 4) in whole steps.
 struct PoseGrid {
   int bones = 0;
   std::vector<float> usual;  ///< [blocks, 4, kBoneBlock]: unit quaternions; of what no bone is: no rotation
   std::vector<float> steps;  ///< [blocks, kBoneBlock]
+  PoseMirror mirror;
 
   int blocks() const { return (bones + kBoneBlock - 1) / kBoneBlock; }
 };
 
-/// The grid for these clips' poses.
-PoseGrid pose_grid(const Skeleton& skeleton, const std::vector<Clip>& clips);
+/// Where the number of a bone is in [blocks, axes, kBoneBlock].
+constexpr std::size_t place_of(int bone, int axis, int axes) {
+  return static_cast<std::size_t>(bone / kBoneBlock * axes + axis) * kBoneBlock + bone % kBoneBlock;
+}
 
-/// A clip in about a fifth of its size in single precision. Every pose is to be had by itself.
+/// The quaternion of a bone in [blocks, 4, kBoneBlock].
+Quaternion quaternion_of(const std::vector<float>& lanes, int bone);
+
+/// The poses of a clip, each to be had by itself.
+struct PackedPoses {
+  std::array<double, 4> origin{}, steps{};  ///< The hips' place in m and the heading in rad: origin + number * step.
+  std::vector<std::int32_t> least;          ///< [blocks, 3, kBoneBlock]: a turn is least + number steps
+  std::vector<std::uint8_t> bits;           ///< Of each number of a pose: place and heading, then as in `least`.
+  std::vector<std::uint8_t> bytes;          ///< [frames, a pose's] numbers, lowest bits first, and kSpare bytes
+
+  static constexpr int kRootNumbers = 4;    ///< Place and heading.
+  static constexpr int kMostBits = 24;      ///< Of a number.
+  static constexpr std::size_t kSpare = 4;  ///< Bytes that may be read beyond the last pose.
+
+  /// Of each pose.
+  std::size_t pose_bytes(int frames) const { return (bytes.size() - kSpare) / frames; }
+};
+
+/// Bytes that numbers of so many bits take.
+std::size_t bytes_for(const std::vector<std::uint8_t>& bits);
+
+/// A clip in about a sixth of its size in single precision, and nothing beside the original where it is the mirror
+/// image of another.
 struct PackedClip {
   std::string name;
   double rate = 0;  ///< Frames a second.
   int frames = 0;
   std::shared_ptr<const PoseGrid> grid;
-  std::array<double, 4> origin{}, steps{};  ///< The hips' place in m and the heading in rad: origin + number * step.
-  std::vector<std::int32_t> least;          ///< [blocks, 3, kBoneBlock]: a turn is least + number steps
-  std::vector<std::uint8_t> bits;           ///< Of each number of a pose: place and heading, then as in `least`.
-  std::vector<std::uint8_t> poses;          ///< [frames, pose_bytes] numbers, lowest bits first, and kSpare bytes
-
-  static constexpr int kMostBits = 24;      ///< Of a number.
-  static constexpr std::size_t kSpare = 4;  ///< Bytes that may be read beyond the last pose.
-
-  std::size_t pose_bytes() const { return (poses.size() - kSpare) / frames; }
+  std::shared_ptr<const PackedPoses> poses;
+  bool mirrored = false;  ///< The poses are the original's, and this clip shows their mirror image in x = 0.
 };
 
-/// Keeps a clip; the error of turns does not add up from bone to bone.
-PackedClip pack(const Skeleton& skeleton, std::shared_ptr<const PoseGrid> grid, const Clip& clip);
+/// The mirror image of a packed clip, in a grid that has a mirror, of which it shares the poses.
+PackedClip mirror_image(const PackedClip& original, std::string name);
+
+/// The number of the clip that shares its poses with a mirrored one; -1 of one that is not mirrored, or has none.
+int original_of(const std::vector<PackedClip>& clips, std::size_t mirrored);
 
 /// All poses of a packed clip.
 Clip unpack(const PackedClip& clip);
