@@ -23,17 +23,19 @@ GAME_LIBRARY, ADDON_LIBRARY = "fragmotion_static", "fragmotion_runtime"
 
 @dataclass(frozen=True)
 class Machine:
-    """What the game is compiled for, by zig unless it has no target."""
+    """What the game is compiled for, by zig unless it has no target, and what runs it."""
 
     name: str
     library: str
     target: str = ""
+    runner: tuple[str, ...] = ()
 
 
 MACHINES = (
     Machine("gcc-glibc", GAME_LIBRARY),
     Machine("addon", ADDON_LIBRARY),
     Machine("clang-musl", GAME_LIBRARY, "x86_64-linux-musl"),
+    Machine("arm64", GAME_LIBRARY, "aarch64-linux-musl", ("qemu-aarch64",)),
 )
 
 
@@ -72,7 +74,7 @@ def program(machine: Machine) -> Path:
 def play(machine: Machine, what: str, state: Path) -> list[str]:
     """The sums of the poses that the compiled game prints."""
     game = FOLDER / machine.name / f"{machine.library}_game"
-    return run([game, what, POLICY, state], {}).split()
+    return run([*machine.runner, game, what, POLICY, state], {}).split()
 
 
 @pytest.fixture(scope="session")
