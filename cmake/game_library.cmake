@@ -26,6 +26,9 @@ endforeach()
 target_compile_options(fragmotion_fast PRIVATE $<$<CONFIG:Release>:-O2>)
 target_compile_options(fragmotion_small PRIVATE $<$<CONFIG:Release>:-Os>)
 set(fragmotion_objects $<TARGET_OBJECTS:fragmotion_fast> $<TARGET_OBJECTS:fragmotion_small>)
+if(TARGET fragmotion_math_objects)
+  list(APPEND fragmotion_objects $<TARGET_OBJECTS:fragmotion_math_objects>)
+endif()
 if(NOT PROJECT_IS_TOP_LEVEL)
   set(fragmotion_game_exclude EXCLUDE_FROM_ALL)
 endif()
@@ -47,9 +50,9 @@ if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND CMAKE_OBJCOPY AND NOT CMAKE_CROSSCOMPI
   # One object, from what is exported and all that it needs; of the rest no name is left.
   set(object "${CMAKE_CURRENT_BINARY_DIR}/game/fragmotion.o")
   list(TRANSFORM fragmotion_exported PREPEND "--undefined=" OUTPUT_VARIABLE needed)
-  add_custom_command(OUTPUT "${object}" DEPENDS fragmotion_fast fragmotion_small ${fragmotion_objects}
+  add_custom_command(OUTPUT "${object}" DEPENDS ${fragmotion_objects}
     COMMAND ${CMAKE_LINKER} -r --gc-sections --force-group-allocation ${needed} -o "${object}"
-            "$<TARGET_OBJECTS:fragmotion_fast>" "$<TARGET_OBJECTS:fragmotion_small>"
+            ${fragmotion_objects}
     COMMAND ${CMAKE_OBJCOPY} --wildcard "--keep-global-symbol=fragmotion_*" "${object}"
     COMMAND_EXPAND_LISTS VERBATIM)
   set_source_files_properties("${object}" PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)

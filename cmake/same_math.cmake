@@ -1,19 +1,40 @@
 # SPDX-License-Identifier: MIT
-# fragmotion_math: the functions of <cmath> whose last bits differ between C libraries, as those of musl, which lie in
-# FRAGMOTION_ZIG_LIB_DIR. Linked into a module they go before the system's, so that a character is the same bit for bit
-# wherever it was made. (For Windows zig links these by itself; sine, cosine, exp and log are its own everywhere.)
-set(FRAGMOTION_ZIG_LIB_DIR "" CACHE PATH "Folder of zig's own sources and headers")
+# The same bits on every compiler and processor. fragmotion_math has the functions of <cmath> whose last bits differ
+# between C libraries, as those of musl, from FRAGMOTION_MUSL_DIR. Linked in, they go before the system's. Without them
+# the system's are used, and a character is the same only where those are.
+set(FRAGMOTION_MUSL_DIR "${CMAKE_CURRENT_SOURCE_DIR}/build/musl" CACHE PATH
+    "Folder with musl's sources as zig has them: lib/libc of PyPI's ziglang; without them the system's <cmath> is used")
+
+# Vectors of Eigen's own sum in another order than one number after the other does.
+add_compile_definitions(EIGEN_DONT_VECTORIZE)
+# No fused multiply-add behind our back. Square roots need not set errno, so that loops over them vectorise; their
+# values stay the same.
+add_compile_options(-ffp-contract=off -fno-math-errno)
+
+set(musl "${FRAGMOTION_MUSL_DIR}/musl")
+if(NOT EXISTS "${musl}/src/math/exp.c")
+  message(STATUS "mathematics: the system's, as there is no musl in ${FRAGMOTION_MUSL_DIR}")
+  add_library(fragmotion_math INTERFACE)
+  return()
+endif()
+message(STATUS "mathematics: musl's, compiled in from ${FRAGMOTION_MUSL_DIR}")
 enable_language(C)
-set(musl "${FRAGMOTION_ZIG_LIB_DIR}/libc/musl")
-set(fragmotion_math_functions acos asin atan atan2 expm1 hypot pow tanh)
-set(fragmotion_math_parts exp_data pow_data __math_divzero __math_invalid __math_oflow __math_uflow __math_xflow)
-set(fragmotion_math_sources ${fragmotion_math_functions} ${fragmotion_math_parts})
-list(TRANSFORM fragmotion_math_sources REPLACE "(.+)" "${musl}/src/math/\\1.c")
-add_library(fragmotion_math STATIC ${fragmotion_math_sources})
-target_include_directories(fragmotion_math PRIVATE
+set(functions acos asin atan atan2 exp exp2 expm1 hypot log log1p log2 pow tanh)
+set(parts __cos __math_divzero __math_invalid __math_oflow __math_uflow __math_xflow __rem_pio2 __rem_pio2_large __sin
+    __tan exp_data log2_data log_data pow_data scalbn)
+set(sources ${functions} ${parts})
+list(TRANSFORM sources REPLACE "(.+)" "${musl}/src/math/\\1.c")
+add_library(fragmotion_math_objects OBJECT ${sources} cpp/src/play/same_math/trigonometry.c)
+# The headers of a 32-bit processor are right for all, as far as these go: Windows' long has 32 bits, too.
+target_include_directories(fragmotion_math_objects PRIVATE
   "${musl}/arch/generic" "${musl}/src/include" "${musl}/src/internal" "${musl}/include")
-target_include_directories(fragmotion_math SYSTEM PRIVATE
-  "${FRAGMOTION_ZIG_LIB_DIR}/include" "${FRAGMOTION_ZIG_LIB_DIR}/libc/include/x86_64-linux-musl"
-  "${FRAGMOTION_ZIG_LIB_DIR}/libc/include/generic-musl")
-target_compile_options(fragmotion_math PRIVATE -nostdinc -w)
-set_target_properties(fragmotion_math PROPERTIES C_VISIBILITY_PRESET hidden)
+target_include_directories(fragmotion_math_objects SYSTEM PRIVATE
+  "${FRAGMOTION_MUSL_DIR}/include/arm-linux-musl" "${FRAGMOTION_MUSL_DIR}/include/generic-musl")
+target_compile_options(fragmotion_math_objects PRIVATE
+  -nostdinc -U__FP_FAST_FMA -ffunction-sections -fdata-sections -w $<$<CONFIG:Release>:-O2>)
+set_target_properties(fragmotion_math_objects PROPERTIES C_VISIBILITY_PRESET hidden)
+add_library(fragmotion_math STATIC $<TARGET_OBJECTS:fragmotion_math_objects>)
+
+# A compiler works out what it knows of these by a mathematics of its own.
+list(TRANSFORM functions PREPEND -fno-builtin- OUTPUT_VARIABLE no_builtins)
+add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:${no_builtins};-fno-builtin-sin;-fno-builtin-cos;-fno-builtin-tan>")

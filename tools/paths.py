@@ -12,6 +12,7 @@ LOGS = BUILD / "logs"
 ADDON = TOP / "addon" / "fragmotion"
 PACKAGES = BUILD / "packages"
 LIBSVM = BUILD / "libsvm"
+MUSL = BUILD / "musl"
 SDL = BUILD / "sdl"
 BLENDER = Path("/usr/bin/blender")  # Debian's, which runs the system's Python: 3.4.1 on Debian 12, 4.3 on 13
 

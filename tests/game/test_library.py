@@ -77,6 +77,12 @@ def test_it_starts_no_thread_reads_no_file_and_prints_nothing(libraries: Path) -
     assert not re.search(unwanted, needed)
 
 
+def test_what_is_not_exact_of_mathematics_is_its_own(libraries: Path) -> None:
+    inexact = "a?(sin|cos|tan)h?|atan2|sincos|hypot|cbrt|pow|fma|(exp|log)(2|10|m1|1p)?"
+    needed = run("nm", "--dynamic", "--undefined-only", libraries / "libfragmotion.so")
+    assert not re.findall(rf" U ((?:{inexact})f?)(?:@|$)", needed, re.MULTILINE)
+
+
 def test_it_is_small(libraries: Path) -> None:
     assert (libraries / "libfragmotion.so").stat().st_size < KILOBYTES * 1000
 

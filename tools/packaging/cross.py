@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 import shlex
 import shutil
 from collections.abc import Iterable
@@ -15,8 +14,7 @@ from tools.platforms import Platform
 from tools.setup import environments, maven
 from tools.shell import run, steps_of
 
-ZIG = "ziglang==0.15.2"
-REQUIREMENTS = (ZIG,)
+REQUIREMENTS = (environments.ZIG,)
 
 _TOOLS = {
     "c++": "c++ -target {target}",
@@ -32,14 +30,13 @@ _CACHE = BUILD / "zig" / "cache"
 def build_wheels(platform: Platform, pythons: Iterable[str]) -> dict[str, Path]:
     """The wheel of the core for each of these Pythons; what is built already is not built again."""
     folder = build_folder(platform)
-    environment = {**compiling.compiler_environment(), **_environment()}
     targets = [f"fragmotion_core_{python.replace('.', '')}" for python in pythons]
     with compiling.COMPILING:
-        run(["cmake", *_options(platform, folder)], f"cmake-{platform.name}", environment)
+        run(["cmake", *_options(platform, folder)], f"cmake-{platform.name}", environment())
         run(
             ["cmake", "--build", folder, "--target", *targets],
             f"build-{platform.name}",
-            environment,
+            environment(),
             timeout=7200.0,
             hear=steps_of(f"build: {platform.name}"),
         )
@@ -59,15 +56,7 @@ def build_folder(platform: Platform) -> Path:
 
 def _options(platform: Platform, folder: Path) -> list[str | Path]:
     variables = {
-        "CMAKE_TOOLCHAIN_FILE": TOP / "cmake" / "zig.cmake",
-        "CMAKE_BUILD_TYPE": "Release",
-        "CMAKE_CXX_COMPILER_LAUNCHER": "ccache",
-        # Nothing of where it is built is in what is built.
-        "CMAKE_CXX_FLAGS": f"-ffile-prefix-map={TOP}=.",
-        "FRAGMOTION_ZIG_DIR": _write_tools(platform),
-        "FRAGMOTION_ZIG_LIB_DIR": zig().parent / "lib",
-        "FRAGMOTION_SYSTEM": platform.system,
-        "FRAGMOTION_PROCESSOR": platform.target.partition("-")[0],
+        **toolchain(platform.name, platform.target, platform.system),
         "FRAGMOTION_PYTHONS": ";".join(platform.pythons),
         "FRAGMOTION_PYTHONS_DIR": maven.ensure_headers(platform),
         "FRAGMOTION_PYBIND11_INCLUDE": environments.site_packages(environments.HOST) / "pybind11" / "include",
@@ -76,14 +65,28 @@ def _options(platform: Platform, folder: Path) -> list[str | Path]:
     return ["-S", TOP, "-B", folder, "-G", "Ninja", *(f"-D{name}={value}" for name, value in variables.items())]
 
 
-def _write_tools(platform: Platform) -> Path:
-    """The folder of zig's programs for the platform, each as CMake and ccache expect one: a file without arguments."""
-    folder = BUILD / "zig" / platform.name
+def toolchain(name: str, target: str, system: str) -> dict[str, str | Path]:
+    """CMake's variables for compiling for a target of zig's ("aarch64-linux-musl") and what CMake calls its system."""
+    return {
+        "CMAKE_TOOLCHAIN_FILE": TOP / "cmake" / "zig.cmake",
+        "CMAKE_BUILD_TYPE": "Release",
+        "CMAKE_CXX_COMPILER_LAUNCHER": "ccache",
+        # Nothing of where it is built is in what is built.
+        "CMAKE_CXX_FLAGS": f"-ffile-prefix-map={TOP}=.",
+        "FRAGMOTION_ZIG_DIR": _write_tools(name, target),
+        "FRAGMOTION_SYSTEM": system,
+        "FRAGMOTION_PROCESSOR": target.partition("-")[0],
+    }
+
+
+def _write_tools(name: str, target: str) -> Path:
+    """The folder of zig's programs for a target, each as CMake and ccache expect one: a file without arguments."""
+    folder = BUILD / "zig" / name
     folder.mkdir(parents=True, exist_ok=True)
-    for name, arguments in _TOOLS.items():
-        words = arguments.format(target=platform.target)
-        text = f'#!/bin/sh\n# {ZIG}\nexec {shlex.quote(str(zig()))} {words} "$@"\n'
-        path = folder / name
+    for tool, arguments in _TOOLS.items():
+        words = arguments.format(target=target)
+        text = f'#!/bin/sh\n# {environments.ZIG}\nexec {shlex.quote(str(zig()))} {words} "$@"\n'
+        path = folder / tool
         if not path.exists() or path.read_text() != text:
             path.write_text(text)
             path.chmod(0o755)
@@ -95,11 +98,12 @@ def zig() -> Path:
     return environments.site_packages(environments.HOST) / "ziglang" / "zig"
 
 
-def _environment() -> dict[str, str]:
+def environment() -> dict[str, str]:
+    """The environment variables that it is run with."""
     return {
+        **compiling.compiler_environment(),
         "ZIG_GLOBAL_CACHE_DIR": str(_CACHE),
         "ZIG_LOCAL_CACHE_DIR": str(_CACHE),
         "CCACHE_COMPILERTYPE": "clang",
         "CCACHE_COMPILERCHECK": "content",
-        "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count() or 1),
     }

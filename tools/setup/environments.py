@@ -3,16 +3,18 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 import sys
 import tarfile
+import zipfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 
-from tools.paths import BUILD, LIBSVM, SDL
+from tools.paths import BUILD, LIBSVM, MUSL, SDL
 from tools.platforms import Platform
 from tools.setup import maven
 from tools.shell import run, step
@@ -37,7 +39,14 @@ SYSTEM = _version_of("/usr/bin/python3") or HOST
 BPY_PYTHON = "3.11"
 """The Python of Blender 4.5's module."""
 
+ZIG = "ziglang==0.15.2"
+"""What compiles for other platforms, and brings musl's sources along."""
+
 _LIBSVM = "libsvm-official==3.37.0"
+_MUSL = re.compile(
+    r"ziglang/lib/libc/(musl/(COPYRIGHT|arch/generic/.*|include/.*|src/(include|internal|math)/.*\.[ch])"
+    r"|include/(arm-linux|generic)-musl/.*)"
+)
 _SDL = ("PySDL2==0.9.17", "pysdl2-dll==2.32.0")
 _PIP = ("-m", "pip", "--disable-pip-version-check", "--retries", "5", "--timeout", "60")
 
@@ -148,6 +157,25 @@ def _download_libsvm() -> None:
             source = archive.extractfile(member) if name in ("svm.cpp", "svm.h", "LICENSE") else None
             if source:
                 (LIBSVM / name).write_bytes(source.read())
+
+
+def ensure_musl() -> None:
+    """Put musl's mathematics and what it includes, as zig has them, into build/musl, where CMake looks for them."""
+    with filled(MUSL, [ZIG], f"musl's mathematics of {ZIG}") as is_needed:
+        if is_needed:
+            _download_musl()
+
+
+def _download_musl() -> None:
+    run([environment_python(HOST), *_PIP, "download", "--no-deps", "--dest", MUSL, ZIG], "pip-musl")
+    wheel = next(MUSL.glob("*.whl"))
+    with zipfile.ZipFile(wheel) as archive:
+        for member in archive.infolist():
+            if match := _MUSL.fullmatch(member.filename):
+                target = MUSL / match[1]
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_bytes(archive.read(member))
+    wheel.unlink()
 
 
 def sdl_wheels(platform: Platform) -> list[Path]:

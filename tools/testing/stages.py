@@ -184,6 +184,11 @@ def game(expression: str | None) -> Counts:
     return _pytest("game", HOST, TOP / "tests" / "game", {}, expression)
 
 
+def same_bits(expression: str | None) -> Counts:
+    """Ten wild minutes, compiled for several machines and run as on them, and in the add-on's core: the same bits."""
+    return _pytest("same-bits", HOST, TOP / "tests" / "same_bits", {"PYTHONPATH": str(TOP)}, expression)
+
+
 def engines(expression: str | None) -> Counts:
     """A character in each engine that Debian unstable has here."""
     absent = engine_tests.absent()

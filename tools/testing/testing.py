@@ -63,6 +63,7 @@ STAGES = {
     ),
     "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
     "game": Stage(stages.game, lambda: machine.GAME_TESTS),
+    "same-bits": Stage(stages.same_bits, lambda: machine.SAME_BITS),
     "engines": Stage(stages.engines, lambda: machine.ENGINES),
     "tidy": Stage(stages.tidy, lambda: machine.TIDY),
     "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),

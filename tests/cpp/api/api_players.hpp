@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,7 +23,14 @@ struct Released {
 template <typename Handle>
 using Held = std::unique_ptr<Handle, Released>;
 
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kEndless = std::numeric_limits<float>::infinity();
+
 inline void expect_ok(FragmotionResult result) { ASSERT_EQ(result, FRAGMOTION_OK) << fragmotion_last_error(); }
+
+inline void expect_fails(FragmotionResult result, FragmotionResult expected, const std::string& why) {
+  EXPECT_EQ(result, expected) << fragmotion_last_error();
+  EXPECT_NE(std::string(fragmotion_last_error()).find(why), std::string::npos) << fragmotion_last_error();
+}
 
 inline Held<FragmotionCharacter> loaded(const Character& character, FragmotionAxes axes = FRAGMOTION_AXES_BLENDER,
                                         float unit = 1) {

@@ -259,20 +259,24 @@ TEST(ApiPlayer, GoesAlongAPathAndArrives) {
 
 // The frame rate of the game changes nothing but how often it looks.
 TEST(ApiPlayer, GoesTheSameWayAtAnyFrameRateByFixedSteps) {
-  FragmotionPlayerOptions options = fragmotion_player_options();
-  options.fixed_step = 1.0 / 60;
-  std::vector<FragmotionState> ends;
-  for (const int rate : {30, 60, 120}) {
-    const auto player = playing(styled_api_character(), options);
-    for (int frame = 0; frame < 30 * rate; ++frame) {
-      const FragmotionInput input = wild_input(60 * frame / rate / 2 * 2);
-      expect_ok(fragmotion_player_step(player.get(), &input, 1.0 / rate));
+  for (const double step : {1.0 / 60, 1.0 / 45}) {
+    FragmotionPlayerOptions options = fragmotion_player_options();
+    options.fixed_step = step;
+    std::vector<std::vector<FragmotionPlace>> ways;
+    for (const int rate : {30, 60, 120}) {
+      const auto player = playing(styled_api_character(), options);
+      std::vector<FragmotionPlace>& way = ways.emplace_back();
+      for (int frame = 0; frame < 30 * rate; ++frame) {
+        const FragmotionInput input = wild_input(60 * frame / rate / 2 * 2);
+        expect_ok(fragmotion_player_step(player.get(), &input, 1.0 / rate));
+        if ((frame + 1) % (rate / 30) == 0) way.push_back(state_of(player.get()).place);
+      }
     }
-    ends.push_back(state_of(player.get()));
-  }
-  for (const FragmotionState& end : ends) {
-    EXPECT_NEAR(end.place.position[0], ends[0].place.position[0], 0.1) << "a step of the last may be missing";
-    EXPECT_NEAR(end.place.position[1], ends[0].place.position[1], 0.1);
+    for (std::size_t i = 0; i < ways[0].size(); ++i) {
+      for (const auto& way : ways) {
+        for (int axis = 0; axis < 2; ++axis) ASSERT_NEAR(way[i].position[axis], ways[0][i].position[axis], 1e-4) << i;
+      }
+    }
   }
 }
 

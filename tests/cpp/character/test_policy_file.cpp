@@ -7,6 +7,7 @@
 
 #include "control/simulated_players.hpp"
 #include "evaluate/performance.hpp"
+#include "made_styles.hpp"
 #include "mocap_files.hpp"
 #include "policy_payload.hpp"
 
@@ -104,6 +105,8 @@ TEST(PolicyFile, SaysWhyItIsRefused) {
 const std::filesystem::path kVersion3 = "tests/data/version-3.policy", kVersion4 = "tests/data/version-4.policy";
 
 TEST(PolicyFile, DISABLED_WritesTheFileOfThisVersion) { save_policy(kVersion4, legged_character()); }
+
+TEST(PolicyFile, DISABLED_WritesTheFileOfStyles) { save_policy("tests/data/styles.policy", *styled_character()); }
 
 std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

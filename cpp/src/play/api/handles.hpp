@@ -10,11 +10,15 @@
 
 #include "api/axes.hpp"
 #include "api/calls.hpp"
+#include "api/shift.hpp"
 #include "direct/path_follower.hpp"
 #include "direct/steering.hpp"
 #include "runtime/player.hpp"
 
 namespace fragmotion {
+
+constexpr double kLongestCall = 3600;  // s that a step may last, and plays
+constexpr double kMostSteps = 64;      // that a level of detail puts together
 
 /// What is made of a policy file's bytes, and shared by all handles that need it.
 struct Hero {
@@ -42,19 +46,6 @@ struct Shown {
   CharacterFrame frame;
   double level = 0;  ///< Of the ground under it.
   std::vector<double> rotations;
-};
-
-/// How the world lies that a player plays in to the world that the game sees: turned about the up axis, and moved.
-struct Shift {
-  bool none = true;
-  double heading = 0, lift = 0;
-  Vector2 offset = Vector2::Zero();
-
-  Vector3 place(const Vector3& inside) const;
-  Vector3 direction(const Vector3& inside) const;
-  Vector3 place_inside(const Vector3& outside) const;
-  Vector3 direction_inside(const Vector3& outside) const;
-  CharacterFrame frame(const CharacterFrame& inside) const;
 };
 
 /// Room for what players that are called in turn work out.

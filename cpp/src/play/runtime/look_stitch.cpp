@@ -44,7 +44,7 @@ void LookStitch::begin(const WorldPose& old_before, const WorldPose& old, const 
     const auto rotation = [&](int pose) { return &looks[pose].rotations[4 * i]; };
     const TurnOffset offset = turn_offset(rotation(0), rotation(1), rotation(2), rotation(3), apart);
     const double most = std::max(0.0, (kTurnsAtMost - 1) * workspace_->fastest_looks[i] - std::abs(turning));
-    damping_ = std::min(damping_, most / (std::exp(-1) * 4 * std::atan(offset.turn.norm())));
+    damping_ = std::min(damping_, most / (std::exp(-1.0) * 4 * std::atan(offset.turn.norm())));
     body.keep(workspace_->look[i], offset);
   }
   damping_ = std::max(damping_, fades / std::max(kSlowestStitch, seconds));

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT */
+/* Sine, cosine and tangent from musl's kernels: zig's copy of musl has those, and not the functions themselves. */
+#include <math.h>
+
+int __rem_pio2(double x, double rest[2]);          /* quarter turns; in rest, what is left of x */
+double __sin(double x, double tail, int has_tail); /* for |x| <= pi/4, likewise: */
+double __cos(double x, double tail);
+double __tan(double x, double tail, int is_after_a_quarter);
+
+static int reduce(double x, double rest[2]) {
+  rest[0] = x;
+  rest[1] = 0;
+  return fabs(x) <= 0.78539816339744830962 ? 0 : __rem_pio2(x, rest);
+}
+
+static double sine_after(int quarters, const double rest[2]) {
+  const double value = quarters & 1 ? __cos(rest[0], rest[1]) : __sin(rest[0], rest[1], 1);
+  return quarters & 2 ? -value : value;
+}
+
+double sin(double x) {
+  double rest[2];
+  const int quarters = reduce(x, rest);
+  return sine_after(quarters, rest);
+}
+
+double cos(double x) {
+  double rest[2];
+  const int quarters = reduce(x, rest);
+  return sine_after(quarters + 1, rest);
+}
+
+double tan(double x) {
+  double rest[2];
+  const int quarters = reduce(x, rest);
+  return __tan(rest[0], rest[1], quarters & 1);
+}
+
+/* What compilers call where they see a sine and a cosine of one angle. */
+void sincos(double x, double* sine, double* cosine) {
+  double rest[2];
+  const int quarters = reduce(x, rest);
+  *sine = sine_after(quarters, rest);
+  *cosine = sine_after(quarters + 1, rest);
+}
+
+#ifdef __APPLE__
+struct sine_and_cosine {
+  double sine, cosine;
+};
+
+struct sine_and_cosine __sincos_stret(double x);
+struct sine_and_cosine __sincos_stret(double x) {
+  struct sine_and_cosine both;
+  sincos(x, &both.sine, &both.cosine);
+  return both;
+}
+#endif
