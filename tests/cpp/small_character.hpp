@@ -89,7 +89,7 @@ inline Clip tiny_clip(double speed, double hop = 0) {
   for (int f = 0; f < clip.frames; ++f) {
     clip.root_positions.insert(clip.root_positions.end(), {0, -speed * f / 20, 1 + hop * 0.04 * f * (10 - f)});
     for (int b = 0; b < 4; ++b) {
-      const double angle = b < 2 ? 0 : (b == 2 ? 1 : -1) * 0.3 * speed * std::sin(0.6 * f);
+      const double angle = b < 2 ? 0 : (b == 2 ? 1 : -1) * 0.3 * speed * std::sin(0.5 * f);  // no cycle
       clip.rotations.insert(clip.rotations.end(), {std::cos(angle / 2), std::sin(angle / 2), 0, 0});
     }
   }

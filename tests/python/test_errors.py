@@ -27,7 +27,6 @@ def test_errors_are_value_errors_that_name_the_cause(
         ("two controls", lambda: core.build(skeleton, clips, [np.zeros((1, 4))], few)),
         ("shape", lambda: core.build(skeleton, clips, [np.zeros((5, 3))], few)),
         ("not a number", lambda: core.build(skeleton, clips, [np.full((5, 4), np.nan)], few)),
-        ("4000 classes", lambda: core.build(skeleton, clips, traces, build_options(classes=4000))),
         ("wise", lambda: core.build(skeleton, clips, traces, build_options(classes=5, policies=["wise"]))),
         ("cut", lambda: build_options(cut="bones")),
         ("wise", lambda: character.percent_of_optimal(traces[0], "wise")),

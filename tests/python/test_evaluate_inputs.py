@@ -83,7 +83,6 @@ BAD: list[tuple[Callable[[Path], list[str | Path]], str]] = [
     (broken_trace, "bad.csv:3:"),
     (short_trace, "short.csv"),
     (namesakes, "2 traces are called p"),
-    (lambda folder: [folder / "take.bvh", "--classes", "5000"], "5000"),
     (lambda folder: [folder / "take.bvh", "--responsiveness", "1.5"], "--responsiveness is 1.5"),
     (
         lambda folder: [folder / "take.bvh", "--quick", "--figures", folder / "f"],

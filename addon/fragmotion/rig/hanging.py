@@ -14,7 +14,7 @@ from bpy.props import StringProperty
 from ..compat import versions
 from ..compat.core import core
 from . import posing
-from .rigs import bone_path, carriers, is_tied, make_rig
+from .rigs import bone_path, carriers, hanging_of, is_tied, make_rig
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
@@ -68,7 +68,7 @@ def _times(action: bpy.types.Action) -> Doubles:
 
 
 def _say(obj: bpy.types.Object, candidates: Sequence[str]) -> list[str]:
-    told, hanging = [], {row.name: row.on for row in obj.fragmotion.hanging}
+    told, hanging = [], hanging_of(obj)
     if hanging:
         pairs = ", ".join(f"'{name}' with '{on}'" for name, on in hanging.items())
         told.append(f"Learned, and baked, as bones that move with others than their parents: {pairs}")

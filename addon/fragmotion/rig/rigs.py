@@ -33,15 +33,22 @@ def make_rig(obj: bpy.types.Object) -> Rig:
             world=np.array(obj.matrix_world),
             inherit_rotation=[bone.use_inherit_rotation for bone in bones],
             local_location=[bone.use_local_location for bone in bones],
-            hangs={row.name: row.on for row in obj.fragmotion.hanging if row.name in bones and row.on in bones},
+            hangs={name: on for name, on in hanging_of(obj).items() if name in bones and on in bones},
         )
         return rig
+
+
+def hanging_of(obj: bpy.types.Object) -> dict[str, str]:
+    """The bones that move with others than their parents, as Build found them; none without the add-on's properties,
+    where a .blend is read by the core's command alone."""
+    kept = getattr(obj, "fragmotion", None)
+    return {row.name: row.on for row in kept.hanging} if kept else {}
 
 
 def carriers(obj: bpy.types.Object, rig: Rig) -> list[str]:
     """The bones whose location moves the character: its root bone and its hips; and those that hang on others than
     their parents."""
-    hanging = [row.name for row in obj.fragmotion.hanging if row.name in rig.skeleton.names]
+    hanging = [name for name in hanging_of(obj) if name in rig.skeleton.names]
     names = list(dict.fromkeys((rig.skeleton.names[0], rig.skeleton.roles["hips"], *hanging)))
     tied = [name for name in names if is_tied(obj.data.bones[name])]
     if tied:

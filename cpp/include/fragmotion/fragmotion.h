@@ -37,8 +37,7 @@
  * alive. A character and a rig may be used by any number of threads at the same time; a player, and a part of a crowd,
  * by one at a time.
  *
- * Same bits: the same file, seed, options and calls give the same poses, whatever else the program does, whatever
- * compiled it (docs/game.md says what that takes).
+ * Same bits: the same file, seed, options and calls give the same poses, whatever else the program does.
  */
 #ifndef FRAGMOTION_FRAGMOTION_H
 #define FRAGMOTION_FRAGMOTION_H
@@ -362,8 +361,8 @@ typedef struct FragmotionGroundHit {
   float normal[3];
 } FragmotionGroundHit;
 
-/* What of the ground is first below a place: not 0 where there is any. Called by a step, on its thread, at most 8
- * times, and some fifty times for the first pose on it; it must not call the player that asks. */
+/* What of the ground is first below a place: not 0 where there is any. Called by a step, on its thread, some fifty
+ * times; it must not call the player that asks. */
 typedef int32_t (*FragmotionGround)(void* user, const float from[3], FragmotionGroundHit* hit);
 
 /* It stands and goes on this ground from now on; null: on level ground at the height of its place. */

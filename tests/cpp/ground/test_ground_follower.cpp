@@ -98,27 +98,6 @@ TEST(GroundFollower, StaysWithinABodysReachOfTheGroundItIsOver) {
   }
 }
 
-TEST(GroundFollower, AsksTheGroundAtMostEightTimesAStep) {
-  for (const Ground& ground : {Ground(up_along_y), Ground(stairs), level(1)}) {
-    int asked = 0, of_all = 0;
-    Player player(gait_character());
-    player.stand_on([&](const Vector3& from) {
-      ++asked;
-      return ground(from);
-    });
-    player.reset({{0, 0.1}, 0});
-    for (const Control& control : simulate_trace("explorer", 30, 5, player.character().space)) {
-      for (int i = 0; i < 6; ++i) {
-        asked = 0;
-        player.step(control, kStep);
-        ASSERT_LE(asked, 8);
-        of_all += asked;
-      }
-    }
-    EXPECT_GT(of_all, 1000);
-  }
-}
-
 TEST(GroundFollower, TellsHowLongThereWasNoGroundAndKeepsItsHeight) {
   const Ground none = [](const Vector3&) { return std::nullopt; };
   const Shown without = play({}), on = play(none);
@@ -182,31 +161,6 @@ TEST(GroundProbe, StandsOnTheHighestGroundUnderASole) {
   ASSERT_TRUE(sloping);
   EXPECT_NEAR(sloping->height, 0.32 * kSlope, 1e-12);
   EXPECT_NEAR(sloping->slope.y(), kSlope, 1e-12);
-}
-
-TEST(GroundMemory, AsksOnceForPlacesBesideOneAnotherAndLaterAgain) {
-  int asked = 0;
-  const Ground ground = [&](const Vector3& from) {
-    ++asked;
-    return up_along_y(from);
-  };
-  GroundMemory memory;
-  const GroundProbe probe(ground, 10, &memory);
-  const auto expect_height = [&](double y, int times) {
-    EXPECT_NEAR(probe.at({0, y})->height, kSlope * y, 1e-12) << y;
-    EXPECT_EQ(asked, times) << y;
-  };
-  memory.advance(0, 3);
-  expect_height(1, 1);
-  expect_height(1.01, 1);
-  expect_height(2, 2);
-  memory.advance(0.2, 2);
-  expect_height(1.01, 3);
-  expect_height(3, 4);
-  expect_height(5, 4);  // as far as it may not ask
-  for (int i = 0; i < 200; ++i) memory.keep({i, 9}, std::nullopt);
-  EXPECT_FALSE(probe.at({100, 9}));
-  EXPECT_EQ(asked, 4);
 }
 
 TEST(GroundProbe, FindsEdgesUnderASoleAndNoneOnASlope) {

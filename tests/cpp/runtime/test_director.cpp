@@ -113,13 +113,16 @@ TEST(Player, JumpsOnceInAStepOfAnyLength) {
 // The act that is drawn for a control where a class has two, whose fragments visibly do this.
 int drawn_act(int of_class, const Control& its_own, int other, const Control& others, const Control& control) {
   const Acts acts;
-  const std::vector<int>& shown = acts.character->classes.representatives;
-  acts.character->classes.labels[shown[other]] = of_class;
-  acts.character->pool.fragments[shown[of_class]].evident = its_own;
-  acts.character->pool.fragments[shown[other]].evident = others;
+  PackedPool& pool = acts.character->pool;
+  const auto act_of = [&](int fragment) { return pool.fragments[fragment].clip; };
+  for (std::size_t f = 0; f < pool.fragments.size(); ++f) {
+    const int act = act_of(static_cast<int>(f));
+    if (act == other) acts.character->classes.labels[f] = of_class, pool.fragments[f].evident = others;
+    if (act == of_class) pool.fragments[f].evident = its_own;
+  }
   Player player(acts.character, at_once());
   player.step(control, 0.3);
-  return static_cast<int>(std::find(shown.begin(), shown.end(), player.playing_fragment()) - shown.begin());
+  return act_of(player.playing_fragment());
 }
 
 TEST(Player, DrawsWhatHopsAsIsWantedHoweverWellAnotherMemberGoes) {

@@ -77,8 +77,6 @@ struct PlayerState {
   template <typename Archive>
   static int exchange(Archive& a, Player::Extras& extras);
   template <typename Archive>
-  static void exchange(Archive& a, GroundMemory& memory);
-  template <typename Archive>
   static void exchange(Archive& a, FootOnGround& foot);
   template <typename Archive>
   static void exchange(Archive& a, HipsOnGround& hips);

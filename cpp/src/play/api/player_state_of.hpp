@@ -196,20 +196,6 @@ int PlayerState::exchange(Archive& a, Player::Extras& extras) {
 }
 
 template <typename Archive>
-void PlayerState::exchange(Archive& a, GroundMemory& memory) {
-  constexpr auto most = static_cast<int>(GroundMemory::kPlaces);
-  a.number(memory.count_, 0, most);
-  a.number(memory.next_, 0, most - 1);
-  for (GroundMemory::Asked& asked : memory.asked_) {
-    vector(a, asked.place, kMostPlace);
-    a.number(asked.plane.height, -kMostPlace, kMostPlace);
-    vector(a, asked.plane.slope, kMostSteepness);
-    a.number(asked.exists, 0, 1);
-    a.number(asked.age, 0, kMostPlace);
-  }
-}
-
-template <typename Archive>
 void PlayerState::exchange(Archive& a, FootOnGround& foot) {
   a.number(foot.fresh_, 0, 1);
   a.number(foot.stood_, 0, 1);
@@ -238,7 +224,6 @@ void PlayerState::exchange(Archive& a, HipsOnGround& hips) {
 template <typename Archive>
 void PlayerState::exchange(Archive& a, GroundFollower& follower) {
   for (FootOnGround& foot : follower.feet_) exchange(a, foot);
-  for (GroundMemory& memory : follower.memories_) exchange(a, memory);
   exchange(a, follower.hips_);
   a.number(follower.fresh_, 0, 1);
   a.number(follower.exact_, 0, 1);

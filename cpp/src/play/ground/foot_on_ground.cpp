@@ -28,10 +28,7 @@ constexpr double kSameTread = 0.05;  // m between heights of one tread
 constexpr double kHysteresis = 0.1;  // s: the sooner it lands, the more it keeps to the tread that was foreseen
 
 // The height of a foot's clearance at a part of its way.
-double arch(double part) {
-  const double off = 2 * part - 1;
-  return 1 - off * off * off * off;
-}
+double arch(double part) { return 1 - std::pow(2 * part - 1, 4); }
 
 }  // namespace
 
@@ -41,7 +38,6 @@ bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, 
   const Vector2 place = foot.now.place() + shift();
   Footing before = on_way(place, 0);
   if (foot.stands) before.height += lift_;
-  probe.look_at(foot.stands ? foot.landing().moved(beside_) : foot.now.moved(shift()));
   const bool found = foot.stands ? stand(foot, probe) : swing(foot, probe);
   advance_shift(foot, fresh_ ? kSettle : seconds);
   if (!fresh_) {
@@ -97,7 +93,7 @@ Vector2 FootOnGround::beside_edges(const FootAhead& foot, const GroundProbe& pro
     const Vector2 moved = (i % 2 == 0 ? kTried : -kTried) * steps * along;
     if (moved.norm() >= least) break;
     const Sole there = sole.moved(moved);
-    const std::optional<GroundPlane> ground = planned ? probe.at(there.place()) : std::nullopt;
+    const std::optional<GroundPoint> ground = planned ? probe.at(there.place()) : std::nullopt;
     const double off = ground ? std::max(0.0, std::abs(ground->height - next_.height) - kSameTread) : 0;
     const double cost = moved.norm() + keeps * off + probe.edges(there, descends);
     if (cost < least) least = cost, best = moved;

@@ -13,7 +13,6 @@ namespace {
 const double kSteepest = std::tan(35 * kPi / 180);               // that a foot is turned
 constexpr double kLeastNormal = 1e-100;                          // length of one
 constexpr double kEdge = 0.05;                                   // m that ground is beside a plane, at an edge
-constexpr double kThere = 0.003;                                 // m within which it is the same place
 constexpr double kBeyond = 0.04;                                 // m beyond the ends of a sole that are to be free
 constexpr double kOver = 0.15, kRatherOver = 0.1, kNear = 0.05;  // m that a sole is better moved
 
@@ -34,31 +33,19 @@ Vector2 slope_of(const Vector3& normal) {
 
 }  // namespace
 
-std::optional<GroundPoint> GroundProbe::ask(const Vector2& place) const {
+std::optional<GroundPoint> GroundProbe::at(const Vector2& place) const {
   std::optional<GroundPoint> point = (*ground_)({place.x(), place.y(), above_});
   return point && is_ground(*point) ? point : std::nullopt;
 }
 
-std::optional<GroundPlane> GroundProbe::at(const Vector2& place, double within) const {
-  std::optional<GroundPlane> plane;
-  if (memory_ != nullptr && memory_->knows(place, within, plane)) return plane;
-  if (const std::optional<GroundPoint> point = ask(place)) plane = {point->height, slope_of(point->normal)};
-  if (memory_ != nullptr) memory_->keep(place, plane);
-  return plane;
-}
-
-void GroundProbe::look_at(const Sole& sole) const {
-  for (const Vector3& point : sole.points()) at(point.head<2>(), kThere);
-}
-
 std::optional<Footing> GroundProbe::under(const Sole& sole) const {
   Footing footing{sole.place(), -std::numeric_limits<double>::infinity(), Vector2::Zero()};
-  std::array<std::optional<GroundPlane>, 3> found;
+  std::array<std::optional<GroundPoint>, 3> found;
   int count = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     found[i] = at(sole.points()[i].head<2>());
     if (!found[i]) continue;
-    footing.slope += found[i]->slope;
+    footing.slope += slope_of(found[i]->normal);
     ++count;
   }
   if (count == 0) return std::nullopt;
@@ -72,12 +59,12 @@ std::optional<Footing> GroundProbe::under(const Sole& sole) const {
 }
 
 double GroundProbe::edges(const Sole& sole, bool descends) const {
-  const std::optional<GroundPlane> ground = at(sole.place());
+  const std::optional<GroundPoint> ground = at(sole.place());
   if (!ground) return kInTheWay;
-  const Vector2 along = (sole.tip - sole.heel).head<2>().normalized();
+  const Vector2 slope = slope_of(ground->normal), along = (sole.tip - sole.heel).head<2>().normalized();
   const auto edge = [&](const Vector2& place, double overhanging) {
-    const std::optional<GroundPlane> there = at(place);
-    const double higher = there ? there->height - ground->height - ground->slope.dot(place - sole.place()) : 0;
+    const std::optional<GroundPoint> there = at(place);
+    const double higher = there ? there->height - ground->height - slope.dot(place - sole.place()) : 0;
     return higher > kEdge ? kInTheWay : higher < -kEdge ? overhanging : 0;
   };
   const Vector2 heel = sole.heel.head<2>(), tip = sole.tip.head<2>();
@@ -89,7 +76,7 @@ double GroundProbe::edges(const Sole& sole, bool descends) const {
 double GroundProbe::over(const Sole& sole, double lower, const Footing& plane) const {
   double most = 0;
   for (const Vector3& point : sole.points()) {
-    const std::optional<GroundPlane> ground = at(point.head<2>());
+    const std::optional<GroundPoint> ground = at(point.head<2>());
     if (!ground) continue;
     most = std::max(most, ground->height - plane.at(point.head<2>()) - std::max(0.0, point.z() - lower));
   }

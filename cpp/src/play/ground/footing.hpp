@@ -5,7 +5,6 @@
 
 #include "ground/feet_ahead.hpp"
 #include "ground/ground.hpp"
-#include "ground/ground_memory.hpp"
 
 namespace fragmotion {
 
@@ -21,19 +20,11 @@ struct Footing {
 /// What feet ask the ground, from one height downward.
 class GroundProbe {
  public:
-  static constexpr double kInTheWay = 1;   ///< m: edges() of a sole that reaches into a step.
-  static constexpr double kBeside = 0.02;  ///< m between places of which one is asked for.
+  static constexpr double kInTheWay = 1;  ///< m: edges() of a sole that reaches into a step.
 
-  /// Without a memory, the ground is asked about each place.
-  GroundProbe(const Ground& ground, double above, GroundMemory* memory = nullptr)
-      : ground_(&ground), above_(above), memory_(memory) {}
+  GroundProbe(const Ground& ground, double above) : ground_(&ground), above_(above) {}
 
-  /// What the ground answers, if it is ground.
-  std::optional<GroundPoint> ask(const Vector2& place) const;
-  /// The ground at a place, or as it is known `within` so many metres of it.
-  std::optional<GroundPlane> at(const Vector2& place, double within = kBeside) const;
-  /// Gets to know the ground just under a sole, before what else is asked for.
-  void look_at(const Sole& sole) const;
+  std::optional<GroundPoint> at(const Vector2& place) const;
   /// The plane that touches the ground under a sole and is nowhere below it, as steep as the ground is on average, and
   /// at most as a foot is turned. None where there is no ground.
   std::optional<Footing> under(const Sole& sole) const;
@@ -46,7 +37,6 @@ class GroundProbe {
  private:
   const Ground* ground_;
   double above_;
-  GroundMemory* memory_;
 };
 
 }  // namespace fragmotion

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/filtered.hpp"
 #include "base/turn_between.hpp"
@@ -27,7 +26,6 @@ constexpr double kMostRaised = 1;     // rad of a heel
 constexpr double kToesUp = 0.05;      // m that a heel is lower than the ball, where it is not raised
 constexpr double kMostUpright = 1.3;  // rad from the level, of a foot whose heel is raised
 constexpr int kHalvings = 12;         // of that, to find how much it must
-constexpr int kMostAsked = 8;         // times that a step asks the ground
 constexpr double kHips = 0.15;        // s: time constant of hips without legs
 
 Quaternion turned_by(const Vector2& slope) {
@@ -41,12 +39,6 @@ double missing(double length, const Vector3& hip, const Vector3& ankle) {
   return hip.z() - ankle.z() - std::sqrt(most * most - aside * aside);
 }
 
-// How often the left foot may ask the ground, so that the right one gets its share: a foot on its way asks most.
-int share(const FeetAhead& feet) {
-  if (feet[0].stands != feet[1].stands) return feet[0].stands ? kMostAsked / 4 : kMostAsked - kMostAsked / 4;
-  return kMostAsked / 2;
-}
-
 // At least 0, without a kink.
 double softly_positive(double value, double soft) {
   return value > 30 * soft ? value : soft * std::log1p(std::exp(value / soft));
@@ -56,7 +48,6 @@ double softly_positive(double value, double soft) {
 
 void GroundFollower::reset() {
   feet_ = {};
-  memories_ = {};
   hips_ = {};
   fresh_ = true;
   exact_ = level_ = missed_ = 0;
@@ -66,7 +57,7 @@ void GroundFollower::reset() {
 double GroundFollower::above(const WorldPose& pose) const {
   const double highest = kHighestStep / body_->scale;
   if (!fresh_) return level_ + highest;
-  const auto from = [&](double height) { return GroundProbe(ground_, height).ask(pose.root.head<2>()); };
+  const auto from = [&](double height) { return GroundProbe(ground_, height).at(pose.root.head<2>()); };
   const std::optional<GroundPoint> near = from(highest);
   if (near && near->normal.z() > 0) return highest;
   const std::optional<GroundPoint> top = from(kSky);
@@ -74,10 +65,13 @@ double GroundFollower::above(const WorldPose& pose) const {
 }
 
 void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double seconds) {
-  const double from = above(pose);
+  const GroundProbe probe(ground_, above(pose));
   auto& [kinematics, legs, scale, bones, posed] = *body_;
-  if (!legs[0].exists() || !legs[1].exists()) return follow_hips(pose, seconds, GroundProbe(ground_, from));
-  if (!advance_feet(feet, from, seconds)) missed_ += seconds;
+  if (!legs[0].exists() || !legs[1].exists()) return follow_hips(pose, seconds, probe);
+  bool found = true;
+  for (int side = 0; side < 2; ++side)
+    found = feet_[side].advance(feet[side], lower(side, feet[side]), seconds, probe) && found;
+  if (!found) missed_ += seconds;
   get_exact(seconds);
   hips_.advance(pose.root.head<2>(), feet_, seconds);
   level_ = hips_.level();
@@ -97,20 +91,6 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
           pose.rotations.data());
     turn_foot(side, pose.rotations.data());
   }
-}
-
-// Returns whether both feet have ground. The first pose asks as often as it takes.
-bool GroundFollower::advance_feet(const FeetAhead& feet, double above, double seconds) {
-  bool found = true;
-  int left = fresh_ ? std::numeric_limits<int>::max() : kMostAsked;
-  for (int side = 0; side < 2; ++side) {
-    const int may = side == 1 || fresh_ ? left : share(feet);
-    GroundMemory& memory = memories_[side];
-    memory.advance(seconds, may);
-    found = feet_[side].advance(feet[side], lower(side, feet[side]), seconds, {ground_, above, &memory}) && found;
-    left -= may - memory.left();
-  }
-  return found;
 }
 
 // Feet stand exactly on ground that is not level.
@@ -144,7 +124,7 @@ bool GroundFollower::is_flat() const {
 }
 
 void GroundFollower::follow_hips(WorldPose& pose, double seconds, const GroundProbe& probe) {
-  const std::optional<GroundPlane> under = probe.at(pose.root.head<2>());
+  const std::optional<GroundPoint> under = probe.at(pose.root.head<2>());
   if (!under) missed_ += seconds;
   const double wanted = under ? under->height : level_;
   level_ += (fresh_ ? 1 : filtered(seconds, kHips)) * (wanted - level_);

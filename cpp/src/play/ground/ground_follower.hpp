@@ -34,7 +34,6 @@ class GroundFollower {
 
   void follow_hips(WorldPose& pose, double seconds, const GroundProbe& probe);
   double above(const WorldPose& pose) const;
-  bool advance_feet(const FeetAhead& feet, double above, double seconds);
   void get_exact(double seconds);
   double lower(int side, const FootAhead& foot) const;
   bool is_flat() const;
@@ -46,7 +45,6 @@ class GroundFollower {
   std::shared_ptr<FootLock::Body> body_;
   Ground ground_;
   FeetOnGround feet_;
-  std::array<GroundMemory, 2> memories_;
   HipsOnGround hips_;
   std::array<Quaternion, 2> turns_, heels_;  // of the feet: along the slope, and up at the heel after that
   bool fresh_ = true;

@@ -7,7 +7,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSame = 0.25;              // ControlDis between controls that one plan is good for
+constexpr double kSame = 1e-6;              // ControlDis between controls that differ by rounding alone
 constexpr double kChange = 1;               // ControlDis between controls that is "a lot"
 constexpr double kHaste = 5 / kTunedReach;  // m a metre of reach that a second of waiting costs by default
 constexpr double kSkips = 1 / kTunedReach;  // m a metre of reach less that skipping a class must cost
