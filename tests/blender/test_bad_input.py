@@ -76,12 +76,6 @@ def test_actions_of_other_rigs_are_not_listed(addon: ModuleType) -> None:
     assert [action.name for action in addon.mocap.actions.fitting(other)] == ["take 0"]
 
 
-def test_more_classes_than_fragments() -> None:
-    obj = making.add_armature()
-    add_takes(obj)
-    refuses(bpy.ops.fragmotion.build, "Build: .*classes", classes=5000, mirror=False, synthesize=False)
-
-
 @pytest.mark.parametrize(
     ("row", "cause"), [("1,2,3", "trace.csv:3"), ("0,fast,0,0", "trace.csv:3"), ("0,nan,0,0", "trace.csv:3")]
 )
