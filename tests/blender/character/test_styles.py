@@ -229,7 +229,7 @@ def test_a_style_that_cannot_be_built_is_named_and_nothing_changes(addon: Module
         fragmotion.use = fragmotion.use and not fragmotion.style and action.name != "stand"
     short = bpy.data.actions["stand"]
     short.fragmotion.use, short.fragmotion.style = True, "frozen"
-    short.use_frame_range, short.frame_end = True, short.frame_start + 8
+    short.use_frame_range, short.frame_end = True, short.frame_start + 2
     policy = obj.fragmotion.policy
     with pytest.raises(RuntimeError, match='style "frozen": '):
         bpy.ops.fragmotion.build("EXEC_DEFAULT")
