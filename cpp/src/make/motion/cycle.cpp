@@ -21,7 +21,7 @@ class Poses {
 
   CharacterFrame frame(int f) const {
     const std::size_t hips =
-        std::size_t{4} * (std::size_t(f) * kinematics_.bones() + kinematics_.skeleton().roles.hips);
+        std::size_t{4} * (static_cast<std::size_t>(f) * kinematics_.bones() + kinematics_.skeleton().roles.hips);
     return kinematics_.frame(load_vector(&clip_.root_positions[std::size_t{3} * f]),
                              load_quaternion(&clip_.rotations[hips]));
   }
