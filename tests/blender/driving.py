@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib import import_module
 from types import ModuleType
 from typing import Any
 
@@ -12,6 +13,11 @@ import making
 import numpy as np
 
 RATE = 60
+
+
+def recorded(session: ModuleType) -> ModuleType:
+    """The add-on's drives by a recording."""
+    return import_module(f"{session.__package__}.recorded")
 
 
 def start(session: ModuleType, obj: bpy.types.Object) -> Any:

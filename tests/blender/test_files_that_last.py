@@ -8,6 +8,7 @@ from pathlib import Path
 from types import ModuleType
 
 import bpy
+import driving
 import making
 import numpy as np
 import pytest
@@ -71,7 +72,7 @@ def test_the_character_and_its_recordings_are_there(addon: ModuleType, file: Pat
 def test_a_recording_is_replayed_and_baked(addon: ModuleType, session: ModuleType, file: Path, name: str) -> None:
     obj = armature(name)
     _, shown = addon.recordings.recordings.shown_of(obj.fragmotion.recordings[1])
-    driven = session.replay(bpy.context, obj, obj.fragmotion.recordings[1])
+    driven = driving.recorded(session).replay(bpy.context, obj, obj.fragmotion.recordings[1])
     for _ in shown.path[1:]:  # another way, since the bodies of the program before had no weight
         driven.update(1 / 60)
         assert np.isfinite(driven.player.frame).all()

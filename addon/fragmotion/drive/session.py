@@ -12,31 +12,21 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ..character import classes
-from ..character.building import has_character, load
 from ..character.moves import bring_up_to_date, check_keys, names_of, triggers_of
 from ..compat.data_blocks import is_alive
 from ..compat.event_keys import name_of
-from ..edits.replaying import play_again, shown_poses
+from ..edits.replaying import play_again
 from ..errors import UserError
 from ..ground.meshes import find_ground
 from ..input.inputs import Inputs
 from ..input.steering import REST, Control, Intent, Steering, view_heading
 from ..preview.posed_armature import PosedArmature
 from ..recordings.curves import renew_curves
-from ..recordings.recordings import (
-    POSE_RATE,
-    TRACE_RATE,
-    Recording,
-    add_recording,
-    asked_of,
-    numbered_moves,
-    numbered_styles,
-    trace_of,
-)
+from ..recordings.recordings import POSE_RATE, TRACE_RATE, add_recording
 from ..recordings.styles import AS_EVER, Styled
 from ..settings import preferences
 from .acting.actor import Actor
-from .acting.punch import Own, Punch
+from .acting.punch import Punch
 from .acting.recorder import Recorder, Taken
 from .acting.styling import Styling
 from .follow import FollowCamera
@@ -445,7 +435,7 @@ def _running(mean: float, value: float) -> float:
 
 
 @contextmanager
-def _opened(context: bpy.types.Context, obj: bpy.types.Object, seed: int, policy: str) -> Iterator[Session]:
+def opened(context: bpy.types.Context, obj: bpy.types.Object, seed: int, policy: str) -> Iterator[Session]:
     """A drive that goes on after the block, in place of the one that is under way; on any error there it ends."""
     global current
     stop()
@@ -461,50 +451,7 @@ def _opened(context: bpy.types.Context, obj: bpy.types.Object, seed: int, policy
 
 def start(context: bpy.types.Context, obj: bpy.types.Object, seed: int = -1, policy: str = "") -> Session:
     """Begin a drive, by default with the panel's seed and the policy that drives; the one that is under way ends."""
-    with _opened(context, obj, seed, policy) as driven:
-        return driven
-
-
-def replay(
-    context: bpy.types.Context, obj: bpy.types.Object, recording: Recording, seed: int = -1, policy: str = ""
-) -> Session:
-    """Begin a drive by a recording, from where it began; by default with its seed, and its policy where there is it.
-
-    UserError where the recording is damaged.
-    """
-    trace, begin = trace_of(recording), tuple(recording.start)
-    known = load(obj).policies if has_character(obj) else []
-    chosen = policy or (recording.policy if recording.policy in known else "")
-    with _opened(context, obj, recording.seed if seed < 0 else seed, chosen) as driven:
-        styled = numbered_styles(recording, driven.styling.names)
-        driven.play(trace, begin, numbered_moves(recording, names_of(driven.actor.character)), styled)
-        return driven
-
-
-def record_over(
-    context: bpy.types.Context, obj: bpy.types.Object, recording: Recording, begin: float, end: float
-) -> Session:
-    """Begin a drive by a recording, over which the stick is recorded from `begin` to `end` (s); what follows is played
-    again. UserError where that is no stretch of it, or it is damaged."""
-    trace, start_frame = trace_of(recording), tuple(recording.start)
-    first, last = round(begin * TRACE_RATE), min(round(end * TRACE_RATE), len(trace))
-    if not 0 <= first < last:
-        raise UserError(
-            f"Recording '{recording.name}' lasts {recording.seconds:.1f} s: there is nothing of it to record over from "
-            f"{begin:.1f} s to {end:.1f} s. Move the playhead onto it"
-        )
-    known = load(obj).policies if has_character(obj) else []
-    chosen = recording.policy if recording.policy in known else ""
-    shown = shown_poses(obj, recording)
-    if shown is not None and len(shown.classes) <= first * RATE // TRACE_RATE:
-        raise UserError(
-            f"Recording '{recording.name}' shows nothing from {begin:.1f} s on: move the playhead before it"
-        )
-    with _opened(context, obj, recording.seed, chosen) as driven:
-        character, asked = driven.actor.character, asked_of(recording)
-        styled = numbered_styles(recording, driven.styling.names)
-        own = Own(recording.name, trace, asked, numbered_moves(recording, names_of(character)), styled)
-        driven.play_over(Punch(own, first, last, RATE, character), start_frame, styled, shown)
+    with opened(context, obj, seed, policy) as driven:
         return driven
 
 

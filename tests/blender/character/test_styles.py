@@ -320,7 +320,7 @@ def test_a_recording_keeps_its_styles_and_is_replayed_with_them(
     ran = player.run(recordings.trace_of(recording), 60, styles=[[10, TIRED]])
     count = min(len(ran.root_positions), len(shown.root_positions))
     np.testing.assert_allclose(ran.root_positions[:count], shown.root_positions[:count], atol=1e-5)
-    again = session.replay(bpy.context, obj, recording)
+    again = driving.recorded(session).replay(bpy.context, obj, recording)
     roots = []
     for _ in range(count - 2):
         driving.go_on(again, 1 / 60)

@@ -11,6 +11,7 @@ from types import ModuleType
 from typing import Any
 
 import bpy
+import driving
 import making
 import numpy as np
 import pytest
@@ -166,7 +167,7 @@ def test_a_recording_is_replayed_live(session: ModuleType, obj: bpy.types.Object
     driven = start(session, obj)
     seen = record(driven)
     (recording,) = obj.fragmotion.recordings
-    driven = session.replay(bpy.context, obj, recording)
+    driven = driving.recorded(session).replay(bpy.context, obj, recording)
     assert driven.inputs.label == "Trace" and driven.seed == recording.seed
     replayed = []
     for _ in seen:
@@ -176,13 +177,13 @@ def test_a_recording_is_replayed_live(session: ModuleType, obj: bpy.types.Object
     np.testing.assert_allclose(replayed, seen, atol=1e-4)
     go_on(driven, 1)
     assert driven.control == (0, 0, 0, 0) and not driven.inputs.trace.playing
-    other = session.replay(bpy.context, obj, recording, seed=7, policy="greedy")
+    other = driving.recorded(session).replay(bpy.context, obj, recording, seed=7, policy="greedy")
     assert (other.seed, other.actor.policy) == (7, "greedy")
 
 
 def test_a_replay_says_how_far_it_is(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:
     recording = addon.recordings.recordings.add_recording(obj, np.tile([0, 1.2, 0, 0], (40, 1)).astype(float))
-    driven = session.replay(bpy.context, obj, recording)
+    driven = driving.recorded(session).replay(bpy.context, obj, recording)
     go_on(driven, 1.5)
     assert driven.playing == "Replaying 1.5 of 4.0 s" and driven.shown().title == "Replaying 1.5 of 4.0 s"
     go_on(driven, 3)

@@ -9,6 +9,7 @@ from types import ModuleType
 from typing import Any
 
 import bpy
+import driving
 import making
 import numpy as np
 import pytest
@@ -243,7 +244,7 @@ def test_redo_while_recording_keeps_the_recording(session: ModuleType) -> None:
 def test_a_recording_that_is_replayed_may_be_removed(addon: ModuleType, session: ModuleType) -> None:
     obj = making.add_armature()
     trace = np.tile((0, 1.0, 0, 0), (20, 1))
-    driven = session.replay(bpy.context, obj, addon.recordings.recordings.add_recording(obj, trace))
+    driven = driving.recorded(session).replay(bpy.context, obj, addon.recordings.recordings.add_recording(obj, trace))
     go_on(driven, 0.5)
     addon.recordings.recordings.remove_recording(obj, 0)
     go_on(driven, 0.5)

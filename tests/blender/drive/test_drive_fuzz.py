@@ -10,6 +10,7 @@ from types import ModuleType
 from typing import Any
 
 import bpy
+import driving
 import making
 import pytest
 from driving import RATE
@@ -90,7 +91,7 @@ class User:
 
     def do_replay(self) -> None:
         if self.rig is not None and self.rig.fragmotion.recordings and self.rig.mode != "EDIT":
-            self.session.replay(bpy.context, self.rig, self.rig.fragmotion.recordings[0])
+            driving.recorded(self.session).replay(bpy.context, self.rig, self.rig.fragmotion.recordings[0])
 
     def do_go_on(self) -> None:
         for _ in range(self.random.randrange(20)):

@@ -80,7 +80,7 @@ class Seen:
 
 def record_over(session: ModuleType, obj: bpy.types.Object) -> Seen:
     """From 4 s to 7 s: a walk while the recording still waves, a jump, another style, and a wave to the very end."""
-    driven = session.record_over(bpy.context, obj, obj.fragmotion.recordings[0], 4.0, 7.0)
+    driven = driving.recorded(session).record_over(bpy.context, obj, obj.fragmotion.recordings[0], 4.0, 7.0)
     press, let_go = driven.inputs.keyboard.press, driven.inputs.keyboard.let_go
     jump, wave = (row.key for row in obj.fragmotion.moves)
     seen = Seen(driven)
@@ -111,7 +111,7 @@ def test_what_is_recorded_over_moves_and_styles_is_kept_as_it_was_shown(
     _, kept = part(addon, "recordings.recordings").shown_of(recording)
     first = 2 * driving.RATE + 1
     np.testing.assert_allclose(kept.path[first : first + len(seen.frames), :2], np.array(seen.frames)[:, :2], atol=NEAR)
-    again = Seen(session.replay(bpy.context, obj, recording))
+    again = Seen(driving.recorded(session).replay(bpy.context, obj, recording))
     again.go_on(12.0)
     shown = slice(first - 1, first - 1 + len(seen.heads))
     np.testing.assert_allclose(again.heads[shown], seen.heads, atol=NEAR)
@@ -144,7 +144,7 @@ def test_a_replay_that_fails_leaves_the_recording_as_it_was(
     def fail(*_arguments: Any) -> None:
         raise ValueError("injected")
 
-    driven = session.record_over(bpy.context, obj, obj.fragmotion.recordings[0], 4.0, 5.0)
+    driven = driving.recorded(session).record_over(bpy.context, obj, obj.fragmotion.recordings[0], 4.0, 5.0)
     driven.inputs.keyboard.press("W")
     driving.go_on(driven, 2.5)
     monkeypatch.setattr(replaying, "from_then_on", fail)
@@ -176,7 +176,7 @@ def test_what_is_recorded_over_an_edited_recording_is_kept_as_it_was_shown(
     shown_of = part(addon, "recordings.recordings").shown_of
     edit(addon, obj, recording)
     before = shown_of(recording)[1]
-    driven = session.record_over(bpy.context, obj, recording, begin, begin + 2.5)
+    driven = driving.recorded(session).record_over(bpy.context, obj, recording, begin, begin + 2.5)
     seen = Seen(driven)
     seen.go_on(min(begin, 2.0))
     driven.inputs.keyboard.press("W")

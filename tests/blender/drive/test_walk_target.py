@@ -81,7 +81,7 @@ def test_what_it_is_sent_to_do_is_recorded_and_replayed(session: ModuleType, obj
     driving.go_on(driven, 6)
     driven.toggle_recording()
     there = driven.actor.frame
-    replayed = session.replay(bpy.context, obj, obj.fragmotion.recordings[0])
+    replayed = driving.recorded(session).replay(bpy.context, obj, obj.fragmotion.recordings[0])
     driving.go_on(replayed, 6)
     assert math.dist(replayed.actor.frame[:2], there[:2]) < 1e-6
 

@@ -7,6 +7,7 @@ from types import ModuleType
 from typing import Any
 
 import bpy
+import driving
 import numpy as np
 import pytest
 from driving import go_on
@@ -14,7 +15,7 @@ from driving import go_on
 
 def start(session: ModuleType, obj: bpy.types.Object, begin: float, end: float) -> Any:
     obj.fragmotion.drive.relative = "CHARACTER"
-    return session.record_over(bpy.context, obj, obj.fragmotion.recordings[0], begin, end)
+    return driving.recorded(session).record_over(bpy.context, obj, obj.fragmotion.recordings[0], begin, end)
 
 
 def test_the_stick_is_recorded_over_a_stretch_and_the_rest_follows(

@@ -11,7 +11,7 @@ from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from ...character.moves import names_of
 from ...control_rig.binding import follows, rig_of
-from ...drive import session
+from ...drive import recorded, session
 from ...drive.hud import views
 from ...errors import UserError, core_errors, ends_on_error, reported
 from ...input.keyboard import STYLE_STEPS
@@ -165,12 +165,12 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
         if self.source == "OVER":
             begin = playhead(context, recordings[self.recording])
             end = begin + obj.fragmotion.drive.over_seconds
-            driven = session.record_over(context, obj, recordings[self.recording], begin, end)
+            driven = recorded.record_over(context, obj, recordings[self.recording], begin, end)
             seconds = min(end, recordings[self.recording].seconds) - begin
             frame = context.scene.frame_current_final
             driven.span = frame, frame + seconds * frame_rate(context, recordings[self.recording])
             return driven
-        return session.replay(context, obj, recordings[self.recording], self.seed, self.policy)
+        return recorded.replay(context, obj, recordings[self.recording], self.seed, self.policy)
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Without this window there is nothing to update the drive."""
