@@ -7,20 +7,14 @@ import bpy
 
 from ..mocap.actions import chosen
 from ..operators.base.context import active_armature
-from .sidebar import SubPanel
+from .sidebar import TakePanel
 
 
-class FRAGMOTION_PT_left_out(SubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_left_out(TakePanel, bpy.types.Panel):
     """Frames of the chosen take that Build leaves out."""
 
     bl_idname = "FRAGMOTION_PT_left_out"
     bl_label = "Left Out"
-    bl_parent_id = "FRAGMOTION_PT_mocap"
-    folds = "mocap"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return super().poll(context) and chosen(context, active_armature(context)) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, action = self.layout, chosen(context, active_armature(context))

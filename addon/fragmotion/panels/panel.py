@@ -35,7 +35,7 @@ from ..settings.drawing import (
 )
 from . import bones, classes, control_rig, doctor, drive, game, left_out, moves, path, recordings
 from .doctor import LIGHTS
-from .sidebar import Sidebar, SubPanel, draw_fold, draw_play, is_folded
+from .sidebar import Sidebar, SubPanel, TakePanel, draw_fold, draw_play, is_folded
 
 _FEWEST_ROWS, _MOST_ROWS = 5, 8  # of the list, unless the user draws it larger
 _NAME = 0.76  # of a row's width
@@ -160,17 +160,11 @@ def _draw_takes(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy
         layout.label(text=f"All begin with '{beginning}'", icon="INFO", translate=False)
 
 
-class FRAGMOTION_PT_take_style(SubPanel, bpy.types.Panel):
+class FRAGMOTION_PT_take_style(TakePanel, bpy.types.Panel):
     """What style the chosen take is of."""
 
     bl_idname = "FRAGMOTION_PT_take_style"
     bl_label = "Style"
-    bl_parent_id = "FRAGMOTION_PT_mocap"
-    folds = "mocap"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return super().poll(context) and chosen(context, active_armature(context)) is not None
 
     def draw(self, context: bpy.types.Context) -> None:
         action = chosen(context, active_armature(context))

@@ -8,6 +8,7 @@ from typing import ClassVar
 import bpy
 
 from ..character.building import has_character
+from ..mocap.actions import chosen
 from ..operators.base.context import active_armature
 from ..preview import previews
 
@@ -55,3 +56,14 @@ class SubPanel(Sidebar):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return active_armature(context) is not None and not (cls.folds and is_folded(context, cls.folds))
+
+
+class TakePanel(SubPanel):
+    """One that is about the take that is chosen in the list."""
+
+    bl_parent_id = "FRAGMOTION_PT_mocap"
+    folds = "mocap"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and chosen(context, active_armature(context)) is not None
