@@ -4,11 +4,25 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any, ClassVar
 
 import bpy
+from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
+from ...character.building import has_character
 from ...errors import UserError, reported
+from ...games.exporting import POLICY
+from .context import active_armature
+
+
+def poll_learned(cls: Any, context: bpy.types.Context) -> bool:
+    """Whether the active armature has a character; says why not."""
+    obj = active_armature(context)
+    if obj is None or not has_character(obj):
+        cls.poll_message_set("No armature with a character is active: press Build first")
+        return False
+    return True
 
 
 class Saving(ExportHelper):
@@ -30,3 +44,19 @@ class Saving(ExportHelper):
         self.filepath = str(Path(bpy.data.filepath).parent / f"{name}{self.filename_ext}")
         result: set[str] = super().invoke(context, event)
         return result
+
+
+class SavingCharacter(Saving):
+    """An operator that saves the active armature's character as a policy file."""
+
+    bl_options: ClassVar[set[str]] = {"REGISTER"}
+
+    filename_ext = POLICY
+    filter_glob: StringProperty(default=f"*{POLICY}", options={"HIDDEN"})  # type: ignore[valid-type]
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return poll_learned(cls, context)
+
+    def _suggestion(self, context: bpy.types.Context) -> str:
+        return str(active_armature(context).name)

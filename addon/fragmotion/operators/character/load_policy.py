@@ -13,10 +13,10 @@ from bpy_extras.io_utils import ImportHelper
 from ...character.building import load_policy
 from ...character.moves import list_moves
 from ...errors import UserError, reported
+from ...games.exporting import POLICY
 from ...settings import preferences
 from ..base.background import poll_idle
 from ..base.context import active_armature, poll_armature
-from .save_policy import EXTENSION
 
 
 class FRAGMOTION_OT_load_policy(ImportHelper, bpy.types.Operator):
@@ -26,8 +26,8 @@ class FRAGMOTION_OT_load_policy(ImportHelper, bpy.types.Operator):
     bl_label = "Load Policy"
     bl_options: ClassVar[set[str]] = {"UNDO"}
 
-    filename_ext = EXTENSION
-    filter_glob: StringProperty(default=f"*{EXTENSION}", options={"HIDDEN"})  # type: ignore[valid-type]
+    filename_ext = POLICY
+    filter_glob: StringProperty(default=f"*{POLICY}", options={"HIDDEN"})  # type: ignore[valid-type]
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -3,17 +3,15 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any
 
 import bpy
-from bpy.props import StringProperty
 
-from ...character.building import has_character
 from ...character.moves import bring_up_to_date
 from ...errors import reported
-from ...games.exporting import POLICY, export
+from ...games.exporting import export
 from ..base.context import active_armature
-from ..base.saving import Saving
+from ..base.saving import SavingCharacter
 
 _NEXT = (
     "Browser: drop both on the live page, or press Open in Browser",
@@ -23,27 +21,11 @@ _NEXT = (
 )
 
 
-class FRAGMOTION_OT_export_to_game(Saving, bpy.types.Operator):
+class FRAGMOTION_OT_export_to_game(SavingCharacter, bpy.types.Operator):
     """Save the character and its mesh side by side, as .policy and .glb, for the web, Godot or your own engine"""
 
     bl_idname = "fragmotion.export_to_game"
     bl_label = "Export to Game"
-
-    bl_options: ClassVar[set[str]] = {"REGISTER"}
-
-    filename_ext = POLICY
-    filter_glob: StringProperty(default=f"*{POLICY}", options={"HIDDEN"})  # type: ignore[valid-type]
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        obj = active_armature(context)
-        if obj is None or not has_character(obj):
-            cls.poll_message_set("No armature with a character is active: press Build first")
-            return False
-        return True
-
-    def _suggestion(self, context: bpy.types.Context) -> str:
-        return str(active_armature(context).name)
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:

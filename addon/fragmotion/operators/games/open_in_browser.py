@@ -10,13 +10,14 @@ from typing import ClassVar
 
 import bpy
 
-from ...character.building import has_character, save_policy
+from ...character.building import save_policy
 from ...character.moves import bring_up_to_date
 from ...errors import UserError, reported
 from ...games import serving
 from ...games.exporting import export_mesh, meshes_of
 from ...settings import preferences
 from ..base.context import active_armature
+from ..base.saving import poll_learned
 
 _POLICY, _MESH = "own.policy", "own.glb"
 
@@ -31,11 +32,7 @@ class FRAGMOTION_OT_open_in_browser(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        obj = active_armature(context)
-        if obj is None or not has_character(obj):
-            cls.poll_message_set("No armature with a character is active: press Build first")
-            return False
-        return True
+        return poll_learned(cls, context)
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
