@@ -6,13 +6,13 @@
 
 #include "base/parallel.hpp"
 #include "evaluate/performance.hpp"
+#include "fragments/coverage.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr double kAsked = 4, kJudged = 2, kShown = 30;        // s; s; frames a second
 constexpr double kOfSpeed = 0.2, kOfTurn = 0.3, kSlow = 0.1;  // m/s of a 1.8 m character
-constexpr double kPerformed = 0.3;                            // ControlDis, as in synthesis
 
 bool is_done(const std::shared_ptr<const Character>& character, const Control& control) {
   const ControlSpace& space = character->space;

@@ -11,6 +11,7 @@
 #include "base/quantile.hpp"
 #include "base/ranges.hpp"
 #include "fragments/blend.hpp"
+#include "fragments/coverage.hpp"
 #include "fragments/distance.hpp"
 #include "fragments/gait_edit.hpp"
 #include "fragments/standing.hpp"
@@ -21,7 +22,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kPerformed = 0.3;               // ControlDis from a control at which a fragment performs it, at most
 constexpr int kWanted = 4;                       // fragments that should perform each control
 constexpr double kTail = 0.3;                    // s kept beyond a fragment's end, for stitching
 constexpr double kJumpHeight = 0.22;             // m, of a 1.8 m character

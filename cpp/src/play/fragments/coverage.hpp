@@ -7,6 +7,9 @@
 
 namespace fragmotion {
 
+/// ControlDis from a control at which a fragment performs it, at most.
+constexpr double kPerformed = 0.3;
+
 /// How well the fragments cover the control space.
 struct Coverage {
   std::vector<int> counts;        ///< Fragments whose evident control is nearest to this point.
