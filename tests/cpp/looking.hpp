@@ -7,7 +7,7 @@
 
 namespace fragmotion {
 
-constexpr double kLooksAside = 1.0, kChestAside = 0.3, kNods = 0.4;  // rad
+constexpr double kLooksAside = 1.0, kChestAside = 0.3, kNods = 0.7;  // rad
 
 /// A take whose head looks about in 2 s, and whose chest turns with it.
 inline Clip looking_clip(const Gait& gait, const std::string& name) {
@@ -17,9 +17,9 @@ inline Clip looking_clip(const Gait& gait, const std::string& name) {
   for (int f = 0; f < clip.frames; ++f) {
     const double side = std::sin(kPi * f / clip.rate);
     double* rotations = &clip.rotations[std::size_t{4} * skeleton.size() * f];
+    turn_bone(skeleton, skeleton.roles.head, Vector3::UnitX(), kNods * std::cos(0.7 * kPi * f / clip.rate), rotations);
     turn_bone(skeleton, trunk.chest, Vector3::UnitZ(), kChestAside * side, rotations);
     turn_bone(skeleton, skeleton.roles.head, Vector3::UnitZ(), (kLooksAside - kChestAside) * side, rotations);
-    turn_bone(skeleton, skeleton.roles.head, Vector3::UnitX(), kNods * std::cos(0.7 * kPi * f / clip.rate), rotations);
   }
   return clip;
 }

@@ -47,6 +47,12 @@ _STARTS = (
     ("ORIGIN", "Origin", "Under the armature's origin, facing its -Y (towards the front view)"),
 )
 
+_LOOKS = (
+    ("CAPTURED", "As Captured", "Head and chest do what the takes have"),
+    ("AHEAD", "Where It Goes", "Head and chest turn to where it goes, and into a turn before the body"),
+    ("OBJECT", "Object", "Head and chest turn to an object, also while that moves"),
+)
+
 _GROUNDS = (
     ("PLANE", "Plane", "Level ground at height 0"),
     ("OBJECT", "Object", "The faces of an object: feet stand on it, on slopes and stairs, too"),
@@ -157,6 +163,19 @@ class FeelSettings(bpy.types.PropertyGroup):
     )
     lock_feet: BoolProperty(  # type: ignore[valid-type]
         name="Planted Feet", description="Feet that stand stay where they are, and legs follow", default=True
+    )
+
+
+class LookSettings(bpy.types.PropertyGroup):
+    """Where the character looks when it is driven, and baked without a recording, which has looks of its own."""
+
+    kind: EnumProperty(  # type: ignore[valid-type]
+        name="Look At",
+        description="Where head and chest look: as far as they ever turn in the takes, and no faster than there",
+        items=_LOOKS,
+    )
+    object: PointerProperty(  # type: ignore[valid-type]
+        name="Object", description="What it looks at: the object's origin", type=bpy.types.Object
     )
 
 
@@ -293,6 +312,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
     path: PointerProperty(type=PathSettings)  # type: ignore[valid-type]
     feel: PointerProperty(type=FeelSettings)  # type: ignore[valid-type]
     ground: PointerProperty(type=GroundSettings)  # type: ignore[valid-type]
+    look: PointerProperty(type=LookSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]
     tried: CollectionProperty(type=NumberTried)  # type: ignore[valid-type]

@@ -15,8 +15,8 @@ struct GazeRange {
   double down = 0, up = 0;             ///< Its pitch, down .. up: 0 is level, up is positive.
 };
 
-/// That of the takes of pools of one skeleton, each angle but for the hundredth of their time in which it is beyond.
-/// All 0 without bones of the head (look_bones()).
+/// That of the takes of pools of one skeleton, each angle but for the hundredth of their time in which it is beyond,
+/// and at least what a head does without effort. All 0 without bones of the head (look_bones()).
 GazeRange gaze_range(const std::vector<const PackedPool*>& pools);
 
 }  // namespace fragmotion
