@@ -28,8 +28,10 @@ from ..rig.hanging import HangingBone
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import TraceFields, factor_field, length_field, player_field, policy_field, seed_field
+from .look_fields import LookSettings
 from .path_fields import PathSettings
 from .pin_fields import PinFields
+from .story_fields import BeatSettings
 
 _RELATIVE = (
     (
@@ -45,12 +47,6 @@ _RELATIVE = (
 _STARTS = (
     ("CHARACTER", "As It Stands", "Where the character stands at the playhead, facing as it does"),
     ("ORIGIN", "Origin", "Under the armature's origin, facing its -Y (towards the front view)"),
-)
-
-_LOOKS = (
-    ("CAPTURED", "As Captured", "Head and chest do what the takes have"),
-    ("AHEAD", "Where It Goes", "Head and chest turn to where it goes, and into a turn before the body"),
-    ("OBJECT", "Object", "Head and chest turn to an object, also while that moves"),
 )
 
 _GROUNDS = (
@@ -163,19 +159,6 @@ class FeelSettings(bpy.types.PropertyGroup):
     )
     lock_feet: BoolProperty(  # type: ignore[valid-type]
         name="Planted Feet", description="Feet that stand stay where they are, and legs follow", default=True
-    )
-
-
-class LookSettings(bpy.types.PropertyGroup):
-    """Where the character looks when it is driven, and baked without a recording, which has looks of its own."""
-
-    kind: EnumProperty(  # type: ignore[valid-type]
-        name="Look At",
-        description="Where head and chest look: as far as they ever turn in the takes, and no faster than there",
-        items=_LOOKS,
-    )
-    object: PointerProperty(  # type: ignore[valid-type]
-        name="Object", description="What it looks at: the object's origin", type=bpy.types.Object
     )
 
 
@@ -310,6 +293,8 @@ class CharacterSettings(bpy.types.PropertyGroup):
         type=bpy.types.Object,
     )
     path: PointerProperty(type=PathSettings)  # type: ignore[valid-type]
+    story: CollectionProperty(type=BeatSettings)  # type: ignore[valid-type]
+    active_beat: IntProperty(name="Entry", description="The entry that is selected in the storyboard")  # type: ignore[valid-type]
     feel: PointerProperty(type=FeelSettings)  # type: ignore[valid-type]
     ground: PointerProperty(type=GroundSettings)  # type: ignore[valid-type]
     look: PointerProperty(type=LookSettings)  # type: ignore[valid-type]

@@ -14,10 +14,11 @@ from ..character.coverage import COLUMNS
 from ..character.storing import BESIDE, troubles
 from ..compat import versions
 from ..recordings.recordings import active_recording, baked_source, is_bake_stale
-from .armature import BuildFigures, DriveSettings, LookSettings
+from .armature import BuildFigures, DriveSettings
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import POLICY_NAMES
+from .look_fields import LookSettings
 
 # pixels of a sidebar at the scale 1: what no text can use, an icon with the room around it, and a letter on average
 _FRAME, _ICON, _LETTER = 30, 30, 6.3

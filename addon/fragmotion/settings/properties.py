@@ -36,13 +36,14 @@ from .armature import (
     DriveSettings,
     FeelSettings,
     GroundSettings,
-    LookSettings,
     PinSettings,
     PolicyFigure,
     PopulateSettings,
     StyleFigure,
 )
+from .look_fields import LookSettings
 from .path_fields import PathSettings
+from .story_fields import BeatSettings
 
 _ORDERS = (
     ("NAME", "Name", "By name", "SORTALPHA", 0),
@@ -111,6 +112,7 @@ CLASSES = (
     FeelSettings,
     GroundSettings,
     LookSettings,
+    BeatSettings,
     PinSettings,
     PolicyFigure,
     CoverageFigure,
