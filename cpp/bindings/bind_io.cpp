@@ -26,7 +26,6 @@ Rig new_rig(const std::vector<std::string>& names, const std::vector<int>& paren
             const std::optional<Flags>& local_location, const std::optional<std::map<std::string, std::string>>& roles,
             const std::optional<std::map<std::string, std::string>>& hangs) {
   const auto bones = static_cast<py::ssize_t>(names.size());
-  check_shape(rest, "rest", {bones, 4, 4});
   check_shape(lengths, "lengths", {bones});
   check_shape(world, "world", {4, 4});
   for (const std::string& name : names) check_name(name);
@@ -149,15 +148,12 @@ void bind_rig(py::module_& m) {
           py::arg("take"));
 }
 
-std::map<int, int> hanging(const std::vector<int>& parents, const Doubles& rest, const Doubles& poses,
-                           const std::vector<int>& candidates) {
+std::map<int, int> hanging(const std::vector<int>& parents, const Doubles& poses, const std::vector<int>& candidates) {
   const int bones = static_cast<int>(parents.size());
-  check_shape(rest, "rest", {bones, 4, 4});
   check_shape(poses, "poses", {-1, bones, 4, 4});
   for (int b = 0; b < bones; ++b) require_range("a bone's parent", parents[b], -1, b - 1);
   for (const int bone : candidates) require_range("a candidate", bone, 0, bones - 1);
-  return without_gil(
-      [&] { return find_hanging(parents, rest.data(), poses.data(), static_cast<int>(poses.shape(0)), candidates); });
+  return without_gil([&] { return find_hanging(parents, poses.data(), static_cast<int>(poses.shape(0)), candidates); });
 }
 
 }  // namespace
@@ -166,7 +162,7 @@ void bind_io(py::module_& m) {
   bind_files(m);
   bind_rotations(m);
   bind_rig(m);
-  m.def("find_hanging", &hanging, py::arg("parents"), py::arg("rest"), py::arg("poses"), py::arg("candidates"));
+  m.def("find_hanging", &hanging, py::arg("parents"), py::arg("poses"), py::arg("candidates"));
 }
 
 }  // namespace fragmotion::bindings

@@ -109,7 +109,6 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         },
         "find_hanging": {
             "parents": PARENTS,
-            "rest": upright,
             "poses": np.tile(upright, (2, 1, 1, 1)),
             "candidates": [1],
         },

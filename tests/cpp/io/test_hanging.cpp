@@ -45,14 +45,25 @@ std::vector<double> swing() {
 }
 
 TEST(Hanging, IsFoundOfAFootThatIsNoChildOfItsLeg) {
-  const std::vector<double> rest = leg_pose(0), poses = swing();
-  const auto found = find_hanging(kParents, rest.data(), poses.data(), 12, {4, 6});
+  const std::vector<double> poses = swing();
+  const auto found = find_hanging(kParents, poses.data(), 12, {4, 6});
   EXPECT_EQ(found, (std::map<int, int>{{4, 3}}));
 }
 
+// As a leg whose IK does not reach, in most of a pack's Actions: these tell nothing, and hide nothing.
+TEST(Hanging, IsFoundThoughTheFootIsOffItsPlaceWhereItStands) {
+  std::vector<double> poses = swing();
+  const std::vector<double> stands = leg_pose(0);
+  for (int f = 0; f < 100; ++f) {
+    poses.insert(poses.end(), stands.begin(), stands.end());
+    poses[poses.size() - 3 * 16 + 7] += 0.05;  // y of the foot
+  }
+  EXPECT_EQ(find_hanging(kParents, poses.data(), 112, {4}), (std::map<int, int>{{4, 3}}));
+}
+
 TEST(Hanging, IsNeverOnABoneThatItMoves) {
-  const std::vector<double> rest = leg_pose(0), poses = swing();
-  for (const auto& [bone, on] : find_hanging(kParents, rest.data(), poses.data(), 12, {1, 2, 3, 4, 5, 6}))
+  const std::vector<double> poses = swing();
+  for (const auto& [bone, on] : find_hanging(kParents, poses.data(), 12, {1, 2, 3, 4, 5, 6}))
     EXPECT_TRUE(bone != 4 || on == 3) << bone << " on " << on;
 }
 

@@ -7,10 +7,11 @@
 namespace fragmotion {
 
 /// Bones that carry keys outside the chain of their parents, as feet that are the targets of a leg's IK: on which bone
-/// each of `candidates` hangs, where it does. `parents` [bones], `rest` [bones, 4, 4] and `poses` [frames, bones, 4, 4]
-/// (row-major, in the armature's space). A bone hangs on the one, of those that it does not move, in whose frame its
-/// head strays least from its place at rest, where that is a fifth at most of what it strays in its parent's.
-std::map<int, int> find_hanging(const std::vector<int>& parents, const double* rest, const double* poses, int frames,
+/// each of `candidates` hangs, where it does. `parents` [bones], `poses` [frames, bones, 4, 4] (row-major, in the
+/// armature's space). A bone hangs on the one, of those that it does not move, in whose frame its head goes least from
+/// frame to frame, where that is a third at most of what it goes in its parent's: where the leg's IK does not reach, it
+/// is off its place, but stays there.
+std::map<int, int> find_hanging(const std::vector<int>& parents, const double* poses, int frames,
                                 const std::vector<int>& candidates);
 
 /// The bones, in their order but each after its parent and the one that it hangs on; without those that hang on a bone
