@@ -94,7 +94,8 @@ class Bytes:
         size = (count * bits + 7) // 8
         stream = np.unpackbits(np.frombuffer(self._data, np.uint8, size, self.at), bitorder="little")[: count * bits]
         self.at += size
-        return least + stream.reshape(count, bits).astype(np.int64) @ (1 << np.arange(bits, dtype=np.int64))
+        values: Array = least + stream.reshape(count, bits).astype(np.int64) @ (1 << np.arange(bits, dtype=np.int64))
+        return values
 
     def text(self) -> str:
         size = self.one("I")
