@@ -62,7 +62,7 @@ void clean_rotations(const Skeleton& skeleton, int bone, Clip& clip) {
     if (!q.coeffs().allFinite()) fail(clip.name, place(f, skeleton.names[bone]) + "rotation is not finite");
     if (q.norm() < 1e-6) fail(clip.name, place(f, skeleton.names[bone]) + "rotation is a zero quaternion");
     q.normalize();
-    if (f > 0 && q.dot(previous) < 0) q.coeffs() *= -1;
+    if (f > 0 && dot(q.coeffs(), previous.coeffs()) < 0) q.coeffs() *= -1;
     store_quaternion(q, stored);
     previous = q;
   }
