@@ -37,14 +37,18 @@ def run(command: Sequence[str | Path], environment: dict[str, str] | None = None
     return done.stdout
 
 
-def link(folder: Path, cc: Sequence[str | Path], cxx: Sequence[str | Path], libraries: Sequence[Path], name: str) -> Path:
+def link(
+    folder: Path, cc: Sequence[str | Path], cxx: Sequence[str | Path], libraries: Sequence[Path], name: str
+) -> Path:
     """The game in C, linked with the libraries as C++ is."""
     run([*cc, "-std=c99", "-O1", INCLUDE, "-c", GAME, "-o", folder / "game.o"])
     run([*cxx, folder / "game.o", *libraries, "-o", folder / name])
     return folder / name
 
 
-def built(folder: Path, wanted: tuple[str, ...], options: dict[str, str | Path], environment: dict[str, str]) -> list[Path]:
+def built(
+    folder: Path, wanted: tuple[str, ...], options: dict[str, str | Path], environment: dict[str, str]
+) -> list[Path]:
     """The libraries, compiled in a folder."""
     target, *files = wanted
     variables = [f"-D{name}={value}" for name, value in {**options, "FRAGMOTION_RUNTIME_ONLY": "ON"}.items()]

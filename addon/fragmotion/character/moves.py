@@ -17,6 +17,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, Po
 from ..compat.core import core
 from ..compat.event_keys import KEYS
 from ..errors import SinglePose, UserError, core_errors
+from ..mocap.left_out import part_of
 from ..mocap.sampling import sample, sample_times
 from ..rig.rigs import make_rig
 from .building import has_character, load_whole, replace
@@ -242,5 +243,5 @@ def _clip(context: bpy.types.Context, obj: bpy.types.Object, rig: Rig, row: Any)
         raise single
     part = slice(inside[0], inside[-1] + 1)
     with core_errors(f"Move '{row.name}'"):
-        cut = core.Clip(rig.skeleton, row.name, clip.rate, clip.root_positions[part], clip.rotations[part])
+        cut = part_of(clip, rig.skeleton, row.name, part)
     return cut, (times[inside[0]], second)
