@@ -24,7 +24,7 @@ from .mocap.importing import METRES
 from .mocap.take_files import BY_BLENDER, find_takes
 from .mocap.target_rigs import open_rig, save_minute
 from .operators.base.context import active_armature
-from .recordings.recordings import trace_of
+from .recordings.recordings import Recording, trace_of
 from .rig.rigs import make_rig
 
 if TYPE_CHECKING:
@@ -93,6 +93,7 @@ def _parser() -> argparse.ArgumentParser:
     bake.set_defaults(command=_bake)
     for driver in (made.evaluate_driver, parser.add_driver(bake)):
         driver.add_argument("--recordings", action="store_true", help="every recording of the armature")
+        driver.add_argument("--recording", metavar="NAME", help="one of them")
     parser.add_json(bake)
     for word in (made.build, bake, made.retarget):
         word.add_argument("--blend", type=Path, metavar="FILE", help="where to write the .blend")
@@ -221,7 +222,7 @@ def _bake_apart(options: argparse.Namespace, source: Path) -> tuple[list[dict[st
         words += [
             f"--{name}={value}" for name, value in _given(options, "seconds", "seed", "style", "armature").items()
         ]
-        driver = _given(options, "player") | ({"trace": options.trace.resolve()} if options.trace else {})
+        driver = _given(options, "player", "recording") | ({"trace": options.trace.resolve()} if options.trace else {})
         words += [f"--{name}={value}" for name, value in driver.items()] or ["--recordings"]
         code = f"import sys, {__name__} as c; sys.exit(c.run({[*words, '--json', str(figures)]!r}))"
         command = [bpy.app.binary_path, "--background", "--addons", __package__, "--python-expr", code]
@@ -241,9 +242,10 @@ def _bake_one(options: argparse.Namespace, path: Path, target: Path) -> list[dic
     elif options.player:
         played = [{"trace_source": "PLAYER", "player": options.player}]
     else:
-        played = [{"trace_source": "RECORDING", "recording": index} for index in range(len(obj.fragmotion.recordings))]
-    if not played:
-        raise UserError(f"Armature '{obj.name}' has no recordings")
+        played = [
+            {"trace_source": "RECORDING", "recording": obj.fragmotion.recordings.find(recording.name)}
+            for recording in _recordings(obj, options.recording)
+        ]
     baked = []
     for number, source in enumerate(played, 1):
         before = set(bpy.data.actions)
@@ -260,7 +262,7 @@ def _bake_one(options: argparse.Namespace, path: Path, target: Path) -> list[dic
 def _evaluate(options: argparse.Namespace) -> running.Done:
     source = options.sources[0]
     if len(options.sources) > 1 or not _is_blend(source, options):
-        if options.recordings:
+        if options.recordings or options.recording:
             raise UserError(f"--recordings are an armature's, and '{source}' is no .blend")
         return evaluating.evaluate(options)
     obj = _open(source, options.armature)
@@ -284,11 +286,22 @@ def _evaluate_takes(options: argparse.Namespace, obj: bpy.types.Object) -> runni
 
 def _traces(options: argparse.Namespace, obj: bpy.types.Object, character: Character) -> dict[str, Doubles]:
     """The traces that are asked for, by what they are called."""
-    if not options.recordings:
+    if not (options.recordings or options.recording):
         return playing.traces_of(options, character)
-    if not obj.fragmotion.recordings:
-        raise UserError(f"Armature '{obj.name}' has no recordings")
-    return {recording.name: trace_of(recording) for recording in obj.fragmotion.recordings}
+    return {recording.name: trace_of(recording) for recording in _recordings(obj, options.recording)}
+
+
+def _recordings(obj: bpy.types.Object, name: str | None) -> list[Recording]:
+    """The armature's recordings, or the one of that name; UserError where there is none."""
+    recordings = [recording for recording in obj.fragmotion.recordings if name in (None, recording.name)]
+    if not recordings:
+        there = ", ".join(f"'{recording.name}'" for recording in obj.fragmotion.recordings) or "none"
+        raise UserError(
+            f"Armature '{obj.name}' has no recording '{name}': it has {there}"
+            if name is not None
+            else f"Armature '{obj.name}' has no recordings"
+        )
+    return recordings
 
 
 def _info(options: argparse.Namespace) -> running.Done:

@@ -100,6 +100,27 @@ std::vector<StyleChange> to_changes(const py::object& styles) {
   return changes;
 }
 
+Look to_look(double number) {
+  for (const Look look : {Look::as_captured, Look::ahead, Look::at}) {
+    if (number == static_cast<int>(look)) return look;
+  }
+  throw std::invalid_argument("a look must be 0 (as captured), 1 (ahead) or 2 (at a place)");
+}
+
+// Where to look, from [L,5].
+std::vector<LookChange> to_looks(const py::object& given) {
+  std::vector<LookChange> looks;
+  if (given.is_none()) return looks;
+  const auto array = given.cast<Doubles>();
+  check_shape(array, "looks", {-1, 5});
+  const std::vector<double> values = to_vector(array, "looks", -kMostNumber, kMostNumber);
+  for (std::size_t i = 0; i < values.size(); i += 5) {
+    if (values[i] != std::floor(values[i])) throw std::invalid_argument("controls of looks must be whole numbers");
+    looks.push_back({static_cast<int>(values[i]), to_look(values[i + 1]), load_vector(&values[i + 2])});
+  }
+  return looks;
+}
+
 template <typename T>
 py::tuple to_pair(const std::array<T, 2>& values) {
   return py::make_tuple(values[0], values[1]);
@@ -216,6 +237,12 @@ void bind_player(py::module_& m) {
       .def_property_readonly("waiting_moves",
                              [](OnePlayer& player) { return to_pair(OnePlayer::Call(player)->waiting_moves()); })
       .def_property_readonly("passed_markers", &passed_markers)
+      .def(
+          "look",
+          [](OnePlayer& player, int look, double x, double y, double z) {
+            OnePlayer::Call(player)->look(to_look(look), {x, y, z});
+          },
+          py::arg("look"), py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("z") = 0.0)
       .def("step", &step, py::arg("control"), py::arg("seconds"))
       .def_property_readonly("frame",
                              [](OnePlayer& player) {
@@ -247,17 +274,18 @@ void bind_player(py::module_& m) {
       .def(
           "run",
           [](OnePlayer& one, const Doubles& trace, double rate, const py::object& progress, const py::object& moves,
-             const py::object& styles) {
+             const py::object& styles, const py::object& looks) {
             const Trace controls = to_trace(trace);
             const std::vector<MovePress> presses = to_presses(moves);
             const std::vector<StyleChange> changes = to_changes(styles);
+            const std::vector<LookChange> looked = to_looks(looks);
             const OnePlayer::Call player(one);
             return without_gil(progress, [&](const Progress& told) {
-              return perform(*player, controls, rate, told, presses, changes);
+              return perform(*player, controls, rate, told, presses, changes, looked);
             });
           },
           py::arg("trace"), py::arg("rate"), py::arg("progress") = py::none(), py::arg("moves") = py::none(),
-          py::arg("styles") = py::none());
+          py::arg("styles") = py::none(), py::arg("looks") = py::none());
 }
 
 }  // namespace

@@ -607,6 +607,9 @@ class Player:
         forgotten for it, one that plays is played to its end before. ValueError on a move that does not exist."""
     def release_move(self, move: int) -> None:
         """The move is not held any more: its loop is not begun again. ValueError on one that does not exist."""
+    def look(self, look: int, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> None:
+        """Let head and chest look somewhere from now on, until a reset, as far and as fast as in the takes: 0 as they
+        have it, 1 where it goes, 2 at a place in the world, m. ValueError on another number and on no place."""
     playing_moves: tuple[int, int]
     """The move of the whole body and that of the upper body that play; -1: none."""
     waiting_moves: tuple[int, int]
@@ -647,12 +650,13 @@ class Player:
         progress: Progress | None = None,
         moves: ArrayLike | None = None,
         styles: ArrayLike | None = None,
+        looks: ArrayLike | None = None,
     ) -> Performance:
         """Reset is not called. Play a trace [T,4] (10 controls a second) from now, sampled at `rate` (any, also
         29.97, to 1000): frames 0 .. round(T/10 * rate), of which there may be 1048574. Each number of a control is
         within a million. `moves` [M,3]: before which control (0 .. T-1) which move is started, and after how many it is
-        released; `styles` [S,2]: before which control it changes to which style. ValueError where one does not exist,
-        or is not of whole numbers."""
+        released; `styles` [S,2]: before which control it changes to which style; `looks` [L,5]: before which control it
+        looks where, and at which place, as look(). ValueError where one does not exist, or is not of whole numbers."""
 
 class Crowd:
     """Many players of one character that step together. Player i shows, to the bit, what a Player of the seed `seed` +

@@ -35,6 +35,8 @@ public enum Role {
 
 public enum Steer { Character, World, Camera, Path }
 
+public enum Look { AsCaptured, Ahead, At }
+
 public enum PathEnd { Stand, Loop, GoOn }
 
 public enum EventType {
@@ -376,6 +378,10 @@ public sealed class Player : IDisposable {
   public void StartMove(int move) { Native.Check(Native.fragmotion_player_start_move(Handle, move)); }
   public void ReleaseMove(int move) { Native.Check(Native.fragmotion_player_release_move(Handle, move)); }
   public void ChangeStyle(int style) { Native.Check(Native.fragmotion_player_change_style(Handle, style)); }
+  /// Head and chest look there from now on, until a reset: `place` counts where it looks at one.
+  public void LookTo(Look look, Vector3 place = default(Vector3)) {
+    Native.Check(Native.fragmotion_player_look(Handle, look, ref place));
+  }
   public void ForceClass(int index) { Native.Check(Native.fragmotion_player_force_class(Handle, index)); }
 
   /// The most events of a step.
@@ -730,6 +736,8 @@ internal static class Native {
   public static extern Result fragmotion_player_release_move(PlayerHandle player, int move);
   [DllImport(Name, CallingConvention = C)]
   public static extern Result fragmotion_player_change_style(PlayerHandle player, int style);
+  [DllImport(Name, CallingConvention = C)]
+  public static extern Result fragmotion_player_look(PlayerHandle player, Look look, ref Vector3 place);
   [DllImport(Name, CallingConvention = C)]
   public static extern Result fragmotion_player_force_class(PlayerHandle player, int index);
   [DllImport(Name, CallingConvention = C)]

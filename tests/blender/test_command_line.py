@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
 import bpy
 import making
+import numpy as np
 import pytest
 
 WALKS = sorted((making.MOCAP / "bandai-namco").glob("dataset-1_walk_normal_00[12].bvh"))
@@ -89,6 +91,52 @@ def test_every_recording_is_baked(addon: ModuleType, hero: Path, tmp_path: Path)
     names = [row["action"] for row in json.loads((tmp_path / "shots.json").read_text())["baked"]]
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "shots.blend"))
     assert len(set(names)) == 3 and set(names) <= set(bpy.data.actions.keys())
+
+
+def test_one_recording_is_baked(
+    addon: ModuleType, hero: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bpy.ops.wm.open_mainfile(filepath=str(hero))
+    recordings = addon.recordings.recordings
+    for name, controls in (("Long", 30), ("Short", 15)):
+        recordings.add_recording(bpy.context.view_layer.objects.active, [[0, 1.2, 0, 0]] * controls, name=name)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "recorded.blend"))
+    words = ("bake", tmp_path / "recorded.blend", "--blend", tmp_path / "shot.blend", "--recording")
+    assert run(addon, *words, "Short", "--json", tmp_path / "shot.json") == 0
+    (row,) = json.loads((tmp_path / "shot.json").read_text())["baked"]
+    assert row["action"] == "Short Bake"
+    assert row["last"] - row["first"] == pytest.approx(1.5 * bpy.context.scene.render.fps, abs=1)
+    assert run(addon, *words, "Tall") == 1
+    assert "has no recording 'Tall': it has 'Long', 'Short'" in capsys.readouterr().err
+
+
+def test_the_farms_tasks_build_and_bake(addon: ModuleType, takes: Path, hero: Path, tmp_path: Path) -> None:
+    """Those of the jobs that the job type's script was compiled with."""
+    bpy.ops.wm.open_mainfile(filepath=str(hero))
+    for name in ("Stroll", "Up & down"):
+        addon.recordings.recordings.add_recording(
+            bpy.context.view_layer.objects.active, [[0, 1.2, 0, 0]] * 15, name=name
+        )
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "hero.blend"))
+    shutil.copytree(takes, tmp_path / "takes")
+    (tmp_path / "shots").mkdir()
+    jobs = json.loads((Path(__file__).parents[1] / "data" / "farm" / "jobs.json").read_text())
+    tasks = [task for job in jobs for task in job.get("tasks", ())]
+    made = []
+    for task in tasks:
+        (command,) = task["commands"]
+        exe, (option, name, *words) = command["parameters"]["exe"], command["parameters"]["args"]
+        assert (command["name"], exe, option, name) == ("exec", "{blender}", "-c", "fragmotion")
+        assert run(addon, *(word.replace("/farm", str(tmp_path)) for word in words)) == 0
+        made.append(Path(words[words.index("--blend") + 1]).name)
+    assert {path.name for path in (tmp_path / "shots").iterdir()} == set(made) - {"built.blend"}
+    assert len(made) == len(set(made)) == 5
+    lengths = {}
+    for path in (tmp_path / "shots").iterdir():
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+        obj = bpy.context.view_layer.objects.active
+        lengths[path.name] = np.ptp(obj.animation_data.action.frame_range)
+    assert lengths["built runner 7.blend"] == 2 * bpy.context.scene.render.fps
 
 
 @pytest.mark.thorough

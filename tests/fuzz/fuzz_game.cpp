@@ -107,7 +107,7 @@ void set_path(Game& game, Words& words) {
 }
 
 void call(Game& game, Words& words, int& ground) {
-  switch (words.byte() % 12) {
+  switch (words.byte() % 13) {
     case 0:
       ground = words.byte() % 6;
       fragmotion_player_set_ground(game.player, ground < 5 ? &strange_ground_hit : nullptr, &ground);
@@ -121,6 +121,11 @@ void call(Game& game, Words& words, int& ground) {
     case 3:
       fragmotion_player_change_style(game.player, words.byte() % 3);
       break;
+    case 12: {
+      const float place[] = {words.number(), words.number(), words.number()};
+      fragmotion_player_look(game.player, words.byte() % 4, place);
+      break;
+    }
     case 4:
       fragmotion_player_force_class(game.player, words.byte() % 8);
       break;

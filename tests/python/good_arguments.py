@@ -223,6 +223,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Player.start_move": {"self": core.Player(made), "move": 1},
         "Player.release_move": {"self": core.Player(made), "move": 1},
         "Player.stand_on": {"self": core.Player(made), "ground": lambda x, y, z: (0.1 * y, 0.0, -0.1, 1.0)},
+        "Player.look": {"self": core.Player(made), "look": 2, "x": 1.0, "y": 2.0, "z": 1.5},
         "Player.step": {"self": core.Player(made), "control": trace[0], "seconds": 0.1},
         "Player.quality": {"self": core.Player(made), "control": trace[0]},
         "Player.run": {
@@ -232,6 +233,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "progress": quiet,
             "moves": np.array([[5, 0, 3.0]]),
             "styles": np.array([[5, 1.0]]),
+            "looks": np.array([[5, 2.0, 1.0, 2.0, 1.5]]),
         },
         "Crowd": {"character": made, "count": 2, **player, "threads": 1},
         "Crowd.step_many": {

@@ -111,3 +111,37 @@ def test_player_plays_each_of_the_policies(character: core.Character, traces: li
         assert 0 < character.percent_of_optimal(traces[0], policy) <= 100 + 1e-9
         assert core.Player(character, policy=policy).run(traces[0][:50], 30).quality > 0
     assert character.percent_of_optimal(traces[0]) == character.percent_of_optimal(traces[0], character.policies[0])
+
+
+def test_a_player_looks_as_one_that_runs_with_looks(character: core.Character) -> None:
+    trace = core.simulate_trace("walker", 4, 3, character.space)
+    looks = [[5, 2, 1.0, 4.0, 1.2], [20, 1, 0, 0, 0], [32, 0, 0, 0, 0]]
+    ran = core.Player(character).run(trace, 60, looks=looks)
+    plain = core.Player(character).run(trace, 60)
+    player = core.Player(character)
+    for frame in range(1, 241):
+        for begin, *look in looks:
+            if frame == 6 * begin + 1:
+                player.look(*look)
+        root, rotations = player.step(trace[(frame - 1) // 6], 1 / 60)
+        assert (root == ran.root_positions[frame]).all() and (rotations == ran.rotations[frame]).all()
+    assert (ran.root_positions == plain.root_positions).all()
+    differs = (ran.rotations != plain.rotations).any((1, 2))
+    assert not differs[:31].any() and differs[40:120].all()
+    turned = (ran.rotations != plain.rotations).any((0, 2))
+    above = {NAMES[bone] for bone in np.flatnonzero(turned)}
+    assert "head" in above and not above & {"hips", "thigh.L", "foot.R", "hand.L"}
+
+
+@pytest.mark.parametrize(
+    ("looks", "why"),
+    [
+        ([[0, 3, 0, 0, 0]], "a look must be 0"),
+        ([[99, 1, 0, 0, 0]], "a look is asked for before control 99"),
+        ([[0.5, 1, 0, 0, 0]], "whole numbers"),
+        ([[0, 1, 0, 0]], "looks"),
+    ],
+)
+def test_looks_that_there_are_not_are_refused(character: core.Character, looks: list[list[float]], why: str) -> None:
+    with pytest.raises(ValueError, match=why):
+        core.Player(character).run(np.zeros((10, 4)), 30, looks=looks)

@@ -9,15 +9,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
 import numpy as np
+from mathutils import Vector
 
 from ..character.building import has_character, load, make_player
 from ..errors import UserError, core_errors
 from ..ground.meshes import Ground, remarks_of
 from ..jobs import Report
 from ..mocap.sampling import scene_rate
+from ..recordings.looks import AS_CAPTURED, LookChange, aim_of
 from ..recordings.recordings import (
     Recording,
     active_recording,
+    looks_of,
     moves_of,
     numbered_moves,
     numbered_styles,
@@ -79,14 +82,24 @@ def prepare(
     walk = getattr(settings, "walk", None)
     if walk is not None:
         player.reset(style=_chosen_style(obj, character, settings))
-        return lambda report: _played(player, walk.trace(player, rate), rate, report, ground)
+        looks = _looks(obj, settings)
+        return lambda report: _played(player, walk.trace(player, rate), rate, report, ground, looks)
     moves, styled = _asked(obj, character, recording, settings)
     space = character.in_style(styled.begin).space
     trace = make_trace(settings, space) if recording is None else trace_of(recording)
     place = _place(context, obj, rig, settings) if recorded is None else recorded.start
     player.reset(*place, style=styled.begin)
+    looks = _looks(obj, settings) if recording is None else looks_of(recording)
 
-    return lambda report: _played(player, trace, rate, report, ground, moves, styled)
+    return lambda report: _played(player, trace, rate, report, ground, looks, moves, styled)
+
+
+def _looks(obj: bpy.types.Object, settings: Any) -> list[LookChange]:
+    """Where the panel says to look, as one sees it who is to be moved elsewhere as the settings of a crowd say."""
+    aim, moved = aim_of(obj.fragmotion.look), getattr(settings, "moved", None)
+    if aim.look == AS_CAPTURED:
+        return []
+    return [LookChange(0, aim.look, *(aim[1:] if moved is None else moved.inverted() @ Vector(aim[1:])))]
 
 
 def _asked(
@@ -118,11 +131,12 @@ def _played(
     rate: float,
     report: Report,
     ground: Ground | None,
+    looks: Sequence[LookChange] = (),
     moves: Sequence[Sequence[int]] = (),
     styled: Styled = AS_EVER,
 ) -> Played:
     """What a player does from where it stands, on the ground that it stands on."""
-    performance = player.run(trace, rate, report, moves or None, styled.changes or None)
+    performance = player.run(trace, rate, report, moves or None, styled.changes or None, looks or None)
     motion = Motion(performance.root_positions, performance.rotations, performance.path, performance.classes)
     remarks = filter(None, (styled.remark, *remarks_of(player, ground)))
     return Played(motion, "; ".join((_judge(performance), *remarks)), _hardly_moves(performance))
@@ -150,13 +164,14 @@ def perform(
     rate: float,
     start: tuple[float, float, float] = (0, 0, 0),
 ) -> Performance:
-    """What the character's player shows of a trace [T,4] with the moves and styles that the recording has in that time,
-    from the character frame `start` on."""
+    """What the character's player shows of a trace [T,4] with what the recording asks for beside in that time, from
+    the character frame `start` on."""
     styled = numbered_styles(recording, character.style_names)
     changes = [change for change in styled.changes if change[0] < len(trace)]
     moves = [move for move in numbered_moves(recording, character.move_names) if move[0] < len(trace)]
+    looks = [look for look in looks_of(recording) if look.control < len(trace)]
     player.reset(*start, style=styled.begin)
-    return player.run(trace, rate, moves=moves or None, styles=changes or None)
+    return player.run(trace, rate, moves=moves or None, styles=changes or None, looks=looks or None)
 
 
 def _player_for(obj: bpy.types.Object, character: Character, recorded: Recording | None, settings: Any) -> Any:

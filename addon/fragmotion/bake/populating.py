@@ -61,10 +61,9 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
             each.walk = walk
     ground = find_ground(context, obj)
     places = spots(settings.count, settings.layout, settings.spacing)
-    tasks = [
-        baking.prepare(context, obj, each, ground and ground.seen_from(_around(obj, spot))).task
-        for each, spot in zip(bakes, places)
-    ]
+    for each, spot in zip(bakes, places):
+        each.moved = _around(obj, spot)
+    tasks = [baking.prepare(context, obj, each, ground and ground.seen_from(each.moved)).task for each in bakes]
 
     def task(report: Report) -> list[baking.Baked]:
         return [each(_share(report, index, len(tasks))) for index, each in enumerate(tasks)]

@@ -22,10 +22,12 @@ from ..input.inputs import Inputs
 from ..input.steering import REST, Control, Intent, Steering, view_heading
 from ..preview.posed_armature import PosedArmature
 from ..recordings.curves import renew_curves
+from ..recordings.looks import Aim, LookChange, aim_of
 from ..recordings.recordings import POSE_RATE, TRACE_RATE, add_recording
 from ..recordings.styles import AS_EVER, Styled
 from ..settings import preferences
 from .acting.actor import Actor
+from .acting.looking import Looking
 from .acting.punch import Punch
 from .acting.recorder import Recorder, Taken
 from .acting.styling import Styling
@@ -71,6 +73,7 @@ class Session:
         self.views, self._follow = views.Views(context.area), FollowCamera()
         self._state = SceneState(context, obj)
         self.styling = Styling(self.actor)
+        self.looking = Looking(self.actor)
         self._steerings: dict[int, Steering] = {}  # by style
         self._steering()
         self.readings = Readings(self.actor, RATE)
@@ -217,6 +220,15 @@ class Session:
             self._own_style = punch.style
         self._held = self._hold_moves(self._held, held if taken is None else taken.hold_moves(held))
         self.styling.tell(taken)
+        self.looking.tell(self._aim, None if punch is not None else taken)
+
+    @property
+    def _aim(self) -> Aim:
+        """Where to look in the next step."""
+        if self.punch is not None:
+            return self.punch.aim
+        trace = self.inputs.trace
+        return trace.aim if trace.playing else aim_of(self.obj.fragmotion.look)
 
     def _hold_moves(self, before: set[int], held: set[int]) -> set[int]:
         """Let go of the moves that are not held any more, and start those that are held since this step."""
@@ -247,16 +259,17 @@ class Session:
         start: tuple[float, float, float] | None = None,
         moves: Sequence[Sequence[int]] = (),
         styled: Styled = AS_EVER,
+        looks: Sequence[LookChange] = (),
     ) -> None:
-        """Let a trace [T,4] drive, with moves [M,3] and changes of style, until it ends or another input is touched;
-        from a character frame, if one is given. It begins in its style: changes to it, without a frame."""
+        """Let a trace [T,4] drive, with moves [M,3], changes of style and looks, until it ends or another input is
+        touched; from a character frame, if one is given. It begins in its style: changes to it, without a frame."""
         self._replays = start is not None
         if start is not None:
             self._begin(start, styled)
             self._held = set()
             self.readings = Readings(self.actor, RATE)
         self.styling.want(styled.begin)
-        self.inputs.play(trace, moves, styled.changes)
+        self.inputs.play(trace, moves, styled.changes, looks)
         if styled.remark:
             self.inputs.messages.append(f"It plays {styled.remark}")
 
@@ -264,6 +277,7 @@ class Session:
         """Stand where a recording begins, in its style."""
         self.actor.begin(start, styled.begin)
         self.styling.reset(styled.begin)
+        self.looking.reset()
 
     def play_over(self, punch: Punch, start: tuple[float, float, float], styled: Styled, shown: Motion | None) -> None:
         """Let a recording, of which these poses are `shown`, drive from the character frame and the style in which it
@@ -336,6 +350,7 @@ class Session:
         elif self.recording is None:
             if math.hypot(*self.readings.velocity) < _STILL and not any(self.control):
                 self.actor.start_afresh()
+                self.looking.reset()
                 self._held = set()
             self.recording = Recorder(self.actor, RATE)
             self.styling.forget_told()
@@ -368,6 +383,7 @@ class Session:
             "moves": recording.moves,
             "style": recording.style,
             "styles": recording.styles,
+            "looks": recording.looks,
         }
 
     def trouble(self) -> str:

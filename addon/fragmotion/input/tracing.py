@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from ..recordings.looks import Aim, LookChange, look_before
 from ..recordings.recordings import TRACE_RATE
 from .steering import REST, Control, Intent
 
@@ -24,12 +25,19 @@ class TraceInput:
         self._trace: list[Control] = []
         self._moves: list[Sequence[int]] = []
         self._styles: list[Sequence[int]] = []
+        self._looks: list[LookChange] = []
 
-    def play(self, trace: Doubles, moves: Sequence[Sequence[int]] = (), styles: Sequence[Sequence[int]] = ()) -> None:
+    def play(
+        self,
+        trace: Doubles,
+        moves: Sequence[Sequence[int]] = (),
+        styles: Sequence[Sequence[int]] = (),
+        looks: Sequence[LookChange] = (),
+    ) -> None:
         """Begin with the trace [T,4], in which moves [M,3] were started and styles [S,2] changed as Player.run has
-        them."""
+        them, and it was looked somewhere."""
         self._steps, self._trace = 0, [Control(*row) for row in trace.tolist()]
-        self._moves, self._styles = list(moves), list(styles)
+        self._moves, self._styles, self._looks = list(moves), list(styles), list(looks)
 
     def advance(self) -> None:
         """A step has been made."""
@@ -52,6 +60,11 @@ class TraceInput:
         while self._styles and self._styles[0][0] <= now:
             due = self._styles.pop(0)[1]
         return due
+
+    @property
+    def aim(self) -> Aim:
+        """Where it looks now."""
+        return look_before(self._looks, self._steps * TRACE_RATE // self._rate + 1)
 
     def intent(self) -> Intent:
         return Intent(control=self._trace[self._steps * TRACE_RATE // self._rate]) if self._trace else REST

@@ -12,7 +12,7 @@ from ..drive import session
 from ..input.pads import PadState
 from ..operators.base.context import active_armature
 from ..operators.directing import drive as drive_operator
-from ..settings.drawing import aligned, draw_trace, draw_wrapped
+from ..settings.drawing import aligned, draw_look, draw_trace, draw_wrapped
 from .sidebar import Sidebar, SubPanel
 
 
@@ -56,11 +56,12 @@ class FRAGMOTION_PT_drive_options(_DriveSubPanel, bpy.types.Panel):
     bl_label = "Drive Options"
 
     def draw(self, context: bpy.types.Context) -> None:
-        settings = _armature(context).fragmotion.drive
+        settings, look = _armature(context).fragmotion.drive, _armature(context).fragmotion.look
         column = aligned(self.layout)
         column.prop(settings, "start")
         column.prop(settings, "follow")
         column.prop(settings, "click_to_walk")
+        draw_look(column, look)
 
 
 class _OptionsPanel(_DriveSubPanel):

@@ -33,7 +33,7 @@ from ..settings.drawing import (
     draw_training,
     draw_wrapped,
 )
-from . import bones, classes, control_rig, doctor, drive, game, left_out, moves, path, recordings
+from . import bones, classes, control_rig, doctor, drive, game, left_out, moves, path, recordings, storyboard
 from .doctor import LIGHTS
 from .sidebar import Sidebar, SubPanel, TakePanel, draw_fold, draw_play, is_folded
 
@@ -327,6 +327,7 @@ CLASSES = (
     *drive.CLASSES,
     *moves.CLASSES,
     *path.CLASSES,
+    *storyboard.CLASSES,
     *recordings.CLASSES,
     FRAGMOTION_PT_bake,
     *recordings.BAKE_CLASSES,

@@ -9,7 +9,7 @@ import bpy
 
 from ..operators.base.context import active_armature
 from ..recordings.recordings import active_recording
-from ..settings.drawing import aligned, draw_bake, draw_bake_options, draw_populate, draw_wrapped
+from ..settings.drawing import aligned, draw_bake, draw_bake_options, draw_look, draw_populate, draw_wrapped
 from .sidebar import Sidebar, SubPanel
 
 _ROWS = 4
@@ -111,6 +111,9 @@ class FRAGMOTION_PT_change(_RecordingPanel, bpy.types.Panel):
         aligned(group).prop(settings.drive, "over_seconds", text="For")
         over = group.operator("fragmotion.drive", text="Record Over", icon="REC")
         over.source, over.recording = "OVER", settings.active_recording
+        group = _group(layout, context, "Look somewhere from the playhead on")
+        draw_look(aligned(group), settings.look)
+        group.operator("fragmotion.look_recording", icon="HIDE_OFF")
         group = _group(layout, context, "Be at a place at the playhead: the 3D cursor, or an object")
         column = aligned(group)
         column.prop(settings, "pin_at", text="Object")

@@ -12,6 +12,7 @@ from ..character.building import check_skeleton, load, make_player
 from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..ground.meshes import find_ground, remarks_of
+from ..recordings.looks import AS_CAPTURED, LookChange, aim_of
 from ..recordings.recordings import POSE_RATE, Recording, add_recording
 from ..rig.motion import Motion
 from ..rig.rigs import make_rig
@@ -71,7 +72,9 @@ def follow(
         walk = core.follow_path(player, path, start, rate=POSE_RATE, **options)
         player.stand_on(ground)
         player.reset(*start)
-        performance = player.run(walk.trace, POSE_RATE)
+        aim = aim_of(obj.fragmotion.look)
+        looks = [] if aim.look == AS_CAPTURED else [LookChange(0, *aim)]
+        performance = player.run(walk.trace, POSE_RATE, looks=looks or None)
     motion = Motion(performance.root_positions, performance.rotations, performance.path, performance.classes)
     recording = add_recording(
         obj,
@@ -82,6 +85,7 @@ def follow(
         start=start,
         quality=performance.quality,
         shown=(np.arange(len(motion.path)) / POSE_RATE, motion),
+        looks=looks,
     )
     return (
         recording,

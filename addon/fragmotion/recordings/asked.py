@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a recording asks for beside its trace: moves, and styles."""
+"""What a recording asks for beside its trace: moves, styles, and where to look."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from ..errors import UserError
+from .looks import LookChange, look_before, looks_from
 from .styles import StyleChange
 
 
@@ -19,11 +20,12 @@ class StartedMove(NamedTuple):
 
 
 class Asked(NamedTuple):
-    """What a recording asks for beside its trace: moves, the style in which it begins, and changes of it."""
+    """What a recording asks for beside its trace: moves, the style in which it begins, changes of it, and looks."""
 
     moves: Sequence[StartedMove] = ()
     style: str = ""
     styles: Sequence[StyleChange] = ()
+    looks: Sequence[LookChange] = ()
 
 
 def number_moves(
@@ -46,4 +48,6 @@ def joined_asked(first: Asked, length: int, second: Asked) -> Asked:
     former = (first.styles[-1].name if first.styles else first.style) or ""
     begins = [StyleChange(length, second.style)] if second.style and second.style != former else []
     changes = [change._replace(control=change.control + length) for change in second.styles]
-    return Asked([*first.moves, *later], first.style, [*first.styles, *begins, *changes])
+    looks = looks_from(first.looks, length, look_before(second.looks, 1))
+    looks += [look._replace(control=look.control + length) for look in second.looks if look.control > 0]
+    return Asked([*first.moves, *later], first.style, [*first.styles, *begins, *changes], looks)

@@ -18,6 +18,7 @@ from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty, IntPrope
 from ..errors import UserError
 from ..rig.motion import Motion
 from .asked import Asked, StartedMove, number_moves
+from .looks import LookChange, looks_between, read_looks
 from .rows import read_rows, write_rows
 from .styles import StyleChange, Styled, numbered, read_changes, set_styles, trimmed
 
@@ -44,7 +45,7 @@ _CHECKSUM = 4  # bytes at the end of what zlib compressed, which tell all that i
 _FARTHEST = 1e9  # m, and rad: where the core's player still stands
 _FIELDS = (
     *("name", "date", "seconds", "quality", "policy", "seed", "start", "train"),
-    *("controls", "moves", "style", "styles", "shown", "shown_bones"),
+    *("controls", "moves", "style", "styles", "looks", "shown", "shown_bones"),
 )
 
 _BESIDE_BONES = 1 + 3 + 3 + 1  # columns of what was shown: time, root position, character frame, class
@@ -106,6 +107,8 @@ class Recording(bpy.types.PropertyGroup):
     )
     styles: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
     """JSON of the styles to which it changes: [control, name] each; empty: none."""
+    looks: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    """JSON of where it is asked to look: [control, look, x, y, z] each; empty: as captured."""
     shown: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     shown_bones: IntProperty(min=0, options={"HIDDEN"})  # type: ignore[valid-type]
 
@@ -123,14 +126,15 @@ def add_recording(
     moves: Sequence[StartedMove] = (),
     style: str = "",
     styles: Sequence[StyleChange] = (),
+    looks: Sequence[LookChange] = (),
 ) -> Recording:
     """Keep a trace [T,4] (10 controls a second, in the character frame) with the armature, and select it in the list.
 
     The name (default "Recording") gets a number where another one has it. `start` is the character frame, as
     Player.frame: x, y in metres and the heading in radians. `shown` are the poses that the user saw, where there
     were any, and their times [F] in seconds from the first control on. `moves` are those that were started; `style` is
-    the one in which it begins, `styles` are those to which it changes. UserError on what is no trace; the file is
-    changed only afterwards.
+    the one in which it begins, `styles` are those to which it changes, `looks` where it is asked to look. UserError on
+    what is no trace; the file is changed only afterwards.
     """
     data = _packed(trace)
     settings = obj.fragmotion
@@ -140,8 +144,7 @@ def add_recording(
     recording.start, recording.quality = start, quality
     recording.date = datetime.now().strftime("%Y-%m-%d %H:%M")
     _store(recording, data, len(trace))
-    _set_moves(recording, moves)
-    set_styles(recording, style, styles)
+    set_asked(recording, Asked(moves, style, styles, looks))
     if shown is not None:
         set_shown(recording, *shown)
     settings.active_recording = len(settings.recordings) - 1
@@ -186,9 +189,17 @@ def numbered_styles(recording: Recording, names: Sequence[str]) -> Styled:
     return numbered(recording.style, styles_of(recording), names)
 
 
+def looks_of(recording: Recording) -> list[LookChange]:
+    """Where it is asked to look, in order; UserError where the .blend is damaged."""
+    looks = read_looks(recording.looks, len(trace_of(recording)))
+    if looks is None:
+        raise _damaged(recording)
+    return looks
+
+
 def asked_of(recording: Recording) -> Asked:
     """What it asks for beside its trace; UserError where the .blend is damaged."""
-    return Asked(moves_of(recording), recording.style, styles_of(recording))
+    return Asked(moves_of(recording), recording.style, styles_of(recording), looks_of(recording))
 
 
 def asked_between(recording: Recording, first: int, last: int) -> Asked:
@@ -197,13 +208,15 @@ def asked_between(recording: Recording, first: int, last: int) -> Asked:
     moves = [
         move._replace(control=move.control - first) for move in moves_of(recording) if first <= move.control < last
     ]
-    return Asked(moves, *trimmed(recording.style, styles_of(recording), first, last))
+    looks = looks_between(looks_of(recording), first, last)
+    return Asked(moves, *trimmed(recording.style, styles_of(recording), first, last), looks)
 
 
 def set_asked(recording: Recording, asked: Asked) -> None:
     """Replace what the recording asks for beside its trace."""
     _set_moves(recording, asked.moves)
     set_styles(recording, asked.style, asked.styles)
+    recording.looks = write_rows(asked.looks)
 
 
 def shown_of(recording: Recording) -> tuple[Doubles, Motion] | None:
@@ -241,7 +254,15 @@ def digest_of(recording: Recording) -> str:
     """By which a recording is known that was changed; quick enough for drawing."""
     number = zlib.crc32(recording.controls)
     number = zlib.crc32(recording.shown[-_CHECKSUM:], number)
-    told = (recording.moves, recording.style, recording.styles, recording.policy, recording.seed, *recording.start)
+    told = (
+        recording.moves,
+        recording.style,
+        recording.styles,
+        recording.looks,
+        recording.policy,
+        recording.seed,
+        *recording.start,
+    )
     return f"{zlib.crc32(repr(told).encode(), number):08x}"
 
 

@@ -28,8 +28,10 @@ from ..rig.hanging import HangingBone
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import TraceFields, factor_field, length_field, player_field, policy_field, seed_field
+from .look_fields import LookSettings
 from .path_fields import PathSettings
 from .pin_fields import PinFields
+from .story_fields import BeatSettings
 
 _RELATIVE = (
     (
@@ -291,8 +293,11 @@ class CharacterSettings(bpy.types.PropertyGroup):
         type=bpy.types.Object,
     )
     path: PointerProperty(type=PathSettings)  # type: ignore[valid-type]
+    story: CollectionProperty(type=BeatSettings)  # type: ignore[valid-type]
+    active_beat: IntProperty(name="Entry", description="The entry that is selected in the storyboard")  # type: ignore[valid-type]
     feel: PointerProperty(type=FeelSettings)  # type: ignore[valid-type]
     ground: PointerProperty(type=GroundSettings)  # type: ignore[valid-type]
+    look: PointerProperty(type=LookSettings)  # type: ignore[valid-type]
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]
     tried: CollectionProperty(type=NumberTried)  # type: ignore[valid-type]

@@ -18,6 +18,7 @@ from .armature import BuildFigures, DriveSettings
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import POLICY_NAMES
+from .look_fields import LookSettings
 
 # pixels of a sidebar at the scale 1: what no text can use, an icon with the room around it, and a letter on average
 _FRAME, _ICON, _LETTER = 30, 30, 6.3
@@ -80,6 +81,8 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.O
         layout.prop(settings, "place")
     if source != "RECORDING" and obj.fragmotion.figures.styles:
         layout.prop(settings, "style")
+    if source != "RECORDING":
+        draw_look(layout, obj.fragmotion.look)
     layout.prop(settings, "target")
 
 
@@ -175,6 +178,13 @@ def draw_figures(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
     for policy in figures.policies:
         _draw_row(box, POLICY_NAMES.get(policy.name, policy.name), f"{policy.quality:.1f} %")
     _draw_row(box, "Measured on", figures.examiner.title())
+
+
+def draw_look(layout: bpy.types.UILayout, settings: LookSettings) -> None:
+    """The fields of LookSettings."""
+    layout.prop(settings, "kind")
+    if settings.kind == "OBJECT":
+        layout.prop(settings, "object")
 
 
 def draw_shown_style(layout: bpy.types.UILayout, figures: BuildFigures) -> None:

@@ -41,7 +41,9 @@ from .armature import (
     PopulateSettings,
     StyleFigure,
 )
+from .look_fields import LookSettings
 from .path_fields import PathSettings
+from .story_fields import BeatSettings
 
 _ORDERS = (
     ("NAME", "Name", "By name", "SORTALPHA", 0),
@@ -109,6 +111,8 @@ CLASSES = (
     PathSettings,
     FeelSettings,
     GroundSettings,
+    LookSettings,
+    BeatSettings,
     PinSettings,
     PolicyFigure,
     CoverageFigure,

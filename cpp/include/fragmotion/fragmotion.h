@@ -390,6 +390,18 @@ FRAGMOTION_EXPORT FragmotionResult fragmotion_player_release_move(FragmotionPlay
 FRAGMOTION_EXPORT FragmotionResult fragmotion_player_change_style(FragmotionPlayer* player,
                                                                   int32_t style) FRAGMOTION_NOEXCEPT;
 
+/* Where head and chest look, over whatever it plays: as far and as fast as in its takes. */
+typedef int32_t FragmotionLook;
+enum {
+  FRAGMOTION_LOOK_AS_CAPTURED = 0, /* as its takes have it */
+  FRAGMOTION_LOOK_AHEAD = 1,       /* where it goes */
+  FRAGMOTION_LOOK_AT = 2           /* at a place; for what moves, told before each step */
+};
+
+/* Looks there from now on, until a reset. `place`: in the world; counts for FRAGMOTION_LOOK_AT, else it may be null. */
+FRAGMOTION_EXPORT FragmotionResult fragmotion_player_look(FragmotionPlayer* player, FragmotionLook look,
+                                                          const float place[3]) FRAGMOTION_NOEXCEPT;
+
 /* Plays a class of its style's motion next, whatever is asked for. */
 FRAGMOTION_EXPORT FragmotionResult fragmotion_player_force_class(FragmotionPlayer* player,
                                                                  int32_t index) FRAGMOTION_NOEXCEPT;

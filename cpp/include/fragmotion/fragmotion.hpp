@@ -188,6 +188,10 @@ class PlayerRef {
   bool change_style(std::int32_t style) noexcept {
     return fragmotion_player_change_style(player_, style) == FRAGMOTION_OK;
   }
+  bool look_at(const float* place) noexcept {
+    return fragmotion_player_look(player_, FRAGMOTION_LOOK_AT, place) == FRAGMOTION_OK;
+  }
+  bool look(FragmotionLook look) noexcept { return fragmotion_player_look(player_, look, nullptr) == FRAGMOTION_OK; }
   bool force_class(std::int32_t index) noexcept {
     return fragmotion_player_force_class(player_, index) == FRAGMOTION_OK;
   }

@@ -182,6 +182,11 @@ TEST(ApiErrors, SayWhichArgumentIsWrong) {
     expect_fails(press(nullptr, 0), wrong, "null");
     for (const int index : {-1, 4000}) expect_fails(press(player, index), wrong, "does not exist");
   }
+  expect_fails(fragmotion_player_look(nullptr, FRAGMOTION_LOOK_AHEAD, nullptr), wrong, "null");
+  expect_fails(fragmotion_player_look(player, FRAGMOTION_LOOK_AT, nullptr), wrong, "null");
+  expect_fails(fragmotion_player_look(player, FRAGMOTION_LOOK_AT, nowhere.position), wrong, "not a number");
+  expect_fails(fragmotion_player_look(player, FRAGMOTION_LOOK_AT, far.position), wrong, "farther");
+  for (const int look : {-1, 3}) expect_fails(fragmotion_player_look(player, look, far.position), wrong, "no look");
   expect_fails(fragmotion_player_state(nullptr, &state), wrong, "null");
   expect_fails(fragmotion_player_state(player, nullptr), wrong, "null");
   std::int32_t count = 0;

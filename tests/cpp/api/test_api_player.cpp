@@ -4,6 +4,8 @@
 #include "allocations.hpp"
 #include "api_players.hpp"
 #include "direct/steering.hpp"
+#include "fragments/gaze_range.hpp"
+#include "looking.hpp"
 #include "runtime/player.hpp"
 
 namespace fragmotion {
@@ -365,6 +367,29 @@ TEST(ApiPlayer, FarAwayIsPlayedAtFewerSteps) {
   }
   EXPECT_NEAR(moved, 60, 3);
   EXPECT_GT(before, 2.5);
+}
+
+// In the engine's axes and unit, also of one that something has put elsewhere meanwhile.
+TEST(ApiPlayer, LooksAtAPlaceOfTheWorld) {
+  const auto character = loaded(*looking_character(), FRAGMOTION_AXES_GLTF, 100);
+  const auto player = playing(*character);
+  const int head = looking_character()->pool.skeleton.roles.head, bones = bones_of(*character);
+  const FragmotionInput stands = fragmotion_input();
+  const FragmotionPlace there{{500, 0, -700}, 0.4F};
+  const float place[] = {450, 150, -1000};
+  expect_ok(fragmotion_player_look(player.get(), FRAGMOTION_LOOK_AT, place));
+  for (int frame = 0; frame < 240; ++frame) {
+    if (frame == 60) expect_ok(fragmotion_player_move_to(player.get(), &there));
+    expect_ok(fragmotion_player_step(player.get(), &stands, kGameFrame));
+  }
+  const FragmotionTransform seen = pose_of(player.get(), FRAGMOTION_SPACE_WORLD, bones)[head];
+  const Eigen::Quaternionf rotation(seen.rotation[3], seen.rotation[0], seen.rotation[1], seen.rotation[2]);
+  FragmotionBone bone = fragmotion_bone();
+  expect_ok(fragmotion_character_bone(character.get(), head, &bone));
+  const Eigen::Vector3f looks = rotation * gaze_range({&looking_character()->pool}).forward.cast<float>(),
+                        eyes = Eigen::Vector3f::Map(seen.position) +
+                               rotation * (looking_character()->pool.skeleton.tips[head] * 50).cast<float>();
+  EXPECT_GT(looks.dot((Eigen::Vector3f::Map(place) - eyes).normalized()), 0.9999F);
 }
 
 }  // namespace

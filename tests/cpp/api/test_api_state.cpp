@@ -12,6 +12,10 @@ constexpr std::size_t kStateHead = 16, kStateTail = 8;
 void go_wildly(FragmotionPlayer* player, int begin, int end) {
   for (int frame = begin; frame < end; ++frame) {
     press_wildly(player, frame);
+    if (frame % 61 == 0) {
+      const float place[] = {static_cast<float>(frame % 7), 2, 1};
+      expect_ok(fragmotion_player_look(player, frame / 61 % 3, place));
+    }
     FragmotionInput input = wild_input(frame);
     if (frame / 50 % 4 == 3) {
       input.steer = FRAGMOTION_STEER_CAMERA;

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ...input.steering import Control
 from ...recordings.asked import Asked
+from ...recordings.looks import Aim, LookChange, look_before, looks_between
 from ...recordings.recordings import TRACE_RATE
 from ...recordings.styles import AS_EVER, StyleChange, Styled
 from .recorder import Taken
@@ -108,6 +109,11 @@ class Punch:
         return style_before(self.own.styled, self._now + 1)
 
     @property
+    def aim(self) -> Aim:
+        """Where the recording looks in the next step, whoever drives."""
+        return look_before(self.own.asked.looks, self._now + 1)
+
+    @property
     def begun(self) -> bool:
         """Whether anything was taken."""
         return bool(len(self.taken.trace))
@@ -122,7 +128,7 @@ class Punch:
     @property
     def asked(self) -> Asked:
         """What the recording asks for beside it, with what was taken so far."""
-        first, end, (moves, begin, styles) = self.first, self._end, self.own.asked
+        first, end, (moves, begin, styles, looks) = self.first, self._end, self.own.asked
         taken = [move._replace(control=move.control + first) for move in self.taken.moves]
         changes = [change._replace(control=change.control + first) for change in self.taken.styles]
         return Asked(
@@ -134,18 +140,20 @@ class Punch:
                 *self._back(),
                 *(c for c in styles if c.control > end),
             ],
+            looks,
         )
 
     @property
-    def rest(self) -> tuple[Doubles, list[Sequence[int]], list[Sequence[int]]]:
-        """The controls [N,4] that are still to be played, one at least, and the moves and styles in them; moves that
-        are held since before begin there at a negative one."""
+    def rest(self) -> tuple[Doubles, list[Sequence[int]], list[Sequence[int]], list[LookChange]]:
+        """The controls [N,4] that are still to be played, one at least, and the moves, styles and looks in them; moves
+        that are held since before begin there at a negative one."""
         now = self._now
         moves: list[Sequence[int]] = [[control - now, move, held] for control, move, held in self._own_moves(now)]
         later: list[Sequence[int]] = [
             [control - now, style] for control, style in self.own.styled.changes if control > now
         ]
-        return self.own.trace[min(now, len(self.own.trace) - 1) :], moves, [[0, self.style], *later]
+        looks = looks_between(self.own.asked.looks, now, len(self.own.trace))
+        return self.own.trace[min(now, len(self.own.trace) - 1) :], moves, [[0, self.style], *later], looks
 
     @property
     def _now(self) -> int:

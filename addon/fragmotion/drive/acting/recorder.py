@@ -11,6 +11,7 @@ import numpy as np
 from ...character.moves import names_of
 from ...input.steering import Control
 from ...recordings.asked import StartedMove
+from ...recordings.looks import Aim, LookChange
 from ...recordings.recordings import TRACE_RATE
 from ...recordings.styles import StyleChange
 from ...rig.motion import Motion
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class Taken:
-    """What the user does, as a trace that grows, with moves and styles beside it.
+    """What the user does, as a trace that grows, with moves, styles and looks beside it.
 
     Each control is held until the next one is due, so that the player is told just what the trace says. A jump that is
     pressed and let go meanwhile goes into the next control.
@@ -41,6 +42,9 @@ class Taken:
         self.style_now = style
         self.styles: list[StyleChange] = []
         """Those to which it changed."""
+        self._aim = Aim()
+        self.looks: list[LookChange] = []
+        """Where it looked."""
 
     def hear(self, jump: bool, held: set[int]) -> None:
         """What is pressed before its first control goes into that, also where it is let go meanwhile."""
@@ -81,6 +85,13 @@ class Taken:
             self.style_now = wanted
             self.styles.append(StyleChange(len(self._controls) - 1, self.style_names[wanted]))
         return self.style_now
+
+    def hold_look(self, wanted: Aim) -> Aim:
+        """Where to look in the next step, whose control `hold` has told: it changes with the controls."""
+        if self._begins and not self._aim.is_like(wanted):
+            self._aim = wanted
+            self.looks.append(LookChange(len(self._controls) - 1, *wanted))
+        return self._aim
 
     @property
     def seconds(self) -> float:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from . import edit_recordings, recordings
+from . import edit_recordings, recordings, storyboard
 from .bake import FRAGMOTION_OT_bake
 from .change_style import FRAGMOTION_OT_change_style
 from .draw_path import FRAGMOTION_OT_draw_path
@@ -32,4 +32,5 @@ CLASSES = (
     FRAGMOTION_OT_follow_path,
     FRAGMOTION_OT_populate,
     *recordings.CLASSES,
+    *storyboard.CLASSES,
 )

@@ -15,7 +15,8 @@ from ...edits.replaying import play_again
 from ...errors import UserError, reported
 from ...jobs import Job
 from ...recordings.curves import curves_of, read_curves, show_curves
-from ...recordings.recordings import TRACE_RATE, active_recording
+from ...recordings.looks import aim_of, looks_from
+from ...recordings.recordings import TRACE_RATE, active_recording, asked_of, trace_of
 from ...settings.drawing import aligned
 from ...settings.pin_fields import PinFields
 from ..base.background import Background, poll_idle
@@ -187,6 +188,34 @@ class FRAGMOTION_OT_glue_recording(OnRecording, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class FRAGMOTION_OT_look_recording(OnRecording, bpy.types.Operator):
+    """Let the character look where the panel says, from the playhead on until the next look of the recording"""
+
+    bl_idname = "fragmotion.look_recording"
+    bl_label = "Look From Here"
+    bl_description = (
+        "From the playhead on head and chest look as Look At says, until the recording looks elsewhere. The way that "
+        "the character goes does not change. An object is looked at where it is now"
+    )
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        obj, recording = active_armature(context), selected(context)
+        now, trace = playhead(context, recording), trace_of(recording)
+        control = round(now * TRACE_RATE)
+        if not 0 <= control < len(trace):
+            raise UserError(
+                f"The playhead is {now:.1f} s after the beginning of recording '{recording.name}', which lasts "
+                f"{recording.seconds:.1f} s: move it onto the recording"
+            )
+        asked = asked_of(recording)
+        later = [look for look in asked.looks if look.control > control]
+        looks = [*looks_from(asked.looks, control, aim_of(obj.fragmotion.look)), *later]
+        play_again(obj, recording, trace, control, asked._replace(looks=looks))
+        self.report({"INFO"}, f"'{recording.name}' looks there from {control / TRACE_RATE:.1f} s on")
+        return {"FINISHED"}
+
+
 class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.Operator):
     """Bend the recording before the playhead, so that the character is at a place at that frame."""
 
@@ -249,5 +278,6 @@ CLASSES = (
     FRAGMOTION_OT_play_again,
     FRAGMOTION_OT_cut_recording,
     FRAGMOTION_OT_glue_recording,
+    FRAGMOTION_OT_look_recording,
     FRAGMOTION_OT_pin_recording,
 )

@@ -128,11 +128,16 @@ class Hindsight {
   std::vector<double> value_;            // [frames + 1, classes] of what follows a class that ends at a frame
 };
 
-// Starts and releases moves, and changes styles, as a trace is played.
+// Starts and releases moves, and changes styles and looks, as a trace is played.
 class Pressing {
  public:
   Pressing(const Player& player, const std::vector<MovePress>& presses, const std::vector<StyleChange>& styles,
-           std::size_t controls) {
+           const std::vector<LookChange>& looks, std::size_t controls)
+      : looks_(looks) {
+    for (const LookChange& look : looks) {
+      check(look.control, controls, "a look");
+      events_.push_back({look.control, static_cast<int>(&look - looks.data()), Event::look});
+    }
     for (const StyleChange& change : styles) {
       check(change, player.character().style_count(), controls);
       events_.push_back({change.control, change.style, Event::change_style});
@@ -150,6 +155,7 @@ class Pressing {
   void until(std::size_t control, Player& player) {
     for (; next_ < events_.size() && events_[next_].control <= static_cast<long long>(control); ++next_) {
       const auto& [at, number, kind] = events_[next_];
+      if (kind == Event::look) player.look(looks_[number].look, looks_[number].place);
       if (kind == Event::change_style) player.change_style(number);
       if (kind == Event::start) player.start_move(number);
       if (kind == Event::release) player.release_move(number);
@@ -158,7 +164,7 @@ class Pressing {
 
  private:
   struct Event {
-    enum Kind { change_style, start, release };
+    enum Kind { look, change_style, start, release };
     long long control;
     int number;
     Kind kind;
@@ -169,10 +175,13 @@ class Pressing {
       throw std::invalid_argument("style " + std::to_string(change.style) + " does not exist; the character has " +
                                   std::to_string(styles));
     }
-    if (change.control < 0 || change.control >= static_cast<long long>(controls)) {
-      throw std::invalid_argument("a style is asked for before control " + std::to_string(change.control) +
-                                  " of a trace of " + std::to_string(controls));
-    }
+    check(change.control, controls, "a style");
+  }
+
+  static void check(int control, std::size_t controls, const std::string& what) {
+    if (control >= 0 && control < static_cast<long long>(controls)) return;
+    throw std::invalid_argument(what + " is asked for before control " + std::to_string(control) + " of a trace of " +
+                                std::to_string(controls));
   }
 
   static void check(const MovePress& press, std::size_t moves, std::size_t controls) {
@@ -187,6 +196,7 @@ class Pressing {
     }
   }
 
+  const std::vector<LookChange>& looks_;
   std::vector<Event> events_;
   std::size_t next_ = 0;
 };
@@ -206,9 +216,10 @@ void check_shown(const Character& character, const Trace& trace, const Clip& cli
 }  // namespace
 
 Performance perform(Player& player, const Trace& trace, double rate, const Progress& progress,
-                    const std::vector<MovePress>& moves, const std::vector<StyleChange>& styles) {
+                    const std::vector<MovePress>& moves, const std::vector<StyleChange>& styles,
+                    const std::vector<LookChange>& looks) {
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
-  Pressing pressing(player, moves, styles, trace.size());
+  Pressing pressing(player, moves, styles, looks, trace.size());
   const int entered = player.entered();
   Performance p;
   p.rate = rate;

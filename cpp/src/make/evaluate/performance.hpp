@@ -44,14 +44,22 @@ struct StyleChange {
   int style = 0;
 };
 
+/// Where it was asked to look while a trace was played, as Player::look.
+struct LookChange {
+  int control = 0;  ///< Before which of the trace's controls.
+  Look look = Look::as_captured;
+  Vector3 place = Vector3::Zero();
+};
+
 /// By how much a body of 1.8 m changes its velocity, m/s^2.
 constexpr double kBodyAcceleration = 5;
 
 /// Steps a player through a trace from now: frames 0 .. round(duration * rate), each control for 1/kTraceRate s. Throws
 /// std::invalid_argument on an empty trace and a rate that is not over 0 and at most 1000, and on a move that does not
-/// exist, is asked for after the trace or held for less than no time; likewise on styles.
+/// exist, is asked for after the trace or held for less than no time; likewise on styles and looks.
 Performance perform(Player& player, const Trace& trace, double rate, const Progress& progress = {},
-                    const std::vector<MovePress>& moves = {}, const std::vector<StyleChange>& styles = {});
+                    const std::vector<MovePress>& moves = {}, const std::vector<StyleChange>& styles = {},
+                    const std::vector<LookChange>& looks = {});
 inline Performance perform(Player&& player, const Trace& trace, double rate, const Progress& progress = {},
                            const std::vector<MovePress>& moves = {}, const std::vector<StyleChange>& styles = {}) {
   return perform(player, trace, rate, progress, moves, styles);

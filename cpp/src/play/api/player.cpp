@@ -110,10 +110,12 @@ void FragmotionPlayer::reset(const FragmotionPlace* place, int style) {
 void FragmotionPlayer::move_to(const FragmotionPlace& place) {
   const Vector3 to = hero->axes.place(place.position);
   const CharacterFrame inside = shown().frame;
+  const Vector3 looked_at = shift.place(player.gaze().place());
   shift.none = false;
   shift.heading = std::remainder(hero->axes.yaw(static_cast<double>(place.heading)) - inside.heading, 2 * kPi);
   shift.offset = to.head<2>() - turn_by(shift.heading) * inside.position;
   shift.lift = to.z() - shown().level;
+  player.look(player.gaze().looks(), shift.place_inside(looked_at));
   if (route) route->follower.moved(frame());
 }
 

@@ -196,6 +196,20 @@ FragmotionResult fragmotion_player_change_style(FragmotionPlayer* player, std::i
   });
 }
 
+FragmotionResult fragmotion_player_look(FragmotionPlayer* player, FragmotionLook look, const float place[3]) noexcept {
+  return call("fragmotion_player_look", [&] {
+    FragmotionPlayer& p = alive(player);
+    demand(look >= FRAGMOTION_LOOK_AS_CAPTURED && look <= FRAGMOTION_LOOK_AT, FRAGMOTION_ERROR_ARGUMENT,
+           "there is no look %d", static_cast<int>(look));
+    if (look != FRAGMOTION_LOOK_AT) return p.player.look(static_cast<Look>(look));
+    demand_given(place, "the place to look at");
+    const Vector3 there = p.hero->axes.place(place);
+    demand(there.cwiseAbs().maxCoeff() <= kFarthestGame, FRAGMOTION_ERROR_ARGUMENT,
+           "the place to look at holds what is not a number, or is farther away than a million km");
+    p.player.look(Look::at, p.shift.place_inside(there));
+  });
+}
+
 FragmotionResult fragmotion_player_force_class(FragmotionPlayer* player, std::int32_t index) noexcept {
   return call("fragmotion_player_force_class", [&] {
     FragmotionPlayer& p = alive(player);

@@ -71,6 +71,8 @@ struct PlayerState {
   template <typename Archive>
   static void exchange(Archive& a, PoseCorrection& correction);
   template <typename Archive>
+  static void exchange(Archive& a, Gaze& gaze);
+  template <typename Archive>
   static void exchange(Archive& a, Moment& moment);
   template <typename Archive>
   static int exchange(Archive& a, MoveTrack& track, bool upper_body);

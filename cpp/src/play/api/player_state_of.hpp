@@ -152,6 +152,18 @@ void PlayerState::exchange(Archive& a, PoseCorrection& correction) {
 }
 
 template <typename Archive>
+void PlayerState::exchange(Archive& a, Gaze& gaze) {
+  const int look = a.told(static_cast<int>(gaze.look_), 0, static_cast<int>(Look::at));
+  if constexpr (Archive::kKeeps) gaze.look_ = static_cast<Look>(look);
+  vector(a, gaze.place_, kMostPlace);
+  for (bool* flag : {&gaze.turned_, &gaze.wants_, &gaze.begins_}) a.number(*flag, 0, 1);
+  vector(a, gaze.wanted_, 2 * kPi);
+  vector(a, gaze.shown_, kMostPlace);
+  for (Approach& offset : gaze.offset_) approach(a, offset);
+  a.number(gaze.due_, 0, kMostTime);
+}
+
+template <typename Archive>
 void PlayerState::exchange(Archive& a, Moment& moment) {
   a.number(moment.begins_in_, 0, kMostTime);
   a.number(moment.patience_, 0, kLongestWait);
@@ -246,6 +258,7 @@ void PlayerState::exchange(Archive& a, Player& player) {
   exchange(a, player.playback_, move < 0 ? Numbers{style, 0, fragments - 1} : parts_of(character, move));
   exchange(a, player.governor_);
   exchange(a, player.correction_);
+  exchange(a, player.gaze_);
   a.number(player.entered_, 0, kMostCount);
   a.number(player.fragment_, 0, fragments - 1);
   vector(a, player.root_, kMostPlace);

@@ -39,7 +39,8 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
       director_(*character_, character_->policy(options.policy), options.responsiveness),
       selector_(*workspace_, options.seed),
       playback_(*character_, *workspace_, options.stitching, within_one(options.stitch, "stitching time, in s,")),
-      correction_(*character_, *workspace_, options.lock_feet) {
+      correction_(*character_, *workspace_, options.lock_feet),
+      gaze_(*workspace_) {
   reset();
 }
 
@@ -88,10 +89,11 @@ void Player::reset(const CharacterFrame& frame, int style) {
   director_.reset();
   selector_.reset();
   correction_.reset();
+  gaze_.reset();
   if (follower_ != nullptr) follower_->reset();
   fragment_ = styled_character().classes.representatives[director_.playing_class()];
   playback_.reset(fragment_, frame);
-  correct(0);
+  correct({}, 0);
 }
 
 void Player::force(int next_class) {
@@ -121,12 +123,19 @@ void Player::keep(const Vector2& faster) {
   ++entered_;
 }
 
-void Player::correct(double seconds) {
+void Player::correct(const Control& control, double seconds) {
   correction_.correct(playback_, governor_, seconds);
   if (follower_ != nullptr) {
     follower_->apply(workspace_->shown, look_ahead(playback_, governor_, correction_, *workspace_), seconds);
   }
   root_ = workspace_->shown.root;
+  gaze_.apply(governor_.command(control, frame().heading, seconds), styled_character().space.turn_rate(), seconds);
+}
+
+void Player::look(Look look, const Vector3& place) {
+  for (const double value : place)
+    require_range("a place to look at", value, -10 * kFarthestPlace, 10 * kFarthestPlace);
+  gaze_.look(look, place);
 }
 
 void Player::stand_on(Ground ground) {
@@ -169,7 +178,7 @@ void Player::step(const Control& given, double seconds) {
   if (seconds == 0) playback_.show();
   for (double rest = seconds; rest > kRounding * seconds;) rest -= advance(control, std::min(rest, kFinest));
   if (extras_ != nullptr) extras_->upper_body.lay(workspace_->shown);
-  correct(seconds);
+  correct(control, seconds);
 }
 
 // Plays on for a while, which it returns, and shows it.

@@ -9,6 +9,7 @@
 
 #include "ground/ground.hpp"
 #include "runtime/director.hpp"
+#include "runtime/gaze.hpp"
 #include "runtime/pose_correction.hpp"
 #include "runtime/upper_body.hpp"
 
@@ -41,7 +42,7 @@ constexpr double kStyleWait = 0.8;
 /// The run time (Sec. 3.3, Fig. 3): a RootGovernor asks of the body what it can do and says where it goes, a Director
 /// decides which class comes next and when, a FragmentSelector chooses one of its fragments, Playback stitches that on
 /// to what is shown, and PoseCorrection lets the pose go with the root. Moves play in between (MoveTrack) or over it
-/// (UpperBody).
+/// (UpperBody); a Gaze looks somewhere over all that.
 class Player {
  public:
   /// Throws std::invalid_argument on an option that is out of its range.
@@ -93,6 +94,10 @@ class Player {
   std::array<int, 2> playing_moves() const;
   /// What waits for its moment, or -1, likewise.
   std::array<int, 2> waiting_moves() const;
+  /// Head and chest look there from now on, at a place in the world, m, where that is Look::at (gaze.hpp); after a
+  /// reset as captured. Throws std::invalid_argument unless the place is within 1e10 m.
+  void look(Look look, const Vector3& place = Vector3::Zero());
+  const Gaze& gaze() const { return gaze_; }
   /// Stands and goes from now on on this ground (ground_follower.hpp), or, without one, on level ground at height 0.
   void stand_on(Ground ground);
   /// The height of the ground under it, m, as its hips follow it.
@@ -177,7 +182,7 @@ class Player {
   bool continue_move(const Control& control);
   void resume(const Control& control);
   void enter_best_class(const Control& wanted);
-  void correct(double seconds);
+  void correct(const Control& control, double seconds);
   void forget_markers();
 
   std::shared_ptr<const Character> character_;
@@ -187,6 +192,7 @@ class Player {
   FragmentSelector selector_;
   Playback playback_;
   PoseCorrection correction_;
+  Gaze gaze_;
   std::shared_ptr<Extras> extras_;            // its own; null without moves and styles, and in a rehearsal
   std::shared_ptr<GroundFollower> follower_;  // its own; null without ground
   int entered_ = 0;

@@ -7,6 +7,7 @@
 #include "fragments/hips_velocity.hpp"
 #include "fragments/look.hpp"
 #include "fragments/successors.hpp"
+#include "motion/trunk.hpp"
 
 namespace fragmotion {
 
@@ -21,6 +22,7 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
       tips{BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton)},
       onward(character.entry_poses.size() / character.pool.fragments.size()) {
   std::size_t most = 0;
+  std::vector<const PackedPool*> pools;
   for (int style = 0; style < character.style_count(); ++style) {
     const Character& c = character.in_style(style);
     styles.push_back({&c, c.classes.members(), entry_steps(c), velocity_changes(c.pool), step_seconds(c),
@@ -28,6 +30,15 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
     const std::vector<float> turns = fragmotion::fastest_looks(c.pool);
     for (std::size_t b = 0; b < turns.size(); ++b) fastest_looks[b] = std::max(fastest_looks[b], turns[b]);
     most = std::max(most, c.pool.fragments.size());
+    pools.push_back(&c.pool);
+  }
+  gaze = gaze_range(pools);
+  if (!look.empty()) head_chain = kinematics.chains({look.back()});
+  if (const Trunk trunk(kinematics.skeleton()); trunk.head >= 0) {
+    for (const int b : head_chain) {
+      if (kinematics.skeleton().is_below(b, trunk.base) && !kinematics.skeleton().is_below(b, look.front()))
+        spine.push_back(b);
+    }
   }
   for (Candidates& each : candidates) each.reserve(most);
   shown.rotations.resize(std::size_t{4} * kinematics.bones());

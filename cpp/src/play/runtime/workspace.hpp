@@ -8,6 +8,7 @@
 
 #include "character/character.hpp"
 #include "fragments/body_tips.hpp"
+#include "fragments/gaze_range.hpp"
 #include "motion/foot_lock.hpp"
 #include "runtime/player_constants.hpp"
 #include "runtime/step_sequence.hpp"
@@ -40,6 +41,9 @@ struct Workspace {
   std::vector<FragmentLists> styles;
   std::vector<int> look;             ///< look_bones()
   std::vector<float> fastest_looks;  ///< fastest_looks() of all styles
+  GazeRange gaze;                    ///< gaze_range() likewise
+  std::vector<int> head_chain;       ///< From the hips to the head,
+  std::vector<int> spine;            ///< and what of it is above the legs and below the look's.
   std::vector<float> move_entries;   ///< entry_poses() of the moves' parts
 
   // Of the FragmentSelector's: rows as those of Character::entry_poses.

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Write a storyboard, and record it."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import bpy
+
+from ...edits.storyboard import record
+from ...errors import UserError, reported
+from ..base.background import poll_character
+from ..base.context import active_armature, poll_armature
+
+_APART = 2.0  # s between an entry and the next, at first
+_SIZE = 0.3  # m, of the empty that an entry is at
+
+
+class _OnStory:
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls: Any, context: bpy.types.Context) -> bool:
+        return poll_armature(cls, context)
+
+
+class FRAGMOTION_OT_add_beat(_OnStory, bpy.types.Operator):
+    """Add an entry to the storyboard, at a new empty where the 3D cursor is, two seconds after the one before"""
+
+    bl_idname = "fragmotion.add_beat"
+    bl_label = "Add Entry"
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        settings, render = active_armature(context).fragmotion, context.scene.render
+        former = settings.story[-1].frame if len(settings.story) else settings.bake.frame_start
+        beat = settings.story.add()
+        empty = bpy.data.objects.new(f"Place {len(settings.story)}", None)
+        empty.location = context.scene.cursor.location
+        empty.empty_display_type, empty.empty_display_size = "CIRCLE", _SIZE
+        context.scene.collection.objects.link(empty)
+        beat.name, beat.place = empty.name, empty
+        beat.frame = former + round(_APART * render.fps / render.fps_base)
+        settings.active_beat = len(settings.story) - 1
+        return {"FINISHED"}
+
+
+class FRAGMOTION_OT_remove_beat(_OnStory, bpy.types.Operator):
+    """Remove the selected entry from the storyboard; the object that it is at stays"""
+
+    bl_idname = "fragmotion.remove_beat"
+    bl_label = "Remove Entry"
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        settings = active_armature(context).fragmotion
+        if not 0 <= settings.active_beat < len(settings.story):
+            raise UserError("No entry is selected in the storyboard")
+        settings.story.remove(settings.active_beat)
+        settings.active_beat = max(min(settings.active_beat, len(settings.story) - 1), 0)
+        return {"FINISHED"}
+
+
+class FRAGMOTION_OT_record_story(bpy.types.Operator):
+    """Play the storyboard, and keep that as a recording."""
+
+    bl_idname = "fragmotion.record_story"
+    bl_label = "Record Storyboard"
+    bl_description = (
+        "Play the entries one after another from the armature's origin on, and keep that as the recording "
+        "'Storyboard', in the place of the one before; Update Bake bakes it anew"
+    )
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls: Any, context: bpy.types.Context) -> bool:
+        return poll_character(cls, context)
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        recording, told = record(context, active_armature(context))
+        self.report({"INFO"}, f"Recorded '{recording.name}' ({recording.seconds:.1f} s)")
+        for late in told:
+            self.report({"WARNING"}, late)
+        return {"FINISHED"}
+
+
+CLASSES = (FRAGMOTION_OT_add_beat, FRAGMOTION_OT_remove_beat, FRAGMOTION_OT_record_story)
