@@ -91,6 +91,7 @@ class Page {
     this.scene.follow(this.actor.player.state.position, seconds);
     this.overlay.update(this.actor, this.asked, this.followsPath, now);
     this.buttons.light(this.actor.player.state);
+    this.scene.suit(seconds);
     this.scene.render();
   }
 }

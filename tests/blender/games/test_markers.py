@@ -67,8 +67,9 @@ def test_the_exported_policy_has_the_moves_markers_and_a_player_passes_them(
 
 def test_a_new_marker_makes_the_character_stale(addon: ModuleType, obj: bpy.types.Object) -> None:
     staleness = part(addon, "character.staleness")
-    assert not staleness.is_stale(obj)
+    before = staleness.sources_of(obj)
     mark(part(addon, "mocap.actions").ticked(obj)[0], step=5)
+    assert staleness.sources_of(obj) != before
     assert staleness.is_stale(obj)
 
 
