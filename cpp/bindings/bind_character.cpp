@@ -9,6 +9,7 @@
 #include "character/naming.hpp"
 #include "character/policy_file.hpp"
 #include "control/trace.hpp"
+#include "fragments/coverage.hpp"
 #include "policy/optimal.hpp"
 
 namespace fragmotion::bindings {
@@ -90,10 +91,12 @@ void bind_tables(py::class_<Character, Holder>& character) {
       .def_property_readonly("bridges", viewed<int>(bridges, 1))
       .def_property_readonly("class_names", &class_names)
       .def_property_readonly("unanswered", &unanswered_controls)
-      .def_property_readonly("coverage_counts",
-                             [](const Character& c) { return to_array(c.coverage.counts, {c.space.size()}); })
-      .def_property_readonly("coverage_distances",
-                             [](const Character& c) { return to_array(c.coverage.distances, {c.space.size()}); });
+      .def_property_readonly(
+          "coverage_counts",
+          [](const Character& c) { return to_array(coverage(c.pool.fragments, c.space).counts, {c.space.size()}); })
+      .def_property_readonly("coverage_distances", [](const Character& c) {
+        return to_array(coverage(c.pool.fragments, c.space).distances, {c.space.size()});
+      });
 }
 
 MoveClip new_move(const std::string& name, const Clip& clip, bool upper_body, double wait,

@@ -45,7 +45,7 @@ inline std::string payload_of(const std::string& bytes) { return bytes.substr(20
 /// Where bytes of a tiny file, or of its payload, are spoilt: everywhere but in the control model, of whose
 /// probabilities, all alike, each 101st byte is.
 inline std::vector<std::size_t> spots(std::size_t size) {
-  constexpr std::size_t kModel = sizeof(double) * kPaperPoints * kPaperPoints, kAfter = 1000;
+  constexpr std::size_t kModel = sizeof(float) * kPaperPoints * kPaperPoints, kAfter = 1000;
   std::vector<std::size_t> spots;
   for (std::size_t at = 0; at < size; at += at + kAfter + kModel < size || at + kAfter >= size ? 1 : 101) {
     spots.push_back(at);

@@ -200,7 +200,7 @@ class Forger {
   }
 
   void forge_classes(Character& c) {
-    switch (below(6)) {
+    switch (below(5)) {
       case 0:
         return index(one_of(c.classes.labels), c.classes.count);
       case 1:
@@ -209,8 +209,6 @@ class Forger {
         return index(one_of(c.bridges), c.classes.count);
       case 3:
         return number(one_of(c.quality.smoothness));
-      case 4:
-        return number(one_of(c.quality.match));
       default:
         c.policies.push_back(c.policies[0]);
     }

@@ -43,7 +43,7 @@ void for_each_model(std::string& payload, const Change& change) {
 
 inline std::string core_of(const std::string& file) {
   std::string payload = file.substr(kHeaderBytes, file.size() - kHeaderBytes - kChecksumBytes);
-  for_each_model(payload, [&](std::size_t at) { payload.erase(at, 8 * kProbabilities); });
+  for_each_model(payload, [&](std::size_t at) { payload.erase(at, sizeof(float) * kProbabilities); });
   return payload;
 }
 
@@ -51,7 +51,7 @@ inline std::string core_of(const std::string& file) {
 inline const std::string& plain_model() {
   static const std::string model = [] {
     std::string bytes;
-    for (std::uint64_t i = 0; i < kProbabilities; ++i) bytes += bytes_of(i % (kPaperPoints + 1) == 0 ? 1.0 : 0.0);
+    for (std::uint64_t i = 0; i < kProbabilities; ++i) bytes += bytes_of(i % (kPaperPoints + 1) == 0 ? 1.0F : 0.0F);
     return bytes;
   }();
   return model;

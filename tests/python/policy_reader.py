@@ -90,6 +90,14 @@ class Bytes:
         self.at += values.nbytes
         return values
 
+    def packed(self) -> Array:
+        """A count of 8 bytes, the least number, bits of each, and what they are more than the least."""
+        count, least, bits = self.one("Q"), self.one("i"), self.one("B")
+        size = (count * bits + 7) // 8
+        stream = np.unpackbits(np.frombuffer(self._data, np.uint8, size, self.at), bitorder="little")[: count * bits]
+        self.at += size
+        return least + stream.reshape(count, bits).astype(np.int64) @ (1 << np.arange(bits, dtype=np.int64))
+
     def text(self) -> str:
         size = self.one("I")
         self.at += size
@@ -120,7 +128,7 @@ def read_policy(data: bytes) -> Policy:
     assert data[:8] == b"FRAGMOTN"
     version, size = struct.unpack_from("<IQ", data, 8)
     payload = data[20 : 20 + size]
-    assert version in (3, 4) and len(data) == 20 + size + 8
+    assert version in (3, 4, 5) and len(data) == 20 + size + 8
     assert struct.unpack("<Q", data[-8:]) == (checksum(payload, version),)
     read = Bytes(payload)
     bones = [read.text() for _ in range(read.one("Q"))]
@@ -156,31 +164,53 @@ def read_style(read: Bytes, version: int) -> Style:
     turns: list[Array] = []
     for _ in range(read.one("Q")):
         begin, name, original = read.at, read.text(), read.one("i") if version > 3 else -1
-        clip, turned = read_clip(read, name, grid) if original < 0 else (style.clips[original], turns[original])
+        clip, turned = (
+            read_clip(read, name, grid, version) if original < 0 else (style.clips[original], turns[original])
+        )
         style.clips.append(clip if original < 0 else mirrored(clip, name, turned, grid))
         style.clips[-1].size, style.clips[-1].original = read.at - begin, original
         turns.append(turned)
-    for _ in range(read.one("Q")):
-        clip, begin, end = read.some("i", 3)
-        style.fragments.append((clip, begin, end, read.one("B"), tuple(read.some("d", 4))))
+    if version < 5:
+        for _ in range(read.one("Q")):
+            clip, begin, end = read.some("i", 3)
+            style.fragments.append((clip, begin, end, read.one("B"), tuple(read.some("d", 4))))
     style.speeds = read.some("d", 2)
-    read.some("d", 5)  # turn rate, 1.8 m over the stature, weights of velocity, turn and jump
+    _, scale = read.some("d", 2)  # turn rate; 1.8 m over the stature
+    read.some("d", 3)  # weights of velocity, turn and jump
     directions, turn, jump = 8, 1, 1
     if read.section("controls"):
         style.speeds = list(read.numbers("f8"))
         directions, turn, jump = read.some("B", 3)
     style.controls = (1 + len(style.speeds) * directions) * (3 if turn else 1) * (2 if jump else 1)
+    if version > 4:
+        style.fragments = read_fragments(read, np.array([1e-3 / scale, 1e-3 / scale, 1e-3, 1e-3]))
+    integers = read.packed if version > 4 else lambda: read.numbers("i4")
     read.one("i")  # classes
-    style.labels, style.representatives = read.numbers("i4"), read.numbers("i4")
-    read.one("d"), read.one("i"), read.numbers("f8"), read.numbers("f8")  # inertia; quality: smoothness and match
+    style.labels, style.representatives = integers(), integers()
+    read.one("d"), read.one("i")  # inertia; quality: classes,
+    if version > 4:
+        read.numbers("f4"), integers()  # distances, classes left out
+    else:
+        read.numbers("f8"), read.numbers("f8")  # smoothness and match
     for _ in range(read.one("Q")):
-        name, classes, table = read.text(), read.one("i"), read.numbers("i4")
+        name, classes, table = read.text(), read.one("i"), integers()
         style.tables[name] = table.reshape(classes, style.controls)
-    read.numbers("i4"), read.numbers("f8")  # bridges; how controls follow each other
+    integers(), read.numbers("f4" if version > 4 else "f8")  # bridges; how controls follow each other
     for _ in range(read.one("Q")):  # contacts of each clip
-        read.numbers("u1"), read.some("d", 4)
+        read.packed() if version > 4 else read.numbers("u1")
+        read.some("d", 4)
     read.some("d", 6)  # what the knees bend about
     return style
+
+
+def read_fragments(read: Bytes, steps: Array) -> list[tuple[int, int, int, int, tuple[float, ...]]]:
+    """Read clips, first frames, last frames, origins, and what each is evident of in steps."""
+    count = read.one("Q")
+    clips, begins, ends, origins, *evident = (read.packed() for _ in range(8))
+    assert all(len(column) == count for column in (clips, begins, ends, origins, *evident))
+    controls = (np.stack(evident, -1) * steps).tolist()
+    rows = zip(clips.tolist(), begins.tolist(), ends.tolist(), origins.tolist(), map(tuple, controls))
+    return list(rows)
 
 
 def read_grid(read: Bytes, version: int) -> Grid:
@@ -196,11 +226,12 @@ def read_grid(read: Bytes, version: int) -> Grid:
     return grid
 
 
-def read_clip(read: Bytes, name: str, grid: Grid) -> tuple[Clip, Array]:
+def read_clip(read: Bytes, name: str, grid: Grid, version: int) -> tuple[Clip, Array]:
     """Read a clip, and unpack its poses; also the turns from the usual rotations."""
     rate, frames = read.one("d"), read.one("i")
     origin, step = np.array(read.some("d", 4)), np.array(read.some("d", 4))
-    least, bits, packed = read.numbers("i4"), read.numbers("u1"), read.numbers("u1")
+    least = read.packed() if version > 4 else read.numbers("i4")
+    bits, packed = read.numbers("u1"), read.numbers("u1")
     width = (len(packed) - 4) // frames
     stream = np.unpackbits(packed[: width * frames].reshape(frames, width), axis=1, bitorder="little")
     ends = np.cumsum(bits.astype(int))

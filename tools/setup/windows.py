@@ -68,6 +68,7 @@ def loader() -> str:
 def environment(name: str) -> dict[str, str]:
     """Environment variables that give a stage a Windows of its own in build/windows, whose server ends with it, and
     keep Wine quiet."""
+    _FOLDER.mkdir(parents=True, exist_ok=True)
     return {
         "WINEPREFIX": str(_FOLDER / f"prefix-{name}"),
         "WINEDEBUG": "-all",

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -49,7 +49,7 @@ class Built(NamedTuple):
     character: Character
     qualities: list[dict[str, float]]  # of each style: percent of Optimal; the first is of the policy that drives
     examiner: str
-    abilities: str = ""  # what it can do, in its first style
+    done: list[list[bool]]  # of each style: whether each control is done as it is asked for
     sources: str = ""  # what it was built from, as staleness.sources_of tells it; empty where that is unknown
 
 
@@ -114,12 +114,12 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
 def examine(character: Character, teacher: str) -> Built:
     """Measure the character's policies, in each of its styles, on a simulated player who is not the teacher."""
     examiner = next(name for name in _EXAMINERS if name != teacher)
-    qualities = []
+    qualities, done = [], []
     for styled in in_styles(character):
         exam = core.simulate_trace(examiner, _EXAM_SECONDS, _EXAM_SEED, styled.space)
         qualities.append({name: styled.percent_of_optimal(exam, name) for name in styled.policies})
-    first = in_styles(character)[0]
-    return Built(character, qualities, examiner, say_abilities(core.abilities(first), layout_of(first.space)))
+        done.append(core.abilities(styled))
+    return Built(character, qualities, examiner, done)
 
 
 def in_styles(character: Character) -> list[Character]:
@@ -197,23 +197,24 @@ def keep(obj: bpy.types.Object, built: Built) -> None:
         row.name, row.quality = policy, quality
     _keep_styles(figures, built, words)
     figures.examiner, figures.sources = built.examiner, built.sources
-    figures.abilities = built.abilities
-    _keep_coverage(figures, character)
+    figures.abilities = say_abilities(built.done[0], layout_of(character.space))
+    _keep_coverage(figures, character, built.done[0])
 
 
-def coverage_by_style(character: Character) -> dict[str, list[Row]]:
-    """How many controls are performed well in each style; empty where there are no styles."""
-    styles = zip(character.style_names, in_styles(character))
-    return {name: measure_coverage(styled.coverage_distances, layout_of(styled.space)) for name, styled in styles}
+def coverage_by_style(built: Built) -> dict[str, list[Row]]:
+    """How many controls are done in each style; empty where there are no styles."""
+    styles = zip(built.character.style_names, in_styles(built.character), built.done)
+    return {name: measure_coverage(done, layout_of(styled.space)) for name, styled, done in styles}
 
 
 def _keep_styles(figures: Any, built: Built, words: dict[str, tuple[str, bool]]) -> None:
     figures.styles.clear()
-    for name, styled, qualities in zip(built.character.style_names, in_styles(built.character), built.qualities):
+    styles = zip(built.character.style_names, in_styles(built.character), built.qualities, built.done)
+    for name, styled, qualities, done in styles:
         row = figures.styles.add()
         row.name, row.fragments, row.classes = name, len(styled.labels), len(styled.table)
         row.quality = next(iter(qualities.values()))
-        _keep_coverage(row, styled)
+        _keep_coverage(row, styled, done)
         if len(figures.styles) > 1:  # the first style's are the armature's own
             classes.keep_rows(row.rows, styled, words)
 
@@ -242,12 +243,12 @@ def _with_listed_moves(obj: bpy.types.Object, character: Character) -> Character
     return character
 
 
-def _keep_coverage(figures: Any, character: Character) -> None:
+def _keep_coverage(figures: Any, character: Character, done: Sequence[bool]) -> None:
     figures.distances = np.asarray(character.coverage_distances, np.float32).tobytes()
     figures.makes_jumps = makes_its_jumps(character)
     figures.coverage.clear()
     keep_layout(figures, character.space)
-    for name, performed, total in measure_coverage(character.coverage_distances, layout_of(character.space)):
+    for name, performed, total in measure_coverage(done, layout_of(character.space)):
         row = figures.coverage.add()
         row.name, row.performed, row.total = name, performed, total
     figures.performed = sum(sum(row.performed) for row in figures.coverage)

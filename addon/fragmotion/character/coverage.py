@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many of its controls a character performs well, by kinds that people have words for."""
+"""How many of its controls a character does, by kinds that people have words for."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ import numpy as np
 from .control_layout import ControlLayout
 
 if TYPE_CHECKING:
-    from fragmotion_core import Character, Doubles
+    from fragmotion_core import Character
 
 WELL = 0.3
-"""ControlDis within which a fragment performs a control, as in the core's synthesis."""
+"""ControlDis within which a fragment performs a control well, as in the core's synthesis."""
 
 _JUMPS = 0.75  # evident jump of what the core calls one
 
@@ -24,7 +24,7 @@ COLUMNS = ("Go", "Turn", "Jump")
 
 
 class Row(NamedTuple):
-    """Controls of similar velocities: how many are performed well, and how many there are, for each of COLUMNS."""
+    """Controls of similar velocities: how many are done, and how many there are, for each of COLUMNS."""
 
     name: str
     performed: list[int]
@@ -38,13 +38,13 @@ def makes_its_jumps(character: Character) -> bool:
     return bool(jumping.any() and not (jumping & captured).any())
 
 
-def measure_coverage(distances: Doubles, layout: ControlLayout) -> list[Row]:
-    """A table of all controls, from each control's ControlDis to the nearest fragment."""
-    well = (np.asarray(distances) <= WELL).reshape(layout.shape)
+def measure_coverage(done: Sequence[bool], layout: ControlLayout) -> list[Row]:
+    """A table of all controls, from which of them are done, as core.abilities() tells."""
+    table_of_done = np.asarray(done, bool).reshape(layout.shape)
     middle = layout.shape[1] // 2  # of the turns: none
     table = []
     for name, velocities in _rows(layout).items():
-        some = well[velocities]
+        some = table_of_done[velocities]
         cells = [some[:, middle, 0], np.delete(some, middle, 1)[:, :, 0], some[:, :, 1:]]
         table.append(Row(name, [int(cell.sum()) for cell in cells], [cell.size for cell in cells]))
     return table
@@ -73,7 +73,7 @@ def say_unanswered(character: Character) -> str:
 
 
 def lacking(tables: Mapping[str, Sequence[Row]]) -> list[str]:
-    """What to warn of: what none of the controls of a kind is performed well of in a style, and some are in another;
+    """What to warn of: what none of the controls of a kind is done of in a style, and some are in another;
     from each style's table."""
     kinds = {style: _performed(table) for style, table in tables.items()}
     known = dict.fromkeys(kind for performed in kinds.values() for kind in performed)
@@ -88,7 +88,7 @@ def lacking(tables: Mapping[str, Sequence[Row]]) -> list[str]:
 
 
 def _performed(table: Sequence[Row]) -> list[str]:
-    """The kinds of which any control is performed well: the rows without turn and jump, and jumps at all."""
+    """The kinds of which any control is done: the rows without turn and jump, and jumps at all."""
     jump = COLUMNS.index("Jump")
     jumps = ["Jump"] if any(row.performed[jump] for row in table) else []
     return [row.name for row in table if row.performed[0]] + jumps

@@ -186,14 +186,14 @@ class PolicyFigure(bpy.types.PropertyGroup):
 
 
 class CoverageFigure(bpy.types.PropertyGroup):
-    """A row, by its `name`, of the table that says how many controls are performed well."""
+    """A row, by its `name`, of the table that says how many controls are done."""
 
     performed: IntVectorProperty(size=len(COLUMNS))  # type: ignore[valid-type]
     total: IntVectorProperty(size=len(COLUMNS))  # type: ignore[valid-type]
 
 
 class _Coverage:
-    """Which controls there are, and how many of them are performed well."""
+    """Which controls there are, and how many of them are done."""
 
     performed: IntProperty()  # type: ignore[valid-type]
     makes_jumps: BoolProperty()  # type: ignore[valid-type]

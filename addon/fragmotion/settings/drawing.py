@@ -149,8 +149,8 @@ def draw_populate(layout: bpy.types.UILayout, settings: PopulateFields) -> None:
 
 
 def draw_summary(layout: bpy.types.UILayout, context: bpy.types.Context, figures: BuildFigures) -> None:
-    """How good the last build is: what it can do, the quality of Optimal's, and how many of the controls it performs
-    well."""
+    """How good the last build is: what it can do, the quality of Optimal's, and how many of the controls it
+    does."""
     if figures.abilities:
         draw_wrapped(layout, context, figures.abilities, "ERROR" if figures.abilities == NOTHING else "CHECKMARK")
     layout.label(text=f"{figures.quality:.0f} % of the possible", icon="CHECKMARK")
@@ -166,7 +166,7 @@ def draw_figures(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
     _draw_row(box, "from takes", str(figures.captured))
     _draw_row(box, "Classes", str(figures.classes))
     if figures.coverage:
-        _draw_row(box, "Performed well", f"{figures.performed} of {figures.controls}")
+        _draw_row(box, "Controls done", f"{figures.performed} of {figures.controls}")
     if figures.seconds > 0:
         _draw_row(box, "Built in", f"{figures.seconds:.2f} s")
     if figures.stature > 0:
@@ -207,9 +207,9 @@ def draw_keeping(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
 
 
 def draw_coverage(layout: bpy.types.UILayout, figures: BuildFigures) -> None:
-    """How many controls of each kind are performed well; greyed where not all are."""
+    """How many controls of each kind are done; greyed where not all are."""
     column = layout.column(align=True)
-    column.label(text="Controls performed well:")
+    column.label(text="Controls done:")
     _draw_cells(column, "", [(name, True) for name in COLUMNS])
     for row in figures.coverage:
         counts = zip(row.performed, row.total)

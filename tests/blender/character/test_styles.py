@@ -110,14 +110,16 @@ def test_a_build_has_the_styles_of_its_takes(addon: ModuleType, obj: bpy.types.O
 
 
 def test_each_style_has_its_coverage(addon: ModuleType, obj: bpy.types.Object) -> None:
-    character, rows = part(addon, "character.building").load(obj), obj.fragmotion.figures.styles
+    building, core = part(addon, "character.building"), part(addon, "compat.core").core
+    character, rows = building.load(obj), obj.fragmotion.figures.styles
     kept_layout = part(addon, "character.control_layout").kept_layout
     for number, row in enumerate(rows):
         distances = character.in_style(number).coverage_distances
         np.testing.assert_array_equal(np.frombuffer(row.distances, np.float32), distances.astype(np.float32))
         assert kept_layout(row) == kept_layout(obj.fragmotion.figures)
         assert sum(sum(kind.total) for kind in row.coverage) == len(distances)
-        assert row.performed == sum(sum(kind.performed) for kind in row.coverage) == (distances <= 0.3).sum()
+        done = sum(core.abilities(character.in_style(number)))
+        assert row.performed == sum(sum(kind.performed) for kind in row.coverage) == done
     assert rows[NEUTRAL].performed > rows[TIRED].performed > 0
 
 

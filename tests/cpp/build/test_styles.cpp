@@ -47,7 +47,7 @@ TEST(Styles, AreInThePolicyFile) {
   EXPECT_EQ(back.style, "normal");
   EXPECT_EQ(back.in_style(1).style, "tired");
   EXPECT_EQ(back.in_style(1).entry_poses, styled_character()->in_style(1).entry_poses);
-  EXPECT_EQ(back.in_style(1).coverage.counts, tired_character()->coverage.counts);
+  EXPECT_EQ(back.in_style(1).quality.match, tired_character()->quality.match);
   EXPECT_EQ(back.moves.size(), 4U);
 }
 

@@ -115,8 +115,6 @@ TEST(PolicyFile, RefusesCharactersThatDoNotFitTogether) {
       {"evident control out of all proportion", [](Character& c) { c.pool.fragments[0].evident.x = 1.7e308; }},
       {"smoothness over 1", [](Character& c) { c.quality.smoothness[0] = 1.1; }},
       {"smoothness of 0", [](Character& c) { c.quality.smoothness[1] = 0; }},
-      {"match below 0", [](Character& c) { c.quality.match[1] = -0.1; }},
-      {"match over 1", [](Character& c) { c.quality.match[1] = 1e300; }},
       {"inertia not finite", [=](Character& c) { c.classes.inertia = nan; }},
       {"scale out of all proportion", [](Character& c) { c.space = ControlSpace(1, 3, 1, 1e-300); }},
       {"floor out of all proportion", [](Character& c) { c.contacts[0].floors[1].heel = 1.7e308; }},
@@ -137,7 +135,7 @@ TEST(PolicyFile, RefusesCharactersThatDoNotFitTogether) {
       {"no representative", [](Character& c) { c.classes.representatives[0] = -1; }},
       {"no classes", [](Character& c) { c.classes.count = 0; }},
       {"too many classes", [](Character& c) { c.classes.count = 0x7fffffff; }},
-      {"quality not finite", [=](Character& c) { c.quality.match[3] = nan; }},
+      {"smoothness not finite", [=](Character& c) { c.quality.smoothness[3] = nan; }},
       {"too few qualities", [](Character& c) { c.quality.smoothness.pop_back(); }},
       {"no policy", [](Character& c) { c.policies.clear(); }},
       {"next class too high", [](Character& c) { c.policies[0].next[5] = 2; }},
@@ -202,6 +200,15 @@ TEST(PolicyFile, IsMadeOfImagesThatHaveTheirOriginals) {
   Character orphaned = tiny_character({tiny_clip(0), tiny_clip(1.5)}, true);
   orphaned.pool.clips[3].poses = std::make_shared<const PackedPoses>(*orphaned.pool.clips[3].poses);
   EXPECT_NE(error_of([&] { to_bytes(orphaned); }).find("mirror images"), std::string::npos);
+}
+
+// Which it does not hold.
+TEST(PolicyFile, IsNotMadeOfWrongMatches) {
+  for (const double match : {-0.1, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    Character character = tiny_character();
+    character.quality.match[1] = match;
+    EXPECT_NE(error_of([&] { to_bytes(character); }).find("qualities"), std::string::npos);
+  }
 }
 
 TEST(PolicyFile, IsNotMadeOfFeetOfDifferentFrames) {

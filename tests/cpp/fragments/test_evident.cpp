@@ -203,6 +203,7 @@ TEST(EvidentControl, ShowsTwoFifthsOfTheJumpThatItLeadsIntoOrOutOf) {
       const double phase = std::clamp((f - 60) / kRate / flight, 0.0, 1.0);
       motion.center.emplace_back(0, 0, 1 + 4 * height * phase * (1 - phase));
       motion.heading.push_back(0);
+      motion.in_gait.push_back(false);
     }
     const auto jump = [&](int begin, int end) {
       return evident_control(motion, kRate, begin, end, 1, ControlSpace()).jump;

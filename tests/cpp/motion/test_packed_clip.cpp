@@ -100,7 +100,8 @@ TEST(PackedClip, KeepsAnyMotionOfAnySkeleton) {
     const auto grid = std::make_shared<const PoseGrid>(pose_grid(skeleton, {clip}));
     Differences differences;
     const PackedClip packed = pack(skeleton, grid, clip);
-    EXPECT_NO_THROW(check(packed, skeleton));
+    EXPECT_NO_THROW(check(packed));
+    EXPECT_NO_THROW(check(*grid, skeleton));
     differences.add(Kinematics(skeleton), clip, unpack(packed));
     expect_small(differences, standard_scale(skeleton));
   }
@@ -162,7 +163,8 @@ TEST(PackedClip, ShowsTheMirrorImageOfAnother) {
     const PackedPool packed = pack({skeleton, {clip, mirror(clip)}, {}}, {{-1, 0}, mirror.turns()});
     EXPECT_EQ(packed.clips[1].poses, packed.clips[0].poses);
     EXPECT_EQ(packed.clips[1].name, "clip mirrored");
-    EXPECT_NO_THROW(check(packed.clips[1], skeleton));
+    EXPECT_NO_THROW(check(packed.clips[1]));
+    EXPECT_NO_THROW(check(*packed.clips[1].grid, skeleton));
     Differences differences;
     differences.add(kinematics, sampled(packed.clips[1], times),
                     mirror(make_clip(skeleton, sampled(packed.clips[0], times))));

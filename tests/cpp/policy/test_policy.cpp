@@ -92,17 +92,21 @@ TEST(NextClass, IsThePlainLoopToTheBit) {
   for (int n = 0; n < 200; ++n) {
     const int classes = 1 + random.below(100);
     const Quality quality = random_quality(random, classes, n % 4 == 0);
-    std::vector<double> match(classes), value(classes), best(classes);
+    std::vector<double> match(classes), value(classes), best(classes), same(classes);
+    std::vector<int> chosen(classes);
     for (double& m : match) m = n % 4 == 0 ? 0.5 : random.uniform();
     for (double& v : value) v = n % 4 == 0 ? random.below(3) : 10 * random.uniform();
     const NextClass next(quality);
     next.values(match.data(), value.data(), best.data());
+    next.values(match.data(), value.data(), same.data(), chosen.data());
+    EXPECT_EQ(same, best);
     for (int from = 0; from < classes; ++from) {
       int expected = 0;
       const auto sum = [&](int to) { return quality.smoothness[from * classes + to] * match[to] + value[to]; };
       for (int to = 1; to < classes; ++to) expected = sum(to) > sum(expected) ? to : expected;
       EXPECT_EQ(best[from], sum(expected));
       EXPECT_EQ(next.after(from, match.data(), value.data()), expected);
+      EXPECT_EQ(chosen[from], expected);
     }
   }
 }

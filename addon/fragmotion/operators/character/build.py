@@ -60,14 +60,14 @@ class FRAGMOTION_OT_build(BuildFields, Building, bpy.types.Operator):
         panels.show_mocap = panels.show_build = False
         told = "".join(
             f"; style '{style.name}': {style.classes} classes, {style.quality:.0f} % of what its takes allow, "
-            f"{style.performed} controls performed well"
+            f"does {style.performed} controls"
             for style in figures.styles
         )
         self.report(
             {"INFO"},
             f"{figures.abilities}. {figures.fragments} fragments in {figures.classes} classes, built in "
             f"{figures.seconds:.1f} s; {figures.quality:.0f} % of what its takes allow; "
-            f"{figures.performed} of {figures.controls} controls performed well{told}",
+            f"does {figures.performed} of {figures.controls} controls{told}",
         )
         spare = say_lacking(built.character)
         unanswered = say_unanswered(built.character)
@@ -75,7 +75,7 @@ class FRAGMOTION_OT_build(BuildFields, Building, bpy.types.Operator):
             *filter(NOTHING.__eq__, (figures.abilities,)),
             *self._warnings,
             *filter(None, (spare, unanswered)),
-            *lacking(building.coverage_by_style(built.character)),
+            *lacking(building.coverage_by_style(built)),
         )
         for warning in remarks:
             self.report({"WARNING"}, warning)

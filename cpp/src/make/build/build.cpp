@@ -12,6 +12,7 @@
 #include "base/ranges.hpp"
 #include "build/stages.hpp"
 #include "classes/clustering.hpp"
+#include "fragments/coverage.hpp"
 #include "fragments/entry_poses.hpp"
 #include "fragments/evident.hpp"
 #include "fragments/packed_pool.hpp"
@@ -124,23 +125,20 @@ void report_held(Character& c, const FragmentPool& pool) {
 }
 
 // Fragments that differ by less than single precision are the same.
-void round_to_single(std::vector<Clip>& clips) {
-  for (Clip& clip : clips) {
-    for (double& value : clip.root_positions) value = static_cast<float>(value);
-    for (double& value : clip.rotations) value = static_cast<float>(value);
-    for (double& value : clip.headings) value = static_cast<float>(value);
-  }
+void round_to_single(std::vector<double>& values) {
+  for (double& value : values) value = static_cast<float>(value);
 }
 
 // What many fragments perform must not take all classes from what few do. Hops that turn may be in a class with those
 // that do not, where the player draws them; those that are pressed for most, on the spot and ahead, should not be in
 // one with those to the side.
 std::vector<float> balanced_weights(const Character& c) {
+  const std::vector<int> counts = coverage(c.pool.fragments, c.space).counts;
   std::vector<float> weights;
   for (const Fragment& f : c.pool.fragments) {
     const int nearest = c.space.nearest(f.evident);
     const Control control = c.space.point(nearest);
-    const double share = std::pow(c.coverage.counts[nearest], kBalance);
+    const double share = std::pow(counts[nearest], kBalance);
     const bool turns = control.turn != 0, ahead = control.x == 0 && control.y >= 0;
     const double wanted = !control.jumps() ? 1 : turns ? kTurningHop : ahead ? 1 : kSideHop;
     weights.push_back(static_cast<float>(share * wanted));
@@ -261,13 +259,16 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   c.report["cut_seconds"] = stage.lap();
   report(progress, 0.5, "Synthesizing fragments");
   if (options.synthesize) synthesize(pool, c.space, usual, options.cut.longest);
-  round_to_single(pool.clips);
+  for (Clip& clip : pool.clips) {
+    for (std::vector<double>* values : {&clip.root_positions, &clip.rotations, &clip.headings})
+      round_to_single(*values);
+  }
   c.contacts = contacts_of(pool, options.threads);
   c.legs = find_legs(kinematics, pool.clips);
   c.pool = pack(pool, images, options.threads);
+  for (Fragment& f : c.pool.fragments) f.evident = c.space.rounded(f.evident);
   find_whole_jumps(c.pool);
   pool.fragments = c.pool.fragments;
-  c.coverage = coverage(c.pool.fragments, c.space);
   c.report["fragments"] = static_cast<double>(c.pool.fragments.size());
   c.report["synthesize_seconds"] = stage.lap();
   report(progress, 0.9, "Measuring fragments");
@@ -296,6 +297,7 @@ void learn(const Material& material, const BuildOptions& options, const Progress
   c.bridges = stand_bridges(c.pool.fragments, t, c.classes, c.space);
   c.report["quality_seconds"] = stage.lap();
   c.control_model = control_model(material.traces, kGenericPrior, c.space.size());
+  round_to_single(c.control_model);
   c.policies.clear();
   for (const std::string& name : options.policies) {
     c.policies.push_back(policy_named(name, c, t, material.traces, options.threads, part_of(progress, 0.5, 1)));

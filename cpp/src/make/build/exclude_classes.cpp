@@ -52,9 +52,7 @@ Character first_style_without(const Character& character, const std::vector<int>
   const std::vector<bool> allowed = allowed_classes(character.classes.count, excluded);
   Character result = character;
   for (Policy& policy : result.policies) avoid(allowed, character, policy);
-  const int controls = result.quality.controls;
-  for (const int k : excluded)
-    std::fill_n(&result.quality.match[static_cast<std::size_t>(k) * controls], controls, 0.0);
+  for (const int k : excluded) leave_out(k, result.quality);
   result.bridges = stand_bridges(result.pool.fragments, trajectories(result.pool, 2), result.classes, result.space,
                                  kBridgeDistance, allowed);
   repair_policies(result);

@@ -37,11 +37,12 @@ bool is_done(const std::shared_ptr<const Character>& character, const Control& c
 
 std::vector<char> abilities(const std::shared_ptr<const Character>& character, int threads) {
   const ControlSpace& space = character->space;
+  const std::vector<double> distances = coverage(character->pool.fragments, space).distances;
   std::vector<char> done(space.size());
   parallel_for(space.size(), thread_count(threads), [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
       const Control control = space.point(c);
-      done[c] = control.jumps() ? character->coverage.distances[c] <= kPerformed : is_done(character, control);
+      done[c] = control.jumps() ? distances[c] <= kPerformed : is_done(character, control);
     }
   });
   return done;

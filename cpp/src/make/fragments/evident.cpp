@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/quantile.hpp"
+#include "motion/gait_bounces.hpp"
 
 namespace fragmotion {
 namespace {
@@ -18,7 +19,9 @@ double evident_jump(double rise) { return std::clamp((rise - kNoRise) / (kRise -
 }  // namespace
 
 BodyMotion body_motion(const Kinematics& kinematics, const Clip& clip) {
-  return {center_of_mass(kinematics, clip), clip.headings};
+  std::vector<Vector3> center = center_of_mass(kinematics, clip);
+  std::vector<bool> in_gait = gait_bounces(kinematics, clip, center);
+  return {std::move(center), clip.headings, std::move(in_gait)};
 }
 
 double usual_height(const std::vector<BodyMotion>& motions) {
@@ -36,6 +39,7 @@ Control evident_control(const BodyMotion& motion, double rate, int begin, int en
   const Vector3 velocity = halfway.to_local((motion.center[end] - motion.center[begin]) / seconds);
   double rise = 0, flight = 0;  // m: how high it is, and how high it would fly, or flew
   for (int f = begin; f <= end; ++f) {
+    if (motion.in_gait[f]) continue;
     const double height = (motion.center[f].z() - usual) * space.scale();
     rise = std::max(rise, height);
     if (f == end) break;

@@ -10,6 +10,7 @@ namespace fragmotion {
 struct BodyMotion {
   std::vector<Vector3> center;  ///< [frames] m: the centre of mass
   std::vector<double> heading;  ///< [frames] rad: Clip::headings
+  std::vector<bool> in_gait;    ///< [frames] where it is no jump, however high: gait_bounces()
 };
 
 BodyMotion body_motion(const Kinematics& kinematics, const Clip& clip);

@@ -145,6 +145,10 @@ class Synthesizer {
   // Adds a clip whose frames ends[i] .. ends[i + 1] are fragments.
   void add(Clip clip, const std::vector<int>& ends, Origin origin) {
     const BodyMotion motion = body_motion(kinematics_, clip);
+    add(std::move(clip), motion, ends, origin);
+  }
+
+  void add(Clip clip, const BodyMotion& motion, const std::vector<int>& ends, Origin origin) {
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       Fragment fragment;
       fragment.clip = static_cast<int>(pool_.clips.size());
@@ -336,7 +340,9 @@ class Synthesizer {
   void add_jump(Clip clip, const Hop& hop) {
     add_hop(kinematics_, legs_, clip, hop);
     const auto frame = [&](double seconds) { return static_cast<int>(std::lround(seconds * clip.rate)); };
-    add(std::move(clip), {frame(hop.crouch()), frame(hop.crouch() + hop.flight())}, Origin::transformed);
+    BodyMotion motion = body_motion(kinematics_, clip);
+    motion.in_gait.assign(clip.frames, false);
+    add(std::move(clip), motion, {frame(hop.crouch()), frame(hop.crouch() + hop.flight())}, Origin::transformed);
   }
 
   FragmentPool& pool_;

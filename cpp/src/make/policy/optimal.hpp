@@ -19,12 +19,15 @@ class NextClass {
   /// The greatest sum after each class, to `best` [classes].
   void values(const double* match, const double* value, double* best) const;
 
+  /// Also the classes with these sums, to `next` [classes]. Ties go to the lower class.
+  void values(const double* match, const double* value, double* best, int* next) const;
+
   /// The class with the greatest sum after `from`. Ties go to the lower class.
   int after(int from, const double* match, const double* value) const;
 
  private:
   int classes_;
-  std::vector<double> smoothness_;  // [Q', Q]: the other way round than in Quality
+  std::vector<double> smoothness_;  // [blocks, Q', the Qs of the block]
 };
 
 /// The best path in hindsight: Q_0 and the class after each of the trace's controls, and the sum of Eq. 2 along it.

@@ -9,7 +9,6 @@
 #include "character/move.hpp"
 #include "classes/classes.hpp"
 #include "control/control.hpp"
-#include "fragments/coverage.hpp"
 #include "fragments/fragment.hpp"
 #include "motion/contacts.hpp"
 #include "policy/policy.hpp"
@@ -28,7 +27,6 @@ struct Character {
   std::vector<int> bridges;      ///< [classes, classes]: stand_bridges().
   /// [controls, controls]: control_model() of the traces that taught the policies, with kGenericPrior.
   std::vector<double> control_model;
-  Coverage coverage;
   std::vector<Contacts> contacts;  ///< Of each clip of the pool: contacts_of(); of a move, find_plants().
   Legs legs;                       ///< As they bend in the clips.
   std::vector<Move> moves;         ///< Their clips are the pool's last ones.

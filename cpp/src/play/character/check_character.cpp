@@ -40,7 +40,8 @@ void check_pool(const PackedPool& pool) {
   checked_skeleton(pool.skeleton);
   check_stature(pool.skeleton);
   for (std::size_t c = 0; c < pool.clips.size(); ++c) {
-    check(pool.clips[c], pool.skeleton);
+    if (c == 0 || pool.clips[c].grid != pool.clips[c - 1].grid) check(*pool.clips[c].grid, pool.skeleton);
+    check(pool.clips[c]);
     const int original = original_of(pool.clips, c);
     require(original < static_cast<int>(c) && (original >= 0 || !pool.clips[c].mirrored),
             "clips and their mirror images");
@@ -50,8 +51,15 @@ void check_pool(const PackedPool& pool) {
                 f.end < pool.clips[f.clip].frames && f.origin <= Origin::transformed,
             "fragments and clips");
     require(pool.seconds(f) >= kShortest && pool.seconds(f) <= kLongest, "fragments and rates");
-    require(all_in_range({f.evident.x, f.evident.y, f.evident.turn, f.evident.jump}, -kMost, kMost),
-            "evident controls");
+  }
+}
+
+// A file holds them in steps, of which it tells some thousand millions.
+void check_evident(const std::vector<Fragment>& fragments, double scale) {
+  const auto is_told = [](double value) { return std::abs(value) <= kMostControl; };
+  for (const Fragment& f : fragments) {
+    const Control& ev = f.evident;
+    require(is_told(scale * ev.x) && is_told(scale * ev.y) && is_told(ev.turn) && is_told(ev.jump), "evident controls");
   }
 }
 
@@ -117,6 +125,7 @@ void check_moves(const Character& c) {
 void check_style(const Character& c) {
   check_pool(c.pool);
   check_space(c.space);
+  check_evident(c.pool.fragments, c.space.scale());
   const std::size_t n = c.classes.count, fragments = c.pool.fragments.size(), controls = c.space.size();
   require(c.classes.count > 0 && c.classes.labels.size() == fragments && c.classes.representatives.size() == n &&
               all_within(c.classes.labels, 0, c.classes.count) &&

@@ -2,6 +2,7 @@
 #include "character/policy_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -27,6 +28,8 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "policy files are littl
 constexpr char kMagic[9] = "FRAGMOTN";
 constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
+// Bits of a packed number at least, so that what it takes of memory has its share of the file; of one of a fragment's.
+constexpr int kFewestBits = 2, kFewestOfFragment = 4, kFragmentNumbers = 8;
 // Memory of the entry poses, which a player needs beside the file: a file takes at most 20 times its size, beyond 50
 // MB.
 constexpr std::size_t kRoom = 48000000, kTimes = 16;  // bytes, and for each byte of the file
@@ -62,6 +65,27 @@ class Writer {
     number<std::uint64_t>(values.size());
     raw(values.data(), values.size());
   }
+  // In the fewest bits, but `bits`, that hold the largest of them less the least; lowest bits first.
+  template <typename T>
+  void packed(const std::vector<T>& values, int bits = kFewestBits) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const std::int64_t low = values.empty() ? 0 : *least, range = values.empty() ? 0 : *most - low;
+    while (range >> bits != 0) ++bits;
+    number<std::uint64_t>(values.size());
+    number<std::int32_t>(low);
+    number<std::uint8_t>(bits);
+    std::uint64_t word = 0;
+    int held = 0;
+    for (const T value : values) {
+      word |= static_cast<std::uint64_t>(value - low) << held;
+      for (held += bits; held >= 8; held -= 8, word >>= 8) number<std::uint8_t>(word & 0xff);
+    }
+    if (held > 0) number<std::uint8_t>(word);
+  }
+  void singles(const std::vector<double>& values) {
+    number<std::uint64_t>(values.size());
+    for (const double value : values) number<float>(value);
+  }
   void text(const std::string& value) {
     number<std::uint32_t>(value.size());
     raw(value.data(), value.size());
@@ -96,6 +120,40 @@ class Reader {
     static_assert(std::is_same_v<Stored, T>);
     values.resize(count(sizeof(Stored)));
     if (!values.empty()) std::memcpy(values.data(), take(values.size() * sizeof(T)), values.size() * sizeof(T));
+  }
+  // Files of before version 5 hold them as they are.
+  template <typename T>
+  void packed(std::vector<T>& values, int fewest = kFewestBits) {
+    if (version < 5) return numbers<T>(values);
+    std::uint64_t count = 0;
+    std::int64_t low = 0;
+    int bits = 0;
+    number<std::uint64_t>(count);
+    number<std::int32_t>(low);
+    number<std::uint8_t>(bits);
+    if (bits < fewest || bits > 32) throw std::invalid_argument("its packed numbers have no bits");
+    if (count > left_ * 8 / bits) throw std::invalid_argument("it announces more than it holds");
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(take((count * bits + 7) / 8));
+    values.resize(count);
+    std::uint64_t word = 0;
+    int held = 0;
+    for (T& value : values) {
+      for (; held < bits; held += 8) word |= std::uint64_t{*bytes++} << held;
+      const std::int64_t number = low + static_cast<std::int64_t>(word & ((std::uint64_t{1} << bits) - 1));
+      if (number > std::numeric_limits<T>::max()) throw std::invalid_argument("its packed numbers are too large");
+      value = static_cast<T>(number);
+      word >>= bits;
+      held -= bits;
+    }
+  }
+  // Doubles in files of before version 5.
+  void singles(std::vector<double>& values) {
+    values.resize(count(version < 5 ? sizeof(double) : sizeof(float)));
+    for (double& value : values) {
+      if (version < 5) number<double>(value);
+      if (version >= 5) number<float>(value);
+      value = static_cast<float>(value);
+    }
   }
   void text(std::string& value) {
     std::uint32_t size = 0;
@@ -167,7 +225,7 @@ void exchange_poses(Archive& a, PackedPoses& poses) {
   for (auto* values : {&poses.origin, &poses.steps}) {
     for (double& value : *values) a.template number<double>(value);
   }
-  a.template numbers<std::int32_t>(poses.least);
+  a.packed(poses.least);
   a.template numbers<std::uint8_t>(poses.bits);
   a.template numbers<std::uint8_t>(poses.bytes);
 }
@@ -199,7 +257,7 @@ void exchange_contacts(Archive& a, Contacts& contacts) {
   auto& [left, right] = contacts.feet;
   std::vector<std::uint8_t> standing;
   for (std::size_t f = 0; f < left.size(); ++f) standing.push_back((left[f] ? 1 : 0) | (right[f] ? 2 : 0));
-  a.template numbers<std::uint8_t>(standing);
+  a.packed(standing);
   for (auto& floor : contacts.floors) {
     a.template number<double>(floor.ball);
     a.template number<double>(floor.heel);
@@ -227,11 +285,97 @@ void exchange_clips(Archive& a, PackedPool& pool) {
     if (Archive::kReads) clip.grid = shared;
     exchange_clip(a, pool, &clip - pool.clips.data());
   });
-  a.list(pool.fragments, 45, [&](auto& f) {
+}
+
+// Of files of before version 5.
+template <typename Archive>
+void exchange_each_fragment(Archive& a, std::vector<Fragment>& fragments) {
+  a.list(fragments, 45, [&](auto& f) {
     for (auto* value : {&f.clip, &f.begin, &f.end}) a.template number<std::int32_t>(*value);
     a.template number<std::uint8_t>(f.origin);
     exchange_control(a, f.evident);
   });
+}
+
+// One number of each fragment, which `get` tells and `set` takes.
+template <typename Archive, typename Get, typename Set>
+void exchange_column(Archive& a, std::vector<Fragment>& fragments, const Get& get, const Set& set) {
+  std::vector<std::int32_t> column;
+  for (const Fragment& f : fragments) column.push_back(get(f));
+  a.packed(column, kFewestOfFragment);
+  if (column.size() != fragments.size()) throw std::invalid_argument("its fragments do not fit together");
+  for (std::size_t i = 0; Archive::kReads && i < column.size(); ++i) set(fragments[i], column[i]);
+}
+
+// Of what is no number the least step.
+std::int32_t steps_of(double value, double step) {
+  constexpr double kLeast = std::numeric_limits<std::int32_t>::min(), kMost = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::isnan(value) ? kLeast : std::clamp(std::round(value / step), kLeast, kMost));
+}
+
+template <typename Archive>
+void exchange_fragments(Archive& a, std::vector<Fragment>& fragments, const ControlSpace& space) {
+  a.list(fragments, kFragmentNumbers * kFewestOfFragment / 8, [](auto&) {});
+  for (int Fragment::*part : {&Fragment::clip, &Fragment::begin, &Fragment::end}) {
+    exchange_column(
+        a, fragments, [=](const auto& f) { return f.*part; }, [=](auto& f, int n) { f.*part = n; });
+  }
+  exchange_column(
+      a, fragments, [](const auto& f) { return static_cast<int>(f.origin); },
+      [](auto& f, int n) { f.origin = static_cast<Origin>(n); });
+  for (double Control::*part : {&Control::x, &Control::y, &Control::turn, &Control::jump}) {
+    const double step = space.steps().*part;
+    exchange_column(
+        a, fragments, [=](const auto& f) { return steps_of(f.evident.*part, step); },
+        [=](auto& f, int n) { f.evident.*part = n * step; });
+  }
+}
+
+// Dis(last pose of Q, first pose of Q'), as transition_distance() tells it, in place of the smoothness.
+template <typename Archive>
+void exchange_smoothness(Archive& a, std::vector<double>& smoothness) {
+  std::vector<double> distances;
+  for (const double value : smoothness) distances.push_back(1 / value - 1);
+  a.singles(distances);
+  if (!Archive::kReads) return;
+  smoothness.clear();
+  for (const double distance : distances) smoothness.push_back(1 / (1 + distance));
+}
+
+// The classes that are left out, which match nothing: what the others match follows from what they are evident of.
+template <typename Archive>
+void exchange_match(Archive& a, Character& c) {
+  std::vector<std::int32_t> left_out;
+  const std::size_t controls = c.quality.controls;
+  for (std::size_t at = 0; at < c.quality.match.size(); at += controls) {
+    if (c.quality.match[at] == 0) left_out.push_back(static_cast<std::int32_t>(at / controls));
+  }
+  a.packed(left_out);
+  if (!Archive::kReads) return;
+  const std::size_t classes = c.classes.representatives.size();
+  const auto within = [](const std::vector<int>& numbers, std::size_t end) {
+    return std::all_of(numbers.begin(), numbers.end(),
+                       [=](int n) { return n >= 0 && static_cast<std::size_t>(n) < end; });
+  };
+  if (c.quality.smoothness.size() != classes * classes || !within(left_out, classes) ||
+      !within(c.classes.representatives, c.pool.fragments.size())) {
+    throw std::invalid_argument("its classes do not fit together");
+  }
+  c.quality.match = control_matches(evident_of_classes(c), c.space);
+  for (const int k : left_out) leave_out(k, c.quality);
+}
+
+template <typename Archive>
+void exchange_quality(Archive& a, Character& c) {
+  a.template number<std::int32_t>(c.quality.classes);
+  if (Archive::kReads) c.quality.controls = c.space.size();
+  if (a.version < 5) {
+    a.template numbers<double>(c.quality.smoothness);
+    a.template numbers<double>(c.quality.match);
+  } else {
+    exchange_smoothness(a, c.quality.smoothness);
+    exchange_match(a, c);
+  }
 }
 
 // Of a space that is not the paper's, whose two speeds are before it.
@@ -273,23 +417,26 @@ void exchange_moves(Archive& a, std::vector<Move>& moves) {
 template <typename Archive>
 void exchange_style(Archive& a, Character& c) {
   exchange_clips(a, c.pool);
+  if (a.version < 5) exchange_each_fragment(a, c.pool.fragments);
   exchange_space(a, c.space);
+  if (a.version < 5) {
+    for (Fragment& f : c.pool.fragments) f.evident = c.space.rounded(f.evident);
+  } else {
+    exchange_fragments(a, c.pool.fragments, c.space);
+  }
   a.template number<std::int32_t>(c.classes.count);
-  a.template numbers<std::int32_t>(c.classes.labels);
-  a.template numbers<std::int32_t>(c.classes.representatives);
+  a.packed(c.classes.labels);
+  a.packed(c.classes.representatives);
   a.template number<double>(c.classes.inertia);
-  a.template number<std::int32_t>(c.quality.classes);
-  a.template numbers<double>(c.quality.smoothness);
-  a.template numbers<double>(c.quality.match);
-  if (Archive::kReads) c.quality.controls = c.space.size();
+  exchange_quality(a, c);
   a.list(c.policies, 16, [&](auto& policy) {
     a.text(policy.name);
     a.template number<std::int32_t>(policy.classes);
-    a.template numbers<std::int32_t>(policy.next);
+    a.packed(policy.next);
     if (Archive::kReads) policy.controls = c.space.size();
   });
-  a.template numbers<std::int32_t>(c.bridges);
-  a.template numbers<double>(c.control_model);
+  a.packed(c.bridges);
+  a.singles(c.control_model);
   a.list(c.contacts, 40, [&](auto& contacts) { exchange_contacts(a, contacts); });
   for (Leg& leg : c.legs) exchange_vector(a, leg.hinge);  // the bones are found anew by their roles
 }
@@ -374,13 +521,12 @@ void check_memory(const Character& c, std::size_t size) {
                               " times the file's size");
 }
 
-// Makes anew what a file does not hold.
-void complete(Character& c) {
+// Makes anew what a file of this version does not hold.
+void complete(Character& c, std::uint32_t version) {
   Legs legs = resting_legs(c.pool.skeleton);
   for (std::size_t side = 0; side < legs.size(); ++side) legs[side].hinge = c.legs[side].hinge;
   c.legs = legs;
-  repair_policies(c);  // of a program that repaired as it played
-  c.coverage = coverage(c.pool.fragments, c.space);
+  if (version < 5) repair_policies(c);
   find_whole_jumps(c.pool);
   c.entry_poses = entry_poses(c.pool);
   c.move_parts = move_parts(c.pool, c.moves);
@@ -451,8 +597,9 @@ Character from_bytes(std::string_view bytes, const std::string& name) {
     if (!reader.done()) throw std::invalid_argument("it has bytes too many");
     check_character(character);
     check_memory(character, bytes.size());
-    complete(character);
-    for (const auto& style : character.styles) complete(const_cast<Character&>(*style));  // which from_bytes() made
+    complete(character, version);
+    for (const auto& style : character.styles)
+      complete(const_cast<Character&>(*style), version);  // which from_bytes() made
     return character;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(name + " is refused: " + error.what());

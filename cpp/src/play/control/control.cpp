@@ -145,6 +145,13 @@ int ControlSpace::nearest(const Control& control) const {
   return layout_.index(velocity, turn - 1, jump == 1);
 }
 
+Control ControlSpace::rounded(const Control& control) const {
+  const Control steps = this->steps();
+  const auto round = [](double value, double step) { return std::round(value / step) * step; };
+  return {round(control.x, steps.x), round(control.y, steps.y), round(control.turn, steps.turn),
+          round(control.jump, steps.jump)};
+}
+
 double ControlSpace::quickest_turn() const { return std::clamp(kQuickest / turn_rate_, 1.0, kMostTurn); }
 
 double ControlSpace::turn_towards(double off) const {

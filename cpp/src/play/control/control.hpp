@@ -78,6 +78,11 @@ class ControlSpace {
   Control admitted(const Control& control) const {
     return {control.x, control.y, layout_.turn ? control.turn : 0, layout_.jump ? control.jump : 0};
   }
+  /// What controls are told in whole numbers of: thousandths of a metre a second of a 1.8 m character, of the turn rate
+  /// and of a jump.
+  Control steps() const { return {kStep / scale_, kStep / scale_, kStep, kStep}; }
+  /// The nearest control in whole steps().
+  Control rounded(const Control& control) const;
   /// Index of the point nearest to `control` by distance(); the lower index on a tie.
   int nearest(const Control& control) const;
   /// ControlDis (Eq. 2): weighted Euclidean, a weight multiplying its difference before it is squared:
@@ -86,6 +91,8 @@ class ControlSpace {
   double distance(const Control& a, const Control& b) const;
 
  private:
+  static constexpr double kStep = 1e-3;
+
   ControlLayout layout_;
   std::vector<double> speeds_;
   std::vector<int> gaits_;

@@ -26,7 +26,7 @@ BodyTips::BodyTips(const Skeleton& skeleton)
       tips_(bones_.size()) {}
 
 void BodyTips::pose(const Vector3& root, const double* rotations) {
-  kinematics_.world(root, rotations, chains_, posed_.heads.data(), posed_.rotations.data());
+  kinematics_.world_below(root, rotations, chains_, posed_.heads.data(), posed_.rotations.data());
   const std::vector<Vector3>& tips = kinematics_.skeleton().tips;
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     const int b = bones_[i];

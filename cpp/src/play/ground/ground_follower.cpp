@@ -79,7 +79,7 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
   const double since = fresh_ ? kLookAhead : seconds;
   fresh_ = false;
   if (is_flat()) return;
-  kinematics.world(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
+  kinematics.world_below(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
   std::array<Vector3, 2> ankles{place_foot(0, feet[0]), place_foot(1, feet[1])};
   sink(feet, ankles, since);
   pose.root.z() -= hips_.sunk();

@@ -175,7 +175,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
   auto& [kinematics, legs, scale, bones, posed] = *body_;
   if (!legs[0].exists() || !legs[1].exists()) return;
   const Skeleton& skeleton = kinematics.skeleton();
-  kinematics.world(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
+  kinematics.world_below(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
   const Matrix2 heading = Eigen::Rotation2Dd(pose.heading).toRotationMatrix(),
                 longer = heading * edit.stride * heading.transpose();
   const Vector2 shift = heading * edit.shift;

@@ -61,8 +61,10 @@ std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, 
   }
   const int frames = static_cast<int>(std::ceil(kShortest * rate));
   close_short_runs(flags, false, frames);
+  const std::vector<bool> all = flags;
   close_short_runs(flags, true, frames);
-  return flags;
+  const bool stands = std::find(flags.begin(), flags.end(), true) != flags.end();
+  return stands ? flags : all;
 }
 
 void end_where_ball_rises(const FootPath& path, double rate, double scale, std::vector<bool>& contacts) {

@@ -74,13 +74,6 @@ void check_mirror(const PoseGrid& grid) {
   check_rotations(grid.mirror.after, grid);
 }
 
-void check_grid(const PoseGrid& grid, int bones) {
-  require(grid.bones == bones && grid.steps.size() == static_cast<std::size_t>(kBoneBlock) * grid.blocks());
-  check_rotations(grid.usual, grid);
-  for (const float step : grid.steps) require(step > 0 && step <= 1);
-  if (!grid.mirror.empty()) check_mirror(grid);
-}
-
 void check_poses(const PackedPoses& poses, int frames, const PoseGrid& grid) {
   const std::size_t turns = std::size_t{3} * kBoneBlock * grid.blocks();
   require(poses.least.size() == turns && poses.bits.size() == kRootNumbers + turns);
@@ -234,8 +227,14 @@ CharacterFrame frame_at(const PackedClip& clip, double at) {
   return {{root[0], root[1]}, root[3]};
 }
 
-void check(const PackedClip& clip, const Skeleton& skeleton) {
-  check_grid(*clip.grid, skeleton.size());
+void check(const PoseGrid& grid, const Skeleton& skeleton) {
+  require(grid.bones == skeleton.size() && grid.steps.size() == static_cast<std::size_t>(kBoneBlock) * grid.blocks());
+  check_rotations(grid.usual, grid);
+  for (const float step : grid.steps) require(step > 0 && step <= 1);
+  if (!grid.mirror.empty()) check_mirror(grid);
+}
+
+void check(const PackedClip& clip) {
   require(clip.rate > 0 && clip.rate <= kHighestRate && clip.frames >= 2);
   require(!clip.mirrored || !clip.grid->mirror.empty());
   check_poses(*clip.poses, clip.frames, *clip.grid);

@@ -80,8 +80,9 @@ int original_of(const std::vector<PackedClip>& clips, std::size_t mirrored);
 Clip unpack(const PackedClip& clip);
 
 /// Throws std::invalid_argument unless the parts of a packed clip fit together, so that all its poses can be had and
-/// are finite numbers.
-void check(const PackedClip& clip, const Skeleton& skeleton);
+/// are finite numbers; of its grid, which clips share, the other one tells.
+void check(const PackedClip& clip);
+void check(const PoseGrid& grid, const Skeleton& skeleton);
 
 /// As those of Clip (pose.hpp), but that between frames rotations go straight and are made unit again.
 Vector3 sample_pose(const PackedClip& clip, double at, double* rotations);

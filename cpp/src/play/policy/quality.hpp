@@ -21,4 +21,10 @@ struct Quality {
   }
 };
 
+/// Eq. 2's second factor, [classes, controls], of classes that are evident of these controls.
+std::vector<double> control_matches(const std::vector<Control>& evident, const ControlSpace& space);
+
+/// Lets a class match nothing, as one that does not play.
+void leave_out(int of_class, Quality& quality);
+
 }  // namespace fragmotion

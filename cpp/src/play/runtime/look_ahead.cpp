@@ -36,7 +36,8 @@ class LookAhead {
   Sole sole(const WorldPose& pose, int side) const {
     const FootLock::Body& body = *workspace_.body;
     PosedBones& posed = workspace_.body->posed;
-    body.kinematics.world(pose.root, pose.rotations.data(), body.bones, posed.heads.data(), posed.rotations.data());
+    body.kinematics.world_below(pose.root, pose.rotations.data(), body.bones, posed.heads.data(),
+                                posed.rotations.data());
     const Skeleton& skeleton = body.kinematics.skeleton();
     const Leg& leg = body.legs[side];
     const FootHeights& floor = workspace_.floors[side];

@@ -108,11 +108,16 @@ void Kinematics::world(const Vector3& root_position, const double* rotations, Ve
 
 void Kinematics::world(const Vector3& root_position, const double* rotations, const std::vector<int>& bones,
                        Vector3* heads, Quaternion* orientations) const {
+  world_below(root_position, rotations, bones, heads, orientations);
+  if (!parts_->carried.empty()) carry(root_position, orientations[skeleton().roles.hips], heads, orientations);
+}
+
+void Kinematics::world_below(const Vector3& root_position, const double* rotations, const std::vector<int>& bones,
+                             Vector3* heads, Quaternion* orientations) const {
   const Skeleton& skeleton = parts_->skeleton;
   const int hips = skeleton.roles.hips;
   heads[hips] = root_position;
   orientations[hips] = load_quaternion(rotations + std::ptrdiff_t{4} * hips);
-  if (!parts_->carried.empty()) carry(root_position, orientations[hips], heads, orientations);
   for (const int b : bones) {
     const int parent = skeleton.parents[b];
     attach(heads[parent], orientations[parent], skeleton.offsets[b], rotations + std::ptrdiff_t{4} * b, heads[b],

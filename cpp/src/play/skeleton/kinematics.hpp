@@ -39,6 +39,10 @@ class Kinematics {
   void world(const Vector3& root_position, const double* rotations, const std::vector<int>& bones, Vector3* heads,
              Quaternion* orientations) const;
 
+  /// Only the hips and those of `bones`.
+  void world_below(const Vector3& root_position, const double* rotations, const std::vector<int>& bones, Vector3* heads,
+                   Quaternion* orientations) const;
+
   /// The bones between the hips and those given, and these.
   std::vector<int> chains(const std::vector<int>& ends) const;
 
