@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "base/ranges.hpp"
 #include "motion/clip.hpp"
+#include "motion/fingers.hpp"
 #include "motion/in_place.hpp"
 #include "motion/mirror.hpp"
 #include "skeleton/kinematics.hpp"
@@ -184,6 +185,15 @@ void bind_clip(py::module_& m) {
             return to_tuple(without_gil([&] { return clip_transforms(clip, skeleton); }), clip.frames, skeleton.size());
           },
           py::arg("skeleton"))
+      .def(
+          "with_fingers",
+          [](const Clip& clip, const Skeleton& skeleton, const Doubles& pose) {
+            check_bones(clip, skeleton);
+            check_shape(pose, "pose", {skeleton.size(), 4});
+            const std::vector<double> rotations = to_vector(pose, "pose", -1.001, 1.001);
+            return without_gil([&] { return with_fingers(skeleton, clip, rotations); });
+          },
+          py::arg("skeleton"), py::arg("pose"))
       .def(
           "led_by_feet",
           [](const Clip& clip, const Skeleton& skeleton, double speed) -> std::optional<std::tuple<Clip, double>> {

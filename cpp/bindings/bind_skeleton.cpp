@@ -4,6 +4,7 @@
 #include <map>
 
 #include "arrays.hpp"
+#include "skeleton/relaxed_hands.hpp"
 #include "skeleton/role_map.hpp"
 #include "skeleton/role_names.hpp"
 #include "skeleton/roles.hpp"
@@ -87,6 +88,10 @@ void bind_skeleton(py::module_& m) {
       .def_property_readonly("roles", &named_roles)
       .def("role_map", &role_map, py::arg("heads") = py::none())
       .def_property_readonly("stature", &stature)
+      .def("relaxed_pose",
+           [](const Skeleton& s) {
+             return to_array(relaxed_pose(s), {s.size(), 4});
+           })
       .def("rest_heads", [](const Skeleton& s) { return rest_points(s, false); })
       .def("rest_tails", [](const Skeleton& s) { return rest_points(s, true); });
   m.def("group_skeletons", &group_skeletons, py::arg("skeletons"), py::call_guard<GilRelease>());

@@ -61,6 +61,9 @@ class Skeleton:
         head, and with left_ or right_ shoulder, upper_arm, lower_arm, hand, thumb_1 ... pinky_1 ..., thigh, shin, foot,
         toe. Names tell them, and where those say nothing the shape; `heads` [P,B,3] m, places in a motion, tell more.
         """
+    def relaxed_pose(self) -> Doubles:
+        """Rotations [B,4] of the rest pose with relaxed hands: fingers side by side and bent as a hand's at rest (K.-S.
+        Lee, M.-C. Jung, Safety and Health at Work 6, 2015); of hands of which two fingers are known at least."""
     def rest_heads(self) -> Doubles:
         """World position [B,3] of each bone's head at rest, m."""
     def rest_tails(self) -> Doubles:
@@ -244,6 +247,8 @@ class Clip:
         one before it."""
     def world_transforms(self, skeleton: Skeleton) -> tuple[Doubles, Doubles]:
         """World positions [F,B,3] of the heads, m, and rotations [F,B,4]."""
+    def with_fingers(self, skeleton: Skeleton, pose: ArrayLike) -> Clip:
+        """With those fingers that rest in all of it as in a pose's rotations [B,4], which are as in Clip."""
     def led_by_feet(self, skeleton: Skeleton, speed: float = 0.0) -> tuple[Clip, float] | None:
         """Of a clip on the spot, whose feet tread while the hips stay: the clip on the way that its feet tell, and how
         fast they go, m/s. `speed`: how fast it shall go, 0 .. 1000 m/s; 0: as its feet do. None of any other clip."""

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 
 class Target(NamedTuple):
-    """Where a bake goes: the kind of BakeFields.target, the Action to write to where there is one, else the name of the
-    new one, and the scene frame of the first key."""
+    """Where a bake goes: the kind of BakeFields.target, or STRIPS, which play the Action already; the Action to write
+    to where there is one, else the name of the new one, and the scene frame of the first key."""
 
     kind: str
     action: bpy.types.Action | None
@@ -58,10 +58,12 @@ def write(
         reset_pose(obj, ("location", "scale"))
         if target.kind == "NLA":
             _add_strip(obj, action, target.first)
-        else:
+        elif target.kind != "STRIPS":
             keep_former(obj, action)
             versions.assign(obj, action)
         _mark(context.scene, obj, action, target, classes, settings.markers)
+        for strip in strips_of(obj, action) if target.kind == "STRIPS" else ():
+            strip.action_frame_start, strip.action_frame_end = action.frame_range
         if settings.fit_end:
             context.scene.frame_end = max(context.scene.frame_end, int(times[-1]))
         context.view_layer.update()
@@ -101,6 +103,12 @@ def places_object(obj: bpy.types.Object) -> bool:
     below = [strip.action for track in tracks for strip in track.strips if not strip.mute]
     actions = [action for action in (versions.assignment(obj)[0], *below) if action is not None]
     return any(curve.data_path in CHANNELS for action in actions for curve in versions.curves_of(action, obj))
+
+
+def strips_of(obj: bpy.types.Object, action: bpy.types.Action) -> list[bpy.types.NlaStrip]:
+    """The armature's NLA strips that play an Action."""
+    tracks = obj.animation_data.nla_tracks if obj.animation_data is not None else ()
+    return [strip for track in tracks for strip in track.strips if strip.action == action]
 
 
 def _add_strip(obj: bpy.types.Object, action: bpy.types.Action, first: int) -> None:

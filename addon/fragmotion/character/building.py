@@ -17,6 +17,7 @@ from ..files import read_regular
 from ..jobs import Report
 from ..mocap import actions
 from ..mocap.curve_points import read_once
+from ..mocap.hands import hand_pose, with_hands
 from ..mocap.on_the_spot import led_by_feet
 from ..mocap.sampling import sample_parts
 from ..mocap.styles import grouped, style_of
@@ -134,11 +135,12 @@ def _sample_all(
     are others."""
     clips: list[tuple[str, Clip]] = []
     poses, warnings = [], []
+    hands = hand_pose(context, obj, rig)
     for action in takes:
         try:
             with read_once():
                 parts = led_by_feet(action, sample_parts(context, obj, action, rig), rig.skeleton)
-                clips.extend((style_of(action), clip) for clip in parts)
+                clips.extend((style_of(action), with_hands(clip, rig, hands)) for clip in parts)
                 digest_of(action)  # kept for sources_of
         except SinglePose:
             poses.append(action.name)

@@ -17,6 +17,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, Po
 from ..compat.core import core
 from ..compat.event_keys import KEYS
 from ..errors import SinglePose, UserError, core_errors
+from ..mocap.hands import hand_pose, with_hands
 from ..mocap.left_out import part_of
 from ..mocap.sampling import sample, sample_times
 from ..rig.rigs import make_rig
@@ -226,7 +227,7 @@ def _clip(context: bpy.types.Context, obj: bpy.types.Object, rig: Rig, row: Any)
     """The row's frames of its Action; the scene frame at which they begin, and seconds a scene frame."""
     single = UserError(f"Move '{row.name}' is of one frame: choose more frames of Action '{row.action.name}'")
     try:
-        clip = sample(context, obj, row.action, rig)
+        clip = with_hands(sample(context, obj, row.action, rig), rig, hand_pose(context, obj, rig))
     except SinglePose:
         raise single from None
     times = sample_times(context.scene, obj, row.action)

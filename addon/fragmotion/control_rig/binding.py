@@ -16,7 +16,7 @@ from ..made import mark, remove_collection, remove_object
 from ..rig.bodies import set_roles
 from ..rig.posing import check_free, playing
 from .armatures import out_of_modes
-from .controls import Advance, Controls, find_controls
+from .controls import Controls, Trying, find_controls
 from .following import (
     bone_name,
     carry,
@@ -99,9 +99,9 @@ def set_following(obj: bpy.types.Object, does: bool) -> None:
         constraint.mute = not does
 
 
-def bind(context: bpy.types.Context, obj: bpy.types.Object, advance: Advance) -> list[str]:
-    """Make the rig's motion skeleton and let its controls follow it; the roles that do not. UserError where it cannot
-    be; then nothing has changed."""
+def bind(context: bpy.types.Context, obj: bpy.types.Object) -> Trying[list[str]]:
+    """Make the rig's motion skeleton and let its controls follow it, telling what share is done; the roles that do not.
+    UserError where it cannot be; then, and where it is closed, nothing has changed."""
     check_free(obj)
     circle = find_circle(obj)
     if circle:
@@ -114,7 +114,7 @@ def bind(context: bpy.types.Context, obj: bpy.types.Object, advance: Advance) ->
     former = {switch: value for switch in switches if (value := read_switch(obj, switch)) is not None}
     try:
         with playing(context, obj, None):
-            controls = find_controls(context, obj, joints, advance)
+            controls = yield from find_controls(context, obj, joints)
         missing = [role for role in joints if role not in controls.followed]
         joints = without(joints, [role for role in missing if _OPTIONAL.fullmatch(role)])
         _note(obj, {switch: former[switch] for switch in controls.switches})

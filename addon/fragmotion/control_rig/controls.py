@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Collection, Generator, Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple, TypeVar
 
 import bpy
 
@@ -22,8 +22,9 @@ _LIMBS = [
     for side in ("left", "right")
 ]
 
-Advance = Callable[[float], None]
-
+T = TypeVar("T")
+Trying = Generator[float, None, T]
+"""Tells what share is done, and returns what was found."""
 
 ROOT = "root"
 """The role of the motion skeleton's bone on the ground, which the rig's outermost control follows."""
@@ -49,25 +50,22 @@ class Controls(NamedTuple):
     switches: dict[Switch, float]
 
 
-def find_controls(
-    context: bpy.types.Context, obj: bpy.types.Object, joints: Mapping[str, Joint], advance: Advance
-) -> Controls:
-    """Try the rig's controls, which rests and plays nothing; its switches stay as they are told."""
-    return _Search(context, obj, joints, advance).run()
+def find_controls(context: bpy.types.Context, obj: bpy.types.Object, joints: Mapping[str, Joint]) -> Trying[Controls]:
+    """Try the rig's controls, which rests and plays nothing, telling what share is done; its switches stay as they are
+    told."""
+    return _Search(context, obj, joints).run()
 
 
 class _Search:
-    def __init__(
-        self, context: bpy.types.Context, obj: bpy.types.Object, joints: Mapping[str, Joint], advance: Advance
-    ) -> None:
-        self._obj, self._joints, self._advance = obj, joints, advance
+    def __init__(self, context: bpy.types.Context, obj: bpy.types.Object, joints: Mapping[str, Joint]) -> None:
+        self._obj, self._joints = obj, joints
         self._prober = Prober(context, obj, joints)
         self._has_shapes = any(bone.custom_shape is not None for bone in obj.pose.bones)
         self._above = {role: above(obj, joint.bone) for role, joint in joints.items()}
         self._heeded = heeded_switches(obj)
 
-    def run(self) -> Controls:
-        switches = self._flip()
+    def run(self) -> Trying[Controls]:
+        switches = yield from self._flip()
         carriers = self._carriers()
         if not carriers:
             raise UserError(
@@ -85,12 +83,12 @@ class _Search:
         followed = {*turning, "hips", *(role for limb in reaching if limb[2] in placed for role in limb)}
         return Controls([*followers, *reached.values()], followed, body, root, switches)
 
-    def _flip(self) -> dict[Switch, float]:
+    def _flip(self) -> Trying[dict[Switch, float]]:
         """Flip the switches without which parts of limbs have no control of their own; how they stand now."""
         limbs = [role for limb in _LIMBS for role in limb if role in self._joints]
         found, flipped = self._assign(limbs), {}
         for index, switch in enumerate(switches := self._switches()):
-            self._advance(index / len(switches))
+            yield index / len(switches)
             before = read_switch(self._obj, switch)
             if before is None or not any(self._heeds(role, switch) for role in limbs if role not in found):
                 continue

@@ -15,26 +15,23 @@ from ..character import classes
 from ..character.moves import bring_up_to_date, check_keys, names_of, triggers_of
 from ..compat.data_blocks import is_alive
 from ..compat.event_keys import name_of
-from ..edits.replaying import play_again
-from ..errors import UserError
 from ..ground.meshes import find_ground
 from ..input.inputs import Inputs
-from ..input.steering import REST, Control, Intent, Steering, view_heading
+from ..input.steering import Control, Intent, Steering, view_heading
 from ..preview.posed_armature import PosedArmature
-from ..recordings.curves import renew_curves
 from ..recordings.looks import Aim, LookChange, aim_of
 from ..recordings.recordings import POSE_RATE, TRACE_RATE, add_recording
 from ..recordings.styles import AS_EVER, Styled
 from ..settings import preferences
 from .acting.actor import Actor
-from .acting.looking import Looking
+from .acting.asking import Asking
 from .acting.punch import Punch
 from .acting.recorder import Recorder, Taken
-from .acting.styling import Styling
 from .follow import FollowCamera
-from .hud import overlays, timeline, views
+from .hud import overlays, views
 from .hud.readings import Readings
 from .hud.shown import LONGEST_UPDATE, Shown
+from .over import Over
 from .scene_state import SceneState
 
 if TYPE_CHECKING:
@@ -72,13 +69,13 @@ class Session:
         """What it stands on; None: the plane."""
         self.views, self._follow = views.Views(context.area), FollowCamera()
         self._state = SceneState(context, obj)
-        self.styling = Styling(self.actor)
-        self.looking = Looking(self.actor)
+        self._asking = Asking(self.actor)
+        self.styling = self._asking.styling
         self._steerings: dict[int, Steering] = {}  # by style
         self._steering()
         self.readings = Readings(self.actor, RATE)
         self.recording: Recorder | None = None
-        self.punch: Punch | None = None
+        self._over: Over | None = None
         self._elapsed, self._steps = 0.0, 0
         self._replays = False
         self.cost = self.interval = 0.0
@@ -90,9 +87,6 @@ class Session:
         self.triggers = triggers_of(obj, self.actor.character)
         """The key and the button of each move."""
         self.inputs = Inputs(preferred, RATE, self.triggers)
-        self._held: set[int] = set()
-        self._own_held: set[int] = set()  # those that a recording holds that is recorded over
-        self._own_style = 0  # that it was in last
         self._news, self._news_until = "", 0
         self._target_level = 0.0
         self.span: tuple[float, float] | None = None
@@ -105,6 +99,11 @@ class Session:
         except BaseException:
             self.inputs.close()
             raise
+
+    @property
+    def punch(self) -> Punch | None:
+        """The stretch of a recording over which the user is recorded, if any."""
+        return None if self._over is None else self._over.punch
 
     @property
     def armature(self) -> str:
@@ -155,8 +154,8 @@ class Session:
     def _step(self) -> tuple[Doubles, Doubles]:
         self.inputs.target.steer(self.actor.space, self.actor.frame, 1 / RATE)
         intent, held = self.inputs.intent(), self.inputs.moves()
-        if self.punch is not None:
-            self._offer(self.punch, intent, held)
+        if self._over is not None:
+            self._over.offer(intent, held)
         control = self._control(intent)
         self._ask_beside(held)
         pose = self.actor.step(control, 1 / RATE)
@@ -167,7 +166,7 @@ class Session:
         self._steps += 1
         if self.punch is not None:
             self.punch.advance()
-            if self.punch.over and self._keep_punch():
+            if self.punch.over and self._keep_over():
                 bpy.ops.ed.undo_push(message="Record Over")
         return pose
 
@@ -176,12 +175,6 @@ class Session:
         if self.player.ground_missed and not self._missed:
             self._missed = True
             self.inputs.messages.append("There is no ground under its feet: it goes on at the height that it had")
-
-    def _offer(self, punch: Punch, intent: Intent, held: set[int]) -> None:
-        """Let the user take over a recording by a stick, a move or another style."""
-        touched = intent != REST or bool(held) or self.styling.wanted != self._own_style
-        if punch.offer(touched, intent.jump, held):
-            self.actor.take_over()
 
     def _control(self, intent: Intent) -> Control:
         by_view = self.settings.relative == "VIEW"
@@ -209,18 +202,8 @@ class Session:
         return self._steerings[actor.style]
 
     def _ask_beside(self, held: set[int]) -> None:
-        """Tell the player what the next step asks for beside its control, where the user holds these moves: first what
-        a recording does that is recorded over."""
-        taken, punch = self._taken, self.punch
-        if punch is not None:
-            self._own_held = self._hold_moves(self._own_held, punch.moves)
-        if punch is not None and not punch.takes:
-            held = set()
-            self.styling.want(punch.style)
-            self._own_style = punch.style
-        self._held = self._hold_moves(self._held, held if taken is None else taken.hold_moves(held))
-        self.styling.tell(taken)
-        self.looking.tell(self._aim, None if punch is not None else taken)
+        """Tell the player what the next step asks for beside its control, where the user holds these moves."""
+        self._asking.tell(held, self._aim, self._taken, self.punch)
 
     @property
     def _aim(self) -> Aim:
@@ -229,14 +212,6 @@ class Session:
             return self.punch.aim
         trace = self.inputs.trace
         return trace.aim if trace.playing else aim_of(self.obj.fragmotion.look)
-
-    def _hold_moves(self, before: set[int], held: set[int]) -> set[int]:
-        """Let go of the moves that are not held any more, and start those that are held since this step."""
-        for move in sorted(before - held):
-            self.player.release_move(move)
-        for move in sorted(held - before):
-            self.player.start_move(move)
-        return held
 
     @property
     def move(self) -> str:
@@ -266,7 +241,6 @@ class Session:
         self._replays = start is not None
         if start is not None:
             self._begin(start, styled)
-            self._held = set()
             self.readings = Readings(self.actor, RATE)
         self.styling.want(styled.begin)
         self.inputs.play(trace, moves, styled.changes, looks)
@@ -276,8 +250,7 @@ class Session:
     def _begin(self, start: tuple[float, float, float], styled: Styled) -> None:
         """Stand where a recording begins, in its style."""
         self.actor.begin(start, styled.begin)
-        self.styling.reset(styled.begin)
-        self.looking.reset()
+        self._asking.begin(styled.begin)
 
     def play_over(self, punch: Punch, start: tuple[float, float, float], styled: Styled, shown: Motion | None) -> None:
         """Let a recording, of which these poses are `shown`, drive from the character frame and the style in which it
@@ -285,42 +258,20 @@ class Session:
         self._begin(start, styled)
         if shown is not None:
             self.actor.join_on(shown)
-        self.punch, self._own_style = punch, styled.begin
+        self._over = Over(self.obj, punch, self.actor, self._asking, self.inputs)
         for _ in range(max(punch.begin * RATE // TRACE_RATE - _LEAD * RATE, 0)):
             self._ask_beside(set())
             self.actor.step(punch.control, 1 / RATE)
             punch.advance()
         self.readings = Readings(self.actor, RATE)
 
-    def _keep_punch(self) -> bool:
-        """Give the recording what was recorded over it, once; whether there was anything. It goes on playing where it
-        was recorded as it is."""
-        punch, self.punch = self.punch, None
-        recording = self.obj.fragmotion.recordings.get(punch.own.name) if punch is not None else None
-        if punch is None or recording is None:
-            return False
-        timeline.tag_redraw()
-        try:
-            if punch.begun:
-                play_again(self.obj, recording, punch.trace, punch.first, punch.asked)
-        except UserError as error:
-            self.inputs.messages.append(str(error))
-            return False
-        self._go_on_after(punch)
-        if not punch.begun:
-            self._announce(f"Nothing was touched: '{recording.name}' is as it was")
-            return False
-        renew_curves(self.obj, recording)
-        first, end = punch.first / TRACE_RATE, punch.first / TRACE_RATE + punch.taken.seconds
-        self._announce(f"Kept: '{recording.name}' is recorded over from {first:.1f} s to {end:.1f} s")
-        return True
-
-    def _go_on_after(self, punch: Punch) -> None:
-        """Let the rest of the recording play."""
-        self._held, self._own_held = self._hold_moves(self._held, set()) | self._own_held, set()
-        self.inputs.spend_moves()
-        self.inputs.play(*punch.rest)
-        self.actor.take_over()
+    def _keep_over(self) -> bool:
+        """Keep what was recorded over a recording, once; whether there was anything."""
+        over, self._over = self._over, None
+        kept, told = (False, "") if over is None else over.keep()
+        if told:
+            self._announce(told)
+        return kept
 
     def _announce(self, text: str) -> None:
         """Tell the user, over the view for a while, too."""
@@ -350,8 +301,7 @@ class Session:
         elif self.recording is None:
             if math.hypot(*self.readings.velocity) < _STILL and not any(self.control):
                 self.actor.start_afresh()
-                self.looking.reset()
-                self._held = set()
+                self._asking.start_afresh()
             self.recording = Recorder(self.actor, RATE)
             self.styling.forget_told()
             self.readings = Readings(self.actor, RATE)
@@ -443,7 +393,7 @@ class Session:
             closing.callback(lambda: self._follow.release(views.all_views()))
             closing.callback(self.inputs.close)
             kept = is_alive(self.obj) and self._keep_recording()
-            return (is_alive(self.obj) and self._keep_punch()) or kept
+            return (is_alive(self.obj) and self._keep_over()) or kept
 
 
 def _running(mean: float, value: float) -> float:

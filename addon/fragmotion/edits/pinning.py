@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A recording bent so that its character is at a place, facing some way, at a moment."""
+"""A recording bent so that its character is at places, facing some way, at moments."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
@@ -36,10 +36,15 @@ class Goal(NamedTuple):
 
 
 class Pinned(NamedTuple):
-    """What was found, and where controls change."""
+    """What was found for each goal, in their order, and where controls change."""
 
-    pin: Pin
+    pins: list[Pin]
     first: int
+
+    @property
+    def fits(self) -> bool:
+        """Whether all are reached."""
+        return all(pin.fits for pin in self.pins)
 
 
 def frame_of(place: bpy.types.Object | bpy.types.View3DCursor) -> tuple[float, float, float]:
@@ -49,40 +54,55 @@ def frame_of(place: bpy.types.Object | bpy.types.View3DCursor) -> tuple[float, f
     return place.location.x, place.location.y, place.matrix.to_euler().z + math.pi
 
 
-def prepare(obj: bpy.types.Object, recording: Recording, goal: Goal) -> Callable[[Report], Pinned]:
-    """Read what the search needs; the task that it returns calls nothing of Blender. UserError where there is nothing
-    to search."""
+def prepare(obj: bpy.types.Object, recording: Recording, goals: Sequence[Goal]) -> Callable[[Report], Pinned]:
+    """Read what the search needs, for goals one after another, of which each changes what comes after the one before;
+    the task that it returns calls nothing of Blender. UserError where there is nothing to search."""
     shown = shown_poses(obj, recording)
     if shown is None:
         raise UserError(f"Armature '{obj.name}' has no character yet: press Build first")
     trace, last = trace_of(recording), (len(shown.classes) - 1) / POSE_RATE
-    if not 1 / TRACE_RATE < goal.seconds <= last:
-        raise UserError(
-            f"The playhead is {goal.seconds:.1f} s after the beginning of recording '{recording.name}', which lasts "
-            f"{last:.1f} s: move it onto the recording"
-        )
+    for goal in goals:
+        if not 1 / TRACE_RATE < goal.seconds <= last:
+            raise UserError(
+                f"The pin is {goal.seconds:.1f} s after the beginning of recording '{recording.name}', which lasts "
+                f"{last:.1f} s: move it, or the playhead, onto the recording"
+            )
     character = load(obj)
-    _check_plain(recording, character, goal)
-    first = min(max(math.ceil(goal.begin * TRACE_RATE - 1e-6), 0), math.ceil(goal.seconds * TRACE_RATE) - 1)
+    _check_plain(recording, character, goals[-1])
+    first = _begins(goals[0])
     played = replay(obj, character, recording, trace, recording.seed)
-    target = _seen_by_player(shown, played, first * STEPS, goal.frame)
+    targets = [_seen_by_player(shown, played, first * STEPS, goal.frame) for goal in goals]
     policy = recording.policy if recording.policy in character.policies else ""
-    options = {**player_options(obj), "seed": recording.seed, "policy": policy}
-    options.update({"angle": math.pi} if goal.any_heading else {})
-    start = np.array(recording.start)
+    options, start, seed = {**player_options(obj), "policy": policy}, np.array(recording.start), recording.seed
 
     def search(report: Report) -> Pinned:
-        pin = core.find_pin(
-            character, start, trace, goal.seconds, target, begin=first / TRACE_RATE, progress=report, **options
-        )
-        return Pinned(pin, first)
+        bent, drawn, pins = trace, seed, []
+        for number, (goal, target) in enumerate(zip(goals, targets)):
+            pin = core.find_pin(
+                character,
+                start,
+                bent,
+                goal.seconds,
+                target,
+                seed=drawn,
+                begin=_begins(goal) / TRACE_RATE,
+                progress=_share(report, number, len(goals)),
+                **options,
+                **({"angle": math.pi} if goal.any_heading else {}),
+            )
+            pins.append(pin)
+            if not pin.fits:
+                break
+            bent, drawn = pin.trace, pin.seed
+        return Pinned(pins, first)
 
     return search
 
 
-def keep_pin(obj: bpy.types.Object, recording: Any, goal: Goal, pinned: Pinned) -> None:
-    """Give the recording what was found, what is left spread over the stretch; UserError where it is not reached."""
-    pin, first = pinned
+def keep_pins(obj: bpy.types.Object, recording: Any, goals: Sequence[Goal], pinned: Pinned) -> None:
+    """Give the recording what was found, what is left spread over the stretches; UserError where one is not reached."""
+    pins, first = pinned
+    pin, goal = pins[-1], goals[len(pins) - 1]
     if not pin.fits:
         easier = "" if goal.any_heading else ", let it face anywhere (Any Heading)"
         raise UserError(
@@ -95,12 +115,24 @@ def keep_pin(obj: bpy.types.Object, recording: Any, goal: Goal, pinned: Pinned) 
     assert shown is not None
     again = replay(obj, character, recording, pin.trace, pin.seed)
     shown = from_then_on(character, shown, again, first)
-    end = round(goal.seconds * POSE_RATE)
-    heading = shown.path[end][2] if goal.any_heading else goal.frame[2]
-    there = core.spread(character.skeleton, as_shown(shown), first * STEPS, end, np.array((*goal.frame[:2], heading)))
+    for each in goals:
+        end = round(each.seconds * POSE_RATE)
+        heading = shown.path[end][2] if each.any_heading else each.frame[2]
+        target = np.array((*each.frame[:2], heading))
+        there = core.spread(character.skeleton, as_shown(shown), _begins(each) * STEPS, end, target)
+        shown = as_motion(there, shown.classes)
     recording.seed = pin.seed
-    keep(obj, recording, pin.trace, as_motion(there, shown.classes))
+    keep(obj, recording, pin.trace, shown)
     renew_curves(obj, recording)
+
+
+def _begins(goal: Goal) -> int:
+    """The first control that may change for a goal."""
+    return min(max(math.ceil(goal.begin * TRACE_RATE - 1e-6), 0), math.ceil(goal.seconds * TRACE_RATE) - 1)
+
+
+def _share(report: Report, number: int, count: int) -> Report:
+    return lambda fraction, stage: report((number + fraction) / count, stage)
 
 
 def say_off(goal: Goal, distance: float, angle: float) -> str:

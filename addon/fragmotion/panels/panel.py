@@ -22,6 +22,7 @@ from ..operators.base import background
 from ..operators.base.context import active_armature
 from ..preview.take_preview import TakePreview
 from ..settings.drawing import (
+    aligned,
     draw_baked,
     draw_build,
     draw_build_advanced,
@@ -218,7 +219,12 @@ class FRAGMOTION_PT_build_options(_BuildSubPanel, bpy.types.Panel):
     bl_label = "Build Options"
 
     def draw(self, context: bpy.types.Context) -> None:
-        draw_build(self.layout, active_armature(context).fragmotion.build)
+        settings = active_armature(context).fragmotion
+        draw_build(self.layout, settings.build)
+        column = aligned(self.layout)
+        column.prop(settings, "hands")
+        if settings.hands == "ACTION":
+            column.prop(settings, "hand_action")
 
 
 class FRAGMOTION_PT_figures(_BuildSubPanel, bpy.types.Panel):

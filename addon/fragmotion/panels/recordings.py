@@ -120,6 +120,8 @@ class FRAGMOTION_PT_change(_RecordingPanel, bpy.types.Panel):
         column.prop(settings.pin, "any_heading")
         column.prop(settings.pin, "stretch", text="Over")
         group.operator("fragmotion.pin_recording", icon="PINNED")
+        if len(settings.story):
+            group.operator("fragmotion.pin_recording", text="Pin to Storyboard", icon="PINNED").place = "STORY"
 
 
 def _group(layout: bpy.types.UILayout, context: bpy.types.Context, text: str) -> bpy.types.UILayout:

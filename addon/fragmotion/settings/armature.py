@@ -55,6 +55,12 @@ _GROUNDS = (
     ("COLLECTION", "Collection", "The faces of all that is visible in a collection"),
 )
 
+_HANDS = (
+    ("RELAXED", "Relaxed", "Fingers side by side and bent, as of a hand that does nothing"),
+    ("ACTION", "Action", "As on the first frame of an Action, such as a fist"),
+    ("REST", "Rest Pose", "As in the armature's rest pose"),
+)
+
 _KEEPING = (
     ("PACKED", "In the .blend", "Inside the .blend file"),
     ("BESIDE", "Beside It", "In a policy file beside the .blend, written when that is saved"),
@@ -283,6 +289,14 @@ class CharacterSettings(bpy.types.PropertyGroup):
     )
     control_rig: PointerProperty(type=ControlRigSettings)  # type: ignore[valid-type]
     build: PointerProperty(type=BuildSettings)  # type: ignore[valid-type]
+    hands: EnumProperty(  # type: ignore[valid-type]
+        name="Hands",
+        description="How the fingers are in takes that do not move them, from the next Build on",
+        items=_HANDS,
+    )
+    hand_action: PointerProperty(  # type: ignore[valid-type]
+        name="Pose", description="The Action whose first frame has the hand pose", type=bpy.types.Action
+    )
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
     populate: PointerProperty(type=PopulateSettings)  # type: ignore[valid-type]
     drive: PointerProperty(type=DriveSettings)  # type: ignore[valid-type]

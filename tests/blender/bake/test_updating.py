@@ -36,6 +36,26 @@ def test_a_change_makes_the_bake_stale_and_update_bake_writes_into_the_same_acti
     assert sorted(actions()) == ["Renamed Stroll", "Stroll Bake"] and recording.baked.name == "Stroll Bake"
 
 
+def test_update_bake_writes_into_the_strip_that_plays_the_action(
+    addon: ModuleType, obj: bpy.types.Object, trace: np.ndarray, recording: Any
+) -> None:
+    bake_recording(target="NLA")
+    strip = obj.animation_data.nla_tracks[-1].strips[0]
+    action, tracks = strip.action, len(obj.animation_data.nla_tracks)
+    assert recording.baked == action
+    before = strip.frame_end - strip.frame_start
+    strip.frame_start += 10
+    addon.recordings.recordings.set_trace(recording, trace[:-20])
+    recording.shown = b""
+    bake_recording(update=True)
+    strip = obj.animation_data.nla_tracks[-1].strips[0]
+    assert strip.action == recording.baked == action and actions() == [action.name]
+    assert len(obj.animation_data.nla_tracks) == tracks and obj.animation_data.action is None
+    rate = bpy.context.scene.render.fps / bpy.context.scene.render.fps_base
+    assert strip.frame_end - strip.frame_start == pytest.approx(before - 2 * rate, abs=1)
+    assert not addon.recordings.recordings.is_bake_stale(recording)
+
+
 def test_anything_that_a_bake_shows_makes_it_stale(addon: ModuleType, recording: Any) -> None:
     recordings = addon.recordings.recordings
     digests = {recordings.digest_of(recording)}

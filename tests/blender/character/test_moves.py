@@ -245,8 +245,8 @@ def test_playing_again_plays_the_moves_and_a_pin_says_that_it_cannot(addon: Modu
     assert shown.root_positions[:, 2].max() > 1.2
     pinning = part(addon, "edits.pinning")
     with pytest.raises(addon.errors.UserError, match=r"starts the move 'jump up' 0\.5 s after its beginning"):
-        pinning.prepare(obj, recording, pinning.Goal(3.0, 1.0, (0.0, 0.0, 0.0)))
-    assert pinning.prepare(obj, recording, pinning.Goal(0.4, 0.0, (0.0, 0.0, 0.0)))
+        pinning.prepare(obj, recording, [pinning.Goal(3.0, 1.0, (0.0, 0.0, 0.0))])
+    assert pinning.prepare(obj, recording, [pinning.Goal(0.4, 0.0, (0.0, 0.0, 0.0))])
 
 
 @pytest.mark.parametrize(

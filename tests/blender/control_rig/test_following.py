@@ -186,6 +186,19 @@ def test_a_cancelled_bake_leaves_everything(addon: ModuleType) -> None:
         job.result()
 
 
+def test_a_cancelled_search_for_controls_leaves_everything(addon: ModuleType, rigify: bpy.types.Object) -> None:
+    before = layouts.everything(rigify)
+    binding = addon.control_rig.binding
+    job = addon.jobs.SteppedJob("Trying", "switches", binding.bind(bpy.context, rigify))
+    job.start()
+    for _ in range(3):
+        job.wait(0)
+    assert job.running and 0 < job.fraction < 1
+    job.cancel()
+    assert not job.running and not binding.is_bound(rigify)
+    assert layouts.everything(rigify) == before
+
+
 def test_a_file_keeps_what_follows(addon: ModuleType, tmp_path: Path) -> None:
     making.add_action(bind(addon, layouts.add_layout()))
     path = tmp_path / "bound.blend"

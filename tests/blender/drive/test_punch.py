@@ -164,7 +164,7 @@ def pinned(addon: ModuleType, obj: bpy.types.Object, recording: Any) -> None:
     recordings.set_asked(recording, recordings.Asked([], "", []))
     aside = part(addon, "edits.replaying").shown_poses(obj, recording).path[180] + (0.2, 0.15, 0.2)
     goal = pinning.Goal(3.0, 0.5, tuple(aside))
-    pinning.keep_pin(obj, recording, goal, pinning.prepare(obj, recording, goal)(lambda *_: True))
+    pinning.keep_pins(obj, recording, [goal], pinning.prepare(obj, recording, [goal])(lambda *_: True))
 
 
 @pytest.mark.parametrize("edit", [cut, pinned])

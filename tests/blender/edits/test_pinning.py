@@ -113,9 +113,7 @@ def test_a_pin_out_of_reach_says_by_how_much_and_changes_nothing(
 def test_a_playhead_beside_the_recording_is_told(addon: ModuleType, obj: bpy.types.Object, recording: Any) -> None:
     for frame in (1, 5, 5 + 24 * 13):
         bpy.context.scene.frame_set(frame)
-        with pytest.raises(
-            RuntimeError, match=r"The playhead is .* s after the beginning of recording 'Stroll', which"
-        ):
+        with pytest.raises(RuntimeError, match=r"The pin is .* s after the beginning of recording 'Stroll', which"):
             bpy.ops.fragmotion.pin_recording("EXEC_DEFAULT")
 
 
@@ -134,3 +132,25 @@ def test_a_place_is_met_however_the_character_faces_there(
     turned = math.remainder(after.path[pose][2] - before.path[pose][2], 2 * math.pi)
     assert abs(turned) < math.radians(60), "it faces about as it did, as nobody asked for another heading"
     np.testing.assert_array_equal(after.rotations[:241], before.rotations[:241])
+
+
+def test_several_places_are_met_in_one_go(addon: ModuleType, obj: bpy.types.Object, recording: Any) -> None:
+    before = shown(addon, recording)
+    goals = {pose: before.path[pose] + off for pose, off in ((240, (0.1, 0.05, 0)), (480, (0.15, -0.1, 0)))}
+    for pose, goal in reversed(goals.items()):
+        bpy.context.scene.cursor.location = (*goal[:2], 0)
+        press("add_beat")
+        obj.fragmotion.story[-1].frame = round(5 + 24 * pose / 60)
+    bpy.context.view_layer.update()
+    press("pin_recording", place="STORY", stretch=3.5)
+    after = shown(addon, obj.fragmotion.recordings[0])
+    for pose, goal in goals.items():
+        np.testing.assert_allclose(after.path[pose][:2], goal[:2], atol=1e-4)
+    np.testing.assert_array_equal(after.rotations[:31], before.rotations[:31])
+
+
+def test_a_storyboard_without_places_pins_nothing(addon: ModuleType, obj: bpy.types.Object, recording: Any) -> None:
+    press("add_beat")
+    obj.fragmotion.story[0].place = None
+    with pytest.raises(RuntimeError, match="No entry of the storyboard has a place"):
+        bpy.ops.fragmotion.pin_recording("EXEC_DEFAULT", place="STORY")

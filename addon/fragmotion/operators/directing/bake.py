@@ -10,7 +10,7 @@ from bpy.props import BoolProperty
 
 from ...bake.baking import Baked, hindrances, prepare
 from ...bake.performing import chosen_recording
-from ...bake.targets import find_target, write
+from ...bake.targets import find_target, strips_of, write
 from ...errors import UserError
 from ...jobs import Job
 from ...recordings.recordings import baked_source, digest_of, tell_baked
@@ -68,19 +68,24 @@ class FRAGMOTION_OT_bake(BakeFields, Baking, bpy.types.Operator):
         if self.update:
             if recording is None or recording.baked is None:
                 raise UserError("No Action is known to which this was baked: press Bake")
-            self.target, self.action = "NEW", recording.baked.name
+            self.target = "NLA" if strips_of(obj, recording.baked) else "NEW"
+            self.action = recording.baked.name
         # Blender may replace an Action while the bake runs: only names stay valid.
         self._recording = recording.name if recording is not None else ""
         self._digest = digest_of(recording) if recording is not None else ""
         prepared = prepare(context, obj, self)
         self._first = prepared.target.first
+        if self.update and recording is not None and self.target == "NLA":
+            self._first = round(recording.baked.frame_range[0])
         return Job(f"Baking '{obj.name}'", prepared.task)
 
     def _keep(self, context: bpy.types.Context, obj: bpy.types.Object, baked: Baked) -> None:
         target = find_target(context, obj, self, self._recording)._replace(first=self._first)
+        if self.update and target.kind == "NLA":
+            target = target._replace(kind="STRIPS")
         action = write(context, obj, target, baked.tracks, baked.classes, self)
         recording = obj.fragmotion.recordings.get(self._recording)
-        if recording is not None and self.target == "NEW":
+        if recording is not None and self.target != "CURRENT":
             tell_baked(recording, action, self._digest)
         first, frames = target.first, len(baked.classes)
         self.report(

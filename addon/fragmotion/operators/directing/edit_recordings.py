@@ -237,6 +237,7 @@ class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.
         items=(
             ("PANEL", "Panel", "At the object that the panel names, or the 3D cursor"),
             ("CURSOR", "3D Cursor", "At the 3D cursor"),
+            ("STORY", "Storyboard", "At each place of the storyboard, by its frame"),
         ),
         options={"SKIP_SAVE"},
     )
@@ -247,24 +248,39 @@ class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.
 
     def _prepare(self, context: bpy.types.Context, obj: bpy.types.Object) -> Job:
         recording = selected(context)
-        named = obj.fragmotion.pin_at if self.place == "PANEL" else None
-        now = playhead(context, recording)
-        frame = pinning.frame_of(named or context.scene.cursor)
-        self._goal = pinning.Goal(now, now - self.stretch, frame, self.any_heading)
+        self._goals = self._story_goals(context, obj) if self.place == "STORY" else [self._goal(context, obj)]
         self._recording, self._controls = recording.name, recording.controls
-        return Job(f"Pinning '{recording.name}'", pinning.prepare(obj, recording, self._goal))
+        return Job(f"Pinning '{recording.name}'", pinning.prepare(obj, recording, self._goals))
+
+    def _goal(self, context: bpy.types.Context, obj: bpy.types.Object) -> pinning.Goal:
+        """At the playhead."""
+        named = obj.fragmotion.pin_at if self.place == "PANEL" else None
+        now = playhead(context, selected(context))
+        return pinning.Goal(now, now - self.stretch, pinning.frame_of(named or context.scene.cursor), self.any_heading)
+
+    def _story_goals(self, context: bpy.types.Context, obj: bpy.types.Object) -> list[pinning.Goal]:
+        """Those of the storyboard, each from the one before on; UserError where none has a place."""
+        recording, goals = selected(context), list[pinning.Goal]()
+        first, rate = first_frame(obj, recording), frame_rate(context, recording)
+        for beat in sorted((beat for beat in obj.fragmotion.story if beat.place), key=lambda beat: beat.frame):
+            seconds = (beat.frame - first) / rate
+            begin = max(goals[-1].seconds if goals else 0.0, seconds - self.stretch)
+            goals.append(pinning.Goal(seconds, begin, pinning.frame_of(beat.place), self.any_heading))
+        if not goals:
+            raise UserError("No entry of the storyboard has a place: put the 3D cursor somewhere, and press + there")
+        return goals
 
     def _keep(self, _context: bpy.types.Context, obj: bpy.types.Object, pinned: pinning.Pinned) -> None:
         recording = obj.fragmotion.recordings.get(self._recording)
         if recording is None or recording.controls != self._controls:
             raise UserError(f"Recording '{self._recording}' was changed meanwhile")
-        pinning.keep_pin(obj, recording, self._goal, pinned)
-        pin = pinned.pin
-        self.report(
-            {"INFO"},
-            f"'{recording.name}' is at the pin: it was {pinning.say_off(self._goal, pin.asked, pin.asked_angle)} away, "
-            f"{pin.tries} tries left {pinning.say_off(self._goal, pin.distance, pin.angle)}, spread over the change",
-        )
+        pinning.keep_pins(obj, recording, self._goals, pinned)
+        for goal, pin in zip(self._goals, pinned.pins):
+            self.report(
+                {"INFO"},
+                f"'{recording.name}' is at the pin: it was {pinning.say_off(goal, pin.asked, pin.asked_angle)} away, "
+                f"{pin.tries} tries left {pinning.say_off(goal, pin.distance, pin.angle)}, spread over the change",
+            )
 
 
 def _fit(seam: cutting.Seam) -> str:

@@ -14,19 +14,20 @@ from ...jobs import Job, SteppedJob
 from ...rig.keys import Poses
 from ...rig.posing import check_free
 from ..base.background import Exclusive, poll_idle
-from ..base.context import active_rig, poll_rig, progress_shown
+from ..base.context import active_rig, poll_rig
 
 
-class FRAGMOTION_OT_bind_rig(bpy.types.Operator):
+class FRAGMOTION_OT_bind_rig(Exclusive, bpy.types.Operator):
     """Make plain bones through the joints of the active control rig, and let its controls follow them."""
 
     bl_idname = "fragmotion.bind_rig"
     bl_label = "Make Motion Skeleton"
     bl_description = (
         "Make a hidden skeleton of plain bones through the rig's joints. Takes, Build, Drive and Bake work on it, and "
-        "the rig's controls follow it. Go on with the rig selected; Unbind takes all of it away again"
+        "the rig's controls follow it. Go on with the rig selected; Unbind takes all of it away again. Esc stops it"
     )
-    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
+    bl_options: ClassVar[set[str]] = {"UNDO"}
+    verb = "Make Motion Skeleton"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -41,16 +42,16 @@ class FRAGMOTION_OT_bind_rig(bpy.types.Operator):
             return True
         return False
 
-    @reported
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def _make_job(self, context: bpy.types.Context) -> Job:
         rig = active_rig(context)
-        with progress_shown(context) as advance:
-            missing = binding.bind(context, rig, advance)
-        self.report({"INFO"}, f"'{rig.name}' follows a motion skeleton: go on with Import Mocap")
-        if missing:
-            told = ", ".join(role.replace("_", " ") for role in missing)
+        self._armature = rig.name
+        return SteppedJob(f"Trying the controls of '{rig.name}'", "switches", binding.bind(context, rig))
+
+    def _keep(self, _context: bpy.types.Context, obj: bpy.types.Object, result: list[str]) -> None:
+        self.report({"INFO"}, f"'{obj.name}' follows a motion skeleton: go on with Import Mocap")
+        if result:
+            told = ", ".join(role.replace("_", " ") for role in result)
             self.report({"WARNING"}, f"No control was found for {told}: they do not follow")
-        return {"FINISHED"}
 
 
 class _Bound:

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "motion/clip.hpp"
+#include "skeleton/skeleton.hpp"
+
+namespace fragmotion {
+
+/// The clip, with those finger_bones() that rest in all of it as in a pose's rotations [bones, 4].
+Clip with_fingers(const Skeleton& skeleton, Clip clip, const std::vector<double>& pose);
+
+}  // namespace fragmotion
