@@ -12,7 +12,7 @@ from pathlib import Path
 
 from tools import demo
 from tools.docs import pages
-from tools.games import web
+from tools.games import godot, web
 from tools.measuring import benchmarks, running
 from tools.measuring.beside import inputs as beside_inputs
 from tools.measuring.directing import inputs as directing_inputs
@@ -62,6 +62,8 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     unstable_parser.add_argument("words", nargs=argparse.REMAINDER, metavar="COMMAND", help="what to run")
     live = commands.add_parser("web", help="make the live page: a folder of static files for any web server")
     live.add_argument("folder", type=Path, metavar="OUT", help="the folder: new, empty, or such a page")
+    engine = commands.add_parser("godot", help="make the add-on for Godot with what it takes on every platform")
+    engine.add_argument("folder", type=Path, metavar="OUT", help="where the folder fragmotion is to be")
     package = commands.add_parser("package", help="build the zips that Blender installs, into build/packages")
     package.add_argument(
         "--platform",
@@ -114,6 +116,10 @@ def main(arguments: list[str]) -> int:
         if options.command == "web":
             machine.set_up(machine.DEMO)
             web.make(options.folder)
+            return 0
+        if options.command == "godot":
+            machine.set_up(machine.SAME_BITS)
+            godot.make(options.folder)
             return 0
         if options.command == "docs":
             return pages.make_docs(options)

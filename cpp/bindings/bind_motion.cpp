@@ -96,6 +96,24 @@ Take new_take(const Skeleton& skeleton, const std::string& name, double rate, co
   return make_take(std::move(take));
 }
 
+using Markers = std::vector<std::pair<double, std::string>>;
+
+Markers markers_of(const Clip& clip) {
+  Markers markers;
+  for (const Marker& marker : clip.markers) markers.emplace_back(marker.frame, marker.name);
+  return markers;
+}
+
+Clip with_markers(Clip clip, const Markers& markers) {
+  clip.markers.clear();
+  for (const auto& [frame, name] : markers) {
+    check_name(name);
+    clip.markers.push_back({name, frame});
+  }
+  check_markers(clip.markers, clip.frames);
+  return clip;
+}
+
 std::vector<Clip> mirrored(const Skeleton& skeleton, const std::vector<Clip>& clips) {
   for (const Clip& clip : clips) check_bones(clip, skeleton);
   if (clips.empty()) return {};
@@ -159,6 +177,8 @@ void bind_clip(py::module_& m) {
                                const auto bones = static_cast<py::ssize_t>(clip.rotations.size()) / clip.frames / 4;
                                return view(clip.rotations, {clip.frames, bones, 4}, self);
                              })
+      .def_property_readonly("markers", &markers_of)
+      .def("with_markers", &with_markers, py::arg("markers"), py::call_guard<GilRelease>())
       .def(
           "world_transforms",
           [](const Clip& clip, const Skeleton& skeleton) {

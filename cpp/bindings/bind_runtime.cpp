@@ -165,6 +165,14 @@ void bind_crowd(py::module_& m) {
       .def_property_readonly("playing", &playing_of);
 }
 
+std::vector<std::string> passed_markers(OnePlayer& player) {
+  std::vector<std::string> names;
+  for (const PassedMarkers& passed : OnePlayer::Call(player)->passed_markers()) {
+    for (const Marker* marker : passed) names.push_back(marker->name);
+  }
+  return names;
+}
+
 py::array_t<double> standing_feet(OnePlayer& player) {
   std::vector<double> places;
   for (const std::optional<Vector3>& foot : OnePlayer::Call(player)->standing_feet()) {
@@ -228,6 +236,7 @@ void bind_player(py::module_& m) {
                              [](OnePlayer& player) { return to_pair(OnePlayer::Call(player)->playing_moves()); })
       .def_property_readonly("waiting_moves",
                              [](OnePlayer& player) { return to_pair(OnePlayer::Call(player)->waiting_moves()); })
+      .def_property_readonly("passed_markers", &passed_markers)
       .def(
           "look",
           [](OnePlayer& player, int look, double x, double y, double z) {

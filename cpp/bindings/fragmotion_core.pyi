@@ -237,6 +237,11 @@ class Clip:
     rate: float
     root_positions: Doubles
     rotations: Doubles
+    markers: list[tuple[float, str]]
+    """What an animator has marked, by the frame, from 0: there a game is told of it as the character plays it."""
+    def with_markers(self, markers: Sequence[tuple[float, str]]) -> Clip:
+        """The clip with these markers alone. ValueError where one has no name, is outside of the clip, or is before the
+        one before it."""
     def world_transforms(self, skeleton: Skeleton) -> tuple[Doubles, Doubles]:
         """World positions [F,B,3] of the heads, m, and rotations [F,B,4]."""
     def with_fingers(self, skeleton: Skeleton, pose: ArrayLike) -> Clip:
@@ -611,6 +616,8 @@ class Player:
     """The move of the whole body and that of the upper body that play; -1: none."""
     waiting_moves: tuple[int, int]
     """Those that wait for their moment, likewise."""
+    passed_markers: list[str]
+    """The names of the markers of its takes and moves that the last step passed."""
     def step(self, control: ArrayLike, seconds: float) -> tuple[Doubles, Doubles]:
         """Advance by 0 to 3600 s under a control [4] and return the pose: root position [3] m and rotations [B,4] as in
         Clip. ValueError on what is not finite."""

@@ -40,7 +40,7 @@ public enum Look { AsCaptured, Ahead, At }
 public enum PathEnd { Stand, Loop, GoOn }
 
 public enum EventType {
-  FootDown, FootUp, TakeOff, Landing, MoveBegins, MoveEnds, StyleChanges, PathArrived
+  FootDown, FootUp, TakeOff, Landing, MoveBegins, MoveEnds, StyleChanges, PathArrived, Marker
 }
 
 /// A bone's place and rotation.
@@ -166,6 +166,7 @@ public struct CharacterInfo {
   public int Bones, Moves, Styles, Hips;
   private int jumps, turns;
   public float Height, HipsHeight;
+  public int Markers;
 
   public bool Jumps { get { return jumps != 0; } }
   public bool Turns { get { return turns != 0; } }
@@ -271,10 +272,18 @@ public sealed class Character : IDisposable {
     return Utf8.Read(name);
   }
 
-  /// The number of a bone, a move, a style by its name; -1 where there is none.
+  /// What an animator has named a marker of its takes: "whoosh".
+  public string MarkerName(int index) {
+    var name = Native.fragmotion_character_marker_name(Handle, index);
+    if (name == IntPtr.Zero) throw new FragmotionException(Result.Argument, Native.LastError());
+    return Utf8.Read(name);
+  }
+
+  /// The number of a bone, a move, a style, a marker by its name; -1 where there is none.
   public int FindBone(string name) { return Native.fragmotion_character_find_bone(Handle, Utf8.Bytes(name)); }
   public int FindMove(string name) { return Native.fragmotion_character_find_move(Handle, Utf8.Bytes(name)); }
   public int FindStyle(string name) { return Native.fragmotion_character_find_style(Handle, Utf8.Bytes(name)); }
+  public int FindMarker(string name) { return Native.fragmotion_character_find_marker(Handle, Utf8.Bytes(name)); }
 }
 
 /// The bones of a mesh as the game has them: poses come in their order.
@@ -694,6 +703,10 @@ internal static class Native {
   public static extern int fragmotion_character_find_move(CharacterHandle character, byte[] name);
   [DllImport(Name, CallingConvention = C)]
   public static extern int fragmotion_character_find_style(CharacterHandle character, byte[] name);
+  [DllImport(Name, CallingConvention = C)]
+  public static extern IntPtr fragmotion_character_marker_name(CharacterHandle character, int index);
+  [DllImport(Name, CallingConvention = C)]
+  public static extern int fragmotion_character_find_marker(CharacterHandle character, byte[] name);
 
   [DllImport(Name, CallingConvention = C)]
   public static extern Result fragmotion_rig_create(CharacterHandle character, ref NativeRigOptions options,

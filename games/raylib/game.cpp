@@ -19,7 +19,8 @@ using rollback::Machine;
 using rollback::Stick;
 
 static constexpr int kOthers = 200, kWidth = 1280, kHeight = 640, kCells = 100;
-static constexpr float kField = 80;  // m, the side of the ground
+static constexpr float kField = 80;    // m, the side of the ground
+static constexpr float kRoom = 0.35F;  // m around each of the others
 static constexpr const char* kVertex = R"(#version 330
 in vec3 vertexPosition; in vec3 vertexNormal; in vec2 vertexTexCoord; in mat4 instanceTransform;
 uniform mat4 mvp; out vec3 normal; out vec2 uv;
@@ -217,7 +218,25 @@ class Others {
       if (!crowd_[i].set_path(path)) fail(fm::last_error());
     }
   }
-  void step() { crowd_.step(inputs_.data(), rollback::kFrame); }
+  /// They keep clear of each other, and of the players.
+  void step(const FragmotionBody (&players)[2]) {
+    crowd_.make_way(kRoom, rollback::kFrame, players, 2);
+    crowd_.step(inputs_.data(), rollback::kFrame);
+  }
+  /// How near two of them, or one and a player, have come.
+  float nearest(const FragmotionBody (&players)[2]) const {
+    std::vector<Vector2> places;
+    for (const FragmotionBody& player : players) places.push_back({player.position[0], player.position[2]});
+    for (int i = 0; i < kOthers; ++i) {
+      const FragmotionPlace place = crowd_[i].state().place;
+      places.push_back({place.position[0], place.position[2]});
+    }
+    float least = kField;
+    for (std::size_t i = 2; i < places.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) least = std::min(least, Vector2Distance(places[i], places[k]));
+    }
+    return least;
+  }
   void add_bones(Hero& hero, std::vector<Matrix>& drawn) const {
     for (int i = 0; i < kOthers; ++i) hero.add_bones(crowd_[i], drawn);
   }
@@ -286,6 +305,14 @@ static fm::Player player_of(const Hero& hero, int index) {
   return player;
 }
 
+static FragmotionBody body_of(const fm::PlayerRef& player) {
+  const FragmotionState state = player.state();
+  FragmotionBody body{{}, {}, kRoom};
+  std::copy(state.place.position, state.place.position + 3, body.position);
+  std::copy(state.velocity, state.velocity + 3, body.velocity);
+  return body;
+}
+
 static Camera3D camera_behind(const FragmotionPlace& place, float yaw) {
   const Vector3 at{place.position[0], place.position[1] + 1.2F, place.position[2]};
   return {Vector3Add(at, {4.5F * std::sin(yaw), 1.2F, 4.5F * std::cos(yaw)}), at, {0, 1, 0}, 50, CAMERA_PERSPECTIVE};
@@ -316,6 +343,7 @@ int main(int count, char** words) {
   RenderTexture2D views[] = {LoadRenderTexture(kWidth / 2, kHeight), LoadRenderTexture(kWidth / 2, kHeight)};
   float yaws[2] = {0, 0};
   std::vector<Matrix> drawn;
+  float nearest = kField;
 
   for (int now = 0; !WindowShouldClose() && (given.frames == 0 || now < given.frames); ++now) {
     for (int i = 0; i < 2; ++i) {
@@ -323,7 +351,9 @@ int main(int count, char** words) {
       machines[i].advance(stick, lines[i], lines[1 - i], now);
     }
     umpire.compare(machines[0], machines[1]);
-    others.step();
+    const FragmotionBody bodies[] = {body_of(machines[0].player(0)), body_of(machines[0].player(1))};
+    others.step(bodies);
+    nearest = std::min(nearest, others.nearest(bodies));
 
     drawn.clear();
     others.add_bones(first, drawn);
@@ -360,6 +390,7 @@ int main(int count, char** words) {
   std::printf("frames %d and %d, rollbacks %d and %d by %d at most, equal %d, unequal %d\n", machines[0].frame(),
               machines[1].frame(), machines[0].rollbacks, machines[1].rollbacks,
               std::max(machines[0].longest, machines[1].longest), umpire.equal, umpire.unequal);
+  std::printf("nobody nearer than %.2f m\n", static_cast<double>(nearest));
   CloseWindow();
   return umpire.unequal == 0 ? 0 : 1;
 }

@@ -41,6 +41,7 @@ class Info(ctypes.Structure):
         ("size", c_uint32),
         *((name, c_int32) for name in ("bones", "moves", "styles", "hips", "jumps", "turns")),
         *((name, c_float) for name in ("height", "hips_height")),
+        ("markers", c_int32),
     )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from conftest import BUILD, TOP, Poses, Run, finished
 
+from tools.games.godot import library_name
 from tools.platforms import PLATFORMS
 
 OURS = TOP / "games" / "godot"
@@ -98,7 +99,5 @@ def test_help_and_icons_are_there() -> None:
 
 def test_the_native_part_has_the_name_of_its_platform() -> None:
     told = (OURS / "addons" / "fragmotion" / "fragmotion.gdextension").read_text(encoding="utf-8")
-    suffixes = {"Linux": "linux.{}.so", "Windows": "windows.{}.dll", "Darwin": "macos.{}.dylib"}
     for platform in PLATFORMS:
-        name = suffixes[platform.system].format(platform.target.partition("-")[0])
-        assert f'"bin/fragmotion.{name}"' in told, platform.name
+        assert f'"bin/{library_name(platform)}"' in told, platform.name

@@ -18,7 +18,9 @@ HEADER = TOP / "cpp" / "include" / "fragmotion" / "fragmotion.h"
 POLICY = TOP / "tests" / "data" / "version-3.policy"
 FOLDER = TOP / "build" / "game"
 COMPILERS = [(c, cpp) for c, cpp in (("gcc", "g++"), ("clang", "clang++")) if shutil.which(c) and shutil.which(cpp)]
+ROLLED_BACK = TOP / "tests" / "data" / "styles.policy"
 KILOBYTES = 500
+ROLLBACK = 100.0  # us
 
 
 def run(*command: str | Path, **more: str) -> str:
@@ -146,3 +148,10 @@ def test_a_file_that_is_none_ends_no_game(prefix: Path) -> None:
     done = subprocess.run([game, Path(__file__)], capture_output=True, text=True, check=False)
     assert done.returncode == 1
     assert "it is no Fragmotion policy file" in done.stderr or "character is null" in done.stderr
+
+
+def test_a_rollback_of_eight_frames_takes_a_hundred_microseconds_at_most(prefix: Path) -> None:
+    del prefix
+    took = [float(run(game, ROLLED_BACK)) for game in FOLDER.glob("consumers-*/rollback")]
+    print(f"restored and 8 frames played again: {min(took):.0f} us")
+    assert min(took) <= ROLLBACK

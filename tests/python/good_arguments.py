@@ -174,6 +174,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "rotations": rotations,
         },
         "Clip.from_take": {"take": take, "skeleton": skeleton},
+        "Clip.with_markers": {"self": walk, "markers": [(2.5, "whoosh")]},
         "Clip.world_transforms": {"self": walk, "skeleton": skeleton},
         "Clip.with_fingers": {"self": clips[0], "skeleton": skeleton, "pose": skeleton.rest_rotations},
         "Clip.led_by_feet": {"self": walk, "skeleton": skeleton, "speed": 0.0},

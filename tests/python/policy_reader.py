@@ -37,6 +37,8 @@ class Clip:
     headings: Array
     rotations: Array
     size: int
+    markers: list[tuple[float, str]] = field(default_factory=list)
+    original: int = -1
 
 
 @dataclass
@@ -145,6 +147,13 @@ def read_policy(data: bytes) -> Policy:
             name = read.text()
             styles.append(read_style(read, version))
             styles[-1].name = name
+    if read.section("markers"):
+        for clips in (style.clips for style in styles):
+            for clip in clips:
+                if clip.original >= 0:
+                    clip.markers = clips[clip.original].markers
+                else:
+                    clip.markers = [(read.text(), read.one("d"))[::-1] for _ in range(read.one("Q"))]
     assert read.done
     return Policy(bones, parents, rest[:, [3, 0, 1, 2]], offsets, tips, roles, styles, moves)
 
@@ -160,7 +169,7 @@ def read_style(read: Bytes, version: int) -> Style:
             read_clip(read, name, grid, version) if original < 0 else (style.clips[original], turns[original])
         )
         style.clips.append(clip if original < 0 else mirrored(clip, name, turned, grid))
-        style.clips[-1].size = read.at - begin
+        style.clips[-1].size, style.clips[-1].original = read.at - begin, original
         turns.append(turned)
     if version < 5:
         for _ in range(read.one("Q")):

@@ -8,7 +8,7 @@ from pathlib import Path
 import fragmotion_core as core
 import numpy as np
 import pytest
-from conftest import make_skeleton, walking_clips
+from conftest import build_options, make_skeleton, walking_clips
 from policy_reader import read_policy
 
 DATA = Path(__file__).parents[1] / "data"
@@ -59,3 +59,35 @@ def test_it_reads_the_files_of_all_versions(version: int) -> None:
     assert (policy.styles[0].labels == character.labels).all()  # tables are repaired as they are loaded
     for clip in policy.styles[0].clips:
         assert np.allclose(np.linalg.norm(clip.rotations, axis=-1), 1, atol=1e-6)
+
+
+def test_it_reads_the_markers_that_were_set(tmp_path: Path) -> None:
+    skeleton = make_skeleton()
+    first, *others = walking_clips(skeleton)[:3]
+    marked = first.with_markers([(2.0, "left"), (7.5, "über")])
+    trace = core.simulate_trace("explorer", 8, 1)
+    built = core.build(skeleton, [marked, *others], [trace], build_options(classes=4, restarts=1))
+    nod = others[0].with_markers([(0.0, "nod")])
+    made = core.with_styles([("normal", built.with_moves([core.Move("nod", nod, upper_body=True)])), ("other", built)])
+    for data in (made.to_bytes(), core.Character.from_bytes(made.to_bytes()).to_bytes()):
+        policy = read_policy(data)
+        for style in policy.styles:
+            clips = {clip.name: clip.markers for clip in style.clips}
+            assert clips[first.name] == clips[f"{first.name} mirrored"] == marked.markers
+            assert not clips[others[0].name]
+        assert policy.styles[0].clips[policy.moves[0][1]].markers == [(0.0, "nod")]
+    assert core.Character.from_bytes(made.to_bytes()).moves[0].clip.markers == [(0.0, "nod")]
+
+
+def test_a_player_tells_the_markers_that_it_passes() -> None:
+    skeleton = make_skeleton()
+    clips = walking_clips(skeleton)[:3]
+    built = core.build(skeleton, clips, [core.simulate_trace("explorer", 8, 1)], build_options(classes=4, restarts=1))
+    stroll = clips[0].with_markers([(3.0, "whoosh"), (9.0, "thud")])
+    player = core.Player(built.with_moves([core.Move("stroll", stroll)]))
+    player.start_move(0)
+    told = []
+    for _ in range(300):
+        player.step([0, 1.2, 0, 0], 1 / 60)
+        told += player.passed_markers
+    assert told == ["whoosh", "thud"]

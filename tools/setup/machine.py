@@ -82,7 +82,7 @@ BLENDER_52 = BUILD_HOST | Needs(_BPY_PACKAGES, {"3.13": ("bpy==5.2.*", "numpy", 
 DEMO = BUILD_HOST | build_needs(SYSTEM) | Needs(_BLENDER_PACKAGES)
 BLENDER_DEBIAN = DEMO | Needs(pytest_folder=True)
 GUI = BLENDER_DEBIAN | PYTHON_TESTS | Needs(_WINDOW_PACKAGES)
-SAME_BITS = BUILD_HOST | Needs(("qemu-user",), {HOST: (*cross.REQUIREMENTS, "pytest")})
+SAME_BITS = BUILD_HOST | Needs(("qemu-user", "wine64"), {HOST: (*cross.REQUIREMENTS, "pytest")})
 WINDOWS_45 = Needs(windows.PACKAGES, {"3.11": ("numpy", "pytest")}, windows=("3.11",))
 WINDOWS_52 = Needs(windows.PACKAGES, {"3.13": ("pytest",)}, windows=("3.13",))
 ENGINES = DEMO | GAME_TESTS

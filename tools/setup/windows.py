@@ -54,15 +54,21 @@ def _python(version: str) -> Path:
 
 def python_command(version: str) -> list[str | Path]:
     """What runs Windows' Python of a version; to be followed by its arguments, and run in an `environment`."""
-    loader = next((path for path in _LOADERS if Path(path).exists()), None) or shutil.which("wine")
-    if not loader:
+    return [loader(), _python(version) / "python.exe"]
+
+
+def loader() -> str:
+    """What runs a program of Windows'."""
+    found = next((path for path in _LOADERS if Path(path).exists()), None) or shutil.which("wine")
+    if not found:
         raise Failure("wine64 is installed, but none of its programs is where Debian puts them")
-    return [loader, _python(version) / "python.exe"]
+    return found
 
 
 def environment(name: str) -> dict[str, str]:
     """Environment variables that give a stage a Windows of its own in build/windows, whose server ends with it, and
     keep Wine quiet."""
+    _FOLDER.mkdir(parents=True, exist_ok=True)
     return {
         "WINEPREFIX": str(_FOLDER / f"prefix-{name}"),
         "WINEDEBUG": "-all",

@@ -18,6 +18,7 @@ from ..compat.core import core
 from ..compat.event_keys import KEYS
 from ..errors import SinglePose, UserError, core_errors
 from ..mocap.hands import hand_pose, with_hands
+from ..mocap.left_out import part_of
 from ..mocap.sampling import sample, sample_times
 from ..rig.rigs import make_rig
 from .building import has_character, load_whole, replace
@@ -243,5 +244,5 @@ def _clip(context: bpy.types.Context, obj: bpy.types.Object, rig: Rig, row: Any)
         raise single
     part = slice(inside[0], inside[-1] + 1)
     with core_errors(f"Move '{row.name}'"):
-        cut = core.Clip(rig.skeleton, row.name, clip.rate, clip.root_positions[part], clip.rotations[part])
+        cut = part_of(clip, rig.skeleton, row.name, part)
     return cut, (times[inside[0]], second)

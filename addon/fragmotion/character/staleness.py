@@ -13,6 +13,7 @@ from bpy.app.handlers import persistent
 from ..compat import versions
 from ..mocap.actions import RATE, SCENE_RATE, ticked
 from ..mocap.curve_points import points_of
+from ..mocap.markers import marks_of
 from ..mocap.styles import style_of
 from ..rig.writing import LINEAR
 
@@ -77,7 +78,8 @@ def _forget(*_: object) -> None:
 
 def _key(action: bpy.types.Action) -> tuple[object, ...]:
     """What tells, without reading the keys, that an Action may be another, also where no change of it was noticed."""
-    return action.name, action.library, versions.count_curves(action), tuple(action.frame_range)
+    shape = versions.count_curves(action), tuple(action.frame_range)
+    return action.name, action.library, *shape, *marks_of(action)
 
 
 def digest_of(action: bpy.types.Action) -> str:
@@ -96,7 +98,7 @@ def _told_by(action: bpy.types.Action) -> str:
 def _read(action: bpy.types.Action) -> str:
     digest = hashlib.sha256()
     kept = (action.get(RATE), action.get(SCENE_RATE), action.use_frame_range, *action.frame_range)
-    digest.update(repr(kept).encode())
+    digest.update(repr((*kept, *marks_of(action))).encode())
     for curve in versions.all_curves(action):
         named = (curve.data_path, curve.array_index, versions.is_muted(curve), curve.extrapolation)
         digest.update(repr((*named, [modifier.type for modifier in curve.modifiers])).encode())

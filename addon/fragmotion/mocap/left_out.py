@@ -78,12 +78,13 @@ def cut(clip: Clip, skeleton: Skeleton, times: Doubles, spans: Iterable[tuple[in
     parts = parts_of(times, spans)
     if not parts:
         raise UserError(f"Action '{clip.name}': all of its frames are left out: untick it, or leave out fewer")
-    return [
-        core.Clip(
-            skeleton, f"{clip.name} from {times[part][0]:g}", clip.rate, clip.root_positions[part], clip.rotations[part]
-        )
-        for part in parts
-    ]
+    return [part_of(clip, skeleton, f"{clip.name} from {times[part][0]:g}", part) for part in parts]
+
+
+def part_of(clip: Clip, skeleton: Skeleton, name: str, part: slice) -> Clip:
+    """Some frames of a clip, with their markers, as a clip of that name."""
+    cut = core.Clip(skeleton, name, clip.rate, clip.root_positions[part], clip.rotations[part])
+    return cut.with_markers([(at - part.start, text) for at, text in clip.markers if part.start <= at <= part.stop - 1])
 
 
 def source_of(name: str) -> tuple[str, float | None]:

@@ -16,6 +16,7 @@ from ..rig.rigs import carriers, make_rig
 from ..rig.writing import write_poses
 from .actions import RATE, SCENE_RATE
 from .left_out import leave_out_likewise
+from .markers import mark_likewise
 from .sampling import sample, sample_times, scene_rate
 
 if TYPE_CHECKING:
@@ -93,6 +94,7 @@ def take_after(source: bpy.types.Action, frames: Doubles, made: bpy.types.Action
     """Give an Action, whose keys at `times` show the source's at `frames`, all that Build is told of the source."""
     made.fragmotion.style = source.fragmotion.style
     leave_out_likewise(source, frames, made, times)
+    mark_likewise(source, frames, made, times)
 
 
 def key_times(action: bpy.types.Action, frames: int) -> Doubles:

@@ -18,6 +18,7 @@ from ..rig.rigs import bone_path, is_tied
 from . import left_out
 from .actions import RATE, SCENE_RATE, animated_bones, rate_of
 from .curve_points import points_of
+from .markers import markers_of
 
 if TYPE_CHECKING:
     from fragmotion_core import Clip, Doubles, Rig
@@ -60,9 +61,11 @@ def sample_at(
     with core_errors(place):
         if posing.is_needed(obj, curves):
             matrices, worlds = posing.sample_poses(context, obj, action, times)
-            return rig.clip_from_matrices(action.name, rate, matrices, worlds)
-        locations, rotations = _sample_bones(obj, curves, times)
-        return rig.clip(action.name, rate, locations, rotations, _sample_object(obj, curves, times))
+            clip = rig.clip_from_matrices(action.name, rate, matrices, worlds)
+        else:
+            locations, rotations = _sample_bones(obj, curves, times)
+            clip = rig.clip(action.name, rate, locations, rotations, _sample_object(obj, curves, times))
+        return clip.with_markers(markers_of(action, times))
 
 
 def sample_parts(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action, rig: Rig) -> list[Clip]:

@@ -185,6 +185,7 @@ typedef struct FragmotionCharacterInfo {
   int32_t jumps, turns; /* whether jumps and turns can be asked for: 0 or 1 */
   float height;         /* of the body, by its legs */
   float hips_height;    /* of the hips at rest */
+  int32_t markers;      /* that animators set in its takes, each name once */
 } FragmotionCharacterInfo;
 
 typedef struct FragmotionBone {
@@ -217,7 +218,7 @@ typedef struct FragmotionStyle {
 } FragmotionStyle;
 
 static inline FragmotionCharacterInfo fragmotion_info(void) {
-  FragmotionCharacterInfo info = {sizeof info, 0, 0, 0, 0, 0, 0, 0, 0};
+  FragmotionCharacterInfo info = {sizeof info, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   return info;
 }
 static inline FragmotionBone fragmotion_bone(void) {
@@ -248,15 +249,21 @@ FRAGMOTION_EXPORT FragmotionResult fragmotion_character_style(const FragmotionCh
 FRAGMOTION_EXPORT const char* fragmotion_character_class_name(const FragmotionCharacter* character, int32_t style,
                                                               int32_t index) FRAGMOTION_NOEXCEPT;
 
-/* The number of a bone, a move, a style by its name; -1 where there is none, and on an error. A bone's name is compared
- * whole at first, and then without what importers change: what is before the last ':' or '|', "mixamorig", signs, and
- * the case of letters. */
+/* What an animator has named a marker of its takes, as "whoosh"; null and an error where there is none. */
+FRAGMOTION_EXPORT const char* fragmotion_character_marker_name(const FragmotionCharacter* character,
+                                                               int32_t index) FRAGMOTION_NOEXCEPT;
+
+/* The number of a bone, a move, a style, a marker by its name; -1 where there is none, and on an error. A bone's name
+ * is compared whole at first, and then without what importers change: what is before the last ':' or '|', "mixamorig",
+ * signs, and the case of letters. */
 FRAGMOTION_EXPORT int32_t fragmotion_character_find_bone(const FragmotionCharacter* character,
                                                          const char* name) FRAGMOTION_NOEXCEPT;
 FRAGMOTION_EXPORT int32_t fragmotion_character_find_move(const FragmotionCharacter* character,
                                                          const char* name) FRAGMOTION_NOEXCEPT;
 FRAGMOTION_EXPORT int32_t fragmotion_character_find_style(const FragmotionCharacter* character,
                                                           const char* name) FRAGMOTION_NOEXCEPT;
+FRAGMOTION_EXPORT int32_t fragmotion_character_find_marker(const FragmotionCharacter* character,
+                                                           const char* name) FRAGMOTION_NOEXCEPT;
 
 /* ---- the rig: the game's own bones ------------------------------------------------------------------------------ */
 
@@ -295,11 +302,11 @@ typedef struct FragmotionPlayerOptions {
   double root_adjustment; /* 0 .. 1: how much the body does of what is asked for beyond its motion; 1 */
   double stitch;          /* s in which one motion goes over into the next: 0, or 0.001 .. 1; 0.2 */
   double time_scale;      /* 0 .. 100; 0 pauses; 1 */
-  double fixed_step; /* s, 0.001 .. 1: it plays on by whole steps of this, and poses between two are interpolated, so
-                        that the frame rate changes nothing; 0: by the very time of each step; 0 */
-  int32_t hold_feet; /* 1: feet that stand stay where they are; 1 */
-  int32_t cross_fades; /* 1: both motions are mixed while one goes over into the next, for comparison; chosen as the player
-                          is made; 0 */
+  double fixed_step;   /* s, 0.001 .. 1: it plays on by whole steps of this, and poses between two are interpolated, so
+                          that the frame rate changes nothing; 0: by the very time of each step; 0 */
+  int32_t hold_feet;   /* 1: feet that stand stay where they are; 1 */
+  int32_t cross_fades; /* 1: both motions are mixed while one goes over into the next, for comparison; chosen as the
+                          player is made; 0 */
 } FragmotionPlayerOptions;
 
 static inline FragmotionPlayerOptions fragmotion_player_options(void) {
@@ -438,7 +445,8 @@ typedef enum FragmotionEventType {
   FRAGMOTION_EVENT_MOVE_BEGINS = 4, /* index: the move; likewise: */
   FRAGMOTION_EVENT_MOVE_ENDS = 5,
   FRAGMOTION_EVENT_STYLE_CHANGES = 6, /* index: the style that plays from now on */
-  FRAGMOTION_EVENT_PATH_ARRIVED = 7
+  FRAGMOTION_EVENT_PATH_ARRIVED = 7,
+  FRAGMOTION_EVENT_MARKER = 8 /* index: the marker of the take or the move that plays */
 } FragmotionEventType;
 
 typedef struct FragmotionEvent {
@@ -544,6 +552,20 @@ FRAGMOTION_EXPORT int32_t fragmotion_crowd_parts(const FragmotionCrowd* crowd) F
 
 /* One of its players, for all functions above but fragmotion_player_release(); it is the crowd's. Null on an error. */
 FRAGMOTION_EXPORT FragmotionPlayer* fragmotion_crowd_player(FragmotionCrowd* crowd, int32_t index) FRAGMOTION_NOEXCEPT;
+
+/* Somebody or something else that a crowd makes way for, as if it were round. */
+typedef struct FragmotionBody {
+  float position[3], velocity[3]; /* in the world, a second */
+  float radius;
+} FragmotionBody;
+
+/* In their next step, of so many seconds, its players keep clear of each other, with `radius` around each, and of
+ * `count` others, who do not make way: each goes at the velocity next to what its input asks for by which none touches
+ * another within 2 s, as long as all do so. To be called before each step, on one thread. `others` may be null where
+ * `count` is 0. Allocates where they are more than ever before. */
+FRAGMOTION_EXPORT FragmotionResult fragmotion_crowd_make_way(FragmotionCrowd* crowd, float radius, double seconds,
+                                                             const FragmotionBody* others,
+                                                             int32_t count) FRAGMOTION_NOEXCEPT;
 
 /* Steps all under an input each, [count]; where one is wrong, nobody is stepped. */
 FRAGMOTION_EXPORT FragmotionResult fragmotion_crowd_step(FragmotionCrowd* crowd, const FragmotionInput* inputs,

@@ -112,9 +112,13 @@ class Character : public Handle<FragmotionCharacter, &fragmotion_character_relea
     fragmotion_character_style(handle_, index, &style);
     return style;
   }
+  const char* marker_name(std::int32_t index) const noexcept {
+    return fragmotion_character_marker_name(handle_, index);
+  }
   std::int32_t find_bone(const char* name) const noexcept { return fragmotion_character_find_bone(handle_, name); }
   std::int32_t find_move(const char* name) const noexcept { return fragmotion_character_find_move(handle_, name); }
   std::int32_t find_style(const char* name) const noexcept { return fragmotion_character_find_style(handle_, name); }
+  std::int32_t find_marker(const char* name) const noexcept { return fragmotion_character_find_marker(handle_, name); }
 };
 
 class Rig : public Handle<FragmotionRig, &fragmotion_rig_release> {
@@ -242,6 +246,10 @@ class Crowd : public Handle<FragmotionCrowd, &fragmotion_crowd_release> {
   std::int32_t count() const noexcept { return fragmotion_crowd_count(handle_); }
   std::int32_t parts() const noexcept { return fragmotion_crowd_parts(handle_); }
   PlayerRef operator[](std::int32_t index) const noexcept { return PlayerRef(fragmotion_crowd_player(handle_, index)); }
+  /// Before a step.
+  bool make_way(float radius, double seconds, const FragmotionBody* others = nullptr, std::int32_t count = 0) noexcept {
+    return fragmotion_crowd_make_way(handle_, radius, seconds, others, count) == FRAGMOTION_OK;
+  }
   bool step(const Input* inputs, double seconds) noexcept {
     return fragmotion_crowd_step(handle_, inputs, seconds) == FRAGMOTION_OK;
   }

@@ -38,6 +38,10 @@ StringArray Policy::get_styles() {
   return names(character_.info().styles, [this](std::int32_t i) { return character_.style(i).name; });
 }
 
+StringArray Policy::get_markers() {
+  return names(character_.info().markers, [this](std::int32_t i) { return character_.marker_name(i); });
+}
+
 FloatArray Policy::get_speeds(std::int64_t style) {
   const FragmotionStyle told = character_.style(static_cast<std::int32_t>(style));
   FloatArray speeds = sized<FloatArray>(told.speeds);
@@ -59,6 +63,7 @@ void Policy::add() {
   Bound<&Policy::get_bones>::add(kName, "get_bones");
   Bound<&Policy::get_moves>::add(kName, "get_moves");
   Bound<&Policy::get_styles>::add(kName, "get_styles");
+  Bound<&Policy::get_markers>::add(kName, "get_markers");
   Bound<&Policy::get_speeds>::add(kName, "get_speeds", "style");
   Bound<&Policy::get_class_name>::add(kName, "get_class_name", "style", "index");
   const Name owner(kName), name("data"), none(""), set("set_data"), get("get_data");

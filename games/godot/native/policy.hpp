@@ -19,6 +19,7 @@ class Policy {
   StringArray get_bones();
   StringArray get_moves();
   StringArray get_styles();
+  StringArray get_markers();
   /// Of a style: slowest first, m/s.
   FloatArray get_speeds(std::int64_t style);
   /// What a class of a style's motion does.

@@ -48,6 +48,8 @@ export interface Character {
   readonly turns: boolean;
   readonly height: number;
   readonly hipsHeight: number;
+  /** That animators set in its takes, each name once. */
+  readonly markers: readonly string[];
   /** -1: none. A name is found, too, as importers change it: "mixamorig:LeftLeg", "mixamorigLeftLeg", "LeftLeg". */
   findBone(name: string): number;
   rig(options: RigOptions): Rig;
@@ -162,8 +164,9 @@ export interface State {
 }
 
 export interface Event {
-  type: "foot down" | "foot up" | "take-off" | "landing" | "move begins" | "move ends" | "style changes" | "path arrived";
-  /** Of the foot (0 left, 1 right), the move, the style. */
+  type: "foot down" | "foot up" | "take-off" | "landing" | "move begins" | "move ends" | "style changes" | "path arrived"
+    | "marker";
+  /** Of the foot (0 left, 1 right), the move, the style, the marker. */
   index: number;
   position: number[];
   /** Before the end of the step. */
@@ -215,7 +218,17 @@ export interface Player {
   release(): void;
 }
 
+export interface Body {
+  position: ArrayLike<number>;
+  velocity?: ArrayLike<number>;
+  /** The crowd's unless told. */
+  radius?: number;
+}
+
 export interface Crowd {
   readonly players: readonly Player[];
+  /** Before a step of so many seconds: all keep clear of each other, with so much room around each, m, and of others,
+   * who do not make way. */
+  makeWay(radius: number, seconds: number, others?: Body[]): void;
   release(): void;
 }

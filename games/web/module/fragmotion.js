@@ -9,7 +9,8 @@ const SPACES = ["local", "model", "world"];
 const STEERS = ["character", "world", "camera", "path"];
 const ENDS = ["stand", "loop", "go on"];
 const EVENTS = [
-  "foot down", "foot up", "take-off", "landing", "move begins", "move ends", "style changes", "path arrived"];
+  "foot down", "foot up", "take-off", "landing", "move begins", "move ends", "style changes", "path arrived",
+  "marker"];
 const ROLES = [
   "", "hips", "head", "left hand", "right hand", "left foot", "right foot", "left toe", "right toe", "left thigh",
   "right thigh"];
@@ -204,8 +205,9 @@ class Character extends Held {
       walk: style.get("walk"),
       run: style.get("run"),
       turnRate: style.get("turnRate"),
-      classes: Array.from({ length: style.get("classes") }, (_, i) => this.#className(index, i)),
+      classes: Array.from({ length: style.get("classes") }, (_, i) => this.#nameOf("class", index, i)),
     }));
+    this.markers = Array.from({ length: info.get("markers") }, (_, i) => this.#nameOf("marker", i));
     this.library.memory.free(info.address);
   }
 
@@ -224,8 +226,8 @@ class Character extends Held {
     });
   }
 
-  #className(style, index) {
-    return this.library.memory.text(this.library.wasm._fragmotion_character_class_name(this.handle, style, index));
+  #nameOf(kind, ...index) {
+    return this.library.memory.text(this.library.wasm[`_fragmotion_character_${kind}_name`](this.handle, ...index));
   }
 
   findBone(name) {
@@ -470,6 +472,17 @@ class Crowd extends Held {
     library.memory.free(value.address);
     this.players = Array.from(
       { length: count }, (_, i) => new Player(character, library.wasm._fragmotion_crowd_player(this.handle, i)));
+  }
+
+  makeWay(radius, seconds, others = []) {
+    const { library } = this, { memory } = library;
+    const numbers = others.flatMap(({ position, velocity = [0, 0, 0], radius: own = radius }) => [...position, ...velocity, own]);
+    const bodies = memory.putFloats(numbers);
+    try {
+      library.call("crowd_make_way", this.handle, radius, seconds, bodies, others.length);
+    } finally {
+      memory.free(bodies);
+    }
   }
 
   release() {

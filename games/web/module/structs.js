@@ -55,7 +55,7 @@ export class Value {
 
 export const structs = {
   loadOptions: new Struct("size:u axes:i unitsPerMetre:f"),
-  info: new Struct("size:u bones:i moves:i styles:i hips:i jumps:i turns:i height:f hipsHeight:f"),
+  info: new Struct("size:u bones:i moves:i styles:i hips:i jumps:i turns:i height:f hipsHeight:f markers:i"),
   bone: new Struct("size:u parent:i name:p role:i length:f rest:f7 model:f7"),
   move: new Struct("size:u upperBody:i loops:i name:p seconds:f wait:f"),
   style: new Struct("size:u classes:i speeds:i name:p speed:f4 walk:f run:f turnRate:f"),
@@ -71,6 +71,7 @@ export const structs = {
       "waitingUpperBodyMove:i footStands:i2 inTheAir:i pathArrived:i position:f3 heading:f rotation:f4 velocity:f3 " +
       "motion:f3 motionHeading:f groundMissed:f pathWay:f pathSecondsLeft:f"),
   event: new Struct("type:i index:i position:f3 seconds:f"),
+  body: new Struct("position:f3 velocity:f3 radius:f"),
   path: new Struct(
     "size:u points:i positions:p speeds:p closed:i end:i speed:f arrive:f facing:f3"),
   pointer: new Struct("value:p"),

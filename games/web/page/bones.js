@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Characters shown as their bones: an eight-sided solid for each, all in one instanced mesh.
 
-import { Color, InstancedMesh, Matrix4, MeshStandardMaterial, OctahedronGeometry } from "three";
+import { Color, InstancedMesh, Matrix4, MeshLambertMaterial, OctahedronGeometry } from "three";
 
 const LIMB = 0.2, TRUNK = 0.5; // thickness, of a bone's length
 const LARGEST = 0.12, SMALLEST = 0.03; // m
@@ -16,7 +16,7 @@ export class BoneShapes {
       inverseBinds: character.bones.flatMap((bone) => shapeOf(bone).elements),
     });
     const geometry = new OctahedronGeometry(1, 0);
-    this.mesh = new InstancedMesh(geometry, new MeshStandardMaterial({ roughness: 0.6 }), count * character.bones.length);
+    this.mesh = new InstancedMesh(geometry, new MeshLambertMaterial(), count * character.bones.length);
     this.mesh.frustumCulled = false;
     this.mesh.castShadow = count === 1;
     const colors = character.bones.map(colorOf);

@@ -6,6 +6,7 @@ import { groundAt } from "./scene.js";
 
 export const CROWD = 500;
 const RADIUS = 24; // m
+const ROOM = 0.35; // m around each
 const CALM = 0.25; // changes of mind a second
 
 export class Crowd {
@@ -23,7 +24,9 @@ export class Crowd {
     });
   }
 
-  step(seconds) {
+  /** `hero`: the state of whom they make way for. */
+  step(seconds, hero) {
+    this.crowd.makeWay(ROOM, seconds, [hero]);
     this.crowd.players.forEach((player, i) => {
       const mind = this.minds[i];
       mind.wait -= seconds;

@@ -87,10 +87,11 @@ class Page {
     this.scene.turn(this.controls.turnOfView(seconds), this.controls.tiltOfView(seconds));
     this.asked = this.input();
     this.actor.step(this.asked, seconds);
-    this.crowd?.step(seconds);
+    this.crowd?.step(seconds, this.actor.player.state);
     this.scene.follow(this.actor.player.state.position, seconds);
     this.overlay.update(this.actor, this.asked, this.followsPath, now);
     this.buttons.light(this.actor.player.state);
+    this.scene.suit(seconds);
     this.scene.render();
   }
 }

@@ -6,6 +6,7 @@ import { ArrowHelper, CircleGeometry, Mesh, MeshBasicMaterial, Vector3 } from "t
 const ASKED = 0x6cb6ff, DONE = 0xffb454, STANDS = 0x3f9b5b;
 const ABOVE = 0.03; // m
 const EVERY = 250; // ms between two texts
+const NAMED = 1000; // ms that a marker's name is read for
 
 export class Overlay {
   constructor(scene) {
@@ -18,6 +19,7 @@ export class Overlay {
     this.stood = [false, false]; // where it set its foot down is not told before it does
     this.frames = 0;
     this.due = 0;
+    this.marker = { name: "", until: 0 };
   }
 
   update(actor, input, followsPath, now) {
@@ -25,7 +27,10 @@ export class Overlay {
     const asked = followsPath ? state.velocity : velocity(input, style);
     this.#arrow(0, state, asked);
     this.#arrow(1, state, state.velocity);
-    for (const event of actor.player.events()) this.#foot(event);
+    for (const event of actor.player.events()) {
+      this.#foot(event);
+      if (event.type === "marker") this.marker = { name: actor.character.markers[event.index], until: now + NAMED };
+    }
     this.prints.forEach((print, foot) => (print.visible = this.stood[foot] && state.footStands[foot] === 1));
     ++this.frames;
     if (now >= this.due) this.#write(actor, state, style, asked, followsPath, now);
@@ -49,7 +54,8 @@ export class Overlay {
   #write(actor, state, style, asked, followsPath, now) {
     const seconds = (now - this.since) / 1000, { texts } = this, say = (id, text) => (texts[id].textContent = text);
     const move = [state.wholeBodyMove, state.upperBodyMove].filter((each) => each >= 0).map((each) => actor.character.moves[each].name);
-    say("class", [style.classes[state.playingClass], style.name, ...move].filter(Boolean).join(", "));
+    const marker = now < this.marker.until ? this.marker.name : "";
+    say("class", [style.classes[state.playingClass], style.name, ...move, marker].filter(Boolean).join(", "));
     say("asked", followsPath ? "along the path" : `${Math.hypot(asked[0], asked[2]).toFixed(1)} m/s`);
     say("done", `${Math.hypot(state.velocity[0], state.velocity[2]).toFixed(1)} m/s${state.inTheAir ? ", in the air" : ""}`);
     texts.left.classList.toggle("stands", state.footStands[0] === 1);

@@ -2,7 +2,7 @@
 // What is around the character: a floor with a slope, stairs and a hill, light, and a camera that follows.
 
 import {
-  AmbientLight, BoxGeometry, Color, DataTexture, DirectionalLight, Fog, LinearMipmapLinearFilter, Mesh, MeshStandardMaterial,
+  AmbientLight, BoxGeometry, Color, DataTexture, DirectionalLight, Fog, LinearMipmapLinearFilter, Mesh, MeshLambertMaterial,
   PerspectiveCamera, PlaneGeometry, RepeatWrapping, RingGeometry, Scene as ThreeScene, Vector3, WebGLRenderer,
 } from "three";
 
@@ -10,6 +10,9 @@ const SKY = 0x2a3038, FLOOR = 0x8a93a0, SOLID = 0x6b7480;
 const SQUARE = 1; // m
 const SIZE = 120; // m
 const FOLLOWING = 6; // a second
+const SLOW = 1 / 45, QUICK = 1 / 58; // s of a frame
+const LOOK = 0.5; // s between two looks at how long frames take
+const LEAST_SHARE = 0.35;
 const LOWEST = 0.05, HIGHEST = 1.3; // rad that the camera looks down
 
 // [x0, x1, z0, z1, height at z0, height at z1], m; the highest of those at a place is the ground.
@@ -68,6 +71,9 @@ export class Scene {
     this.heading = 0;
     this.tilt = 0.3;
     this.distance = 5;
+    this.share = 1; // of the screen's pixels, along each side
+    this.mean = 1 / 60; // s of a frame
+    this.left = LOOK; // s until it looks at that again
     this.#addLight();
     this.floor = this.#floor();
     addEventListener("resize", () => this.#fit());
@@ -75,7 +81,7 @@ export class Scene {
   }
 
   #fit() {
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setPixelRatio(this.share * Math.min(devicePixelRatio, 2));
     this.renderer.setSize(innerWidth, innerHeight, false);
     this.camera.aspect = innerWidth / innerHeight;
     this.camera.updateProjectionMatrix();
@@ -123,13 +129,25 @@ export class Scene {
     this.sun.target.position.set(x, y, z);
   }
 
+  /** Fewer pixels where frames take long, and more again where they do not. */
+  suit(seconds) {
+    this.mean += 0.1 * (seconds - this.mean);
+    this.left -= seconds;
+    const share = this.mean > SLOW ? 0.8 * this.share : this.mean < QUICK ? 1.1 * this.share : this.share;
+    if (this.left > 0) return;
+    this.left = LOOK;
+    if (share === this.share) return;
+    this.share = Math.min(1, Math.max(LEAST_SHARE, share));
+    this.#fit();
+  }
+
   render() {
     this.renderer.render(this.scene, this.camera);
   }
 }
 
 function material(color) {
-  return new MeshStandardMaterial({ color, roughness: 0.9, flatShading: true });
+  return new MeshLambertMaterial({ color, flatShading: true });
 }
 
 /** Dark and pale ones in turn. */

@@ -70,8 +70,10 @@ TEST(ApiErrors, SayWhichArgumentIsWrong) {
   expect_fails(fragmotion_character_style(hero, 0, nullptr), wrong, "null");
   EXPECT_EQ(fragmotion_character_class_name(nullptr, 0, 0), nullptr);
   EXPECT_EQ(fragmotion_character_class_name(hero, -1, 0), nullptr);
-  for (const auto find :
-       {&fragmotion_character_find_bone, &fragmotion_character_find_move, &fragmotion_character_find_style}) {
+  EXPECT_EQ(fragmotion_character_marker_name(nullptr, 0), nullptr);
+  EXPECT_EQ(fragmotion_character_marker_name(hero, 0), nullptr);
+  for (const auto find : {&fragmotion_character_find_bone, &fragmotion_character_find_move,
+                          &fragmotion_character_find_style, &fragmotion_character_find_marker}) {
     EXPECT_EQ(find(nullptr, "x"), -1);
     EXPECT_EQ(find(hero, nullptr), -1);
   }

@@ -108,7 +108,7 @@ await withBrowser("crowd", [], async (browser) => {
     const next = (now) => { times.push(now); times.length > 60 ? done(60000 / (times.at(-1) - times[0])) : requestAnimationFrame(next); };
     requestAnimationFrame(next);
   })`);
-  found.crowdStep = await browser.tell("(() => { const start = performance.now(); for (let i = 0; i < 20; ++i) page.crowd.step(1 / 60); return (performance.now() - start) / 20; })()");
+  found.crowdStep = await browser.tell("(() => { const start = performance.now(); for (let i = 0; i < 20; ++i) page.crowd.step(1 / 60, page.actor.player.state); return (performance.now() - start) / 20; })()");
 });
 
 const DROP = `async (names) => {

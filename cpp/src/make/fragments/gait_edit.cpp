@@ -182,6 +182,7 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
   for (int f = 0; f < result.frames; ++f) {
     Eigen::Map<Vector2>(&result.root_positions[std::size_t{3} * f]) += start.position - origin;
   }
+  result.markers = markers_in_rounds(clip.markers, begin, length, result.frames);
   if (!plants) return result;
   plant_feet(kinematics, legs, result, contacts, begin, end);
   return part(result, before, result.frames - 1);

@@ -101,6 +101,7 @@ Clip unrolled(const Kinematics& kinematics, const Clip& clip, int period, int co
     const double turn = begins.heading - first.heading;
     append(kinematics, clip, g % period, {begins.position - Eigen::Rotation2Dd(turn) * first.position, turn}, result);
   }
+  result.markers = markers_in_rounds(clip.markers, 0, period, count);
   return make_clip(kinematics.skeleton(), std::move(result));
 }
 

@@ -271,7 +271,8 @@ PackedClip pack(const Skeleton& skeleton, std::shared_ptr<const PoseGrid> grid, 
   const std::vector<std::int32_t> steps = steps_of(skeleton, *grid, clip);
   measure_turns(steps, steps.size() / clip.frames, poses);
   write_poses(clip, steps, poses);
-  return {clip.name, clip.rate, clip.frames, std::move(grid), std::make_shared<const PackedPoses>(std::move(poses))};
+  return {clip.name,   clip.rate, clip.frames, std::move(grid), std::make_shared<const PackedPoses>(std::move(poses)),
+          clip.markers};
 }
 
 }  // namespace fragmotion

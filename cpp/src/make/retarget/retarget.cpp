@@ -128,7 +128,7 @@ class Transfer {
 
   RetargetedClip run() {
     find_moves();
-    Clip result{clip_.name, clip_.rate, clip_.frames, {}, {}, {}};
+    Clip result{clip_.name, clip_.rate, clip_.frames, {}, {}, {}, clip_.markers};
     result.root_positions.resize(std::size_t{3} * clip_.frames);
     result.rotations.resize(std::size_t{4} * parts_.target.kinematics.bones() * clip_.frames);
     for (int f = 0; f < clip_.frames; ++f) store(f, result);

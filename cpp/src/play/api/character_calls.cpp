@@ -91,6 +91,11 @@ Hero::Hero(Character&& loaded, std::uint64_t which, FragmotionAxes engine, doubl
   for (int style = 0; style < character->style_count(); ++style) {
     class_names.push_back(fragmotion::class_names(character->in_style(style)));
     turns_well.push_back(fragmotion::turns_well(character, {}, style));
+    for (const PackedClip& clip : character->in_style(style).pool.clips) {
+      for (const Marker& marker : clip.markers) {
+        if (find_marker(marker.name) < 0) marker_names.push_back(marker.name);
+      }
+    }
   }
   std::vector<Vector3> heads;
   std::vector<Quaternion> rotations;
@@ -111,6 +116,11 @@ int Hero::find_bone(const char* name) const {
   const bool is_one = !plain.empty() && found != plain_names.end() &&
                       std::find(found + 1, plain_names.end(), plain) == plain_names.end();
   return is_one ? static_cast<int>(found - plain_names.begin()) : -1;
+}
+
+int Hero::find_marker(const std::string& name) const {
+  const auto found = std::find(marker_names.begin(), marker_names.end(), name);
+  return found == marker_names.end() ? -1 : static_cast<int>(found - marker_names.begin());
 }
 
 }  // namespace fragmotion
@@ -162,6 +172,7 @@ FragmotionResult fragmotion_character_info(const FragmotionCharacter* character,
     info->jumps = c.space.layout().jump ? 1 : 0;
     info->turns = c.space.layout().turn ? 1 : 0;
     info->height = static_cast<float>(hero.axes.length(stature(hero.skeleton())));
+    info->markers = static_cast<std::int32_t>(hero.marker_names.size());
     info->hips_height = static_cast<float>(hero.axes.length(heads[static_cast<std::size_t>(info->hips)].z()));
   });
 }
@@ -231,6 +242,16 @@ const char* fragmotion_character_class_name(const FragmotionCharacter* character
   return name;
 }
 
+const char* fragmotion_character_marker_name(const FragmotionCharacter* character, std::int32_t index) noexcept {
+  const char* name = nullptr;
+  call("fragmotion_character_marker_name", [&] {
+    const Hero& hero = alive(character);
+    demand_index("marker", index, static_cast<int>(hero.marker_names.size()));
+    name = hero.marker_names[static_cast<std::size_t>(index)].c_str();
+  });
+  return name;
+}
+
 std::int32_t fragmotion_character_find_bone(const FragmotionCharacter* character, const char* name) noexcept {
   std::int32_t found = -1;
   call("fragmotion_character_find_bone", [&] {
@@ -256,6 +277,16 @@ std::int32_t fragmotion_character_find_style(const FragmotionCharacter* characte
     std::vector<std::string> names;
     for (int style = 0; style < c.style_count(); ++style) names.push_back(c.in_style(style).style);
     found = find_named(names, name, [](const std::string& each) { return each; });
+  });
+  return found;
+}
+
+std::int32_t fragmotion_character_find_marker(const FragmotionCharacter* character, const char* name) noexcept {
+  std::int32_t found = -1;
+  call("fragmotion_character_find_marker", [&] {
+    const Hero& hero = alive(character);
+    demand_given(name, "the name");
+    found = hero.find_marker(name);
   });
   return found;
 }

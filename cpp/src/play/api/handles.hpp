@@ -11,6 +11,7 @@
 #include "api/axes.hpp"
 #include "api/calls.hpp"
 #include "api/shift.hpp"
+#include "direct/make_way.hpp"
 #include "direct/path_follower.hpp"
 #include "direct/steering.hpp"
 #include "runtime/player.hpp"
@@ -31,6 +32,7 @@ struct Hero {
   std::vector<std::vector<std::string>> class_names;  ///< Of each style.
   std::vector<TurnsWell> turns_well;                  ///< Likewise.
   std::vector<std::string> plain_names;               ///< Of bones: plain_name().
+  std::vector<std::string> marker_names;              ///< Of the takes' markers, each once.
   std::vector<FragmotionTransform> rest;              ///< Of each bone, as seen from where the character stands.
   std::vector<bool> carried;                          ///< The hips and bones that are not below them.
 
@@ -38,6 +40,8 @@ struct Hero {
   int bones() const { return skeleton().size(); }
   /// The bone of that name (fragmotion_character_find_bone), or -1.
   int find_bone(const char* name) const;
+  /// The number of a marker, or -1.
+  int find_marker(const std::string& name) const;
 };
 
 /// A body in the world, as it is shown.
@@ -95,6 +99,7 @@ struct FragmotionPlayer {
   std::shared_ptr<fragmotion::Scratch> scratch;
   FragmotionPlayerOptions options;
   bool in_crowd = false;
+  std::optional<fragmotion::Clearance> clearance;  // of the next step
   FragmotionGround ground = nullptr;
   void* ground_user = nullptr;
 
@@ -135,6 +140,7 @@ struct FragmotionPlayer {
  private:
   fragmotion::Control control(const FragmotionInput& input, double seconds);
   fragmotion::Control towards(const fragmotion::Vector3& velocity, double turn, bool jump) const;
+  void keep_clear(fragmotion::Control& control) const;
   fragmotion::Steering& steers();
   void advance(const FragmotionInput& input, double seconds);
   void play(const FragmotionInput& input, double seconds);
@@ -149,6 +155,8 @@ struct FragmotionPlayer {
 struct FragmotionCrowd {
   std::vector<std::unique_ptr<FragmotionPlayer>> players;
   int parts = 1;
+  fragmotion::MakeWay make_way;
+  std::vector<fragmotion::Walker> walkers;  // its players, and those who do not make way
 };
 
 namespace fragmotion {
@@ -158,6 +166,21 @@ void check_input(const FragmotionInput* input);
 void check_step_seconds(double seconds);
 void check_options(const FragmotionPlayerOptions& options);
 PlayerOptions to_options(const FragmotionPlayerOptions& options);
+/// What is given, checked; or what there is without.
+FragmotionPlayerOptions checked(const FragmotionPlayerOptions* options);
+
+std::unique_ptr<FragmotionPlayer> make_player(const std::shared_ptr<const Hero>& hero,
+                                              const FragmotionPlayerOptions& options);
+
+/// The player of a handle; throws CallError where there is none.
+inline FragmotionPlayer& alive(FragmotionPlayer* player) {
+  demand_alive(player, Kind::player);
+  return *player;
+}
+inline const FragmotionPlayer& alive(const FragmotionPlayer* player) {
+  demand_alive(player, Kind::player);
+  return *player;
+}
 
 /// What importers leave of a bone's name: in small letters, without what is before the last ':' or '|', signs and
 /// blanks, and "mixamorig".

@@ -173,6 +173,15 @@ Control FragmotionPlayer::control(const FragmotionInput& input, double seconds) 
   }
 }
 
+// Who stands may be asked to walk.
+void FragmotionPlayer::keep_clear(Control& control) const {
+  const Matrix2 turn = turn_by(frame().heading).toRotationMatrix();
+  const Vector2 wanted = turn * Vector2{control.x, control.y},
+                clear = turn.transpose() * clearance->nearest(wanted, std::max(wanted.norm(), space().walk()));
+  control.x = clear.x();
+  control.y = clear.y();
+}
+
 void FragmotionPlayer::take_pose(Shown& pose) const {
   pose.root = player.root_position();
   pose.frame = player.frame();
@@ -202,7 +211,8 @@ void FragmotionPlayer::tell(FragmotionEventType type, int index, const Vector3& 
 
 // Plays on by so much, and takes the pose.
 void FragmotionPlayer::advance(const FragmotionInput& input, double seconds) {
-  const Control asked = control(input, seconds);
+  Control asked = control(input, seconds);
+  if (clearance) keep_clear(asked);
   player.step(asked, seconds);
   take_pose(now);
 }
@@ -231,6 +241,11 @@ void FragmotionPlayer::play(const FragmotionInput& input, double seconds) {
     if (moves[track] >= 0) tell(FRAGMOTION_EVENT_MOVE_BEGINS, moves[track], here, ago);
   }
   if (style() != style_before) tell(FRAGMOTION_EVENT_STYLE_CHANGES, style(), here, ago);
+  for (const PassedMarkers& passed : player.passed_markers()) {
+    for (const Marker* marker : passed) {
+      tell(FRAGMOTION_EVENT_MARKER, hero->find_marker(marker->name), here, ago);
+    }
+  }
   arrived = route && route->follower.stands() && input.steer == FRAGMOTION_STEER_PATH;
   if (arrived && !was_there) tell(FRAGMOTION_EVENT_PATH_ARRIVED, 0, here, ago);
 }
@@ -269,6 +284,7 @@ void FragmotionPlayer::step(const FragmotionInput& input, double seconds) {
     play(input, std::min(banked + played, kLongestCall));
     banked = 0;
   }
+  clearance.reset();
   const Vector3 way = place() - from;
   const Vector2 seen = turn_by(-faced) * Vector2{way.head<2>()};
   report.motion = {seen.x(), seen.y(), way.z()};

@@ -11,15 +11,6 @@ constexpr double kFarthestGame = 1e9;  // m of a place, and rad of a heading
 constexpr double kMostForeseen = 60;   // s
 constexpr int kMostPlaces = 100000;
 
-FragmotionPlayer& alive(FragmotionPlayer* player) {
-  demand_alive(player, Kind::player);
-  return *player;
-}
-const FragmotionPlayer& alive(const FragmotionPlayer* player) {
-  demand_alive(player, Kind::player);
-  return *player;
-}
-
 void check_place(const FragmotionPlayer& player, const FragmotionPlace& place) {
   const Vector3 at = player.hero->axes.place(place.position);
   demand(at.cwiseAbs().maxCoeff() <= kFarthestGame && std::abs(static_cast<double>(place.heading)) <= kFarthestGame,
@@ -55,50 +46,6 @@ Ground ground_of(const FragmotionPlayer* player) {
   };
 }
 
-std::uint64_t fingerprint_of(const FragmotionPath& path) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  const auto add = [&](const void* data, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i)
-      hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3ULL;
-  };
-  add(path.positions, sizeof(float) * 3 * static_cast<std::size_t>(path.points));
-  if (path.speeds != nullptr) add(path.speeds, sizeof(float) * static_cast<std::size_t>(path.points));
-  for (const int number : {path.closed, static_cast<int>(path.end)}) add(&number, sizeof number);
-  for (const float number : {path.speed, path.arrive, path.facing[0], path.facing[1], path.facing[2]})
-    add(&number, sizeof number);
-  return hash | 1;
-}
-
-Route make_route(const FragmotionPlayer& player, const FragmotionPath& wanted) {
-  const Axes& axes = player.hero->axes;
-  demand_range("the number of the path's points", wanted.points, 2, kMostPathPoints);
-  demand_given(wanted.positions, "the path's positions");
-  demand(wanted.end >= FRAGMOTION_PATH_STAND && wanted.end <= FRAGMOTION_PATH_GO_ON, FRAGMOTION_ERROR_ARGUMENT,
-         "there is no end %d of a path", static_cast<int>(wanted.end));
-  std::vector<Vector2> points;
-  std::vector<double> speeds;
-  for (int i = 0; i < wanted.points; ++i) {
-    points.emplace_back(axes.place(wanted.positions + std::ptrdiff_t{3} * i).head<2>());
-    if (wanted.speeds != nullptr) speeds.push_back(axes.metres(static_cast<double>(wanted.speeds[i])));
-  }
-  FollowOptions options;
-  options.speed = axes.metres(static_cast<double>(wanted.speed));
-  options.arrive = static_cast<double>(wanted.arrive);
-  options.end = static_cast<PathEnd>(wanted.end);
-  const Vector3 facing = axes.ours(wanted.facing);
-  demand(facing.allFinite(), FRAGMOTION_ERROR_ARGUMENT, "the path's facing holds what is not a number");
-  if (facing.head<2>().norm() > 0) {
-    options.facing = PathFacing::heading;
-    options.heading = std::atan2(-facing.x(), facing.y());
-  }
-  return {PathFollower(player.space(), Path(points, wanted.closed != 0, speeds), options), fingerprint_of(wanted)};
-}
-
-template <typename T>
-void write3(const Vector3& values, T* out) {
-  for (int i = 0; i < 3; ++i) out[i] = static_cast<T>(values[i]);
-}
-
 void tell_state(const FragmotionPlayer& p, FragmotionState& state) {
   const Player& player = p.player;
   const auto [whole, upper] = player.playing_moves();
@@ -125,6 +72,8 @@ void tell_state(const FragmotionPlayer& p, FragmotionState& state) {
   state.path_seconds_left = p.route ? static_cast<float>(p.route->follower.seconds_left()) : 0;
 }
 
+}  // namespace
+
 std::unique_ptr<FragmotionPlayer> make_player(const std::shared_ptr<const Hero>& hero,
                                               const FragmotionPlayerOptions& options) {
   return std::make_unique<FragmotionPlayer>(hero, Player(hero->character, to_options(options)),
@@ -138,41 +87,6 @@ FragmotionPlayerOptions checked(const FragmotionPlayerOptions* options) {
   return *options;
 }
 
-void make_crowd(const std::shared_ptr<const Hero>& hero, const FragmotionPlayerOptions& options, int count,
-                FragmotionCrowd& crowd) {
-  crowd.players.reserve(static_cast<std::size_t>(count));
-  const std::int64_t players = count;
-  for (int part = 0; part < crowd.parts; ++part) {
-    const FragmotionPlayer* first = nullptr;
-    while (static_cast<std::int64_t>(crowd.players.size()) < players * (part + 1) / crowd.parts) {
-      FragmotionPlayerOptions own = options;
-      own.seed += crowd.players.size();
-      auto made = first == nullptr
-                      ? make_player(hero, own)
-                      : std::make_unique<FragmotionPlayer>(hero, first->player.branch(), first->scratch, own);
-      if (first == nullptr) first = made.get();
-      made->in_crowd = true;
-      made->left_out = static_cast<std::uint32_t>(crowd.players.size()) % own.step_interval;
-      list_alive(made.get(), Kind::player);
-      crowd.players.push_back(std::move(made));
-    }
-  }
-}
-
-void step_part_of(FragmotionCrowd& crowd, int part, const FragmotionInput* inputs, double seconds) {
-  const auto players = static_cast<std::int64_t>(crowd.players.size());
-  for (std::int64_t i = players * part / crowd.parts; i < players * (part + 1) / crowd.parts; ++i) {
-    crowd.players[static_cast<std::size_t>(i)]->step(inputs[i], seconds);
-  }
-}
-
-void check_inputs(const FragmotionCrowd& crowd, const FragmotionInput* inputs, double seconds) {
-  check_step_seconds(seconds);
-  if (!crowd.players.empty()) demand_given(inputs, "the inputs");
-  for (std::size_t i = 0; i < crowd.players.size(); ++i) check_input(inputs + i);
-}
-
-}  // namespace
 }  // namespace fragmotion
 
 using namespace fragmotion;
@@ -354,129 +268,5 @@ FragmotionResult fragmotion_player_foresee(FragmotionPlayer* player, const Fragm
     demand_range("the number of places", count, 1, kMostPlaces);
     demand_given(places, "the room for the places");
     p.foresee(*input, seconds, count, places);
-  });
-}
-
-FragmotionResult fragmotion_player_set_path(FragmotionPlayer* player, const FragmotionPath* path) noexcept {
-  return call("fragmotion_player_set_path", [&] {
-    FragmotionPlayer& p = alive(player);
-    if (path == nullptr) {
-      p.route.reset();
-    } else {
-      demand_struct(path, "the path");
-      p.route.emplace(make_route(p, *path));
-    }
-    p.arrived = false;
-    p.make_room();
-  });
-}
-
-std::size_t fragmotion_player_save_size(const FragmotionPlayer* player) noexcept {
-  std::size_t size = 0;
-  call("fragmotion_player_save_size", [&] { size = alive(player).save(nullptr); });
-  return size;
-}
-
-FragmotionResult fragmotion_player_save(const FragmotionPlayer* player, void* bytes, std::size_t capacity,
-                                        std::size_t* written) noexcept {
-  return call("fragmotion_player_save", [&] {
-    const FragmotionPlayer& p = alive(player);
-    demand_given(bytes, "the room for the state");
-    demand_given(written, "the place for the size");
-    const std::size_t size = p.save(nullptr);
-    demand(size <= capacity, FRAGMOTION_ERROR_CAPACITY, "there is room for %zu bytes, and %zu are to be written",
-           capacity, size);
-    *written = p.save(static_cast<unsigned char*>(bytes));
-  });
-}
-
-FragmotionResult fragmotion_player_restore(FragmotionPlayer* player, const void* bytes, std::size_t size) noexcept {
-  return call("fragmotion_player_restore", [&] {
-    FragmotionPlayer& p = alive(player);
-    demand_given(bytes, "the state");
-    p.restore(static_cast<const unsigned char*>(bytes), size);
-  });
-}
-
-FragmotionResult fragmotion_player_checksum(const FragmotionPlayer* player, std::uint64_t* checksum) noexcept {
-  return call("fragmotion_player_checksum", [&] {
-    const FragmotionPlayer& p = alive(player);
-    demand_given(checksum, "the place for the checksum");
-    *checksum = p.checksum();
-  });
-}
-
-FragmotionResult fragmotion_crowd_create(const FragmotionCharacter* character, const FragmotionPlayerOptions* options,
-                                         std::int32_t count, std::int32_t parts, FragmotionCrowd** crowd) noexcept {
-  return call("fragmotion_crowd_create", [&] {
-    demand_given(crowd, "the place for the crowd");
-    *crowd = nullptr;
-    demand_alive(character, Kind::character);
-    demand_range("the number of a crowd's players", count, 0, 100000);
-    demand(parts >= 1, FRAGMOTION_ERROR_ARGUMENT, "a crowd has 1 part or more, not %d", static_cast<int>(parts));
-    auto made = std::make_unique<FragmotionCrowd>();
-    made->parts = std::clamp(parts, 1, std::max(1, count));
-    try {
-      make_crowd(character->hero, checked(options), count, *made);
-      list_alive(made.get(), Kind::crowd);
-    } catch (...) {
-      for (const auto& player : made->players) unlist_alive(player.get());
-      throw;
-    }
-    *crowd = made.release();
-  });
-}
-
-void fragmotion_crowd_release(FragmotionCrowd* crowd) noexcept {
-  if (crowd == nullptr) return;
-  if (call("fragmotion_crowd_release", [&] { demand_alive(crowd, Kind::crowd); }) != FRAGMOTION_OK) return;
-  for (const auto& player : crowd->players) unlist_alive(player.get());
-  unlist_alive(crowd);
-  delete crowd;
-}
-
-std::int32_t fragmotion_crowd_count(const FragmotionCrowd* crowd) noexcept {
-  std::int32_t count = 0;
-  call("fragmotion_crowd_count", [&] {
-    demand_alive(crowd, Kind::crowd);
-    count = static_cast<std::int32_t>(crowd->players.size());
-  });
-  return count;
-}
-
-std::int32_t fragmotion_crowd_parts(const FragmotionCrowd* crowd) noexcept {
-  std::int32_t parts = 0;
-  call("fragmotion_crowd_parts", [&] {
-    demand_alive(crowd, Kind::crowd);
-    parts = crowd->parts;
-  });
-  return parts;
-}
-
-FragmotionPlayer* fragmotion_crowd_player(FragmotionCrowd* crowd, std::int32_t index) noexcept {
-  FragmotionPlayer* player = nullptr;
-  call("fragmotion_crowd_player", [&] {
-    demand_alive(crowd, Kind::crowd);
-    demand_index("player", index, static_cast<int>(crowd->players.size()));
-    player = crowd->players[static_cast<std::size_t>(index)].get();
-  });
-  return player;
-}
-
-FragmotionResult fragmotion_crowd_step(FragmotionCrowd* crowd, const FragmotionInput* inputs, double seconds) noexcept {
-  return call("fragmotion_crowd_step", [&] {
-    demand_alive(crowd, Kind::crowd);
-    check_inputs(*crowd, inputs, seconds);
-    for (int part = 0; part < crowd->parts; ++part) step_part_of(*crowd, part, inputs, seconds);
-  });
-}
-
-FragmotionResult fragmotion_crowd_step_part(FragmotionCrowd* crowd, std::int32_t part, const FragmotionInput* inputs,
-                                            double seconds) noexcept {
-  return call("fragmotion_crowd_step_part", [&] {
-    demand_alive(crowd, Kind::crowd);
-    demand_index("part", part, crowd->parts);
-    check_inputs(*crowd, inputs, seconds);
-    step_part_of(*crowd, part, inputs, seconds);
   });
 }

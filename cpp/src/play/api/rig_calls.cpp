@@ -101,7 +101,7 @@ FragmotionResult fragmotion_blend(const FragmotionTransform* a, const Fragmotion
     for (int i = 0; i < count; ++i) {
       const float part = mask != nullptr ? weight * mask[i] : weight;
       const Eigen::Vector4f from(a[i].rotation), to(b[i].rotation);
-      const Eigen::Vector4f mixed = (1 - part) * from + (from.dot(to) < 0 ? -part : part) * to;
+      const Eigen::Vector4f mixed = (1 - part) * from + (dot(from, to) < 0 ? -part : part) * to;
       const float length = mixed.norm();
       for (int k = 0; k < 3; ++k) out[i].position[k] = (1 - part) * a[i].position[k] + part * b[i].position[k];
       for (int k = 0; k < 4; ++k) out[i].rotation[k] = length > 0 ? mixed[k] / length : from[k];

@@ -11,7 +11,7 @@ constexpr double kOpposite = 1e-6;  // 1 + cosine of an angle, below which half 
 }  // namespace
 
 Quaternion turn_between(const Vector3& from, const Vector3& to) {
-  const double product = std::sqrt(from.squaredNorm() * to.squaredNorm()), w = product + from.dot(to);
+  const double product = std::sqrt(from.squaredNorm() * to.squaredNorm()), w = product + dot(from, to);
   if (!(product > 0)) return Quaternion::Identity();
   if (std::isinf(product)) return turn_between(from / from.cwiseAbs().maxCoeff(), to / to.cwiseAbs().maxCoeff());
   if (w <= kOpposite * product) {

@@ -31,6 +31,12 @@ inline Vector3 load_vector(const double* xyz) { return {xyz[0], xyz[1], xyz[2]};
 
 inline void store_vector(const Vector3& v, double* xyz) { Eigen::Map<Vector3>{xyz} = v; }
 
+/// The sum of the products of what two vectors hold, in one order: that of Eigen's own differs between its versions.
+template <typename A, typename B>
+typename A::Scalar dot(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
+  return a.cwiseProduct(b).sum();
+}
+
 /// The vector, or where it is longer than `most` the one of that length in its direction.
 inline Vector2 clamp_length(const Vector2& v, double most) {
   const double length = v.norm();

@@ -470,12 +470,42 @@ void exchange_styles(Archive& a, Character& c) {
       kMostStyles - 1);
 }
 
+// Of each style's clips but mirror images, which have their originals'.
+template <typename Archive>
+void exchange_markers(Archive& a, Character& c) {
+  for (int style = 0; style < c.style_count(); ++style) {
+    std::vector<PackedClip>& clips = const_cast<Character&>(c.in_style(style)).pool.clips;
+    for (std::size_t number = 0; number < clips.size(); ++number) {
+      std::vector<Marker>& markers = clips[number].markers;
+      const int original = original_of(clips, number);
+      if (original >= 0) {
+        markers = clips[original].markers;
+      } else {
+        a.list(markers, 12, [&](auto& marker) {
+          a.text(marker.name);
+          a.template number<double>(marker.frame);
+        });
+      }
+    }
+  }
+}
+
+bool has_markers(const Character& c) {
+  for (int style = 0; style < c.style_count(); ++style) {
+    for (const PackedClip& clip : c.in_style(style).pool.clips) {
+      if (!clip.markers.empty()) return true;
+    }
+  }
+  return false;
+}
+
 template <typename Archive>
 void exchange(Archive& a, Character& c) {
   exchange_skeleton(a, c.pool.skeleton);
   exchange_style(a, c);
   if (a.section("moves", !c.moves.empty())) exchange_moves(a, c.moves);
   if (a.section("styles", !c.style.empty())) exchange_styles(a, c);
+  if (a.section("markers", has_markers(c))) exchange_markers(a, c);
 }
 
 // That the entry poses of a file of `size` bytes are in proportion.

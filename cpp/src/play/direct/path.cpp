@@ -96,7 +96,7 @@ double Path::nearest(const Vector2& point, double from, double to) const {
     const double left = last && !closed_ ? to - begin : ways_[i + 1] - at;
     const double end = std::min(to, begin + std::max(left, kSame * std::max(1.0, std::abs(begin))));
     const Vector2 along = (points_[i + 1] - points_[i]) / (ways_[i + 1] - ways_[i]);
-    const double way = begin + std::clamp(along.dot(point - place(begin)), 0.0, end - begin);
+    const double way = begin + std::clamp(dot(along, point - place(begin)), 0.0, end - begin);
     const double distance = (place(way) - point).norm();
     if (distance < least) {
       best = way;

@@ -30,7 +30,7 @@ double radius(const Path& path, double way, double reach) {
                 behind = path.place(way + reach) - here;
   const double leg = std::min(before.norm(), behind.norm());
   const double cross = before.x() * behind.y() - before.y() * behind.x();
-  const double turned = std::abs(std::atan2(cross, before.dot(behind)));
+  const double turned = std::abs(std::atan2(cross, dot(before, behind)));
   const double tangent = std::tan(turned / 2);
   return tangent > 0 ? leg / 2 / tangent : std::numeric_limits<double>::infinity();
 }

@@ -53,7 +53,7 @@ std::optional<Footing> GroundProbe::under(const Sole& sole) const {
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (!found[i]) continue;
     const Vector2 from_ball = sole.points()[i].head<2>() - footing.place;
-    footing.height = std::max(footing.height, found[i]->height - footing.slope.dot(from_ball));
+    footing.height = std::max(footing.height, found[i]->height - dot(footing.slope, from_ball));
   }
   return footing;
 }
@@ -64,7 +64,7 @@ double GroundProbe::edges(const Sole& sole, bool descends) const {
   const Vector2 slope = slope_of(ground->normal), along = (sole.tip - sole.heel).head<2>().normalized();
   const auto edge = [&](const Vector2& place, double overhanging) {
     const std::optional<GroundPoint> there = at(place);
-    const double higher = there ? there->height - ground->height - slope.dot(place - sole.place()) : 0;
+    const double higher = there ? there->height - ground->height - dot(slope, place - sole.place()) : 0;
     return higher > kEdge ? kInTheWay : higher < -kEdge ? overhanging : 0;
   };
   const Vector2 heel = sole.heel.head<2>(), tip = sole.tip.head<2>();

@@ -14,7 +14,7 @@ struct Footing {
   double height = 0;
   Vector2 slope = Vector2::Zero();  ///< How much it rises along x and y.
 
-  double at(const Vector2& there) const { return height + slope.dot(there - place); }
+  double at(const Vector2& there) const { return height + dot(slope, there - place); }
 };
 
 /// What feet ask the ground, from one height downward.

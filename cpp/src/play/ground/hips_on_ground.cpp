@@ -16,7 +16,7 @@ constexpr double kRising = 0.3;    // and come up again
 double part_between(const Vector2& from, const Vector2& to, const Vector2& place) {
   const Vector2 way = to - from;
   const double square = way.squaredNorm();
-  return square > 0 ? std::clamp((place - from).dot(way) / square, 0.0, 1.0) : 0;
+  return square > 0 ? std::clamp(dot(place - from, way) / square, 0.0, 1.0) : 0;
 }
 
 // A value's distance from a target that moves evenly, and its rate, after a time: a critically damped spring.

@@ -62,7 +62,7 @@ void clean_rotations(const Skeleton& skeleton, int bone, Clip& clip) {
     if (!q.coeffs().allFinite()) fail(clip.name, place(f, skeleton.names[bone]) + "rotation is not finite");
     if (q.norm() < 1e-6) fail(clip.name, place(f, skeleton.names[bone]) + "rotation is a zero quaternion");
     q.normalize();
-    if (f > 0 && q.dot(previous) < 0) q.coeffs() *= -1;
+    if (f > 0 && dot(q.coeffs(), previous.coeffs()) < 0) q.coeffs() *= -1;
     store_quaternion(q, stored);
     previous = q;
   }
@@ -108,6 +108,7 @@ void check_rest(const Skeleton& skeleton, const Take& take, const std::vector<in
 Clip make_clip(const Skeleton& skeleton, Clip clip) {
   check_shape(clip, skeleton.size());
   check_positions(skeleton, clip);
+  check_markers(clip.markers, clip.frames);
   for (int b = 0; b < skeleton.size(); ++b) {
     if (skeleton.is_below(b, skeleton.roles.hips))
       clean_rotations(skeleton, b, clip);
@@ -175,6 +176,7 @@ Clip part(const Clip& clip, int begin, int end) {
   result.root_positions = copy(clip.root_positions, 3);
   result.headings = copy(clip.headings, 1);
   result.rotations = copy(clip.rotations, bones);
+  result.markers = markers_in_rounds(clip.markers, begin, result.frames, result.frames);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "motion/marker.hpp"
 #include "motion/take.hpp"
 #include "skeleton/kinematics.hpp"
 
@@ -23,11 +24,12 @@ struct Clip {
   std::vector<double> root_positions;  ///< [frames, 3] m: the hips' head in the world, z up
   std::vector<double> rotations;       ///< [frames, bones, 4]: the hips' in the world, every other bone's in its parent
   std::vector<double> headings;        ///< [frames] rad, unwrapped: where the character faces; see facing.hpp
+  std::vector<Marker> markers = {};    ///< By their frames.
 };
 
 /// Checks shapes, finite numbers, rate, the hips' places and at least two frames, and makes the quaternions unit,
 /// successive ones on the same side. The rotations of bones outside the tree of the hips become their rest rotations,
-/// whatever they were. Throws std::invalid_argument naming the clip, frame (from 0) and bone.
+/// whatever they were. Throws std::invalid_argument naming the clip, frame (from 0) and bone, or the marker.
 Clip make_clip(const Skeleton& skeleton, Clip clip);
 
 /// The take's motion on `skeleton`, bones matched by name. What bones other than the hips move away from their offsets

@@ -33,7 +33,7 @@ constexpr double kSinking = 0.1;       // s: time constant of the hips
 // The least angle, rad, by which `from_ball` must turn about `axis`, upright to it, to come within `length` of a place
 // that is `hip` from the ball; 0 where that brings it no nearer.
 double turn_to_reach(const Vector3& hip, const Vector3& from_ball, const Vector3& axis, double length) {
-  const double along = -hip.dot(from_ball), across = -hip.dot(axis.cross(from_ball)),
+  const double along = -dot(hip, from_ball), across = -dot(hip, axis.cross(from_ball)),
                wanted = (length * length - hip.squaredNorm() - from_ball.squaredNorm()) / 2;
   if (along <= wanted || across >= 0) return 0;
   return std::atan2(across, along) + std::acos(std::max(-1.0, wanted / std::hypot(along, across)));

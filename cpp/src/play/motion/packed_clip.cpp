@@ -173,7 +173,7 @@ int original_of(const std::vector<PackedClip>& clips, std::size_t mirrored) {
 
 Clip unpack(const PackedClip& packed) {
   const int bones = packed.grid->bones;
-  Clip clip{packed.name, packed.rate, packed.frames, {}, {}, {}};
+  Clip clip{packed.name, packed.rate, packed.frames, {}, {}, {}, packed.markers};
   clip.root_positions.resize(std::size_t{3} * clip.frames);
   clip.rotations.resize(std::size_t{4} * bones * clip.frames);
   for (int f = 0; f < clip.frames; ++f) {
@@ -238,6 +238,7 @@ void check(const PackedClip& clip) {
   require(clip.rate > 0 && clip.rate <= kHighestRate && clip.frames >= 2);
   require(!clip.mirrored || !clip.grid->mirror.empty());
   check_poses(*clip.poses, clip.frames, *clip.grid);
+  check_markers(clip.markers, clip.frames);
 }
 
 }  // namespace fragmotion

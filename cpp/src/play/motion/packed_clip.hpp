@@ -66,6 +66,7 @@ struct PackedClip {
   int frames = 0;
   std::shared_ptr<const PoseGrid> grid;
   std::shared_ptr<const PackedPoses> poses;
+  std::vector<Marker> markers = {};
   bool mirrored = false;  ///< The poses are the original's, and this clip shows their mirror image in x = 0.
 };
 

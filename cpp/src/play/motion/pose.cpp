@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fragmotion {
 namespace {
@@ -23,17 +24,29 @@ struct Between {
   }
 };
 
+// As Eigen's own, but for the order of the sum.
+Quaternion slerp(const Quaternion& a, const Quaternion& b, double weight) {
+  const double along = dot(a.coeffs(), b.coeffs()), cosine = std::abs(along);
+  double of_a = 1 - weight, of_b = weight;
+  if (cosine < 1 - std::numeric_limits<double>::epsilon()) {
+    const double angle = std::acos(cosine), sine = std::sin(angle);
+    of_a = std::sin(of_a * angle) / sine;
+    of_b = std::sin(of_b * angle) / sine;
+  }
+  return Quaternion{of_a * a.coeffs() + (along < 0 ? -of_b : of_b) * b.coeffs()};
+}
+
 }  // namespace
 
 void add_rotation(const double* rotation, double* sum) {
   const Eigen::Map<const Eigen::Vector4d> q(rotation);
   Eigen::Map<Eigen::Vector4d> all(sum);
-  all += all.dot(q) < 0 ? Eigen::Vector4d{-q} : Eigen::Vector4d{q};
+  all += dot(all, q) < 0 ? Eigen::Vector4d{-q} : Eigen::Vector4d{q};
 }
 
 void blend_rotations(const double* a, const double* b, double weight, int bones, double* out) {
   for (int i = 0; i < 4 * bones; i += 4) {
-    store_quaternion(load_quaternion(a + i).slerp(weight, load_quaternion(b + i)), out + i);
+    store_quaternion(slerp(load_quaternion(a + i), load_quaternion(b + i), weight), out + i);
   }
 }
 

@@ -60,7 +60,7 @@ TurnOffset turn_offset(const double* old_before, const double* old, const double
   // What the old bone turns in `apart`, and then the new one, both about the world of the parent.
   const Quaternion next_old = is * load_quaternion(old_before).conjugate() * is;
   Quaternion next = next_old * load_quaternion(fresh_later).conjugate();
-  if (next.dot(offset) < 0) next.coeffs() *= -1;
+  if (dot(next.coeffs(), offset.coeffs()) < 0) next.coeffs() *= -1;
   const Vector3 turn = turn_of(offset);
   return {turn, (turn_of(next) - turn) / apart};
 }

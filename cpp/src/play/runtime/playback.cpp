@@ -10,6 +10,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kApart = 1.0 / 60;  // s over which speeds are measured, within a fragment
+constexpr double kSameFrame = 1e-6;  // frames apart that are one
 
 }  // namespace
 
@@ -32,7 +33,11 @@ void Playback::reset(int fragment, const CharacterFrame& frame) {
 }
 
 void Playback::play(const Placed& placed) {
+  const double first = fragment(placed).first_played();
+  const bool goes_on = &clip(placed) == &clip(now_) && std::abs(first - at()) < kSameFrame;
+  const double after = goes_on ? at() : first - 2 * kSameFrame;
   now_ = placed;
+  pass_markers(after, first);
   const Vector2 velocity = hips_velocity(clip(now_), fragment());
   evident_of_hips_ = {velocity.x(), velocity.y(), evident().turn, evident().jump};
   beside_ends_ = velocity - mean_velocity_around(clip(now_), fragment(), step_seconds());
@@ -99,9 +104,20 @@ Vector2 Playback::begin_stitch(const Placed& old) {
 }
 
 void Playback::advance(double seconds) {
+  const double before = at();
   now_.seconds += seconds;
+  pass_markers(before, at());
   before_.seconds += seconds;
   steps_.advance(standing_feet(now_.seconds), seconds);
+}
+
+// Those of the clip that plays after a frame of it, until another.
+void Playback::pass_markers(double after, double until) {
+  for (const Marker& marker : clip(now_).markers) {
+    const double frame = marker.frame - kSameFrame;
+    if (frame <= after || frame > until) continue;
+    if (passed_.count < static_cast<int>(passed_.markers.size())) passed_.markers[passed_.count++] = &marker;
+  }
 }
 
 void Playback::move(const Vector2& velocity, double turn_rate, double seconds) {

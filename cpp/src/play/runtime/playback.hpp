@@ -19,6 +19,15 @@ enum class Stitching {
   crossfade     ///< The paper's: the old fragment goes on in its take while both are interpolated.
 };
 
+/// Markers that were passed; beyond the most of them in one step none is told.
+struct PassedMarkers {
+  std::array<const Marker*, 8> markers{};  ///< The character's.
+  int count = 0;
+
+  const Marker* const* begin() const { return markers.data(); }
+  const Marker* const* end() const { return markers.data() + count; }
+};
+
 /// Plays one fragment after another, each placed where the character stands and stitched on to what is shown
 /// (Sec. 3.3, Fig. 3). Allocates nothing once it is made.
 class Playback {
@@ -38,6 +47,10 @@ class Playback {
   /// The same of a part of a move.
   Vector2 start_move(int part);
   void advance(double seconds);
+  /// The markers of the clips that play: passed since forget_markers(), from the first pose that is played of a clip
+  /// on.
+  const PassedMarkers& passed() const { return passed_; }
+  void forget_markers() { passed_.count = 0; }
   /// Moves the character for `seconds` at a velocity, m/s in its own frame, and a turn rate, rad/s.
   void move(const Vector2& velocity, double turn_rate, double seconds);
 
@@ -67,6 +80,8 @@ class Playback {
   bool has_landed() const;
   /// Whether it jumps and touches no ground now.
   bool is_in_the_air() const;
+  /// The frame of the clip that is shown now.
+  double at() const { return fragment().first_played() + now_.seconds * clip(now_).rate; }
   /// The frame of the clip that is nearest to now.
   std::size_t frame_of_clip() const { return frame_of_clip(now_.seconds); }
   /// Which feet stand at a time since the fragment's first pose, s.
@@ -110,6 +125,7 @@ class Playback {
   void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
   Vector2 begin_stitch(const Placed& old);
   std::size_t frame_of_clip(double seconds) const;
+  void pass_markers(double after, double until);
   void crossfade(double weight, WorldPose& pose) const;
 
   const Character* character_;
@@ -122,6 +138,7 @@ class Playback {
   Vector2 beside_ends_ = Vector2::Zero();  // evident_of_hips_ without mean_velocity_around()
   double faded_ = 0;
   StepSequence steps_;
+  PassedMarkers passed_;  // within a step, so that nothing of it is kept between two
   Inertialization inertialization_;
   LookStitch look_;
   double turning_ = 0;  // rad/s, at which it was moved last

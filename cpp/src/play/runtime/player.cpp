@@ -172,6 +172,7 @@ std::array<std::optional<Vector3>, 2> Player::standing_feet() const {
 
 void Player::step(const Control& given, double seconds) {
   check_step(given, seconds);
+  forget_markers();
   const Control control = styled_character().space.admitted(given);
   director_.observe(control);
   if (seconds == 0) playback_.show();

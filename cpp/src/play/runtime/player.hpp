@@ -119,6 +119,8 @@ class Player {
   int entered() const { return entered_; }
   /// Eq. 2 for the transition that led here and the control. Throws std::invalid_argument on one that does not exist.
   double quality(int control) const;
+  /// What the last step passed of its takes' markers, and of a move of the upper body. Valid as long as the character.
+  std::array<PassedMarkers, 2> passed_markers() const;
   /// Until the fragment's end, s.
   double seconds_left() const { return playback_.left(); }
   /// Of the left and the right foot where the fragment has it stand (contacts.hpp): the middle of its sole as it is
@@ -181,6 +183,7 @@ class Player {
   void resume(const Control& control);
   void enter_best_class(const Control& wanted);
   void correct(const Control& control, double seconds);
+  void forget_markers();
 
   std::shared_ptr<const Character> character_;
   std::shared_ptr<Workspace> workspace_;

@@ -45,6 +45,15 @@ std::array<int, 2> Player::waiting_moves() const {
   return {extras_->whole_body.waiting(), extras_->upper_body.track.waiting()};
 }
 
+std::array<PassedMarkers, 2> Player::passed_markers() const {
+  return {playback_.passed(), extras_ != nullptr ? extras_->upper_body.passed_markers() : PassedMarkers()};
+}
+
+void Player::forget_markers() {
+  playback_.forget_markers();
+  if (extras_ != nullptr) extras_->upper_body.forget_markers();
+}
+
 // Is where another player is, which has no moves that play or wait.
 void Player::imitate(const Player& other) {
   governor_ = other.governor_;

@@ -21,7 +21,9 @@ Quaternion world_rotation(const Skeleton& skeleton, int bone, const std::vector<
 Quaternion about_z(double angle) { return Quaternion{Eigen::AngleAxisd(angle, Vector3::UnitZ())}; }
 
 void blend(const Quaternion& to, double weight, double* rotation) {
-  store_quaternion(load_quaternion(rotation).slerp(weight, to), rotation);
+  double wanted[4];
+  store_quaternion(to, wanted);
+  blend_rotations(rotation, wanted, weight, 1, rotation);
 }
 
 }  // namespace

@@ -18,6 +18,8 @@ class UpperBody {
   /// As Playback.
   void set_stitch(double stitch) { playback_.set_stitch(stitch); }
   void reset();
+  const PassedMarkers& passed_markers() const { return playback_.passed(); }
+  void forget_markers() { playback_.forget_markers(); }
   /// Begins the move that waits in the track.
   void begin();
   /// Plays on; writes over Workspace::shown.

@@ -49,13 +49,13 @@ class Knee {
  public:
   Knee(const Vector3& upper, const Vector3& lower, const Vector3& hinge)
       : upper_(upper.squaredNorm()),
-        axis_((hinge - hinge.dot(upper) / upper_ * upper).normalized()),
-        beside_(square(lower.dot(axis_))),
+        axis_((hinge - dot(hinge, upper) / upper_ * upper).normalized()),
+        beside_(square(dot(lower, axis_))),
         across_(std::max(kTiny, lower.squaredNorm() - beside_)),
         length_(std::sqrt(upper_) + std::sqrt(beside_ + across_)),
         twice_(2 * std::sqrt(upper_ * across_)),
-        cosine_(2 * upper.dot(lower) / twice_),
-        sine_(2 * axis_.dot(upper.cross(lower)) / twice_) {}
+        cosine_(2 * dot(upper, lower) / twice_),
+        sine_(2 * dot(axis_, upper.cross(lower)) / twice_) {}
 
   // How far apart the leg's ends come that would be `wanted`, m.
   double ends(double wanted) const {

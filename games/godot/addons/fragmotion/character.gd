@@ -27,6 +27,8 @@ signal move_ended(move: String)
 signal style_changed(style: String)
 ## It stands at the end of its path.
 signal path_arrived
+## A marker that an animator set in the take or the move that plays is passed.
+signal marker_passed(marker: String)
 
 ## What [member stick], [member velocity] and [member facing] mean.
 enum Steer {
@@ -284,6 +286,7 @@ func _tell() -> void:
 			5: move_ended.emit(policy.get_moves()[index])
 			6: style_changed.emit(policy.get_styles()[index])
 			7: path_arrived.emit()
+			8: marker_passed.emit(policy.get_markers()[index])
 
 
 func _number(sought: String, names: PackedStringArray, kind: String) -> int:

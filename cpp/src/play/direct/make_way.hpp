@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace fragmotion {
+
+/// Velocities v with (v - point) . normal >= 0, m/s in the world.
+struct HalfPlane {
+  Vector2 point, normal;
+};
+
+/// The velocities by which one keeps clear of those around it.
+struct Clearance {
+  static constexpr int kMost = 10;  ///< Those that are nearest count.
+  std::array<HalfPlane, kMost> planes;
+  int count = 0;
+
+  /// The one next to what is wanted, at most so fast; where there is none, that which is off by the least.
+  Vector2 nearest(const Vector2& wanted, double most) const;
+};
+
+/// One of many on the ground, as if it were round.
+struct Walker {
+  Vector2 place, velocity;  ///< m, m/s
+  double radius = 0;        ///< m
+  bool yields = true;       ///< Makes way; for who does not, others go all of the way.
+};
+
+/// Who makes way for whom: "Reciprocal n-body collision avoidance" (van den Berg, Guy, Lin, Manocha, 2011). The same
+/// walkers have the same bits.
+class MakeWay {
+ public:
+  /// Looks at all of them. Allocates only where they are more than ever before.
+  void look(const std::vector<Walker>& walkers);
+  /// Of one that was looked at, who sees those as far away as both come within kAhead. `seconds`: a step, within which
+  /// those that touch part.
+  Clearance clearance(std::size_t walker, double seconds) const;
+
+  static constexpr double kAhead = 2;  ///< s in which they are not to touch.
+
+ private:
+  struct Seen {
+    double square;
+    std::size_t walker;
+  };
+
+  std::int64_t cell(const Vector2& place, int column, int row) const;
+  template <typename Each>
+  void each_near(const Vector2& place, const Each& each) const;
+
+  std::vector<Walker> walkers_;
+  std::vector<std::pair<std::int64_t, std::size_t>> cells_;  // each one's, in order
+  double reach_ = 1;                                         // m, that a cell is wide
+};
+
+}  // namespace fragmotion
