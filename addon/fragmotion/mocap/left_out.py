@@ -83,8 +83,9 @@ def cut(clip: Clip, skeleton: Skeleton, times: Doubles, spans: Iterable[tuple[in
 
 def part_of(clip: Clip, skeleton: Skeleton, name: str, part: slice) -> Clip:
     """Some frames of a clip, with their markers, as a clip of that name."""
-    cut = core.Clip(skeleton, name, clip.rate, clip.root_positions[part], clip.rotations[part])
-    return cut.with_markers([(at - part.start, text) for at, text in clip.markers if part.start <= at <= part.stop - 1])
+    markers = [(at - part.start, text) for at, text in clip.markers if part.start <= at <= part.stop - 1]
+    cut: Clip = core.Clip(skeleton, name, clip.rate, clip.root_positions[part], clip.rotations[part])
+    return cut.with_markers(markers)
 
 
 def source_of(name: str) -> tuple[str, float | None]:

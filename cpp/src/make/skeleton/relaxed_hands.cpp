@@ -13,7 +13,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kAtRest[] = {45 * kPi / 180, 37.5 * kPi / 180,
-                            15 * kPi / 180};  // rad, from the knuckle to the last joint
+                              15 * kPi / 180};  // rad, from the knuckle to the last joint
 constexpr int kThumbDigit = 0, kDigits = 5, kFewestFingers = 2;
 
 using FingerChains = std::array<std::vector<int>, kDigits>;
