@@ -14,6 +14,7 @@ ENGINES: dict[str, tuple[str, ...]] = {
     "web": ("chromium", "cmake", "emscripten", "libeigen3-dev", "ninja-build", "nodejs", "npm"),
     "godot": ("godot", "libgl1-mesa-dri", "xauth", "xvfb"),
     "csharp": ("mono-devel",),
+    "farm": ("nodejs",),
     "raylib": ("cmake", "g++", "libeigen3-dev", "libgl1-mesa-dri", "libraylib-dev", "ninja-build", "xauth", "xvfb"),
 }
 """The Debian packages of each engine that tests/engines/test_NAME.py plays in."""
