@@ -127,7 +127,7 @@ void MakeWay::each_near(const Vector2& place, const Each& each) const {
 
 Clearance MakeWay::clearance(std::size_t walker, double seconds) const {
   const Walker& one = walkers_[walker];
-  std::array<Seen, Clearance::kMost> nearest;
+  std::array<Seen, Clearance::kMost> nearest{};
   int seen = 0;
   each_near(one.place, [&](std::size_t other) {
     const double square = (walkers_[other].place - one.place).squaredNorm();
