@@ -150,6 +150,14 @@ public struct Event {
   public float Seconds;
 }
 
+/// Somebody or something else that a crowd makes way for, as if it were round; its velocity a second.
+[StructLayout(LayoutKind.Sequential)]
+public struct Body {
+  public Vector3 Position;
+  public Vector3 Velocity;
+  public float Radius;
+}
+
 /// The ground below a place: its height along the up axis, and a normal of any length.
 [StructLayout(LayoutKind.Sequential)]
 public struct GroundHit {
@@ -469,6 +477,12 @@ public sealed class Crowd : IDisposable {
   public int Count { get { return players.Length; } }
   public Player this[int index] { get { return players[index]; } }
 
+  /// In their next step, of so many seconds, its players keep clear of each other, with a radius around each, and of
+  /// others, who do not make way. To be called before each step.
+  public void MakeWay(float radius, double seconds, params Body[] others) {
+    Native.Check(Native.fragmotion_crowd_make_way(handle, radius, seconds, others, others.Length));
+    GC.KeepAlive(this);
+  }
   /// Steps all under an input each.
   public void Step(Input[] inputs, double seconds) {
     Native.Check(Native.fragmotion_crowd_step(handle, Sized(inputs), seconds));
@@ -774,6 +788,9 @@ internal static class Native {
   [DllImport(Name, CallingConvention = C)] public static extern void fragmotion_crowd_release(IntPtr crowd);
   [DllImport(Name, CallingConvention = C)]
   public static extern IntPtr fragmotion_crowd_player(CrowdHandle crowd, int index);
+  [DllImport(Name, CallingConvention = C)]
+  public static extern Result fragmotion_crowd_make_way(CrowdHandle crowd, float radius, double seconds, Body[] others,
+                                                        int count);
   [DllImport(Name, CallingConvention = C)]
   public static extern Result fragmotion_crowd_step(CrowdHandle crowd, Input[] inputs, double seconds);
   [DllImport(Name, CallingConvention = C)]

@@ -258,6 +258,24 @@ static class Tests {
       }
     }
 
+    public static void ACrowdGoesAroundWhoStandsInItsWay() {
+      using (var hero = Character.Load(walking))
+      using (var crowd = new Crowd(hero, 1)) {
+        var post = new Body { Position = new Vector3(0, 0, 3), Radius = 0.3f };
+        var inputs = new[] { Input.ByWorld(new Vector3(0, 0, 1.3f), Vector3.UnitZ) };
+        float nearest = 3;
+        for (int frame = 0; frame < 240; ++frame) {
+          crowd.MakeWay(0.4f, Frame, post);
+          crowd.Step(inputs, Frame);
+          nearest = Math.Min(nearest, Vector3.Distance(crowd[0].State.Place.Position, post.Position));
+        }
+        Expect(nearest > 0.5f && nearest < 1.5f, "clear of the post and beside it: " + nearest);
+        Expect(crowd[0].State.Place.Position.Z > 4, "behind it: " + crowd[0].State.Place.Position);
+        crowd.MakeWay(0.4f, Frame);
+        Refused(() => crowd.MakeWay(-1, Frame));
+      }
+    }
+
     public static void WhatIsReleasedInAnyOrderHarmsNothing() {
       var hero = Character.Load(walking);
       var player = new Player(hero);
