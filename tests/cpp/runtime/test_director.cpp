@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
+#include <vector>
 
+#include "fragments/successors.hpp"
 #include "runtime/player.hpp"
 #include "small_character.hpp"
 #include "steering.hpp"
@@ -169,6 +172,32 @@ TEST(Player, ForcesNothingAfterAResetAndNoClassThatDoesNotExist) {
   EXPECT_EQ(acts_of(player, {{{}, 1}}), (std::vector<int>{Acts::stand}));
   EXPECT_THROW(player.force(-1), std::invalid_argument);
   EXPECT_THROW(player.force(4), std::invalid_argument);
+}
+
+// The share of fragments with which the take that played goes on, under a stick that is moved every two seconds.
+double share_that_stays(const TransitionWeights& weights) {
+  const std::shared_ptr<const Character> character = gait_character();
+  const std::vector<int> next = successors(character->pool.fragments);
+  PlayerOptions options;
+  options.constants.transition = weights;
+  Player player(character, options);
+  int before = player.playing_fragment(), entered = player.entered(), stays = 0;
+  for (int f = 0; f < std::lround(30 / kStep); ++f) {
+    const double angle = std::floor(f * kStep / 2);
+    player.step({1.2 * std::sin(angle), 1.2 * std::cos(angle), 0, 0}, kStep);
+    if (player.entered() == entered) continue;
+    ++entered;
+    stays += player.playing_fragment() == next[before] ? 1 : 0;
+    before = player.playing_fragment();
+  }
+  return static_cast<double>(stays) / player.entered();
+}
+
+TEST(Player, StaysInATakeTheMoreTheMoreItCostsToLeaveIt) {
+  TransitionWeights usual, loyal;
+  loyal.other_take = loyal.mirrored = 100;
+  EXPECT_GT(share_that_stays(usual), 0.1);
+  EXPECT_GT(share_that_stays(loyal), share_that_stays(usual));
 }
 
 }  // namespace

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "build/exclude_classes.hpp"
+#include "fragments/body_tips.hpp"
+#include "fragments/hips_velocity.hpp"
 #include "fragments/successors.hpp"
 #include "policy/answer.hpp"
 #include "runtime/fragment_selector.hpp"
@@ -28,19 +31,53 @@ struct Choice {
   }
 };
 
-TEST(FragmentSelector, ChoosesMembersThatPerformTheControlNearlyAsWellAndSteadilyAsTheRepresentative) {
+// Its stated equation, of a fragment that is entered from what plays; how the tips would go on is the selector's.
+double stated_cost(const Choice& choice, const std::vector<double>& changes, int fragment, const Control& control) {
+  const Character& c = *choice.character;
+  const TransitionWeights weights;
+  const Fragment &f = c.pool.fragments[fragment], &left = choice.playback.fragment();
+  const auto made = [](Origin origin) { return origin == Origin::interpolated || origin == Origin::transformed; };
+  const auto moves = [&](const Control& evident) { return evident.speed() * c.space.scale() > kMoving; };
+  double cost = weights.match * c.space.distance(f.evident, control);
+  if (made(f.origin)) cost += weights.made;
+  cost += weights.unsteady * changes[fragment];
+  cost += weights.hurried * std::max(0.0, 1 - c.pool.seconds(f) / 0.4);
+  if ((f.origin == Origin::mirrored) != (left.origin == Origin::mirrored)) cost += weights.mirrored;
+  if (f.clip != left.clip) cost += weights.other_take;
+  if (moves(f.evident) && moves(left.evident)) {
+    cost += weights.out_of_turn *
+            steps_out_of_turn(choice.playback.steps(), choice.workspace.styles[0].entry_steps[fragment]);
+  }
+  const std::vector<float>& onward = choice.workspace.onward;
+  const int stride = static_cast<int>(onward.size()) / 3;
+  const double distance = tip_distance(onward.data(), &c.entry_poses[onward.size() * fragment], stride) / 2;
+  return cost + distance * kTunedReach / tip_reach(c.pool.skeleton);
+}
+
+TEST(FragmentSelector, ChoosesMembersThatCostNearlyAsLittleAsAnyByTheStatedEquation) {
   Choice choice(3);
   const Character& c = *choice.character;
-  for (int k = 0; k < c.classes.count; ++k) {
-    for (int point = 0; point < kPaperPoints; point += 7) {
+  const std::vector<double> changes = velocity_changes(c.pool);
+  choice.playback.advance(0.1);
+  for (int k = 0; k < c.classes.count; k += 2) {
+    for (int point = 0; point < kPaperPoints; point += 14) {
       const Control control = c.space.point(point);
       const int chosen = choice.selector.choose(k, control, choice.playback);
       EXPECT_EQ(c.classes.labels[chosen], k);
-      const int representative = c.classes.representatives[k];
-      const Control &its = c.pool.fragments[chosen].evident, &usual = c.pool.fragments[representative].evident;
-      EXPECT_LE(choice.selector.error(chosen, control),
-                choice.selector.error(representative, control) + FragmentSelector::kNearly);
-      if (matches_jump(usual, control)) EXPECT_TRUE(matches_jump(its, control));
+      const Control& usual = c.pool.fragments[c.classes.representatives[k]].evident;
+      const bool goes = control.speed() * c.space.scale() > kMoving && answers(usual, control);
+      const auto may_play = [&](const Control& evident) {
+        return (!matches_jump(usual, control) || matches_jump(evident, control)) &&
+               (!goes || answers(evident, control));
+      };
+      EXPECT_TRUE(may_play(c.pool.fragments[chosen].evident));
+      double least = std::numeric_limits<double>::infinity();
+      for (const int member : choice.workspace.styles[0].members[k]) {
+        if (may_play(c.pool.fragments[member].evident))
+          least = std::min(least, stated_cost(choice, changes, member, control));
+      }
+      EXPECT_LE(stated_cost(choice, changes, chosen, control), least + TransitionWeights{}.variety + 1e-4);
+      EXPECT_NEAR(choice.selector.cost_of_leaving(k, control, choice.playback).whole, least, 1e-4);
     }
   }
 }
@@ -58,6 +95,12 @@ TEST(FragmentSelector, DrawsTheSameFromTheSameSeedAndAfterAReset) {
   EXPECT_EQ(first, again);
 }
 
+// When what plays is left for a class, where a second of waiting costs so much and nothing else may play.
+double exit_of(const Choice& choice, int next_class, const Control& control, double haste) {
+  const Exit none{-1, 0, std::numeric_limits<double>::infinity()};
+  return choice.selector.best_exit({Exit{next_class, 0, 0}, none}, control, choice.playback, haste, none).seconds;
+}
+
 TEST(FragmentSelector, LeavesAFragmentWithinItsTimeAndAtOnceWhereWaitingCostsMuch) {
   Choice choice(1);
   const Character& c = *choice.character;
@@ -68,25 +111,42 @@ TEST(FragmentSelector, LeavesAFragmentWithinItsTimeAndAtOnceWhereWaitingCostsMuc
     const double end = choice.playback.seconds() + choice.playback.left();
     for (int k = 0; k < c.classes.count; k += 5) {
       const Control& control = c.pool.fragments[c.classes.representatives[k]].evident;
-      const double free = choice.selector.best_exits({k, -1}, control, choice.playback, 0)[0].seconds;
+      const double free = exit_of(choice, k, control, 0);
       EXPECT_GE(free, choice.playback.seconds());
       EXPECT_LE(free, end + 1e-9);
-      EXPECT_EQ(choice.selector.best_exits({k, -1}, control, choice.playback, 1e9)[0].seconds,
-                choice.playback.seconds());
+      EXPECT_EQ(exit_of(choice, k, control, 1e9), choice.playback.seconds());
       moments.insert(free);
     }
   }
   EXPECT_GT(moments.size(), 5U);
 }
 
+TEST(FragmentSelector, LeavesAFragmentOnlyWhereThatCostsLessThanWhatElseMayPlay) {
+  Choice choice(1);
+  const Character& c = *choice.character;
+  choice.playback.advance(0.04);
+  for (int k = 0; k < c.classes.count; k += 5) {
+    const Control& control = c.pool.fragments[c.classes.representatives[k]].evident;
+    const Exit free = {-1, 0, std::numeric_limits<double>::infinity()};
+    const auto best = [&](double more, double cost) {
+      return choice.selector.best_exit({Exit{k, 0, more}, free}, control, choice.playback, 1, Exit{k, 7, cost});
+    };
+    const double least = best(0, 1e9).cost;
+    EXPECT_LT(least, 1e9);
+    EXPECT_NEAR(best(2, 1e9).cost, least + 2, 1e-3);
+    EXPECT_EQ(best(0, least - 1e-3).seconds, 7);
+    EXPECT_LT(best(0, least + 1e-3).seconds, 7);
+  }
+}
+
 // When a fragment is left for a class whose representative performs the control.
 double exit_for(Choice& choice, int fragment, int next_class) {
-  constexpr double kSoon = 0.1, kHaste = 0.5;  // s, and m a metre of reach
+  constexpr double kSoon = 0.1, kHaste = 0.5 * kTunedReach;  // s, and m of Dis
   const Character& c = *choice.character;
   const Control& control = c.pool.fragments[c.classes.representatives[next_class]].evident;
   choice.playback.reset(fragment, {});
   choice.playback.advance(kSoon);
-  return choice.selector.best_exits({next_class, -1}, control, choice.playback, kHaste)[0].seconds - kSoon;
+  return exit_of(choice, next_class, control, kHaste) - kSoon;
 }
 
 // Dis itself is not quite the same of other bones, so that a few moments that are hardly better than others change.
@@ -125,8 +185,7 @@ int steps_out_of_turn_when_left(Choice& choice, bool known) {
       choice.playback.advance(choice.playback.left());
       choice.playback.start(fragment);
       choice.playback.advance(0.1);
-      const Exit exit = choice.selector.best_exits({k, -1}, control, choice.playback, 0.1)[0];
-      choice.playback.advance(exit.seconds - choice.playback.seconds());
+      choice.playback.advance(exit_of(choice, k, control, 0.1 * kTunedReach) - choice.playback.seconds());
       const int chosen = choice.selector.choose(k, control, choice.playback);
       all += steps_out_of_turn(choice.playback.steps(), entries[chosen]);
     }
@@ -139,25 +198,19 @@ TEST(FragmentSelector, LeavesAFragmentWhereFeetComeDownInTurn) {
   EXPECT_LT(steps_out_of_turn_when_left(knows, true), steps_out_of_turn_when_left(does_not, false));
 }
 
-// A take is gone on with where its own next fragment performs the control nearly as well as the class would.
-TEST(FragmentSelector, GoesOnInTheTakeWhereThatPerformsTheControlNearlyAsWell) {
+TEST(FragmentSelector, GoesOnInTheTakeWhereThatJumpsAndGoesAsAsked) {
   Choice choice(1);
   const Character& c = *choice.character;
   const std::vector<int> next = successors(c.pool.fragments);
   int stays = 0, leaves = 0;
   for (int fragment = 0; fragment < static_cast<int>(next.size()); fragment += 3) {
-    for (int k = 0; k < c.classes.count; ++k) {
-      const int representative = c.classes.representatives[k];
-      const Control& control = c.pool.fragments[representative].evident;
-      const int found = choice.selector.continuation(fragment, k, control);
+    for (int point = 0; point < kPaperPoints; point += 5) {
+      const Control& control = c.space.point(point);
+      const int found = choice.selector.successor(fragment, control);
+      const bool may = next[fragment] >= 0 && matches_jump(c.pool.fragments[next[fragment]].evident, control) &&
+                       (control.speed() == 0 || answers(c.pool.fragments[next[fragment]].evident, control));
+      EXPECT_EQ(found, may ? next[fragment] : -1);
       (found < 0 ? leaves : stays) += 1;
-      if (found < 0) continue;
-      EXPECT_EQ(found, next[fragment]);
-      const Control& evident = c.pool.fragments[found].evident;
-      EXPECT_TRUE(matches_jump(evident, control));
-      EXPECT_TRUE(control.speed() <= kMoving || answers(evident, control));
-      EXPECT_LE(c.space.distance(evident, control),
-                choice.selector.error(representative, control) + FragmentSelector::kNearly);
     }
   }
   EXPECT_GT(stays, 20);
@@ -165,7 +218,7 @@ TEST(FragmentSelector, GoesOnInTheTakeWhereThatPerformsTheControlNearlyAsWell) {
 }
 
 // What is foretold of a fragment's end is what is measured there.
-TEST(FragmentSelector, ForetellsHowAClassJoinsOnToAFragmentsEnd) {
+TEST(FragmentSelector, ForetellsWhatLeavingAFragmentAtItsEndCosts) {
   Choice choice(1);
   const Character& c = *choice.character;
   for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 17) {
@@ -176,8 +229,8 @@ TEST(FragmentSelector, ForetellsHowAClassJoinsOnToAFragmentsEnd) {
     for (int frame = 0; frame < frames; ++frame) choice.playback.advance(1 / rate);
     for (int k = 0; k < c.classes.count; k += 5) {
       const Control& control = c.pool.fragments[c.classes.representatives[k]].evident;
-      EXPECT_NEAR(choice.selector.distance_after(fragment, k, control, steps),
-                  choice.selector.distance_to_class(k, control, choice.playback), 1e-5);
+      EXPECT_NEAR(choice.selector.cost_of_leaving(k, control, fragment, steps).whole,
+                  choice.selector.cost_of_leaving(k, control, choice.playback).whole, 1e-4);
     }
   }
 }
@@ -190,9 +243,9 @@ TEST(FragmentSelector, GoesOnWithNoClassThatIsLeftOut) {
       static_cast<int>(std::find_if(next.begin(), next.end(), [](int f) { return f >= 0; }) - next.begin());
   const int entered = c.classes.labels[next[fragment]];
   const Control& control = c.pool.fragments[next[fragment]].evident;
-  ASSERT_EQ(whole.selector.continuation(fragment, entered, control), next[fragment]);
+  ASSERT_EQ(whole.selector.successor(fragment, control), next[fragment]);
   Choice without(1, std::make_shared<const Character>(without_classes(c, {entered})));
-  EXPECT_EQ(without.selector.continuation(fragment, c.classes.labels[fragment], control), -1);
+  EXPECT_EQ(without.selector.successor(fragment, control), -1);
 }
 
 }  // namespace

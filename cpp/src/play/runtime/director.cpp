@@ -2,16 +2,15 @@
 #include "runtime/director.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace fragmotion {
 namespace {
 
-constexpr double kSame = 1e-6;              // ControlDis between controls that differ by rounding alone
-constexpr double kChange = 1;               // ControlDis between controls that is "a lot"
-constexpr double kHaste = 5 / kTunedReach;  // m a metre of reach that a second of waiting costs by default
-constexpr double kSkips = 1 / kTunedReach;  // m a metre of reach less that skipping a class must cost
-constexpr double kWorthIt = 0.05;           // s that must be left of a fragment for leaving it early
+constexpr double kSame = 1e-6;     // ControlDis between controls that differ by rounding alone
+constexpr double kChange = 1;      // ControlDis between controls that is "a lot"
+constexpr double kWorthIt = 0.05;  // s that must be left of a fragment for leaving it early
 
 }  // namespace
 
@@ -21,7 +20,7 @@ Director::Director(const Character& character, const Policy& policy, double resp
 }
 
 void Director::set_responsiveness(double responsiveness) {
-  haste_ = kHaste * responsiveness / std::max(1 - responsiveness, kInstant);
+  haste_ = responsiveness / std::max(1 - responsiveness, kInstant);
 }
 
 void Director::reset() {
@@ -117,31 +116,43 @@ bool Director::leaves_early(const Control& wanted, const Playback& playback, con
 }
 
 // Where what plays is left in the middle of a step, or at the end of its take, the class that the table gives may begin
-// with the wrong foot: then the one that follows it is entered.
+// with the wrong foot: then the one that follows it is entered. Or it is left at its end, where its take does what is
+// wanted by itself.
 Exit Director::plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector) const {
   const int next = look_up_class(class_, wanted), after = look_up_class(next, wanted);
   const bool may_skip =
       after != next && !wanted.jumps() && bridge_between(class_, next) < 0 && bridge_between(class_, after) < 0;
-  const auto [exit, skips] = selector.best_exits({next, may_skip ? after : -1}, wanted, playback, haste_);
-  return skips.cost + kSkips < exit.cost ? skips : exit;
+  const TransitionWeights& weights = selector.weights();
+  const Control& told = character_->pool.fragments[character_->classes.representatives[next]].evident;
+  const double haste = haste_ * weights.wait * character_->space.distance(playback.evident(), told);
+  const int found = selector.successor(playback.number(), wanted);
+  Exit stays{next, playback.seconds() + playback.left(), std::numeric_limits<double>::infinity()};
+  if (found >= 0) stays.cost = haste * playback.left() + selector.cost_of_performing(found, wanted);
+  return selector.best_exit({Exit{next, 0, 0}, Exit{may_skip ? after : -1, 0, weights.skip}}, wanted, playback, haste,
+                            stays);
 }
 
 bool Director::is_due(const Control& control, const Playback& playback, const FragmentSelector& selector) {
   return makes_way(playback) || playback.left() < kInstant || leaves_early(wanted(control), playback, selector);
 }
 
-// The end of a take is no reason to follow it: it is left now where that joins better than after its next fragment.
+// What plays for the time of two fragments is compared: the take's next one and then the one after it, or what the end
+// of that is left for, with a class that is entered now and goes on in its own take. So the end of a take is no reason
+// to follow it: it is left now where that joins better than after its next fragment.
 int Director::continuation(const Control& control, const Playback& playback, const FragmentSelector& selector) const {
   if (makes_way(playback) || playback.left() > kInstant) return -1;
   const Control wanted = this->wanted(control);
-  const int next = waiting_ >= 0 && !has_changed(wanted) ? waiting_ : look_up_class(class_, wanted),
-            found = selector.continuation(playback.number(), next, wanted);
+  const int found = selector.successor(playback.number(), wanted);
   if (found < 0) return -1;
   const int entered = selector.class_of(found), after = look_up_class(entered, wanted);
   if (bridge_between(entered, after) >= 0 || !selector.goes_as_asked(after, wanted)) return -1;
-  if (selector.continuation(found, after, wanted) >= 0) return found;
-  const double later = selector.distance_after(found, after, wanted, playback.steps());
-  return later <= selector.distance_to_class(next, wanted, playback) ? found : -1;
+  const int next = waiting_ >= 0 && !has_changed(wanted) ? waiting_ : look_up_class(class_, wanted);
+  const Cost left = selector.cost_of_leaving(next, wanted, playback);
+  const float leaving = left.whole + left.performing, staying = selector.cost_of_performing(found, wanted);
+  const int second = selector.successor(found, wanted);
+  if (second >= 0 && staying + selector.cost_of_performing(second, wanted) <= leaving) return found;
+  if (staying > leaving) return -1;
+  return staying + selector.cost_of_leaving(after, wanted, found, playback.steps()).whole <= leaving ? found : -1;
 }
 
 int Director::decide(const Control& control, const Playback& playback, const FragmentSelector& selector) {

@@ -30,9 +30,8 @@ class Director {
 
   /// Whether a decision is due: what plays ends, is left early, or makes way for a forced class.
   bool is_due(const Control& control, const Playback& playback, const FragmentSelector& selector);
-  /// The fragment with which the take that plays goes on at its end, where it performs what is wanted as well as the
-  /// class that would be decided on does (FragmentSelector::continuation) and what follows goes on with it, too;
-  /// otherwise -1.
+  /// The fragment with which the take that plays goes on at its end, where that costs no more (transition_cost.hpp)
+  /// than what the policy tells, and nothing must stand between it and what follows; otherwise -1.
   int continuation(const Control& control, const Playback& playback, const FragmentSelector& selector) const;
   /// Decides on the class that plays from now on, which it returns.
   int decide(const Control& control, const Playback& playback, const FragmentSelector& selector);

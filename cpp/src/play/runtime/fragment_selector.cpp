@@ -11,13 +11,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kJoinsWell = 1.1;                 // times the Dis of the fragment that joins best, and
-constexpr double kJoinsNear = 0.15 / kTunedReach;  // m a metre of reach more
-constexpr float kAsWell = 0.5F;                    // of the way from the least error to the representative's
-constexpr double kUnsteady = 5;                    // ControlDis a m/s by which a fragment gets faster or slower
-constexpr double kStep = 0.4, kHurried = 2;        // s, and ControlDis for all of it that a fragment lacks
-constexpr double kOutOfTurn = 2 / kTunedReach;     // m a metre of reach that a step out of turn costs
-constexpr double kLook = kEntry / 2;               // s between the moments at which a fragment may be left early
+constexpr double kLook = kEntry / 2;  // s between the moments at which a fragment may be left early
 
 }  // namespace
 
@@ -64,67 +58,65 @@ void FragmentSelector::extrapolate_end(const Fragment& fragment) const {
   extrapolate(frame_at(clip, end), before, now);
 }
 
-float FragmentSelector::error(int fragment, const Control& control) const {
+// Finds the members that may be played, and what is known of their costs before they are joined; one that costs least
+// comes first. Where the representative jumps, or does not, as is wanted, or answers a control that asks for motion,
+// they do so too.
+void FragmentSelector::find_candidates(int next_class, const Control& control, const Left& left,
+                                       Candidates& candidates) const {
   const Character& c = *style_->character;
-  const Fragment& f = c.pool.fragments[fragment];
-  const double distance = c.space.distance(f.evident, control), lacks = std::max(0.0, 1 - c.pool.seconds(f) / kStep);
-  return static_cast<float>(distance + kUnsteady * style_->velocity_changes[fragment] + kHurried * lacks);
-}
-
-// Finds the members that perform the control nearly as well as any of them does; returns the error() that they may
-// have. Where the representative jumps, or does not, as is wanted, or answers a control that asks for motion, they do
-// so too.
-float FragmentSelector::find_candidates(int next_class, const Control& control, Candidates& candidates) const {
-  const Character& c = *style_->character;
-  const int representative = c.classes.representatives[next_class];
-  const Control& usually = c.pool.fragments[representative].evident;
-  const bool matches = matches_jump(usually, control),
-             goes = control.speed() * c.space.scale() > kMoving && answers(usually, control);
-  const auto error_of = [&](int fragment) {
-    const Control& evident = c.pool.fragments[fragment].evident;
-    const bool other = (matches && !matches_jump(evident, control)) || (goes && !answers(evident, control));
-    return other ? std::numeric_limits<float>::infinity() : error(fragment, control);
-  };
-  candidates.clear();
-  const float usual = error_of(representative);
-  float best = usual;
-  for (const int fragment : style_->members[next_class]) {
-    candidates.emplace_back(error_of(fragment), fragment);
-    best = std::min(best, candidates.back().first);
-  }
-  const float allowed = best + std::max(kAsWell * (usual - best), kNearly);
-  const auto off = [&](const auto& candidate) { return candidate.first > allowed; };
-  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), off), candidates.end());
-  return allowed;
-}
-
-// How far the beginnings of the candidates are from how what plays would go on, and more for feet out of turn; tells
-// the least.
-float FragmentSelector::measure_candidates(const Control& evident, const StepSequence& steps,
-                                           Candidates& candidates) const {
-  const std::vector<float>& onward = workspace_->onward;
-  const Character& c = *style_->character;
-  const float* entries = c.entry_poses.data();
   const Fragment* fragments = c.pool.fragments.data();
-  const EntrySteps* entry_steps = style_->entry_steps.data();
-  const double scale = c.space.scale();
-  const auto goes = [scale](const Control& control) { return control.speed() * scale > kMoving; };
-  const bool went = goes(evident);
-  const auto out_of_turn = static_cast<float>(kOutOfTurn * workspace_->tips[0].reach());
-  float least = std::numeric_limits<float>::infinity();
-  for (auto& [distance, fragment] : candidates) {
-    const float* entry = entries + onward.size() * fragment;
-    distance = tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3) / 2;
-    if (went && goes(fragments[fragment].evident)) {
-      distance += out_of_turn * static_cast<float>(steps_out_of_turn(steps, entry_steps[fragment]));
-    }
-    least = std::min(least, distance);
+  const Control& usually = fragments[c.classes.representatives[next_class]].evident;
+  const bool matches = matches_jump(usually, control), goes = is_moving(control) && answers(usually, control);
+  candidates.clear();
+  for (const int fragment : style_->members[next_class]) {
+    const Control& evident = fragments[fragment].evident;
+    if ((matches && !matches_jump(evident, control)) || (goes && !answers(evident, control))) continue;
+    candidates.emplace_back(style_->cost.of_entering(fragment, control, left.fragment, left.contacts), fragment);
+    if (candidates.back().first < candidates.front().first) std::swap(candidates.front(), candidates.back());
   }
-  return least;
+}
+
+bool FragmentSelector::is_moving(const Control& control) const {
+  return control.speed() * style_->character->space.scale() > kMoving;
+}
+
+// The tip_distance() of a fragment's beginning to what was extrapolated.
+float FragmentSelector::distance(int fragment) const {
+  const std::vector<float>& onward = workspace_->onward;
+  const float* entry = style_->character->entry_poses.data() + onward.size() * fragment;
+  return tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3);
+}
+
+// How many feet come down out of turn where a fragment follows what goes, or does not, after these steps.
+int FragmentSelector::out_of_turn(int fragment, bool went, const StepSequence& steps) const {
+  const bool goes_on = went && is_moving(style_->character->pool.fragments[fragment].evident);
+  return goes_on ? steps_out_of_turn(steps, style_->entry_steps[fragment]) : 0;
+}
+
+// The candidate that costs least, if that is less than `most`, which comes first from now on. By the triangle
+// inequality a fragment's beginning is at least as far as the representative's less what is between these two, so that
+// few distances are measured.
+float FragmentSelector::least_cost(int next_class, const Control& evident, const StepSequence& steps,
+                                   Candidates& candidates, float most) const {
+  const TransitionCost& cost = style_->cost;
+  const bool went = is_moving(evident);
+  const float usual = distance(style_->character->classes.representatives[next_class]);
+  for (auto& candidate : candidates) {
+    const auto [known, fragment] = candidate;
+    const float nearest = std::max(0.0F, usual - style_->beside_usual[fragment]);
+    if (known + cost.of_joining(nearest, 0) >= most) continue;
+    const int feet = out_of_turn(fragment, went, steps);
+    if (known + cost.of_joining(nearest, feet) >= most) continue;
+    const float whole = known + cost.of_joining(distance(fragment), feet);
+    if (whole >= most) continue;
+    most = whole;
+    std::swap(candidate, candidates.front());
+  }
+  return most;
 }
 
 bool FragmentSelector::goes_as_asked(const Control& evident, const Control& control) const {
-  return control.speed() * style_->character->space.scale() <= kMoving || answers(evident, control);
+  return !is_moving(control) || answers(evident, control);
 }
 
 bool FragmentSelector::goes_as_asked(int of_class, const Control& control) const {
@@ -132,7 +124,7 @@ bool FragmentSelector::goes_as_asked(int of_class, const Control& control) const
   return goes_as_asked(c.pool.fragments[c.classes.representatives[of_class]].evident, control);
 }
 
-int FragmentSelector::continuation(int fragment, int next_class, const Control& control) const {
+int FragmentSelector::successor(int fragment, const Control& control) const {
   const int next = style_->successors[fragment];
   if (next < 0) return -1;
   const Character& c = *style_->character;
@@ -140,19 +132,48 @@ int FragmentSelector::continuation(int fragment, int next_class, const Control& 
   const Control& evident = c.pool.fragments[next].evident;
   const bool is_excluded =
       quality.match[static_cast<std::size_t>(class_of(next)) * quality.controls + c.space.nearest(control)] == 0;
-  if (is_excluded || !matches_jump(evident, control) || !goes_as_asked(evident, control)) return -1;
-  return c.space.distance(evident, control) <= find_candidates(next_class, control, workspace_->candidates[0]) ? next
-                                                                                                               : -1;
+  return !is_excluded && matches_jump(evident, control) && goes_as_asked(evident, control) ? next : -1;
+}
+
+Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, const Playback& playback) const {
+  const Left left{playback.fragment(), playback.contacts()};
+  extrapolate(playback);
+  return cost_of_leaving(next_class, control, left, playback.steps());
+}
+
+Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, int fragment, StepSequence steps) const {
+  const Character& c = *style_->character;
+  const Fragment& f = c.pool.fragments[fragment];
+  const Contacts& contacts = c.contacts[f.clip];
+  for (int frame = f.first_played(); frame < f.last_played(); ++frame) {
+    steps.advance(standing_feet(contacts, frame + 1), 1 / c.pool.clips[f.clip].rate);
+  }
+  extrapolate_end(f);
+  return cost_of_leaving(next_class, control, Left{f, contacts}, steps);
+}
+
+Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, const Left& left,
+                                       const StepSequence& steps) const {
+  Candidates& candidates = workspace_->candidates[0];
+  find_candidates(next_class, control, left, candidates);
+  constexpr float kAny = std::numeric_limits<float>::infinity();
+  const float whole = least_cost(next_class, left.fragment.evident, steps, candidates, kAny);
+  return {whole, style_->cost.of_performing(candidates.front().second, control)};
 }
 
 int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback) {
   Candidates& candidates = workspace_->candidates[0];
-  find_candidates(next_class, control, candidates);
+  find_candidates(next_class, control, {playback.fragment(), playback.contacts()}, candidates);
   extrapolate(playback);
-  const float least = measure_candidates(playback.evident(), playback.steps(), candidates);
-  const double allowed = kJoinsWell * least + kJoinsNear * workspace_->tips[0].reach();
-  const auto joins = [&](const auto& each) { return each.first <= allowed; };
-  const auto end = std::partition(candidates.begin(), candidates.end(), joins);
+  const auto variety = static_cast<float>(weights().variety);
+  const bool went = is_moving(playback.evident());
+  float least = std::numeric_limits<float>::infinity();
+  for (auto& [cost, fragment] : candidates) {
+    cost += style_->cost.of_joining(distance(fragment), out_of_turn(fragment, went, playback.steps()));
+    least = std::min(least, cost);
+  }
+  const auto end = std::partition(candidates.begin(), candidates.end(),
+                                  [&](const auto& candidate) { return candidate.first <= least + variety; });
   return candidates[random_.below(static_cast<int>(end - candidates.begin()))].second;
 }
 
@@ -163,80 +184,56 @@ int FragmentSelector::choose_any(int next_class) {
 
 int FragmentSelector::best_class(const Control& control, const Playback& playback) const {
   extrapolate(playback);
-  const std::vector<float>& onward = workspace_->onward;
   const Character& c = *style_->character;
   const int point = c.space.nearest(control);
   int best = 0;
   double most = -1;
   for (int k = 0; k < c.classes.count; ++k) {
-    const float* entry = &c.entry_poses[onward.size() * c.classes.representatives[k]];
-    const double distance = tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3) / 2,
+    const double far = distance(c.classes.representatives[k]) / 2,
                  match = c.quality.match[static_cast<std::size_t>(k) * c.quality.controls + point],
-                 quality = match / (1 + distance);
+                 quality = match / (1 + far);
     if (quality > most) most = quality, best = k;
   }
   return best;
-}
-
-double FragmentSelector::distance_to_class(int next_class, const Control& control, const Playback& playback) const {
-  Candidates& candidates = workspace_->candidates[0];
-  find_candidates(next_class, control, candidates);
-  extrapolate(playback);
-  return measure_candidates(playback.evident(), playback.steps(), candidates) / workspace_->tips[0].reach();
-}
-
-double FragmentSelector::distance_after(int fragment, int next_class, const Control& control,
-                                        StepSequence steps) const {
-  const Character& c = *style_->character;
-  const Fragment& f = c.pool.fragments[fragment];
-  const Contacts& contacts = c.contacts[f.clip];
-  for (int frame = f.first_played(); frame < f.last_played(); ++frame) {
-    steps.advance(standing_feet(contacts, frame + 1), 1 / c.pool.clips[f.clip].rate);
-  }
-  Candidates& candidates = workspace_->candidates[0];
-  find_candidates(next_class, control, candidates);
-  extrapolate_end(f);
-  return measure_candidates(f.evident, steps, candidates) / workspace_->tips[0].reach();
 }
 
 double FragmentSelector::distance_to(int move, const Playback& playback) const {
   extrapolate(playback);
   const std::vector<float>& onward = workspace_->onward;
   const float* entry = &workspace_->move_entries[onward.size() * kMoveParts * move];
-  return tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3) / 2 / workspace_->tips[0].reach();
+  return style_->cost.of_joining(tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3), 0);
 }
 
-// For neither class a moment is looked at once waiting alone costs too much. What is shown kEntry before a moment is
-// known from the last but one.
-std::array<Exit, 2> FragmentSelector::best_exits(const std::array<int, 2>& classes, const Control& control,
-                                                 const Playback& playback, double haste) const {
+// No moment is looked at once waiting alone costs too much. What is shown kEntry before a moment is known from the last
+// but one.
+Exit FragmentSelector::best_exit(const std::array<Exit, 2>& classes, const Control& control, const Playback& playback,
+                                 double haste, Exit best) const {
   const double seconds = playback.seconds(), rest = playback.left();
+  const Left left{playback.fragment(), playback.contacts()};
   auto& [long_before, before, now] = workspace_->tips;
-  haste *= now.reach();
-  std::array<Exit, 2> exits;
-  for (std::size_t i = 0; i < exits.size(); ++i) {
-    exits[i] = {classes[i], seconds, std::numeric_limits<double>::infinity()};
-    if (classes[i] >= 0) find_candidates(classes[i], control, workspace_->candidates[i]);
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    if (classes[i].next_class >= 0) find_candidates(classes[i].next_class, control, left, workspace_->candidates[i]);
   }
-  const auto is_open = [&](std::size_t i, double wait) { return classes[i] >= 0 && haste * wait < exits[i].cost; };
   pose_tips(playback, seconds - kEntry, long_before);
   pose_tips(playback, seconds - kLook, before);
   StepSequence steps = playback.steps();
-  for (double wait = 0; is_open(0, wait) || is_open(1, wait); wait = std::min(wait + kLook, rest)) {
+  for (double wait = 0; haste * wait < best.cost; wait = std::min(wait + kLook, rest)) {
     if (wait == rest) pose_tips(playback, seconds + wait - kEntry, long_before);
     extrapolate(pose_tips(playback, seconds + wait, now), long_before, now);
     if (wait > 0) steps.advance(playback.standing_feet(seconds + wait), kLook);
-    for (std::size_t i = 0; i < exits.size(); ++i) {
-      if (!is_open(i, wait)) continue;
-      const double cost = measure_candidates(playback.evident(), steps, workspace_->candidates[i]) + haste * wait;
-      if (cost < exits[i].cost) exits[i].cost = cost, exits[i].seconds = seconds + wait;
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+      if (classes[i].next_class < 0) continue;
+      const double more = classes[i].cost + haste * wait;
+      const auto most = static_cast<float>(best.cost - more);
+      const float cost =
+          least_cost(classes[i].next_class, left.fragment.evident, steps, workspace_->candidates[i], most);
+      if (cost < most) best = {classes[i].next_class, seconds + wait, cost + more};
     }
     if (wait >= rest) break;
     std::swap(long_before, before);
     std::swap(before, now);
   }
-  for (Exit& exit : exits) exit.cost /= now.reach();
-  return exits;
+  return best;
 }
 
 }  // namespace fragmotion

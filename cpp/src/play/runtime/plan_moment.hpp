@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "fragments/body_tips.hpp"
 #include "runtime/player.hpp"
 
 namespace fragmotion {
@@ -14,8 +13,8 @@ namespace fragmotion {
 template <typename Cost>
 void Player::plan(Moment& moment, const Control& control, bool (Player::*can)() const, const Cost& cost) {
   Player& ahead = *extras_->rehearsal;
-  constexpr double kLook = 0.05;                   // s between the moments that are looked at
-  constexpr double kImpatience = 1 / kTunedReach;  // m a metre of reach that a second of waiting costs
+  constexpr double kLook = 0.05;     // s between the moments that are looked at
+  constexpr double kImpatience = 1;  // m of Dis of a body of kTunedReach that a second of waiting costs
   ahead.imitate(*this);
   ahead.playback_.show();
   double best = moment.patience(), least = std::numeric_limits<double>::infinity();

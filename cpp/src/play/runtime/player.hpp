@@ -159,7 +159,7 @@ class Player {
   void set_style(int style);
   double begin_style(const Control& control, double most);
   Control wanted(const Control& control) const;
-  double distance_to_style(int style, const Control& wanted) const;
+  double cost_of_style(int style, const Control& wanted) const;
   MoveTrack& track_of(int move);
   void prefetch() const;
   static void check_step(const Control& control, double seconds);

@@ -23,11 +23,27 @@ struct RootLimits {
   double sways = 0.05;        ///< m/s of a 1.8 m character: at most so fast one sways that stands.
 };
 
+/// Of what plays next, and when (transition_cost.hpp), in metres of Dis of a body whose tip_reach() is kTunedReach.
+struct TransitionWeights {
+  double match = 0.9;       ///< A unit of ControlDis between what a fragment does and the control.
+  double made = 0.3;        ///< That a fragment is synthesized.
+  double unsteady = 5;      ///< Each m/s by which a fragment gets faster or slower: one limps through a held control.
+  double hurried = 3;       ///< All of a step that a fragment lacks: parts of steps bring a stitch the more.
+  double mirrored = 0.3;    ///< That captured and mirrored follow each other.
+  double other_take = 0.3;  ///< That another take goes on, in its own manner.
+  double out_of_turn = 2;   ///< Each foot that comes down out of turn.
+  double wait = 1.6;  ///< A second of each unit of ControlDis between what plays and the class that the policy tells,
+                      ///< at a responsiveness of a half.
+  double skip = 1;       ///< That the class which the policy tells is skipped for the one after it.
+  double variety = 0.7;  ///< By so much more than the least a fragment may cost that is drawn.
+};
+
 /// What the run time cannot derive from the character's takes nor from physics. `dev.py tune` fits these by what
 /// players and viewers see; a game leaves them as they are.
 struct PlayerConstants {
   StitchConstants stitch;
   RootLimits root;
+  TransitionWeights transition;
 };
 
 /// Calls `visit(name, value)` with each of the constants.
@@ -41,6 +57,16 @@ void for_each_constant(Constants& constants, const Visit& visit) {
   visit("root_fastest", constants.root.fastest);
   visit("root_settles", constants.root.settles);
   visit("root_sways", constants.root.sways);
+  visit("transition_match", constants.transition.match);
+  visit("transition_made", constants.transition.made);
+  visit("transition_unsteady", constants.transition.unsteady);
+  visit("transition_hurried", constants.transition.hurried);
+  visit("transition_mirrored", constants.transition.mirrored);
+  visit("transition_other_take", constants.transition.other_take);
+  visit("transition_out_of_turn", constants.transition.out_of_turn);
+  visit("transition_wait", constants.transition.wait);
+  visit("transition_skip", constants.transition.skip);
+  visit("transition_variety", constants.transition.variety);
 }
 
 /// The constants, but for those that `values` names. Throws std::invalid_argument on a name that there is not, and

@@ -26,11 +26,11 @@ Control Player::wanted(const Control& control) const {
   return director_.wanted(governor_.command(control, frame().heading, kFinest));
 }
 
-// How badly another style joins on to what is shown, m a metre of tip_reach().
-double Player::distance_to_style(int style, const Control& wanted) const {
+// What it costs to play on in another style.
+double Player::cost_of_style(int style, const Control& wanted) const {
   FragmentSelector there = selector_;
   there.change_style(style);
-  return there.distance_to_class(there.best_class(wanted, playback_), wanted, playback_);
+  return there.cost_of_leaving(there.best_class(wanted, playback_), wanted, playback_).whole;
 }
 
 bool Player::can_change_style() const { return playback_.has_landed() && is_stitched(); }
@@ -42,7 +42,7 @@ double Player::begin_style(const Control& control, double most) {
   Moment& moment = extras_->style.moment;
   if (moment.needs_plan(control, styled_character().space)) {
     plan(moment, control, &Player::can_change_style,
-         [&](const Player& p) { return p.distance_to_style(style, p.wanted(control)); });
+         [&](const Player& p) { return p.cost_of_style(style, p.wanted(control)); });
   }
   if (moment.until() > kInstant) return std::min(most, moment.until());
   if (can_change_style()) {

@@ -115,7 +115,7 @@ double UpperBody::distance_to(int move) const {
     const float *x = &rows[i], *y = x + stride, *z = y + stride;
     sum += Vector3{x[0] - x[points], y[0] - y[points], z[0] - z[points]}.norm();
   }
-  return sum / before.reach();
+  return sum * kTunedReach / before.reach();
 }
 
 }  // namespace fragmotion

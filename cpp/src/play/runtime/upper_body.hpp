@@ -26,8 +26,8 @@ class UpperBody {
   void advance(double seconds);
   /// Lays what plays over a pose.
   void lay(WorldPose& pose) const;
-  /// How far the tips of Workspace::shown are from where the beginning of a move would have them, m a metre of
-  /// tip_reach().
+  /// How far the tips of Workspace::shown are from where the beginning of a move would have them, m of a body
+  /// whose tip_reach() is kTunedReach.
   double distance_to(int move) const;
 
   MoveTrack track;

@@ -4,12 +4,25 @@
 #include <algorithm>
 
 #include "fragments/entry_poses.hpp"
-#include "fragments/hips_velocity.hpp"
 #include "fragments/look.hpp"
 #include "fragments/successors.hpp"
 #include "motion/trunk.hpp"
 
 namespace fragmotion {
+namespace {
+
+std::vector<float> beside_usual(const Character& character) {
+  const std::size_t row = character.entry_poses.size() / character.pool.fragments.size();
+  const auto entry = [&](int fragment) { return character.entry_poses.data() + row * fragment; };
+  std::vector<float> distances;
+  for (const int label : character.classes.labels) {
+    const int fragment = static_cast<int>(distances.size()), usual = character.classes.representatives[label];
+    distances.push_back(tip_distance(entry(fragment), entry(usual), static_cast<int>(row) / 3));
+  }
+  return distances;
+}
+
+}  // namespace
 
 Workspace::Workspace(const Character& character, const PlayerConstants& constants)
     : constants(constants),
@@ -25,8 +38,8 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
   std::vector<const PackedPool*> pools;
   for (int style = 0; style < character.style_count(); ++style) {
     const Character& c = character.in_style(style);
-    styles.push_back({&c, c.classes.members(), entry_steps(c), velocity_changes(c.pool), step_seconds(c),
-                      successors(c.pool.fragments)});
+    styles.push_back({&c, c.classes.members(), entry_steps(c), TransitionCost(c, constants.transition), step_seconds(c),
+                      successors(c.pool.fragments), beside_usual(c)});
     const std::vector<float> turns = fragmotion::fastest_looks(c.pool);
     for (std::size_t b = 0; b < turns.size(); ++b) fastest_looks[b] = std::max(fastest_looks[b], turns[b]);
     most = std::max(most, c.pool.fragments.size());

@@ -10,8 +10,7 @@
 #include "fragments/body_tips.hpp"
 #include "fragments/gaze_range.hpp"
 #include "motion/foot_lock.hpp"
-#include "runtime/player_constants.hpp"
-#include "runtime/step_sequence.hpp"
+#include "runtime/transition_cost.hpp"
 
 namespace fragmotion {
 
@@ -20,12 +19,13 @@ struct FragmentLists {
   const Character* character;             ///< In that style.
   std::vector<std::vector<int>> members;  ///< Classes::members()
   std::vector<EntrySteps> entry_steps;    ///< entry_steps()
-  std::vector<double> velocity_changes;   ///< velocity_changes()
+  TransitionCost cost;                    ///< Of playing each.
   std::vector<double> step_seconds;       ///< step_seconds()
   std::vector<int> successors;            ///< successors()
+  std::vector<float> beside_usual;        ///< tip_distance() of each one's beginning to its representative's
 };
 
-/// Members of a class, with how far they are from what is wanted of them.
+/// Members of a class, and what each costs.
 using Candidates = std::vector<std::pair<float, int>>;
 
 /// What players of one character that step in turn share: what never changes, and room to work in.

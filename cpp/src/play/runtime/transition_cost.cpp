@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/transition_cost.hpp"
+
+#include <algorithm>
+
+#include "fragments/body_tips.hpp"
+#include "fragments/hips_velocity.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kStep = 0.4;  // s
+
+bool is_made(Origin origin) { return origin != Origin::captured && origin != Origin::mirrored; }
+
+}  // namespace
+
+TransitionCost::TransitionCost(const Character& character, const TransitionWeights& weights)
+    : character_(&character),
+      match_(static_cast<float>(weights.match)),
+      mirrored_(static_cast<float>(weights.mirrored)),
+      other_take_(static_cast<float>(weights.other_take)),
+      out_of_turn_(static_cast<float>(weights.out_of_turn)),
+      per_distance_(static_cast<float>(kTunedReach / tip_reach(character.pool.skeleton) / 2)) {
+  const PackedPool& pool = character.pool;
+  const std::vector<double> changes = velocity_changes(pool);
+  for (std::size_t f = 0; f < changes.size(); ++f) {
+    const Fragment& fragment = pool.fragments[f];
+    const double lacks = std::max(0.0, 1 - pool.seconds(fragment) / kStep);
+    made_.push_back(is_made(fragment.origin) ? static_cast<float>(weights.made) : 0);
+    entered_.push_back(static_cast<float>(weights.unsteady * changes[f] + weights.hurried * lacks));
+  }
+}
+
+float TransitionCost::of_performing(int fragment, const Control& control) const {
+  const Control& evident = character_->pool.fragments[fragment].evident;
+  return match_ * static_cast<float>(character_->space.distance(evident, control)) + made_[fragment];
+}
+
+float TransitionCost::of_entering(int fragment, const Control& control, const Fragment& left,
+                                  const Contacts& of_left) const {
+  const Fragment& f = character_->pool.fragments[fragment];
+  const bool flips = (f.origin == Origin::mirrored) != (left.origin == Origin::mirrored);
+  const bool stays = &character_->contacts[f.clip] == &of_left;
+  return of_performing(fragment, control) + entered_[fragment] + (flips ? mirrored_ : 0) + (stays ? 0 : other_take_);
+}
+
+}  // namespace fragmotion
