@@ -53,7 +53,7 @@ TEST(Inertialization, BeginsWithTheOldMotionAndItsSpeedAndEndsWithTheNewOne) {
   for (int n = 0; n < 100; ++n) {
     const Motion old(random), fresh(random);
     Inertialization inertia(kBones);
-    inertia.begin(old.at(-kApart), old.at(0), fresh.at(0), fresh.at(kApart), kApart, kSeconds);
+    inertia.begin(old.at(0), old.at(kApart), fresh.at(0), fresh.at(kApart), kApart, kSeconds);
     const auto shown = [&](double time) {
       WorldPose pose = fresh.at(time);
       inertia.apply(time, pose);
@@ -104,7 +104,7 @@ WorldPose turned(double angle) {
 TEST(Inertialization, GoesOneWayRoundFromWhatIsTurnedByHalf) {
   constexpr double kSpeed = 3;  // rad/s
   Inertialization inertia(kBones);
-  inertia.begin(turned(kPi - 1e-6 - kSpeed * kApart), turned(kPi - 1e-6), turned(0), turned(0), kApart, kSeconds);
+  inertia.begin(turned(kPi - 1e-6), turned(kPi - 1e-6 + kSpeed * kApart), turned(0), turned(0), kApart, kSeconds);
   WorldPose before = turned(kPi - 1e-6);
   for (int f = 1; f < 60; ++f) {
     WorldPose pose = turned(0);
@@ -118,7 +118,7 @@ TEST(Inertialization, CarriesAPoseNoFurtherInALongStitch) {
   constexpr double kSpeed = 15;  // rad/s
   for (const double seconds : {0.1, 0.2, 0.5, 1.0}) {
     Inertialization inertia(kBones);
-    inertia.begin(turned(-kSpeed * kApart), turned(0), turned(0), turned(0), kApart, seconds);
+    inertia.begin(turned(0), turned(kSpeed * kApart), turned(0), turned(0), kApart, seconds);
     for (int f = 0; f < 60; ++f) {
       WorldPose pose = turned(0);
       inertia.apply(f / 60.0, pose);
@@ -131,7 +131,7 @@ TEST(Inertialization, NeverSteps) {
   Random random(2);
   const Motion old(random), fresh(random);
   Inertialization inertia(kBones);
-  inertia.begin(old.at(-kApart), old.at(0), fresh.at(0), fresh.at(kApart), kApart, kSeconds);
+  inertia.begin(old.at(0), old.at(kApart), fresh.at(0), fresh.at(kApart), kApart, kSeconds);
   WorldPose before = old.at(0);
   for (double time = 0; time < 2 * kSeconds; time += 1e-3) {
     WorldPose now = fresh.at(time);

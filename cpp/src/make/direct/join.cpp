@@ -35,11 +35,8 @@ void resize(Motion& motion, int frames) {
 
 // How a pose goes on after one before it.
 WorldPose onward(const WorldPose& before, const WorldPose& now) {
-  WorldPose later{2 * now.root - before.root, 2 * now.heading - before.heading, now.rotations};
-  for (std::size_t i = 0; i < now.rotations.size(); i += 4) {
-    const Quaternion is = load_quaternion(&now.rotations[i]), was = load_quaternion(&before.rotations[i]);
-    store_quaternion(is * was.conjugate() * is, &later.rotations[i]);
-  }
+  WorldPose later;
+  extrapolate(before, now, later);
   return later;
 }
 
@@ -97,7 +94,7 @@ Motion join(const Skeleton& skeleton, const Motion& first, int end, const Motion
   const double apart = 1 / first.rate;
   Inertialization stitch(skeleton.size());
   const WorldPose old = pose_at(first, end), fresh = carried_pose(beginning);
-  const Vector2 faster = end > 0 ? stitch.begin(pose_at(first, end - 1), old, fresh,
+  const Vector2 faster = end > 0 ? stitch.begin(old, onward(pose_at(first, end - 1), old), fresh,
                                                 beginning > 0 ? onward(carried_pose(beginning - 1), fresh)
                                                               : carried_pose(std::min(1, second.frames() - 1)),
                                                 apart, kStitched)

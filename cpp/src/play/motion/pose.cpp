@@ -44,6 +44,16 @@ void add_rotation(const double* rotation, double* sum) {
   all += dot(all, q) < 0 ? Eigen::Vector4d{-q} : Eigen::Vector4d{q};
 }
 
+void extrapolate(const WorldPose& before, const WorldPose& now, WorldPose& later) {
+  later.root = 2 * now.root - before.root;
+  later.heading = 2 * now.heading - before.heading;
+  later.rotations.resize(now.rotations.size());
+  for (std::size_t at = 0; at < now.rotations.size(); at += 4) {
+    const Quaternion is = load_quaternion(&now.rotations[at]), was = load_quaternion(&before.rotations[at]);
+    store_quaternion((is * was.conjugate() * is).normalized(), &later.rotations[at]);
+  }
+}
+
 void blend_rotations(const double* a, const double* b, double weight, int bones, double* out) {
   for (int i = 0; i < 4 * bones; i += 4) {
     store_quaternion(slerp(load_quaternion(a + i), load_quaternion(b + i), weight), out + i);

@@ -12,6 +12,10 @@ struct WorldPose {
   std::vector<double> rotations;
 };
 
+/// The pose that comes as long after one as another was before it, if it goes on so. Allocates nothing where `later`
+/// has as many rotations.
+void extrapolate(const WorldPose& before, const WorldPose& now, WorldPose& later);
+
 /// Rotations a and b [bones, 4] interpolated on the shorter arc: out = slerp(a, b, weight). `out` may be a or b.
 void blend_rotations(const double* a, const double* b, double weight, int bones, double* out);
 

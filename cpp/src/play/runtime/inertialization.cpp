@@ -52,14 +52,11 @@ FRAGMOTION_VECTORISED void add_turns(const float* offsets, int bones, float offs
 
 }  // namespace
 
-TurnOffset turn_offset(const double* old_before, const double* old, const double* fresh, const double* fresh_later,
+TurnOffset turn_offset(const double* old, const double* old_later, const double* fresh, const double* fresh_later,
                        double apart) {
-  const Quaternion is = load_quaternion(old);
-  Quaternion offset = is * load_quaternion(fresh).conjugate();
+  Quaternion offset = load_quaternion(old) * load_quaternion(fresh).conjugate();
   if (offset.w() < 0) offset.coeffs() *= -1;
-  // What the old bone turns in `apart`, and then the new one, both about the world of the parent.
-  const Quaternion next_old = is * load_quaternion(old_before).conjugate() * is;
-  Quaternion next = next_old * load_quaternion(fresh_later).conjugate();
+  Quaternion next = load_quaternion(old_later) * load_quaternion(fresh_later).conjugate();
   if (dot(next.coeffs(), offset.coeffs()) < 0) next.coeffs() *= -1;
   const Vector3 turn = turn_of(offset);
   return {turn, (turn_of(next) - turn) / apart};
@@ -68,18 +65,18 @@ TurnOffset turn_offset(const double* old_before, const double* old, const double
 Inertialization::Inertialization(int bones, const StitchConstants& constants)
     : constants_(&constants), offsets_(std::size_t{6} * bones) {}
 
-Vector2 Inertialization::begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh,
+Vector2 Inertialization::begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh,
                                const WorldPose& fresh_later, double apart, double seconds) {
   damping_ = constants_->fades / seconds;
   end_ = kLasts * seconds;
   root_ = old.root - fresh.root;
-  const Vector3 faster = (old.root - old_before.root - (fresh_later.root - fresh.root)) / apart;
+  const Vector3 faster = (old_later.root - old.root - (fresh_later.root - fresh.root)) / apart;
   root_speed_ = {0, 0, faster.z()};
   heading_ = old.heading - fresh.heading;
-  heading_speed_ = (old.heading - old_before.heading - (fresh_later.heading - fresh.heading)) / apart;
+  heading_speed_ = (old_later.heading - old.heading - (fresh_later.heading - fresh.heading)) / apart;
   for (int b = 0; b < bones(); ++b) {
     const std::ptrdiff_t at = std::ptrdiff_t{4} * b;
-    keep(b, turn_offset(&old_before.rotations[at], &old.rotations[at], &fresh.rotations[at], &fresh_later.rotations[at],
+    keep(b, turn_offset(&old.rotations[at], &old_later.rotations[at], &fresh.rotations[at], &fresh_later.rotations[at],
                         apart));
   }
   return faster.head<2>();

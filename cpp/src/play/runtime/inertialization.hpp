@@ -14,9 +14,8 @@ struct TurnOffset {
   Vector3 turn, turning;
 };
 
-/// From a new motion to an old one, whose rotations [4] are also given `apart` seconds before, the new one's as much
-/// later: speeds are those inside either.
-TurnOffset turn_offset(const double* old_before, const double* old, const double* fresh, const double* fresh_later,
+/// From a new motion to an old one, whose rotations [4] are also given as both go on `apart` seconds later.
+TurnOffset turn_offset(const double* old, const double* old_later, const double* fresh, const double* fresh_later,
                        double apart);
 
 /// What is left of the offsets and of the speeds of a stitch that fades like a critically damped spring.
@@ -45,7 +44,7 @@ class Inertialization {
 
   /// From `old` to `fresh`: after `seconds` little of the offset is left (StitchConstants), after four times that
   /// nothing. The poses are those of turn_offset(). Returns how much faster the old root goes over the ground, m/s.
-  Vector2 begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh, const WorldPose& fresh_later,
+  Vector2 begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh, const WorldPose& fresh_later,
                 double apart, double seconds);
 
   /// Lets its memory be on its way to the processor.

@@ -31,12 +31,12 @@ void LookStitch::see(const WorldPose& pose, double heading, WorldPose& look) con
 }
 
 // An offset fades exp(-1) times its damping as fast at its fastest.
-void LookStitch::begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh,
+void LookStitch::begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh,
                        const WorldPose& fresh_later, double apart, double seconds, double turning,
                        Inertialization& body) {
   if (workspace_->look.empty()) return;
   auto& looks = workspace_->looks;
-  const std::array poses{&old_before, &old, &fresh, &fresh_later};
+  const std::array poses{&old, &old_later, &fresh, &fresh_later};
   for (std::size_t i = 0; i < looks.size(); ++i) see(*poses[i], fresh.heading, looks[i]);
   const double fades = body.constants().fades;
   damping_ = fades / seconds;

@@ -22,7 +22,7 @@ class LookStitch {
   void clear() { damping_ = 0; }
   /// As Inertialization::begin, of a body that is turned by `turning` rad/s beyond its motion and whose stitch `body`
   /// has just begun: neck's and head's offsets are kept there, in the place of those that it has of them.
-  void begin(const WorldPose& old_before, const WorldPose& old, const WorldPose& fresh, const WorldPose& fresh_later,
+  void begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh, const WorldPose& fresh_later,
              double apart, double seconds, double turning, Inertialization& body);
   /// Adds what is left of the body's stitch and of this one `time` seconds after their beginning.
   void apply(double time, const Inertialization& body, WorldPose& pose) const;

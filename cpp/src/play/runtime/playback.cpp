@@ -9,7 +9,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kApart = 1.0 / 60;  // s over which speeds are measured, within a fragment
+constexpr double kApart = 1.0 / 60;  // s over which speeds are measured
 constexpr double kSameFrame = 1e-6;  // frames apart that are one
 
 }  // namespace
@@ -91,15 +91,20 @@ Vector2 Playback::start(const Placed& next) {
 
 // Begins a stitch from the old fragment, as it is shown, to the one that plays now; returns what start() does.
 Vector2 Playback::begin_stitch(const Placed& old) {
-  auto& [old_before, old_now, fresh, fresh_later] = workspace_->poses;
+  auto& [old_now, old_later, fresh, fresh_later] = workspace_->poses;
   sample_stitched(old, old.seconds, old_now);
-  sample_stitched(old, old.seconds - kApart, old_before);
+  if (fragment(old).first_played() + (old.seconds + kApart) * clip(old).rate <= clip(old).frames - 1) {
+    sample_stitched(old, old.seconds + kApart, old_later);
+  } else {
+    sample_stitched(old, old.seconds - kApart, fresh);
+    extrapolate(fresh, old_now, old_later);
+  }
   sample(now_, fresh);
   Placed later = now_;
   later.seconds += kApart;
   sample(later, fresh_later);
-  const Vector2 faster = inertialization_.begin(old_before, old_now, fresh, fresh_later, kApart, stitch_);
-  look_.begin(old_before, old_now, fresh, fresh_later, kApart, stitch_, turning_, inertialization_);
+  const Vector2 faster = inertialization_.begin(old_now, old_later, fresh, fresh_later, kApart, stitch_);
+  look_.begin(old_now, old_later, fresh, fresh_later, kApart, stitch_, turning_, inertialization_);
   return Eigen::Rotation2Dd(-frame_.heading) * faster;
 }
 
