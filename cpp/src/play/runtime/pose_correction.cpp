@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/pose_correction.hpp"
 
+#include <algorithm>
+
 #include "base/filtered.hpp"
+#include "runtime/look_stitch.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kSetOff = 0.15;   // of what balances it that the feet are set off for a body's acceleration
-constexpr double kStriding = 0.3;  // s: time constant of the steps'
+constexpr double kSetOff = 0.15;              // of what balances it that the feet are set off for a body's acceleration
+constexpr double kStriding = 0.3;             // s: time constant of the steps'
+constexpr double kLonger = kTurnsAtMost - 1;  // of a step at most, as legs swing that much faster for it
 
 }  // namespace
 
@@ -45,7 +49,8 @@ void PoseCorrection::edit_steps(const Control& evident, const RootGovernor& gove
   const Matrix2 wanted =
       goes ? Matrix2{governor.velocity() * velocity.transpose() / (governor.tempo() * velocity.squaredNorm())}
            : Matrix2{Matrix2::Zero()};
-  steps_.stride += filtered(seconds, kStriding) * (wanted - steps_.stride);
+  const double most = std::min(1.0, kLonger / std::max(kLonger, wanted.norm()));
+  steps_.stride += filtered(seconds, kStriding) * (most * wanted - steps_.stride);
   const Vector2 behind = -kSetOff * workspace_->shown.root.z() / kGravity * lean_.acceleration();
   steps_.shift += filtered(seconds, kStriding) * (behind - steps_.shift);
 }
