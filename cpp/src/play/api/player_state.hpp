@@ -63,7 +63,7 @@ struct PlayerState {
   template <typename Archive>
   static void placed(Archive& a, Playback::Placed& placed, const Numbers& may_be);
   template <typename Archive>
-  static void exchange(Archive& a, Playback& playback, const Numbers& now);
+  static void exchange(Archive& a, Playback& playback, int of_style, const Numbers& now);
   template <typename Archive>
   static void exchange(Archive& a, FootLock& lock);
   template <typename Archive>

@@ -96,9 +96,9 @@ void PlayerState::placed(Archive& a, Playback::Placed& placed, const Numbers& ma
 
 // `now`: what it may play; before that it played anything of a style.
 template <typename Archive>
-void PlayerState::exchange(Archive& a, Playback& playback, const Numbers& now) {
+void PlayerState::exchange(Archive& a, Playback& playback, int of_style, const Numbers& now) {
   const Character& character = *playback.character_;
-  a.number(playback.style_, 0, character.style_count() - 1);
+  a.number(playback.style_, of_style, of_style);
   placed(a, playback.now_, now);
   const int style = a.told(playback.before_.style, 0, character.style_count() - 1);
   placed(a, playback.before_, all_of(character, style));
@@ -159,6 +159,7 @@ void PlayerState::exchange(Archive& a, Gaze& gaze) {
   for (bool* flag : {&gaze.turned_, &gaze.wants_, &gaze.begins_}) a.number(*flag, 0, 1);
   vector(a, gaze.wanted_, 2 * kPi);
   vector(a, gaze.shown_, kMostPlace);
+  for (double& part : gaze.head_.coeffs()) a.number(part, -1.001, 1.001);
   for (Approach& offset : gaze.offset_) approach(a, offset);
   a.number(gaze.due_, 0, kMostTime);
 }
@@ -200,7 +201,7 @@ int PlayerState::exchange(Archive& a, Player::Extras& extras) {
   UpperBody& upper = extras.upper_body;
   const Character& character = *upper.character_;
   const int move = exchange(a, upper.track, true);
-  exchange(a, upper.playback_, move < 0 ? all_of(character, 0) : parts_of(character, move));
+  exchange(a, upper.playback_, 0, move < 0 ? all_of(character, 0) : parts_of(character, move));
   a.number(upper.weight_, 0, upper.base_ < 0 ? 0 : 1);
   a.number(extras.style.waiting, -1, character.style_count() - 1);
   exchange(a, extras.style.moment);
@@ -255,7 +256,7 @@ void PlayerState::exchange(Archive& a, Player& player) {
   exchange(a, player.selector_);
   const int move = player.extras_ == nullptr ? -1 : exchange(a, *player.extras_);
   const int fragments = static_cast<int>(in_style.pool.fragments.size());
-  exchange(a, player.playback_, move < 0 ? Numbers{style, 0, fragments - 1} : parts_of(character, move));
+  exchange(a, player.playback_, style, move < 0 ? Numbers{style, 0, fragments - 1} : parts_of(character, move));
   exchange(a, player.governor_);
   exchange(a, player.correction_);
   exchange(a, player.gaze_);

@@ -174,7 +174,8 @@ int FragmentSelector::choose(int next_class, const Control& control, const Playb
   }
   const auto end = std::partition(candidates.begin(), candidates.end(),
                                   [&](const auto& candidate) { return candidate.first <= least + variety; });
-  return candidates[random_.below(static_cast<int>(end - candidates.begin()))].second;
+  const int drawn = std::max(1, static_cast<int>(end - candidates.begin()));  // none costs a number in a forged state
+  return candidates[random_.below(drawn)].second;
 }
 
 int FragmentSelector::choose_any(int next_class) {

@@ -38,6 +38,7 @@ Gaze::Seen Gaze::see() const {
   const Quaternion& rotation = posed.rotations[head];
   const Vector3 looks = rotation * workspace_->gaze.forward;
   return {posed.heads[head] + rotation * (kinematics.skeleton().tips[head] / 2),
+          rotation,
           {turned(std::atan2(-looks.x(), looks.y()) - pose.heading), std::atan2(looks.z(), looks.head<2>().norm())}};
 }
 
@@ -112,6 +113,22 @@ void Gaze::turn(double chest, const Angles& to) {
   turn_each(workspace_->look, Vector3{std::cos(heading), std::sin(heading), 0}, to[1] - from[1]);
 }
 
+// Turns the head back by what it turned too far since it was shown last, be it about what it looks at; whether it did.
+bool Gaze::hold_back(double seconds) {
+  const Skeleton& skeleton = workspace_->kinematics.skeleton();
+  const double most = fastest() * seconds;
+  Seen seen = see();
+  const Eigen::AngleAxisd way{seen.rotation * head_.conjugate()};
+  const bool too_far = turned_ && way.angle() > most;
+  if (too_far) {
+    turn_bone(skeleton, skeleton.roles.head, way.axis(), most - way.angle(), workspace_->shown.rotations.data());
+    seen = see();
+    shown_ = {seen.angles[0] + workspace_->shown.heading, seen.angles[1]};
+  }
+  head_ = seen.rotation;
+  return too_far;
+}
+
 void Gaze::apply(const Control& command, double turn_rate, double seconds) {
   if (workspace_->look.empty() || (look_ == Look::as_captured && !turned_)) return;
   const double heading = workspace_->shown.heading;
@@ -131,7 +148,8 @@ void Gaze::apply(const Control& command, double turn_rate, double seconds) {
   wants_ = elsewhere.has_value();
   const Angles aim{turned(shown_[0] - heading), shown_[1]};
   turn(chest_of(aim[0] - captured.angles[0]) - chest, aim);
-  turned_ = wants_ || !offset_[0].rests() || !offset_[1].rests();
+  const bool is_late = hold_back(seconds);
+  turned_ = is_late || wants_ || !offset_[0].rests() || !offset_[1].rests();
 }
 
 }  // namespace fragmotion

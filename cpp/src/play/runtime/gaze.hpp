@@ -43,6 +43,7 @@ class Gaze {
   using Angles = Vector2;
   struct Seen {
     Vector3 eyes;
+    Quaternion rotation;  // of the head, in the world
     Angles angles;
   };
 
@@ -54,18 +55,20 @@ class Gaze {
   double fastest() const;
   double chest_of(double turn) const;
   void turn(double chest, const Angles& to);
+  bool hold_back(double seconds);
   void put_off(const Angles& wanted);
 
   Workspace* workspace_;
   Look look_ = Look::as_captured;
   Vector3 place_ = Vector3::Zero();
-  bool turned_ = false;             // whether what was shown last looked elsewhere than captured
-  bool wants_ = false;              // whether it was to look elsewhere than captured
-  bool begins_ = false;             // whether it is to look at something else from now on
-  Angles wanted_ = Angles::Zero();  // when it was shown last
-  Angles shown_ = Angles::Zero();   // likewise, seen from the world
-  std::array<Approach, 2> offset_;  // of what is shown from what is wanted
-  double due_ = 0;                  // s in which there is to be none
+  bool turned_ = false;                       // whether what was shown last looked elsewhere than captured
+  bool wants_ = false;                        // whether it was to look elsewhere than captured
+  bool begins_ = false;                       // whether it is to look at something else from now on
+  Angles wanted_ = Angles::Zero();            // when it was shown last
+  Angles shown_ = Angles::Zero();             // likewise, seen from the world
+  Quaternion head_ = Quaternion::Identity();  // likewise, of the bone
+  std::array<Approach, 2> offset_;            // of what is shown from what is wanted
+  double due_ = 0;                            // s in which there is to be none
 };
 
 }  // namespace fragmotion

@@ -34,7 +34,7 @@ struct TransitionWeights {
   double out_of_turn = 2;   ///< Each foot that comes down out of turn.
   double wait = 1.6;  ///< A second of each unit of ControlDis between what plays and the class that the policy tells,
                       ///< at a responsiveness of a half.
-  double skip = 1;       ///< That the class which the policy tells is skipped for the one after it.
+  double skip = 1;    ///< That the class which the policy tells is skipped for the one after it.
   double variety = 0.7;  ///< By so much more than the least a fragment may cost that is drawn.
 };
 
