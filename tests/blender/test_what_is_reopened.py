@@ -14,17 +14,19 @@ MANY = 300
 DAY = 24 * 3600 * 10  # controls: no recording is longer
 
 
-def test_many_moves_and_changes_of_style_are_there_after_reopening(addon: ModuleType, tmp_path: Path) -> None:
+def test_many_moves_looks_and_changes_of_style_are_there_after_reopening(addon: ModuleType, tmp_path: Path) -> None:
     recordings = addon.recordings.recordings
     moves = [recordings.StartedMove(control, "a move with a long name", 3) for control in range(MANY)]
     styles = [recordings.StyleChange(control, "a style with a long name") for control in range(MANY)]
+    looks = [addon.recordings.looks.LookChange(control, 2, 0.5, control, 1.5) for control in range(MANY)]
     obj = making.add_armature()
-    recordings.add_recording(obj, np.zeros((MANY, 4)), name="Long", moves=moves, style="calm", styles=styles)
+    trace = np.zeros((MANY, 4))
+    recordings.add_recording(obj, trace, name="Long", moves=moves, style="calm", styles=styles, looks=looks)
     path = str(tmp_path / "long.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     reopened = bpy.data.objects["Rig"].fragmotion.recordings["Long"]
-    assert recordings.asked_of(reopened) == recordings.Asked(moves, "calm", styles)
+    assert recordings.asked_of(reopened) == recordings.Asked(moves, "calm", styles, looks)
 
 
 def test_a_day_of_changes_of_style_is_there_after_reopening(addon: ModuleType, tmp_path: Path) -> None:

@@ -46,7 +46,7 @@ def test_a_cost_counts_each_figure_by_its_goal() -> None:
 
 def test_every_constant_changes_what_is_shown(sample: core.Character) -> None:
     options = core.PlayerOptions()
-    trace = core.simulate_trace("explorer", 30, 1, sample.space)
+    trace = core.simulate_trace("explorer", 60, 1, sample.space)
     usual = core.Player(sample, options).run(trace, 60).rotations
     for name, value in options.constants.items():
         other = core.Player(sample, constants={name: value / 2}).run(trace, 60).rotations
