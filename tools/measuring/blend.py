@@ -50,7 +50,8 @@ def read_moves(path: Path) -> list[core.Move]:
     obj = _armature(bpy, path)
     try:
         rig = rigs.make_rig(obj)
-        return [moves.make_move(bpy.context, obj, rig, row) for row in _listed(obj)]
+        hands = rig.skeleton.relaxed_pose()
+        return [moves.make_move(bpy.context, obj, rig, row, hands) for row in _listed(obj)]
     except errors.UserError as error:
         raise Failure(f"{path}: {error}") from error
 

@@ -27,7 +27,7 @@ from .staleness import digest_of
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from fragmotion_core import Character, Clip, Move, Rig
+    from fragmotion_core import Character, Clip, Doubles, Move, Rig
 
 NO_KEY = "NONE"
 _FREE_KEYS = (*"FGHCVBNXZTYUIOPJKLM", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE", "ZERO")
@@ -104,7 +104,8 @@ def add_move(
     row.loop_first, row.loop_last = row.first, row.last
     row.key = next((key for key in _FREE_KEYS if key not in taken), NO_KEY)
     try:
-        make_move(context, obj, make_rig(obj), row)
+        rig = make_rig(obj)
+        make_move(context, obj, rig, row, hand_pose(context, obj, rig))
         bring_up_to_date(context, obj)
     except BaseException:
         moves.remove(len(moves) - 1)
@@ -129,7 +130,8 @@ def bring_up_to_date(context: bpy.types.Context, obj: bpy.types.Object) -> None:
     character = load_whole(obj)
     context.view_layer.update()
     rig, known = make_rig(obj), {move.name: move for move in character.moves}
-    moves = [make_move(context, obj, rig, row, known) for row in obj.fragmotion.moves]
+    hands = hand_pose(context, obj, rig)
+    moves = [make_move(context, obj, rig, row, hands, known) for row in obj.fragmotion.moves]
     with core_errors(f"Armature '{obj.name}'"):
         changed = character.with_moves(moves)
     replace(obj, changed)
@@ -202,10 +204,11 @@ def _digest(row: MoveRow) -> str:
 
 
 def make_move(
-    context: bpy.types.Context, obj: bpy.types.Object, rig: Rig, row: Any, known: Mapping[str, Move] | None = None
-) -> Move:
-    """The move that a MoveRow tells; without an Action it is that which the character has. UserError where it cannot be
-    one."""
+    context: bpy.types.Context, obj: bpy.types.Object, rig: Rig, row: Any, hands: Doubles | None,
+    known: Mapping[str, Move] | None = None,
+) -> Move:  # fmt: skip
+    """The move that a MoveRow tells, its hands as in hand_pose(); without an Action it is that which the character has.
+    UserError where it cannot be one."""
     if row.action is None:
         kept = (known or {}).get(row.kept)
         if kept is None:
@@ -214,7 +217,7 @@ def make_move(
         with core_errors(f"Armature '{obj.name}'"):
             move: Move = core.Move(row.name, kept.clip, row.upper_body, row.wait, loop)
         return move
-    clip, start = _clip(context, obj, rig, row)
+    clip, start = _clip(context, obj, rig, row, hands)
     loop = (0.0, 0.0)
     if row.loop:
         loop = (row.loop_first - start[0]) * start[1], (row.loop_last - start[0]) * start[1]
@@ -223,11 +226,13 @@ def make_move(
     return made
 
 
-def _clip(context: bpy.types.Context, obj: bpy.types.Object, rig: Rig, row: Any) -> tuple[Clip, tuple[float, float]]:
+def _clip(
+    context: bpy.types.Context, obj: bpy.types.Object, rig: Rig, row: Any, hands: Doubles | None
+) -> tuple[Clip, tuple[float, float]]:
     """The row's frames of its Action; the scene frame at which they begin, and seconds a scene frame."""
     single = UserError(f"Move '{row.name}' is of one frame: choose more frames of Action '{row.action.name}'")
     try:
-        clip = with_hands(sample(context, obj, row.action, rig), rig, hand_pose(context, obj, rig))
+        clip = with_hands(sample(context, obj, row.action, rig), rig, hands)
     except SinglePose:
         raise single from None
     times = sample_times(context.scene, obj, row.action)
