@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "api/handles.hpp"
+#include "base/fnv.hpp"
 #include "character/naming.hpp"
 #include "character/policy_file.hpp"
 #include "skeleton/role_names.hpp"
@@ -13,12 +14,6 @@ namespace {
 constexpr double kMostUnit = 1e6;
 constexpr char kPolicyMagic[9] = "FRAGMOTN";
 constexpr std::size_t kVersionAt = 8;
-
-std::uint64_t fingerprint_of(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
-  return hash;
-}
 
 // A file of another version is no damaged one.
 void check_version(std::string_view bytes) {
@@ -140,7 +135,7 @@ FragmotionResult fragmotion_character_load(const void* bytes, std::size_t size, 
            "units_per_metre must be over 0 to %g, not %g", kMostUnit, static_cast<double>(wanted.units_per_metre));
     const std::string_view text(static_cast<const char*>(bytes), size);
     auto made = std::make_unique<FragmotionCharacter>();
-    made->hero = std::make_shared<const Hero>(read_character(text), fingerprint_of(text), wanted.axes,
+    made->hero = std::make_shared<const Hero>(read_character(text), fnv1a(text.data(), text.size()), wanted.axes,
                                               static_cast<double>(wanted.units_per_metre));
     list_alive(made.get(), Kind::character);
     *character = made.release();

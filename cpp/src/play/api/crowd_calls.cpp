@@ -2,11 +2,11 @@
 #include <algorithm>
 
 #include "api/handles.hpp"
+#include "runtime/crowd.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr int kMostPlayers = 100000;
 constexpr float kFarthestBody = 1e6;
 constexpr double kShortestParting = 0.1;  // s in which those that touch part: sooner than that nobody can
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "api/handles.hpp"
+#include "base/fnv.hpp"
 
 namespace fragmotion {
 namespace {
 
 std::uint64_t fingerprint_of(const FragmotionPath& path) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  const auto add = [&](const void* data, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i)
-      hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3ULL;
-  };
+  std::uint64_t hash = kFnvSeed;
+  const auto add = [&](const void* data, std::size_t size) { hash = fnv1a(data, size, hash); };
   add(path.positions, sizeof(float) * 3 * static_cast<std::size_t>(path.points));
   if (path.speeds != nullptr) add(path.speeds, sizeof(float) * static_cast<std::size_t>(path.points));
   for (const int number : {path.closed, static_cast<int>(path.end)}) add(&number, sizeof number);

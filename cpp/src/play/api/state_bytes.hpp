@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "api/calls.hpp"
+#include "base/fnv.hpp"
 #include "base/types.hpp"
 
 namespace fragmotion {
@@ -63,7 +64,7 @@ class StateWriter {
 
   unsigned char* to_;
   std::size_t size_ = 0;
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+  std::uint64_t hash_ = kFnvSeed;
 };
 
 /// Reads what a StateWriter wrote. Throws CallError where it ends too early or a number is out of its range.
