@@ -2,511 +2,31 @@
 #include "character/policy_file.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
-#include <memory>
 #include <stdexcept>
-#include <type_traits>
 
+#include "base/fnv.hpp"
 #include "base/read_file.hpp"
-#include "base/utf8.hpp"
 #include "base/write_file.hpp"
 #include "character/check_character.hpp"
 #include "character/policy_bytes.hpp"
+#include "character/policy_content.hpp"
 #include "fragments/body_tips.hpp"
 #include "fragments/entry_poses.hpp"
 #include "fragments/whole_jumps.hpp"
-#include "skeleton/role_names.hpp"
 #include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
 namespace {
 
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "policy files are little-endian");
-
 constexpr char kMagic[9] = "FRAGMOTN";
-constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
-// Bits of a packed number at least, so that what it takes of memory has its share of the file; of one of a fragment's.
-constexpr int kFewestBits = 2, kFewestOfFragment = 4, kFragmentNumbers = 8;
 // Memory of the entry poses, which a player needs beside the file: a file takes at most 20 times its size, beyond 50
 // MB.
-constexpr std::size_t kRoom = 48000000, kTimes = 16;  // bytes, and for each byte of the file
+constexpr std::size_t kTimes = 16;  // bytes for each of the file
 
-constexpr std::uint64_t kSeed = 0xcbf29ce484222325ULL, kPrime = 0x100000001b3ULL;
-
-// FNV-1a, of files of version 3.
-std::uint64_t checksum_of_bytes(std::string_view payload) {
-  std::uint64_t hash = kSeed;
-  for (const char byte : payload) hash = (hash ^ static_cast<unsigned char>(byte)) * kPrime;
-  return hash;
-}
-
-// Writes and Reads share their spelling, so that one function, exchange(), says what a file holds and in which order.
-class Writer {
- public:
-  static constexpr bool kReads = false;
-  const std::uint32_t version = kPolicyVersion;
-  std::string bytes;
-
-  template <typename T>
-  void raw(const T* values, std::size_t count) {
-    bytes.append(reinterpret_cast<const char*>(values), count * sizeof(T));
-  }
-  template <typename Stored, typename T>
-  void number(const T& value) {
-    const auto stored = static_cast<Stored>(value);
-    raw(&stored, 1);
-  }
-  template <typename Stored, typename T>
-  void numbers(const std::vector<T>& values) {
-    static_assert(std::is_same_v<Stored, T>);
-    number<std::uint64_t>(values.size());
-    raw(values.data(), values.size());
-  }
-  // In the fewest bits, but `bits`, that hold the largest of them less the least; lowest bits first.
-  template <typename T>
-  void packed(const std::vector<T>& values, int bits = kFewestBits) {
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    const std::int64_t low = values.empty() ? 0 : *least, range = values.empty() ? 0 : *most - low;
-    while (range >> bits != 0) ++bits;
-    number<std::uint64_t>(values.size());
-    number<std::int32_t>(low);
-    number<std::uint8_t>(bits);
-    std::uint64_t word = 0;
-    int held = 0;
-    for (const T value : values) {
-      word |= static_cast<std::uint64_t>(value - low) << held;
-      for (held += bits; held >= 8; held -= 8, word >>= 8) number<std::uint8_t>(word & 0xff);
-    }
-    if (held > 0) number<std::uint8_t>(word);
-  }
-  void singles(const std::vector<double>& values) {
-    number<std::uint64_t>(values.size());
-    for (const double value : values) number<float>(value);
-  }
-  void text(const std::string& value) {
-    number<std::uint32_t>(value.size());
-    raw(value.data(), value.size());
-  }
-  // Whether a section follows that only some files have; it begins with its name.
-  bool section(const std::string& name, bool wanted) {
-    if (wanted) raw(name.data(), name.size());
-    return wanted;
-  }
-  template <typename T, typename Each>
-  void list(std::vector<T>& values, std::size_t /*least*/, const Each& each, std::size_t /*most*/ = 0) {
-    number<std::uint64_t>(values.size());
-    for (T& value : values) each(value);
-  }
-};
-
-class Reader {
- public:
-  static constexpr bool kReads = true;
-  const std::uint32_t version;
-  Reader(std::uint32_t from_version, const char* data, std::size_t size)
-      : version(from_version), data_(data), left_(size) {}
-
-  template <typename Stored, typename T>
-  void number(T& value) {
-    Stored stored;
-    std::memcpy(&stored, take(sizeof(Stored)), sizeof(Stored));
-    value = static_cast<T>(stored);
-  }
-  template <typename Stored, typename T>
-  void numbers(std::vector<T>& values) {
-    static_assert(std::is_same_v<Stored, T>);
-    values.resize(count(sizeof(Stored)));
-    if (!values.empty()) std::memcpy(values.data(), take(values.size() * sizeof(T)), values.size() * sizeof(T));
-  }
-  // Files of before version 5 hold them as they are.
-  template <typename T>
-  void packed(std::vector<T>& values, int fewest = kFewestBits) {
-    if (version < 5) return numbers<T>(values);
-    std::uint64_t count = 0;
-    std::int64_t low = 0;
-    int bits = 0;
-    number<std::uint64_t>(count);
-    number<std::int32_t>(low);
-    number<std::uint8_t>(bits);
-    if (bits < fewest || bits > 32) throw std::invalid_argument("its packed numbers have no bits");
-    if (count > left_ * 8 / bits) throw std::invalid_argument("it announces more than it holds");
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(take((count * bits + 7) / 8));
-    values.resize(count);
-    std::uint64_t word = 0;
-    int held = 0;
-    for (T& value : values) {
-      for (; held < bits; held += 8) word |= std::uint64_t{*bytes++} << held;
-      const std::int64_t number = low + static_cast<std::int64_t>(word & ((std::uint64_t{1} << bits) - 1));
-      if (number > std::numeric_limits<T>::max()) throw std::invalid_argument("its packed numbers are too large");
-      value = static_cast<T>(number);
-      word >>= bits;
-      held -= bits;
-    }
-  }
-  // Doubles in files of before version 5.
-  void singles(std::vector<double>& values) {
-    values.resize(count(version < 5 ? sizeof(double) : sizeof(float)));
-    for (double& value : values) {
-      if (version < 5) number<double>(value);
-      if (version >= 5) number<float>(value);
-      value = static_cast<float>(value);
-    }
-  }
-  void text(std::string& value) {
-    std::uint32_t size = 0;
-    number<std::uint32_t>(size);
-    value = as_utf8(std::string(take(size), size));
-  }
-  // `least`: bytes that an element takes at the least, and `most`: elements that there may be, so that a count that
-  // cannot be is refused before it is believed.
-  template <typename T, typename Each>
-  void list(std::vector<T>& values, std::size_t least, const Each& each, std::size_t most = kAnyNumber) {
-    const std::size_t announced = count(least);
-    if (announced > most) throw std::invalid_argument("it announces more than there can be");
-    values.resize(announced);
-    for (T& value : values) each(value);
-  }
-  bool section(const std::string& name, bool /*wanted*/) {
-    const bool follows = left_ >= name.size() && std::memcmp(data_, name.data(), name.size()) == 0;
-    if (follows) take(name.size());
-    return follows;
-  }
-  bool done() const { return left_ == 0; }
-
- private:
-  const char* take(std::size_t size) {
-    if (size > left_) throw std::invalid_argument("it ends too early");
-    const char* at = data_;
-    data_ += size;
-    left_ -= size;
-    return at;
-  }
-  std::size_t count(std::size_t least) {
-    std::uint64_t count = 0;
-    number<std::uint64_t>(count);
-    if (count > left_ / least) throw std::invalid_argument("it announces more than it holds");
-    return static_cast<std::size_t>(count);
-  }
-
-  const char* data_;
-  std::size_t left_;
-};
-
-template <typename Archive, typename V>
-void exchange_vector(Archive& a, V& v) {
-  for (int i = 0; i < 3; ++i) a.template number<double>(v[i]);
-}
-
-template <typename Archive, typename Q>
-void exchange_quaternion(Archive& a, Q& q) {
-  for (int i = 0; i < 4; ++i) a.template number<double>(q.coeffs()[i]);
-}
-
-template <typename Archive, typename S>
-void exchange_skeleton(Archive& a, S& s) {
-  a.list(s.names, 4, [&](auto& name) { a.text(name); });
-  a.template numbers<std::int32_t>(s.parents);
-  a.list(s.rest_rotations, 32, [&](auto& q) { exchange_quaternion(a, q); });
-  a.list(s.offsets, 24, [&](auto& v) { exchange_vector(a, v); });
-  a.list(s.tips, 24, [&](auto& v) { exchange_vector(a, v); });
-  for (const auto& [name, member] : role_names()) a.template number<std::int32_t>(s.roles.*member);
-}
-
-template <typename Archive, typename C>
-void exchange_control(Archive& a, C& c) {
-  for (auto* value : {&c.x, &c.y, &c.turn, &c.jump}) a.template number<double>(*value);
-}
-
-template <typename Archive>
-void exchange_poses(Archive& a, PackedPoses& poses) {
-  for (auto* values : {&poses.origin, &poses.steps}) {
-    for (double& value : *values) a.template number<double>(value);
-  }
-  a.packed(poses.least);
-  a.template numbers<std::uint8_t>(poses.bits);
-  a.template numbers<std::uint8_t>(poses.bytes);
-}
-
-// The number of a clip's original, or -1 and what the clip has itself.
-template <typename Archive>
-void exchange_clip(Archive& a, PackedPool& pool, std::size_t number) {
-  PackedClip& clip = pool.clips[number];
-  a.text(clip.name);
-  std::int32_t original = Archive::kReads ? -1 : original_of(pool.clips, number);
-  if (a.version >= 4) a.template number<std::int32_t>(original);
-  if (original < 0) {
-    a.template number<double>(clip.rate);
-    a.template number<std::int32_t>(clip.frames);
-    PackedPoses poses = Archive::kReads ? PackedPoses() : *clip.poses;
-    exchange_poses(a, poses);
-    if (Archive::kReads) clip.poses = std::make_shared<const PackedPoses>(std::move(poses));
-  } else if (Archive::kReads) {
-    if (static_cast<std::size_t>(original) >= number || pool.clips[original].mirrored) {
-      throw std::invalid_argument("its clips and their mirror images do not fit together");
-    }
-    clip = mirror_image(pool.clips[original], std::move(clip.name));
-  }
-}
-
-// One byte a frame: 1 where the left foot stands, and 2 where the right one does.
-template <typename Archive>
-void exchange_contacts(Archive& a, Contacts& contacts) {
-  auto& [left, right] = contacts.feet;
-  std::vector<std::uint8_t> standing;
-  for (std::size_t f = 0; f < left.size(); ++f) standing.push_back((left[f] ? 1 : 0) | (right[f] ? 2 : 0));
-  a.packed(standing);
-  for (auto& floor : contacts.floors) {
-    a.template number<double>(floor.ball);
-    a.template number<double>(floor.heel);
-  }
-  if (!Archive::kReads) return;
-  for (const std::uint8_t feet : standing) {
-    left.push_back((feet & 1) != 0);
-    right.push_back((feet & 2) != 0);
-  }
-}
-
-template <typename Archive>
-void exchange_clips(Archive& a, PackedPool& pool) {
-  PoseGrid grid = pool.clips.empty() ? PoseGrid() : *pool.clips[0].grid;
-  a.template number<std::int32_t>(grid.bones);
-  a.template numbers<float>(grid.usual);
-  a.template numbers<float>(grid.steps);
-  if (a.version >= 4) {
-    a.template numbers<std::int32_t>(grid.mirror.counterparts);
-    a.template numbers<float>(grid.mirror.before);
-    a.template numbers<float>(grid.mirror.after);
-  }
-  const auto shared = std::make_shared<const PoseGrid>(std::move(grid));
-  a.list(pool.clips, 8, [&](auto& clip) {
-    if (Archive::kReads) clip.grid = shared;
-    exchange_clip(a, pool, &clip - pool.clips.data());
-  });
-}
-
-// Of files of before version 5.
-template <typename Archive>
-void exchange_each_fragment(Archive& a, std::vector<Fragment>& fragments) {
-  a.list(fragments, 45, [&](auto& f) {
-    for (auto* value : {&f.clip, &f.begin, &f.end}) a.template number<std::int32_t>(*value);
-    a.template number<std::uint8_t>(f.origin);
-    exchange_control(a, f.evident);
-  });
-}
-
-// One number of each fragment, which `get` tells and `set` takes.
-template <typename Archive, typename Get, typename Set>
-void exchange_column(Archive& a, std::vector<Fragment>& fragments, const Get& get, const Set& set) {
-  std::vector<std::int32_t> column;
-  for (const Fragment& f : fragments) column.push_back(get(f));
-  a.packed(column, kFewestOfFragment);
-  if (column.size() != fragments.size()) throw std::invalid_argument("its fragments do not fit together");
-  for (std::size_t i = 0; Archive::kReads && i < column.size(); ++i) set(fragments[i], column[i]);
-}
-
-// Of what is no number the least step.
-std::int32_t steps_of(double value, double step) {
-  constexpr double kLeast = std::numeric_limits<std::int32_t>::min(), kMost = std::numeric_limits<std::int32_t>::max();
-  return static_cast<std::int32_t>(std::isnan(value) ? kLeast : std::clamp(std::round(value / step), kLeast, kMost));
-}
-
-template <typename Archive>
-void exchange_fragments(Archive& a, std::vector<Fragment>& fragments, const ControlSpace& space) {
-  a.list(fragments, kFragmentNumbers * kFewestOfFragment / 8, [](auto&) {});
-  for (int Fragment::*part : {&Fragment::clip, &Fragment::begin, &Fragment::end}) {
-    exchange_column(
-        a, fragments, [=](const auto& f) { return f.*part; }, [=](auto& f, int n) { f.*part = n; });
-  }
-  exchange_column(
-      a, fragments, [](const auto& f) { return static_cast<int>(f.origin); },
-      [](auto& f, int n) { f.origin = static_cast<Origin>(n); });
-  for (double Control::*part : {&Control::x, &Control::y, &Control::turn, &Control::jump}) {
-    const double step = space.steps().*part;
-    exchange_column(
-        a, fragments, [=](const auto& f) { return steps_of(f.evident.*part, step); },
-        [=](auto& f, int n) { f.evident.*part = n * step; });
-  }
-}
-
-// Dis(last pose of Q, first pose of Q'), as transition_distance() tells it, in place of the smoothness.
-template <typename Archive>
-void exchange_smoothness(Archive& a, std::vector<double>& smoothness) {
-  std::vector<double> distances;
-  for (const double value : smoothness) distances.push_back(1 / value - 1);
-  a.singles(distances);
-  if (!Archive::kReads) return;
-  smoothness.clear();
-  for (const double distance : distances) smoothness.push_back(1 / (1 + distance));
-}
-
-// The classes that are left out, which match nothing: what the others match follows from what they are evident of.
-template <typename Archive>
-void exchange_match(Archive& a, Character& c) {
-  std::vector<std::int32_t> left_out;
-  const std::size_t controls = c.quality.controls;
-  for (std::size_t at = 0; at < c.quality.match.size(); at += controls) {
-    if (c.quality.match[at] == 0) left_out.push_back(static_cast<std::int32_t>(at / controls));
-  }
-  a.packed(left_out);
-  if (!Archive::kReads) return;
-  const std::size_t classes = c.classes.representatives.size();
-  const auto within = [](const std::vector<int>& numbers, std::size_t end) {
-    return std::all_of(numbers.begin(), numbers.end(),
-                       [=](int n) { return n >= 0 && static_cast<std::size_t>(n) < end; });
-  };
-  if (c.quality.smoothness.size() != classes * classes || !within(left_out, classes) ||
-      !within(c.classes.representatives, c.pool.fragments.size())) {
-    throw std::invalid_argument("its classes do not fit together");
-  }
-  c.quality.match = control_matches(evident_of_classes(c), c.space);
-  for (const int k : left_out) leave_out(k, c.quality);
-}
-
-template <typename Archive>
-void exchange_quality(Archive& a, Character& c) {
-  a.template number<std::int32_t>(c.quality.classes);
-  if (Archive::kReads) c.quality.controls = c.space.size();
-  if (a.version < 5) {
-    a.template numbers<double>(c.quality.smoothness);
-    a.template numbers<double>(c.quality.match);
-  } else {
-    exchange_smoothness(a, c.quality.smoothness);
-    exchange_match(a, c);
-  }
-}
-
-// Of a space that is not the paper's, whose two speeds are before it.
-template <typename Archive>
-void exchange_layout(Archive& a, ControlLayout& layout, std::vector<double>& speeds) {
-  a.template numbers<double>(speeds);
-  layout.speeds = static_cast<int>(std::min<std::size_t>(speeds.size(), kMostSpeeds + 1));  // more are refused
-  a.template number<std::uint8_t>(layout.directions);
-  for (bool* part : {&layout.turn, &layout.jump}) a.template number<std::uint8_t>(*part);
-}
-
-template <typename Archive>
-void exchange_space(Archive& a, ControlSpace& space) {
-  ControlLayout layout = space.layout();
-  double values[] = {space.slowest(),          space.run(),          space.turn_rate(),   space.scale(),
-                     space.weights().velocity, space.weights().turn, space.weights().jump};
-  for (double& value : values) a.template number<double>(value);
-  std::vector<double> speeds = Archive::kReads ? std::vector{values[0], values[1]} : space.speeds();
-  if (a.section("controls", layout != ControlLayout())) exchange_layout(a, layout, speeds);
-  if (Archive::kReads) {
-    space = ControlSpace(layout, speeds, values[2], values[3], {values[4], values[5], values[6]});
-  }
-}
-
-template <typename Archive>
-void exchange_moves(Archive& a, std::vector<Move>& moves) {
-  const auto exchange_move = [&](auto& move) {
-    a.text(move.name);
-    a.template number<std::int32_t>(move.clip);
-    a.template number<std::uint8_t>(move.upper_body);
-    a.template number<double>(move.wait);
-    a.template number<std::int32_t>(move.loop_begin);
-    a.template number<std::int32_t>(move.loop_end);
-  };
-  a.list(moves, 25, exchange_move, kMostMoves);
-}
-
-// All of a style but its skeleton.
-template <typename Archive>
-void exchange_style(Archive& a, Character& c) {
-  exchange_clips(a, c.pool);
-  if (a.version < 5) exchange_each_fragment(a, c.pool.fragments);
-  exchange_space(a, c.space);
-  if (a.version < 5) {
-    for (Fragment& f : c.pool.fragments) f.evident = c.space.rounded(f.evident);
-  } else {
-    exchange_fragments(a, c.pool.fragments, c.space);
-  }
-  a.template number<std::int32_t>(c.classes.count);
-  a.packed(c.classes.labels);
-  a.packed(c.classes.representatives);
-  a.template number<double>(c.classes.inertia);
-  exchange_quality(a, c);
-  a.list(c.policies, 16, [&](auto& policy) {
-    a.text(policy.name);
-    a.template number<std::int32_t>(policy.classes);
-    a.packed(policy.next);
-    if (Archive::kReads) policy.controls = c.space.size();
-  });
-  a.packed(c.bridges);
-  a.singles(c.control_model);
-  a.list(c.contacts, 40, [&](auto& contacts) { exchange_contacts(a, contacts); });
-  for (Leg& leg : c.legs) exchange_vector(a, leg.hinge);  // the bones are found anew by their roles
-}
-
-// One of `copies`, made only where the file has poses of as many bones, which are its share of the memory.
-void give_skeleton(const Skeleton& skeleton, std::size_t copies, PackedPool& pool) {
-  std::size_t names = 0;
-  for (const std::string& name : skeleton.names) names += name.size();
-  if (names > kRoom / copies) throw std::invalid_argument("its bones' names are too long for so many styles");
-  const std::size_t rotations = pool.clips.empty() ? 0 : pool.clips[0].grid->usual.size();
-  for (const std::size_t bones : {skeleton.names.size(), skeleton.parents.size(), skeleton.rest_rotations.size(),
-                                  skeleton.offsets.size(), skeleton.tips.size()}) {
-    if (rotations < 4 * bones) throw std::invalid_argument("its styles do not fit together");
-  }
-  pool.skeleton = skeleton;
-}
-
-// What the other styles are of a character that has its skeleton.
-template <typename Archive>
-void exchange_styles(Archive& a, Character& c) {
-  a.text(c.style);
-  a.list(
-      c.styles, 200,
-      [&](auto& style) {
-        const auto other = Archive::kReads ? std::make_shared<Character>() : std::const_pointer_cast<Character>(style);
-        a.text(other->style);
-        exchange_style(a, *other);
-        if (Archive::kReads) give_skeleton(c.pool.skeleton, c.styles.size(), other->pool);
-        style = other;
-      },
-      kMostStyles - 1);
-}
-
-// Of each style's clips but mirror images, which have their originals'.
-template <typename Archive>
-void exchange_markers(Archive& a, Character& c) {
-  for (int style = 0; style < c.style_count(); ++style) {
-    std::vector<PackedClip>& clips = const_cast<Character&>(c.in_style(style)).pool.clips;
-    for (std::size_t number = 0; number < clips.size(); ++number) {
-      std::vector<Marker>& markers = clips[number].markers;
-      const int original = original_of(clips, number);
-      if (original >= 0) {
-        markers = clips[original].markers;
-      } else {
-        a.list(markers, 12, [&](auto& marker) {
-          a.text(marker.name);
-          a.template number<double>(marker.frame);
-        });
-      }
-    }
-  }
-}
-
-bool has_markers(const Character& c) {
-  for (int style = 0; style < c.style_count(); ++style) {
-    for (const PackedClip& clip : c.in_style(style).pool.clips) {
-      if (!clip.markers.empty()) return true;
-    }
-  }
-  return false;
-}
-
-template <typename Archive>
-void exchange(Archive& a, Character& c) {
-  exchange_skeleton(a, c.pool.skeleton);
-  exchange_style(a, c);
-  if (a.section("moves", !c.moves.empty())) exchange_moves(a, c.moves);
-  if (a.section("styles", !c.style.empty())) exchange_styles(a, c);
-  if (a.section("markers", has_markers(c))) exchange_markers(a, c);
-}
+// Of files of version 3.
+std::uint64_t checksum_of_bytes(std::string_view payload) { return fnv1a(payload.data(), payload.size()); }
 
 // That the entry poses of a file of `size` bytes are in proportion.
 void check_memory(const Character& c, std::size_t size) {
@@ -514,10 +34,10 @@ void check_memory(const Character& c, std::size_t size) {
   for (int style = 0; style < c.style_count(); ++style) fragments += c.in_style(style).pool.fragments.size();
   const std::size_t tips = measured_bones(c.pool.skeleton).size(),
                     bytes = fragments * 3 * padded(2 * static_cast<int>(tips)) * sizeof(float);
-  if (bytes <= kRoom + kTimes * size) return;
+  if (bytes <= kPolicyRoom + kTimes * size) return;
   throw std::invalid_argument(std::to_string(fragments) + " fragments of " + std::to_string(tips) +
                               " bones would take " + std::to_string(bytes / 1000000) + " MB of memory, more than " +
-                              std::to_string(kRoom / 1000000) + " MB and " + std::to_string(kTimes) +
+                              std::to_string(kPolicyRoom / 1000000) + " MB and " + std::to_string(kTimes) +
                               " times the file's size");
 }
 
@@ -536,20 +56,20 @@ void complete(Character& c, std::uint32_t version) {
 
 // Each word is folded, so that its high bits are mixed as well.
 std::uint64_t policy_checksum(std::string_view payload) {
-  std::uint64_t hash = kSeed;
+  std::uint64_t hash = kFnvSeed;
   for (std::size_t at = 0; at < payload.size(); at += sizeof hash) {
     std::uint64_t word = 0;
     std::memcpy(&word, payload.data() + at, std::min(sizeof word, payload.size() - at));
-    hash = (hash ^ word) * kPrime;
+    hash = (hash ^ word) * kFnvPrime;
     hash ^= hash >> 32;
   }
   return hash;
 }
 
 std::string unchecked_bytes(const Character& character) {
-  Writer payload;
+  PolicyWriter payload;
   exchange(payload, const_cast<Character&>(character));
-  Writer file;
+  PolicyWriter file;
   file.raw(kMagic, 8);
   file.number<std::uint32_t>(kPolicyVersion);
   file.number<std::uint64_t>(payload.bytes.size());
@@ -592,7 +112,7 @@ Character from_bytes(std::string_view bytes, const std::string& name) {
     const auto sum_of = version < 4 ? checksum_of_bytes : policy_checksum;
     if (sum_of(bytes.substr(kHeader, length)) != expected) throw std::invalid_argument("it is damaged (checksum)");
     Character character;
-    Reader reader(version, bytes.data() + kHeader, length);
+    PolicyReader reader(version, bytes.data() + kHeader, length);
     exchange(reader, character);
     if (!reader.done()) throw std::invalid_argument("it has bytes too many");
     check_character(character);
