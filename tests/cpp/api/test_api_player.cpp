@@ -4,7 +4,6 @@
 #include "allocations.hpp"
 #include "api_players.hpp"
 #include "direct/steering.hpp"
-#include "fragments/gaze_range.hpp"
 #include "looking.hpp"
 #include "runtime/player.hpp"
 
@@ -386,7 +385,7 @@ TEST(ApiPlayer, LooksAtAPlaceOfTheWorld) {
   const Eigen::Quaternionf rotation(seen.rotation[3], seen.rotation[0], seen.rotation[1], seen.rotation[2]);
   FragmotionBone bone = fragmotion_bone();
   expect_ok(fragmotion_character_bone(character.get(), head, &bone));
-  const Eigen::Vector3f looks = rotation * gaze_range({&looking_character()->pool}).forward.cast<float>(),
+  const Eigen::Vector3f looks = rotation * looks_in({&looking_character()->pool}).gaze.forward.cast<float>(),
                         eyes = Eigen::Vector3f::Map(seen.position) +
                                rotation * (looking_character()->pool.skeleton.tips[head] * 50).cast<float>();
   EXPECT_GT(looks.dot((Eigen::Vector3f::Map(place) - eyes).normalized()), 0.9999F);

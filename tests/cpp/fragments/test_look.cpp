@@ -28,17 +28,21 @@ TEST(Look, IsOfNoBonesWithoutAHead) {
   Skeleton skeleton = humanoid();
   skeleton.roles.head = -1;
   EXPECT_TRUE(look_bones(skeleton).empty());
-  FragmentPool pool{skeleton, {gait_clip({})}, {Fragment{0, 10, 20}}};
-  EXPECT_TRUE(fastest_looks(pack(pool)).empty());
+  const PackedPool pool = pack(FragmentPool{skeleton, {gait_clip({})}, {Fragment{0, 10, 20}}});
+  EXPECT_TRUE(looks_in({&pool}).fastest.empty());
 }
 
 TEST(Look, IsAsFastAsTheHeadTurnsInTheWorld) {
   Gait gait;
   gait.turn = 0.7;
   FragmentPool pool{humanoid(), {gait_clip(gait), gait_clip({})}, {Fragment{0, 10, 20}, Fragment{1, 10, 20}}};
-  for (const float turn : fastest_looks(pack(pool))) EXPECT_NEAR(turn, 0.7, 0.1);
+  const auto fastest = [&] {
+    const PackedPool packed = pack(pool);
+    return looks_in({&packed}).fastest;
+  };
+  for (const float turn : fastest()) EXPECT_NEAR(turn, 0.7, 0.1);
   pool.fragments[0].origin = Origin::transformed;
-  for (const float turn : fastest_looks(pack(pool))) EXPECT_LT(turn, 0.2);
+  for (const float turn : fastest()) EXPECT_LT(turn, 0.2);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "allocations.hpp"
-#include "fragments/gaze_range.hpp"
 #include "looking.hpp"
 #include "runtime/look_stitch.hpp"
 #include "runtime/player.hpp"
@@ -16,7 +15,7 @@ constexpr Control kStands{0, 0, 0, 0}, kWalks{0, 1.2, 0, 0}, kTurnsLeft{0, 1.2, 
 // What is seen of a player from outside: the oracle.
 struct Watched {
   Player player{looking_character()};
-  GazeRange range = gaze_range({&looking_character()->pool});
+  GazeRange range = looks_in({&looking_character()->pool}).gaze;
   Kinematics kinematics{looking_character()->pool.skeleton};
   PosedBones posed{kinematics.bones()};
   int head = kinematics.skeleton().roles.head;
@@ -44,7 +43,7 @@ struct Watched {
 };
 
 TEST(GazeRange, IsAsFarAsHeadAndChestTurnInTheTakes) {
-  const GazeRange range = gaze_range({&looking_character()->pool});
+  const GazeRange range = looks_in({&looking_character()->pool}).gaze;
   EXPECT_NEAR(range.turn, kLooksAside, 0.08);
   EXPECT_LT(range.turn, kLooksAside + 0.05);
   EXPECT_NEAR(range.chest, kChestAside, 0.08);
@@ -52,7 +51,7 @@ TEST(GazeRange, IsAsFarAsHeadAndChestTurnInTheTakes) {
 }
 
 TEST(GazeRange, IsWhatAHeadDoesWithoutEffortWhereNobodyLooksAbout) {
-  const GazeRange range = gaze_range({&gait_character()->pool});
+  const GazeRange range = looks_in({&gait_character()->pool}).gaze;
   EXPECT_NEAR(range.turn, 0.61, 0.01);
   EXPECT_NEAR(range.down, -0.48, 0.01);
   EXPECT_NEAR(range.up, 0.65, 0.01);
@@ -61,7 +60,7 @@ TEST(GazeRange, IsWhatAHeadDoesWithoutEffortWhereNobodyLooksAbout) {
 
 TEST(GazeRange, IsNoneOfABodyWithoutAHead) {
   const Character tiny = tiny_character();
-  EXPECT_EQ(gaze_range({&tiny.pool}).turn, 0);
+  EXPECT_EQ(looks_in({&tiny.pool}).gaze.turn, 0);
   Player one(std::make_shared<const Character>(tiny)), other(std::make_shared<const Character>(tiny));
   one.look(Look::at, {3, 3, 1});
   for (int i = 0; i < 60; ++i) {
@@ -118,7 +117,7 @@ TEST(Gaze, TurnsTheChestByItsShare) {
 
 TEST(Gaze, TurnsTheHeadNoFasterThanHeadsDo) {
   Watched one;
-  const double fastest = fastest_looks(looking_character()->pool).back();
+  const double fastest = looks_in({&looking_character()->pool}).fastest.back();
   Random random(3);
   double most = 0, gaze = 0;
   for (int i = 0; i < 3000; ++i) {

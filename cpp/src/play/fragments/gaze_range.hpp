@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <utility>
 #include <vector>
 
-#include "fragments/fragment.hpp"
+#include "skeleton/skeleton.hpp"
 
 namespace fragmotion {
 
@@ -15,8 +16,33 @@ struct GazeRange {
   double down = 0, up = 0;             ///< Its pitch, down .. up: 0 is level, up is positive.
 };
 
-/// That of the takes of pools of one skeleton, each angle but for the hundredth of their time in which it is beyond,
-/// and at least what a head does without effort. All 0 without bones of the head (look_bones()).
-GazeRange gaze_range(const std::vector<const PackedPool*>& pools);
+/// How a bone is turned in takes, seen from where the character faces.
+class Turned {
+ public:
+  void add(const Quaternion& seen);
+  /// Where it looks on the mean, as it sees it itself.
+  Vector3 forward() const;
+  /// By how much a direction of its own is turned to a side, and how high it points, of all that were added.
+  std::pair<std::vector<double>, std::vector<double>> angles(const Vector3& direction) const;
+  bool empty() const { return all_.empty(); }
+
+ private:
+  std::vector<Eigen::Quaternionf> all_;
+};
+
+/// Finds the range of poses, each angle but for the hundredth of their time in which it is beyond, and at least what a
+/// head does without effort. All 0 without poses.
+class GazeRanges {
+ public:
+  /// The skeleton has look_bones().
+  explicit GazeRanges(const Skeleton& skeleton);
+  /// A pose, by its bones' rotations in the world and where the character faces.
+  void add(double heading, const std::vector<Quaternion>& world);
+  GazeRange range() const;
+
+ private:
+  int head_, chest_ = -1;
+  Turned head_turned_, chest_turned_;
+};
 
 }  // namespace fragmotion

@@ -11,12 +11,13 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRate = 30;  // times a second at which poses are compared
+constexpr double kRate = 30;   // times a second at which poses are compared
+constexpr double kGazes = 10;  // times a second at which it is seen where they look
 
-// The fastest turns so far of bones that hang on each other and on the hips.
-class Turns {
+// Reads takes for how bones that hang on each other and on the hips are turned in them.
+class Reader {
  public:
-  Turns(const Skeleton& skeleton, const std::vector<int>& bones)
+  Reader(const Skeleton& skeleton, const std::vector<int>& bones)
       : kinematics_(skeleton),
         bones_(bones),
         chain_(kinematics_.chains({bones.back()})),
@@ -24,10 +25,12 @@ class Turns {
         heads_(skeleton.size()),
         now_(skeleton.size()),
         before_(skeleton.size()),
+        gaze_(skeleton),
         fastest_(bones.size()) {}
 
-  void add(const PackedClip& clip) {
-    const double apart = std::max(1.0, std::round(clip.rate / kRate));
+  void read(const PackedClip& clip) {
+    const double apart = std::max(1.0, std::round(clip.rate / kRate)),
+                 seen = apart * std::max(1.0, std::round(clip.rate / kGazes / apart));
     for (double frame = 0; frame < clip.frames; frame += apart) {
       const Vector3 root = sample_pose(clip, frame, rotations_.data());
       kinematics_.world(root, rotations_.data(), chain_, heads_.data(), now_.data());
@@ -35,11 +38,12 @@ class Turns {
         const double angle = before_[bones_[i]].angularDistance(now_[bones_[i]]);
         fastest_[i] = std::max(fastest_[i], static_cast<float>(angle * clip.rate / apart));
       }
+      if (std::fmod(frame, seen) == 0) gaze_.add(frame_at(clip, frame).heading, now_);
       std::swap(now_, before_);
     }
   }
 
-  const std::vector<float>& fastest() const { return fastest_; }
+  Looks looks() const { return {fastest_, gaze_.range()}; }
 
  private:
   Kinematics kinematics_;
@@ -48,6 +52,7 @@ class Turns {
   std::vector<double> rotations_;
   std::vector<Vector3> heads_;
   std::vector<Quaternion> now_, before_;
+  GazeRanges gaze_;
   std::vector<float> fastest_;
 };
 
@@ -64,15 +69,18 @@ std::vector<int> look_bones(const Skeleton& skeleton) {
   return bones;
 }
 
-std::vector<float> fastest_looks(const PackedPool& pool) {
-  const std::vector<int> bones = look_bones(pool.skeleton);
+Looks looks_in(const std::vector<const PackedPool*>& pools) {
+  const Skeleton& skeleton = pools.front()->skeleton;
+  const std::vector<int> bones = look_bones(skeleton);
   if (bones.empty()) return {};
-  Turns turns(pool.skeleton, bones);
-  int last = -1;
-  for (const Fragment& f : pool.fragments) {
-    if (f.origin == Origin::captured && std::exchange(last, f.clip) != f.clip) turns.add(pool.clips[f.clip]);
+  Reader reader(skeleton, bones);
+  for (const PackedPool* pool : pools) {
+    int last = -1;
+    for (const Fragment& f : pool->fragments) {
+      if (f.origin == Origin::captured && std::exchange(last, f.clip) != f.clip) reader.read(pool->clips[f.clip]);
+    }
   }
-  return turns.fastest();
+  return reader.looks();
 }
 
 }  // namespace fragmotion

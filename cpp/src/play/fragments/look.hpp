@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fragments/fragment.hpp"
+#include "fragments/gaze_range.hpp"
 
 namespace fragmotion {
 
@@ -11,7 +12,13 @@ namespace fragmotion {
 /// Empty without a head below the hips.
 std::vector<int> look_bones(const Skeleton& skeleton);
 
-/// How fast each of them ever turns in the takes, seen from the world, rad/s over a thirtieth of a second.
-std::vector<float> fastest_looks(const PackedPool& pool);
+/// What neck and head do in takes, seen from the world.
+struct Looks {
+  std::vector<float> fastest;  ///< How fast each of look_bones() ever turns, rad/s over a thirtieth of a second.
+  GazeRange gaze;
+};
+
+/// That of the captured takes of pools of one skeleton, which are read once. Empty without look_bones().
+Looks looks_in(const std::vector<const PackedPool*>& pools);
 
 }  // namespace fragmotion

@@ -30,7 +30,6 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
       body(std::make_shared<FootLock::Body>(kinematics, character.legs)),
       floors(usual_floors(character.contacts)),
       look(look_bones(kinematics.skeleton())),
-      fastest_looks(look.size()),
       move_entries(entry_poses(character.pool, character.move_parts)),
       tips{BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton)},
       onward(character.entry_poses.size() / character.pool.fragments.size()) {
@@ -40,12 +39,12 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
     const Character& c = character.in_style(style);
     styles.push_back({&c, c.classes.members(), entry_steps(c), TransitionCost(c, constants.transition), step_seconds(c),
                       successors(c.pool.fragments), beside_usual(c)});
-    const std::vector<float> turns = fragmotion::fastest_looks(c.pool);
-    for (std::size_t b = 0; b < turns.size(); ++b) fastest_looks[b] = std::max(fastest_looks[b], turns[b]);
     most = std::max(most, c.pool.fragments.size());
     pools.push_back(&c.pool);
   }
-  gaze = gaze_range(pools);
+  Looks found = looks_in(pools);
+  fastest_looks = std::move(found.fastest);
+  gaze = found.gaze;
   if (!look.empty()) head_chain = kinematics.chains({look.back()});
   if (const Trunk trunk(kinematics.skeleton()); trunk.head >= 0) {
     for (const int b : head_chain) {

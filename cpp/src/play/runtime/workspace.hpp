@@ -40,8 +40,8 @@ struct Workspace {
   Floors floors;  ///< The medians of those of the takes.
   std::vector<FragmentLists> styles;
   std::vector<int> look;             ///< look_bones()
-  std::vector<float> fastest_looks;  ///< fastest_looks() of all styles
-  GazeRange gaze;                    ///< gaze_range() likewise
+  std::vector<float> fastest_looks;  ///< looks_in() all styles
+  GazeRange gaze;                    ///< Likewise.
   std::vector<int> head_chain;       ///< From the hips to the head,
   std::vector<int> spine;            ///< and what of it is above the legs and below the look's.
   std::vector<float> move_entries;   ///< entry_poses() of the moves' parts
