@@ -158,7 +158,6 @@ void PlayerState::exchange(Archive& a, Gaze& gaze) {
   vector(a, gaze.place_, kMostPlace);
   for (bool* flag : {&gaze.turned_, &gaze.wants_, &gaze.begins_}) a.number(*flag, 0, 1);
   vector(a, gaze.wanted_, 2 * kPi);
-  vector(a, gaze.shown_, kMostPlace);
   for (double& part : gaze.head_.coeffs()) a.number(part, -1.001, 1.001);
   for (Approach& offset : gaze.offset_) approach(a, offset);
   a.number(gaze.due_, 0, kMostTime);

@@ -36,17 +36,20 @@ Gaze::Seen Gaze::see() const {
   kinematics.world(pose.root, pose.rotations.data(), workspace_->head_chain, posed.heads.data(),
                    posed.rotations.data());
   const Quaternion& rotation = posed.rotations[head];
-  const Vector3 looks = rotation * workspace_->gaze.forward;
-  return {posed.heads[head] + rotation * (kinematics.skeleton().tips[head] / 2),
-          rotation,
-          {turned(std::atan2(-looks.x(), looks.y()) - pose.heading), std::atan2(looks.z(), looks.head<2>().norm())}};
+  return {posed.heads[head] + rotation * (kinematics.skeleton().tips[head] / 2), rotation, angles(rotation)};
+}
+
+// Where a head looks that is turned so in the world.
+Gaze::Angles Gaze::angles(const Quaternion& rotation) const { return angles(rotation * workspace_->gaze.forward); }
+
+Gaze::Angles Gaze::angles(const Vector3& way) const {
+  return {turned(std::atan2(-way.x(), way.y()) - workspace_->shown.heading), std::atan2(way.z(), way.head<2>().norm())};
 }
 
 Gaze::Angles Gaze::towards(const Vector3& eyes) const {
   const Vector3 way = place_ - eyes;
   if (way.norm() < kNearest) return wanted_;
-  return within(
-      {turned(std::atan2(-way.x(), way.y()) - workspace_->shown.heading), std::atan2(way.z(), way.head<2>().norm())});
+  return within(angles(way));
 }
 
 Gaze::Angles Gaze::within(Angles angles) const {
@@ -71,26 +74,26 @@ double Gaze::fastest() const {
 }
 
 // What is shown is so far from what is wanted.
-void Gaze::put_off(const Angles& wanted) {
-  offset_[0].value = turned(shown_[0] - workspace_->shown.heading - wanted[0]);
-  offset_[1].value = shown_[1] - wanted[1];
+void Gaze::put_off(const Angles& shown, const Angles& wanted) {
+  offset_[0].value = turned(shown[0] - wanted[0]);
+  offset_[1].value = shown[1] - wanted[1];
 }
 
-// What is wanted is followed at once where it moves; where it is another, from what is shown.
-void Gaze::advance(const Angles& wanted, bool begins, double seconds) {
-  const double heading = workspace_->shown.heading, most = fastest() * seconds;
-  const Angles moved{turned(wanted[0] - wanted_[0]), wanted[1] - wanted_[1]};
+// What is wanted is followed at once where it moves; where it is another, from what was shown. Returns where to look.
+Gaze::Angles Gaze::advance(const Angles& wanted, bool begins, double seconds) {
+  const double most = fastest() * seconds;
+  const Angles shown = angles(head_), moved{turned(wanted[0] - wanted_[0]), wanted[1] - wanted_[1]};
   if (begins || moved.norm() > most) {
-    put_off(wanted);
+    put_off(shown, wanted);
     due_ = std::max(kTurnsIn, kPeak * std::hypot(offset_[0].value, offset_[1].value) / fastest());
   }
   for (Approach& offset : offset_) offset.advance(0, due_, seconds);
   due_ = std::max(0.0, due_ - seconds);
-  const Angles way{turned(wanted[0] + offset_[0].value + heading - shown_[0]),
-                   wanted[1] + offset_[1].value - shown_[1]};
-  shown_ += std::min(1.0, most / std::max(way.norm(), most)) * way;
-  if (way.norm() > most) put_off(wanted);
+  const Angles way{turned(wanted[0] + offset_[0].value - shown[0]), wanted[1] + offset_[1].value - shown[1]};
+  const Angles aim = shown + std::min(1.0, most / std::max(way.norm(), most)) * way;
+  if (way.norm() > most) put_off(aim, wanted);
   wanted_ = wanted;
+  return aim;
 }
 
 // How far the chest turns with a head that turns so.
@@ -123,7 +126,6 @@ bool Gaze::hold_back(double seconds) {
   if (too_far) {
     turn_bone(skeleton, skeleton.roles.head, way.axis(), most - way.angle(), workspace_->shown.rotations.data());
     seen = see();
-    shown_ = {seen.angles[0] + workspace_->shown.heading, seen.angles[1]};
   }
   head_ = seen.rotation;
   return too_far;
@@ -131,22 +133,20 @@ bool Gaze::hold_back(double seconds) {
 
 void Gaze::apply(const Control& command, double turn_rate, double seconds) {
   if (workspace_->look.empty() || (look_ == Look::as_captured && !turned_)) return;
-  const double heading = workspace_->shown.heading;
   const Seen captured = see();
-  if (!turned_) shown_ = {captured.angles[0] + heading, captured.angles[1]};
+  if (!turned_) head_ = captured.rotation;
   const std::optional<Angles> elsewhere = wanted(captured, command, turn_rate);
   Angles wanted = elsewhere.value_or(captured.angles);
   double chest = 0;
   if (look_ == Look::at) {  // seen from where the eyes are of a head that is turned as it was
-    const Angles was{turned(shown_[0] - heading), shown_[1]};
+    const Angles was = angles(head_);
     chest = chest_of(was[0] - captured.angles[0]);
     turn(chest, was);
     wanted = towards(see().eyes);
   }
-  advance(wanted, begins_ || !turned_ || elsewhere.has_value() != wants_, seconds);
+  const Angles aim = advance(wanted, begins_ || !turned_ || elsewhere.has_value() != wants_, seconds);
   begins_ = false;
   wants_ = elsewhere.has_value();
-  const Angles aim{turned(shown_[0] - heading), shown_[1]};
   turn(chest_of(aim[0] - captured.angles[0]) - chest, aim);
   const bool is_late = hold_back(seconds);
   turned_ = is_late || wants_ || !offset_[0].rests() || !offset_[1].rests();

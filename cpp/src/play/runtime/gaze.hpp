@@ -17,10 +17,10 @@ enum class Look {
   at            ///< At a place.
 };
 
-/// Lets head and chest look somewhere, over whatever plays, as far as in the takes (gaze_range.hpp) and, seen from the
-/// world, no faster than kTurnsAtMost times as fast as a head turns in them. What is behind the character it looks for
-/// over the shoulder over which it looked last. Does nothing to a skeleton without a head. Allocates nothing once it is
-/// made.
+/// Lets head and chest look somewhere, over whatever plays, as far as in the takes or easily (gaze_range.hpp) and, seen
+/// from the world, no faster than kTurnsAtMost times as fast as a head turns in them. What is behind the character it
+/// looks for over the shoulder over which it looked last. Does nothing to a skeleton without a head. Allocates nothing
+/// once it is made.
 class Gaze {
  public:
   explicit Gaze(Workspace& workspace) : workspace_(&workspace) {}
@@ -48,15 +48,17 @@ class Gaze {
   };
 
   Seen see() const;
+  Angles angles(const Quaternion& rotation) const;
+  Angles angles(const Vector3& way) const;
   std::optional<Angles> wanted(const Seen& seen, const Control& command, double turn_rate) const;
   Angles towards(const Vector3& eyes) const;
   Angles within(Angles angles) const;
-  void advance(const Angles& wanted, bool begins, double seconds);
+  Angles advance(const Angles& wanted, bool begins, double seconds);
   double fastest() const;
   double chest_of(double turn) const;
   void turn(double chest, const Angles& to);
   bool hold_back(double seconds);
-  void put_off(const Angles& wanted);
+  void put_off(const Angles& shown, const Angles& wanted);
 
   Workspace* workspace_;
   Look look_ = Look::as_captured;
@@ -65,8 +67,7 @@ class Gaze {
   bool wants_ = false;                        // whether it was to look elsewhere than captured
   bool begins_ = false;                       // whether it is to look at something else from now on
   Angles wanted_ = Angles::Zero();            // when it was shown last
-  Angles shown_ = Angles::Zero();             // likewise, seen from the world
-  Quaternion head_ = Quaternion::Identity();  // likewise, of the bone
+  Quaternion head_ = Quaternion::Identity();  // of the bone, likewise, in the world
   std::array<Approach, 2> offset_;            // of what is shown from what is wanted
   double due_ = 0;                            // s in which there is to be none
 };
