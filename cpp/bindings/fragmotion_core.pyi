@@ -610,7 +610,7 @@ class Player:
     def release_move(self, move: int) -> None:
         """The move is not held any more: its loop is not begun again. ValueError on one that does not exist."""
     def look(self, look: int, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> None:
-        """Let head and chest look somewhere from now on, until a reset, as far and as fast as in the takes: 0 as they
+        """Let head and chest look somewhere from now on, until a reset, as far as in the takes or easily: 0 as they
         have it, 1 where it goes, 2 at a place in the world, m. ValueError on another number and on no place."""
     playing_moves: tuple[int, int]
     """The move of the whole body and that of the upper body that play; -1: none."""

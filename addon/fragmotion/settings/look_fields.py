@@ -18,7 +18,7 @@ class LookSettings(bpy.types.PropertyGroup):
 
     kind: EnumProperty(  # type: ignore[valid-type]
         name="Look At",
-        description="Where head and chest look: as far as they ever turn in the takes, and no faster than there",
+        description="Where head and chest look: as far as they turn in the takes or easily, and about as fast",
         items=_LOOKS,
     )
     object: PointerProperty(  # type: ignore[valid-type]

@@ -390,7 +390,7 @@ FRAGMOTION_EXPORT FragmotionResult fragmotion_player_release_move(FragmotionPlay
 FRAGMOTION_EXPORT FragmotionResult fragmotion_player_change_style(FragmotionPlayer* player,
                                                                   int32_t style) FRAGMOTION_NOEXCEPT;
 
-/* Where head and chest look, over whatever it plays: as far and as fast as in its takes. */
+/* Where head and chest look, over whatever it plays: as far as they do in its takes, or do easily, and as fast. */
 typedef int32_t FragmotionLook;
 enum {
   FRAGMOTION_LOOK_AS_CAPTURED = 0, /* as its takes have it */
