@@ -33,7 +33,9 @@ target_include_directories(fragmotion_math_objects SYSTEM PRIVATE
 target_compile_options(fragmotion_math_objects PRIVATE
   -nostdinc -U__FP_FAST_FMA -ffunction-sections -fdata-sections -w $<$<CONFIG:Release>:-O2>)
 set_target_properties(fragmotion_math_objects PROPERTIES C_VISIBILITY_PRESET hidden)
-add_library(fragmotion_math STATIC $<TARGET_OBJECTS:fragmotion_math_objects>)
+add_library(fragmotion_math INTERFACE)
+# As objects, since a linker may search the system's archives before ours: zig's for Windows does.
+target_link_libraries(fragmotion_math INTERFACE $<TARGET_OBJECTS:fragmotion_math_objects>)
 
 # A compiler works out what it knows of these by a mathematics of its own.
 list(TRANSFORM functions PREPEND -fno-builtin- OUTPUT_VARIABLE no_builtins)
