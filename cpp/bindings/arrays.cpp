@@ -74,6 +74,12 @@ Trace to_trace(const Doubles& controls) {
   return trace;
 }
 
+py::array_t<double> to_rows(const Trace& trace) {
+  std::vector<double> rows;
+  for (const Control& c : trace) rows.insert(rows.end(), {c.x, c.y, c.turn, c.jump});
+  return to_array(std::move(rows), {static_cast<py::ssize_t>(trace.size()), 4});
+}
+
 std::vector<Trace> to_traces(const std::vector<Doubles>& traces) {
   std::vector<Trace> controls;
   for (const Doubles& trace : traces) controls.push_back(to_trace(trace));

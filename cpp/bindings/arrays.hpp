@@ -54,6 +54,8 @@ Control to_control(const Doubles& values);
 
 /// A trace from [T,4], with the same checks.
 Trace to_trace(const Doubles& controls);
+/// Its controls [T,4].
+py::array_t<double> to_rows(const Trace& trace);
 
 /// Traces from [T,4] each.
 std::vector<Trace> to_traces(const std::vector<Doubles>& traces);

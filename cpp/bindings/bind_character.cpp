@@ -9,6 +9,7 @@
 #include "character/naming.hpp"
 #include "character/policy_file.hpp"
 #include "control/trace.hpp"
+#include "fragments/able_trace.hpp"
 #include "fragments/coverage.hpp"
 #include "policy/optimal.hpp"
 
@@ -166,9 +167,14 @@ void bind_styles(py::module_& m, py::class_<Character, Holder>& character) {
       py::arg("styles"), py::call_guard<GilRelease>());
 }
 
+py::array_t<double> able(const Character& c, const Doubles& trace) {
+  return to_rows(able_trace(c.speeds, to_trace(trace)));
+}
+
 double percent(const Character& c, const Doubles& trace, const std::string& policy) {
   const Trace controls = to_trace(trace);
-  return without_gil([&] { return percent_of_optimal(c.quality, c.policy(policy), snap(c.space, controls)); });
+  return without_gil(
+      [&] { return percent_of_optimal(c.quality, c.policy(policy), snap(c.space, able_trace(c.speeds, controls))); });
 }
 
 std::vector<std::string> policies_of(const Character& c) {
@@ -197,11 +203,13 @@ void bind_use(py::class_<Character, Holder>& character) {
           "optimal",
           [](const Character& c, const Doubles& trace) {
             const Trace controls = to_trace(trace);
-            OptimalPath path = without_gil([&] { return optimal_path(c.quality, snap(c.space, controls)); });
+            OptimalPath path =
+                without_gil([&] { return optimal_path(c.quality, snap(c.space, able_trace(c.speeds, controls))); });
             const auto count = static_cast<py::ssize_t>(path.classes.size());
             return py::make_tuple(to_array(std::move(path.classes), {count}), path.quality);
           },
           py::arg("trace"))
+      .def("able", &able, py::arg("trace"))
       .def("percent_of_optimal", &percent, py::arg("trace"), py::arg("policy") = "")
       .def(
           "without",

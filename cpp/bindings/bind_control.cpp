@@ -18,12 +18,6 @@
 namespace fragmotion::bindings {
 namespace {
 
-py::array_t<double> to_rows(const Trace& trace) {
-  std::vector<double> rows;
-  for (const Control& c : trace) rows.insert(rows.end(), {c.x, c.y, c.turn, c.jump});
-  return to_array(std::move(rows), {static_cast<py::ssize_t>(trace.size()), 4});
-}
-
 py::array_t<double> points(const ControlSpace& space) {
   Trace controls;
   for (int c = 0; c < space.size(); ++c) controls.push_back(space.point(c));

@@ -493,6 +493,9 @@ class Character:
     def from_bytes(data: bytes) -> Character: ...
     def optimal(self, trace: ArrayLike) -> tuple[Ints, float]:
         """Path [T+1] of classes that is best in hindsight (Eqs. 1, 3, 4) and its total quality."""
+    def able(self, trace: ArrayLike) -> Doubles:
+        """What it does of controls [n,4]: at most as fast as it walks, or 1.3 times as fast as its takes go within 30
+        degrees of the same direction."""
     def percent_of_optimal(self, trace: ArrayLike, policy: str = "") -> float:
         """Quality of one of its policies (default: the one that drives) on a trace [T,4], in percent of Optimal's, both
         from Optimal's first class."""

@@ -204,6 +204,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Character.load": {"path": folder / "made.policy"},
         "Character.from_bytes": {"data": made.to_bytes()},
         "Character.optimal": {"self": made, "trace": trace},
+        "Character.able": {"self": made, "trace": trace},
         "Character.percent_of_optimal": {"self": made, "trace": trace, "policy": ""},
         "Character.without": {"self": made, "excluded": [1, 2], "style": 1},
         "Character.with_moves": {"self": made, "moves": made.moves},

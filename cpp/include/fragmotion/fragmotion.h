@@ -327,7 +327,8 @@ enum {
 typedef struct FragmotionInput {
   uint32_t size;
   FragmotionSteer steer;
-  float move[3];   /* as `steer` says; what of it is upward does not count */
+  float move[3];   /* as `steer` says; what of it is upward does not count. In each direction one goes at most as fast as
+                      one walks, or 1.3 times as fast as the takes do within 30 degrees of it */
   float facing[3]; /* as `steer` says, of any length; likewise */
   float turn;   /* -1 right .. 1 left, times the turn rate, in all axes; with facing, and by the camera, 0 turns it by
                    itself */

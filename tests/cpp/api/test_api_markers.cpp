@@ -99,7 +99,7 @@ TEST(ApiMarkers, OfTakesAreThoseOfTheFramesThatAreShown) {
   int told = 0, expected = 0;
   double before = player.playback().at();
   const auto* clip = &player.character().pool.clips[player.playback().fragment().clip];
-  for (int frame = 0; frame < 1200; ++frame) {
+  for (int frame = 0; frame < 4800; ++frame) {
     player.step({frame / 90 % 3 - 1.0, frame / 60 % 4 * 1.0, 0, 0}, kFrameSeconds);
     told += player.passed_markers()[0].count;
     const double now = player.playback().at();

@@ -64,7 +64,7 @@ TEST(OptimalPerformance, IsTheBestOfAllPlays) {
     for (int i = 0; i < 7; ++i) {
       const int control = random.below(kPaperPoints);
       trace.push_back(c.space.point(control));
-      controls.insert(controls.end(), 2, control);
+      controls.insert(controls.end(), 2, c.space.nearest(c.admitted(c.space.point(control))));
     }
     const double expected =
         std::max(brute_force(c, controls, 0, 0, shortest, longest), brute_force(c, controls, 0, 1, shortest, longest));

@@ -12,6 +12,7 @@
 #include "base/ranges.hpp"
 #include "build/stages.hpp"
 #include "classes/clustering.hpp"
+#include "fragments/able_trace.hpp"
 #include "fragments/coverage.hpp"
 #include "fragments/entry_poses.hpp"
 #include "fragments/evident.hpp"
@@ -215,7 +216,7 @@ const std::vector<std::string>& policy_names() {
 std::vector<Contacts> contacts_of(const FragmentPool& pool, int threads) {
   std::vector<bool> captured(pool.clips.size(), false);
   for (const Fragment& f : pool.fragments) {
-    captured[f.clip] = f.origin == Origin::captured || f.origin == Origin::mirrored;
+    captured[f.clip] = !is_made(f.origin);
   }
   std::vector<Contacts> contacts(pool.clips.size());
   const auto find = [&](bool whether, const Floors* floors) {
@@ -268,13 +269,14 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   c.pool = pack(pool, images, options.threads);
   for (Fragment& f : c.pool.fragments) f.evident = c.space.rounded(f.evident);
   find_whole_jumps(c.pool);
+  c.speeds = SpeedRange(c.pool.fragments, c.space);
   pool.fragments = c.pool.fragments;
   c.report["fragments"] = static_cast<double>(c.pool.fragments.size());
   c.report["synthesize_seconds"] = stage.lap();
   report(progress, 0.9, "Measuring fragments");
   material.trajectories = trajectories(pool, kPoses, options.threads);
   c.entry_poses = entry_poses(c.pool);
-  for (const Trace& trace : traces) material.traces.push_back(snap(c.space, trace));
+  for (const Trace& trace : traces) material.traces.push_back(snap(c.space, able_trace(c.speeds, trace)));
   c.report["measure_seconds"] = stage.lap();
   return material;
 }

@@ -9,6 +9,7 @@
 #include "base/max_accumulate.hpp"
 #include "base/transposed.hpp"
 #include "control/command_limit.hpp"
+#include "fragments/able_trace.hpp"
 
 namespace fragmotion {
 namespace {
@@ -44,12 +45,14 @@ Control advanced(CommandLimit& limit, const Control& control, double heading, do
 
 // Where a trace that is followed exactly, within a limit, leads from the origin: the character frame of each frame.
 std::vector<CharacterFrame> exact_path(const Performance& p, const Trace& trace, const Character& character,
-                                       CommandLimit limit) {
+                                       CommandLimit limit, bool as_able) {
   std::vector<CharacterFrame> path(1);
   for (int f = 1; f < p.frames; ++f) {
     CharacterFrame next = path.back();
-    const Control control = advanced(limit, trace[control_at(f, p.rate, trace.size())], next.heading, 1 / p.rate);
-    const double angle = control.turn * in_style(character, p, f).space.turn_rate() / p.rate;
+    const Character& styled = in_style(character, p, f);
+    const Control& asked = trace[control_at(f, p.rate, trace.size())];
+    const Control control = advanced(limit, as_able ? styled.admitted(asked) : asked, next.heading, 1 / p.rate);
+    const double angle = control.turn * styled.space.turn_rate() / p.rate;
     next.position += Eigen::Rotation2Dd(next.heading + angle / 2) * Vector2{control.x, control.y} / p.rate;
     next.heading += angle;
     path.push_back(next);
@@ -264,14 +267,14 @@ void judge(Performance& p, const Character& character, const Trace& trace) {
     const Character& styled = in_style(character, p, f);
     const bool jumps = !p.fragments.empty() && styled.pool.fragments[p.fragments[f]].evident.jumps();
     p.velocity_error += weight * (velocity - Vector2{control.x, control.y}).norm();
-    const Control able = advanced(limit, control, p.path[std::size_t{3} * f + 2], 1 / p.rate);
+    const Control able = advanced(limit, styled.admitted(control), p.path[std::size_t{3} * f + 2], 1 / p.rate);
     p.velocity_error_limited += weight * (velocity - Vector2{able.x, able.y}).norm();
     p.turn_error += weight * std::abs(speed.z() - control.turn * styled.space.turn_rate());
     p.jump_error += jumps != control.jumps() ? weight : 0;
     p.commanded_speed += weight * control.speed();
   }
-  const Drift whole = drift(p, exact_path(p, trace, character, unlimited));
-  const Drift limited = drift(p, exact_path(p, trace, character, body));
+  const Drift whole = drift(p, exact_path(p, trace, character, unlimited, false));
+  const Drift limited = drift(p, exact_path(p, trace, character, body, true));
   p.drift = whole.place;
   p.drift_heading = whole.heading;
   p.drift_limited = limited.place;
@@ -303,7 +306,7 @@ double optimal_performance(const Character& character, const Trace& trace, doubl
   }
   const int frames = frame_count(trace.size(), rate) - 1;
   if (frames < 1) throw std::invalid_argument("the trace is shorter than a frame at this rate");
-  const std::vector<int> snapped = snap(character.space, trace);
+  const std::vector<int> snapped = snap(character.space, able_trace(character.speeds, trace));
   std::vector<int> controls;
   for (int f = 1; f <= frames; ++f) controls.push_back(snapped[control_at(f, rate, snapped.size())]);
   return Hindsight(character, controls, rate, shortest).best();

@@ -32,8 +32,8 @@ struct Performance {
   /// spans of two seconds, from the place and heading at the beginning of each.
   double drift = 0;
   double drift_heading = 0;  ///< How far its heading gets from that in two seconds, rad: mean over these spans.
-  /// Likewise against the trace as a body can follow it: whose velocity changes by no more than kBodyAcceleration
-  /// (CommandLimit), from standing.
+  /// Likewise against the trace as a body can follow it: as fast as the character's takes go
+  /// (SpeedRange), and with a velocity that changes by no more than kBodyAcceleration (CommandLimit), from standing.
   double velocity_error_limited = 0;                    ///< m/s
   double drift_limited = 0, drift_heading_limited = 0;  ///< m/s; rad
 };

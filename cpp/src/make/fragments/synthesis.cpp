@@ -14,6 +14,7 @@
 #include "fragments/coverage.hpp"
 #include "fragments/distance.hpp"
 #include "fragments/gait_edit.hpp"
+#include "fragments/speed_range.hpp"
 #include "fragments/standing.hpp"
 #include "fragments/successors.hpp"
 #include "motion/contacts.hpp"
@@ -119,10 +120,11 @@ class Synthesizer {
   // Who stands does so as the takes do, or as living_stand().
   void fill() {
     const int stand = space_.nearest({});
+    const SpeedRange speeds(pool_.fragments, space_);
     std::vector<int> missing;
     for (int c = 0; c < space_.size(); ++c) missing.push_back(std::max(0, kWanted - performers(c)));
     for (int c = 0; c < space_.size(); ++c) {
-      if (missing[c] == 0 || c == stand) continue;
+      if (missing[c] == 0 || c == stand || !speeds.allows(space_.point(c))) continue;
       interpolate(space_.point(c), missing[c]);
       transform(space_.point(c));
     }

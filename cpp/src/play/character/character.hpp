@@ -10,6 +10,7 @@
 #include "classes/classes.hpp"
 #include "control/control.hpp"
 #include "fragments/fragment.hpp"
+#include "fragments/speed_range.hpp"
 #include "motion/contacts.hpp"
 #include "policy/policy.hpp"
 #include "policy/quality.hpp"
@@ -35,11 +36,15 @@ struct Character {
   std::vector<std::shared_ptr<const Character>> styles;
   std::vector<float> entry_poses;        ///< entry_poses() of the fragments. Not saved.
   std::vector<Fragment> move_parts;      ///< move_parts() of the moves. Not saved.
+  SpeedRange speeds;                     ///< Of the fragments. Not saved.
   std::map<std::string, double> report;  ///< Figures of the build: counts, and seconds of each stage. Not saved.
 
   /// The policy of that name, or the one that drives where the name is empty. Throws std::invalid_argument listing
   /// those that there are.
   const Policy& policy(const std::string& name = {}) const;
+
+  /// What it does of a control: without a turn or a jump where none can be asked for, and no faster than its takes.
+  Control admitted(const Control& control) const { return speeds.within(space.admitted(control)); }
 
   /// What is played by a number: a fragment, or after the last of them a part of a move.
   const Fragment& played(int number) const {

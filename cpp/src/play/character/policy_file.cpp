@@ -49,6 +49,7 @@ void complete(Character& c, std::uint32_t version) {
   if (version < 5) repair_policies(c);
   find_whole_jumps(c.pool);
   c.entry_poses = entry_poses(c.pool);
+  c.speeds = SpeedRange(c.pool.fragments, c.space);
   c.move_parts = move_parts(c.pool, c.moves);
 }
 

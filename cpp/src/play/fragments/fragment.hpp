@@ -12,6 +12,9 @@ namespace fragmotion {
 /// Where a fragment comes from: the takes, their mirror image, or synthesis (Sec. 4).
 enum class Origin : std::uint8_t { captured, mirrored, interpolated, transformed };
 
+/// Whether synthesis made it.
+constexpr bool is_made(Origin origin) { return origin != Origin::captured && origin != Origin::mirrored; }
+
 /// The name of an origin.
 const char* origin_name(Origin origin);
 

@@ -173,7 +173,7 @@ std::array<std::optional<Vector3>, 2> Player::standing_feet() const {
 void Player::step(const Control& given, double seconds) {
   check_step(given, seconds);
   forget_markers();
-  const Control control = styled_character().space.admitted(given);
+  const Control control = styled_character().admitted(given);
   director_.observe(control);
   if (seconds == 0) playback_.show();
   for (double rest = seconds; rest > kRounding * seconds;) rest -= advance(control, std::min(rest, kFinest));

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double kStep = 0.4;  // s
 
-bool is_made(Origin origin) { return origin != Origin::captured && origin != Origin::mirrored; }
-
 }  // namespace
 
 TransitionCost::TransitionCost(const Character& character, const TransitionWeights& weights)

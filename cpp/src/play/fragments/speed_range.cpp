@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "fragments/speed_range.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kBeyond = 1.3;      // of the takes' speed: a body goes so fast that never was seen to
+constexpr double kAround = kPi / 6;  // rad to either side of a direction
+constexpr double kRounding = 1 + 1e-9;
+constexpr int kDirections = 72;
+constexpr double kTurn = 2 * kPi / kDirections;
+
+double direction(const Control& control) { return std::atan2(control.x, control.y); }
+
+}  // namespace
+
+SpeedRange::SpeedRange(const std::vector<Fragment>& fragments, const ControlSpace& space)
+    : walk_(space.walk()), most_(kDirections, walk_) {
+  for (const Fragment& fragment : fragments) {
+    if (is_made(fragment.origin)) continue;
+    const double at = direction(fragment.evident), speed = kBeyond * fragment.evident.speed();
+    for (int i = 0; i < kDirections; ++i) {
+      if (std::abs(std::remainder(i * kTurn - at, 2 * kPi)) <= kAround) most_[i] = std::max(most_[i], speed);
+    }
+  }
+}
+
+double SpeedRange::most(const Control& control) const {
+  if (most_.empty()) return walk_;
+  const double at = direction(control) / kTurn, below = std::floor(at);
+  const auto of = [&](double i) { return most_[(static_cast<int>(i) + kDirections) % kDirections]; };
+  return of(below) + (at - below) * (of(below + 1) - of(below));
+}
+
+bool SpeedRange::allows(const Control& control) const {
+  const double speed = control.speed();
+  return speed <= walk_ || speed <= most(control) * kRounding;
+}
+
+Control SpeedRange::within(const Control& control) const {
+  if (allows(control)) return control;
+  const double share = most(control) / control.speed();
+  return {share * control.x, share * control.y, control.turn, control.jump};
+}
+
+}  // namespace fragmotion

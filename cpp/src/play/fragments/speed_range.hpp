@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "fragments/fragment.hpp"
+
+namespace fragmotion {
+
+/// How fast a character goes in each direction at most: 1.3 times as fast as its takes and their mirror images go
+/// within 30 degrees of it, and at least as fast as it walks.
+class SpeedRange {
+ public:
+  /// Of a character that does nothing but walk.
+  explicit SpeedRange(double walk = 0) : walk_(walk) {}
+  /// Made fragments count for nothing.
+  SpeedRange(const std::vector<Fragment>& fragments, const ControlSpace& space);
+
+  /// The control, as fast as its direction allows.
+  Control within(const Control& control) const;
+  /// Whether that is the control.
+  bool allows(const Control& control) const;
+
+ private:
+  double most(const Control& control) const;
+
+  double walk_;
+  std::vector<double> most_;  // m/s, of directions around the circle; empty: it walks in all
+};
+
+}  // namespace fragmotion
