@@ -23,6 +23,7 @@ from ..operators.base.context import active_armature
 from ..preview.take_preview import TakePreview
 from ..settings.drawing import (
     aligned,
+    draw_bake_buttons,
     draw_baked,
     draw_build,
     draw_build_advanced,
@@ -309,7 +310,7 @@ class FRAGMOTION_PT_bake(Sidebar, bpy.types.Panel):
         obj = active_armature(context)
         if obj is not None:
             draw_baked(self.layout, obj.fragmotion.bake, obj)
-        self.layout.operator("fragmotion.bake", icon="ACTION_TWEAK")
+        draw_bake_buttons(self.layout, obj)
 
 
 CLASSES = (

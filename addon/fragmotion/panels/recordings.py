@@ -21,7 +21,7 @@ from ..settings.drawing import (
 )
 from .sidebar import Sidebar, SubPanel
 
-_ROWS = 4
+_FEWEST_ROWS, _MOST_ROWS = 2, 6  # of the list, unless the user draws it larger
 _INSIDE = 0.9  # of the sidebar's width: a box
 
 
@@ -65,13 +65,14 @@ class FRAGMOTION_PT_recordings(Sidebar, bpy.types.Panel):
             layout.label(text="Record while you drive, or", icon="INFO")
             layout.operator("fragmotion.import_recordings", text="Import...", icon="IMPORT")
             return
-        row = layout.row()
-        row.template_list(
-            "FRAGMOTION_UL_recordings", "", settings, "recordings", settings, "active_recording", rows=_ROWS
+        rows = min(max(len(settings.recordings), _FEWEST_ROWS), _MOST_ROWS)
+        layout.template_list(
+            "FRAGMOTION_UL_recordings", "", settings, "recordings", settings, "active_recording", rows=rows
         )
-        _draw_buttons(row.column(align=True))
+        row = layout.row(align=True)
         if active_recording(obj) is not None:
-            draw_replay(layout, settings)
+            draw_replay(row, settings)
+        _draw_buttons(row)
 
 
 class _RecordingPanel(SubPanel):
@@ -170,7 +171,7 @@ class FRAGMOTION_PT_populate(SubPanel, bpy.types.Panel):
         self.layout.operator("fragmotion.populate", icon="COMMUNITY")
 
 
-def _draw_buttons(column: bpy.types.UILayout) -> None:
+def _draw_buttons(row: bpy.types.UILayout) -> None:
     for name, icon in (
         ("import_recordings", "IMPORT"),
         ("export_recording", "EXPORT"),
@@ -178,7 +179,7 @@ def _draw_buttons(column: bpy.types.UILayout) -> None:
         ("trim_recording", "DRIVER_DISTANCE"),
         ("delete_recording", "TRASH"),
     ):
-        column.operator(f"fragmotion.{name}", text="", icon=icon)
+        row.operator(f"fragmotion.{name}", text="", icon=icon)
 
 
 def _draw_figures(layout: bpy.types.UILayout, recording: Any) -> None:

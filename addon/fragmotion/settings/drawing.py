@@ -100,14 +100,23 @@ def draw_baked(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.
         layout.label(text=f"{settings.seconds:.0f} s of a simulated {settings.player}", icon="INFO")
 
 
+def draw_bake_buttons(layout: bpy.types.UILayout, obj: bpy.types.Object | None) -> None:
+    """What bakes, and what bakes anew into the same Action."""
+    row = layout.row(align=True)
+    recording = None if obj is None else active_recording(obj)
+    is_baked = recording is not None and recording.baked is not None
+    if obj is not None and is_baked and baked_source(obj, obj.fragmotion.bake) == "RECORDING":
+        row.operator("fragmotion.bake", text="Update Bake").update = True
+    row.operator("fragmotion.bake", icon="ACTION_TWEAK")
+
+
 def _draw_action(layout: bpy.types.UILayout, recording: Any) -> None:
-    """The Action to which it was baked, whether that is what it was before a change, and what updates it."""
+    """The Action to which it was baked, and whether that is what it was before a change."""
     if recording is None or recording.baked is None:
         return
     stale = is_bake_stale(recording)
     text = f"Changed since '{recording.baked.name}'" if stale else f"As in '{recording.baked.name}'"
     layout.label(text=text, icon="ERROR" if stale else "CHECKMARK", translate=False)
-    layout.operator("fragmotion.bake", text="Update Bake", icon="FILE_REFRESH").update = True
 
 
 def _draw_recording(layout: bpy.types.UILayout, obj: bpy.types.Object, settings: BakeFields) -> None:
