@@ -72,6 +72,49 @@ TEST(ApiMakeWay, KeepsTwoHundredOnASquareApart) {
   EXPECT_GT(heeding.nearest, 0.4);
 }
 
+// A hundred on a circle, each to the other side; or sixty, all to its middle.
+Nearest cross_a_circle(int count, double radius, double beyond, int frames, int& arrived) {
+  const auto hero = loaded(*gait_character());
+  const auto crowd = crowd_of(*hero, count);
+  std::vector<FragmotionInput> inputs(static_cast<std::size_t>(count), fragmotion_input());
+  std::vector<std::array<double, 2>> places(inputs.size()), goals(inputs.size());
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * kPi * i / count, x = radius * std::cos(angle), y = radius * std::sin(angle);
+    const FragmotionPlace place{{static_cast<float>(x), static_cast<float>(y), 0}, static_cast<float>(angle + kPi / 2)};
+    expect_ok(fragmotion_player_reset(fragmotion_crowd_player(crowd.get(), i), &place, 0));
+    goals[i] = {-beyond * x, -beyond * y};
+  }
+  Nearest found;
+  for (int frame = 0; frame < frames; ++frame) {
+    arrived = 0;
+    for (int i = 0; i < count; ++i) {
+      const FragmotionState state = state_of(fragmotion_crowd_player(crowd.get(), i));
+      places[i] = {state.place.position[0], state.place.position[1]};
+      const double x = goals[i][0] - places[i][0], y = goals[i][1] - places[i][1], left = std::hypot(x, y);
+      arrived += left < 1.5 ? 1 : 0;
+      inputs[i].steer = FRAGMOTION_STEER_WORLD;
+      inputs[i].move[0] = left < 1 ? 0 : static_cast<float>(1.3 * x / left);
+      inputs[i].move[1] = left < 1 ? 0 : static_cast<float>(1.3 * y / left);
+    }
+    found.look(places);
+    expect_ok(fragmotion_crowd_make_way(crowd.get(), kRoom, kFrameOfCrowd, nullptr, 0));
+    expect_ok(fragmotion_crowd_step(crowd.get(), inputs.data(), kFrameOfCrowd));
+  }
+  std::printf("nearest %.2f m, %d arrived\n", found.nearest, arrived);
+  return found;
+}
+
+TEST(ApiMakeWay, LetsNobodyTouchWhereAHundredGoThroughOnePlace) {
+  int arrived = 0;
+  EXPECT_GT(cross_a_circle(100, 20, 1, 3000, arrived).nearest, 0.4);
+  EXPECT_EQ(arrived, 100);
+}
+
+TEST(ApiMakeWay, LetsNobodyTouchWhereSixtyWantToBe) {
+  int arrived = 0;
+  EXPECT_GT(cross_a_circle(60, 12, 0, 900, arrived).nearest, 0.4);
+}
+
 TEST(ApiMakeWay, GoesAroundWhoDoesNotYieldAndForgetsHim) {
   const auto hero = loaded(*gait_character());
   const auto crowd = crowd_of(*hero, 1);

@@ -22,6 +22,7 @@ TEST(CommandLimit, GetsToTheCommandWithTheAccelerationAndStaysThere) {
     EXPECT_NEAR(acceleration.x(), 0, 1e-9);
     EXPECT_NEAR(now.y, std::min(3.0, 5 * f / 60.0), 1e-9);
     EXPECT_NEAR(now.x, 0, 1e-9);
+    EXPECT_NEAR((limit.velocity(0.7) - velocity(now)).norm(), 0, 1e-9);
     EXPECT_EQ(now.turn, -1);
     EXPECT_EQ(now.jump, 1);
   }

@@ -31,13 +31,13 @@ void make_crowd(const std::shared_ptr<const Hero>& hero, const FragmotionPlayerO
   }
 }
 
-// Of the crowd, then of the others.
+// Of the crowd, then of the others. What each is commanded counts, as it does that next: by what it does now, which
+// lags behind, all would correct the same fault again.
 void list_walkers(const FragmotionBody* others, int count, double radius, FragmotionCrowd& crowd) {
   crowd.walkers.clear();
   for (const auto& player : crowd.players) {
     const CharacterFrame at = player->frame();
-    crowd.walkers.push_back(
-        {at.position, turn_by(at.heading) * player->player.playback().mean_travel().velocity, radius, true});
+    crowd.walkers.push_back({at.position, turn_by(at.heading) * player->player.commanded_velocity(), radius, true});
   }
   for (int i = 0; i < count; ++i) {
     const Axes& axes = crowd.players.front()->hero->axes;

@@ -8,17 +8,19 @@ void CommandLimit::reset(double heading, const Vector2& velocity) {
   heading_ = heading;
 }
 
+Vector2 CommandLimit::velocity(double heading) const { return Eigen::Rotation2Dd(heading_ - heading) * velocity_; }
+
 Control CommandLimit::after(const Control& control, double heading, double seconds) const {
-  const Vector2 going = Eigen::Rotation2Dd(heading_ - heading) * velocity_, asked{control.x, control.y};
+  const Vector2 going = velocity(heading), asked{control.x, control.y};
   const double most = acceleration_ * seconds;
   if (!((asked - going).norm() > most)) return control;
-  const Vector2 velocity = going + clamp_length(asked - going, most);
-  return {velocity.x(), velocity.y(), control.turn, control.jump};
+  const Vector2 able = going + clamp_length(asked - going, most);
+  return {able.x(), able.y(), control.turn, control.jump};
 }
 
 Vector2 CommandLimit::advance(const Control& control, double heading, double seconds) {
   const Control now = after(control, heading, seconds);
-  const Vector2 going = Eigen::Rotation2Dd(heading_ - heading) * velocity_;
+  const Vector2 going = velocity(heading);
   velocity_ = {now.x, now.y};
   heading_ = heading;
   return (velocity_ - going) / seconds;

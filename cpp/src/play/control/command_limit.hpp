@@ -17,6 +17,8 @@ class CommandLimit {
 
   /// Goes at `velocity`, m/s in the character frame, facing `heading`.
   void reset(double heading, const Vector2& velocity = Vector2::Zero());
+  /// At which it goes, m/s in the character frame of a body that faces `heading`.
+  Vector2 velocity(double heading) const;
   /// What the control becomes `seconds` from the last advance(), of a body that faces `heading` then.
   Control after(const Control& control, double heading, double seconds) const;
   /// Goes so far. Returns the acceleration of the command, m/s^2 in the character frame.

@@ -125,6 +125,11 @@ void Player::keep(const Vector2& faster) {
   ++entered_;
 }
 
+Vector2 Player::commanded_velocity() const {
+  if (playing_moves()[0] < 0 && !playback_.is_in_the_air()) return governor_.commanded(frame().heading);
+  return governor_.tempo() * playback_.mean_travel().velocity + governor_.velocity();
+}
+
 void Player::correct(const Control& control, double seconds) {
   correction_.correct(playback_, governor_, seconds);
   if (follower_ != nullptr) {

@@ -117,6 +117,9 @@ class Player {
   CharacterFrame frame() const { return playback_.frame(); }
   /// What plays.
   const Playback& playback() const { return playback_; }
+  /// The velocity that it is commanded, m/s in the character frame, which its strides follow; of a move of the whole
+  /// body and in the air, that which it has.
+  Vector2 commanded_velocity() const;
   int playing_class() const { return director_.playing_class(); }
   /// While a move of the whole body plays, that before it, as playing_class().
   int playing_fragment() const { return fragment_; }

@@ -34,6 +34,8 @@ class RootGovernor {
   Control command(const Control& control, double heading, double seconds) const {
     return limit_.after(control, heading, seconds);
   }
+  /// What it is commanded now, m/s, as its body faces `heading`.
+  Vector2 commanded(double heading) const { return limit_.velocity(heading); }
   /// Of the command, m/s^2 in the character frame; 0 in the air and in moves.
   const Vector2& acceleration() const { return acceleration_; }
   /// How much faster than captured what plays is to be played: half of what the control is slower or faster than the
