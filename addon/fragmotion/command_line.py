@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from .character.building import gather, has_character, load, make_player, save_policy
-from .compat.core import command, core
+from .compat.core import command
 from .errors import UserError, core_errors
 from .mocap.actions import ticked
 from .mocap.importing import METRES
@@ -36,12 +36,14 @@ if TYPE_CHECKING:
     from fragmotion_command.evaluate import loading
     from fragmotion_command.retarget import command as retargeting
     from fragmotion_command.retarget import inputs as retarget_inputs
-    from fragmotion_command.retarget import sources
+    from fragmotion_command.retarget import roles, sources
     from fragmotion_core import Character, Doubles
 else:
     building, parser, playing, running = map(command, ("building", "parser", "playing", "running"))
     evaluating, evaluate_inputs, loading = (command(f"evaluate.{name}") for name in ("command", "inputs", "loading"))
-    retargeting, retarget_inputs, sources = (command(f"retarget.{name}") for name in ("command", "inputs", "sources"))
+    retargeting, retarget_inputs, roles, sources = (
+        command(f"retarget.{name}") for name in ("command", "inputs", "roles", "sources")
+    )
 
 NAME = "fragmotion"
 _BLEND = ".blend"
@@ -328,7 +330,7 @@ def _retarget(options: argparse.Namespace) -> running.Done:
     takes = sources.read_sources(options.takes, options.unit)
     obj = open_rig(options.onto, options.armature)
     with core_errors(f"Armature '{obj.name}'"):
-        body = core.Body(make_rig(obj).skeleton)
+        body = roles.make_body(make_rig(obj).skeleton, [], options.roles)
     done, character = retargeting.bring(options, takes, body)
     if options.blend:
         save_minute(obj, character, options.seed, options.blend)

@@ -148,12 +148,15 @@ void bind_rig(py::module_& m) {
           py::arg("take"));
 }
 
-std::map<int, int> hanging(const std::vector<int>& parents, const Doubles& poses, const std::vector<int>& candidates) {
+std::map<int, int> hanging(const std::vector<std::string>& names, const std::vector<int>& parents,
+                           const Doubles& poses, const std::vector<int>& candidates) {
   const int bones = static_cast<int>(parents.size());
   check_shape(poses, "poses", {-1, bones, 4, 4});
   for (int b = 0; b < bones; ++b) require_range("a bone's parent", parents[b], -1, b - 1);
   for (const int bone : candidates) require_range("a candidate", bone, 0, bones - 1);
-  return without_gil([&] { return find_hanging(parents, poses.data(), static_cast<int>(poses.shape(0)), candidates); });
+  if (names.size() != parents.size()) throw std::invalid_argument("there must be as many names as parents");
+  const int frames = static_cast<int>(poses.shape(0));
+  return without_gil([&] { return find_hanging(names, parents, poses.data(), frames, candidates); });
 }
 
 }  // namespace
@@ -162,7 +165,7 @@ void bind_io(py::module_& m) {
   bind_files(m);
   bind_rotations(m);
   bind_rig(m);
-  m.def("find_hanging", &hanging, py::arg("parents"), py::arg("poses"), py::arg("candidates"));
+  m.def("find_hanging", &hanging, py::arg("names"), py::arg("parents"), py::arg("poses"), py::arg("candidates"));
 }
 
 }  // namespace fragmotion::bindings

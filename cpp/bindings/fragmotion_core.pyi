@@ -216,10 +216,13 @@ class Rig:
         take lacks rests. The rig must have been made from a take's skeleton (same rest heads), its world matrix a
         uniform scale. Raises ValueError naming the take's bones that the rig lacks."""
 
-def find_hanging(parents: Sequence[int], poses: ArrayLike, candidates: Sequence[int]) -> dict[int, int]:
+def find_hanging(
+    names: Sequence[str], parents: Sequence[int], poses: ArrayLike, candidates: Sequence[int]
+) -> dict[int, int]:
     """Bones that carry keys outside the chain of their parents, as feet that are the targets of a leg's IK: on which
     bone each of the candidates hangs, where it does. poses [F,B,4,4] in the armature's space. A bone hangs on the one
-    in whose frame it goes least from frame to frame, where that is a third at most of what it goes in its parent's."""
+    in whose frame it goes least from frame to frame, where that is a third at most of what it goes in its parent's; two
+    that are each other's left and right by their names hang alike."""
 
 class Clip:
     """One take on a skeleton at a fixed rate."""

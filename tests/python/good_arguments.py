@@ -108,6 +108,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "roles": {"head": "head"},
         },
         "find_hanging": {
+            "names": NAMES,
             "parents": PARENTS,
             "poses": np.tile(upright, (2, 1, 1, 1)),
             "candidates": [1],

@@ -48,6 +48,39 @@ def test_info_tells_what_was_built(folder: Path, capsys: pytest.CaptureFixture[s
     assert found["walk"] == character.space.walk and found["policies"] == character.policies
 
 
+def test_a_broken_file_is_named_and_the_rest_is_built_from(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for path in (folder / "takes").glob("*.bvh"):
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    (tmp_path / "a broken.bvh").write_text("HIERARCHY\n")
+    capsys.readouterr()
+    assert run("build", tmp_path, "--policy", tmp_path / "rest.policy", "--classes", 20) == 0
+    assert "left out: " in (said := capsys.readouterr().err) and "a broken.bvh:" in said
+    assert (tmp_path / "rest.policy").read_bytes() == (folder / "hero.policy").read_bytes()
+    assert run("build", tmp_path / "a broken.bvh", "--policy", tmp_path / "none.policy") == 1
+
+
+def test_a_unit_that_is_surely_wrong_is_put_right_unless_it_is_told(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "takes").mkdir()
+    for path in (folder / "takes").glob("*.bvh"):
+        take = core.read_bvh(path, 0.01)
+        smaller = core.Take(
+            core.read_bvh(path, 1e-4).skeleton, take.name, take.rate, take.translations / 100, take.rotations
+        )
+        core.write_bvh(smaller, tmp_path / "takes" / path.name)
+    capsys.readouterr()
+    assert run("build", tmp_path / "takes", "--policy", tmp_path / "mended.policy", "--classes", 20) == 0
+    assert "mended: " in capsys.readouterr().err
+    stature = core.Character.load(folder / "hero.policy").skeleton.stature
+    assert core.Character.load(tmp_path / "mended.policy").skeleton.stature == pytest.approx(stature, rel=0.05)
+    told = ("--policy", tmp_path / "told.policy", "--classes", 20, "--unit", 0.01)
+    assert run("build", tmp_path / "takes", *told) == 0
+    assert core.Character.load(tmp_path / "told.policy").skeleton.stature == pytest.approx(stature / 100, rel=0.05)
+
+
 def test_what_is_played_is_read_back(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ("play", folder / "hero.policy", "--player", "walker", "--seconds", 5, "--seed", 7)
     found = figures_of(capsys, *words, "--bvh", tmp_path / "shot.bvh")

@@ -13,6 +13,7 @@ import pytest
 from conftest import BANDAI, CMU, NAMES, walking_arrays
 from evaluated import write_bvh
 from fragmotion_command import main
+from fragmotion_command.retarget import roles
 from sample_motions import write_sample
 
 FIGURES = {"foot_skate_ratio", "contact_error_m", "knee_beyond_degrees"}
@@ -71,7 +72,7 @@ def refusal(capsys: pytest.CaptureFixture[str], *arguments: str | Path) -> str:
 
 
 def test_a_source_without_knees_is_refused_by_name(legless: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    said = refusal(capsys, legless, "--onto", legless)
+    said = refusal(capsys, legless, "--onto", legless).splitlines()[-1]
     assert said.startswith(f"fragmotion: {legless}: no bone is known to be left_shin, right_shin: ")
 
 
@@ -82,6 +83,20 @@ def test_what_cannot_be_read_is_refused(legless: Path, tmp_path: Path, capsys: p
     assert "no such file" in refusal(capsys, tmp_path / "missing.bvh", "--onto", legless)
     (tmp_path / "empty.bvh").write_text("")
     assert "empty.bvh" in refusal(capsys, legless, "--onto", tmp_path / "empty.bvh")
+
+
+def test_bones_that_are_told_are_roles(legless: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert "tells no role or no bone" in refusal(capsys, legless, "--onto", legless, "--role", "Hips")
+    write_sample(tmp_path)
+    skeleton = core.read_bvh(next(tmp_path.glob("*.bvh"))).skeleton
+    toe = skeleton.role_map()["left_foot"][0]
+    assert roles.role_of(f"Foot.L={toe}") == ("left_foot", toe)
+    with pytest.raises(ValueError, match="there is no bone 'Knee'"):
+        roles.check_bones([skeleton], [("left_shin", "Knee")])
+    chest = skeleton.role_map()["spine_1"][0]
+    assert roles.make_body(skeleton, [], []).roles["head"] != chest
+    told = roles.make_body(skeleton, [], [roles.role_of(f"head={chest}"), ("head", "of another skeleton")]).roles
+    assert told["head"] == chest and "spine_1" not in told
 
 
 def test_options_that_do_not_fit_are_refused(legless: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -38,19 +38,20 @@ _STUB = 0.01  # m; length of a bone that has none
 _ROOT_LENGTH = 0.2  # of the stature, at most
 _LONGEST_NAME = 63  # bytes
 _STILL = 1e-6  # m; a location that stays below never leaves its rest
-_BVH = ".bvh"
+_BVH, _AMC = ".bvh", ".amc"
 _UNIT = 0.01  # m in one unit of a BVH file, until the body tells otherwise
 _STAGE = 1 / 3  # of the progress: reading, examining, writing
 
 
 class Imported(NamedTuple):
-    """The armature that takes came onto, their Actions with the file of each, and the files of a folder that hold
-    none."""
+    """The armature that takes came onto, their Actions with the file of each, the files of a folder that hold none, and
+    what is wrong with each that cannot be read."""
 
     obj: bpy.types.Object
     actions: list[bpy.types.Action]
     files: list[Path]
     without: list[Path]
+    broken: list[str]
 
 
 class _ReadFile(NamedTuple):
@@ -74,7 +75,7 @@ def import_takes(
     is there. `unit`: m in one unit of a BVH file; None: the body's size tells. `character`: the armature whose takes
     come, in files that Blender reads and that hold several; "": all. Gives the share that is done. On an error, and
     where it is closed before its end, nothing stays in the file."""
-    read, without = yield from _read_all(context, files, unit, character)
+    read, without, broken = yield from _read_all(context, files, unit, character)
     takes = [take for each in read for take in each.takes]
     kept = [each.is_kept for each in read for _ in each.takes]
     paths = [each.path for each in read for _ in each.takes]
@@ -94,36 +95,44 @@ def import_takes(
             yield _STAGE * (2 + index / len(examined))
         versions.assign(obj, actions[0])
         context.view_layer.update()
-    return Imported(obj, actions, paths, without)
+    return Imported(obj, actions, paths, without, broken)
 
 
 def _read_all(
     context: bpy.types.Context, files: Sequence[TakeFile], unit: float | None, character: str
-) -> Generator[float, None, tuple[list[_ReadFile], list[Path]]]:
-    """Each file's takes, and the files of a folder in which nothing moves."""
-    read, without = [], []
+) -> Generator[float, None, tuple[list[_ReadFile], list[Path], list[str]]]:
+    """Each file's takes, the files of a folder in which nothing moves, and what is wrong with those that cannot be
+    read; UserError where that is each of them."""
+    read, without, broken = [], [], []
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         by_core = {f: pool.submit(_read_by_core, f, unit or _UNIT) for f in files if not _is_by_blender(f)}
         try:
             for index, file in enumerate(files):
                 yield _STAGE * index / len(files)
-                is_needed = file.named or len(files) == 1
-                takes: list[Take] | None
-                if file in by_core:
-                    takes = yield from _awaited(by_core[file], _STAGE * index / len(files))
+                try:
+                    if file in by_core:
+                        takes = yield from _awaited(by_core[file], _STAGE * index / len(files))
+                    else:
+                        takes = _read_by_blender(context, file, character)
+                    _check_names(file, takes)
+                except NoTakes as error:
+                    if file.named or len(files) == 1:
+                        broken.append(str(error))
+                    else:
+                        without.append(file.path)
+                except UserError as error:
+                    broken.append(str(error))
                 else:
-                    takes = _read_or_none(context, file, character, is_needed)
-                if takes is None:
-                    without.append(file.path)
-                    continue
-                _check_names(file, takes)
-                read.append(_ReadFile(file.path, takes, unit is not None and file.path.suffix.lower() == _BVH))
+                    read.append(_ReadFile(file.path, takes, unit is not None and file.path.suffix.lower() == _BVH))
         finally:
             for reading in by_core.values():
                 reading.cancel()
+    if not read and broken:
+        more = len(broken) - 1
+        raise UserError(broken[0] + (f"; nor can {more} more files be read" if more else ""))
     if not read:
         raise UserError(f"'{without[0]}' and {len(without) - 1} more: no armature in them is animated")
-    return read, without
+    return read, without, broken
 
 
 def _awaited(reading: Future[list[Take]], share: float) -> Generator[float, None, list[Take]]:
@@ -131,15 +140,6 @@ def _awaited(reading: Future[list[Take]], share: float) -> Generator[float, None
     while not wait([reading], WAIT).done:
         yield share
     return reading.result()
-
-
-def _read_or_none(context: bpy.types.Context, file: TakeFile, character: str, is_needed: bool) -> list[Take] | None:
-    try:
-        return _read_by_blender(context, file, character)
-    except NoTakes:
-        if is_needed:
-            raise
-        return None
 
 
 def _is_by_blender(file: TakeFile) -> bool:
@@ -154,11 +154,12 @@ def _read_by_blender(context: bpy.types.Context, file: TakeFile, character: str)
 
 def _read_by_core(file: TakeFile, unit: float) -> list[Take]:
     """The file's one take; the core's message names file and line."""
-    for path in (file.asf, file.path):
-        if path is not None:
-            check_regular(path)
     with core_errors():
-        return [core.read_asf_amc(file.asf, file.path) if file.asf else core.read_bvh(file.path, unit)]
+        asf = core.find_asf(file.path) if file.path.suffix.lower() == _AMC else None
+        for path in (asf, file.path):
+            if path is not None:
+                check_regular(path)
+        return [core.read_asf_amc(asf, file.path) if asf else core.read_bvh(file.path, unit)]
 
 
 def _channels(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], is_new: bool) -> list[Channels]:

@@ -7,8 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from ..compat.core import core
-from ..errors import UserError, core_errors
+from ..errors import UserError
 
 BY_CORE = (".bvh", ".amc")
 """Endings of the takes that the core reads."""
@@ -20,10 +19,9 @@ ENDINGS = BY_CORE + BY_BLENDER
 
 
 class TakeFile(NamedTuple):
-    """A file of takes, the Acclaim skeleton that it belongs to, and whether it was asked for by its name."""
+    """A file of takes, and whether it was asked for by its name."""
 
     path: Path
-    asf: Path | None = None
     named: bool = False
 
 
@@ -33,7 +31,7 @@ def find_takes(directory: Path, names: Sequence[str] = ()) -> list[TakeFile]:
     if not directory.is_dir():
         raise UserError(f"'{directory}' is not a folder")
     paths = [directory / name for name in names] or sorted(_visible_files(directory))
-    takes = [_take_file(path, bool(names)) for path in paths if path.suffix.lower() in ENDINGS]
+    takes = [TakeFile(path, bool(names)) for path in paths if path.suffix.lower() in ENDINGS]
     if not takes:
         where = ", ".join(f"'{path}'" for path in paths) if names else f"Folder '{directory}'"
         raise UserError(f"{where}: no takes here ({', '.join(ENDINGS)}; an .amc with its .asf)")
@@ -55,10 +53,3 @@ def _visible(folder: Path) -> list[Path]:
         return [path for path in folder.iterdir() if not path.name.startswith(".")]
     except OSError as error:
         raise UserError(f"'{folder}' cannot be read ({error.strerror})") from error
-
-
-def _take_file(path: Path, named: bool) -> TakeFile:
-    if path.suffix.lower() != ".amc":
-        return TakeFile(path, None, named)
-    with core_errors():
-        return TakeFile(path, core.find_asf(path), named)

@@ -29,7 +29,13 @@ NEEDED = (
         for side in ("left", "right")
     ),
 )
-"""The roles that are asked for even where no bone is found for them."""
+"""The roles that are asked for even where no bone is found for them,"""
+_NEEDED_ON_FOUR_LEGS = (
+    "hips",
+    "head",
+    *(f"{side}_{part}" for part in ("thigh", "foot", "fore_leg", "fore_foot") for side in ("left", "right")),
+)
+"""and those of a body that stands on four legs."""
 
 
 class RoleBone(bpy.types.PropertyGroup):
@@ -53,7 +59,8 @@ def set_roles(obj: bpy.types.Object, found: Mapping[str, str]) -> None:
     """Keep role -> bone name with the armature, the needed roles first."""
     roles = obj.fragmotion.roles
     roles.clear()
-    for name in (*NEEDED, *(role for role in found if role not in NEEDED)):
+    needed = _NEEDED_ON_FOUR_LEGS if "left_fore_foot" in found else NEEDED
+    for name in (*needed, *(role for role in found if role not in needed)):
         role = roles.add()
         role.name, role.bone = name, found.get(name, "")
 

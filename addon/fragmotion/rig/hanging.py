@@ -39,7 +39,7 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
     if candidates:
         poses = np.concatenate([posing.sample_poses(context, obj, action, _times(action))[0] for action in actions])
         parents = [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
-        found = core.find_hanging(parents, poses, [bones.find(name) for name in candidates])
+        found = core.find_hanging(bones.keys(), parents, poses, [bones.find(name) for name in candidates])
         obj.fragmotion.hanging.clear()
         for bone, on in sorted(found.items()):
             row = obj.fragmotion.hanging.add()

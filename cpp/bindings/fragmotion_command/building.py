@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from .core import core
-from .files import UNIT, find_takes
+from .files import find_takes
 from .running import Done, listed
-from .takes import led_by_feet, read_take
+from .takes import led_by_feet, read_mended
 
 CONTROLS = ("paper", "found", "told")
 _NEUTRAL = "neutral"  # the style of takes that tell none, where others do
@@ -23,11 +23,12 @@ def build(options: argparse.Namespace) -> Done:
     if not options.policy:
         raise ValueError("nothing would be kept: say where to, by --policy")
     paths = find_takes(options.takes)
-    styles = _styles_of(paths, options)
+    _styles_of(paths, options)
     settings = _settings(options)
-    takes = [read_take(path, UNIT if options.unit is None else options.unit) for path in paths]
-    skeleton = takes[0].skeleton
-    clips = [led_by_feet(core.Clip.from_take(take, skeleton), skeleton) for take in takes]
+    takes = read_mended(paths, options.unit)
+    styles = _styles_of([each.path for each in takes], options)
+    skeleton = takes[0].take.skeleton
+    clips = [led_by_feet(core.Clip.from_take(each.take, skeleton), skeleton) for each in takes]
     teacher = core.simulate_trace("explorer", 60, settings.seed, settings.usual_space)
     if any(styles):
         named = {name: [clip for clip, own in zip(clips, styles) if own == name] for name in sorted(set(styles))}

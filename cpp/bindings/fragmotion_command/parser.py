@@ -82,6 +82,7 @@ def _add_build(build_: argparse.ArgumentParser) -> argparse.ArgumentParser:
     _add_takes(build_)
     build_.add_argument("--policy", type=Path, metavar="FILE", help="where to write the policy file")
     _add_what_is_built(build_)
+    _add_unit(build_)
     build_.add_argument(
         "--style",
         action="append",
@@ -106,7 +107,6 @@ def _add_what_is_built(word: argparse._ActionsContainer) -> None:
         word.add_argument(
             f"--no-{what}", dest=what, action="store_false", default=None, help=f"it can be asked for no {what}s"
         )
-    word.add_argument("--unit", type=float, metavar="M", help="metres in one unit of a BVH file (0.01)")
 
 
 def _add_evaluate(word: argparse.ArgumentParser) -> argparse._MutuallyExclusiveGroup:
@@ -120,6 +120,7 @@ def _add_evaluate(word: argparse.ArgumentParser) -> argparse._MutuallyExclusiveG
             f"--{name}", nargs="+", type=Path, metavar="CSV", help=f"traces to {what} (the simulated players')"
         )
     _add_what_is_built(takes)
+    takes.add_argument("--unit", type=float, metavar="M", help="metres in one unit of a BVH file (0.01)")
     takes.add_argument("--figures", type=Path, metavar="DIR", help="draw pictures there, and save the traces")
     takes.add_argument(
         "--no-curves",
@@ -140,10 +141,23 @@ def _add_retarget(word: argparse.ArgumentParser) -> None:
     _add_takes(word)
     word.add_argument("--onto", type=Path, required=True, metavar="FILE", help="a BVH or ASF file of the skeleton")
     word.add_argument("--into", type=Path, metavar="FOLDER", help="write the takes there as BVH files")
-    word.add_argument("--unit", type=float, metavar="M", help="metres in one unit of a BVH file (0.01)")
+    _add_unit(word)
     word.add_argument("--onto-unit", type=float, metavar="M", help="in one of the skeleton's (as --unit)")
+    word.add_argument(
+        "--role",
+        action="append",
+        default=[],
+        metavar="ROLE=BONE",
+        help="what a bone is to the body, such as foot.L=LeftAnkle; once for each",
+    )
     _add_seed(word)
     word.set_defaults(command=retarget)
+
+
+def _add_unit(word: argparse.ArgumentParser) -> None:
+    word.add_argument(
+        "--unit", type=float, metavar="M", help="metres in one unit of a BVH file (the body's size tells)"
+    )
 
 
 def _add_takes(word: argparse.ArgumentParser) -> None:

@@ -3,17 +3,82 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 from .core import core
 from .files import ENDINGS, UNIT
+from .running import say
+
+_OF_UNIT = "unit"  # a finding's code
+
+
+class FileTake(NamedTuple):
+    """A take, and the file that it is from."""
+
+    path: Path
+    take: core.Take
 
 
 def read_take(path: Path, unit: float = UNIT) -> core.Take:
     """The take of a file, an AMC's on the skeleton that lies beside it; ValueError names what is wrong."""
     if path.suffix.lower() not in ENDINGS:
-        raise ValueError(f"{path}: not motion capture that can be read ({', '.join(ENDINGS)})")
+        raise ValueError(
+            f"{path}: not motion capture that is read without Blender ({', '.join(ENDINGS)}); FBX, glTF and others are "
+            "read by `blender -c fragmotion`"
+        )
     return core.read_bvh(path, unit) if path.suffix.lower() == ".bvh" else core.read_asf_amc(core.find_asf(path), path)
+
+
+def read_each(paths: Sequence[Path], unit: float = UNIT) -> list[core.Take | str]:
+    """The take of each file, or why it cannot be read."""
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return list(pool.map(partial(_read_or_cause, unit=unit), paths))
+
+
+def _read_or_cause(path: Path, unit: float) -> core.Take | str:
+    try:
+        return read_take(path, unit)
+    except (ValueError, OSError) as error:
+        return str(error)
+
+
+def read_mended(paths: Sequence[Path], unit: float | None) -> list[FileTake]:
+    """The takes, with what is surely wrong put right and said; a file that cannot be read is named and left out.
+    ValueError where that is each of them. `unit`: m in one of a BVH file; None: the body's size tells."""
+    read = read_each(paths, UNIT if unit is None else unit)
+    causes = [cause for cause in read if isinstance(cause, str)]
+    takes = [FileTake(path, take) for path, take in zip(paths, read) if not isinstance(take, str)]
+    if not takes:
+        raise ValueError("; ".join(causes))
+    for cause in causes:
+        say(f"left out: {cause}")
+    examined = core.examine([each.take for each in takes], progress=hear)
+    return [_mended(each, examination, unit is not None) for each, examination in zip(takes, examined)]
+
+
+def hear(_fraction: float, _stage: str) -> None:
+    """Python hears of Ctrl+C whenever it is called."""
+
+
+def _mended(each: FileTake, examination: core.Examination, keeps_unit: bool) -> FileTake:
+    chosen = [f for f in examination.findings if f.safe and not (keeps_unit and f.code == _OF_UNIT)]
+    if not chosen:
+        return each
+    codes = dict.fromkeys(finding.code for finding in chosen)
+    for code in codes:
+        texts = [finding.text for finding in chosen if finding.code == code]
+        say(f"{each.path.name}: mended: {with_more(texts)}")
+    return FileTake(each.path, core.mend(each.take, chosen, progress=hear))
+
+
+def with_more(texts: Sequence[str]) -> str:
+    """The first of several like texts, and how many more there are."""
+    return texts[0] + (f" (and {len(texts) - 1} more like it)" if len(texts) > 1 else "")
 
 
 def led_by_feet(clip: core.Clip, skeleton: core.Skeleton) -> core.Clip:

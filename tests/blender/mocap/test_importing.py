@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 import threading
+from collections.abc import Generator
 from pathlib import Path
 from types import ModuleType
 
@@ -125,13 +126,14 @@ def test_short_bones_survive(tmp_path: Path) -> None:
 def test_an_amc_belongs_to_the_asf_of_its_subject(addon: ModuleType, tmp_path: Path) -> None:
     for name in ("01.asf", "02.asf", "01_03.amc", "02_01.AMC"):
         (tmp_path / name).write_text("")
-    find = addon.mocap.take_files.find_takes
-    assert [(t.path.name, t.asf.name) for t in find(tmp_path)] == [("01_03.amc", "01.asf"), ("02_01.AMC", "02.asf")]
+    found = [take.path for take in addon.mocap.take_files.find_takes(tmp_path)]
+    find = addon.compat.core.core.find_asf
+    assert [(path.name, find(path).name) for path in found] == [("01_03.amc", "01.asf"), ("02_01.AMC", "02.asf")]
     (tmp_path / "03_01.amc").write_text("")
-    with pytest.raises(addon.errors.UserError, match=r"03_01\.amc.*03\.asf"):
-        find(tmp_path)
+    with pytest.raises(ValueError, match=r"03_01\.amc.*03\.asf"):
+        find(tmp_path / "03_01.amc")
     (tmp_path / "01.asf").unlink()
-    assert find(tmp_path, ["03_01.amc"])[0].asf.name == "02.asf"
+    assert find(tmp_path / "03_01.amc").name == "02.asf"
 
 
 def test_hidden_files_are_no_takes(addon: ModuleType, tmp_path: Path) -> None:
@@ -141,7 +143,7 @@ def test_hidden_files_are_no_takes(addon: ModuleType, tmp_path: Path) -> None:
     takes = addon.mocap.take_files.find_takes(tmp_path)
     assert [take.path.name for take in takes] == ["02_01.amc", "walk.bvh"]
     (tmp_path / "03_01.amc").write_text("")
-    assert addon.mocap.take_files.find_takes(tmp_path)[1].asf.name == "02.asf", "the folder's only skeleton"
+    assert addon.compat.core.core.find_asf(tmp_path / "03_01.amc").name == "02.asf", "the folder's only skeleton"
 
 
 def test_importing_is_one_undo_step(tmp_path: Path) -> None:
@@ -168,11 +170,30 @@ def test_a_broken_bvh_is_named_by_line_and_changes_nothing(tmp_path: Path, name:
     making.add_action(making.add_armature())
     path = making.write_bvh(tmp_path / "b broken.bvh")
     path.write_text(_broken(path.read_text(), name))
-    making.write_bvh(tmp_path / "a good.bvh")
     before = making.contents()
     with pytest.raises(RuntimeError, match=rf"{path.name}:\d+: "):
         import_folder(tmp_path)
     assert making.contents() == before
+
+
+def test_broken_files_of_a_folder_are_named_and_the_rest_comes_in(addon: ModuleType, tmp_path: Path) -> None:
+    for name in ("a", "c"):
+        making.write_bvh(tmp_path / f"{name}.bvh")
+    (tmp_path / "b.bvh").write_text("HIERARCHY\nROOT\n")
+    (tmp_path / "d.amc").write_text("")
+    (tmp_path / "e.glb").write_bytes(b"no glTF")
+    files = addon.mocap.take_files.find_takes(tmp_path)
+    steps, broken = addon.mocap.importing.import_takes(bpy.context, "Mocap", files, None), []
+
+    def import_all() -> Generator[float, None, None]:
+        broken.extend((yield from steps).broken)
+
+    list(import_all())
+    assert [action.name for action in bpy.data.actions] == ["a", "c"]
+    assert len(broken) == 3
+    for name, cause in zip(("b.bvh:", "d.amc", "e.glb"), broken):
+        assert name in cause
+    assert import_folder(tmp_path) and len(bpy.data.actions) == 4
 
 
 @pytest.mark.parametrize("mode", ["POSE", "EDIT"])

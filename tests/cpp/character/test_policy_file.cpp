@@ -6,8 +6,10 @@
 #include <fstream>
 #include <tuple>
 
+#include "build/build.hpp"
 #include "build/exclude_classes.hpp"
 #include "control/simulated_players.hpp"
+#include "dog.hpp"
 #include "evaluate/performance.hpp"
 #include "made_styles.hpp"
 #include "mocap_files.hpp"
@@ -54,6 +56,24 @@ TEST(PolicyFile, BringsEverythingBack) {
     EXPECT_EQ(is.evident.y, was.evident.y);
     EXPECT_EQ(is.evident.turn, was.evident.turn);
     EXPECT_EQ(is.evident.jump, was.evident.jump);
+  }
+}
+
+TEST(PolicyFile, BringsForeLegsBack) {
+  BuildOptions options;
+  options.classes = 12;
+  options.policies = {"greedy"};
+  const Character c = build(dog(), dog_takes(), {simulate_trace("walker", 20, 1, ControlSpace())}, options);
+  const Character back = from_bytes(to_bytes(c));
+  EXPECT_TRUE(to_bytes(back) == to_bytes(c));
+  EXPECT_EQ(back.pool.skeleton.roles.right_fore_foot, c.pool.skeleton.roles.right_fore_foot);
+  ASSERT_EQ(back.legs.count(), 4);
+  for (int leg = 0; leg < kMostLegs; ++leg) {
+    EXPECT_EQ(back.legs[leg].foot, c.legs[leg].foot);
+    EXPECT_EQ(back.legs[leg].hinge, c.legs[leg].hinge);
+    EXPECT_FALSE(back.contacts[1].feet[leg].empty());
+    EXPECT_EQ(back.contacts[1].feet[leg], c.contacts[1].feet[leg]);
+    EXPECT_EQ(back.contacts[1].floors[leg].ball, c.contacts[1].floors[leg].ball);
   }
 }
 

@@ -46,7 +46,7 @@ std::vector<double> swing() {
 
 TEST(Hanging, IsFoundOfAFootThatIsNoChildOfItsLeg) {
   const std::vector<double> poses = swing();
-  const auto found = find_hanging(kParents, poses.data(), 12, {4, 6});
+  const auto found = find_hanging(kNames, kParents, poses.data(), 12, {4, 6});
   EXPECT_EQ(found, (std::map<int, int>{{4, 3}}));
 }
 
@@ -58,13 +58,28 @@ TEST(Hanging, IsFoundThoughTheFootIsOffItsPlaceWhereItStands) {
     poses.insert(poses.end(), stands.begin(), stands.end());
     poses[poses.size() - 3 * 16 + 7] += 0.05;  // y of the foot
   }
-  EXPECT_EQ(find_hanging(kParents, poses.data(), 112, {4}), (std::map<int, int>{{4, 3}}));
+  EXPECT_EQ(find_hanging(kNames, kParents, poses.data(), 112, {4}), (std::map<int, int>{{4, 3}}));
 }
 
 TEST(Hanging, IsNeverOnABoneThatItMoves) {
   const std::vector<double> poses = swing();
-  for (const auto& [bone, on] : find_hanging(kParents, poses.data(), 12, {1, 2, 3, 4, 5, 6}))
+  for (const auto& [bone, on] : find_hanging(kNames, kParents, poses.data(), 12, {1, 2, 3, 4, 5, 6}))
     EXPECT_TRUE(bone != 4 || on == 3) << bone << " on " << on;
+}
+
+// Each foot goes with another bone, if only by a little: they hang on each other's counterparts all the same.
+TEST(Hanging, IsAlikeOnBothSides) {
+  const std::vector<std::string> names = {"root", "shin.L", "heel.L", "shin.R", "heel.R", "foot.L", "foot.R"};
+  const std::vector<int> parents = {-1, 0, 1, 0, 3, 0, 0};
+  std::vector<double> poses;
+  for (int f = 0; f < 12; ++f) {
+    const Frame shin = at(0, 1, 0.6 * std::sin(f)), heel = shin * at(0, -0.5, 0.1 * std::cos(f));
+    for (const Frame& frame : {at(0, 0), shin, heel, shin, heel, shin * at(0, -0.55), heel * at(0, -0.05)})
+      add_rows(frame, poses);
+  }
+  const std::map<int, int> found = find_hanging(names, parents, poses.data(), 12, {5, 6});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found.at(6), found.at(5) + 2);
 }
 
 Armature armature() {

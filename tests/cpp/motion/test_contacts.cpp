@@ -17,7 +17,7 @@ TEST(Contacts, OfHeldFeetEndAsSoonAsTheBallRisesAndGoesAway) {
   const Clip clip = gait_clip(gait);
   const Kinematics kinematics(humanoid());
   const Contacts stands = find_contacts(kinematics, clip), held = find_plants(kinematics, clip);
-  const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
+  const FootPaths paths = foot_paths(kinematics, clip);
   const double scale = standard_scale(humanoid());
   int sooner = 0;
   for (int side = 0; side < 2; ++side) {

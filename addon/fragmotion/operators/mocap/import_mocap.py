@@ -27,6 +27,9 @@ _UNITS = (
 )
 
 
+_MOST_TOLD = 10  # files that are named
+
+
 class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
     """Import a folder's takes, or those of its files that are selected."""
 
@@ -123,6 +126,11 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
         if self.style == "FOLDER":
             for action, file in zip(result.actions, result.files):
                 action.fragmotion.style = file.parent.name
+        for cause in result.broken[:_MOST_TOLD]:
+            self.report({"WARNING"}, f"Left out: {cause}")
+        more = len(result.broken) - _MOST_TOLD
+        if more > 0:
+            self.report({"WARNING"}, f"Left out: {more} more files that cannot be read")
         self.report({"INFO"}, _told(result))
 
     def _target(self, context: bpy.types.Context) -> bpy.types.Object | None:
@@ -138,7 +146,7 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
 
 
 def _told(imported: Imported) -> str:
-    obj, actions, _, without = imported
+    obj, actions, _, without, broken = imported
     told = f"Imported {len(actions)} takes onto armature '{obj.name}' ({len(obj.data.bones)} bones)"
     mended = sum(row.mended for action in actions for row in action.fragmotion.findings)
     left = sum(worst(action) in {"warning", "error"} for action in actions)
@@ -146,6 +154,7 @@ def _told(imported: Imported) -> str:
         f"{mended} faults mended" if mended else "",
         f"{left} takes to look at in Doctor" if left else "",
         f"{len(without)} files left out in which no armature is animated" if without else "",
+        f"{len(broken)} files left out that cannot be read" if broken else "",
     )
     return "; ".join([told, *filter(None, parts)])
 

@@ -3,14 +3,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TypedDict
 
 from ..core import core
-from ..takes import read_take
+from ..takes import hear, read_each
 
 _FORMATS = {".bvh": "BVH", ".amc": "ASF/AMC"}
 _IN_FILE = {"+X": "+X", "-X": "-X", "+Z": "+Y", "-Z": "-Y", "-Y": "+Z", "+Y": "-Z", "": None}  # readers turn y up to z
@@ -50,10 +48,9 @@ class Result(TypedDict):
 
 def examine(paths: Sequence[Path]) -> Result:
     """Read and examine the files; one that cannot be read has a finding `unreadable` with the reader's words."""
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        read = list(pool.map(_read, paths))
+    read = read_each(paths)
     takes = [take for take in read if isinstance(take, core.Take)]
-    examinations = iter(core.examine(takes, progress=_hear))
+    examinations = iter(core.examine(takes, progress=hear))
     return {
         "files": [
             _told(path, take, next(examinations)) if isinstance(take, core.Take) else _unreadable(path, take)
@@ -62,21 +59,9 @@ def examine(paths: Sequence[Path]) -> Result:
     }
 
 
-def _hear(_fraction: float, _stage: str) -> None:
-    """Python hears of Ctrl+C whenever it is called."""
-
-
 def is_readable(file: File) -> bool:
     """Whether there is a take in the file."""
     return all(finding["code"] != "unreadable" for finding in file["findings"])
-
-
-def _read(path: Path) -> core.Take | str:
-    """The take, or why it cannot be read."""
-    try:
-        return read_take(path)
-    except (ValueError, OSError) as error:
-        return str(error)
 
 
 def _told(path: Path, take: core.Take, examination: core.Examination) -> File:

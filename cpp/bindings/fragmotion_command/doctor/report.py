@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from .examining import File, Result, is_readable
+from ..takes import with_more
+from .examining import File, Finding, Result, is_readable
 
 _POSES = {"T": "T pose", "A": "A pose", "down": "arms down", "other": "another rest pose", None: "no arms told"}
 
@@ -15,10 +16,18 @@ def lines(result: Result) -> Iterator[str]:
     """A line for each file and for each of its findings, and what they come to."""
     for file in result["files"]:
         yield f"{file['path']}: {_facts(file) if is_readable(file) else 'cannot be read'}"
-        for finding in file["findings"]:
-            mended = " (safe to mend)" if finding["mended"] else ""
-            yield f"  {finding['severity']}, {finding['code']}: {finding['text']}{mended}"
+        for (severity, code, is_mended), alike in _grouped(file["findings"]):
+            mended = " (safe to mend)" if is_mended else ""
+            yield f"  {severity}, {code}: {with_more([finding['text'] for finding in alike])}{mended}"
     yield _summary(result)
+
+
+def _grouped(findings: list[Finding]) -> Iterator[tuple[tuple[str, str, bool], list[Finding]]]:
+    """Findings that differ by their frames alone, together."""
+    groups: dict[tuple[str, str, bool], list[Finding]] = {}
+    for finding in findings:
+        groups.setdefault((finding["severity"], finding["code"], finding["mended"]), []).append(finding)
+    yield from groups.items()
 
 
 def _facts(file: File) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,6 +15,7 @@ from ..evaluate.report import Table, text
 from ..running import Done, say
 from . import inputs
 from .character import make_character
+from .roles import check_bones, make_body
 from .sources import Source, read_body, read_sources
 
 _SKATE, _CONTACT = 1.1, 0.01  # ratio, and m of a 1.8 m character: beyond these a take is remarked on
@@ -32,13 +34,14 @@ def retarget(options: argparse.Namespace) -> Done:
     inputs.check(options)
     inputs.check_skeleton(options.onto)
     sources = read_sources(options.takes, options.unit)
-    return bring(options, sources, read_body(options.onto, options.onto_unit)).done
+    return bring(options, sources, read_body(options.onto, options.onto_unit, options.roles)).done
 
 
 def bring(options: argparse.Namespace, sources: list[Source], body: core.Body) -> Retargeted:
     """Bring takes onto a body, write them where it is asked for, and build a character of them."""
+    check_bones([body.skeleton, *(source.skeleton for source in sources)], options.roles)
     say(f"onto {options.onto.name}: {body.skeleton.stature:.2f} m tall, {len(body.roles)} roles")
-    clips, takes = onto(body, sources)
+    clips, takes = onto(body, sources, options.roles)
     if options.into:
         _write(clips, body.skeleton, options.into)
     made = make_character(Recordings(body.skeleton, clips), options.seed)
@@ -59,12 +62,14 @@ def _write(clips: list[core.Clip], skeleton: core.Skeleton, folder: Path) -> Non
         core.write_bvh(core.Take.from_clip(clip, skeleton), folder / f"{clip.name}.bvh")
 
 
-def onto(body: core.Body, sources: list[Source]) -> tuple[list[core.Clip], list[dict[str, Any]]]:
+def onto(
+    body: core.Body, sources: list[Source], roles: Sequence[tuple[str, str]]
+) -> tuple[list[core.Clip], list[dict[str, Any]]]:
     """All takes on the body, and what is told of each, skeleton by skeleton."""
     clips, takes = [], []
     for source in sources:
         with core_failures(f"{source.paths[0]} onto {body.skeleton.names[0]}"):
-            results = core.Retarget(core.Body(source.skeleton, source.clips), body).apply_all(source.clips)
+            results = core.Retarget(make_body(source.skeleton, source.clips, roles), body).apply_all(source.clips)
         clips += [result.clip for result in results]
         takes += [describe(path, result, body) for path, result in zip(source.paths, results)]
     return clips, takes

@@ -7,6 +7,7 @@ import argparse
 from pathlib import Path
 
 from ..files import UNIT
+from .roles import role_of
 
 SKELETONS = (".bvh", ".asf")
 
@@ -15,12 +16,13 @@ def check(options: argparse.Namespace) -> None:
     """Fill in what nobody told; ValueError on what cannot be used."""
     if not options.onto.is_file():
         raise ValueError(f"{options.onto}: there is no such file")
-    options.unit = UNIT if options.unit is None else options.unit
-    options.onto_unit = options.unit if options.onto_unit is None else options.onto_unit
+    if options.onto_unit is None:
+        options.onto_unit = UNIT if options.unit is None else options.unit
+    options.roles = [role_of(text) for text in options.role]
     options.seed = 1 if options.seed is None else options.seed
     for name in ("unit", "onto_unit"):
         value = getattr(options, name)
-        if not value > 0:
+        if value is not None and not value > 0:
             raise ValueError(f"--{name.replace('_', '-')} is {value:g}, and must be over 0")
 
 

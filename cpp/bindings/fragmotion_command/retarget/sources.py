@@ -10,7 +10,8 @@ from typing import NamedTuple
 from ..core import core
 from ..evaluate.loading import core_failures
 from ..files import find_takes
-from ..takes import read_take
+from ..takes import read_mended
+from .roles import make_body
 
 
 class Source(NamedTuple):
@@ -21,10 +22,10 @@ class Source(NamedTuple):
     paths: list[Path]
 
 
-def read_sources(paths: Sequence[Path], unit: float) -> list[Source]:
-    """All takes, those of one skeleton together."""
-    files = find_takes(paths)
-    takes = [read_take(file, unit) for file in files]
+def read_sources(paths: Sequence[Path], unit: float | None) -> list[Source]:
+    """All takes, mended, those of one skeleton together."""
+    read = read_mended(find_takes(paths), unit)
+    files, takes = [each.path for each in read], [each.take for each in read]
     groups = core.group_skeletons([take.skeleton for take in takes])
     return [_source([takes[index] for index in group], [files[index] for index in group]) for group in groups]
 
@@ -38,7 +39,7 @@ def _source(takes: Sequence[core.Take], paths: list[Path]) -> Source:
     return Source(skeleton, clips, paths)
 
 
-def read_body(path: Path, unit: float) -> core.Body:
+def read_body(path: Path, unit: float, roles: Sequence[tuple[str, str]]) -> core.Body:
     """The body of a file's skeleton; the motion in a BVH tells how it stands."""
     if path.suffix.lower() == ".asf":
         skeleton, clips = core.read_asf(path), []
@@ -47,4 +48,4 @@ def read_body(path: Path, unit: float) -> core.Body:
         skeleton = take.skeleton
         clips = [core.Clip.from_take(take)] if len(take.rotations) > 1 else []
     with core_failures(str(path)):
-        return core.Body(skeleton, clips)
+        return make_body(skeleton, clips, roles)

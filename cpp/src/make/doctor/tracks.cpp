@@ -21,8 +21,8 @@ void append(const std::vector<T>& from, int first, std::vector<T>& to) {
 void add_piece(const Kinematics& kinematics, const Clip& clip, int begin, int known, Tracks& tracks) {
   for (int f = known; f < clip.frames; ++f)
     tracks.hips.push_back(load_vector(&clip.root_positions[std::size_t{3} * f]));
-  const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
-  for (int side = 0; side < 2 && !paths[side].ball.empty(); ++side) {
+  const FootPaths paths = foot_paths(kinematics, clip);
+  for (int side = 0; side < kMostLegs && !paths[side].ball.empty(); ++side) {
     append(paths[side].ball, known, tracks.feet[side].ball);
     append(paths[side].heel, known, tracks.feet[side].heel);
   }

@@ -13,9 +13,9 @@ class Patient;
 
 /// What a clip of the take on its own skeleton tells.
 struct Tracks {
-  std::vector<Vector3> hips;     ///< [frames] m
-  std::array<FootPath, 2> feet;  ///< As foot_paths().
-  std::vector<int> torn;         ///< As discontinuities().
+  std::vector<Vector3> hips;  ///< [frames] m
+  FootPaths feet;             ///< As foot_paths().
+  std::vector<int> torn;      ///< As discontinuities().
 };
 
 /// Of the patient's take, a piece after another; nothing where it cannot be a clip.

@@ -11,15 +11,16 @@ namespace fragmotion {
 
 /// A motion as what its weight is judged by: a few points of the body a frame, in lengths of a 1.8 m character.
 struct BodyTrack {
-  double rate = 0;                          ///< Frames a second.
-  std::vector<Vector3> center, hips;        ///< [frames] m: the centre of mass, and the hips' head.
-  std::vector<double> heading;              ///< [frames] rad, unwrapped: facing().
-  std::array<FootPath, 2> feet;             ///< left, right: [frames] m; empty where the skeleton has no feet
-  Floors floors;                            ///< m: where ball and heel stand
-  std::array<std::vector<bool>, 2> stands;  ///< [frames], as find_contacts() tells it; empty without feet
+  double rate = 0;                                  ///< Frames a second.
+  std::vector<Vector3> center, hips;                ///< [frames] m: the centre of mass, and the hips' head.
+  std::vector<double> heading;                      ///< [frames] rad, unwrapped: facing().
+  FootPaths feet;                                   ///< [frames] m; empty where the skeleton has no feet
+  Floors floors;                                    ///< m: where ball and heel stand
+  std::array<std::vector<bool>, kMostLegs> stands;  ///< [frames], as find_contacts() tells it; empty without feet
 
   int frames() const { return static_cast<int>(center.size()); }
-  bool has_feet() const { return !feet[0].ball.empty(); }
+  bool has_feet() const { return feet_count() > 0; }
+  int feet_count() const { return !feet[2].ball.empty() ? 4 : !feet[0].ball.empty() ? 2 : 0; }
   /// The frames that so many seconds are, at least 1.
   int frames_in(double seconds) const;
 };

@@ -18,7 +18,7 @@ constexpr double kLeastLongest = 0.1, kLongest = 10;  // s, of a fragment
 struct Cutter {
   FragmentPool& pool;
   int clip, shortest, longest;
-  std::vector<int> strikes, lifts;
+  std::vector<int> strikes, lifts, fore_strikes;
 
   // Adds those of the frames that lie between cuts more than `longer` apart and no nearer to them than `shortest`.
   void add_cuts(std::vector<int>& cuts, const std::vector<int>& frames, int longer) const {
@@ -53,6 +53,7 @@ struct Cutter {
     std::vector<int> cuts{begin, end};
     add_cuts(cuts, strikes, shortest);
     add_cuts(cuts, lifts, longest);
+    add_cuts(cuts, fore_strikes, longest);
     for (std::size_t i = 1; i < cuts.size(); ++i) divide(cuts[i - 1], cuts[i]);
   }
 };
@@ -74,8 +75,12 @@ void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const
                                 std::to_string(options.longest) + " s holds no whole frame of clip \"" + source.name +
                                 "\" at " + std::to_string(source.rate) + " frames a second");
   }
-  Cutter cutter{pool, clip, shortest, longest, {}, {}};
-  if (options.at_gait_events) cutter.strikes = foot_strikes(contacts), cutter.lifts = foot_lifts(contacts);
+  Cutter cutter{pool, clip, shortest, longest, {}, {}, {}};
+  if (options.at_gait_events) {
+    cutter.strikes = foot_strikes(contacts);
+    cutter.lifts = foot_lifts(contacts);
+    cutter.fore_strikes = fore_foot_strikes(contacts);
+  }
   int begin = 0;
   for (const int found : discontinuities(pool.skeleton, source)) {
     cutter.cut(begin, found - 1);

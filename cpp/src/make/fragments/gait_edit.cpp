@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "control/control.hpp"
 #include "fragments/body_pose.hpp"
 #include "motion/foot_lock.hpp"
 #include "motion/pose.hpp"
@@ -26,6 +27,10 @@ struct GaitCycle {
   CharacterFrame end;  // where the next cycle begins
 
   int frames() const { return static_cast<int>(poses.size()); }
+  // In a frame, m.
+  Vector2 mean_way() const {
+    return Eigen::Rotation2Dd(-poses[0].frame.heading) * Vector2{end.position - poses[0].frame.position} / frames();
+  }
 };
 
 // The frame of a clip that is number `f` of a motion that goes round and round frames begin .. end of it.
@@ -55,19 +60,21 @@ GaitCycle gait_cycle_of(const Kinematics& kinematics, const Clip& clip, int begi
 // The strides of a gait as its path is changed: what the balls of the feet do about their middle is turned and scaled
 // like the path, so that a foot that stood still on the old path does so on the new one. Where the feet would cross, as
 // strides do that are turned sideways, their middles go apart; and sideways feet do not roll from heel to toe, but are
-// lifted flat.
+// lifted flat. Fore legs go as the path would of a body that begins with them: where hind ones turn, they sidestep.
 class Strides {
  public:
-  Strides(const Kinematics& kinematics, const Legs& legs, const GaitCycle& cycle, const GaitEdit& edit)
+  // `rate`: of the cycle as it is played, frames a second.
+  Strides(const Kinematics& kinematics, const Legs& legs, const GaitCycle& cycle, const GaitEdit& edit, double rate)
       : kinematics_(kinematics), legs_(legs), edit_(edit), posed_(kinematics.bones()) {
     if (!exist()) return;
     for (const BodyPose& body : cycle.poses) {
       pose(body);
-      for (int side = 0; side < 2; ++side) {
+      for (int side = 0; side < count(); ++side) {
         middles_[side] += balls(side) / cycle.frames();
         find_flat(side, body);
       }
     }
+    if (count() == kMostLegs) find_fore_change(cycle, rate);
     set_apart(cycle);
   }
 
@@ -75,7 +82,7 @@ class Strides {
     if (!exist()) return;
     pose(body);
     const double level = kLevel * std::abs(std::sin(edit_.direction));
-    for (int side = 0; side < 2; ++side) {
+    for (int side = 0; side < count(); ++side) {
       const Leg& leg = legs_[side];
       const Vector3 from = ball(kinematics_.skeleton(), leg, posed_);
       const Vector2 to = changed(side);
@@ -90,14 +97,36 @@ class Strides {
   }
 
  private:
-  bool exist() const { return legs_[0].exists() && legs_[1].exists(); }
+  int count() const { return legs_.count(); }
+  bool exist() const { return count() > 0; }
   void pose(const BodyPose& body) {
     kinematics_.world({0, 0, body.height}, body.rotations.data(), posed_.heads.data(), posed_.rotations.data());
   }
   Vector2 balls(int side) const { return ball(kinematics_.skeleton(), legs_[side], posed_).head<2>(); }
   Vector2 changed(int side) const {
-    const Vector2 outward{side == 0 ? -apart_ : apart_, 0};
-    return middles_[side] + outward + edit_.speed * turned(balls(side) - middles_[side], edit_.direction);
+    const double apart = apart_[side / 2];
+    const Vector2 outward{side % 2 == 0 ? -apart : apart, 0};
+    const Vector2 stride = balls(side) - middles_[side];
+    if (side >= 2) return middles_[side] + outward + fore_ * stride;
+    return middles_[side] + outward + edit_.speed * turned(stride, edit_.direction);
+  }
+
+  // What takes the velocity of the shoulders to the one that they get by the change of the path and by its turn.
+  void find_fore_change(const GaitCycle& cycle, double rate) {
+    const Vector2 velocity = rate * cycle.mean_way(), hips = edit_.speed * turned(velocity, edit_.direction);
+    if (velocity.norm() * standard_scale(kinematics_.skeleton()) < kMoving) {
+      fore_ = edit_.speed * Eigen::Rotation2Dd(edit_.direction).toRotationMatrix();
+      return;
+    }
+    Vector2 shoulders = Vector2::Zero();
+    for (const BodyPose& body : cycle.poses) {
+      pose(body);
+      shoulders += (posed_.heads[legs_[2].thigh] + posed_.heads[legs_[3].thigh]).head<2>() / (2 * cycle.frames());
+    }
+    const Vector2 wanted = hips + edit_.turn * Vector2{-shoulders.y(), shoulders.x()};
+    const double along = velocity.dot(wanted) / velocity.squaredNorm(),
+                 across = (velocity.x() * wanted.y() - velocity.y() * wanted.x()) / velocity.squaredNorm();
+    fore_ << along, -across, across, along;
   }
 
   // A foot as it stands flat: the lowest that it gets, and its toe relative to it.
@@ -116,21 +145,25 @@ class Strides {
 
   // Finds how far each foot is to go outward for them to come no nearer to crossing than they did, or at most may.
   void set_apart(const GaitCycle& cycle) {
-    double least = std::numeric_limits<double>::infinity(), least_changed = least;
-    for (const BodyPose& body : cycle.poses) {
-      pose(body);
-      least = std::min(least, balls(1).x() - balls(0).x());
-      least_changed = std::min(least_changed, changed(1).x() - changed(0).x());
+    for (int left = 0; left < count(); left += 2) {
+      const int right = left + 1;
+      double least = std::numeric_limits<double>::infinity(), least_changed = least;
+      for (const BodyPose& body : cycle.poses) {
+        pose(body);
+        least = std::min(least, balls(right).x() - balls(left).x());
+        least_changed = std::min(least_changed, changed(right).x() - changed(left).x());
+      }
+      apart_[left / 2] = std::clamp((least - least_changed) / 2, 0.0, kWidest / standard_scale(kinematics_.skeleton()));
     }
-    apart_ = std::clamp((least - least_changed) / 2, 0.0, kWidest / standard_scale(kinematics_.skeleton()));
   }
 
   const Kinematics& kinematics_;
   const Legs& legs_;
   const GaitEdit& edit_;
-  std::array<Vector2, 2> middles_{Vector2::Zero(), Vector2::Zero()};
-  std::array<Flat, 2> flat_;
-  double apart_ = 0;  // m
+  std::array<Vector2, kMostLegs> middles_{Vector2::Zero(), Vector2::Zero(), Vector2::Zero(), Vector2::Zero()};
+  std::array<Flat, kMostLegs> flat_;
+  Matrix2 fore_ = Matrix2::Identity();
+  std::array<double, kMostLegs / 2> apart_{};  // m, of each pair
   PosedBones posed_;
 };
 
@@ -160,7 +193,8 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
   const bool other_path = edit.direction != 0 || edit.speed != 1, plants = other_path || edit.turn != 0;
   const GaitCycle cycle = gait_cycle_of(kinematics, clip, begin, end);
   std::optional<Strides> strides;
-  if (other_path) strides.emplace(kinematics, legs, cycle, edit);
+  if (other_path || (edit.turn != 0 && legs.count() == kMostLegs))
+    strides.emplace(kinematics, legs, cycle, edit, clip.rate * edit.tempo);
   Clip result;
   result.name = clip.name + " transformed";
   result.rate = clip.rate * edit.tempo;

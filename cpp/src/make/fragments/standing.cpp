@@ -52,7 +52,7 @@ class Stance {
     mean_.height += body.height;
     floor_ += lowest_tip();
     ++count_;
-    if (!has_legs()) return;
+    if (!is_upright()) return;
     for (int side = 0; side < 2; ++side) add_foot(side, body);
   }
 
@@ -61,7 +61,7 @@ class Stance {
       store_quaternion(load_quaternion(&mean_.rotations[b]).normalized(), &mean_.rotations[b]);
     }
     mean_.height /= count_;
-    if (has_legs()) {
+    if (is_upright()) {
       stand_on_feet();
     } else {
       pose(mean_);
@@ -71,7 +71,8 @@ class Stance {
   }
 
  private:
-  bool has_legs() const { return legs_[0].exists() && legs_[1].exists(); }
+  // On two legs, which bodies stretch to stand; those on four legs stand with them bent.
+  bool is_upright() const { return legs_.count() == 2; }
 
   void pose(const BodyPose& body) {
     kinematics_.world({0, 0, body.height}, body.rotations.data(), posed_.heads.data(), posed_.rotations.data());
@@ -171,9 +172,7 @@ class Swayer {
         scale_(standard_scale(kinematics.skeleton())),
         posed_(kinematics.bones()) {
     kinematics.world({0, 0, pose.height}, pose.rotations.data(), posed_.heads.data(), posed_.rotations.data());
-    for (int side = 0; side < 2; ++side) {
-      if (legs[side].exists()) ankles_[side] = posed_.heads[legs[side].foot];
-    }
+    for (int side = 0; side < legs.count(); ++side) ankles_[side] = posed_.heads[legs[side].foot];
   }
 
   // Adds the frame of a share of the time.
@@ -199,15 +198,17 @@ class Swayer {
 
   // The hips go aside; the feet stay, and the hips come down as far as the legs are too short.
   void lower_hips(const Vector2& shift, BodyPose& pose) {
-    if (!legs_[0].exists() || !legs_[1].exists()) return;
+    if (legs_.count() == 0) return;
     const auto posed = [&] {
       kinematics_.world({shift.x(), shift.y(), pose.height}, pose.rotations.data(), posed_.heads.data(),
                         posed_.rotations.data());
     };
     posed();
-    pose.height -= std::max(sinking(legs_[0], posed_, ankles_[0]), sinking(legs_[1], posed_, ankles_[1]));
+    double sink = 0;
+    for (int side = 0; side < legs_.count(); ++side) sink = std::max(sink, sinking(legs_[side], posed_, ankles_[side]));
+    pose.height -= sink;
     posed();
-    for (int side = 0; side < 2; ++side)
+    for (int side = 0; side < legs_.count(); ++side)
       reach(kinematics_.skeleton(), legs_[side], posed_, ankles_[side], pose.rotations.data());
   }
 
@@ -217,7 +218,7 @@ class Swayer {
   const BodyPose& pose_;
   double breaths_, scale_;
   PosedBones posed_;
-  std::array<Vector3, 2> ankles_;
+  std::array<Vector3, kMostLegs> ankles_;
   Random random_{1};
   Sway across_{random_, kAcross}, along_{random_, kAlong}, lean_{random_, kLean}, look_{random_, kLook},
       nod_{random_, kNod}, uneven_{random_, kUneven};

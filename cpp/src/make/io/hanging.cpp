@@ -2,8 +2,10 @@
 #include "io/hanging.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "io/rigid_matrix.hpp"
+#include "skeleton/bone_names.hpp"
 
 namespace fragmotion {
 namespace {
@@ -51,19 +53,32 @@ bool moves(const std::vector<int>& parents, const std::map<int, int>& hanging, i
 
 }  // namespace
 
-std::map<int, int> find_hanging(const std::vector<int>& parents, const double* poses, int frames,
-                                const std::vector<int>& candidates) {
+std::map<int, int> find_hanging(const std::vector<std::string>& names, const std::vector<int>& parents,
+                                const double* poses, int frames, const std::vector<int>& candidates) {
+  const std::vector<BoneName> read = read_names(names);
+  const auto twin = [&](int bone) {  // on the other side; itself where it is on none
+    const int other = read[bone].counterpart;
+    return other >= 0 && read[other].counterpart == bone ? other : bone;
+  };
   const Straying straying(parents, poses, frames);
   std::map<int, int> hanging;
   for (const int bone : candidates) {
-    double least = kShare * straying.of(bone, parents[bone]);
+    if (hanging.count(bone)) continue;
+    const bool is_paired = std::count(candidates.begin(), candidates.end(), twin(bone)) > 0;
+    const int beside = is_paired ? twin(bone) : bone;
+    double least = kShare * (straying.of(bone, parents[bone]) + straying.of(beside, parents[beside]));
     int best = -1;
     for (int other = 0; other < static_cast<int>(parents.size()); ++other) {
-      if (moves(parents, hanging, bone, other)) continue;
-      const double strays = straying.of(bone, other);
+      const int besides = is_paired ? twin(other) : other;
+      if (moves(parents, hanging, bone, other) || moves(parents, hanging, beside, other) ||
+          moves(parents, hanging, beside, besides))
+        continue;
+      const double strays = straying.of(bone, other) + straying.of(beside, besides);
       if (strays < least) least = strays, best = other;
     }
-    if (best >= 0) hanging[bone] = best;
+    if (best < 0) continue;
+    hanging[bone] = best;
+    if (is_paired) hanging[beside] = twin(best);
   }
   return hanging;
 }

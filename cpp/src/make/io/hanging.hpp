@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <string>
 #include <vector>
 
 namespace fragmotion {
@@ -10,9 +11,9 @@ namespace fragmotion {
 /// each of `candidates` hangs, where it does. `parents` [bones], `poses` [frames, bones, 4, 4] (row-major, in the
 /// armature's space). A bone hangs on the one, of those that it does not move, in whose frame its head goes least from
 /// frame to frame, where that is a third at most of what it goes in its parent's: where the leg's IK does not reach, it
-/// is off its place, but stays there.
-std::map<int, int> find_hanging(const std::vector<int>& parents, const double* poses, int frames,
-                                const std::vector<int>& candidates);
+/// is off its place, but stays there. Two that are each other's left and right by their names hang alike.
+std::map<int, int> find_hanging(const std::vector<std::string>& names, const std::vector<int>& parents,
+                                const double* poses, int frames, const std::vector<int>& candidates);
 
 /// The bones, in their order but each after its parent and the one that it hangs on; without those that hang on a bone
 /// that they move.

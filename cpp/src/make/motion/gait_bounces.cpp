@@ -45,7 +45,7 @@ std::vector<int> lowest_moments(const std::vector<Vector3>& path, double least) 
 }
 
 // How far the right foot is ahead of the left one and over it, m.
-Vector2 apart(const std::array<FootPath, 2>& feet, const Clip& clip, int f) {
+Vector2 apart(const FootPaths& feet, const Clip& clip, int f) {
   const CharacterFrame frame{Vector2::Zero(), clip.headings[f]};
   return frame.to_local(feet[1].heel[f] - feet[0].heel[f]).tail<2>();
 }
@@ -56,8 +56,8 @@ double highest(const std::vector<Vector3>& path, int begin, int end) {
   return highest;
 }
 
-std::vector<Bounce> bounces_of(const std::vector<Vector3>& center, const std::array<FootPath, 2>& feet,
-                               const Clip& clip, double scale) {
+std::vector<Bounce> bounces_of(const std::vector<Vector3>& center, const FootPaths& feet, const Clip& clip,
+                               double scale) {
   std::vector<int> ends = lowest_moments(center, kLeastBounce / scale);
   if (ends.empty() || ends.front() > 0) ends.insert(ends.begin(), 0);
   if (ends.back() + 1 < clip.frames) ends.push_back(clip.frames - 1);
@@ -67,7 +67,8 @@ std::vector<Bounce> bounces_of(const std::vector<Vector3>& center, const std::ar
     const bool whole = end - begin <= kLongestStep * clip.rate;
     const double rise = highest(center, begin, end) - std::max(height(center, begin), height(center, end));
     const double change = apart(feet, clip, begin).dot(apart(feet, clip, end)) * scale * scale;
-    bounces.push_back({begin, end, rise, whole && change < -kFeetApart * kFeetApart});
+    const bool gallops = !feet[2].heel.empty();  // hind legs may swing together
+    bounces.push_back({begin, end, rise, whole && (gallops || change < -kFeetApart * kFeetApart)});
   }
   return bounces;
 }
@@ -76,7 +77,7 @@ std::vector<Bounce> bounces_of(const std::vector<Vector3>& center, const std::ar
 
 std::vector<bool> gait_bounces(const Kinematics& kinematics, const Clip& clip, const std::vector<Vector3>& center) {
   std::vector<bool> in_gait(clip.frames, false);
-  const std::array<FootPath, 2> feet = foot_paths(kinematics, clip);
+  const FootPaths feet = foot_paths(kinematics, clip);
   if (feet[0].heel.empty()) return in_gait;
   const std::vector<Bounce> bounces = bounces_of(center, feet, clip, standard_scale(kinematics.skeleton()));
   const auto goes_on = [&](std::size_t i, std::size_t beside) {

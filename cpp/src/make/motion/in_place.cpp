@@ -2,7 +2,6 @@
 #include "motion/in_place.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -49,7 +48,7 @@ Velocities smoothed(const Velocities& values, const std::vector<double>& weights
 // How the ground goes back under a clip's soles, over windows of `span` frames.
 class Treading {
  public:
-  Treading(const std::array<Sole, 2>& soles, double rate, double scale)
+  Treading(const std::vector<Sole>& soles, double rate, double scale)
       : soles_(soles), rate_(rate), scale_(scale), span_(std::max(1, static_cast<int>(std::lround(kWindow * rate)))) {
     windows_ = static_cast<int>(soles[0].heel().path.size()) - span_;
   }
@@ -203,7 +202,7 @@ class Treading {
     return joined;
   }
 
-  const std::array<Sole, 2>& soles_;
+  const std::vector<Sole>& soles_;
   double rate_, scale_;
   int span_, windows_ = 0;
 };
@@ -225,7 +224,7 @@ bool stays(const Clip& clip, double scale) {
 }
 
 // Whether the feet, which go back as they stand, come back.
-bool tread(const std::array<Sole, 2>& soles, double way) {
+bool tread(const std::vector<Sole>& soles, double way) {
   double gone = 0;
   for (const Sole& sole : soles) {
     const std::vector<Vector3>& path = sole.heel().path;
@@ -246,9 +245,8 @@ Vector2 mean_of(const Velocities& velocities, const Clip& clip) {
   return velocities.empty() ? sum : Vector2(sum / static_cast<double>(velocities.size()));
 }
 
-std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
-  const double scale = standard_scale(kinematics.skeleton());
-  const std::array<Sole, 2> soles = find_soles(kinematics, clip);
+// As a pair of feet tells it.
+std::optional<FeetWay> way_of(const std::vector<Sole>& soles, const Clip& clip, double scale) {
   const Treading treading(soles, clip.rate, scale);
   if (!treading.is_long_enough()) return std::nullopt;
   FeetWay way;
@@ -264,11 +262,26 @@ std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
   return way;
 }
 
+// What lies halfway.
+FeetWay mean_of(FeetWay a, const FeetWay& b) {
+  for (std::size_t f = 0; f < a.velocities.size(); ++f) a.velocities[f] = (a.velocities[f] + b.velocities[f]) / 2;
+  return {std::move(a.velocities), (a.turn + b.turn) / 2, (a.mean + b.mean) / 2};
+}
+
+// Of a four-legged body the mean of what the hind feet and the fore feet tell, if both do.
+std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
+  const double scale = standard_scale(kinematics.skeleton());
+  const std::vector<Sole> soles = find_soles(kinematics, clip);
+  const std::optional<FeetWay> way = way_of({soles.begin(), soles.begin() + 2}, clip, scale);
+  if (!way || soles.size() == 2) return way;
+  const std::optional<FeetWay> fore = way_of({soles.begin() + 2, soles.end()}, clip, scale);
+  return fore ? std::optional(mean_of(*way, *fore)) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& clip) {
-  const Roles& roles = kinematics.skeleton().roles;
-  const bool has_feet = roles.left_foot >= 0 && roles.right_foot >= 0;
+  const bool has_feet = !legs_with_feet(kinematics.skeleton().roles).empty();
   if (!has_feet || !stays(clip, standard_scale(kinematics.skeleton()))) return std::nullopt;
   const int period = cycle_of(kinematics, clip);
   if (period == 0) return way_of(kinematics, clip);

@@ -19,7 +19,7 @@ Vector3 bend(const Leg& leg, const PosedBones& posed) {
 Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips) {
   Legs legs = resting_legs(kinematics.skeleton());
   if (!legs[0].exists()) return legs;
-  const std::vector<int> bones = kinematics.chains({legs[0].foot, legs[1].foot});
+  const std::vector<int> bones = kinematics.chains({legs[0].foot, legs[1].foot, legs[2].foot, legs[3].foot});
   PosedBones posed(kinematics.bones());
   for (const Clip& clip : clips) {
     for (int f = 0; f < clip.frames; f += kApart) {

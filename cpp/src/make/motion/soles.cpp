@@ -27,23 +27,25 @@ std::vector<Joint> joints_of(const Skeleton& skeleton, int foot, int toe) {
 class Soles {
  public:
   Soles(const Kinematics& kinematics, const Clip& clip) : kinematics_(kinematics), clip_(clip) {
-    const Roles& roles = kinematics.skeleton().roles;
-    feet_[0] = joints_of(kinematics.skeleton(), roles.left_foot, roles.left_toe);
-    feet_[1] = joints_of(kinematics.skeleton(), roles.right_foot, roles.right_toe);
-    bones_ = kinematics.chains({roles.left_foot, roles.right_foot, roles.left_toe, roles.right_toe});
+    std::vector<int> ends;
+    for (const LegRoles& leg : legs_with_feet(kinematics.skeleton().roles)) {
+      feet_.push_back(joints_of(kinematics.skeleton(), leg.foot, leg.toe));
+      ends.insert(ends.end(), {leg.foot, leg.toe});
+    }
+    bones_ = kinematics.chains(ends);
   }
 
-  std::array<Sole, 2> find() {
-    std::array<int, 2> flattest = {0, 0};
-    std::array<double, 2> lowest = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  std::vector<Sole> find() {
+    std::vector<int> flattest(feet_.size(), 0);
+    std::vector<double> lowest(feet_.size(), std::numeric_limits<double>::infinity());
     visit([&](int f, const PosedBones& posed) {
-      for (int side = 0; side < 2; ++side) {
+      for (std::size_t side = 0; side < feet_.size(); ++side) {
         const double height = at(posed, feet_[side][0]).z() + at(posed, feet_[side][1]).z();
         if (height < lowest[side]) lowest[side] = height, flattest[side] = f;
       }
     });
     visit([&](int f, const PosedBones& posed) {
-      for (int side = 0; side < 2; ++side) {
+      for (std::size_t side = 0; side < feet_.size(); ++side) {
         if (f == flattest[side]) drop(posed, feet_[side]);
       }
     });
@@ -76,11 +78,11 @@ class Soles {
     }
   }
 
-  std::array<Sole, 2> follow() const {
-    std::array<Sole, 2> soles;
-    for (int side = 0; side < 2; ++side) soles[side].points.resize(feet_[side].size());
+  std::vector<Sole> follow() const {
+    std::vector<Sole> soles(feet_.size());
+    for (std::size_t side = 0; side < feet_.size(); ++side) soles[side].points.resize(feet_[side].size());
     visit([&](int, const PosedBones& posed) {
-      for (int side = 0; side < 2; ++side) {
+      for (std::size_t side = 0; side < feet_.size(); ++side) {
         for (std::size_t i = 0; i < feet_[side].size(); ++i)
           soles[side].points[i].path.push_back(at(posed, feet_[side][i]));
       }
@@ -93,14 +95,12 @@ class Soles {
 
   const Kinematics& kinematics_;
   const Clip& clip_;
-  std::array<std::vector<Joint>, 2> feet_;
+  std::vector<std::vector<Joint>> feet_;
   std::vector<int> bones_;
 };
 
 }  // namespace
 
-std::array<Sole, 2> find_soles(const Kinematics& kinematics, const Clip& clip) {
-  return Soles(kinematics, clip).find();
-}
+std::vector<Sole> find_soles(const Kinematics& kinematics, const Clip& clip) { return Soles(kinematics, clip).find(); }
 
 }  // namespace fragmotion

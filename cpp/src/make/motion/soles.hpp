@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "motion/clip.hpp"
@@ -22,9 +21,9 @@ struct Sole {
   const SolePoint& ball() const { return points[1]; }
 };
 
-/// The soles of the left and the right foot, of a skeleton that has both: what is under the feet's joints, on the
+/// The soles of the feet, of a skeleton that has them: what is under the feet's joints, on the
 /// ground, when each foot stands flattest. The ground is at height 0, or, where that is not under the joints or more
 /// than 10 cm (of a character of 1.8 m), as high as the lowest of them.
-std::array<Sole, 2> find_soles(const Kinematics& kinematics, const Clip& clip);
+std::vector<Sole> find_soles(const Kinematics& kinematics, const Clip& clip);
 
 }  // namespace fragmotion

@@ -26,7 +26,7 @@ Reach reach_of(const Leg& leg, const PosedBones& posed, const KneeRange& range);
 
 /// What the legs do in a clip.
 struct LegMotion {
-  std::array<FootPath, 2> paths;
+  FootPaths paths;
   std::array<KneeRange, 2> knees;
 
   LegMotion(const Body& body, const Clip& clip);

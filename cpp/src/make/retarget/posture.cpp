@@ -207,7 +207,7 @@ std::array<FlatFoot, 2> flat_feet(const Kinematics& kinematics, const Legs& legs
   std::array<FlatFrames, 2> sums{FlatFrames(legs[0]), FlatFrames(legs[1])};
   PosedBones posed(kinematics.bones());
   for (const Clip& clip : clips) {
-    const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
+    const FootPaths paths = foot_paths(kinematics, clip);
     for (int side = 0; side < 2; ++side) {
       const FootHeights floor{floor_of(paths[side].ball), floor_of(paths[side].heel)};
       for (const int f : flat_frames(paths[side], floor, clip.rate, scale)) {

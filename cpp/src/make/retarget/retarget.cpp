@@ -296,7 +296,7 @@ class Transfer {
   }
 
   // `scale` of a target, 0 of the source; times `size`, lengths are those of a character of 1.8 m.
-  double skate(const std::array<FootPath, 2>& paths, double scale, double size) const {
+  double skate(const FootPaths& paths, double scale, double size) const {
     double sum = 0;
     for (int side = 0; side < 2; ++side) {
       const auto floor = [&](double FootHeights::*point) {

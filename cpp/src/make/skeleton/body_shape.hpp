@@ -80,6 +80,12 @@ class BodyShape {
   double size_ = 0;
 };
 
+/// The pairs of limbs that are alike, at most one a bone.
+std::vector<LimbPair> find_limb_pairs(const BodyShape& shape);
+
+/// How far the ends of a pair's limbs are under their node, on the mean over poses, in lengths of the limbs.
+double depth_of(const LimbPair& pair, const Poses& poses);
+
 /// The limbs of a pair, of arms or of legs, with what is told of them by a look that is so sure.
 std::array<Limb, 2> shaped_limbs(const BodyShape& shape, const LimbPair& pair, bool arms, double sure);
 

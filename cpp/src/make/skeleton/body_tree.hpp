@@ -55,10 +55,14 @@ struct Body {
   int chest = -1;  ///< What the arms hang on, where that is told without them.
   double hips_confidence = 0, head_confidence = 0;
   std::array<Limb, 2> arms, legs;  ///< left, right
+  bool four_legged = false;        ///< The arms are fore legs.
 };
 
 /// As the names tell; none where they do not agree with each other and the hierarchy.
 std::optional<Body> named_body(const BodyTree& tree);
+
+/// The body of an animal that stands on four legs at rest; none of another one.
+std::optional<Body> four_legged_body(const Skeleton& skeleton, const BodyTree& tree);
 
 /// As the shape tells; see find_role_map().
 Body shaped_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion);

@@ -22,6 +22,8 @@ constexpr double kNamed = 0.95, kBetween = 0.75;
 constexpr std::array<Role, 5> kArmRoles = {Role::kShoulder, Role::kUpperArm, Role::kLowerArm, Role::kHand,
                                            Role::kFinger};
 constexpr std::array<Role, 5> kLegRoles = {Role::kThigh, Role::kThigh, Role::kShin, Role::kFoot, Role::kToe};
+constexpr std::array<Role, 5> kForeLegRoles = {Role::kForeLeg, Role::kForeLeg, Role::kForeLeg, Role::kForeFoot,
+                                               Role::kForeToe};
 constexpr Side kSides[] = {Side::kLeft, Side::kRight};
 constexpr std::string_view kFingerNames[] = {"thumb", "index", "middle", "ring", "pinky"};
 
@@ -127,9 +129,9 @@ class MapMaker {
     add(Role::kHips, Side::kNone, body_.hips, body_.hips_confidence);
     add_trunk();
     for (int side = 0; side < 2; ++side) {
-      add_limb(body_.arms[side], kArmRoles, kSides[side]);
+      add_limb(body_.arms[side], body_.four_legged ? kForeLegRoles : kArmRoles, kSides[side]);
       add_limb(body_.legs[side], kLegRoles, kSides[side]);
-      add_fingers(side);
+      if (!body_.four_legged) add_fingers(side);
       add_toes(side);
     }
     return std::move(map_);
@@ -269,8 +271,9 @@ void find_twists(const Skeleton& skeleton, const BodyTree& tree, RoleMap& map) {
 }
 
 std::string role_word(Role role) {
-  constexpr std::string_view kNames[] = {"root",      "hips", "spine",  "neck",  "head", "shoulder", "upper_arm",
-                                         "lower_arm", "hand", "finger", "thigh", "shin", "foot",     "toe"};
+  constexpr std::string_view kNames[] = {"root",      "hips",      "spine",    "neck",      "head",    "shoulder",
+                                         "upper_arm", "lower_arm", "hand",     "finger",    "thigh",   "shin",
+                                         "foot",      "toe",       "fore_leg", "fore_foot", "fore_toe"};
   return std::string(kNames[static_cast<int>(role)]);
 }
 
@@ -286,7 +289,7 @@ std::map<std::string, RoleBone> known_roles() {
     for (const Role role : {Role::kSpine, Role::kNeck}) add({role, Side::kNone, -1, i, -1, 1});
   }
   for (const Side side : kSides) {
-    for (int role = static_cast<int>(Role::kShoulder); role <= static_cast<int>(Role::kToe); ++role) {
+    for (int role = static_cast<int>(Role::kShoulder); role <= static_cast<int>(Role::kForeToe); ++role) {
       const auto what = static_cast<Role>(role);
       const bool finger = what == Role::kFinger;
       for (int i = 0; i < (finger || what == Role::kToe ? kMostJoints : 1); ++i) {
@@ -327,6 +330,7 @@ double RoleMap::confidence(Role role, Side side) const {
 
 RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion, Sides sides) {
   BodyTree tree(skeleton);
+  if (const std::optional<Body> beast = four_legged_body(skeleton, tree)) return MapMaker(tree, *beast).make();
   std::optional<Body> named = named_body(tree);
   if (!named) tree.forget_names();
   const Body shaped = shaped_body(skeleton, tree, motion);
@@ -366,7 +370,8 @@ RoleMap role_map_of(const Skeleton& skeleton, const std::map<std::string, std::s
       throw std::invalid_argument("no role '" + label +
                                   "'; the roles are root, hips, spine_1 ..., neck_1 ..., head, and with left_ or "
                                   "right_ shoulder, upper_arm, lower_arm, hand, thumb_1 ..., index_1 ..., "
-                                  "middle_1 ..., ring_1 ..., pinky_1 ..., thigh, shin, foot, toe");
+                                  "middle_1 ..., ring_1 ..., pinky_1 ..., thigh, shin, foot, toe, fore_leg, fore_foot, "
+                                  "fore_toe");
     }
     RoleBone bone = role->second;
     bone.bone = skeleton.find(name);

@@ -26,6 +26,10 @@ enum class Role {
   kShin,
   kFoot,
   kToe,
+  // Of a four-legged body, whose thighs, feet and toes are the hind ones.
+  kForeLeg,  ///< Where a fore leg begins.
+  kForeFoot,
+  kForeToe,
 };
 
 /// A bone that has a role. `confidence`, 0 to 1, is the more the better the name says it and the shape agrees: under
@@ -71,7 +75,7 @@ enum class Sides { of_the_body, of_the_names };
 /// The roles that names tell, and where they say nothing the shape: pairs of limbs that are alike, the lengths of their
 /// bones, what is lowest, where the feet point; by `motion` too, where given: which joints bend, to where knees do,
 /// which way is up. Names that contradict the hierarchy tell nothing, nor does the shape what names contradict, but for
-/// left and right, where `sides` are the body's.
+/// left and right, where `sides` are the body's. What stands on four legs at rest is told by its shape alone.
 RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion = nullptr,
                       Sides sides = Sides::of_the_body);
 

@@ -33,6 +33,12 @@ Roles roles_of(const RoleMap& map) {
   roles.right_toe = map.bone(Role::kToe, Side::kRight);
   roles.left_thigh = map.bone(Role::kThigh, Side::kLeft);
   roles.right_thigh = map.bone(Role::kThigh, Side::kRight);
+  roles.left_fore_foot = map.bone(Role::kForeFoot, Side::kLeft);
+  roles.right_fore_foot = map.bone(Role::kForeFoot, Side::kRight);
+  roles.left_fore_toe = map.bone(Role::kForeToe, Side::kLeft);
+  roles.right_fore_toe = map.bone(Role::kForeToe, Side::kRight);
+  roles.left_fore_leg = map.bone(Role::kForeLeg, Side::kLeft);
+  roles.right_fore_leg = map.bone(Role::kForeLeg, Side::kRight);
   return roles;
 }
 

@@ -11,21 +11,16 @@ namespace fragmotion {
 namespace {
 
 // Lengths are shares of BodyShape::size().
-constexpr double kLimb = 0.2;           // a limb at least
-constexpr double kLongest = 0.6;        // of the way along its bones, from a limb's beginning to its end
-constexpr double kAlike = 0.05;         // of a limb's length: bones of a pair differ by less
-constexpr double kHand = 0.3;           // of a limb's length that hands and feet reach at most
-constexpr double kHead = 0.03;          // neck and head at least
-constexpr double kPelvis = 0.02;        // between the hips and a pelvis at most
-constexpr double kSure = 1.5;           // votes more for one way to take the pairs than for the other
-constexpr std::size_t kLimbJoints = 3;  // of a limb at least: where its upper and lower bone and its end begin
+constexpr double kHead = 0.03;    // neck and head at least
+constexpr double kPelvis = 0.02;  // between the hips and a pelvis at most
+constexpr double kSure = 1.5;     // votes more for one way to take the pairs than for the other
 
 class ShapeFinder {
  public:
   explicit ShapeFinder(const BodyShape& shape) : shape_(shape) {}
 
   Body find() {
-    const std::vector<LimbPair> pairs = find_pairs();
+    const std::vector<LimbPair> pairs = find_limb_pairs(shape_);
     if (pairs.size() < 2) return {};
     std::optional<std::pair<LimbPair, LimbPair>> body = legs_and_arms(pairs);
     if (!body) return {};
@@ -43,53 +38,6 @@ class ShapeFinder {
   }
 
  private:
-  // As far as the hands: which finger reaches farthest may differ.
-  bool alike(const Chain& a, const Chain& b, double limb) const {
-    const auto is_hand = [&](const Chain& chain, std::size_t i) {
-      return i > 0 && shape_.reach(chain[i - 1]) < kHand * limb;
-    };
-    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
-      if (is_hand(a, i) && is_hand(b, i)) return true;
-      if (i >= a.size() || i >= b.size() || std::abs(shape_.length(a[i]) - shape_.length(b[i])) > kAlike * limb)
-        return false;
-    }
-    return true;
-  }
-
-  // Whether it has the joints of a limb, and is ever stretched: what controls a foot is folded up.
-  bool may_be_limb(const Chain& chain) const {
-    if (chain.size() < kLimbJoints) return false;
-    const double farthest = kLongest * shape_.reach(chain.front());
-    const auto is_stretched = [&](const Vector3* heads) {
-      return (heads[chain.back()] - heads[chain.front()]).norm() > farthest;
-    };
-    return is_stretched(shape_.rest().data()) ||
-           std::any_of(shape_.poses().begin(), shape_.poses().end(), is_stretched);
-  }
-
-  std::vector<LimbPair> find_pairs() const {
-    std::vector<LimbPair> pairs;
-    for (int node = 0; node < shape_.skeleton().size(); ++node) {
-      std::vector<Chain> limbs;
-      for (const int child : shape_.children(node)) {
-        if (shape_.branch(child) < kLimb * shape_.size()) continue;
-        if (Chain chain = shape_.chain_from(child); may_be_limb(chain)) limbs.push_back(std::move(chain));
-      }
-      std::optional<LimbPair> pair;
-      int found = 0;
-      for (std::size_t i = 0; i < limbs.size(); ++i) {
-        for (std::size_t j = i + 1; j < limbs.size(); ++j) {
-          const double limb = shape_.branch(limbs[i][0]);
-          if (!alike(limbs[i], limbs[j], limb)) continue;
-          pair = LimbPair{node, {limbs[i], limbs[j]}, limb};
-          ++found;
-        }
-      }
-      if (found == 1) pairs.push_back(*pair);
-    }
-    return pairs;
-  }
-
   // What carries both: a pelvis beside the spine carries legs alone. -1 where neither pelvis nor carrier is the hips.
   int carrier(int legs, int arms) const {
     if (shape_.is_below(legs, arms) || shape_.is_below(arms, legs)) return legs;
@@ -108,15 +56,6 @@ class ShapeFinder {
       if (far > most) most = far, longest = shape_.chain_from(child);
     }
     return longest;
-  }
-
-  // How far the ends of a pair's limbs are under their node, on the mean over all poses, in lengths of the limbs.
-  double under(const LimbPair& pair) const {
-    double depth = 0;
-    for (const Vector3* heads : shape_.poses()) {
-      for (const Chain& chain : pair.chains) depth += heads[pair.node].z() - heads[chain.back()].z();
-    }
-    return depth / (2 * static_cast<double>(shape_.poses().size()) * pair.length);
   }
 
   double two_longest(const LimbPair& pair) const {
@@ -139,7 +78,8 @@ class ShapeFinder {
     votes += !middle(b, a.node).empty() - !middle(a, b.node).empty();
     votes += shape_.is_below(b.node, a.node) ? 0.5 : -0.5;
     const double feet = lowest(a) - lowest(b);
-    if (under(a) > kUpright || under(b) > kUpright || stands(a.node, b.node)) votes += feet < 0 ? 1.5 : -1.5;
+    if (depth_of(a, shape_.poses()) > kUpright || depth_of(b, shape_.poses()) > kUpright || stands(a.node, b.node))
+      votes += feet < 0 ? 1.5 : -1.5;
     return votes;
   }
 

@@ -96,10 +96,12 @@ void check_model(const std::vector<double>& model, std::size_t controls) {
 void check_contacts(const Character& c) {
   require(c.contacts.size() == c.pool.clips.size(), "contacts");
   for (std::size_t i = 0; i < c.contacts.size(); ++i) {
-    const auto& [left, right] = c.contacts[i].feet;
-    require(left.size() == right.size() &&
-                (left.empty() || left.size() == static_cast<std::size_t>(c.pool.clips[i].frames)),
-            "contacts");
+    const auto& feet = c.contacts[i].feet;
+    for (std::size_t foot = 0; foot < feet.size(); ++foot) {
+      require(feet[foot].size() == feet[foot ^ 1].size() &&
+                  (feet[foot].empty() || feet[foot].size() == static_cast<std::size_t>(c.pool.clips[i].frames)),
+              "contacts");
+    }
     for (const FootHeights& floor : c.contacts[i].floors) {
       require(all_in_range({floor.ball, floor.heel}, -kHighest, kHighest), "contacts");
     }
@@ -146,7 +148,7 @@ void check_style(const Character& c) {
   require(c.bridges.size() == n * n && all_within(c.bridges, -1, c.classes.count), "stand-in-place classes");
   check_model(c.control_model, controls);
   check_contacts(c);
-  for (const Leg& leg : c.legs) require(std::abs(leg.hinge.norm() - 1) < 1e-6, "legs");
+  for (const Leg& leg : c.legs.all) require(std::abs(leg.hinge.norm() - 1) < 1e-6, "legs");
 }
 
 // Styles have names of their own and the same policies, which a player finds by their number.

@@ -39,7 +39,7 @@ void exchange_skeleton(Archive& a, S& s) {
   a.list(s.rest_rotations, 32, [&](auto& q) { exchange_quaternion(a, q); });
   a.list(s.offsets, 24, [&](auto& v) { exchange_vector(a, v); });
   a.list(s.tips, 24, [&](auto& v) { exchange_vector(a, v); });
-  for (const auto& [name, member] : role_names()) a.template number<std::int32_t>(s.roles.*member);
+  for (std::size_t i = 0; i < kRolesOfAll; ++i) a.template number<std::int32_t>(s.roles.*role_names()[i].second);
 }
 
 template <typename Archive, typename C>
@@ -78,16 +78,17 @@ void exchange_clip(Archive& a, PackedPool& pool, std::size_t number) {
   }
 }
 
-// One byte a frame: 1 where the left foot stands, and 2 where the right one does.
+// Of the pair of feet that begins with a left one, one byte a frame: 1 where that stands, and 2 where the right one
+// does.
 template <typename Archive>
-void exchange_contacts(Archive& a, Contacts& contacts) {
-  auto& [left, right] = contacts.feet;
+void exchange_contacts(Archive& a, Contacts& contacts, int first = 0) {
+  std::vector<bool>&left = contacts.feet[first], &right = contacts.feet[first + 1];
   std::vector<std::uint8_t> standing;
   for (std::size_t f = 0; f < left.size(); ++f) standing.push_back((left[f] ? 1 : 0) | (right[f] ? 2 : 0));
   a.packed(standing);
-  for (auto& floor : contacts.floors) {
-    a.template number<double>(floor.ball);
-    a.template number<double>(floor.heel);
+  for (const int foot : {first, first + 1}) {
+    a.template number<double>(contacts.floors[foot].ball);
+    a.template number<double>(contacts.floors[foot].heel);
   }
   if (!Archive::kReads) return;
   for (const std::uint8_t feet : standing) {
@@ -240,6 +241,12 @@ void exchange_moves(Archive& a, std::vector<Move>& moves) {
   a.list(moves, 25, exchange_move, kMostMoves);
 }
 
+// Of the pair of legs that begins with a left one; the bones are found anew by their roles.
+template <typename Archive>
+void exchange_hinges(Archive& a, Legs& legs, int first = 0) {
+  for (const int leg : {first, first + 1}) exchange_vector(a, legs[leg].hinge);
+}
+
 // All of a style but its skeleton.
 template <typename Archive>
 void exchange_style(Archive& a, Character& c) {
@@ -265,7 +272,7 @@ void exchange_style(Archive& a, Character& c) {
   a.packed(c.bridges);
   a.singles(c.control_model);
   a.list(c.contacts, 40, [&](auto& contacts) { exchange_contacts(a, contacts); });
-  for (Leg& leg : c.legs) exchange_vector(a, leg.hinge);  // the bones are found anew by their roles
+  exchange_hinges(a, c.legs);
 }
 
 // One of `copies`, made only where the file has poses of as many bones, which are its share of the memory.
@@ -317,6 +324,20 @@ void exchange_markers(Archive& a, Character& c) {
   }
 }
 
+// What four-legged bodies have beside their hind legs.
+template <typename Archive>
+void exchange_fore_legs(Archive& a, Character& c) {
+  Roles& roles = c.pool.skeleton.roles;
+  for (std::size_t i = kRolesOfAll; i < role_names().size(); ++i)
+    a.template number<std::int32_t>(roles.*role_names()[i].second);
+  for (int style = 0; style < c.style_count(); ++style) {
+    auto& styled = const_cast<Character&>(c.in_style(style));
+    styled.pool.skeleton.roles = roles;
+    for (Contacts& contacts : styled.contacts) exchange_contacts(a, contacts, 2);
+    exchange_hinges(a, styled.legs, 2);
+  }
+}
+
 inline bool has_markers(const Character& c) {
   for (int style = 0; style < c.style_count(); ++style) {
     for (const PackedClip& clip : c.in_style(style).pool.clips) {
@@ -334,6 +355,7 @@ void exchange(Archive& a, Character& c) {
   if (a.section("moves", !c.moves.empty())) exchange_moves(a, c.moves);
   if (a.section("styles", !c.style.empty())) exchange_styles(a, c);
   if (a.section("markers", has_markers(c))) exchange_markers(a, c);
+  if (a.section("fore legs", legs_with_feet(c.pool.skeleton.roles).size() == kMostLegs)) exchange_fore_legs(a, c);
 }
 
 }  // namespace fragmotion

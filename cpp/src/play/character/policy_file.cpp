@@ -44,7 +44,7 @@ void check_memory(const Character& c, std::size_t size) {
 // Makes anew what a file of this version does not hold.
 void complete(Character& c, std::uint32_t version) {
   Legs legs = resting_legs(c.pool.skeleton);
-  for (std::size_t side = 0; side < legs.size(); ++side) legs[side].hinge = c.legs[side].hinge;
+  for (int leg = 0; leg < kMostLegs; ++leg) legs[leg].hinge = c.legs[leg].hinge;
   c.legs = legs;
   if (version < 5) repair_policies(c);
   find_whole_jumps(c.pool);

@@ -11,11 +11,12 @@ namespace {
 
 constexpr double kDeeper = 0.02;  // of a path's points, that may be under its floor
 
-// The frames from which on a foot stands, or does not.
-std::vector<int> changes(const Contacts& contacts, bool stands) {
+// The frames from which on a foot of the pair that begins with `left` stands, or does not.
+std::vector<int> changes(const Contacts& contacts, int left, bool stands) {
   std::vector<int> frames;
-  for (int f = 1; f < static_cast<int>(contacts.feet[0].size()); ++f) {
-    for (const std::vector<bool>& foot : contacts.feet) {
+  for (int f = 1; f < static_cast<int>(contacts.feet[left].size()); ++f) {
+    for (const int side : {left, left + 1}) {
+      const std::vector<bool>& foot = contacts.feet[side];
       const bool changes = foot[f] == stands && foot[f - 1] != stands;
       if (changes && (frames.empty() || frames.back() != f)) frames.push_back(f);
     }
@@ -24,6 +25,13 @@ std::vector<int> changes(const Contacts& contacts, bool stands) {
 }
 
 }  // namespace
+
+bool Contacts::any_stands(std::size_t frame) const {
+  for (int foot = 0; foot < kMostLegs; ++foot) {
+    if (stands(foot, frame)) return true;
+  }
+  return false;
+}
 
 double floor_of(const std::vector<Vector3>& path) {
   std::vector<double> heights;
@@ -39,7 +47,7 @@ Floors usual_floors(const std::vector<Contacts>& contacts) {
     return median(std::move(heights));
   };
   Floors floors;
-  for (int side = 0; side < 2; ++side)
+  for (int side = 0; side < kMostLegs; ++side)
     floors[side] = {usual(side, &FootHeights::ball), usual(side, &FootHeights::heel)};
   return floors;
 }
@@ -50,12 +58,12 @@ Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Flo
   return find_contacts(kinematics.skeleton(), foot_paths(kinematics, clip), hips, clip.rate, floors);
 }
 
-Contacts find_contacts(const Skeleton& skeleton, const std::array<FootPath, 2>& paths, const std::vector<Vector3>& hips,
-                       double rate, const Floors* floors) {
+Contacts find_contacts(const Skeleton& skeleton, const FootPaths& paths, const std::vector<Vector3>& hips, double rate,
+                       const Floors* floors) {
   if (paths[0].ball.empty()) return {};
   const double scale = standard_scale(skeleton);
   Contacts contacts;
-  for (int side = 0; side < 2; ++side) {
+  for (int side = 0; side < kMostLegs && !paths[side].ball.empty(); ++side) {
     contacts.floors[side] =
         floors ? (*floors)[side] : FootHeights{floor_of(paths[side].ball), floor_of(paths[side].heel)};
     contacts.feet[side] = foot_contacts(paths[side], contacts.floors[side], hips, rate, scale);
@@ -65,14 +73,16 @@ Contacts find_contacts(const Skeleton& skeleton, const std::array<FootPath, 2>& 
 
 Contacts find_plants(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
   Contacts contacts = find_contacts(kinematics, clip, floors);
-  const std::array<FootPath, 2> paths = foot_paths(kinematics, clip);
+  const FootPaths paths = foot_paths(kinematics, clip);
   const double scale = standard_scale(kinematics.skeleton());
-  for (int side = 0; side < 2; ++side) end_where_ball_rises(paths[side], clip.rate, scale, contacts.feet[side]);
+  for (int side = 0; side < kMostLegs; ++side) end_where_ball_rises(paths[side], clip.rate, scale, contacts.feet[side]);
   return contacts;
 }
 
-std::vector<int> foot_strikes(const Contacts& contacts) { return changes(contacts, true); }
+std::vector<int> foot_strikes(const Contacts& contacts) { return changes(contacts, 0, true); }
 
-std::vector<int> foot_lifts(const Contacts& contacts) { return changes(contacts, false); }
+std::vector<int> foot_lifts(const Contacts& contacts) { return changes(contacts, 0, false); }
+
+std::vector<int> fore_foot_strikes(const Contacts& contacts) { return changes(contacts, 2, true); }
 
 }  // namespace fragmotion

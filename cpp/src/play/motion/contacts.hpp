@@ -13,12 +13,15 @@ struct FootHeights {
   double ball = 0, heel = 0;
 };
 
-using Floors = std::array<FootHeights, 2>;  ///< Of the left and the right foot, where they stand.
+using Floors = std::array<FootHeights, kMostLegs>;  ///< Of each foot, where it stands.
 
 /// Which feet stand on the ground in each frame of a clip.
 struct Contacts {
-  std::array<std::vector<bool>, 2> feet;  ///< left, right: [frames]; empty where the skeleton has no feet
+  std::array<std::vector<bool>, kMostLegs> feet;  ///< of each foot [frames]; empty where the skeleton has it not
   Floors floors;
+
+  bool stands(int foot, std::size_t frame) const { return frame < feet[foot].size() && feet[foot][frame]; }
+  bool any_stands(std::size_t frame) const;
 };
 
 /// Where a point of a foot stands: the height over which it is all but 2 % of the time, so that neither a hard landing
@@ -38,10 +41,12 @@ Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Flo
 /// as the ball rises and goes away, though it is low and slow enough to stand still.
 Contacts find_plants(const Kinematics& kinematics, const Clip& clip, const Floors* floors = nullptr);
 
-/// The frames in which a foot strikes the ground, in order: the gait events between fragments.
+/// The frames in which a foot strikes the ground, of four-legged bodies a hind one, in order: the gait events between
+/// fragments.
 std::vector<int> foot_strikes(const Contacts& contacts);
 
-/// The frames in which a foot leaves the ground, in order.
+/// The frames in which such a foot leaves the ground, and in which a fore foot strikes it, in order.
 std::vector<int> foot_lifts(const Contacts& contacts);
+std::vector<int> fore_foot_strikes(const Contacts& contacts);
 
 }  // namespace fragmotion

@@ -39,6 +39,9 @@ double turn_to_reach(const Vector3& hip, const Vector3& from_ball, const Vector3
   return std::atan2(across, along) + std::acos(std::max(-1.0, wanted / std::hypot(along, across)));
 }
 
+// The other foot of a pair.
+int other(int side) { return side ^ 1; }
+
 // How far a foot is lifted that is so deep in the ground: softly at first.
 double lifted(double depth) {
   if (depth < 0) return 0;
@@ -56,7 +59,8 @@ FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs)
     : kinematics(kinematics),
       legs(legs),
       scale(standard_scale(kinematics.skeleton())),
-      bones(kinematics.chains({legs[0].foot, legs[0].toe, legs[1].foot, legs[1].toe})),
+      bones(kinematics.chains({legs[0].foot, legs[0].toe, legs[1].foot, legs[1].toe, legs[2].foot, legs[2].toe,
+                               legs[3].foot, legs[3].toe})),
       posed(kinematics.bones()) {}
 
 FootLock::FootLock(const Kinematics& kinematics, const Legs& legs)
@@ -66,7 +70,7 @@ FootLock::FootLock(std::shared_ptr<Body> body) : body_(std::move(body)) { reset(
 
 void FootLock::reset() {
   feet_ = {};
-  feet_[0].free = feet_[1].free = kRelease;
+  for (Foot& foot : feet_) foot.free = kRelease;
   sunk_ = stood_ = 0;
   fresh_ = true;
 }
@@ -77,12 +81,20 @@ void FootLock::lock(Foot& foot, const Vector2& shown, double seconds) const {
   foot.drift = seconds > 0 && !fresh_ ? Vector2{(shown - foot.shown) / seconds} : Vector2::Zero();
 }
 
+bool FootLock::all_locked() const {
+  return std::all_of(feet_.begin(), feet_.begin() + body_->legs.count(), [](const Foot& foot) { return foot.locked; });
+}
+
 // A body that has come to stand does not stay in the middle of a stride.
 void FootLock::settle(double seconds) {
-  stood_ = feet_[0].locked && feet_[1].locked ? stood_ + seconds : 0;
+  stood_ = all_locked() ? stood_ + seconds : 0;
   if (stood_ < kPatience) return;
   const auto astray = [&](const Foot& foot) { return (foot.place - foot.moved).norm() * body_->scale; };
-  Foot& foot = astray(feet_[0]) > astray(feet_[1]) ? feet_[0] : feet_[1];
+  int most = body_->legs.count() - 1;
+  for (int side = most - 1; side >= 0; --side) {
+    if (astray(feet_[side]) > astray(feet_[most])) most = side;
+  }
+  Foot& foot = feet_[most];
   if (astray(foot) < kAstray) return;
   release(foot, foot.place - foot.moved);
 }
@@ -140,7 +152,8 @@ void FootLock::release(Foot& foot, const Vector2& held) const {
 }
 
 // How far the foot is shown from where its motion has it.
-Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double seconds) const {
+Vector2 FootLock::away(int side, const Vector2& moved, bool planted, double seconds) {
+  Foot& foot = feet_[side];
   foot.speed = seconds > 0 && !fresh_ ? Vector2{(moved - foot.moved) / seconds} : Vector2::Zero();
   foot.moved = moved;
   foot.free += seconds;
@@ -150,7 +163,7 @@ Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double se
     away = std::exp(-kReturns * foot.free) * (foot.offset + foot.free * rate);
   }
   const bool stepping = foot.steps && foot.free < kRelease;
-  const double too_far = feet_[0].locked && feet_[1].locked ? kTooFar : kTooFarAlone;
+  const double too_far = foot.locked && feet_[other(side)].locked ? kTooFar : kTooFarAlone;
   if (planted && !foot.locked && !stepping && away.norm() * body_->scale < kTooFar) lock(foot, moved + away, seconds);
   if (foot.locked) {
     const double goes_on = std::exp(-seconds / kSettle);
@@ -163,6 +176,12 @@ Vector2 FootLock::away(Foot& foot, const Vector2& moved, bool planted, double se
   return away;
 }
 
+// What a foot's steps are seen from: the hips, or the middle between the fore legs.
+Vector3 FootLock::under(int side, const WorldPose& pose) const {
+  if (side < 2) return pose.root;
+  return (body_->posed.heads[body_->legs[2].thigh] + body_->posed.heads[body_->legs[3].thigh]) / 2;
+}
+
 double FootLock::height(int side, const FootHeights& floor) const {
   const Leg& leg = body_->legs[side];
   const PosedBones& posed = body_->posed;
@@ -173,23 +192,24 @@ double FootLock::height(int side, const FootHeights& floor) const {
 void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds,
                      const StepEdit& edit) {
   auto& [kinematics, legs, scale, bones, posed] = *body_;
-  if (!legs[0].exists() || !legs[1].exists()) return;
+  const int count = legs.count();
+  if (count == 0) return;
   const Skeleton& skeleton = kinematics.skeleton();
   kinematics.world_below(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
   const Matrix2 heading = Eigen::Rotation2Dd(pose.heading).toRotationMatrix(),
                 longer = heading * edit.stride * heading.transpose();
   const Vector2 shift = heading * edit.shift;
-  std::array<Vector3, 2> ankles;
+  std::array<Vector3, kMostLegs> ankles;
   double sink = 0;
   settle(seconds);
-  for (int side = 0; side < 2; ++side) {
+  for (int side = 0; side < count; ++side) {
     const double over = height(side, contacts.floors[side]);
     const bool locked = feet_[side].locked, low = over * scale < kLanding;
-    const bool hands_over = locked && contacts.feet[1 - side][frame] && !feet_[1 - side].locked;
-    const bool stands = hands_over || (contacts.feet[side][frame] && (locked || low));
+    const bool hands_over = locked && contacts.stands(other(side), frame) && !feet_[other(side)].locked;
+    const bool stands = hands_over || (contacts.stands(side, frame) && (locked || low));
     const Vector3 place = ball(skeleton, legs[side], posed);
-    const Vector2 edited = longer * (place - pose.root).head<2>() + shift;
-    const Vector2 held = away(feet_[side], place.head<2>() + edited, stands, seconds), by = edited + held;
+    const Vector2 edited = longer * (place - under(side, pose)).head<2>() + shift;
+    const Vector2 held = away(side, place.head<2>() + edited, stands, seconds), by = edited + held;
     const double lift = lifted(-over * scale) / scale + step_height(feet_[side]) - lowered(feet_[side], over, seconds);
     const Vector3 moved{by.x(), by.y(), lift};
     ankles[side] = posed.heads[legs[side].foot] + moved;
@@ -203,7 +223,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
   sunk_ += (sink - sunk_) * filtered(seconds, kSinking);
   pose.root.z() -= sunk_;
   for (Vector3& head : posed.heads) head.z() -= sunk_;
-  for (int side = 0; side < 2; ++side) {
+  for (int side = 0; side < count; ++side) {
     reach(skeleton, legs[side], posed, ankles[side], pose.rotations.data());
   }
 }

@@ -11,7 +11,7 @@
 namespace fragmotion {
 
 /// How steps differ from those of the motion, in the character frame: each foot is moved by `stride` times its place
-/// from the hips, and by `shift`, m.
+/// from the hips, of a fore foot from the middle between the fore legs, and by `shift`, m.
 struct StepEdit {
   Matrix2 stride = Matrix2::Zero();
   Vector2 shift = Vector2::Zero();
@@ -25,8 +25,8 @@ struct StepEdit {
 /// a step where that is far; but the only foot that stands is kept for longer, and until the other one has come down
 /// whose turn it is. Where a leg would be a little too short, the heel of a foot that is left behind rises and the hips
 /// sink; where it would be much too short, the foot steps on. A planted foot that hovers is lowered to the floor. A
-/// body that has stood for a while in the middle of a stride steps out of it. Does nothing to a skeleton without legs.
-/// Allocates nothing once it is made.
+/// body that has stood for a while in the middle of a stride steps out of it. The feet of a four-legged body are two
+/// pairs, each like a biped's. Does nothing to a skeleton without legs. Allocates nothing once it is made.
 class FootLock {
  public:
   /// s in which a foot that is let go gets back to its motion, most of the way; it is critically damped, 1/s.
@@ -46,7 +46,7 @@ class FootLock {
   FootLock(const Kinematics& kinematics, const Legs& legs);
   explicit FootLock(std::shared_ptr<Body> body);
 
-  /// Both feet are free, and where their motion has them.
+  /// All feet are free, and where their motion has them.
   void reset();
 
   /// Moves the legs of the pose that is shown `seconds` after the last one, and is, or is to become, a frame with these
@@ -76,8 +76,10 @@ class FootLock {
     double raised = 0;  // rad, its heel, while the leg would be too short
   };
 
+  Vector3 under(int side, const WorldPose& pose) const;
   double height(int side, const FootHeights& floor) const;
-  Vector2 away(Foot& foot, const Vector2& moved, bool planted, double seconds) const;
+  bool all_locked() const;
+  Vector2 away(int side, const Vector2& moved, bool planted, double seconds);
   void lock(Foot& foot, const Vector2& shown, double seconds) const;
   void settle(double seconds);
   double step_height(const Foot& foot) const;
@@ -86,9 +88,9 @@ class FootLock {
   void release(Foot& foot, const Vector2& held) const;
 
   std::shared_ptr<Body> body_;
-  std::array<Foot, 2> feet_;
+  std::array<Foot, kMostLegs> feet_;
   bool fresh_ = true;  // no pose was shown yet
-  double stood_ = 0;   // s that both feet are locked
+  double stood_ = 0;   // s that all feet are locked
   double sunk_ = 0;    // m that the hips are lowered
 };
 

@@ -31,19 +31,19 @@ void close_short_runs(std::vector<bool>& flags, bool value, int frames) {
 
 }  // namespace
 
-std::array<FootPath, 2> foot_paths(const Kinematics& kinematics, const Clip& clip) {
+FootPaths foot_paths(const Kinematics& kinematics, const Clip& clip) {
   const Skeleton& skeleton = kinematics.skeleton();
-  const Roles& roles = skeleton.roles;
-  if (roles.left_foot < 0 || roles.right_foot < 0) return {};
-  const int feet[] = {roles.left_foot, roles.right_foot}, toes[] = {roles.left_toe, roles.right_toe};
-  const std::vector<int> bones = kinematics.chains({feet[0], feet[1], toes[0], toes[1]});
+  const std::vector<LegRoles> feet = legs_with_feet(skeleton.roles);
+  std::vector<int> ends;
+  for (const LegRoles& leg : feet) ends.insert(ends.end(), {leg.foot, leg.toe});
+  const std::vector<int> bones = kinematics.chains(ends);
   PosedBones posed(kinematics.bones());
-  std::array<FootPath, 2> paths;
-  for (int f = 0; f < clip.frames; ++f) {
+  FootPaths paths;
+  for (int f = 0; f < clip.frames && !feet.empty(); ++f) {
     world(kinematics, clip, f, bones, posed.heads.data(), posed.rotations.data());
-    for (int side = 0; side < 2; ++side) {
-      paths[side].ball.push_back(ball(skeleton, feet[side], toes[side], posed));
-      paths[side].heel.push_back(posed.heads[feet[side]]);
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+      paths[i].ball.push_back(ball(skeleton, feet[i].foot, feet[i].toe, posed));
+      paths[i].heel.push_back(posed.heads[feet[i].foot]);
     }
   }
   return paths;

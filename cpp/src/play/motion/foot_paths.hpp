@@ -13,8 +13,10 @@ struct FootPath {
   std::vector<Vector3> ball, heel;
 };
 
-/// Of the left and the right foot in a clip; empty where the skeleton has not both.
-std::array<FootPath, 2> foot_paths(const Kinematics& kinematics, const Clip& clip);
+using FootPaths = std::array<FootPath, kMostLegs>;
+
+/// Of each foot in a clip; those of a pair are empty where the skeleton has not both.
+FootPaths foot_paths(const Kinematics& kinematics, const Clip& clip);
 
 /// When a foot of this path stands on this floor, as find_contacts() tells it: [frames]. `hips`: their path; times
 /// `scale`, lengths are those of a character of 1.8 m.
@@ -25,7 +27,7 @@ std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, 
 void end_where_ball_rises(const FootPath& path, double rate, double scale, std::vector<bool>& contacts);
 
 /// find_contacts() of feet and hips that went so.
-Contacts find_contacts(const Skeleton& skeleton, const std::array<FootPath, 2>& paths, const std::vector<Vector3>& hips,
-                       double rate, const Floors* floors = nullptr);
+Contacts find_contacts(const Skeleton& skeleton, const FootPaths& paths, const std::vector<Vector3>& hips, double rate,
+                       const Floors* floors = nullptr);
 
 }  // namespace fragmotion

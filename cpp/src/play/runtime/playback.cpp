@@ -189,9 +189,7 @@ double Playback::until_standing(int side) const {
 
 bool Playback::is_in_the_air() const {
   if (!evident().jumps()) return false;
-  const auto& [left, right] = contacts().feet;
-  const std::size_t frame = frame_of_clip();
-  return !left.empty() && !left[frame] && !right[frame];
+  return !contacts().feet[0].empty() && !contacts().any_stands(frame_of_clip());
 }
 
 double Playback::left() const {

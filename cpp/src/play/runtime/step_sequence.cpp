@@ -60,8 +60,7 @@ std::vector<double> step_seconds(const Character& character) {
 }
 
 std::array<bool, 2> standing_feet(const Contacts& contacts, std::size_t frame) {
-  const auto& [left, right] = contacts.feet;
-  return left.empty() ? std::array<bool, 2>{} : std::array<bool, 2>{left[frame], right[frame]};
+  return {contacts.stands(0, frame), contacts.stands(1, frame)};
 }
 
 int steps_out_of_turn(const StepSequence& steps, const EntrySteps& entry) {

@@ -30,6 +30,12 @@ const std::vector<std::pair<std::string, int Roles::*>>& role_names() {
       {"right_toe", &Roles::right_toe},
       {"left_thigh", &Roles::left_thigh},
       {"right_thigh", &Roles::right_thigh},
+      {"left_fore_foot", &Roles::left_fore_foot},
+      {"right_fore_foot", &Roles::right_fore_foot},
+      {"left_fore_toe", &Roles::left_fore_toe},
+      {"right_fore_toe", &Roles::right_fore_toe},
+      {"left_fore_leg", &Roles::left_fore_leg},
+      {"right_fore_leg", &Roles::right_fore_leg},
   };
   return names;
 }

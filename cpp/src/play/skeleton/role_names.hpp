@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <utility>
@@ -10,7 +11,9 @@
 
 namespace fragmotion {
 
-/// The roles' names as the user meets them, in the order of policy files: hips, head, left_hand, right_hand ...
+/// The roles' names as the user meets them, in the order of policy files: hips, head, left_hand, right_hand ... Those
+/// of fore legs are the last ones, after as many as every policy file has.
+constexpr std::size_t kRolesOfAll = 10;
 const std::vector<std::pair<std::string, int Roles::*>>& role_names();
 
 /// Sets the skeleton's roles as `bones` (role -> bone's name) says and leaves the others. Throws std::invalid_argument

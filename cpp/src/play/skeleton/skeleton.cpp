@@ -81,6 +81,21 @@ void check_roles(const Skeleton& skeleton) {
 
 }  // namespace
 
+std::array<LegRoles, kMostLegs> leg_roles(const Roles& r) {
+  return {{{r.left_thigh, r.left_foot, r.left_toe},
+           {r.right_thigh, r.right_foot, r.right_toe},
+           {r.left_fore_leg, r.left_fore_foot, r.left_fore_toe},
+           {r.right_fore_leg, r.right_fore_foot, r.right_fore_toe}}};
+}
+
+std::vector<LegRoles> legs_with_feet(const Roles& roles) {
+  std::vector<LegRoles> legs;
+  const std::array<LegRoles, kMostLegs> all = leg_roles(roles);
+  for (int left = 0; left < kMostLegs && all[left].foot >= 0 && all[left + 1].foot >= 0; left += 2)
+    legs.insert(legs.end(), {all[left], all[left + 1]});
+  return legs;
+}
+
 int Skeleton::find(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,24 @@ struct Roles {
   int left_foot = -1, right_foot = -1;
   int left_toe = -1, right_toe = -1;
   int left_thigh = -1, right_thigh = -1;
+  // Of a four-legged body, whose feet and thighs above are the hind ones.
+  int left_fore_foot = -1, right_fore_foot = -1;
+  int left_fore_toe = -1, right_fore_toe = -1;
+  int left_fore_leg = -1, right_fore_leg = -1;  ///< Where the fore legs begin.
 };
+
+/// How many legs a body has at most. Legs and feet are numbered: the left and the right one, and of a four-legged body
+/// these are the hind ones, and the fore ones follow.
+constexpr int kMostLegs = 4;
+
+/// The roles of a leg's bones; -1 where it has none.
+struct LegRoles {
+  int thigh = -1, foot = -1, toe = -1;
+};
+
+std::array<LegRoles, kMostLegs> leg_roles(const Roles& roles);
+/// Those of the legs up to a pair that has not both feet.
+std::vector<LegRoles> legs_with_feet(const Roles& roles);
 
 /// Bones in parent-before-child order, in metres. Exactly one bone, the first, has no parent (-1).
 /// A bone's frame has its origin at the bone's head; `offset` is the head in the parent's frame, `rest_rotation` the

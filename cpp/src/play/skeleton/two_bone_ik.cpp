@@ -146,12 +146,12 @@ Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe, int other_foo
 }
 
 // To the character's left at rest, as the thighs see it.
-void hinge_at_rest(const Skeleton& skeleton, Legs& legs) {
+void hinge_at_rest(const Skeleton& skeleton, Leg& of_left, Leg& of_right) {
   std::vector<Vector3> heads;
   std::vector<Quaternion> rotations;
   rest_pose(skeleton, heads, rotations);
-  const Vector3 left = heads[legs[0].thigh] - heads[legs[1].thigh];
-  for (Leg& leg : legs) leg.hinge = rotations[leg.thigh].conjugate() * left.normalized();
+  const Vector3 left = heads[of_left.thigh] - heads[of_right.thigh];
+  for (Leg* leg : {&of_left, &of_right}) leg->hinge = rotations[leg->thigh].conjugate() * left.normalized();
 }
 
 // How well two joints serve as shoulder and elbow of a hand.
@@ -220,11 +220,16 @@ void reach(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed, co
 }
 
 Legs resting_legs(const Skeleton& skeleton) {
-  const Roles& roles = skeleton.roles;
-  Legs legs{leg_of(skeleton, roles.left_thigh, roles.left_foot, roles.left_toe, roles.right_foot),
-            leg_of(skeleton, roles.right_thigh, roles.right_foot, roles.right_toe, roles.left_foot)};
-  if (!legs[0].exists() || !legs[1].exists()) return {};
-  hinge_at_rest(skeleton, legs);
+  const std::array<LegRoles, kMostLegs> roles = leg_roles(skeleton.roles);
+  Legs legs;
+  for (int left = 0; left < kMostLegs; left += 2) {
+    const LegRoles &of_left = roles[left], &of_right = roles[left + 1];
+    const Leg pair[] = {leg_of(skeleton, of_left.thigh, of_left.foot, of_left.toe, of_right.foot),
+                        leg_of(skeleton, of_right.thigh, of_right.foot, of_right.toe, of_left.foot)};
+    if (!pair[0].exists() || !pair[1].exists()) break;
+    legs[left] = pair[0], legs[left + 1] = pair[1];
+    hinge_at_rest(skeleton, legs[left], legs[left + 1]);
+  }
   return legs;
 }
 

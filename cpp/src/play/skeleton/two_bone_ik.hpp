@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "skeleton/kinematics.hpp"
@@ -18,10 +19,21 @@ struct Leg {
   bool exists() const { return knee >= 0; }
 };
 
-using Legs = std::array<Leg, 2>;
+/// The legs of a body, by their numbers; those that exist, none, two or four, are the first ones.
+struct Legs {
+  std::array<Leg, kMostLegs> all;
 
-/// The left and the right leg; none where the skeleton has not both. The knee is the joint that divides a leg most
-/// evenly; it bends to the front of the rest pose.
+  Leg& operator[](std::size_t number) { return all[number]; }
+  const Leg& operator[](std::size_t number) const { return all[number]; }
+  int count() const { return all[2].exists() ? 4 : all[0].exists() ? 2 : 0; }
+  Leg* begin() { return all.data(); }
+  Leg* end() { return all.data() + count(); }
+  const Leg* begin() const { return all.data(); }
+  const Leg* end() const { return all.data() + count(); }
+};
+
+/// The left and the right leg, and the fore legs of a four-legged body; none of a pair of which the skeleton has not
+/// both. The knee is the joint that divides a leg most evenly; it bends to the front of the rest pose.
 Legs resting_legs(const Skeleton& skeleton);
 
 /// World places and rotations of all bones of one pose, which legs are bent in.

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What the bones of a body on four legs are.
+#include <gtest/gtest.h>
+
+#include "dog.hpp"
+#include "skeleton/role_map.hpp"
+
+namespace fragmotion {
+namespace {
+
+TEST(FourLeggedBody, IsToldByItsShape) {
+  const Skeleton skeleton = dog();
+  const Roles& roles = skeleton.roles;
+  const auto name = [&](int bone) { return bone < 0 ? std::string() : skeleton.names[bone]; };
+  EXPECT_EQ(name(roles.hips), "a");
+  EXPECT_EQ(name(roles.left_thigh), "h1.L");
+  EXPECT_EQ(name(roles.left_foot), "h3.L");
+  EXPECT_EQ(name(roles.right_foot), "h3.R");
+  EXPECT_EQ(name(roles.left_fore_leg), "f1.L");
+  EXPECT_EQ(name(roles.left_fore_foot), "f3.L");
+  EXPECT_EQ(name(roles.right_fore_foot), "f3.R");
+  for (const int human : {roles.left_hand, roles.right_hand}) EXPECT_EQ(human, -1);
+  EXPECT_EQ(resting_legs(skeleton).count(), 4);
+}
+
+// Hind legs are those that are farther from the head, wherever the root is.
+TEST(FourLeggedBody, HasItsHeadAtItsForeLegs) {
+  Skeleton skeleton = dog();
+  skeleton.roles = {};
+  skeleton.names[2] = "head";
+  skeleton.parents[2] = 0;
+  skeleton.offsets[2] = {0, 0.3, 0.2};
+  const Skeleton turned = make_skeleton(skeleton);
+  EXPECT_EQ(turned.names[turned.roles.head], "head");
+  EXPECT_EQ(turned.names[turned.roles.left_thigh], "f1.R") << "which it has at its left as it faces the other way";
+  EXPECT_EQ(turned.names[turned.roles.right_fore_foot], "h3.L");
+}
+
+TEST(FourLeggedBody, IsNoManWhoseArmsHang) {
+  const Skeleton skeleton = humanoid();
+  EXPECT_EQ(skeleton.roles.left_fore_foot, -1);
+  EXPECT_GE(skeleton.roles.left_hand, 0);
+}
+
+}  // namespace
+}  // namespace fragmotion
