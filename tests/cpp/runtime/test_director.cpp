@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "fragments/successors.hpp"
 #include "runtime/player.hpp"
 #include "small_character.hpp"
 #include "steering.hpp"
@@ -174,10 +173,10 @@ TEST(Player, ForcesNothingAfterAResetAndNoClassThatDoesNotExist) {
   EXPECT_THROW(player.force(4), std::invalid_argument);
 }
 
-// The share of fragments with which the take that played goes on, under a stick that is moved every two seconds.
+// The share of fragments that are of the take that played, under a stick that is moved every two seconds.
 double share_that_stays(const TransitionWeights& weights) {
   const std::shared_ptr<const Character> character = gait_character();
-  const std::vector<int> next = successors(character->pool.fragments);
+  const std::vector<Fragment>& fragments = character->pool.fragments;
   PlayerOptions options;
   options.constants.transition = weights;
   Player player(character, options);
@@ -187,7 +186,7 @@ double share_that_stays(const TransitionWeights& weights) {
     player.step({1.2 * std::sin(angle), 1.2 * std::cos(angle), 0, 0}, kStep);
     if (player.entered() == entered) continue;
     ++entered;
-    stays += player.playing_fragment() == next[before] ? 1 : 0;
+    stays += fragments[player.playing_fragment()].clip == fragments[before].clip ? 1 : 0;
     before = player.playing_fragment();
   }
   return static_cast<double>(stays) / player.entered();
