@@ -31,16 +31,26 @@ struct Choice {
   }
 };
 
+// Its stated equation, of a fragment with which a take goes on.
+double stated_performing(const Choice& choice, const std::vector<EndVelocities>& ends, int fragment,
+                         const Control& control) {
+  const Character& c = *choice.character;
+  const TransitionWeights weights;
+  const Fragment& f = c.pool.fragments[fragment];
+  const bool made = f.origin == Origin::interpolated || f.origin == Origin::transformed;
+  const Vector2 asked{control.x, control.y};
+  const double before = (ends[fragment].first - asked).norm(), after = (ends[fragment].last - asked).norm();
+  return weights.match * c.space.distance(f.evident, control) + (made ? weights.made : 0) +
+         weights.unsteady * standard_scale(c.pool.skeleton) * std::max(0.0, after - before);
+}
+
 // Its stated equation, of a fragment that is entered from what plays; how the tips would go on is the selector's.
-double stated_cost(const Choice& choice, const std::vector<double>& changes, int fragment, const Control& control) {
+double stated_cost(const Choice& choice, const std::vector<EndVelocities>& ends, int fragment, const Control& control) {
   const Character& c = *choice.character;
   const TransitionWeights weights;
   const Fragment &f = c.pool.fragments[fragment], &left = choice.playback.fragment();
-  const auto made = [](Origin origin) { return origin == Origin::interpolated || origin == Origin::transformed; };
   const auto moves = [&](const Control& evident) { return evident.speed() * c.space.scale() > kMoving; };
-  double cost = weights.match * c.space.distance(f.evident, control);
-  if (made(f.origin)) cost += weights.made;
-  cost += weights.unsteady * changes[fragment];
+  double cost = stated_performing(choice, ends, fragment, control);
   cost += weights.hurried * std::max(0.0, 1 - c.pool.seconds(f) / 0.4);
   if ((f.origin == Origin::mirrored) != (left.origin == Origin::mirrored)) cost += weights.mirrored;
   if (f.clip != left.clip) cost += weights.other_take;
@@ -57,7 +67,7 @@ double stated_cost(const Choice& choice, const std::vector<double>& changes, int
 TEST(FragmentSelector, ChoosesMembersThatCostNearlyAsLittleAsAnyByTheStatedEquation) {
   Choice choice(3);
   const Character& c = *choice.character;
-  const std::vector<double> changes = velocity_changes(c.pool);
+  const std::vector<EndVelocities> ends = end_velocities(c.pool);
   choice.playback.advance(0.1);
   for (int k = 0; k < c.classes.count; k += 2) {
     for (int point = 0; point < kPaperPoints; point += 14) {
@@ -74,12 +84,58 @@ TEST(FragmentSelector, ChoosesMembersThatCostNearlyAsLittleAsAnyByTheStatedEquat
       double least = std::numeric_limits<double>::infinity();
       for (const int member : choice.workspace.styles[0].members[k]) {
         if (may_play(c.pool.fragments[member].evident))
-          least = std::min(least, stated_cost(choice, changes, member, control));
+          least = std::min(least, stated_cost(choice, ends, member, control));
       }
-      EXPECT_LE(stated_cost(choice, changes, chosen, control), least + TransitionWeights{}.variety + 1e-4);
+      EXPECT_LE(stated_cost(choice, ends, chosen, control), least + TransitionWeights{}.variety + 1e-4);
       EXPECT_NEAR(choice.selector.cost_of_leaving(k, control, choice.playback).whole, least, 1e-4);
     }
   }
+}
+
+// A walk of 3 s, and one that slows down evenly over as long.
+std::shared_ptr<const Character> braking_character() {
+  Gait walk;
+  walk.rate = 60;
+  walk.seconds = 6;
+  const Clip steady = gait_clip(walk);
+  Clip brakes = part(steady, 0, 0);
+  const auto row = [&](std::vector<double>& to, const std::vector<double>& from, int at) {
+    const auto width = static_cast<std::ptrdiff_t>(from.size()) / steady.frames;
+    to.insert(to.end(), from.begin() + width * at, from.begin() + width * (at + 1));
+  };
+  for (double t = 1 / walk.rate; t < 3; t += 1 / walk.rate) {
+    const int at = static_cast<int>(std::lround((t - t * t / 6) * walk.rate));
+    row(brakes.root_positions, steady.root_positions, at);
+    row(brakes.headings, steady.headings, at);
+    row(brakes.rotations, steady.rotations, at);
+    ++brakes.frames;
+  }
+  BuildOptions options;
+  options.classes = 6;
+  options.synthesize = false;
+  options.policies = {"greedy"};
+  return std::make_shared<const Character>(
+      build(humanoid(), {part(steady, 0, 180), brakes}, {simulate_trace("explorer", 10, 1, ControlSpace())}, options));
+}
+
+TEST(FragmentSelector, CountsWhatStraysFromTheControlWhereATakeGoesOnToo) {
+  const Choice choice(1, braking_character());
+  const Character& c = *choice.character;
+  const std::vector<EndVelocities> ends = end_velocities(c.pool);
+  const auto strays = [&](const Fragment& f, double cost, const Control& control) {
+    return cost > TransitionWeights{}.match * c.space.distance(f.evident, control) + 0.5;
+  };
+  int walking = 0, stopping = 0;
+  for (int fragment = 0; fragment < static_cast<int>(ends.size()); ++fragment) {
+    const Fragment& f = c.pool.fragments[fragment];
+    for (const Control& control : {Control{0, 1.2, 0, 0}, Control{}}) {
+      const double cost = choice.selector.cost_of_performing(fragment, control);
+      EXPECT_NEAR(cost, stated_performing(choice, ends, fragment, control), 1e-4);
+      if (strays(f, cost, control)) ++(control.speed() > 0 ? walking : stopping);
+    }
+  }
+  EXPECT_GT(walking, 3) << "steps that brake under a walk that is held";
+  EXPECT_EQ(stopping, 0) << "under a stop they are asked for";
 }
 
 TEST(FragmentSelector, DrawsTheSameFromTheSameSeedAndAfterAReset) {

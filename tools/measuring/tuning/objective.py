@@ -3,7 +3,8 @@
 
 The cost of a character is the mean of log(1 + figure / goal) over the figures, where a figure that is best at 1 counts
 by its logarithm. So halving any figure that is far beyond its goal is worth the same, and what is well within its goal
-counts for little. The goals are those that docs/evaluation.md states."""
+counts for little. The Frechet distance from unseen takes is told over that of the takes which the character was made
+of, as that is large where takes are few."""
 
 from __future__ import annotations
 
@@ -16,14 +17,14 @@ from concurrent.futures import ThreadPoolExecutor
 import fragmotion_core as core
 from fragmotion_command.evaluate.likeness.reenacting import Likeness, reenact
 from fragmotion_command.evaluate.loading import TEACHER, Recordings, Session, make_session, simulate_players
-from fragmotion_command.evaluate.measures import curves, run_time
+from fragmotion_command.evaluate.measures import curves, run_time, weight
 from fragmotion_command.evaluate.measures.controllers import DEFAULT
 
 Constants = Mapping[str, float]
 Figures = dict[str, float]
 
 AT_MOST: Mapping[str, float] = {
-    "frechet": 0.12,
+    "frechet_ratio": 4.0,
     "nearest": 1.6,
     "head_jerk": 1.2,
     "ball_travel": 12.0,
@@ -40,7 +41,7 @@ AT_MOST: Mapping[str, float] = {
 }
 """Figures of which less is better, and what they are to be at most."""
 
-AT_ONE: Mapping[str, float] = {"sway": 1.3, "ripple": 1.3, "stances": 1.1, "speed_ripple_ratio": 1.3}
+AT_ONE: Mapping[str, float] = {"sway": 1.3, "ripple": 1.3, "stances": 1.1, "speed_ripple_ratio": 1.3, "bob_ratio": 1.3}
 """Figures over the takes' own, which are best at 1, and by what factor they may be off."""
 
 _CLASSES, _SECONDS = 97, 60.0
@@ -49,7 +50,7 @@ _TESTS = 1000  # how far the seeds of the sessions to play are from the teacher'
 
 def cost(figures: Figures) -> float:
     """Of one character; what could not be told of its takes does not count."""
-    parts = [figures[name] / goal for name, goal in AT_MOST.items() if name in figures]
+    parts = [max(0.0, figures[name]) / goal for name, goal in AT_MOST.items() if name in figures]
     parts += [abs(math.log(figures[name])) / math.log(far) for name, far in AT_ONE.items() if figures.get(name, 0) > 0]
     return statistics.fmean(math.log1p(part) for part in parts)
 
@@ -61,6 +62,7 @@ class Character:
         self.name, self._seed = name, seed
         teacher = make_session(TEACHER, core.simulate_trace(TEACHER, _SECONDS, seed), core.ControlSpace())
         self._whole = curves.build(recordings, teacher, _CLASSES, seed, [DEFAULT])
+        self._yardstick = core.MotionMetrics(self._whole)
         self._tests: list[Session] = simulate_players(seed + _TESTS, self._whole.space)
         try:
             self._likeness: Likeness | None = Likeness(recordings)
@@ -72,11 +74,19 @@ class Character:
     def figures(self, constants: Constants) -> Figures:
         """The figures that count, of a player with these constants."""
         options = {"constants": dict(constants)}
-        found = run_time.measure_run_time(self._whole, [DEFAULT], self._tests, self._seed, **options)[DEFAULT]
+        played = run_time.play(self._whole, DEFAULT, self._tests, self._seed, players=1, **options)
+        found: dict[str, float | None] = {
+            **run_time.following(played),
+            **run_time.looks(self._yardstick, played),
+            **run_time.responses(self._whole, [self._seed], **options),
+            **weight.evenness(self._whole, [self._seed], **options),
+        }
         if self._likeness:
             found.update(reenact(self._likeness, self._half, self._seed, **options))
+            found["frechet_ratio"] = weight.ratio(found["frechet"], self._likeness.takes["frechet"])
         wanted = (*AT_MOST, *AT_ONE)
-        return {name: float(found[name]) for name in wanted if found.get(name) is not None}
+        known = {name: found.get(name) for name in wanted}
+        return {name: figure for name, figure in known.items() if figure is not None}
 
 
 def measure(characters: Sequence[Character], constants: Constants) -> list[Figures]:

@@ -21,6 +21,12 @@ constexpr double kWidest = 0.2;  // m of a 1.8 m character that each foot is set
 constexpr double kLevel = 0.8;   // of the way to flat, where feet go straight to the side
 constexpr double kTuck = 0.35;   // of the body's height: how much further the feet are lifted
 
+// The frame of a clip that is number `f` of a motion that goes round and round frames begin .. end of it.
+int frame_of(int f, int begin, int end) {
+  const int length = std::abs(end - begin), at = (f % length + length) % length;
+  return begin < end ? begin + at : begin - at;
+}
+
 // One cycle of a gait, each pose seen from its character frame, and the way from each to the next.
 struct GaitCycle {
   std::vector<BodyPose> poses;
@@ -32,9 +38,6 @@ struct GaitCycle {
     return Eigen::Rotation2Dd(-poses[0].frame.heading) * Vector2{end.position - poses[0].frame.position} / frames();
   }
 };
-
-// The frame of a clip that is number `f` of a motion that goes round and round frames begin .. end of it.
-int frame_of(int f, int begin, int end) { return begin < end ? begin + f % (end - begin) : begin - f % (begin - end); }
 
 // Frames begin .. end of a clip. Where the last is not as the first, the second half leads to that.
 GaitCycle gait_cycle_of(const Kinematics& kinematics, const Clip& clip, int begin, int end) {
@@ -186,6 +189,12 @@ void plant_feet(const Kinematics& kinematics, const Legs& legs, Clip& clip, cons
   }
 }
 
+// From the take-off to the landing a gait goes from one moment to another, as fast at both as always.
+double eased(double along, double way, double apart) {
+  const double slope = std::min(apart, 3 * way), rest = 1 - along;  // no steeper: it would turn back between
+  return way * along * along * (3 - 2 * along) + slope * along * rest * (rest - along);
+}
+
 }  // namespace
 
 Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
@@ -220,6 +229,39 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
   if (!plants) return result;
   plant_feet(kinematics, legs, result, contacts, begin, end);
   return part(result, before, result.frames - 1);
+}
+
+int next_foot_down(const Contacts& contacts, int begin, int end, int after, int within) {
+  if (contacts.feet[0].empty()) return -1;
+  const auto stands = [&](int side, int f) { return contacts.feet[side][frame_of(f, begin, end)]; };
+  const auto strikes = [&](int side, int f) { return stands(side, f) && !stands(side, f - 1); };
+  const int length = std::abs(end - begin);
+  int last = -1, found = -1;
+  for (int f = after - length + 1; f <= after; ++f) {
+    for (int side = 0; side < 2; ++side) last = strikes(side, f) ? side : last;
+  }
+  for (int f = after + 1; last >= 0 && f <= after + within; ++f) {
+    if (!strikes(1 - last, f)) continue;
+    int alone = f;
+    while (alone < f + length && stands(last, alone)) ++alone;
+    if (alone <= after + within) found = alone;
+  }
+  return found;
+}
+
+Clip gait_in_flight(const Kinematics& kinematics, const Clip& clip, double take_off, double landing, double down) {
+  Clip result;
+  result.name = clip.name;
+  result.rate = clip.rate;
+  result.markers = clip.markers;
+  const double apart = landing - take_off, way = down - take_off, last = clip.frames - 1;
+  for (int f = 0; f < clip.frames; ++f) {
+    const double along = (f - take_off) / apart;
+    const double at = along <= 0 ? f : along < 1 ? take_off + eased(along, way, apart) : f - landing + down;
+    if (at > last) break;
+    append(kinematics, result, frame_at(clip, f), body_pose(kinematics, clip, at));
+  }
+  return result;
 }
 
 Hop::Hop(double height, double dip, double sinking)

@@ -23,6 +23,16 @@ struct GaitEdit {
 Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& clip, const Contacts& contacts, int begin,
                  int end, int frames, const GaitEdit& edit);
 
+/// Of a motion that goes round and round frames begin .. end of a clip with these contacts: the last of the `within`
+/// frames following number `after` in which the foot comes down whose turn it then is, or has come down and stands
+/// alone. -1: there is none.
+int next_foot_down(const Contacts& contacts, int begin, int end, int after, int within);
+
+/// A clip whose body goes the same way at the same time, but whose gait gets only from its pose at `take_off` to that
+/// at `down` until `landing`, all in frames, and goes on from there as before: so that the foot lands whose turn it is.
+/// It ends where the poses do.
+Clip gait_in_flight(const Kinematics& kinematics, const Clip& clip, double take_off, double landing, double down);
+
 /// How a hop lifts and lowers the body, m over time: it sinks into a crouch, pushes off with a constant force, flies as
 /// a body falls, and lands as it took off. Lengths in m of a 1.8 m character, times in s, all above 0.
 class Hop {

@@ -329,7 +329,18 @@ class Synthesizer {
     std::vector<int> ends;
     for (int piece = 0; piece <= pieces; ++piece) ends.push_back(length * piece / pieces);
     if (control.jump <= best->evident.jump) return add(part(made, 0, length + beyond), ends, Origin::transformed);
-    for (int piece = 0; piece < pieces; ++piece) add_jump(part(made, ends[piece], ends[piece] + whole + beyond), hop);
+    for (int piece = 0; piece < pieces; ++piece) {
+      Clip leap = landing_in_turn(part(made, ends[piece], made.frames - 1), *best, ends[piece], hop);
+      add_jump(part(leap, 0, std::min(leap.frames - 1, whole + beyond)), hop);
+    }
+  }
+
+  // A gait that begins with frame `first` of a cycle, whose flight in a hop ends on the foot that did not take off.
+  Clip landing_in_turn(Clip clip, const Cycle& cycle, int first, const Hop& hop) {
+    const double take_off = hop.crouch() * clip.rate, flight = hop.flight() * clip.rate;
+    const int down = next_foot_down(contacts(cycle.clip), cycle.begin, cycle.end, first + static_cast<int>(take_off),
+                                    static_cast<int>(kMostTempo * flight));
+    return down < 0 ? clip : gait_in_flight(kinematics_, clip, take_off, take_off + flight, down - first);
   }
 
   // Of a character that goes so fast.

@@ -46,16 +46,14 @@ Vector2 mean_velocity_around(const PackedClip& clip, const Fragment& fragment, d
   return sum / kMoments;
 }
 
-std::vector<double> velocity_changes(const PackedPool& pool) {
-  const double scale = standard_scale(pool.skeleton);
-  std::vector<double> changes;
+std::vector<EndVelocities> end_velocities(const PackedPool& pool) {
+  std::vector<EndVelocities> all;
   for (const Fragment& f : pool.fragments) {
     const PackedClip& clip = pool.clips[f.clip];
     const double first = f.first_played(), last = f.last_played(), end = std::min(kEnd * clip.rate, last - first);
-    changes.push_back(scale *
-                      (velocity_between(clip, last - end, last) - velocity_between(clip, first, first + end)).norm());
+    all.push_back({velocity_between(clip, first, first + end), velocity_between(clip, last - end, last)});
   }
-  return changes;
+  return all;
 }
 
 }  // namespace fragmotion

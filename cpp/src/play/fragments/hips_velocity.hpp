@@ -25,8 +25,13 @@ Vector2 hips_velocity_around(const PackedClip& clip, double frame, double second
 /// The mean of that over a fragment's time. It is hips_velocity() but for what is around its ends.
 Vector2 mean_velocity_around(const PackedClip& clip, const Fragment& fragment, double seconds);
 
-/// How much the velocity of the hips changes within each fragment, from its first tenth of a second to its last, m/s of
-/// a 1.8 m character: much where it starts, brakes or turns, though its mean be that of a steady one.
-std::vector<double> velocity_changes(const PackedPool& pool);
+/// Of the hips in the first and the last tenth of a second of a fragment, m/s in the character frame: they differ much
+/// where it starts, brakes or turns, though its mean be that of a steady one.
+struct EndVelocities {
+  Vector2 first = Vector2::Zero(), last = Vector2::Zero();
+};
+
+/// Of all fragments.
+std::vector<EndVelocities> end_velocities(const PackedPool& pool);
 
 }  // namespace fragmotion

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/quantile.hpp"
+#include "fragments/successors.hpp"
 
 namespace fragmotion {
 namespace {
@@ -13,9 +14,29 @@ namespace {
 constexpr double kQuick = 0.25;  // s
 constexpr float kLands = 0.1F;   // s until a foot is down that a fragment begins with, and that is still in the air
 
-float until_strike(const std::vector<bool>& stands, int first, double rate) {
-  for (int f = first + 1; f < static_cast<int>(stands.size()); ++f) {
-    if (stands[f] && !stands[f - 1]) return static_cast<float>((f - first) / rate);
+// Where a cycle ends, and where it begins again; nowhere in other clips.
+struct Wrap {
+  int end = -1, begin = 0;
+};
+
+// Of each clip.
+std::vector<Wrap> wraps(const Character& character) {
+  const std::vector<Fragment>& fragments = character.pool.fragments;
+  const std::vector<int> next = successors(fragments);
+  std::vector<Wrap> all(character.pool.clips.size());
+  for (std::size_t f = 0; f < next.size(); ++f) {
+    if (next[f] < 0 || fragments[next[f]].first_played() == fragments[f].last_played()) continue;
+    all[fragments[f].clip] = {fragments[f].last_played(), fragments[next[f]].first_played()};
+  }
+  return all;
+}
+
+float until_strike(const std::vector<bool>& stands, int first, const Wrap& wrap, double rate) {
+  const bool wraps = wrap.end >= 0 && !stands.empty();
+  const int cycle = wrap.end - wrap.begin, last = wraps ? first + cycle : static_cast<int>(stands.size()) - 1;
+  for (int f = first + 1; f <= last; ++f) {
+    const int at = wraps && f > wrap.end ? f - cycle : f;
+    if (stands[at] && !stands[at - 1]) return static_cast<float>((f - first) / rate);
   }
   return std::numeric_limits<float>::infinity();
 }
@@ -32,11 +53,13 @@ void StepSequence::advance(const std::array<bool, 2>& now, double seconds) {
 
 std::vector<EntrySteps> entry_steps(const Character& character) {
   std::vector<EntrySteps> all;
+  const std::vector<Wrap> wraps = fragmotion::wraps(character);
   for (const Fragment& f : character.pool.fragments) {
     const Contacts& contacts = character.contacts[f.clip];
     EntrySteps entry{standing_feet(contacts, f.first_played()), {}};
     for (int side = 0; side < 2; ++side) {
-      entry.strikes[side] = until_strike(contacts.feet[side], f.first_played(), character.pool.clips[f.clip].rate);
+      entry.strikes[side] =
+          until_strike(contacts.feet[side], f.first_played(), wraps[f.clip], character.pool.clips[f.clip].rate);
     }
     all.push_back(entry);
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "fragments/body_tips.hpp"
-#include "fragments/hips_velocity.hpp"
 
 namespace fragmotion {
 namespace {
@@ -15,24 +14,31 @@ constexpr double kStep = 0.4;  // s
 
 TransitionCost::TransitionCost(const Character& character, const TransitionWeights& weights)
     : character_(&character),
+      ends_(end_velocities(character.pool)),
       match_(static_cast<float>(weights.match)),
+      unsteady_(static_cast<float>(weights.unsteady * standard_scale(character.pool.skeleton))),
       mirrored_(static_cast<float>(weights.mirrored)),
       other_take_(static_cast<float>(weights.other_take)),
       out_of_turn_(static_cast<float>(weights.out_of_turn)),
       per_distance_(static_cast<float>(kTunedReach / tip_reach(character.pool.skeleton) / 2)) {
   const PackedPool& pool = character.pool;
-  const std::vector<double> changes = velocity_changes(pool);
-  for (std::size_t f = 0; f < changes.size(); ++f) {
-    const Fragment& fragment = pool.fragments[f];
+  for (const Fragment& fragment : pool.fragments) {
     const double lacks = std::max(0.0, 1 - pool.seconds(fragment) / kStep);
     made_.push_back(is_made(fragment.origin) ? static_cast<float>(weights.made) : 0);
-    entered_.push_back(static_cast<float>(weights.unsteady * changes[f] + weights.hurried * lacks));
+    entered_.push_back(static_cast<float>(weights.hurried * lacks));
   }
+}
+
+double TransitionCost::strays(int fragment, const Control& control) const {
+  const Vector2 asked{control.x, control.y};
+  const EndVelocities& ends = ends_[fragment];
+  return std::max(0.0, (ends.last - asked).norm() - (ends.first - asked).norm());
 }
 
 float TransitionCost::of_performing(int fragment, const Control& control) const {
   const Control& evident = character_->pool.fragments[fragment].evident;
-  return match_ * static_cast<float>(character_->space.distance(evident, control)) + made_[fragment];
+  return match_ * static_cast<float>(character_->space.distance(evident, control)) + made_[fragment] +
+         unsteady_ * static_cast<float>(strays(fragment, control));
 }
 
 float TransitionCost::of_entering(int fragment, const Control& control, const Fragment& left,

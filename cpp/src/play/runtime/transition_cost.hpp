@@ -2,6 +2,7 @@
 #pragma once
 
 #include "character/character.hpp"
+#include "fragments/hips_velocity.hpp"
 #include "runtime/player_constants.hpp"
 #include "runtime/step_sequence.hpp"
 
@@ -11,14 +12,16 @@ namespace fragmotion {
 /// kTunedReach:
 ///
 ///   cost = perform(g) + enter(g) + join(g) + wait ControlDis(Ev(what plays), Ev(class)) t
-///   perform(g) = match ControlDis(Ev(g), control) + made [g is synthesized]
-///   enter(g) = unsteady |dv(g)| + hurried (1 - seconds(g) / a step's)+ + mirrored [g or what is left is the mirrored
-///              one of the two] + other_take [g is of another take]
+///   perform(g) = match ControlDis(Ev(g), control) + unsteady strays(g) + made [g is synthesized]
+///   enter(g) = hurried (1 - seconds(g) / a step's)+ + mirrored [g or what is left is the mirrored one of the two] +
+///              other_take [g is of another take]
 ///   join(g) = Dis(what is left as it would go on, the beginning of g) + out_of_turn (feet that come down out of turn)
 ///
-/// of which the class is the one that the policy tells, join and match are the factors of Eq. 2, and the rest is what a
-/// viewer minds. The words are the weights in TransitionWeights. With the successor a take goes on: nothing is joined
-/// nor entered, so that it costs perform() alone.
+/// of which strays() is by how much, m/s of a 1.8 m character, g is further from the control's velocity in its last
+/// tenth of a second than in its first, as a walk that is held must not go on in a step that brakes; the class is the
+/// one that the policy tells, join and match are the factors of Eq. 2, and the rest is what a viewer minds. The words
+/// are the weights in TransitionWeights. With the successor a take goes on: nothing is joined nor entered, so that it
+/// costs perform() alone.
 class TransitionCost {
  public:
   /// The character, in one of its styles, must outlive it.
@@ -34,8 +37,11 @@ class TransitionCost {
   }
 
  private:
+  double strays(int fragment, const Control& control) const;
+
   const Character* character_;
-  float match_, mirrored_, other_take_, out_of_turn_, per_distance_;
+  std::vector<EndVelocities> ends_;
+  float match_, unsteady_, mirrored_, other_take_, out_of_turn_, per_distance_;
   std::vector<float> made_, entered_;  // of each fragment: of perform() and of enter() what no control tells
 };
 

@@ -60,10 +60,15 @@ def best_qualities(character: core.Character, sessions: Sequence[Session]) -> li
 
 
 def play(
-    character: core.Character, policy: str, sessions: Sequence[Session], seed: int, **options: Any
+    character: core.Character,
+    policy: str,
+    sessions: Sequence[Session],
+    seed: int,
+    players: int = PLAYERS,
+    **options: Any,
 ) -> list[list[core.Performance]]:
     """Performances [session][player]."""
-    seeds = range(seed, seed + PLAYERS)
+    seeds = range(seed, seed + players)
     return [
         [core.Player(character, s, policy=policy, **options).run(session.controls, RATE) for s in seeds]
         for session in sessions

@@ -62,15 +62,22 @@ def trials(character: core.Character, seeds: Iterable[int], **options: Any) -> d
     """What players of these seeds do when they are put to the test: how even their speeds are, how hard they change
     their motion, and how soon they turn round (s)."""
     every = list(seeds)
-    speeds = _speeds([core.speed_ripples(character, seed, **options) for seed in every])
     return {
-        "speed_ripple_ratio": _mean(ratio(row["ripple"], row["takes_ripple"]) for row in speeds),
-        "bob_ratio": _mean(ratio(row["bob"], row["takes_bob"]) for row in speeds),
-        "speed_ripple": speeds,
+        **evenness(character, every, **options),
         "acceleration_by_change": _changes([core.change_pushes(character, seed, **options) for seed in every]),
         "about_face_s": statistics.fmean(
             float(core.about_face_times(character, seed, **options).mean()) for seed in every
         ),
+    }
+
+
+def evenness(character: core.Character, seeds: Iterable[int], **options: Any) -> dict[str, Any]:
+    """How even the speeds and the hips' heights of players of these seeds are: means over the takes', and by speed."""
+    speeds = _speeds([core.speed_ripples(character, seed, **options) for seed in seeds])
+    return {
+        "speed_ripple_ratio": _mean(ratio(row["ripple"], row["takes_ripple"]) for row in speeds),
+        "bob_ratio": _mean(ratio(row["bob"], row["takes_bob"]) for row in speeds),
+        "speed_ripple": speeds,
     }
 
 
