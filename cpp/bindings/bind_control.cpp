@@ -45,11 +45,35 @@ std::vector<std::string> gaits_named(const ControlSpace& space) {
 using NamedMoves = std::vector<std::tuple<int, std::string, int>>;
 using NamedStyles = std::vector<std::tuple<int, std::string>>;
 
-std::pair<NamedMoves, NamedStyles> to_lists(const Asked& asked) {
-  std::pair<NamedMoves, NamedStyles> lists;
-  for (const Asked::Move& move : asked.moves) lists.first.emplace_back(move.control, move.name, move.held);
-  for (const Asked::Style& style : asked.styles) lists.second.emplace_back(style.control, style.name);
+using LookRows = std::vector<std::tuple<int, int, double, double, double>>;
+using ReachRows = std::vector<std::tuple<int, int, double, int, double, double, double>>;
+
+std::tuple<NamedMoves, NamedStyles, LookRows, ReachRows> to_lists(const Asked& asked) {
+  std::tuple<NamedMoves, NamedStyles, LookRows, ReachRows> lists;
+  auto& [moves, styles, looks, reaches] = lists;
+  for (const Asked::Move& move : asked.moves) moves.emplace_back(move.control, move.name, move.held);
+  for (const Asked::Style& style : asked.styles) styles.emplace_back(style.control, style.name);
+  for (const auto& [control, look, place] : asked.looks)
+    looks.emplace_back(control, look, place.x(), place.y(), place.z());
+  for (const auto& [control, hand, weight, carried, place] : asked.reaches)
+    reaches.emplace_back(control, hand, weight, carried ? 1 : 0, place.x(), place.y(), place.z());
   return lists;
+}
+
+// Numbers that are no look, hand or weight, and no place, are refused.
+void add_rows(const LookRows& looks, const ReachRows& reaches, Asked& asked) {
+  const auto check = [](bool sound) {
+    if (!sound) throw std::invalid_argument("looks and reaches must be rows as Player.run has them");
+  };
+  for (const auto& [control, look, x, y, z] : looks) {
+    check(look >= 0 && look <= 2 && std::isfinite(x) && std::isfinite(y) && std::isfinite(z));
+    asked.looks.push_back({control, look, {x, y, z}});
+  }
+  for (const auto& [control, hand, weight, carried, x, y, z] : reaches) {
+    check(hand >= 0 && hand <= 1 && weight >= 0 && weight <= 1 && (carried == 0 || carried == 1) && std::isfinite(x) &&
+          std::isfinite(y) && std::isfinite(z));
+    asked.reaches.push_back({control, hand, weight, carried == 1, {x, y, z}});
+  }
 }
 
 Asked to_asked(const NamedMoves& moves, const NamedStyles& styles) {
@@ -122,12 +146,15 @@ void bind_control(py::module_& m) {
       py::arg("path"));
   m.def(
       "write_trace",
-      [](const std::filesystem::path& path, const Doubles& trace, const NamedMoves& moves, const NamedStyles& styles) {
+      [](const std::filesystem::path& path, const Doubles& trace, const NamedMoves& moves, const NamedStyles& styles,
+         const LookRows& looks, const ReachRows& reaches) {
         const Trace controls = to_trace(trace);
-        const Asked asked = to_asked(moves, styles);
+        Asked asked = to_asked(moves, styles);
+        add_rows(looks, reaches, asked);
         without_gil([&] { write_trace(path, controls, asked); });
       },
-      py::arg("path"), py::arg("trace"), py::arg("moves") = NamedMoves(), py::arg("styles") = NamedStyles());
+      py::arg("path"), py::arg("trace"), py::arg("moves") = NamedMoves(), py::arg("styles") = NamedStyles(),
+      py::arg("looks") = LookRows(), py::arg("reaches") = ReachRows());
   m.def(
       "simulate_trace",
       [](const std::string& player, double seconds, std::uint64_t seed, const std::optional<ControlSpace>& space) {

@@ -361,19 +361,29 @@ def read_trace(path: str | PathLike[str]) -> Doubles:
     """Read a trace [T,4] from CSV (header velocity_x,velocity_y,turn,jump; 10 rows a second), as it was written: what
     asks a policy snaps controls to the points of its ControlSpace. ValueError with FILE:LINE."""
 
-def read_asked(path: str | PathLike[str]) -> tuple[list[tuple[int, str, int]], list[tuple[int, str]]]:
-    """What a trace file asks for beside its controls, by names, in its columns `move` (there may be several) and
-    `style`: moves, each with the control before which it is started and for how many it is held, and styles, each with
-    the control before which it is gone over to. ValueError with FILE:LINE."""
+def read_asked(
+    path: str | PathLike[str],
+) -> tuple[
+    list[tuple[int, str, int]],
+    list[tuple[int, str]],
+    list[tuple[int, int, float, float, float]],
+    list[tuple[int, int, float, int, float, float, float]],
+]:
+    """What a trace file asks for beside its controls, in its columns `move` (there may be several), `style`, `look`,
+    `left_hand` and `right_hand`: moves by their names, each with the control before which it is started and for how
+    many it is held; styles, each with the control before which it is gone over to; looks and reaches as Player.run has
+    them. ValueError with FILE:LINE."""
 
 def write_trace(
     path: str | PathLike[str],
     trace: ArrayLike,
     moves: Sequence[tuple[int, str, int]] = ...,
     styles: Sequence[tuple[int, str]] = ...,
+    looks: Sequence[tuple[int, int, float, float, float]] = ...,
+    reaches: Sequence[tuple[int, int, float, int, float, float, float]] = ...,
 ) -> None:
-    """Write a trace [T,4] as CSV, with moves and styles as read_asked() tells them; without any, with the four columns
-    alone. ValueError on what could not be read back."""
+    """Write a trace [T,4] as CSV, with moves, styles, looks and reaches as read_asked() tells them; without any, with
+    the four columns alone. ValueError on what could not be read back."""
 
 def simulate_trace(player: str, seconds: float = 60.0, seed: int = 1, space: ControlSpace | None = None) -> Doubles:
     """A trace [T,4] of a simulated player: a stick with inertia that chases targets. See PLAYERS for the habits."""

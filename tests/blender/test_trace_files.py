@@ -45,7 +45,19 @@ def record(addon: ModuleType, obj: bpy.types.Object) -> Any:
     started = [recordings.StartedMove(5, "wave", 12), recordings.StartedMove(10, "kick", 1)]
     changes = [addon.recordings.styles.StyleChange(25, "tired")]
     trace = np.tile(np.array(WALK), (40, 1))
-    return recordings.add_recording(obj, trace, name="Asks", moves=started, style="proud", styles=changes)
+    return recordings.add_recording(
+        obj,
+        trace,
+        name="Asks",
+        moves=started,
+        style="proud",
+        styles=changes,
+        looks=[addon.recordings.looks.LookChange(12, 2, 0.5, -3.0, 1.25)],
+        reaches=[
+            addon.recordings.reaches.ReachChange(8, 1, 0.75, 1, 0.25, 0.5, 1.25),
+            addon.recordings.reaches.ReachChange(20, 1, 0.0, 1, 0.25, 0.5, 1.25),
+        ],
+    )
 
 
 def write(path: Path, *rows: str, columns: str = "move,style") -> str:
@@ -67,7 +79,9 @@ def test_moves_and_styles_go_out_to_csv_and_come_back(addon: ModuleType, obj: bp
     asked = recordings.asked_of(recording)
     assert bpy.ops.fragmotion.export_recording(filepath=str(tmp_path / "asks")) == {"FINISHED"}
     lines = (tmp_path / "asks.csv").read_text().splitlines()
-    assert lines[0] == f"{HEADER},move,move,style" and lines[1 + 10] == "0,1,0,0,wave,kick,proud"
+    assert lines[0] == f"{HEADER},move,move,style,look,right_hand"
+    assert lines[1 + 10] == "0,1,0,0,wave,kick,proud,,0.75 with 0.25 0.5 1.25"
+    assert lines[1 + 30] == "0,1,0,0,,,tired,at 0.5 -3 1.25,0 with 0.25 0.5 1.25"
     assert bpy.ops.fragmotion.import_recordings(filepath=str(tmp_path / "asks.csv")) == {"FINISHED"}
     read = obj.fragmotion.recordings[-1]
     assert recordings.asked_of(read) == asked and read.quality > 0

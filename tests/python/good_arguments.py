@@ -197,6 +197,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "write_trace": {
             **{"path": folder / "written.csv", "trace": trace},
             **{"moves": [(3, "stroll", 2)], "styles": [(0, "tired")]},
+            **{"looks": [(2, 2, 1.0, 2.0, 1.5)], "reaches": [(2, 1, 0.5, 1, 0.2, 0.4, 1.2)]},
         },
         "simulate_trace": {"player": "walker", "seconds": 5.0, "seed": 1, "space": made.space},
         "BuildOptions": {},

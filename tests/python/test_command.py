@@ -147,7 +147,7 @@ def test_a_trace_plays_its_moves_and_styles(folder: Path, styled: Path, tmp_path
     character.save(tmp_path / "moving.policy")
     trace, path = np.tile((0, 1.2, 0, 0), (40, 1)), tmp_path / "trace.csv"
     core.write_trace(path, trace, [(5, "go", 3)], [(0, "Tired"), (30, "neutral")])
-    assert core.read_asked(path) == ([(5, "go", 3)], [(0, "Tired"), (30, "neutral")])
+    assert core.read_asked(path) == ([(5, "go", 3)], [(0, "Tired"), (30, "neutral")], [], [])
     words = ("play", tmp_path / "moving.policy", "--trace", path)
     assert run(*words, "--bvh", tmp_path / "shot.bvh") == 0
     player = core.Player(character, 1)

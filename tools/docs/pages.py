@@ -141,7 +141,6 @@ def _run_in_window(script: str, folder: Path) -> None:
 
 PAGES: dict[str, Callable[[argparse.Namespace], None]] = {
     "readme": _readme,
-    "film": _film,
     "guide": _guide,
     "play": _play,
     "motion": _motion,
@@ -149,5 +148,6 @@ PAGES: dict[str, Callable[[argparse.Namespace], None]] = {
     "ground": _ground,
     "evaluation": _evaluation,
     "retargeting": _retargeting,
+    "film": _film,
 }
 """What makes the pictures and tables of each page."""

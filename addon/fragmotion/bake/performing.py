@@ -97,15 +97,11 @@ def prepare(
         walk.enter(player, character.space.scale)
         beside = Beside(_looks(obj, settings), reaches_now(context, obj, settings))
         return lambda report: _played(player, walk.trace(player, rate, report), rate, report, ground, beside)
-    moves, styled = _asked(obj, character, recording, settings)
-    space = character.in_style(styled.begin).space
+    beside = _beside(context, obj, character, recording, settings)
+    space = character.in_style(beside.styled.begin).space
     trace = make_trace(settings, space) if recording is None else trace_of(recording)
     place = _place(context, obj, rig, settings) if recorded is None else recorded.start
-    player.reset(*place, style=styled.begin)
-    if recording is None:
-        beside = Beside(_looks(obj, settings), reaches_now(context, obj, settings), moves, styled)
-    else:
-        beside = Beside(looks_of(recording), reaches_of(recording), moves, styled)
+    player.reset(*place, style=beside.styled.begin)
     return lambda report: _played(player, trace, rate, report, ground, beside)
 
 
@@ -117,16 +113,20 @@ def _looks(obj: bpy.types.Object, settings: Any) -> list[LookChange]:
     return [LookChange(0, aim.look, *(aim[1:] if moved is None else moved.inverted() @ Vector(aim[1:])))]
 
 
-def _asked(
-    obj: bpy.types.Object, character: Character, recording: Recording | None, settings: Any
-) -> tuple[list[list[int]], Styled]:
-    """The moves and styles of the recording or the trace file; where that tells no style to begin in, it is the one
-    that BakeFields ask for. UserError where one is not there."""
+def _beside(
+    context: bpy.types.Context, obj: bpy.types.Object, character: Character, recording: Recording | None, settings: Any
+) -> Beside:
+    """What the recording or the trace file asks for beside. Where a file tells no style to begin in, it is the one that
+    BakeFields ask for, and where it tells no looks or reaches, they are those of the panel. UserError where a move is
+    not there."""
     names = character.style_names
     if recording is not None:
-        return numbered_moves(recording, character.move_names), numbered_styles(recording, names)
+        moves, styled = numbered_moves(recording, character.move_names), numbered_styles(recording, names)
+        return Beside(looks_of(recording), reaches_of(recording), moves, styled)
     chosen = _chosen_style(obj, character, settings)
-    return asked_beside(settings, character.move_names, names, chosen)
+    moves, styled, asked = asked_beside(settings, character.move_names, names, chosen)
+    looks = asked.looks or _looks(obj, settings)
+    return Beside(looks, asked.reaches or reaches_now(context, obj, settings), moves, styled)
 
 
 def _chosen_style(obj: bpy.types.Object, character: Character, settings: Any) -> int:

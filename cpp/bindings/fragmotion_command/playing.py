@@ -17,10 +17,10 @@ def play(options: argparse.Namespace) -> Done:
     """Write the motion as a BVH file."""
     character = core.Character.load(options.character)
     player = core.Player(character, _seed(options))
-    begin, moves, styles = _asked(options, character)
+    begin, asked = _asked(options, character)
     player.reset(style=begin)
     (trace,) = traces_of(options, character.in_style(begin)).values()
-    performance = player.run(trace, options.rate, moves=moves or None, styles=styles or None)
+    performance = player.run(trace, options.rate, **{name: rows for name, rows in asked.items() if rows})
     clip = core.Clip(
         character.skeleton, options.bvh.stem, performance.rate, performance.root_positions, performance.rotations
     )
@@ -29,16 +29,15 @@ def play(options: argparse.Namespace) -> Done:
     return Done(figures, listed(figures))
 
 
-def _asked(
-    options: argparse.Namespace, character: core.Character
-) -> tuple[int, list[tuple[int, int, int]], list[tuple[int, int]]]:
-    """The style in which it begins, and the moves and the changes of style of the trace file, by their numbers."""
-    moves, styles = core.read_asked(options.trace) if options.trace else ([], [])
+def _asked(options: argparse.Namespace, character: core.Character) -> tuple[int, dict[str, Any]]:
+    """The style in which it begins, and what else the trace file asks for, as Player.run has it."""
+    moves, styles, looks, reaches = core.read_asked(options.trace) if options.trace else ([], [], [], [])
     names = {"move": character.move_names, "style": character.style_names}
     changes = [(control, _number_of("style", name, names)) for control, name in styles]
     chosen = _number_of("style", options.style, names) if options.style else 0
     begin = changes[0][1] if changes and changes[0][0] == 0 else chosen
-    return begin, [(control, _number_of("move", name, names), held) for control, name, held in moves], changes
+    numbered = [(control, _number_of("move", name, names), held) for control, name, held in moves]
+    return begin, {"moves": numbered, "styles": changes, "looks": looks, "reaches": reaches}
 
 
 def _number_of(what: str, name: str, names: dict[str, list[str]]) -> int:

@@ -100,7 +100,7 @@ TEST_F(TraceFile, RefusesMalformedFilesNamingTheLine) {
       {"empty", "", "walk.csv:1: ", "header"},
       {"no header", row + row, "walk.csv:1: ", "velocity_x,velocity_y,turn,jump"},
       {"other header", "x,y,turn,jump\n" + row + row, "walk.csv:1: ", "'x,y,turn,jump'"},
-      {"two styles", "velocity_x,velocity_y,turn,jump,style,style\n", "walk.csv:1: ", "one 'style'"},
+      {"two styles", "velocity_x,velocity_y,turn,jump,style,style\n", "walk.csv:1: ", "one each of 'style'"},
       {"longer header", "velocity_x,velocity_y,turn,jump,fire\n" + row + row, "walk.csv:1: ", "fire"},
       {"binary", std::string("\0\x01\xff\n\0", 5), "walk.csv:1: ", "header"},
       {"no rows", kHeader, "walk.csv:1: ", "0 rows"},
@@ -151,6 +151,41 @@ TEST_F(TraceFile, ReadsBackMovesAndStylesAsTheyWereWritten) {
   write_trace(path_, trace, asked);
   EXPECT_EQ(read_trace(path_).size(), trace.size());
   EXPECT_EQ(told(read_asked(path_)), told(asked));
+}
+
+TEST_F(TraceFile, ReadsBackLooksAndReachesAsTheyWereWritten) {
+  Asked asked;
+  asked.looks = {{0, 1, {0, 0, 0}}, {3, 2, {0.5, -3, 1.25}}, {7, 0, {0, 0, 0}}};
+  asked.reaches = {
+      {2, 0, 0.1, false, {1e-3, 2, 3}}, {2, 1, 1, true, {0.25, 0.5, 1.25}}, {5, 0, 0, false, {1e-3, 2, 3}}};
+  write_trace(path_, Trace(9, {0, 1, 0, 0}), asked);
+  const Asked read = read_asked(path_);
+  ASSERT_EQ(read.looks.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(read.looks[i].control, asked.looks[i].control);
+    EXPECT_EQ(read.looks[i].look, asked.looks[i].look);
+    EXPECT_EQ(read.looks[i].place, asked.looks[i].place);
+  }
+  ASSERT_EQ(read.reaches.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(read.reaches[i].control, asked.reaches[i].control);
+    EXPECT_EQ(read.reaches[i].hand, asked.reaches[i].hand);
+    EXPECT_EQ(read.reaches[i].weight, asked.reaches[i].weight);
+    EXPECT_EQ(read.reaches[i].carried, asked.reaches[i].carried);
+    EXPECT_EQ(read.reaches[i].place, asked.reaches[i].place);
+  }
+}
+
+TEST_F(TraceFile, RefusesMalformedLooksAndReachesNamingTheLine) {
+  const std::string header = "velocity_x,velocity_y,turn,jump,look,left_hand\n", row = "0,1,0,0,ahead,free\n";
+  for (const char* bad :
+       {"0,1,0,0,up,\n", "0,1,0,0,at 1 2,\n", "0,1,0,0,at 1 2 x,\n", "0,1,0,0,ahead 1,\n", "0,1,0,0,,1 at 1 2\n",
+        "0,1,0,0,,2 at 1 2 3\n", "0,1,0,0,,1 on 1 2 3\n", "0,1,0,0,,held\n", "0,1,0,0,at 1 2 1e10,\n"}) {
+    write(header + row + bad + row);
+    EXPECT_EQ(error().rfind("walk.csv:3: ", 0), 0u) << bad << error();
+  }
+  write("velocity_x,velocity_y,turn,jump,look,look\n" + row);
+  EXPECT_NE(error().find("header"), std::string::npos);
 }
 
 TEST_F(TraceFile, HoldsAMoveToTheEndAtMost) {

@@ -378,10 +378,10 @@ class FRAGMOTION_OT_play_trace(WhileDriving, bpy.types.Operator):
     def execute(self, _context: bpy.types.Context) -> set[str]:
         driven = driven_session()
         trace = make_trace(driven.settings, driven.actor.space)
-        moves, styled = asked_beside(
+        moves, styled, asked = asked_beside(
             driven.settings, names_of(driven.actor.character), driven.styling.names, driven.actor.style
         )
-        driven.play(trace, moves=moves, styled=styled)
+        driven.play(trace, moves=moves, styled=styled, looks=asked.looks, reaches=asked.reaches)
         return {"FINISHED"}
 
 

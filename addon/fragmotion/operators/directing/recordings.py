@@ -138,10 +138,7 @@ class FRAGMOTION_OT_export_recording(OnRecording, Saving, bpy.types.Operator):
         trace = trace_of(recording)
         if len(trace) < _FEWEST_ROWS:
             raise UserError(f"Recording '{recording.name}' holds a single control: record a longer one to export")
-        asked = asked_of(recording)
-        write_trace_file(path, trace, asked)
-        if asked.looks:
-            self.report({"WARNING"}, "Where it looks is not in the file: that stays in the .blend")
+        write_trace_file(path, trace, asked_of(recording))
         self.report({"INFO"}, f"Saved recording '{recording.name}' ({recording.seconds:.1f} s) to '{path}'")
         return {"FINISHED"}
 

@@ -28,6 +28,11 @@ constexpr const char* kHeader = "velocity_x,velocity_y,turn,jump";
 constexpr std::size_t kNumbers = 4;  // the columns of a control
 constexpr const char* kMove = "move";
 constexpr const char* kStyle = "style";
+constexpr const char* kLook = "look";
+constexpr const char* kHands[] = {"left_hand", "right_hand"};
+constexpr const char* kLooks[] = {"captured", "ahead", "at"};
+constexpr const char* kFree = "free";
+constexpr const char* kHeld[] = {"at", "with"};  // in the world, along with the character
 constexpr const char* kBlanks = " \t\r";
 
 [[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& cause) {
@@ -83,7 +88,7 @@ std::vector<std::string> parse_header(const std::string& file, std::string_view 
   const auto refuse = [&] {
     fail(file, 1,
          "the header is '" + std::string(line.substr(0, 80)) + "', expected '" + kHeader +
-             "', after which there may be columns 'move' and one 'style'");
+             "', after which there may be columns 'move' and one each of 'style', 'look', 'left_hand', 'right_hand'");
   };
   std::vector<std::string> further;
   std::string_view left = line;
@@ -91,8 +96,9 @@ std::vector<std::string> parse_header(const std::string& file, std::string_view 
   if (count < kNumbers) refuse();
   for (std::size_t i = 0; i < count; ++i) {
     const std::optional<std::string> name = take_cell(left);
-    const bool again = name == kStyle && std::count(further.begin(), further.end(), kStyle) > 0;
-    if (i < kNumbers ? name != kColumns[i] : again || (name != kStyle && name != kMove)) refuse();
+    const bool again = name && name != kMove && std::count(further.begin(), further.end(), *name) > 0;
+    const bool known = name == kMove || name == kStyle || name == kLook || name == kHands[0] || name == kHands[1];
+    if (i < kNumbers ? name != kColumns[i] : again || !known) refuse();
     if (i >= kNumbers) further.push_back(*name);
   }
   return further;
@@ -133,7 +139,11 @@ Control parse_control(const std::string& file, std::size_t line, const std::stri
 class RowParser {
  public:
   RowParser(const std::string& file, std::vector<std::string> further)
-      : file_(file), further_(std::move(further)), cells_(kNumbers + further_.size()), held_(further_.size(), -1) {}
+      : file_(file),
+        further_(std::move(further)),
+        cells_(kNumbers + further_.size()),
+        held_(further_.size(), -1),
+        last_(further_.size()) {}
 
   void parse(std::size_t line, std::string_view row) {
     split(line, row);
@@ -142,8 +152,11 @@ class RowParser {
       std::string name = as_utf8(std::move(cells_[kNumbers + i]));
       if (further_[i] == kMove) {
         hold(held_[i], std::move(name));
-      } else {
+      } else if (further_[i] == kStyle) {
         change(std::move(name));
+      } else if (!name.empty() && name != last_[i]) {
+        further_[i] == kLook ? look(line, name) : reach(line, further_[i] == kHands[1], name);
+        last_[i] = std::move(name);
       }
     }
   }
@@ -186,11 +199,55 @@ class RowParser {
     styles.push_back({now(), std::move(name)});
   }
 
+  void look(std::size_t line, const std::string& text) {
+    const std::vector<std::string> words = words_of(text);
+    const auto look = std::find(std::begin(kLooks), std::end(kLooks), words.front()) - std::begin(kLooks);
+    const std::size_t count = look == 2 ? 4 : 1;
+    if (look > 2 || words.size() != count) refuse(line, kLook, text, "captured, ahead, or at X Y Z");
+    const Vector3 place = count > 1 ? place_of(line, kLook, words, 1) : Vector3(Vector3::Zero());
+    found_.asked.looks.push_back({now(), static_cast<int>(look), place});
+  }
+
+  void reach(std::size_t line, int hand, const std::string& text) {
+    const std::vector<std::string> words = words_of(text);
+    if (words.size() == 1 && words[0] == kFree) {
+      found_.asked.reaches.push_back({now(), hand, 0, false, Vector3::Zero()});
+      return;
+    }
+    const std::optional<double> weight = parse_double(words[0]);
+    const bool told = words.size() == 5 && (words[1] == kHeld[0] || words[1] == kHeld[1]);
+    if (!told || !weight || !(*weight >= 0 && *weight <= 1))
+      refuse(line, kHands[hand], text, "free, WEIGHT at X Y Z, or WEIGHT with X Y Z, the weight 0 to 1");
+    found_.asked.reaches.push_back(
+        {now(), hand, *weight, words[1] == kHeld[1], place_of(line, kHands[hand], words, 2)});
+  }
+
+  static std::vector<std::string> words_of(std::string_view text) {
+    std::vector<std::string> words;
+    while (!text.empty()) words.emplace_back(take_piece(text, ' '));
+    return words;
+  }
+
+  Vector3 place_of(std::size_t line, const char* column, const std::vector<std::string>& words, std::size_t first) {
+    Vector3 place;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::optional<double> value = parse_double(words[first + i]);
+      if (!value || !(std::abs(*value) <= kFastest)) refuse(line, column, words[first + i], "a place within 1e9 m");
+      place[static_cast<Eigen::Index>(i)] = *value;
+    }
+    return place;
+  }
+
+  [[noreturn]] void refuse(std::size_t line, const char* column, const std::string& text, const char* expected) const {
+    fail(file_, line, std::string(column) + " is '" + text.substr(0, 40) + "', expected " + expected);
+  }
+
   int now() const { return static_cast<int>(found_.trace.size()) - 1; }
 
   const std::string& file_;
   std::vector<std::string> further_, cells_;
   std::vector<int> held_;
+  std::vector<std::string> last_;  // of each column, but for moves and styles
   TraceFile found_;
 };
 
@@ -266,6 +323,47 @@ Names column_of(const std::vector<Asked::Style>& styles, std::size_t controls) {
   return names;
 }
 
+void append_place(const Vector3& place, std::string& text) {
+  for (const double value : place) {
+    text += ' ';
+    append_number(value, text);
+  }
+}
+
+std::string text_of(const Asked::Look& look) {
+  std::string text = kLooks[look.look];
+  if (look.look == 2) append_place(look.place, text);
+  return text;
+}
+
+std::string text_of(const Asked::Reach& reach) {
+  std::string text;
+  append_number(reach.weight, text);
+  text += std::string(" ") + kHeld[reach.carried ? 1 : 0];
+  append_place(reach.place, text);
+  return text;
+}
+
+// What is asked for as texts, each of which stays until the next.
+void append_texts(const std::string& name, std::vector<Asked::Style> texts, std::size_t controls,
+                  std::vector<std::vector<std::string>>& columns, std::string& header) {
+  if (texts.empty()) return;
+  header += "," + name;
+  std::vector<std::string>& column = columns.emplace_back(controls);
+  for (const Asked::Style& text : texts) {
+    check_asked(name, text.name, text.control, controls);
+    std::fill(column.begin() + text.control, column.end(), text.name);
+  }
+}
+
+std::vector<Asked::Style> texts_of_hand(const std::vector<Asked::Reach>& reaches, int hand) {
+  std::vector<Asked::Style> texts;
+  for (const Asked::Reach& reach : reaches) {
+    if (reach.hand == hand) texts.push_back({reach.control, text_of(reach)});
+  }
+  return texts;
+}
+
 std::string format_trace(const Trace& trace, Asked asked) {
   std::vector<Names> columns = columns_of(asked.moves, trace.size());
   std::string text = kHeader;
@@ -274,10 +372,17 @@ std::string format_trace(const Trace& trace, Asked asked) {
     columns.push_back(column_of(asked.styles, trace.size()));
     text += std::string(",") + kStyle;
   }
+  std::vector<std::vector<std::string>> texts;
+  std::vector<Asked::Style> looks;
+  for (const Asked::Look& look : asked.looks) looks.push_back({look.control, text_of(look)});
+  append_texts(kLook, std::move(looks), trace.size(), texts, text);
+  for (int hand = 0; hand < 2; ++hand)
+    append_texts(kHands[hand], texts_of_hand(asked.reaches, hand), trace.size(), texts, text);
   text += '\n';
   for (std::size_t i = 0; i < trace.size(); ++i) {
     append_control(trace[i], text);
     for (const Names& names : columns) append_name(names[i] == nullptr ? "" : *names[i], text);
+    for (const std::vector<std::string>& column : texts) append_name(column[i], text);
     text += '\n';
   }
   return text;

@@ -34,18 +34,36 @@ struct Asked {
     int control;
     std::string name;
   };
-  std::vector<Move> moves;    ///< In the order of their controls.
-  std::vector<Style> styles;  ///< Likewise, each another than the one before it.
+  /// Where it looks from a control on, by Player::look's number and a place in the world, m.
+  struct Look {
+    int control;
+    int look;
+    Vector3 place;
+  };
+  /// What a hand (0 left, 1 right) reaches for from a control on, as Player::reach.
+  struct Reach {
+    int control;
+    int hand;
+    double weight;
+    bool carried;
+    Vector3 place;
+  };
+  std::vector<Move> moves;     ///< In the order of their controls.
+  std::vector<Style> styles;   ///< Likewise, each another than the one before it.
+  std::vector<Look> looks;     ///< Likewise.
+  std::vector<Reach> reaches;  ///< Likewise, of each hand.
 };
 
 /// Reads a trace from CSV: header velocity_x,velocity_y,turn,jump, a control a row, m/s and flags (turn in [-1,1], jump
-/// in [0,1]). Further columns may be `style`, and `move` as often as moves are held at the same time (read_asked()).
-/// Throws std::invalid_argument "FILE:LINE: ..." on a wrong header, number of values, number or range, and on fewer
-/// than two rows.
+/// in [0,1]). Further columns may be `style`, `look`, `left_hand` and `right_hand`, and `move` as often as moves are
+/// held at the same time (read_asked()). Throws std::invalid_argument "FILE:LINE: ..." on a wrong header, number of
+/// values, number or range, and on fewer than two rows.
 Trace read_trace(const std::filesystem::path& path);
 
 /// What the same file asks for beside: a move is held in all rows in succession that name it in one column, a style
-/// is gone over to where a row names another than the last one named. Throws as read_trace().
+/// is gone over to where a row names another than the last one named; likewise a look, `captured`, `ahead` or `at X Y
+/// Z`, and what a hand reaches for, `free`, `WEIGHT at X Y Z` or, along with the character, `WEIGHT with X Y Z`. Throws
+/// as read_trace().
 Asked read_asked(const std::filesystem::path& path);
 
 /// Writes a trace as read_trace() and read_asked() read it, shortest numbers that read back the same, and no further
