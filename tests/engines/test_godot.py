@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from conftest import BUILD, TOP, Poses, Run, finished
 
-from tools.games.godot import library_name
+from tools.games.godot import WEB, library_name
 from tools.platforms import PLATFORMS
 
 OURS = TOP / "games" / "godot"
@@ -101,3 +101,4 @@ def test_the_native_part_has_the_name_of_its_platform() -> None:
     told = (OURS / "addons" / "fragmotion" / "fragmotion.gdextension").read_text(encoding="utf-8")
     for platform in PLATFORMS:
         assert f'"bin/{library_name(platform)}"' in told, platform.name
+    assert f'"bin/{WEB}"' in told

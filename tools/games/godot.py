@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""`dev.py godot`: the add-on for Godot with its native part for every platform, each compiled here by zig."""
+"""`dev.py godot`: the add-on for Godot with its native part for every platform, each compiled here by zig, and for the
+web by Debian unstable's Emscripten."""
 
 from __future__ import annotations
 
@@ -15,6 +16,9 @@ from tools.shell import Failure, run, say, steps_of
 
 _GODOT = TOP / "games" / "godot"
 _BUILT = BUILD / "godot"
+WEB = "fragmotion.web.wasm32.wasm"
+"""What the native part of the web is called."""
+_RUN_TIME = ("libc++-legacyexcept", "libc++abi-legacyexcept", "libunwind-legacyexcept")
 _NAMES = {"Linux": "linux.{}.so", "Windows": "windows.{}.dll", "Darwin": "macos.{}.dylib"}
 
 
@@ -29,7 +33,7 @@ def make(folder: Path) -> None:
     if addon.exists() and not (addon / "fragmotion.gdextension").exists():
         raise Failure(f"{addon} holds something else than the add-on: name another folder")
     header = interface()
-    libraries = [library(platform, header) for platform in PLATFORMS]
+    libraries = [*(library(platform, header) for platform in PLATFORMS), web_library(header)]
     shutil.rmtree(addon, ignore_errors=True)
     shutil.copytree(_GODOT / "addons" / "fragmotion", addon, ignore=shutil.ignore_patterns("bin"))
     (addon / "bin").mkdir()
@@ -61,3 +65,17 @@ def library(platform: Platform, header: Path) -> Path:
         build: list[str | Path] = ["cmake", "--build", folder, "--target", "fragmotion_godot"]
         run(build, f"build-godot-{platform.name}", cross.environment(), timeout=7200.0, hear=hear)
     return folder / "bin" / library_name(platform)
+
+
+def web_library(header: Path) -> Path:
+    """The native part for the web, compiled with what is in interface()."""
+    folder = _BUILT / "web"
+    variables = {"CMAKE_BUILD_TYPE": "Release", "GODOT_INTERFACE": header, "FRAGMOTION_GODOT_BIN": folder / "bin"}
+    options = ["-G", "Ninja", *(f"-D{name}={value}" for name, value in variables.items())]
+    with COMPILING:
+        run(unstable.command(["embuilder", "build", "--pic", *_RUN_TIME]), "emscripten-run-time", timeout=3600.0)
+        configure: list[str | Path] = ["emcmake", "cmake", "-S", _GODOT, "-B", folder, *options]
+        run(unstable.command(configure), "cmake-godot-web")
+        build: list[str | Path] = ["cmake", "--build", folder, "--target", "fragmotion_godot"]
+        run(unstable.command(build), "build-godot-web", timeout=7200.0)
+    return folder / "bin" / WEB

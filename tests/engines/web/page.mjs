@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Plays with the live page: keys in; places, texts and pictures out. Arguments: the page's folder, one for pictures.
-import { join } from "node:path";
+import { basename, dirname, join } from "node:path";
 import { Browser, serve } from "./browser.mjs";
 
 const [folder, pictures] = process.argv.slice(2);
@@ -159,7 +159,8 @@ const DROP = `async (names) => {
 }`;
 
 await withBrowser("dropped", [], async (browser) => {
-  await browser.open(`${server.address}?policy=sample.policy`);
+  const above = await serve(dirname(folder)); // as where a site has more than this page
+  await browser.open(`${above.address}${basename(folder)}/?policy=sample.policy`);
   await browser.until("window.page?.actor?.skins.length === 0");
   await browser.wait(0.5);
   await browser.picture(join(pictures, "bones.png"));
@@ -174,6 +175,7 @@ await withBrowser("dropped", [], async (browser) => {
   await browser.until("page.actor.skins.length");
   found.dropped.both = await browser.text();
   await browser.wait(0.5);
+  above.close();
 });
 
 await withBrowser("no-webgl", ["--disable-3d-apis"], async (browser) => {
