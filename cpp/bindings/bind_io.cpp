@@ -148,8 +148,8 @@ void bind_rig(py::module_& m) {
           py::arg("take"));
 }
 
-std::map<int, int> hanging(const std::vector<std::string>& names, const std::vector<int>& parents,
-                           const Doubles& poses, const std::vector<int>& candidates) {
+std::map<int, int> hanging(const std::vector<std::string>& names, const std::vector<int>& parents, const Doubles& poses,
+                           const std::vector<int>& candidates) {
   const int bones = static_cast<int>(parents.size());
   check_shape(poses, "poses", {-1, bones, 4, 4});
   for (int b = 0; b < bones; ++b) require_range("a bone's parent", parents[b], -1, b - 1);

@@ -46,7 +46,8 @@ class Skeleton:
         """rest_rotations [B,4] relative to the parent, offsets [B,3] m of the head in the parent's frame, tips [B,3] m
         of the tail in the bone's own frame; bone 0 is relative to the world. `roles` (role -> bone name) overrides
         what the names tell; the roles are hips, head, left_hand, right_hand, left_foot, right_foot, left_toe,
-        right_toe, left_thigh, right_thigh."""
+        right_toe, left_thigh, right_thigh, and of bodies on four legs left_fore_foot, right_fore_foot, left_fore_toe,
+        right_fore_toe, left_fore_leg, right_fore_leg."""
     names: list[str]
     parents: list[int]
     rest_rotations: Doubles

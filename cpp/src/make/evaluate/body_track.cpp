@@ -49,7 +49,7 @@ BodyTrack body_track(const Kinematics& kinematics, const Clip& clip) {
 void stand_on(BodyTrack& track, const Floors& floors) {
   track.floors = floors;
   if (!track.has_feet()) return;
-  for (int side = 0; side < track.feet_count(); ++side) {
+  for (int side = 0; side < track.feet.count(); ++side) {
     track.stands[side] = foot_contacts(track.feet[side], floors[side], track.hips, track.rate, 1);
   }
 }

@@ -19,8 +19,7 @@ struct BodyTrack {
   std::array<std::vector<bool>, kMostLegs> stands;  ///< [frames], as find_contacts() tells it; empty without feet
 
   int frames() const { return static_cast<int>(center.size()); }
-  bool has_feet() const { return feet_count() > 0; }
-  int feet_count() const { return !feet[2].ball.empty() ? 4 : !feet[0].ball.empty() ? 2 : 0; }
+  bool has_feet() const { return feet.count() > 0; }
   /// The frames that so many seconds are, at least 1.
   int frames_in(double seconds) const;
 };

@@ -26,7 +26,7 @@ double median_height(const std::vector<BodyTrack>& tracks, std::vector<Vector3> 
 }
 
 bool in_the_air(const BodyTrack& track, int f) {
-  for (int side = 0; side < track.feet_count(); ++side) {
+  for (int side = 0; side < track.feet.count(); ++side) {
     const FootPath& foot = track.feet[side];
     const FootHeights& floor = track.floors[side];
     if (foot.ball[f].z() - floor.ball < kLow || foot.heel[f].z() - floor.heel < kLow) return false;

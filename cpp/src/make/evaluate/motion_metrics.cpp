@@ -42,7 +42,7 @@ Joints joints_of(const Kinematics& kinematics, const Clip& clip) {
 Floors floors_of(const std::vector<BodyTrack>& takes) {
   std::vector<Contacts> contacts(takes.size());
   for (std::size_t i = 0; i < takes.size(); ++i) {
-    for (int side = 0; side < takes[i].feet_count(); ++side) {
+    for (int side = 0; side < takes[i].feet.count(); ++side) {
       const FootPath& foot = takes[i].feet[side];
       contacts[i].floors[side] = {floor_of(foot.ball), floor_of(foot.heel)};
     }
@@ -55,7 +55,7 @@ class Measurement {
   explicit Measurement(const UsualHeights& usual) : usual_(usual) {}
 
   void add(const BodyTrack& track, const Joints& joints) {
-    for (int side = 0; side < track.feet_count(); ++side) {
+    for (int side = 0; side < track.feet.count(); ++side) {
       add_point(track.feet[side].ball, track.floors[side].ball, track.rate);
       add_point(track.feet[side].heel, track.floors[side].heel, track.rate);
     }

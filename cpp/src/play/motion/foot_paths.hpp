@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "motion/contacts.hpp"
@@ -13,7 +14,16 @@ struct FootPath {
   std::vector<Vector3> ball, heel;
 };
 
-using FootPaths = std::array<FootPath, kMostLegs>;
+/// Of a body's feet, by the numbers of their legs; those that it has, none, two or four, are the first ones.
+struct FootPaths {
+  std::array<FootPath, kMostLegs> all;
+
+  FootPath& operator[](std::size_t foot) { return all[foot]; }
+  const FootPath& operator[](std::size_t foot) const { return all[foot]; }
+  int count() const { return !all[2].ball.empty() ? 4 : !all[0].ball.empty() ? 2 : 0; }
+  FootPath* begin() { return all.data(); }
+  FootPath* end() { return all.data() + count(); }
+};
 
 /// Of each foot in a clip; those of a pair are empty where the skeleton has not both.
 FootPaths foot_paths(const Kinematics& kinematics, const Clip& clip);
