@@ -31,17 +31,13 @@ struct Choice {
   }
 };
 
-// Its stated equation, of a fragment with which a take goes on.
-double stated_performing(const Choice& choice, const std::vector<EndVelocities>& ends, int fragment,
-                         const Control& control) {
+// The stated perform() of a fragment.
+double stated_performing(const Choice& choice, int fragment, const Control& control) {
   const Character& c = *choice.character;
   const TransitionWeights weights;
   const Fragment& f = c.pool.fragments[fragment];
   const bool made = f.origin == Origin::interpolated || f.origin == Origin::transformed;
-  const Vector2 asked{control.x, control.y};
-  const double before = (ends[fragment].first - asked).norm(), after = (ends[fragment].last - asked).norm();
-  return weights.match * c.space.distance(f.evident, control) + (made ? weights.made : 0) +
-         weights.unsteady * standard_scale(c.pool.skeleton) * std::max(0.0, after - before);
+  return weights.match * c.space.distance(f.evident, control) + (made ? weights.made : 0);
 }
 
 // Its stated equation, of a fragment that is entered from what plays; how the tips would go on is the selector's.
@@ -50,7 +46,8 @@ double stated_cost(const Choice& choice, const std::vector<EndVelocities>& ends,
   const TransitionWeights weights;
   const Fragment &f = c.pool.fragments[fragment], &left = choice.playback.fragment();
   const auto moves = [&](const Control& evident) { return evident.speed() * c.space.scale() > kMoving; };
-  double cost = stated_performing(choice, ends, fragment, control);
+  double cost = stated_performing(choice, fragment, control);
+  cost += weights.unsteady * standard_scale(c.pool.skeleton) * (ends[fragment].last - ends[fragment].first).norm();
   cost += weights.hurried * std::max(0.0, 1 - c.pool.seconds(f) / 0.4);
   if ((f.origin == Origin::mirrored) != (left.origin == Origin::mirrored)) cost += weights.mirrored;
   if (f.clip != left.clip) cost += weights.other_take;
@@ -122,16 +119,15 @@ TEST(FragmentSelector, CountsWhatStraysFromTheControlWhereATakeGoesOnToo) {
   const Choice choice(1, braking_character());
   const Character& c = *choice.character;
   const std::vector<EndVelocities> ends = end_velocities(c.pool);
-  const auto strays = [&](const Fragment& f, double cost, const Control& control) {
-    return cost > TransitionWeights{}.match * c.space.distance(f.evident, control) + 0.5;
-  };
   int walking = 0, stopping = 0;
   for (int fragment = 0; fragment < static_cast<int>(ends.size()); ++fragment) {
-    const Fragment& f = c.pool.fragments[fragment];
     for (const Control& control : {Control{0, 1.2, 0, 0}, Control{}}) {
-      const double cost = choice.selector.cost_of_performing(fragment, control);
-      EXPECT_NEAR(cost, stated_performing(choice, ends, fragment, control), 1e-4);
-      if (strays(f, cost, control)) ++(control.speed() > 0 ? walking : stopping);
+      const Vector2 asked{control.x, control.y};
+      const double strays = std::max(0.0, (ends[fragment].last - asked).norm() - (ends[fragment].first - asked).norm()),
+                   costs = TransitionWeights{}.unsteady * standard_scale(c.pool.skeleton) * strays;
+      EXPECT_NEAR(choice.selector.cost_of_going_on(fragment, control),
+                  stated_performing(choice, fragment, control) + costs, 1e-4);
+      if (costs > 0.5) ++(control.speed() > 0 ? walking : stopping);
     }
   }
   EXPECT_GT(walking, 3) << "steps that brake under a walk that is held";

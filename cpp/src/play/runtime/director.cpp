@@ -127,7 +127,7 @@ Exit Director::plan_exit(const Control& wanted, const Playback& playback, const 
   const double haste = haste_ * weights.wait * character_->space.distance(playback.evident(), told);
   const int found = selector.successor(playback.number(), wanted);
   Exit stays{next, playback.seconds() + playback.left(), std::numeric_limits<double>::infinity()};
-  if (found >= 0) stays.cost = haste * playback.left() + selector.cost_of_performing(found, wanted);
+  if (found >= 0) stays.cost = haste * playback.left() + selector.cost_of_going_on(found, wanted);
   return selector.best_exit({Exit{next, 0, 0}, Exit{may_skip ? after : -1, 0, weights.skip}}, wanted, playback, haste,
                             stays);
 }
@@ -148,9 +148,9 @@ int Director::continuation(const Control& control, const Playback& playback, con
   if (bridge_between(entered, after) >= 0 || !selector.goes_as_asked(after, wanted)) return -1;
   const int next = waiting_ >= 0 && !has_changed(wanted) ? waiting_ : look_up_class(class_, wanted);
   const Cost left = selector.cost_of_leaving(next, wanted, playback);
-  const float leaving = left.whole + left.performing, staying = selector.cost_of_performing(found, wanted);
+  const float leaving = left.whole + left.performing, staying = selector.cost_of_going_on(found, wanted);
   const int second = selector.successor(found, wanted);
-  if (second >= 0 && staying + selector.cost_of_performing(second, wanted) <= leaving) return found;
+  if (second >= 0 && staying + selector.cost_of_going_on(second, wanted) <= leaving) return found;
   if (staying > leaving) return -1;
   return staying + selector.cost_of_leaving(after, wanted, found, playback.steps()).whole <= leaving ? found : -1;
 }

@@ -158,7 +158,7 @@ Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, c
   find_candidates(next_class, control, left, candidates);
   constexpr float kAny = std::numeric_limits<float>::infinity();
   const float whole = least_cost(next_class, left.fragment.evident, steps, candidates, kAny);
-  return {whole, style_->cost.of_performing(candidates.front().second, control)};
+  return {whole, style_->cost.of_going_on(candidates.front().second, control)};
 }
 
 int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback) {

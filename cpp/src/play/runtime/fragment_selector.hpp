@@ -38,9 +38,9 @@ class FragmentSelector {
   /// and goes as asked; otherwise -1.
   int successor(int fragment, const Control& control) const;
   const TransitionWeights& weights() const { return workspace_->constants.transition; }
-  /// What performing a control by a fragment costs.
-  float cost_of_performing(int fragment, const Control& control) const {
-    return style_->cost.of_performing(fragment, control);
+  /// What it costs that the take goes on with a fragment under a control.
+  float cost_of_going_on(int fragment, const Control& control) const {
+    return style_->cost.of_going_on(fragment, control);
   }
   /// Whether a class answers() a control, if that asks for motion.
   bool goes_as_asked(int of_class, const Control& control) const;

@@ -27,7 +27,7 @@ struct RootLimits {
 struct TransitionWeights {
   double match = 0.9;       ///< A unit of ControlDis between what a fragment does and the control.
   double made = 0.3;        ///< That a fragment is synthesized.
-  double unsteady = 5;      ///< Each m/s by which a fragment strays from the control.
+  double unsteady = 5;      ///< Each m/s by which a fragment gets faster or slower: one limps through a held control.
   double hurried = 3;       ///< All of a step that a fragment lacks: parts of steps bring a stitch the more.
   double mirrored = 0.3;    ///< That captured and mirrored follow each other.
   double other_take = 0.3;  ///< That another take goes on, in its own manner.

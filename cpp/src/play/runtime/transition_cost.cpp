@@ -22,10 +22,12 @@ TransitionCost::TransitionCost(const Character& character, const TransitionWeigh
       out_of_turn_(static_cast<float>(weights.out_of_turn)),
       per_distance_(static_cast<float>(kTunedReach / tip_reach(character.pool.skeleton) / 2)) {
   const PackedPool& pool = character.pool;
-  for (const Fragment& fragment : pool.fragments) {
-    const double lacks = std::max(0.0, 1 - pool.seconds(fragment) / kStep);
+  for (std::size_t f = 0; f < pool.fragments.size(); ++f) {
+    const Fragment& fragment = pool.fragments[f];
+    const double lacks = std::max(0.0, 1 - pool.seconds(fragment) / kStep),
+                 changes = (ends_[f].last - ends_[f].first).norm();
     made_.push_back(is_made(fragment.origin) ? static_cast<float>(weights.made) : 0);
-    entered_.push_back(static_cast<float>(weights.hurried * lacks));
+    entered_.push_back(static_cast<float>(weights.hurried * lacks) + unsteady_ * static_cast<float>(changes));
   }
 }
 
@@ -37,8 +39,11 @@ double TransitionCost::strays(int fragment, const Control& control) const {
 
 float TransitionCost::of_performing(int fragment, const Control& control) const {
   const Control& evident = character_->pool.fragments[fragment].evident;
-  return match_ * static_cast<float>(character_->space.distance(evident, control)) + made_[fragment] +
-         unsteady_ * static_cast<float>(strays(fragment, control));
+  return match_ * static_cast<float>(character_->space.distance(evident, control)) + made_[fragment];
+}
+
+float TransitionCost::of_going_on(int fragment, const Control& control) const {
+  return of_performing(fragment, control) + unsteady_ * static_cast<float>(strays(fragment, control));
 }
 
 float TransitionCost::of_entering(int fragment, const Control& control, const Fragment& left,

@@ -12,23 +12,25 @@ namespace fragmotion {
 /// kTunedReach:
 ///
 ///   cost = perform(g) + enter(g) + join(g) + wait ControlDis(Ev(what plays), Ev(class)) t
-///   perform(g) = match ControlDis(Ev(g), control) + unsteady strays(g) + made [g is synthesized]
-///   enter(g) = hurried (1 - seconds(g) / a step's)+ + mirrored [g or what is left is the mirrored one of the two] +
-///              other_take [g is of another take]
+///   perform(g) = match ControlDis(Ev(g), control) + made [g is synthesized]
+///   enter(g) = unsteady |dv(g)| + hurried (1 - seconds(g) / a step's)+ + mirrored [g or what is left is the mirrored
+///              one of the two] + other_take [g is of another take]
 ///   join(g) = Dis(what is left as it would go on, the beginning of g) + out_of_turn (feet that come down out of turn)
 ///
-/// of which strays() is by how much, m/s of a 1.8 m character, g is further from the control's velocity in its last
-/// tenth of a second than in its first, as a walk that is held must not go on in a step that brakes; the class is the
-/// one that the policy tells, join and match are the factors of Eq. 2, and the rest is what a viewer minds. The words
-/// are the weights in TransitionWeights. With the successor a take goes on: nothing is joined nor entered, so that it
-/// costs perform() alone.
+/// of which the class is the one that the policy tells, join and match are the factors of Eq. 2, and the rest is what a
+/// viewer minds. The words are the weights in TransitionWeights; dv(g) is how the velocity changes from g's first tenth
+/// of a second to its last, m/s of a 1.8 m character. With the successor a take goes on: nothing is joined nor entered,
+/// and of how unsteady it is counts only by how much further from the control's velocity it ends than it begins, so
+/// that a walk that is held does not go on in a step that brakes:
+///
+///   cost = perform(g) + unsteady (|v(last) - control| - |v(first) - control|)+
 class TransitionCost {
  public:
   /// The character, in one of its styles, must outlive it.
   TransitionCost(const Character& character, const TransitionWeights& weights);
 
-  /// perform() of a fragment under a control.
-  float of_performing(int fragment, const Control& control) const;
+  /// Of going on with a fragment as the successor under a control.
+  float of_going_on(int fragment, const Control& control) const;
   /// perform() + enter() of one after another, which is of the clip with these contacts.
   float of_entering(int fragment, const Control& control, const Fragment& left, const Contacts& of_left) const;
   /// join() by a tip_distance() of places and of speeds, both of which it sums, for so many feet out of turn.
@@ -37,6 +39,7 @@ class TransitionCost {
   }
 
  private:
+  float of_performing(int fragment, const Control& control) const;
   double strays(int fragment, const Control& control) const;
 
   const Character* character_;
