@@ -116,6 +116,7 @@ void FragmotionPlayer::move_to(const FragmotionPlace& place) {
   shift.offset = to.head<2>() - turn_by(shift.heading) * inside.position;
   shift.lift = to.z() - shown().level;
   player.look(player.gaze().looks(), shift.place_inside(looked_at));
+  player.forget_ground();
   if (route) route->follower.moved(frame());
 }
 
