@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "direct/follow_path.hpp"
+#include "direct/keep_clear.hpp"
 #include "direct/steering.hpp"
 #include "player_options.hpp"
 
@@ -157,6 +158,70 @@ void bind_walk(py::module_& m) {
   });
 }
 
+// What a member of a crowd would do alone: a path, a trace [T,4], or goals [G,2].
+void set_wish(const py::object& wish, CrowdMember& member) {
+  if (py::isinstance<Path>(wish)) {
+    member.path = wish.cast<Path>();
+    return;
+  }
+  const auto rows = wish.cast<Doubles>();
+  if (rows.ndim() == 2 && rows.shape(1) == 4) {
+    member.wanted = to_trace(rows);
+  } else {
+    member.goals = to_ground(rows);
+  }
+}
+
+py::list traces_of_crowd(const std::vector<Trace>& traces) {
+  py::list found;
+  for (const Trace& trace : traces) {
+    std::vector<double> rows;
+    for (const Control& c : trace) rows.insert(rows.end(), {c.x, c.y, c.turn, c.jump});
+    found.append(to_array(std::move(rows), {static_cast<py::ssize_t>(trace.size()), 4}));
+  }
+  return found;
+}
+
+py::list keep_crowd_clear(const py::list& players, const py::list& wishes, const Doubles& worlds,
+                          const FollowOptions& follow, CrowdOptions options, const std::vector<Doubles>& obstacles,
+                          const py::object& progress) {
+  const py::ssize_t count = static_cast<py::ssize_t>(players.size());
+  if (wishes.size() != players.size()) throw std::invalid_argument("there must be a wish for each player");
+  check_shape(worlds, "worlds", {count, 4});
+  const std::vector<double> rows = to_vector(worlds, "worlds", -kFarthest, kFarthest);
+  for (const Doubles& outline : obstacles) options.obstacles.push_back(to_ground(outline));
+  std::vector<std::unique_ptr<OnePlayer::Call>> calls;
+  std::vector<CrowdMember> members;
+  for (std::size_t i = 0; i < players.size(); ++i) {
+    calls.push_back(std::make_unique<OnePlayer::Call>(players[i].cast<OnePlayer&>()));
+    CrowdMember& member = members.emplace_back();
+    member.player = &**calls.back();
+    member.origin = {Vector2{rows[4 * i], rows[4 * i + 1]}, rows[4 * i + 2]};
+    member.scale = rows[4 * i + 3];
+    member.options = follow;
+    set_wish(wishes[i], member);
+  }
+  return traces_of_crowd(
+      without_gil(progress, [&](const Progress& told) { return keep_clear(members, options, told); }));
+}
+
+void bind_keep_clear(py::module_& m) {
+  for_follow_arguments([&](const auto&... follow) {
+    m.def(
+        "keep_clear",
+        [](const py::list& players, const py::list& wishes, const Doubles& worlds, double speed, double arrive,
+           const std::string& facing, double heading, const Doubles& place, const std::string& end,
+           const std::vector<Doubles>& obstacles, double radius, double seconds, double rate,
+           const py::object& progress) {
+          return keep_crowd_clear(players, wishes, worlds, to_options(speed, arrive, facing, heading, place, end),
+                                  {radius, seconds, rate, {}}, obstacles, progress);
+        },
+        py::arg("players"), py::arg("wishes"), py::arg("worlds"), follow..., py::arg("obstacles") = py::list(),
+        py::arg("radius") = CrowdOptions().radius, py::arg("seconds") = 60.0, py::arg("rate") = 60.0,
+        py::arg("progress") = py::none());
+  });
+}
+
 void bind_steering(py::module_& m) {
   py::class_<Steering>(m, "Steering", py::module_local())
       .def(py::init([](const ControlSpace& space, bool walk_turns, bool run_turns) {
@@ -187,6 +252,7 @@ void bind_direct(py::module_& m) {
   bind_path(m);
   bind_follower(m);
   bind_walk(m);
+  bind_keep_clear(m);
   bind_steering(m);
 }
 

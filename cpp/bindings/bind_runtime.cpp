@@ -121,6 +121,24 @@ std::vector<LookChange> to_looks(const py::object& given) {
   return looks;
 }
 
+// What hands hold or reach for, from [R,7].
+std::vector<ReachChange> to_reaches(const py::object& given) {
+  std::vector<ReachChange> reaches;
+  if (given.is_none()) return reaches;
+  const auto array = given.cast<Doubles>();
+  check_shape(array, "reaches", {-1, 7});
+  const std::vector<double> values = to_vector(array, "reaches", -kMostNumber, kMostNumber);
+  for (std::size_t i = 0; i < values.size(); i += 7) {
+    for (const std::size_t whole : {i, i + 1, i + 3}) {
+      if (values[whole] != std::floor(values[whole]))
+        throw std::invalid_argument("controls, hands and spaces of reaches must be whole numbers");
+    }
+    const HandAim aim{load_vector(&values[i + 4]), values[i + 2], values[i + 3] != 0};
+    reaches.push_back({static_cast<int>(values[i]), static_cast<int>(values[i + 1]), aim});
+  }
+  return reaches;
+}
+
 template <typename T>
 py::tuple to_pair(const std::array<T, 2>& values) {
   return py::make_tuple(values[0], values[1]);
@@ -243,6 +261,13 @@ void bind_player(py::module_& m) {
             OnePlayer::Call(player)->look(to_look(look), {x, y, z});
           },
           py::arg("look"), py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("z") = 0.0)
+      .def(
+          "reach",
+          [](OnePlayer& player, int hand, double weight, bool carried, double x, double y, double z) {
+            OnePlayer::Call(player)->reach(hand, {{x, y, z}, weight, carried});
+          },
+          py::arg("hand"), py::arg("weight"), py::arg("carried") = false, py::arg("x") = 0.0, py::arg("y") = 0.0,
+          py::arg("z") = 0.0)
       .def("step", &step, py::arg("control"), py::arg("seconds"))
       .def_property_readonly("frame",
                              [](OnePlayer& player) {
@@ -274,18 +299,19 @@ void bind_player(py::module_& m) {
       .def(
           "run",
           [](OnePlayer& one, const Doubles& trace, double rate, const py::object& progress, const py::object& moves,
-             const py::object& styles, const py::object& looks) {
+             const py::object& styles, const py::object& looks, const py::object& reaches) {
             const Trace controls = to_trace(trace);
             const std::vector<MovePress> presses = to_presses(moves);
             const std::vector<StyleChange> changes = to_changes(styles);
             const std::vector<LookChange> looked = to_looks(looks);
+            const std::vector<ReachChange> reached = to_reaches(reaches);
             const OnePlayer::Call player(one);
             return without_gil(progress, [&](const Progress& told) {
-              return perform(*player, controls, rate, told, presses, changes, looked);
+              return perform(*player, controls, rate, told, presses, changes, looked, reached);
             });
           },
           py::arg("trace"), py::arg("rate"), py::arg("progress") = py::none(), py::arg("moves") = py::none(),
-          py::arg("styles") = py::none(), py::arg("looks") = py::none());
+          py::arg("styles") = py::none(), py::arg("looks") = py::none(), py::arg("reaches") = py::none());
 }
 
 }  // namespace

@@ -612,6 +612,13 @@ class Player:
     def look(self, look: int, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> None:
         """Let head and chest look somewhere from now on, until a reset, as far as in the takes or easily: 0 as they
         have it, 1 where it goes, 2 at a place in the world, m. ValueError on another number and on no place."""
+    def reach(
+        self, hand: int, weight: float, carried: bool = False, x: float = 0.0, y: float = 0.0, z: float = 0.0
+    ) -> None:
+        """Let a hand (0 left, 1 right) hold something or reach for it from now on, until a reset: its palm is at a
+        place, m, by a weight 0 .. 1 (0: as captured), in the world or, `carried`, seen from the character: to its
+        right, before it and over the ground. It goes there smoothly, and reaches for nothing that is far away or behind
+        it. ValueError on a hand or a weight that there is not, and on no place."""
     playing_moves: tuple[int, int]
     """The move of the whole body and that of the upper body that play; -1: none."""
     waiting_moves: tuple[int, int]
@@ -653,12 +660,15 @@ class Player:
         moves: ArrayLike | None = None,
         styles: ArrayLike | None = None,
         looks: ArrayLike | None = None,
+        reaches: ArrayLike | None = None,
     ) -> Performance:
         """Reset is not called. Play a trace [T,4] (10 controls a second) from now, sampled at `rate` (any, also
         29.97, to 1000): frames 0 .. round(T/10 * rate), of which there may be 1048574. Each number of a control is
         within a million. `moves` [M,3]: before which control (0 .. T-1) which move is started, and after how many it is
         released; `styles` [S,2]: before which control it changes to which style; `looks` [L,5]: before which control it
-        looks where, and at which place, as look(). ValueError where one does not exist, or is not of whole numbers."""
+        looks where, and at which place, as look(); `reaches` [R,7]: before which control which hand reaches with which
+        weight, carried or not, for which place, as reach(). ValueError where one does not exist, or is not of whole
+        numbers."""
 
 class Crowd:
     """Many players of one character that step together. Player i shows, to the bit, what a Player of the seed `seed` +
@@ -863,6 +873,30 @@ def follow_path(
     arguments as PathFollower's. It is stepped at `rate`, over 0 to 1000, as Player.run does, and lasts a second longer
     than until it stands at the end, and `seconds`, 0.1 to 3600, at most. Where it does not stand or arrive just so, it
     is tried again a few times, and the best is taken."""
+
+def keep_clear(
+    players: Sequence[Player],
+    wishes: Sequence[Path | ArrayLike],
+    worlds: ArrayLike,
+    speed: float = 0.0,
+    arrive: float = 0.0,
+    facing: str = "along",
+    heading: float = 0.0,
+    place: ArrayLike = (0.0, 0.0),
+    end: str = "stand",
+    obstacles: Sequence[ArrayLike] = ...,
+    radius: float = 0.4,
+    seconds: float = 60.0,
+    rate: float = 60.0,
+    progress: Progress | None = None,
+) -> list[Doubles]:
+    """A trace [T,4] for each player of a crowd, who stands where it begins, by which it keeps clear of the others and
+    of obstacles, convex outlines [N,2], m, and does what it would alone as far as that lets it: its wish is a trace
+    [T,4], a path, which it goes along as follow_path() says, or goals [G,2], to which it goes one after another.
+    `worlds` [P,4]: where a player's origin is in the world that all share, x, y and heading, and by how much larger
+    that is. Each has `radius` metres around it to itself. Paths and goals are gone for so many seconds, 0.1 to 3600.
+    Stepped at `rate`, from the same start and seed, each shows the same motion. ValueError on what is out of its
+    range."""
 
 class Performance:
     """What a player did."""

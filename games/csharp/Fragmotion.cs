@@ -36,6 +36,7 @@ public enum Role {
 public enum Steer { Character, World, Camera, Path }
 
 public enum Look { AsCaptured, Ahead, At }
+public enum Hand { Left, Right }
 
 public enum PathEnd { Stand, Loop, GoOn }
 
@@ -55,6 +56,15 @@ public struct Transform {
 public struct Place {
   public Vector3 Position;
   public float Heading;
+}
+
+/// What a hand holds or reaches for: its palm's place, in the world or, Carried (1), to the character's right,
+/// forward and over the ground under it, by a weight of 0 to 1. The default lets go.
+[StructLayout(LayoutKind.Sequential)]
+public struct Reach {
+  public Vector3 Place;
+  public int Carried;
+  public float Weight;
 }
 
 /// What is asked of a player. The default asks it to stand.
@@ -390,6 +400,9 @@ public sealed class Player : IDisposable {
   public void LookTo(Look look, Vector3 place = default(Vector3)) {
     Native.Check(Native.fragmotion_player_look(Handle, look, ref place));
   }
+  /// The palm of a hand is there from now on, until a reset: it goes there smoothly.
+  public void ReachFor(Hand hand, Reach reach) { Native.Check(Native.fragmotion_player_reach(Handle, hand, ref reach)); }
+  public void LetGo(Hand hand) { ReachFor(hand, default(Reach)); }
   public void ForceClass(int index) { Native.Check(Native.fragmotion_player_force_class(Handle, index)); }
 
   /// The most events of a step.
@@ -750,6 +763,8 @@ internal static class Native {
   public static extern Result fragmotion_player_release_move(PlayerHandle player, int move);
   [DllImport(Name, CallingConvention = C)]
   public static extern Result fragmotion_player_change_style(PlayerHandle player, int style);
+  [DllImport(Name, CallingConvention = C)]
+  public static extern Result fragmotion_player_reach(PlayerHandle player, Hand hand, ref Reach reach);
   [DllImport(Name, CallingConvention = C)]
   public static extern Result fragmotion_player_look(PlayerHandle player, Look look, ref Vector3 place);
   [DllImport(Name, CallingConvention = C)]

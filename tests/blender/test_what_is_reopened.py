@@ -21,12 +21,16 @@ def test_many_moves_looks_and_changes_of_style_are_there_after_reopening(addon: 
     looks = [addon.recordings.looks.LookChange(control, 2, 0.5, control, 1.5) for control in range(MANY)]
     obj = making.add_armature()
     trace = np.zeros((MANY, 4))
-    recordings.add_recording(obj, trace, name="Long", moves=moves, style="calm", styles=styles, looks=looks)
+    reaches = [
+        addon.recordings.reaches.ReachChange(control, control % 2, 0.5, 1, 0.5, 0.4, 1.5) for control in range(MANY)
+    ]
+    asked = {"moves": moves, "style": "calm", "styles": styles, "looks": looks, "reaches": reaches}
+    recordings.add_recording(obj, trace, name="Long", **asked)
     path = str(tmp_path / "long.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     reopened = bpy.data.objects["Rig"].fragmotion.recordings["Long"]
-    assert recordings.asked_of(reopened) == recordings.Asked(moves, "calm", styles, looks)
+    assert recordings.asked_of(reopened) == recordings.Asked(**asked)
 
 
 def test_a_day_of_changes_of_style_is_there_after_reopening(addon: ModuleType, tmp_path: Path) -> None:

@@ -70,7 +70,7 @@ def test_the_imported_mesh_stands_as_the_library_says(project: Project, poses: P
 def test_the_node_holds_its_promises(project: Project) -> None:
     printed = project.play("promises.gd")
     assert not re.findall(r"^failed .*", printed, re.MULTILINE)
-    assert len(re.findall(r"^passed ", printed, re.MULTILINE)) == 12
+    assert len(re.findall(r"^passed ", printed, re.MULTILINE)) == 14
     assert "SCRIPT ERROR" not in printed
     assert "it is no Fragmotion policy file" in printed
     assert "there is no move 'fly'; there are" in printed

@@ -124,6 +124,9 @@ void call(Game& game, Words& words, int& ground) {
     case 12: {
       const float place[] = {words.number(), words.number(), words.number()};
       fragmotion_player_look(game.player, words.byte() % 4, place);
+      const FragmotionReach held{
+          {place[0], place[1], place[2]}, words.byte() % 3, static_cast<float>(words.byte()) / 200};
+      fragmotion_player_reach(game.player, words.byte() % 3, &held);
       break;
     }
     case 4:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import fragmotion_core as core
 import numpy as np
 import pytest
-from conftest import NAMES, Array, small_build
+from conftest import NAMES, OFFSETS, PARENTS, TIPS, Array, small_build, walking_arrays
 
 
 @pytest.mark.parametrize("rate", [24, 25, 29.97, 30, 60, 120])
@@ -145,3 +145,69 @@ def test_a_player_looks_as_one_that_runs_with_looks(character: core.Character) -
 def test_looks_that_there_are_not_are_refused(character: core.Character, looks: list[list[float]], why: str) -> None:
     with pytest.raises(ValueError, match=why):
         core.Player(character).run(np.zeros((10, 4)), 30, looks=looks)
+
+
+@pytest.fixture(scope="module")
+def armed(traces: list[Array]) -> core.Character:
+    """A character of the same body, but that its hands hang from arms with an elbow."""
+    names, parents, offsets, tips, columns = [], [], [], [], []
+    for bone, name in enumerate(NAMES):
+        hand, end = name.startswith("hand"), name[-2:]
+        parent = -1 if PARENTS[bone] < 0 else names.index(NAMES[PARENTS[bone]])
+        for part, offset, tip in (("upper_arm", OFFSETS[bone], [0, 0, -0.3]), ("forearm", [0, 0, -0.3], [0, 0, -0.25])):
+            if hand:
+                names.append(part + end)
+                parents.append(parent)
+                offsets.append(offset)
+                tips.append(tip)
+                columns.append(bone if part == "upper_arm" else -1)
+                parent = len(names) - 1
+        names.append(name)
+        parents.append(parent)
+        offsets.append([0, 0, -0.25] if hand else OFFSETS[bone])
+        tips.append([0, 0, -0.1] if hand else TIPS[bone])
+        columns.append(-1 if hand else bone)
+    skeleton = core.Skeleton(names, parents, np.tile([1.0, 0, 0, 0], (len(names), 1)), offsets, tips)
+    clips = []
+    for number, speed in enumerate((0.0, 1.2, 3.0)):
+        roots, rotations = walking_arrays(speed)
+        still = np.concatenate((rotations, np.tile([1.0, 0, 0, 0], (len(roots), 1, 1))), 1)
+        clips.append(core.Clip(skeleton, f"gait {number}", 30.0, roots, still[:, columns]))
+    return small_build(skeleton, clips, traces, lambda fraction, stage: True)
+
+
+def test_a_player_reaches_as_one_that_runs_with_reaches(armed: core.Character) -> None:
+    character, names = armed, armed.skeleton.names
+    trace = core.simulate_trace("walker", 4, 3, character.space)
+    reaches = [[5, 1, 0.8, 1, 0.3, 0.4, 1.2], [9, 1, 1.0, 1, 0.3, 0.4, 1.1], [25, 1, 0.0, 1, 0.3, 0.4, 1.1]]
+    ran = core.Player(character).run(trace, 60, reaches=reaches)
+    plain = core.Player(character).run(trace, 60)
+    player = core.Player(character)
+    for frame in range(1, 241):
+        for begin, hand, weight, carried, *place in reaches:
+            if frame == 6 * begin + 1:
+                player.reach(int(hand), weight, bool(carried), *place)
+        root, rotations = player.step(trace[(frame - 1) // 6], 1 / 60)
+        assert (root == ran.root_positions[frame]).all() and (rotations == ran.rotations[frame]).all()
+    assert (ran.root_positions == plain.root_positions).all()
+    differs = (ran.rotations != plain.rotations).any((1, 2))
+    assert not differs[:31].any() and differs[40:150].all() and not differs[200:].any()
+    turned = {names[bone] for bone in np.flatnonzero((ran.rotations != plain.rotations).any((0, 2)))}
+    assert turned >= {"upper_arm.R", "forearm.R"} and not turned & {"hips", "thigh.L", "foot.R", "upper_arm.L"}
+
+
+@pytest.mark.parametrize(
+    ("reaches", "why"),
+    [
+        ([[0, 2, 1, 0, 0, 0, 0]], "hand 2"),
+        ([[0, 1, 1.5, 0, 0, 0, 0]], "the weight of a hand"),
+        ([[99, 1, 1, 0, 0, 0, 0]], "a hand is asked for before control 99"),
+        ([[0, 0.5, 1, 0, 0, 0, 0]], "whole numbers"),
+        ([[0, 1, 1, 0]], "reaches"),
+    ],
+)
+def test_reaches_that_there_are_not_are_refused(
+    character: core.Character, reaches: list[list[float]], why: str
+) -> None:
+    with pytest.raises(ValueError, match=why):
+        core.Player(character).run(np.zeros((10, 4)), 30, reaches=reaches)

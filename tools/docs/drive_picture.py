@@ -53,15 +53,16 @@ def draw() -> None:
     trace = trace_of(_DRIVE, character.space)
     motion = of_performance("Drive", core.Player(character, _SEED).run(trace, _FPS * _EVERY))
     frames = range(0, len(motion.roots) - 1, _EVERY)
-    shown = zip(_bodies(motion, trace, actor, frames), _hands(trace, character.space, len(frames)))
-    pictures = _looped([_with_hands(body, hands) for body, hands in shown])
+    shown = zip(bodies(motion, trace, actor, frames), hands_of(trace, character.space, len(frames)))
+    pictures = _looped([with_hands(body, hands) for body, hands in shown])
     pictures[0].save(
         PICTURE, save_all=True, append_images=pictures[1:], duration=1000 // _FPS, loop=0, quality=_QUALITY, method=4
     )
     say(f"{PICTURE}: {len(pictures) / _FPS:.1f} s, {PICTURE.stat().st_size / 1e6:.2f} MB")
 
 
-def _bodies(motion: Motion, trace: core.Doubles, actor: Actor, frames: range) -> Iterator[Image.Image]:
+def bodies(motion: Motion, trace: core.Doubles, actor: Actor, frames: range) -> Iterator[Image.Image]:
+    """The character on these frames of the motion that a trace led to."""
     actor.play(motion)
     size, middles = actor.stature, calm(motion.roots[:, :2], round(_CALM * motion.rate))
     angle = motion.path[0, 2] + math.radians(_SIDE)
@@ -79,17 +80,17 @@ def _bodies(motion: Motion, trace: core.Doubles, actor: Actor, frames: range) ->
                 filmstrip.bpy.data.objects.remove(ghost)
 
 
-def _hands(trace: core.Doubles, space: core.ControlSpace, count: int) -> Iterator[Hands]:
+def hands_of(trace: core.Doubles, space: core.ControlSpace, count: int, fps: int = _FPS) -> Iterator[Hands]:
     """What a player's hands do for the trace, frame by frame: half way is a walk, the rim a run."""
     speeds = np.hypot(trace[:, 0], trace[:, 1])
     pushed = np.interp(speeds, [0, space.walk, space.run], [0, 0.5, 1]) / np.maximum(speeds, 1e-9)
     held = np.column_stack((trace[:, 0] * pushed, trace[:, 1] * pushed, -trace[:, 2]))
-    rows = np.arange(count) * STEPS_A_SECOND // _FPS
-    for (right, up, turn), jump in zip(calm(held[rows], round(_HAND * _FPS)), trace[rows, 3]):
+    rows = np.arange(count) * STEPS_A_SECOND // fps
+    for (right, up, turn), jump in zip(calm(held[rows], round(_HAND * fps)), trace[rows, 3]):
         yield Hands((right, up), turn, jump > 0)
 
 
-def _with_hands(body: Image.Image, hands: Hands) -> Image.Image:
+def with_hands(body: Image.Image, hands: Hands) -> Image.Image:
     """The picture with sticks and button in its lower right corner."""
     layer = Image.new("RGBA", (body.width * _FINE, body.height * _FINE))
     pen, font = ImageDraw.Draw(layer), ImageFont.load_default(12 * _FINE)

@@ -20,6 +20,7 @@ from tools.setup.environments import BPY_PYTHON, environment_python
 from tools.shell import Failure, run, say
 
 _DOCS = TOP / "docs"
+_LONG = "film"  # takes half an hour, and is no part of the repository: only where it is asked for
 _SCRIPTS = Path(__file__).parent
 _SCREEN = ("xvfb-run", "--auto-servernum", "--server-args", "-screen 0 1600x900x24")
 _WINDOW = ("--factory-startup", "--enable-event-simulate", "--window-geometry", "0", "0", "1600", "900")
@@ -42,7 +43,7 @@ def make_docs(options: argparse.Namespace) -> int:
     unknown = [name for name in options.pages if name not in PAGES]
     if unknown:
         raise Failure(f"there is no page {', '.join(unknown)}; the pages are {', '.join(PAGES)}")
-    for name in options.pages or PAGES:
+    for name in options.pages or [name for name in PAGES if name != _LONG]:
         say(f"\n=== {name}")
         PAGES[name](options)
     return 0
@@ -50,6 +51,10 @@ def make_docs(options: argparse.Namespace) -> int:
 
 def _readme(options: argparse.Namespace) -> None:
     _run_python("tools.docs.drive_picture")
+
+
+def _film(options: argparse.Namespace) -> None:
+    _run_python("tools.docs.film")
 
 
 def _play(options: argparse.Namespace) -> None:
@@ -136,6 +141,7 @@ def _run_in_window(script: str, folder: Path) -> None:
 
 PAGES: dict[str, Callable[[argparse.Namespace], None]] = {
     "readme": _readme,
+    "film": _film,
     "guide": _guide,
     "play": _play,
     "motion": _motion,

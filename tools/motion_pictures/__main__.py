@@ -13,7 +13,7 @@ from tools.motion_pictures.actor import open_blend, open_folder
 from tools.motion_pictures.motions import Feet
 from tools.motion_pictures.movements import MOVEMENTS
 from tools.motion_pictures.rows import SEED, Cast
-from tools.motion_pictures.sequences import draw_moves, draw_styles
+from tools.motion_pictures.sequences import draw_hands, draw_moves, draw_styles
 from tools.motion_pictures.sheet import draw_sheet
 from tools.motion_pictures.turntable import draw_turntable
 from tools.shell import Failure, say
@@ -35,6 +35,7 @@ def draw(takes: Path, folder: Path) -> None:
             say(f"  {row.title}: {row.figures}")
     if moves:
         draw_moves(cast.character, moves, actor, folder / "moves.jpg")
+    draw_hands(cast.character, actor, folder / "hands.jpg")
     path = folder / "turntable.webp"
     draw_turntable(cast.character, actor, path, SEED)
     say(f"{path}: {path.stat().st_size / 1e6:.2f} MB")

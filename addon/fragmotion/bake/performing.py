@@ -16,7 +16,9 @@ from ..errors import UserError, core_errors
 from ..ground.meshes import Ground, remarks_of
 from ..jobs import Report
 from ..mocap.sampling import scene_rate
+from ..recordings.holding import reaches_now
 from ..recordings.looks import AS_CAPTURED, LookChange, aim_of
+from ..recordings.reaches import ReachChange
 from ..recordings.recordings import (
     Recording,
     active_recording,
@@ -24,6 +26,7 @@ from ..recordings.recordings import (
     moves_of,
     numbered_moves,
     numbered_styles,
+    reaches_of,
     shown_of,
     trace_of,
 )
@@ -38,6 +41,15 @@ if TYPE_CHECKING:
 _JUDGING_RATE = 30.0  # frames a second at which a recording's quality is measured
 _HARDLY = 0.1  # of the way that it is asked to go
 _CLIP_FRAMES = 2  # a clip has at least so many
+
+
+class Beside(NamedTuple):
+    """What is asked for beside a trace, as Player.run has it; what comes after its end counts for nothing."""
+
+    looks: Sequence[LookChange] = ()
+    reaches: Sequence[ReachChange] = ()
+    moves: Sequence[Sequence[int]] = ()
+    styled: Styled = AS_EVER
 
 
 class Played(NamedTuple):
@@ -69,8 +81,8 @@ def prepare(
     settings: Any,
     ground: Ground | None,
 ) -> Callable[[Report], Played]:
-    """Read what a performance needs, as BakeFields say or along the paths.following.Walk of settings that have one; the
-    task that it returns plays it and calls nothing of Blender's data."""
+    """Read what a performance needs, as BakeFields say or as a walk of settings that have one says, a
+    paths.following.Walk or a bake.crowd.Member; the task that it returns plays it and calls nothing of Blender."""
     recording, rate = chosen_recording(obj, settings), scene_rate(context.scene)
     recorded = recording if settings.as_recorded else None
     if recorded is not None:
@@ -82,16 +94,19 @@ def prepare(
     walk = getattr(settings, "walk", None)
     if walk is not None:
         player.reset(style=_chosen_style(obj, character, settings))
-        looks = _looks(obj, settings)
-        return lambda report: _played(player, walk.trace(player, rate), rate, report, ground, looks)
+        walk.enter(player, character.space.scale)
+        beside = Beside(_looks(obj, settings), reaches_now(context, obj, settings))
+        return lambda report: _played(player, walk.trace(player, rate, report), rate, report, ground, beside)
     moves, styled = _asked(obj, character, recording, settings)
     space = character.in_style(styled.begin).space
     trace = make_trace(settings, space) if recording is None else trace_of(recording)
     place = _place(context, obj, rig, settings) if recorded is None else recorded.start
     player.reset(*place, style=styled.begin)
-    looks = _looks(obj, settings) if recording is None else looks_of(recording)
-
-    return lambda report: _played(player, trace, rate, report, ground, looks, moves, styled)
+    if recording is None:
+        beside = Beside(_looks(obj, settings), reaches_now(context, obj, settings), moves, styled)
+    else:
+        beside = Beside(looks_of(recording), reaches_of(recording), moves, styled)
+    return lambda report: _played(player, trace, rate, report, ground, beside)
 
 
 def _looks(obj: bpy.types.Object, settings: Any) -> list[LookChange]:
@@ -131,12 +146,14 @@ def _played(
     rate: float,
     report: Report,
     ground: Ground | None,
-    looks: Sequence[LookChange] = (),
-    moves: Sequence[Sequence[int]] = (),
-    styled: Styled = AS_EVER,
+    beside: Beside,
 ) -> Played:
     """What a player does from where it stands, on the ground that it stands on."""
-    performance = player.run(trace, rate, report, moves or None, styled.changes or None, looks or None)
+    styled = beside.styled
+    reaches = [reach for reach in beside.reaches if reach.control < len(trace)]
+    performance = player.run(
+        trace, rate, report, beside.moves or None, styled.changes or None, beside.looks or None, reaches or None
+    )
     motion = Motion(performance.root_positions, performance.rotations, performance.path, performance.classes)
     remarks = filter(None, (styled.remark, *remarks_of(player, ground)))
     return Played(motion, "; ".join((_judge(performance), *remarks)), _hardly_moves(performance))
@@ -170,8 +187,11 @@ def perform(
     changes = [change for change in styled.changes if change[0] < len(trace)]
     moves = [move for move in numbered_moves(recording, character.move_names) if move[0] < len(trace)]
     looks = [look for look in looks_of(recording) if look.control < len(trace)]
+    reaches = [reach for reach in reaches_of(recording) if reach.control < len(trace)]
     player.reset(*start, style=styled.begin)
-    return player.run(trace, rate, moves=moves or None, styles=changes or None, looks=looks or None)
+    return player.run(
+        trace, rate, moves=moves or None, styles=changes or None, looks=looks or None, reaches=reaches or None
+    )
 
 
 def _player_for(obj: bpy.types.Object, character: Character, recorded: Recording | None, settings: Any) -> Any:

@@ -9,34 +9,46 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from random import Random
 from types import SimpleNamespace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
+import numpy as np
 from mathutils import Matrix
 
 from ..character.building import load
 from ..compat.core import core
 from ..errors import UserError
+from ..ground.areas import Area, outlines
 from ..ground.belongings import belongings
 from ..ground.meshes import find_ground
 from ..jobs import Report
 from ..paths.following import shared
+from ..paths.lines import TYPES as LINES
+from ..paths.lines import line_of
 from ..recordings.curves import curves_of
+from ..recordings.traces import make_trace
 from ..settings.bake_fields import MIXED, BakeFields
 from . import baking
+from .crowd import Together
+from .performing import origin_frame
 from .targets import Target, write
+
+if TYPE_CHECKING:
+    from fragmotion_core import Character
 
 Spot = tuple[float, float, float]
 """Where a copy stands as the original sees it on the ground: x, y (m) and how far it is turned (rad)."""
 
+_REST = 2.0  # s that who has come to a path's end stands there
+_GOAL = 3.0  # s that is gone for a place of an area at least
 _FIXED = {"target": "NEW", "action": "", "root": "BONE", "place": "ORIGIN", "as_recorded": False, "markers": "NONE"}
 
 
 def spots(count: int, layout: str, spacing: float) -> list[Spot]:
     """Places around the original: SQUARE fills a grid from the middle, RING is a circle that faces outwards. No two,
-    and none and the original, are nearer than the spacing. PATH leaves them
-    where the original is, as they go elsewhere."""
-    if layout == "PATH":
+    and none and the original, are nearer than the spacing. PATH and AREA leave them where the original is, as they go
+    elsewhere."""
+    if layout in {"PATH", "AREA"}:
         return [(0.0, 0.0, 0.0)] * count
     if layout == "RING":
         radius = spacing / min(2 * math.sin(math.pi / count), 1) if count > 1 else spacing
@@ -55,14 +67,10 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
     it is at the copies' places.
     """
     bakes = list(_bakes(obj, settings))
-    if settings.layout == "PATH":
-        path, space = obj.fragmotion.path, load(obj).space
-        for each, walk in zip(bakes, shared(context, obj, path, space, settings.count, settings.spacing)):
-            each.walk = walk
     ground = find_ground(context, obj)
-    places = spots(settings.count, settings.layout, settings.spacing)
-    for each, spot in zip(bakes, places):
-        each.moved = _around(obj, spot)
+    for each, moved in zip(bakes, movements(obj, settings)):
+        each.moved = moved
+    _set_walks(context, obj, settings, bakes)
     tasks = [baking.prepare(context, obj, each, ground and ground.seen_from(each.moved)).task for each in bakes]
 
     def task(report: Report) -> list[baking.Baked]:
@@ -78,18 +86,90 @@ def populate(
     bake = _bake_settings(obj)
     with _whole_or_not_at_all(context) as collection:
         collection.name = f"{obj.name} Crowd"
-        places = spots(len(crowd), settings.layout, settings.spacing)
-        for number, (baked, spot) in enumerate(zip(crowd, places), 1):
-            copy = _copy(obj, _around(obj, spot), number, collection)
+        for number, (baked, moved) in enumerate(zip(crowd, movements(obj, settings)), 1):
+            copy = _copy(obj, moved, number, collection)
             target = Target("NEW", None, copy.name, bake.frame_start)
             write(context, copy, target, baked.tracks, baked.classes, bake)
     return collection
 
 
+def movements(obj: bpy.types.Object, settings: Any) -> list[Matrix]:
+    """What moves the world from the original to each copy of a crowd, which may be larger or smaller."""
+    places = spots(settings.count, settings.layout, settings.spacing)
+    sizes = (1 + settings.sizes * Random(settings.seed + index).uniform(-1, 1) for index in range(settings.count))
+    return [_around(obj, spot, size) for spot, size in zip(places, sizes)]
+
+
+def _set_walks(
+    context: bpy.types.Context, obj: bpy.types.Object, settings: Any, bakes: Sequence[SimpleNamespace]
+) -> None:
+    """Give the bakes of a crowd what they walk, where they go along paths, about an area, or keep clear."""
+    character, crowd = load(obj), settings.layout in {"PATH", "AREA"}
+    if settings.layout == "PATH":
+        lines = [line_of(context, each) for each in _curves(obj.fragmotion.crowd.paths)]
+        moved = [each.moved for each in bakes]
+        walks = shared(context, obj, obj.fragmotion.path, character.space, moved, settings.spacing, lines)
+        for each, walk in zip(bakes, walks):
+            each.walk = walk
+    if (settings.clear and (crowd or settings.traces == "PLAYERS")) or settings.layout == "AREA":
+        _keep_clear(context, obj, settings, bakes, character)
+
+
+def _keep_clear(
+    context: bpy.types.Context,
+    obj: bpy.types.Object,
+    settings: Any,
+    bakes: Sequence[SimpleNamespace],
+    character: Character,
+) -> None:
+    """Let those of a crowd make way for each other, and for what stands around, where that is asked for."""
+    chosen = obj.fragmotion.crowd
+    stands = outlines(chosen.obstacles.all_objects) if chosen.obstacles is not None else []
+    if settings.layout == "PATH":
+        follow = dict(bakes[0].walk.options, arrive=max(each.walk.options["arrive"] for each in bakes))
+        seconds = follow.pop("seconds")
+        if follow["end"] == "stand":
+            seconds = min(seconds, follow["arrive"] + _REST)
+        together = Together(stands, seconds, follow)
+        for each in bakes:
+            each.walk = together.add(each.walk.path, each.walk.path.start, each.moved)
+    elif settings.layout == "AREA":
+        _go_about(Area(context, chosen.area), settings, bakes, Together(stands, settings.seconds, {}, settings.clear))
+    else:
+        together, start = Together(stands, settings.seconds, {}), origin_frame(obj)
+        for each in bakes:
+            style = character.style_names.index(each.style) if each.style else 0
+            each.walk = together.add(make_trace(each, character.in_style(style).space), start, each.moved)
+
+
+def _go_about(area: Area, settings: Any, bakes: Sequence[SimpleNamespace], together: Together) -> None:
+    """Let them go from place to place on an area."""
+    random = Random(settings.seed)
+    starts = area.draw_apart(random, len(bakes), settings.spacing)
+    goals = math.ceil(settings.seconds / _GOAL)
+    for each, start in zip(bakes, starts):
+        seen = each.moved.inverted()
+        x, y, _ = seen @ start
+        places = np.array([(seen @ area.draw(random)).xy for _ in range(goals)])
+        each.walk = together.add(places, (x, y, random.uniform(-math.pi, math.pi)), each.moved)
+
+
+def _curves(paths: bpy.types.Collection | None) -> list[bpy.types.Object]:
+    """The curves among which a crowd is shared out, none where no collection says so; UserError where it holds none."""
+    if paths is None:
+        return []
+    found = sorted((each for each in paths.all_objects if each.type in LINES), key=lambda each: each.name)
+    if not found:
+        raise UserError(
+            f"Collection '{paths.name}' holds no curve to go along: choose another, or none, under Populate"
+        )
+    return found
+
+
 def _bakes(obj: bpy.types.Object, settings: Any) -> Iterator[SimpleNamespace]:
     """What each copy bakes: Bake's own settings, with a trace and a seed of its own."""
     ticked = []
-    if settings.traces == "RECORDINGS" and settings.layout != "PATH":
+    if settings.traces == "RECORDINGS" and settings.layout in {"SQUARE", "RING"}:
         ticked = [index for index, recording in enumerate(obj.fragmotion.recordings) if recording.train]
         if not ticked:
             raise UserError(
@@ -118,13 +198,13 @@ def _share(report: Report, index: int, count: int) -> Report:
     return lambda fraction, _stage: report((index + fraction) / count, f"{index + 1} of {count}")
 
 
-def _around(obj: bpy.types.Object, spot: Spot) -> Matrix:
-    """What moves the world from the original to a spot."""
+def _around(obj: bpy.types.Object, spot: Spot, size: float = 1.0) -> Matrix:
+    """What moves the world from the original to a spot, where it is larger by so much."""
     x, y, turn = spot
     to_original = Matrix.Translation(obj.matrix_world.translation)
     facing = Matrix.Rotation(obj.matrix_world.to_euler().z, 4, "Z")
     moved = facing @ Matrix.Translation((x, y, 0)) @ facing.inverted() @ Matrix.Rotation(turn, 4, "Z")
-    return to_original @ moved @ to_original.inverted()
+    return to_original @ moved @ Matrix.Scale(size, 4) @ to_original.inverted()
 
 
 def _copy(obj: bpy.types.Object, moved: Matrix, number: int, collection: bpy.types.Collection) -> bpy.types.Object:

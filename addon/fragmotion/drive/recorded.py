@@ -9,7 +9,7 @@ from ..character.building import has_character, load
 from ..character.moves import names_of
 from ..edits.replaying import shown_poses
 from ..errors import UserError
-from ..recordings.recordings import TRACE_RATE, Recording, asked_of, looks_of, numbered_moves, numbered_styles, trace_of
+from ..recordings.recordings import TRACE_RATE, Recording, asked_of, numbered_moves, numbered_styles, trace_of
 from .acting.punch import Own, Punch
 from .session import RATE, Session, opened
 
@@ -26,9 +26,8 @@ def replay(
     chosen = policy or (recording.policy if recording.policy in known else "")
     with opened(context, obj, recording.seed if seed < 0 else seed, chosen) as driven:
         styled = numbered_styles(recording, driven.styling.names)
-        driven.play(
-            trace, begin, numbered_moves(recording, names_of(driven.actor.character)), styled, looks_of(recording)
-        )
+        moves, asked = numbered_moves(recording, names_of(driven.actor.character)), asked_of(recording)
+        driven.play(trace, begin, moves, styled, asked.looks, asked.reaches)
         return driven
 
 

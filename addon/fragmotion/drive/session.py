@@ -19,7 +19,9 @@ from ..ground.meshes import find_ground
 from ..input.inputs import Inputs
 from ..input.steering import Control, Intent, Steering, view_heading
 from ..preview.posed_armature import PosedArmature
+from ..recordings.holding import holds_of
 from ..recordings.looks import Aim, LookChange, aim_of
+from ..recordings.reaches import Holds, ReachChange
 from ..recordings.recordings import POSE_RATE, TRACE_RATE, add_recording
 from ..recordings.styles import AS_EVER, Styled
 from ..settings import preferences
@@ -203,7 +205,7 @@ class Session:
 
     def _ask_beside(self, held: set[int]) -> None:
         """Tell the player what the next step asks for beside its control, where the user holds these moves."""
-        self._asking.tell(held, self._aim, self._taken, self.punch)
+        self._asking.tell(held, self._aim, self._holds, self._taken, self.punch)
 
     @property
     def _aim(self) -> Aim:
@@ -212,6 +214,14 @@ class Session:
             return self.punch.aim
         trace = self.inputs.trace
         return trace.aim if trace.playing else aim_of(self.obj.fragmotion.look)
+
+    @property
+    def _holds(self) -> Holds:
+        """What hands reach for in the next step."""
+        if self.punch is not None:
+            return self.punch.holds
+        trace = self.inputs.trace
+        return trace.holds if trace.playing else holds_of(self.obj)
 
     @property
     def move(self) -> str:
@@ -235,15 +245,17 @@ class Session:
         moves: Sequence[Sequence[int]] = (),
         styled: Styled = AS_EVER,
         looks: Sequence[LookChange] = (),
+        reaches: Sequence[ReachChange] = (),
     ) -> None:
-        """Let a trace [T,4] drive, with moves [M,3], changes of style and looks, until it ends or another input is
-        touched; from a character frame, if one is given. It begins in its style: changes to it, without a frame."""
+        """Let a trace [T,4] drive, with moves [M,3], changes of style, looks and reaches, until it ends or another
+        input is touched; from a character frame, if one is given. It begins in its style: changes to it, without a
+        frame."""
         self._replays = start is not None
         if start is not None:
             self._begin(start, styled)
             self.readings = Readings(self.actor, RATE)
         self.styling.want(styled.begin)
-        self.inputs.play(trace, moves, styled.changes, looks)
+        self.inputs.play(trace, moves, styled.changes, looks, reaches)
         if styled.remark:
             self.inputs.messages.append(f"It plays {styled.remark}")
 
@@ -334,6 +346,7 @@ class Session:
             "style": recording.style,
             "styles": recording.styles,
             "looks": recording.looks,
+            "reaches": recording.reaches,
         }
 
     def trouble(self) -> str:

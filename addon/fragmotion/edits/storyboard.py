@@ -25,17 +25,17 @@ from ..rig.motion import Motion
 from ..rig.rigs import make_rig
 
 if TYPE_CHECKING:
-    from fragmotion_core import Character, Performance
+    from fragmotion_core import Character, Doubles, Performance
 
 NAME = "Storyboard"
-"""The recording's."""
+"""The recording's, at first."""
 
 _NEAR, _LATE = 0.3, 0.5  # m, s: what is farther off is told
 
 
 def record(context: bpy.types.Context, obj: bpy.types.Object) -> tuple[Recording, list[str]]:
-    """Play the armature's storyboard from its origin on, and keep that as its recording of that name, in the place of
-    the one before. Returns it, and what could not be done. On a UserError nothing has changed."""
+    """Play the armature's storyboard from its origin on, and keep that as a recording, in the place of the one that
+    was made of it before. Returns it, and what could not be done. On a UserError nothing has changed."""
     bring_up_to_date(context, obj)
     character = load(obj)
     check_skeleton(obj, character, make_rig(obj))
@@ -55,8 +55,7 @@ def record(context: bpy.types.Context, obj: bpy.types.Object) -> tuple[Recording
             looks=played.looks or None,
         )
     trace = np.array(played.trace)
-    recording = obj.fragmotion.recordings.get(NAME) or add_recording(obj, trace, name=NAME)
-    obj.fragmotion.active_recording = obj.fragmotion.recordings.find(NAME)
+    recording = _recording_of(obj, trace)
     recording.seed, recording.policy, recording.start = seed, character.policy, start
     recording.quality = shown.quality
     set_trace(recording, trace)
@@ -65,6 +64,19 @@ def record(context: bpy.types.Context, obj: bpy.types.Object) -> tuple[Recording
     set_shown(recording, np.arange(len(motion.path)) / POSE_RATE, motion)
     renew_curves(obj, recording)
     return recording, [*_missed(beats, played, shown), *remarks_of(player, ground)]
+
+
+def _recording_of(obj: bpy.types.Object, trace: Doubles) -> Recording:
+    """The recording that was made of the storyboard before, else a new one of this trace; selected."""
+    settings = obj.fragmotion
+    for index, recording in enumerate(settings.recordings):
+        if recording.of_story:
+            settings.active_recording = index
+            made: Recording = recording
+            return made
+    recording = add_recording(obj, trace, name=NAME)
+    recording.of_story = True
+    return recording
 
 
 def beats_of(context: bpy.types.Context, obj: bpy.types.Object, character: Character) -> list[Beat]:

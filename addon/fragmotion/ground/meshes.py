@@ -35,12 +35,13 @@ class Ground:
         """What the user should know of it, empty where that is nothing."""
         self._tree, self._top = tree, top
         self._seen = seen or Matrix()
-        self._turned_back = self._seen.to_3x3().inverted()
+        self._back = self._seen.inverted()
+        self._turned_back = self._back.to_quaternion()
 
     def __call__(self, x: float, y: float, z: float) -> tuple[float, float, float, float] | None:
         """The height and the normal of what a ray down from a place meets, or None."""
         hit, normal, _, _ = self._tree.ray_cast(self._seen @ Vector((x, y, min(z, self._top))), _DOWN)
-        return None if hit is None else (hit.z, *(self._turned_back @ normal))
+        return None if hit is None else ((self._back @ hit).z, *(self._turned_back @ normal))
 
     def seen_along(self, eye: Vector, along: Vector) -> Vector | None:
         """The place in the world where a line of sight meets it first, or None."""

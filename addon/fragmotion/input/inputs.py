@@ -72,10 +72,10 @@ class Inputs:
         pressed = {button for pad in self.pads for button in pad.state.buttons}
         return self.keyboard.moves() | {self._move_of[button] for button in pressed if button in self._move_of}
 
-    def play(self, trace: Any, moves: Any = (), styles: Any = (), looks: Any = ()) -> None:
-        """Let a trace [T,4] drive with the moves [M,3] that were started, the styles [S,2] that were changed and the
-        looks in it, until it ends or another input is touched."""
-        self.trace.play(trace, moves, styles, looks)
+    def play(self, trace: Any, moves: Any = (), styles: Any = (), looks: Any = (), reaches: Any = ()) -> None:
+        """Let a trace [T,4] drive with the moves [M,3] that were started, the styles [S,2] that were changed, the
+        looks and the reaches in it, until it ends or another input is touched."""
+        self.trace.play(trace, moves, styles, looks, reaches)
         self._arbiter.take(self.trace)
 
     def walk(self, space: Any, frame: tuple[float, float, float], place: tuple[float, float], runs: bool) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ..recordings.looks import Aim, LookChange, look_before
+from ..recordings.reaches import Holds, ReachChange, holds_before
 from ..recordings.recordings import TRACE_RATE
 from .steering import REST, Control, Intent
 
@@ -26,6 +27,7 @@ class TraceInput:
         self._moves: list[Sequence[int]] = []
         self._styles: list[Sequence[int]] = []
         self._looks: list[LookChange] = []
+        self._reaches: list[ReachChange] = []
 
     def play(
         self,
@@ -33,11 +35,13 @@ class TraceInput:
         moves: Sequence[Sequence[int]] = (),
         styles: Sequence[Sequence[int]] = (),
         looks: Sequence[LookChange] = (),
+        reaches: Sequence[ReachChange] = (),
     ) -> None:
         """Begin with the trace [T,4], in which moves [M,3] were started and styles [S,2] changed as Player.run has
-        them, and it was looked somewhere."""
+        them, it was looked somewhere, and hands reached for something."""
         self._steps, self._trace = 0, [Control(*row) for row in trace.tolist()]
         self._moves, self._styles, self._looks = list(moves), list(styles), list(looks)
+        self._reaches = list(reaches)
 
     def advance(self) -> None:
         """A step has been made."""
@@ -65,6 +69,11 @@ class TraceInput:
     def aim(self) -> Aim:
         """Where it looks now."""
         return look_before(self._looks, self._steps * TRACE_RATE // self._rate + 1)
+
+    @property
+    def holds(self) -> Holds:
+        """What hands reach for now."""
+        return holds_before(self._reaches, self._steps * TRACE_RATE // self._rate + 1)
 
     def intent(self) -> Intent:
         return Intent(control=self._trace[self._steps * TRACE_RATE // self._rate]) if self._trace else REST

@@ -12,7 +12,7 @@ from ..drive import session
 from ..input.pads import PadState
 from ..operators.base.context import active_armature
 from ..operators.directing import drive as drive_operator
-from ..settings.drawing import aligned, draw_look, draw_trace, draw_wrapped
+from ..settings.drawing import aligned, draw_hands, draw_look, draw_trace, draw_wrapped
 from .sidebar import Sidebar, SubPanel
 
 
@@ -62,6 +62,7 @@ class FRAGMOTION_PT_drive_options(_DriveSubPanel, bpy.types.Panel):
         column.prop(settings, "follow")
         column.prop(settings, "click_to_walk")
         draw_look(column, look)
+        draw_hands(column, _armature(context))
 
 
 class _OptionsPanel(_DriveSubPanel):

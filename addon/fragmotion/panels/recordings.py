@@ -9,7 +9,16 @@ import bpy
 
 from ..operators.base.context import active_armature
 from ..recordings.recordings import active_recording
-from ..settings.drawing import aligned, draw_bake, draw_bake_options, draw_look, draw_populate, draw_wrapped
+from ..settings.drawing import (
+    aligned,
+    draw_bake,
+    draw_bake_options,
+    draw_hands,
+    draw_look,
+    draw_populate,
+    draw_populated,
+    draw_wrapped,
+)
 from .sidebar import Sidebar, SubPanel
 
 _ROWS = 4
@@ -114,6 +123,9 @@ class FRAGMOTION_PT_change(_RecordingPanel, bpy.types.Panel):
         group = _group(layout, context, "Look somewhere from the playhead on")
         draw_look(aligned(group), settings.look)
         group.operator("fragmotion.look_recording", icon="HIDE_OFF")
+        group = _group(layout, context, "Hold something from the playhead on")
+        draw_hands(aligned(group), active_armature(context))
+        group.operator("fragmotion.reach_recording", icon="VIEW_PAN")
         group = _group(layout, context, "Be at a place at the playhead: the 3D cursor, or an object")
         column = aligned(group)
         column.prop(settings, "pin_at", text="Object")
@@ -152,7 +164,9 @@ class FRAGMOTION_PT_populate(SubPanel, bpy.types.Panel):
     bl_parent_id = "FRAGMOTION_PT_bake"
 
     def draw(self, context: bpy.types.Context) -> None:
-        draw_populate(self.layout, active_armature(context).fragmotion.populate)
+        settings = active_armature(context).fragmotion
+        draw_populate(self.layout, settings.populate)
+        draw_populated(self.layout, settings.populate, settings.crowd)
         self.layout.operator("fragmotion.populate", icon="COMMUNITY")
 
 

@@ -3,15 +3,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
 import numpy as np
+from mathutils import Matrix, Vector
 
 from ..character.building import check_skeleton, load, make_player
 from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..ground.meshes import find_ground, remarks_of
+from ..jobs import Report
+from ..recordings.holding import reaches_now
 from ..recordings.looks import AS_CAPTURED, LookChange, aim_of
 from ..recordings.recordings import POSE_RATE, Recording, add_recording
 from ..rig.motion import Motion
@@ -74,7 +78,8 @@ def follow(
         player.reset(*start)
         aim = aim_of(obj.fragmotion.look)
         looks = [] if aim.look == AS_CAPTURED else [LookChange(0, *aim)]
-        performance = player.run(walk.trace, POSE_RATE, looks=looks or None)
+        reaches = [reach for reach in reaches_now(context, obj, obj.fragmotion.bake) if reach.control < len(walk.trace)]
+        performance = player.run(walk.trace, POSE_RATE, looks=looks or None, reaches=reaches or None)
     motion = Motion(performance.root_positions, performance.rotations, performance.path, performance.classes)
     recording = add_recording(
         obj,
@@ -86,6 +91,7 @@ def follow(
         quality=performance.quality,
         shown=(np.arange(len(motion.path)) / POSE_RATE, motion),
         looks=looks,
+        reaches=reaches,
     )
     return (
         recording,
@@ -100,23 +106,53 @@ class Walk(NamedTuple):
     path: Path
     options: dict[str, Any]
 
-    def trace(self, player: Player, rate: float) -> Doubles:
+    def enter(self, player: Player, scale: float) -> None:
+        """This player is to walk it, of a body that is so much smaller than 1.8 m: it need not be known beforehand."""
+
+    def trace(self, player: Player, rate: float, report: Report) -> Doubles:
         """What a player does along it [T,4]; then the player stands at the beginning again, to be run at this rate."""
         with core_errors("Follow Path"):
-            walk = core.follow_path(player, self.path, rate=rate, **self.options)
-            player.reset(*self.path.start)
+            walk = core.follow_path(player, self.path, rate=rate, progress=report, **self.options)
+            player.reset(*self.path.start, style=player.playing_style)
         trace: Doubles = walk.trace
         return trace
 
 
 def shared(
-    context: bpy.types.Context, obj: bpy.types.Object, settings: Any, space: ControlSpace, count: int, spacing: float
+    context: bpy.types.Context,
+    obj: bpy.types.Object,
+    settings: Any,
+    space: ControlSpace,
+    moved: Sequence[Matrix],
+    spacing: float,
+    lines: Sequence[Line] = (),
 ) -> list[Walk]:
-    """The path of PathSettings for characters that go along it one behind the other, so far apart: parts of the same
-    length, which all take the same time. UserError where it is too short for so many."""
+    """The path of PathSettings, or several lines, for characters that go along it one behind the other, so far apart,
+    in a world that lies so in ours: on each line parts of the same length, which all take the same time. UserError
+    where they are too short for so many."""
     if settings.speed_by == "RADIUS":
         raise UserError("Several characters on one path go at one pace: choose another than Radius under Path")
-    line = find_line(context, settings)
+    options = _options(context, obj, settings)
+    lines = lines or [find_line(context, settings)]
+    walks: list[Walk] = []
+    for number, line in enumerate(lines):
+        own = moved[number :: len(lines)]
+        walks += _along(line, settings, space, own, spacing, options) if own else []
+    order = sorted(range(len(moved)), key=lambda index: (index % len(lines), index // len(lines)))
+    placed = dict(zip(order, walks))
+    return [placed[index] for index in range(len(moved))]
+
+
+def _along(
+    line: Line,
+    settings: Any,
+    space: ControlSpace,
+    moved: Sequence[Matrix],
+    spacing: float,
+    options: dict[str, Any],
+) -> list[Walk]:
+    """Those of one line."""
+    count = len(moved)
     with core_errors(line.name):
         path = core.Path(line.points, line.closed or settings.end == "LOOP")
     left = path.length - spacing * (count if path.is_closed else count - 1)
@@ -125,19 +161,22 @@ def shared(
             f"{line.name} is {path.length:.1f} m long, too short for {count} copies {spacing:g} m apart: let there be "
             "fewer, or nearer"
         )
-    options = _options(context, obj, settings)
-    parts = [_part(path, number * spacing, path.length if path.is_closed else left) for number in range(count)]
+    parts = [
+        _part(path, number * spacing, path.length if path.is_closed else left, each.inverted())
+        for number, each in enumerate(moved)
+    ]
     if not options.get("arrive"):
         steering = {name: value for name, value in options.items() if name != "seconds"}
         with core_errors("Follow Path"):
+            options = dict(options)
             options["arrive"] = max(core.PathFollower(space, part, **steering).seconds_left for part in parts)
     return [Walk(part, options) for part in parts]
 
 
-def _part(path: Path, begin: float, length: float) -> Path:
-    """A path from so many metres on: of a closed one all, of an open one so much."""
+def _part(path: Path, begin: float, length: float, seen: Matrix) -> Path:
+    """A path from so many metres on, as one sees it elsewhere: of a closed one all, of an open one so much."""
     ways = np.linspace(begin, begin + length, max(int(length / _STEP), _FEWEST), endpoint=not path.is_closed)
-    part: Path = core.Path(path.places(ways), path.is_closed)
+    part: Path = core.Path([tuple((seen @ Vector((*place, 0))).xy) for place in path.places(ways)], path.is_closed)
     return part
 
 

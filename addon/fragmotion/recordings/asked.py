@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a recording asks for beside its trace: moves, styles, and where to look."""
+"""What a recording asks for beside its trace: moves, styles, where to look, and what hands hold."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from ..errors import UserError
 from .looks import LookChange, look_before, looks_from
+from .reaches import ReachChange, holds_before, reaches_from
 from .styles import StyleChange
 
 
@@ -20,12 +21,14 @@ class StartedMove(NamedTuple):
 
 
 class Asked(NamedTuple):
-    """What a recording asks for beside its trace: moves, the style in which it begins, changes of it, and looks."""
+    """What a recording asks for beside its trace: moves, the style in which it begins, changes of it, looks, and what
+    hands reach for."""
 
     moves: Sequence[StartedMove] = ()
     style: str = ""
     styles: Sequence[StyleChange] = ()
     looks: Sequence[LookChange] = ()
+    reaches: Sequence[ReachChange] = ()
 
 
 def number_moves(
@@ -50,4 +53,6 @@ def joined_asked(first: Asked, length: int, second: Asked) -> Asked:
     changes = [change._replace(control=change.control + length) for change in second.styles]
     looks = looks_from(first.looks, length, look_before(second.looks, 1))
     looks += [look._replace(control=look.control + length) for look in second.looks if look.control > 0]
-    return Asked([*first.moves, *later], first.style, [*first.styles, *begins, *changes], looks)
+    reaches = reaches_from(first.reaches, length, [holds_before(second.reaches, 1)])
+    reaches += [reach._replace(control=reach.control + length) for reach in second.reaches if reach.control > 0]
+    return Asked([*first.moves, *later], first.style, [*first.styles, *begins, *changes], looks, reaches)

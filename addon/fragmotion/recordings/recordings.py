@@ -19,6 +19,7 @@ from ..errors import UserError
 from ..rig.motion import Motion
 from .asked import Asked, StartedMove, number_moves
 from .looks import LookChange, looks_between, read_looks
+from .reaches import ReachChange, reaches_between, read_reaches
 from .rows import read_rows, write_rows
 from .styles import StyleChange, Styled, numbered, read_changes, set_styles, trimmed
 
@@ -45,7 +46,7 @@ _CHECKSUM = 4  # bytes at the end of what zlib compressed, which tell all that i
 _FARTHEST = 1e9  # m, and rad: where the core's player still stands
 _FIELDS = (
     *("name", "date", "seconds", "quality", "policy", "seed", "start", "train"),
-    *("controls", "moves", "style", "styles", "looks", "shown", "shown_bones"),
+    *("controls", "moves", "style", "styles", "looks", "reaches", "shown", "shown_bones"),
 )
 
 _BESIDE_BONES = 1 + 3 + 3 + 1  # columns of what was shown: time, root position, character frame, class
@@ -94,6 +95,8 @@ class Recording(bpy.types.PropertyGroup):
     """The scene frame at which its first control is shown."""
     curves_rate: FloatProperty(options={"HIDDEN"}, min=0)  # type: ignore[valid-type]
     """Scene frames a second of the curves."""
+    of_story: BoolProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    """Whether it was made of the storyboard, whose next recording takes its place."""
     baked: PointerProperty(  # type: ignore[valid-type]
         name="Action", description="The Action to which the recording was baked last", type=bpy.types.Action
     )
@@ -109,6 +112,8 @@ class Recording(bpy.types.PropertyGroup):
     """JSON of the styles to which it changes: [control, name] each; empty: none."""
     looks: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
     """JSON of where it is asked to look: [control, look, x, y, z] each; empty: as captured."""
+    reaches: StringProperty(options={"HIDDEN"})  # type: ignore[valid-type]
+    """JSON of what hands reach for: [control, hand, weight, carried, x, y, z] each; empty: nothing."""
     shown: StringProperty(subtype="BYTE_STRING", options={"HIDDEN"})  # type: ignore[valid-type]
     shown_bones: IntProperty(min=0, options={"HIDDEN"})  # type: ignore[valid-type]
 
@@ -127,14 +132,15 @@ def add_recording(
     style: str = "",
     styles: Sequence[StyleChange] = (),
     looks: Sequence[LookChange] = (),
+    reaches: Sequence[ReachChange] = (),
 ) -> Recording:
     """Keep a trace [T,4] (10 controls a second, in the character frame) with the armature, and select it in the list.
 
     The name (default "Recording") gets a number where another one has it. `start` is the character frame, as
     Player.frame: x, y in metres and the heading in radians. `shown` are the poses that the user saw, where there
     were any, and their times [F] in seconds from the first control on. `moves` are those that were started; `style` is
-    the one in which it begins, `styles` are those to which it changes, `looks` where it is asked to look. UserError on
-    what is no trace; the file is changed only afterwards.
+    the one in which it begins, `styles` are those to which it changes, `looks` where it is asked to look, `reaches`
+    what hands reach for. UserError on what is no trace; the file is changed only afterwards.
     """
     data = _packed(trace)
     settings = obj.fragmotion
@@ -144,7 +150,7 @@ def add_recording(
     recording.start, recording.quality = start, quality
     recording.date = datetime.now().strftime("%Y-%m-%d %H:%M")
     _store(recording, data, len(trace))
-    set_asked(recording, Asked(moves, style, styles, looks))
+    set_asked(recording, Asked(moves, style, styles, looks, reaches))
     if shown is not None:
         set_shown(recording, *shown)
     settings.active_recording = len(settings.recordings) - 1
@@ -197,9 +203,17 @@ def looks_of(recording: Recording) -> list[LookChange]:
     return looks
 
 
+def reaches_of(recording: Recording) -> list[ReachChange]:
+    """What its hands reach for, in order; UserError where the .blend is damaged."""
+    reaches = read_reaches(recording.reaches, len(trace_of(recording)))
+    if reaches is None:
+        raise _damaged(recording)
+    return reaches
+
+
 def asked_of(recording: Recording) -> Asked:
     """What it asks for beside its trace; UserError where the .blend is damaged."""
-    return Asked(moves_of(recording), recording.style, styles_of(recording), looks_of(recording))
+    return Asked(moves_of(recording), recording.style, styles_of(recording), looks_of(recording), reaches_of(recording))
 
 
 def asked_between(recording: Recording, first: int, last: int) -> Asked:
@@ -209,7 +223,8 @@ def asked_between(recording: Recording, first: int, last: int) -> Asked:
         move._replace(control=move.control - first) for move in moves_of(recording) if first <= move.control < last
     ]
     looks = looks_between(looks_of(recording), first, last)
-    return Asked(moves, *trimmed(recording.style, styles_of(recording), first, last), looks)
+    reaches = reaches_between(reaches_of(recording), first, last)
+    return Asked(moves, *trimmed(recording.style, styles_of(recording), first, last), looks, reaches)
 
 
 def set_asked(recording: Recording, asked: Asked) -> None:
@@ -217,6 +232,7 @@ def set_asked(recording: Recording, asked: Asked) -> None:
     _set_moves(recording, asked.moves)
     set_styles(recording, asked.style, asked.styles)
     recording.looks = write_rows(asked.looks)
+    recording.reaches = write_rows(asked.reaches)
 
 
 def shown_of(recording: Recording) -> tuple[Doubles, Motion] | None:
@@ -259,6 +275,7 @@ def digest_of(recording: Recording) -> str:
         recording.style,
         recording.styles,
         recording.looks,
+        recording.reaches,
         recording.policy,
         recording.seed,
         *recording.start,

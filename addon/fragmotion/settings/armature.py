@@ -31,6 +31,7 @@ from .common import TraceFields, factor_field, length_field, player_field, polic
 from .look_fields import LookSettings
 from .path_fields import PathSettings
 from .pin_fields import PinFields
+from .reach_fields import ReachSettings
 from .story_fields import BeatSettings
 
 _RELATIVE = (
@@ -73,6 +74,31 @@ class BuildSettings(BuildFields, bpy.types.PropertyGroup):
 
 class PopulateSettings(PopulateFields, bpy.types.PropertyGroup):
     """The panel's settings of Populate."""
+
+
+def _is_mesh(_settings: CrowdSettings, obj: bpy.types.Object) -> bool:
+    return bool(obj.type == "MESH")
+
+
+class CrowdSettings(bpy.types.PropertyGroup):
+    """What a crowd goes along, about and around."""
+
+    area: PointerProperty(  # type: ignore[valid-type]
+        name="Area",
+        description="The mesh on which they go about, where its active vertex group is painted",
+        type=bpy.types.Object,
+        poll=_is_mesh,
+    )
+    paths: PointerProperty(  # type: ignore[valid-type]
+        name="Paths",
+        description="A collection of curves among which they are shared out; empty: they go along the one of Path",
+        type=bpy.types.Collection,
+    )
+    obstacles: PointerProperty(  # type: ignore[valid-type]
+        name="Obstacles",
+        description="A collection: they keep clear of the boxes around its objects, seen from above",
+        type=bpy.types.Collection,
+    )
 
 
 class BakeSettings(BakeFields, bpy.types.PropertyGroup):
@@ -299,6 +325,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
     )
     bake: PointerProperty(type=BakeSettings)  # type: ignore[valid-type]
     populate: PointerProperty(type=PopulateSettings)  # type: ignore[valid-type]
+    crowd: PointerProperty(type=CrowdSettings)  # type: ignore[valid-type]
     drive: PointerProperty(type=DriveSettings)  # type: ignore[valid-type]
     pin: PointerProperty(type=PinSettings)  # type: ignore[valid-type]
     pin_at: PointerProperty(  # type: ignore[valid-type]
@@ -312,6 +339,17 @@ class CharacterSettings(bpy.types.PropertyGroup):
     feel: PointerProperty(type=FeelSettings)  # type: ignore[valid-type]
     ground: PointerProperty(type=GroundSettings)  # type: ignore[valid-type]
     look: PointerProperty(type=LookSettings)  # type: ignore[valid-type]
+    left_hand: PointerProperty(type=ReachSettings)  # type: ignore[valid-type]
+    right_hand: PointerProperty(type=ReachSettings)  # type: ignore[valid-type]
+    held: FloatProperty(  # type: ignore[valid-type]
+        name="Weight",
+        description="How much a hand that reaches for this object is there: 0 not at all, 1 wholly. Key it to let the "
+        "hand take it and let it go",
+        default=1.0,
+        min=0.0,
+        max=1.0,
+        subtype="FACTOR",
+    )
     figures: PointerProperty(type=BuildFigures)  # type: ignore[valid-type]
     classes: CollectionProperty(type=ClassRow)  # type: ignore[valid-type]
     tried: CollectionProperty(type=NumberTried)  # type: ignore[valid-type]

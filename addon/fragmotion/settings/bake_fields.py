@@ -53,7 +53,12 @@ _MARKERS = (
 _LAYOUTS = (
     ("SQUARE", "Square", "A grid around the armature; all face as it does"),
     ("RING", "Ring", "A circle around the armature that faces outwards"),
-    ("PATH", "Along the Path", "One behind the other along the path that is set under Path; no trace drives them"),
+    (
+        "PATH",
+        "Along Paths",
+        "One behind the other along the path that is set under Path, or several; no trace drives them",
+    ),
+    ("AREA", "Painted Area", "From place to place on a mesh, where its active vertex group is painted"),
 )
 
 _CROWD_TRACES = (
@@ -199,5 +204,19 @@ class PopulateFields:
         description="Draw a style for each copy that a simulated player drives; else all have Bake's. Recordings have "
         "styles of their own",
         default=True,
+    )
+    clear: BoolProperty(  # type: ignore[valid-type]
+        name="Keep Clear",
+        description="They make way for each other and for obstacles: none comes nearer to another than 0.4 m. Ticked "
+        "recordings are played as they are",
+        default=True,
+    )
+    sizes: FloatProperty(  # type: ignore[valid-type]
+        name="Sizes",
+        description="By how much copies are larger or smaller than the armature at most",
+        default=0.0,
+        min=0.0,
+        max=0.5,
+        subtype="FACTOR",
     )
     seed: seed_field("Of the first copy; the others count on: no two do the same")  # type: ignore[valid-type]

@@ -14,11 +14,12 @@ from ..character.coverage import COLUMNS
 from ..character.storing import BESIDE, troubles
 from ..compat import versions
 from ..recordings.recordings import active_recording, baked_source, is_bake_stale
-from .armature import BuildFigures, DriveSettings
+from .armature import BuildFigures, CrowdSettings, DriveSettings, PopulateSettings
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import POLICY_NAMES
 from .look_fields import LookSettings
+from .reach_fields import ReachSettings
 
 # pixels of a sidebar at the scale 1: what no text can use, an icon with the room around it, and a letter on average
 _FRAME, _ICON, _LETTER = 30, 30, 6.3
@@ -83,6 +84,7 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.O
         layout.prop(settings, "style")
     if source != "RECORDING":
         draw_look(layout, obj.fragmotion.look)
+        draw_hands(layout, obj)
     layout.prop(settings, "target")
 
 
@@ -138,14 +140,32 @@ def draw_bake_options(layout: bpy.types.UILayout, settings: BakeFields) -> None:
 def draw_populate(layout: bpy.types.UILayout, settings: PopulateFields) -> None:
     """The fields of a crowd."""
     layout = aligned(layout)
-    for name in ("count", "layout", "spacing", "traces"):
+    for name in ("count", "layout", "spacing"):
         layout.prop(settings, name)
-    if settings.traces == "PLAYERS":
+    is_driven = settings.layout in {"SQUARE", "RING"}
+    if is_driven:
+        layout.prop(settings, "traces")
+    simulated = is_driven and settings.traces == "PLAYERS"
+    if simulated:
         layout.prop(settings, "player")
+    if simulated or settings.layout == "AREA":
         layout.prop(settings, "seconds")
-    if settings.traces == "PLAYERS" or settings.layout == "PATH":
+    if simulated or not is_driven:
         layout.prop(settings, "mix_styles")
+        layout.prop(settings, "clear")
+    layout.prop(settings, "sizes")
     layout.prop(settings, "seed")
+
+
+def draw_populated(layout: bpy.types.UILayout, settings: PopulateSettings, crowd: CrowdSettings) -> None:
+    """The objects that a crowd needs."""
+    layout = aligned(layout)
+    if settings.layout == "AREA":
+        layout.prop(crowd, "area")
+    if settings.layout == "PATH":
+        layout.prop(crowd, "paths")
+    if settings.clear and (settings.layout in {"AREA", "PATH"} or settings.traces == "PLAYERS"):
+        layout.prop(crowd, "obstacles")
 
 
 def draw_summary(layout: bpy.types.UILayout, context: bpy.types.Context, figures: BuildFigures) -> None:
@@ -185,6 +205,22 @@ def draw_look(layout: bpy.types.UILayout, settings: LookSettings) -> None:
     layout.prop(settings, "kind")
     if settings.kind == "OBJECT":
         layout.prop(settings, "object")
+
+
+def draw_reach(layout: bpy.types.UILayout, settings: ReachSettings, label: str) -> None:
+    """The fields of ReachSettings, and the weight of its object, which can be keyed."""
+    layout.prop(settings, "object", text=label)
+    if settings.object is not None:
+        row = layout.row()
+        row.use_property_decorate = True
+        row.prop(settings.object.fragmotion, "held")
+        layout.prop(settings, "carried")
+
+
+def draw_hands(layout: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """What both hands of an armature reach for."""
+    draw_reach(layout, obj.fragmotion.left_hand, "Left Hand")
+    draw_reach(layout, obj.fragmotion.right_hand, "Right Hand")
 
 
 def draw_shown_style(layout: bpy.types.UILayout, figures: BuildFigures) -> None:

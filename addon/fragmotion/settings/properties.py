@@ -33,6 +33,7 @@ from .armature import (
     BuildSettings,
     CharacterSettings,
     CoverageFigure,
+    CrowdSettings,
     DriveSettings,
     FeelSettings,
     GroundSettings,
@@ -43,6 +44,7 @@ from .armature import (
 )
 from .look_fields import LookSettings
 from .path_fields import PathSettings
+from .reach_fields import ReachSettings
 from .story_fields import BeatSettings
 
 _ORDERS = (
@@ -106,12 +108,14 @@ CLASSES = (
     InspectorSettings,
     BuildSettings,
     BakeSettings,
+    CrowdSettings,
     PopulateSettings,
     DriveSettings,
     PathSettings,
     FeelSettings,
     GroundSettings,
     LookSettings,
+    ReachSettings,
     BeatSettings,
     PinSettings,
     PolicyFigure,

@@ -403,6 +403,20 @@ enum {
 FRAGMOTION_EXPORT FragmotionResult fragmotion_player_look(FragmotionPlayer* player, FragmotionLook look,
                                                           const float place[3]) FRAGMOTION_NOEXCEPT;
 
+/* What a hand holds or reaches for, over whatever it plays. */
+typedef int32_t FragmotionHand;
+enum { FRAGMOTION_LEFT_HAND = 0, FRAGMOTION_RIGHT_HAND = 1 };
+typedef struct FragmotionReach {
+  float place[3];  /* of the palm, */
+  int32_t carried; /* 0: in the world; 1: along with the character: to its right, forward and over the ground */
+  float weight;    /* 0: the hand is as captured .. 1: it is there */
+} FragmotionReach;
+
+/* Reaches for it from now on, until a reset; null: lets go. The hand goes there smoothly, also when it is told anew
+ * before each step; it reaches for nothing that is far out of its reach, or behind it. */
+FRAGMOTION_EXPORT FragmotionResult fragmotion_player_reach(FragmotionPlayer* player, FragmotionHand hand,
+                                                           const FragmotionReach* reach) FRAGMOTION_NOEXCEPT;
+
 /* Plays a class of its style's motion next, whatever is asked for. */
 FRAGMOTION_EXPORT FragmotionResult fragmotion_player_force_class(FragmotionPlayer* player,
                                                                  int32_t index) FRAGMOTION_NOEXCEPT;

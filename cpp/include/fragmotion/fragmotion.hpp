@@ -192,6 +192,10 @@ class PlayerRef {
     return fragmotion_player_look(player_, FRAGMOTION_LOOK_AT, place) == FRAGMOTION_OK;
   }
   bool look(FragmotionLook look) noexcept { return fragmotion_player_look(player_, look, nullptr) == FRAGMOTION_OK; }
+  bool reach(FragmotionHand hand, const FragmotionReach& reach) noexcept {
+    return fragmotion_player_reach(player_, hand, &reach) == FRAGMOTION_OK;
+  }
+  bool let_go(FragmotionHand hand) noexcept { return fragmotion_player_reach(player_, hand, nullptr) == FRAGMOTION_OK; }
   bool force_class(std::int32_t index) noexcept {
     return fragmotion_player_force_class(player_, index) == FRAGMOTION_OK;
   }

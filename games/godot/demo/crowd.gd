@@ -1,24 +1,35 @@
 # SPDX-License-Identifier: MIT
-extends Node3D
-## Others, who walk round and round, each along an ellipse of its own.
+extends FragmotionCrowd
+## Others, who walk round and round, each along an ellipse of its own, make way, and look at who comes near.
 
-@export var policy: FragmotionPolicy
+const NEAR := 5.0 # m
+
 @export var mesh: PackedScene
+@export var hero: Node3D
 @export_range(0, 300) var count := 40
 
 
 func _ready() -> void:
+	others = [hero]
 	for number in count:
 		var walker := FragmotionCharacter.new()
 		walker.policy = policy
-		walker.random_seed = 2 + number
 		walker.ground_mask = 0
 		walker.steer = FragmotionCharacter.Steer.PATH
+		walker.look_target = hero
 		walker.add_child(mesh.instantiate())
-		var way := _way(number)
-		walker.position = way.get_point_position(0)
+		walker.position = _way(number).get_point_position(0)
 		add_child(walker)
-		walker.follow(way, true)
+	gather()
+	for number in count:
+		get_child(number).follow(_way(number), true)
+
+
+func _physics_process(delta: float) -> void:
+	super(delta)
+	for walker: FragmotionCharacter in get_children():
+		var is_near := walker.position.distance_to(hero.position) < NEAR
+		walker.look = FragmotionCharacter.Look.AT if is_near else FragmotionCharacter.Look.AS_CAPTURED
 
 
 func _way(number: int) -> Curve3D:

@@ -16,6 +16,7 @@ namespace {
 void begin(void* /*data*/, GDExtensionInitializationLevel level) {
   if (level == GDEXTENSION_INITIALIZATION_SCENE) {
     Policy::add();
+    Players::add();
     Player::add();
   }
   if (level == GDEXTENSION_INITIALIZATION_EDITOR) {
@@ -25,7 +26,7 @@ void begin(void* /*data*/, GDExtensionInitializationLevel level) {
 
 void end(void* /*data*/, GDExtensionInitializationLevel level) {
   if (level != GDEXTENSION_INITIALIZATION_SCENE) return;
-  for (const char* name : {Player::kName, Policy::kName}) {
+  for (const char* name : {Player::kName, Players::kName, Policy::kName}) {
     const Name own(name);
     engine.unregister_class(engine.library, &own);
   }

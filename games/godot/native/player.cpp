@@ -79,7 +79,25 @@ bool Player::play(Object policy, std::int64_t seed) {
   options.seed = static_cast<std::uint64_t>(seed);
   game::Player made(given->character(), options);
   if (!held(static_cast<bool>(made), __func__)) return false;
-  player_ = std::move(made);
+  own_ = std::move(made);
+  player_ = own_;
+  crowd_.reset();
+  driven_.clear();
+  return true;
+}
+
+bool Player::play_one_of(Object players, std::int64_t index) {
+  auto* given = ours<Players>(players);
+  if (given == nullptr || given->crowd() == nullptr) {
+    complain("there are no players: make() them first", __func__);
+    return false;
+  }
+  const game::PlayerRef one =
+      (*given->crowd())[static_cast<std::int32_t>(std::clamp<std::int64_t>(index, -1, INT32_MAX))];
+  if (!held(static_cast<bool>(one), __func__)) return false;
+  player_ = one;
+  crowd_ = given->crowd();
+  own_ = game::Player();
   driven_.clear();
   return true;
 }
@@ -237,6 +255,12 @@ bool Player::change_style(std::int64_t style) {
   return held(player_.change_style(static_cast<std::int32_t>(style)), __func__);
 }
 
+bool Player::look(std::int64_t where, Vector3 place) {
+  const float at[3] = {place.x, place.y, place.z};
+  const auto look = static_cast<FragmotionLook>(std::clamp<std::int64_t>(where, -1, INT32_MAX));
+  return held(fragmotion_player_look(player_.get(), look, at) == FRAGMOTION_OK, __func__);
+}
+
 bool Player::set_path(VectorArray points, bool closed, std::int64_t end, double speed) {
   const std::int64_t count = size_of(points);
   if (count == 0) return held(player_.forget_path(), __func__);
@@ -284,6 +308,7 @@ std::int64_t Player::get_checksum() { return static_cast<std::int64_t>(player_.c
 void Player::add() {
   add_class<Player>();
   Bound<&Player::play>::add(kName, "play", "policy", "seed");
+  Bound<&Player::play_one_of>::add(kName, "play_one_of", "players", "index");
   Bound<&Player::bind>::add(kName, "bind", "policy", "skeleton", "from_model", "rotation");
   Bound<&Player::set_ground>::add(kName, "set_ground", "space", "query");
   Bound<&Player::set_option>::add(kName, "set_option", "name", "value");
@@ -306,6 +331,7 @@ void Player::add() {
   Bound<&Player::start_move>::add(kName, "start_move", "move");
   Bound<&Player::release_move>::add(kName, "release_move", "move");
   Bound<&Player::change_style>::add(kName, "change_style", "style");
+  Bound<&Player::look>::add(kName, "look", "where", "place");
   Bound<&Player::set_path>::add(kName, "set_path", "points", "closed", "end", "speed");
   Bound<&Player::foresee>::add(kName, "foresee", "steer", "move", "facing", "seconds", "count");
   Bound<&Player::save_state>::add(kName, "save_state");

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "policy.hpp"
+#include "players.hpp"
 
 namespace fragmotion::godot {
 
@@ -15,6 +15,8 @@ class Player {
   static void add();
 
   bool play(Object policy, std::int64_t seed);
+  /// Is one of many FragmotionPlayers.
+  bool play_one_of(Object players, std::int64_t index);
   /// The skeleton whose bones it drives, by their names; `from_model`: the model's space as the skeleton sees it, and
   /// its rotation. Returns how many bones were found.
   std::int64_t bind(Object policy, Object skeleton, Transform from_model, Quaternion rotation);
@@ -46,6 +48,8 @@ class Player {
   bool start_move(std::int64_t move);
   bool release_move(std::int64_t move);
   bool change_style(std::int64_t style);
+  /// Where head and chest look until a reset: 0 as captured, 1 ahead, 2 at a place in the world.
+  bool look(std::int64_t where, Vector3 place);
   /// No points: no path. `end`: 0 stands there, 1 goes round, 2 goes straight on. `speed`: m/s, 0: as it walks.
   bool set_path(VectorArray points, bool closed, std::int64_t end, double speed);
   /// Where it would be under an input that is held, evenly over the seconds to come.
@@ -64,7 +68,9 @@ class Player {
   bool held(bool done, const char* function) const;
   void find_bones(const game::Character& character, Variant& skeleton);
 
-  game::Player player_;
+  game::Player own_;
+  std::shared_ptr<game::Crowd> crowd_;  // or whose it is
+  game::PlayerRef player_;              // what plays: its own, or one of the crowd's
   game::Rig rig_;
   std::uint64_t skeleton_ = 0;
   Transform from_model_{};

@@ -202,6 +202,8 @@ export interface Player {
   startMove(move: number): void;
   releaseMove(move: number): void;
   changeStyle(style: number): void;
+  /** Where head and chest look from now on, until a reset; `place` in the world, of "at": for what moves, before each step. */
+  look(where: "as captured" | "ahead" | "at", place?: Vector): void;
   /** What steer "path" goes along from now on; null: no path. */
   setPath(points: Vector[] | null, options?: PathOptions): void;
   /** What happened in the last step. */

@@ -7,6 +7,7 @@ import { Value, structs } from "./structs.js";
 const AXES = ["blender", "gltf", "unity", "unreal"];
 const SPACES = ["local", "model", "world"];
 const STEERS = ["character", "world", "camera", "path"];
+const LOOKS = ["as captured", "ahead", "at"];
 const ENDS = ["stand", "loop", "go on"];
 const EVENTS = [
   "foot down", "foot up", "take-off", "landing", "move begins", "move ends", "style changes", "path arrived",
@@ -367,6 +368,15 @@ class Player extends Held {
 
   changeStyle(style) {
     this.library.call("player_change_style", this.handle, style);
+  }
+
+  look(where, place) {
+    const address = this.library.memory.putFloats(place ?? [0, 0, 0]);
+    try {
+      this.library.call("player_look", this.handle, number(LOOKS, where, "where it looks"), address);
+    } finally {
+      this.library.memory.free(address);
+    }
   }
 
   setPath(points, options = {}) {

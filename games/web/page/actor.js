@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// One character with its player, shown as a skinned mesh or as its bones.
+// One character with its player, shown as a skinned mesh, as its bones, or in few triangles.
 
 import { Matrix4, Quaternion, Vector3 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-import { BoneShapes } from "./bones.js";
+import { Bodies } from "./bodies.js";
+import { bodyOfBones, bodyOfMeshes } from "./body.js";
+import { Blobs } from "./blobs.js";
 
 const HIGHEST_STEP = 0.35; // m
+const PLAIN = [{ upTo: Infinity, most: 1, rings: 6, sides: 8, least: 0 }]; // how it is drawn without a graphics processor
 
 export class Actor {
   /** Throws, in words for people, where the mesh has no bones of the character's. */
@@ -18,8 +21,11 @@ export class Actor {
     Object.assign(this, { character, scene });
     this.skins = meshes.map((mesh) => new Skin(character, mesh));
     this.remark = remarkOn(this.skins);
-    if (!this.skins.length) this.shapes = new BoneShapes(character, 1, scene);
     for (const { mesh } of this.skins) scene.scene.add(mesh);
+    this.body = this.skins.length ? bodyOfMeshes(this.skins) : bodyOfBones(character.bones);
+    this.rig = bonesOf(character, this.skins);
+    this.bodies = new Bodies(this.body, PLAIN, character.height, scene);
+    this.blobs = new Blobs(1, scene);
     this.crossFade(false);
     this.cost = 0;
   }
@@ -40,15 +46,24 @@ export class Actor {
     if (Math.abs(player.state.position[1] - y) > HIGHEST_STEP) {
       player.moveTo({ position: [x, y, z], heading: player.state.heading });
     }
-    for (const skin of this.skins) skin.pose(player);
-    this.shapes?.pose(player, 0);
+    const isPlain = this.scene.isPlain || !this.skins.length;
+    if (isPlain) this.matrices = player.skinning(this.rig, "world");
+    else for (const skin of this.skins) skin.pose(player);
     this.cost += 0.02 * (performance.now() - start - this.cost);
-    this.shapes?.shown();
+    for (const { mesh } of this.skins) mesh.visible = !isPlain;
+    this.#showPlainly(isPlain);
+  }
+
+  #showPlainly(isPlain) {
+    const { position } = this.player.state, drawn = [this.bodies, this.blobs];
+    for (const each of drawn) each.begin();
+    if (isPlain) for (const each of drawn) each.show(position, () => this.matrices);
+    for (const each of drawn) each.end();
   }
 
   remove() {
-    for (const skin of this.skins) skin.remove();
-    this.shapes?.remove();
+    for (const each of [...this.skins, this.bodies, this.blobs]) each.remove();
+    this.rig.release();
     this.player.release();
     this.character.release();
   }
@@ -61,10 +76,10 @@ class Skin {
     const placed = bones.map((bone) => partsOf(bone.matrixWorld));
     const parents = bones.map((bone) => bones.indexOf(nearestBone(bone.parent, bones)));
     const isSorted = parents.every((parent, i) => parent < i);
-    const inverseBinds = bones.map((_, i) => scaled(mesh.skeleton.boneInverses[i], placed[i].scale).elements);
+    this.inverseBinds = bones.map((_, i) => scaled(mesh.skeleton.boneInverses[i], placed[i].scale));
     const rest = isSorted && bones.map((bone, i) => transform(bone, bones[parents[i]]));
-    this.rig = character.rig({
-      names, parents: isSorted ? parents : undefined, rest: rest ? rest.flat() : undefined, inverseBinds: inverseBinds.flat() });
+    this.bones = { names, parents: isSorted ? parents : undefined, rest: rest ? rest.flat() : undefined };
+    this.rig = character.rig({ ...this.bones, inverseBinds: this.inverseBinds.flatMap(({ elements }) => elements) });
     this.names = names;
     this.mesh = mesh;
     this.#leaveToPlayer();
@@ -93,6 +108,18 @@ class Skin {
     this.mesh.skeleton.dispose();
     this.rig.release();
   }
+}
+
+/** What tells where the bones of all meshes are, one after the other; without meshes, the character's own. */
+function bonesOf(character, skins) {
+  const lists = skins.length ? skins.map(({ bones }) => bones) : [{ names: character.bones.map(({ name }) => name) }];
+  const names = lists.flatMap((list) => list.names), isWhole = lists.every(({ rest }) => rest);
+  const starts = lists.map((_, i) => lists.slice(0, i).reduce((sum, list) => sum + list.names.length, 0));
+  const shifted = (list, i) => list.parents.map((parent) => (parent < 0 ? -1 : parent + starts[i]));
+  return character.rig({
+    names, parents: isWhole ? lists.flatMap(shifted) : undefined, rest: isWhole ? lists.flatMap(({ rest }) => rest) : undefined,
+    inverseBinds: names.flatMap(() => new Matrix4().elements),
+  });
 }
 
 function nearestBone(object, bones) {

@@ -8,7 +8,7 @@ export class Buttons {
     this.styles = document.getElementById("styles");
     this.held = [];
     this.toggles = {};
-    for (const [name, run] of [["path", does.drawPath], ["crowd", does.showCrowd], ["fades", does.crossFade]]) {
+    for (const [name, run] of [["path", does.drawPath], ["look", does.lookAround], ["crowd", does.showCrowd], ["fades", does.crossFade]]) {
       this.toggles[name] = new Toggle(document.getElementById(name), run);
     }
   }
@@ -21,6 +21,7 @@ export class Buttons {
     this.held = character.moves.map(() => false);
     this.toggles.fades.set(false);
     this.toggles.path.set(false);
+    this.toggles.look.set(false);
   }
 
   #moveButton(name, move) {

@@ -13,6 +13,7 @@ export class Controls {
     this.thumb = [0, 0];
     this.isJumpTouched = false;
     this.dragged = [0, 0];
+    this.pointer = [0, 0]; // in the window
     this.#hearKeys();
     this.#hearThumb(document.getElementById("stick"), document.getElementById("jump"));
     this.#hearMouse(canvas);
@@ -49,6 +50,7 @@ export class Controls {
   #hearMouse(canvas) {
     canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
     canvas.addEventListener("pointermove", (event) => {
+      this.pointer = [event.clientX, event.clientY];
       if (!canvas.hasPointerCapture(event.pointerId) || document.body.classList.contains("drawing")) return;
       this.dragged[0] += event.movementX;
       this.dragged[1] += event.movementY;

@@ -6,13 +6,14 @@ import WebGL from "three/addons/capabilities/WebGL.js";
 import { Actor } from "./actor.js";
 import { Buttons } from "./buttons.js";
 import { Controls } from "./controls.js";
-import { CROWD, Crowd } from "./crowd.js";
+import { Crowd } from "./crowd.js";
 import { receiveFiles } from "./files.js";
 import { Overlay } from "./overlay.js";
 import { DrawnPath } from "./path.js";
 import { Scene } from "./scene.js";
 
 const LONGEST = 0.1; // s that a frame plays on, after a pause of the page
+const FARTHEST = 20; // m that it looks at
 const message = document.getElementById("message");
 
 function tell(text) {
@@ -36,6 +37,7 @@ class Page {
       releaseMove: (move) => this.actor.player.releaseMove(move),
       changeStyle: (style) => this.actor.player.changeStyle(style),
       drawPath: (on) => this.path.draw(on),
+      lookAround: (on) => this.lookAround(on),
       showCrowd: (on) => this.showCrowd(on),
       crossFade: (on) => this.crossFade(on),
     });
@@ -67,9 +69,14 @@ class Page {
     if (this.followsPath) this.actor.player.setPath(this.path.points);
   }
 
+  lookAround(on) {
+    this.looksAround = on;
+    if (!on) this.actor.player.look("as captured");
+  }
+
   showCrowd(on) {
     this.crowd?.remove();
-    this.crowd = on ? new Crowd(this.actor.character, this.scene, CROWD) : null;
+    this.crowd = on ? new Crowd(this.actor, this.scene) : null;
   }
 
   input() {
@@ -86,9 +93,11 @@ class Page {
     this.buttons.readKeys(this.controls);
     this.scene.turn(this.controls.turnOfView(seconds), this.controls.tiltOfView(seconds));
     this.asked = this.input();
+    if (this.looksAround) this.actor.player.look("at", this.scene.seenAt(...this.controls.pointer, FARTHEST).toArray());
     this.actor.step(this.asked, seconds);
     this.crowd?.step(seconds, this.actor.player.state);
     this.scene.follow(this.actor.player.state.position, seconds);
+    this.crowd?.show();
     this.overlay.update(this.actor, this.asked, this.followsPath, now);
     this.buttons.light(this.actor.player.state);
     this.scene.suit(seconds);

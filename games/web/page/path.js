@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A path that the mouse draws on the ground.
 
-import { BufferGeometry, Line, LineBasicMaterial, Raycaster, Vector2, Vector3 } from "three";
+import { BufferGeometry, Line, LineBasicMaterial, Vector3 } from "three";
 
 const APART = 0.15; // m between its points
 const ABOVE = 0.03; // m
 
 export class DrawnPath {
   constructor(scene, canvas, drawn) {
-    Object.assign(this, { scene, canvas, drawn, points: [] });
+    Object.assign(this, { scene, drawn, points: [] });
     this.line = new Line(new BufferGeometry(), new LineBasicMaterial({ color: 0xffe08a }));
     this.line.frustumCulled = false;
     scene.scene.add(this.line);
@@ -35,14 +35,9 @@ export class DrawnPath {
   }
 
   #add(event) {
-    const { left, top, width, height } = this.canvas.getBoundingClientRect();
-    const at = new Vector2((2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height);
-    const ray = new Raycaster();
-    ray.setFromCamera(at, this.scene.camera);
-    const [hit] = ray.intersectObjects(this.scene.floor);
-    const last = this.points.at(-1);
-    if (!hit || (last && hit.point.distanceTo(new Vector3(...last)) < APART)) return;
-    this.points.push(hit.point.toArray());
+    const point = this.scene.seenAt(event.clientX, event.clientY), last = this.points.at(-1);
+    if (!point || (last && point.distanceTo(new Vector3(...last)) < APART)) return;
+    this.points.push(point.toArray());
     this.#show();
   }
 

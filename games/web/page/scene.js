@@ -3,16 +3,16 @@
 
 import {
   AmbientLight, BoxGeometry, Color, DataTexture, DirectionalLight, Fog, LinearMipmapLinearFilter, Mesh, MeshLambertMaterial,
-  PerspectiveCamera, PlaneGeometry, RepeatWrapping, RingGeometry, Scene as ThreeScene, Vector3, WebGLRenderer,
+  PerspectiveCamera, PlaneGeometry, Raycaster, RepeatWrapping, RingGeometry, Scene as ThreeScene, Vector2, Vector3, WebGLRenderer,
 } from "three";
 
 const SKY = 0x2a3038, FLOOR = 0x8a93a0, SOLID = 0x6b7480;
 const SQUARE = 1; // m
 const SIZE = 120; // m
 const FOLLOWING = 6; // a second
-const SLOW = 1 / 45, QUICK = 1 / 58; // s of a frame
+const SLOW = 1 / 52, QUICK = 1 / 58, TOO_SLOW = 1 / 30; // s of a frame
 const LOOK = 0.5; // s between two looks at how long frames take
-const LEAST_SHARE = 0.35;
+const LEAST_SHARE = 0.35, PLAIN_SHARE = 0.6; // of the screen's pixels, along each side
 const LOWEST = 0.05, HIGHEST = 1.3; // rad that the camera looks down
 
 // [x0, x1, z0, z1, height at z0, height at z1], m; the highest of those at a place is the ground.
@@ -61,17 +61,18 @@ export class Scene {
   ground = (x, y, z) => groundAt(x, z);
 
   constructor(canvas) {
+    this.isPlain = isDrawnByProcessor(); // without shadows and smooth edges, and the character in few triangles
     this.scene = new ThreeScene();
     this.scene.background = new Color(SKY);
     this.scene.fog = new Fog(SKY, 20, 60);
     this.camera = new PerspectiveCamera(45, 1, 0.1, 100);
-    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.isPlain });
     this.renderer.shadowMap.enabled = true;
     this.target = new Vector3(0, 1, 0);
     this.heading = 0;
     this.tilt = 0.3;
     this.distance = 5;
-    this.share = 1; // of the screen's pixels, along each side
+    this.share = this.isPlain ? PLAIN_SHARE : 1;
     this.mean = 1 / 60; // s of a frame
     this.left = LOOK; // s until it looks at that again
     this.#addLight();
@@ -89,10 +90,12 @@ export class Scene {
 
   #addLight() {
     this.sun = new DirectionalLight(0xfff2df, 2.6);
-    this.sun.castShadow = true;
+    this.sun.castShadow = !this.isPlain;
     this.sun.shadow.mapSize.set(1024, 1024);
     Object.assign(this.sun.shadow.camera, { left: -3, right: 3, top: 3, bottom: -3, far: 20 });
-    this.scene.add(new AmbientLight(0xc8d8ff, 1.1), this.sun, this.sun.target);
+    this.ambient = new AmbientLight(0xc8d8ff, 1.1);
+    this.#lightFrom(0, 0, 0);
+    this.scene.add(this.ambient, this.sun, this.sun.target);
   }
 
   #floor() {
@@ -102,6 +105,16 @@ export class Scene {
     flat.material.map = squares();
     this.scene.add(...parts);
     return parts;
+  }
+
+  /** What of the ground is seen at a place of the window, in pixels; where that is farther away, what is so far; or null. */
+  seenAt(x, y, farthest = Infinity) {
+    const { left, top, width, height } = this.renderer.domElement.getBoundingClientRect();
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2((2 * (x - left)) / width - 1, 1 - (2 * (y - top)) / height), this.camera);
+    const [hit] = ray.intersectObjects(this.floor);
+    if (hit && hit.distance < farthest) return hit.point;
+    return farthest < Infinity ? ray.ray.at(farthest, new Vector3()) : null;
   }
 
   /** Where the camera looks, on the ground. */
@@ -125,25 +138,44 @@ export class Scene {
     this.camera.position.set(
       this.target.x - forward * flat, this.target.y + this.distance * Math.sin(this.tilt), this.target.z - ahead * flat);
     this.camera.lookAt(this.target);
+    this.#lightFrom(x, y, z);
+  }
+
+  /** The sun goes along, as its shadow reaches not far. */
+  #lightFrom(x, y, z) {
     this.sun.position.set(x + 4, y + 8, z + 3);
     this.sun.target.position.set(x, y, z);
   }
 
-  /** Fewer pixels where frames take long, and more again where they do not. */
+  /** Fewer pixels where frames take long, at last all of it plain, and more pixels again where they do not. */
   suit(seconds) {
     this.mean += 0.1 * (seconds - this.mean);
     this.left -= seconds;
     const share = this.mean > SLOW ? 0.8 * this.share : this.mean < QUICK ? 1.1 * this.share : this.share;
     if (this.left > 0) return;
     this.left = LOOK;
+    if (this.share === LEAST_SHARE && this.mean > TOO_SLOW) this.#bePlain();
     if (share === this.share) return;
     this.share = Math.min(1, Math.max(LEAST_SHARE, share));
     this.#fit();
   }
 
+  #bePlain() {
+    this.isPlain = true;
+    this.sun.castShadow = false;
+  }
+
   render() {
     this.renderer.render(this.scene, this.camera);
   }
+}
+
+/** Whether the browser has no graphics processor to draw with. */
+function isDrawnByProcessor() {
+  const gl = document.createElement("canvas").getContext("webgl2"), told = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = gl.getParameter(told ? told.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
 function material(color) {

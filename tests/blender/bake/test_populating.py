@@ -33,7 +33,7 @@ def populate(**fields: Any) -> list[bpy.types.Object]:
     former = set(bpy.data.objects)
     assert bpy.ops.fragmotion.populate(**{"seconds": SECONDS, "seed": SEED, **fields}) == {"FINISHED"}
     added = [o for o in bpy.data.objects if o not in former and o.type == "ARMATURE"]
-    return sorted(added, key=lambda o: int(o.name.rpartition(" ")[2]))
+    return sorted(added, key=lambda o: float(o.name.rpartition(" ")[2]))
 
 
 def digest() -> dict[str, Any]:
@@ -53,7 +53,7 @@ def test_nobody_stands_nearer_than_the_spacing(addon: ModuleType, layout: str, c
 
 def test_every_copy_does_what_the_player_plays(addon: ModuleType, obj: bpy.types.Object) -> None:
     core, character = addon.compat.core.core, addon.character.building.load(obj)
-    copies = populate(count=3, layout="RING", player="walker")
+    copies = populate(count=3, layout="RING", player="walker", clear=False)
     scene, frame = bpy.context.scene, round(SECONDS * bpy.context.scene.render.fps)
     for index, copy in enumerate(copies):
         player = core.Player(character, SEED + index)
@@ -197,3 +197,96 @@ def test_copies_carry_no_curves_of_recordings(addon: ModuleType, obj: bpy.types.
     copies = populate(count=2)
     assert [child.name for child in obj.children] == held and len(held) == 3
     assert all(len(copy.children) == 2 for copy in copies), "the body, and what is in the hand"
+
+
+def hips_over_time(copies: list[bpy.types.Object], frames: range) -> np.ndarray:
+    """Where the copies' hips are seen from above [frames, copies, 2], as Blender shows them."""
+    places = []
+    for frame in frames:
+        bpy.context.scene.frame_set(frame)
+        graph = bpy.context.evaluated_depsgraph_get()
+        seen = [copy.evaluated_get(graph) for copy in copies]
+        places.append([(each.matrix_world @ each.pose.bones["hips"].head).xy[:] for each in seen])
+    return np.array(places)
+
+
+def nearest(places: np.ndarray) -> float:
+    """How near two of them ever come to each other, m."""
+    off = np.linalg.norm(places[:, :, None] - places[:, None], axis=-1)
+    off[:, np.arange(off.shape[1]), np.arange(off.shape[1])] = np.inf
+    return float(off.min())
+
+
+def make_area(size: float, painted: bool = False) -> bpy.types.Object:
+    """A square in the world, of which the half on the positive side is painted."""
+    data = bpy.data.meshes.new("Area")
+    halves = [[(x * size, y * size, 0) for x, y in ((a, -1), (a + 1, -1), (a + 1, 1), (a, 1))] for a in (-1, 0)]
+    data.from_pydata([*halves[0], *halves[1]], [], [(0, 1, 2, 3), (4, 5, 6, 7)])
+    area = bpy.data.objects.new("Area", data)
+    bpy.context.scene.collection.objects.link(area)
+    if painted:
+        area.vertex_groups.new(name="Walk").add([4, 5, 6, 7], 1.0, "REPLACE")
+    bpy.context.view_layer.update()
+    return area
+
+
+def test_a_crowd_on_a_square_keeps_clear(addon: ModuleType, obj: bpy.types.Object) -> None:
+    fields = {"count": 12, "spacing": 0.9, "seconds": 8.0, "player": "explorer"}
+    frames = range(1, 190, 3)
+    heedless = nearest(hips_over_time(populate(**fields, clear=False), frames))
+    heeding = nearest(hips_over_time(populate(**fields), frames))
+    assert heedless < 0.4 < heeding
+
+
+def test_a_crowd_goes_about_on_what_is_painted(addon: ModuleType, obj: bpy.types.Object) -> None:
+    settings = obj.fragmotion.crowd
+    with pytest.raises(RuntimeError, match="No area is chosen"):
+        populate(layout="AREA")
+    settings.area = make_area(5.0, painted=True)
+    copies = populate(layout="AREA", count=6, seconds=10.0, spacing=1.0)
+    places = hips_over_time(copies, range(1, 240, 4))
+    assert nearest(places) > 0.4
+    assert places[0, :, 0].min() > -0.3 and places[..., 0].min() > -1.5
+    assert np.abs(places).max() < 6.5
+    assert (np.linalg.norm(np.diff(places, axis=0), axis=-1).sum(0) > 3).all(), "all walk"
+    with pytest.raises(RuntimeError, match="has room for"):
+        populate(layout="AREA", count=300, spacing=2.0)
+    settings.area.vertex_groups.active.remove(range(8))
+    with pytest.raises(RuntimeError, match="Nothing of 'Area' is painted"):
+        populate(layout="AREA")
+
+
+def test_a_crowd_goes_around_obstacles(addon: ModuleType, obj: bpy.types.Object) -> None:
+    settings = obj.fragmotion.crowd
+    settings.area = make_area(3.0)
+    box = bpy.data.objects.new("Box", make_area(0.8).data)
+    things = bpy.data.collections.new("Things")
+    bpy.context.scene.collection.children.link(things)
+    things.objects.link(box)
+    settings.obstacles = things
+    bpy.context.view_layer.update()
+    places = hips_over_time(populate(layout="AREA", count=3, seconds=12.0, spacing=2.5, seed=4), range(1, 280, 4))
+    inside = (np.abs(places[20:]) < 0.8).all(-1)
+    assert not inside.any()
+
+
+def test_copies_are_shared_out_among_several_paths_and_sizes(addon: ModuleType, obj: bpy.types.Object) -> None:
+    lines = bpy.data.collections.new("Lines")
+    bpy.context.scene.collection.children.link(lines)
+    for y in (0.0, 8.0):
+        line = add_path([(0.0, y), (9.0, y)], False)
+        lines.objects.link(line)
+    settings = obj.fragmotion.crowd
+    settings.paths = lines
+    bpy.context.view_layer.update()
+    copies = populate(layout="PATH", count=4, spacing=1.5, sizes=0.1)
+    scales = [copy.scale.x / obj.scale.x for copy in copies]
+    assert 0.9 <= min(scales) < max(scales) <= 1.1
+    places = hips_over_time(copies, range(30, 110, 5))
+    assert nearest(places) > 0.4
+    off = np.abs(places[..., 1] - np.array([0.0, 8.0, 0.0, 8.0]))
+    assert off.max() < 0.5
+    lines.objects.unlink(lines.objects[0])
+    lines.objects.unlink(lines.objects[0])
+    with pytest.raises(RuntimeError, match="holds no curve"):
+        populate(layout="PATH")

@@ -100,6 +100,17 @@ def test_an_entry_changes_the_same_recording_and_its_bake(addon: ModuleType, obj
     assert not addon.recordings.recordings.is_bake_stale(obj.fragmotion.recordings["Storyboard"])
 
 
+def test_a_recording_that_has_its_name_stays(addon: ModuleType, obj: bpy.types.Object) -> None:
+    own = addon.recordings.recordings.add_recording(obj, np.zeros((20, 4)), name="Storyboard")
+    trace = addon.recordings.recordings.trace_of(own)
+    add(obj, (0.0, -3.0), 91)
+    for _ in range(2):
+        assert bpy.ops.fragmotion.record_story() == {"FINISHED"}
+        assert [each.name for each in obj.fragmotion.recordings] == ["Storyboard", "Storyboard.001"]
+        assert obj.fragmotion.active_recording == 1
+    np.testing.assert_array_equal(addon.recordings.recordings.trace_of(obj.fragmotion.recordings[0]), trace)
+
+
 def test_a_move_with_a_loop_is_held_until_it_must_leave(addon: ModuleType, obj: bpy.types.Object) -> None:
     add(obj, None, 31, move="sit")
     add(obj, (0.0, -3.0), 331)

@@ -186,6 +186,11 @@ TEST(ApiErrors, SayWhichArgumentIsWrong) {
   expect_fails(fragmotion_player_look(player, FRAGMOTION_LOOK_AT, nullptr), wrong, "null");
   expect_fails(fragmotion_player_look(player, FRAGMOTION_LOOK_AT, nowhere.position), wrong, "not a number");
   expect_fails(fragmotion_player_look(player, FRAGMOTION_LOOK_AT, far.position), wrong, "farther");
+  expect_fails(fragmotion_player_reach(nullptr, FRAGMOTION_LEFT_HAND, nullptr), wrong, "null");
+  const FragmotionReach none{{0, 0, std::nanf("")}, 0, 1}, heavy{{0, 0, 0}, 0, 1.5F}, odd{{0, 0, 0}, 2, 1};
+  expect_fails(fragmotion_player_reach(player, FRAGMOTION_LEFT_HAND, &none), wrong, "not a number");
+  expect_fails(fragmotion_player_reach(player, FRAGMOTION_LEFT_HAND, &heavy), wrong, "weight");
+  expect_fails(fragmotion_player_reach(player, FRAGMOTION_LEFT_HAND, &odd), wrong, "carried");
   for (const int look : {-1, 3}) expect_fails(fragmotion_player_look(player, look, far.position), wrong, "no look");
   expect_fails(fragmotion_player_state(nullptr, &state), wrong, "null");
   expect_fails(fragmotion_player_state(player, nullptr), wrong, "null");

@@ -391,5 +391,43 @@ TEST(ApiPlayer, LooksAtAPlaceOfTheWorld) {
   EXPECT_GT(looks.dot((Eigen::Vector3f::Map(place) - eyes).normalized()), 0.9999F);
 }
 
+// Likewise, and of what is carried along.
+TEST(ApiPlayer, ReachesForAPlaceOfTheWorld) {
+  const auto character = loaded(*looking_character(), FRAGMOTION_AXES_GLTF, 100);
+  const auto player = playing(*character);
+  const Arm arm = resting_arms(looking_character()->pool.skeleton)[0];
+  const FragmotionInput stands = fragmotion_input();
+  const FragmotionPlace there{{500, 0, -700}, 0.4F};
+  const auto hand = [&] {
+    const FragmotionTransform seen = pose_of(player.get(), FRAGMOTION_SPACE_WORLD, bones_of(*character))[arm.hand];
+    const Eigen::Quaternionf rotation(seen.rotation[3], seen.rotation[0], seen.rotation[1], seen.rotation[2]);
+    const Vector3 tip = looking_character()->pool.skeleton.tips[arm.hand] * 50;
+    return Eigen::Vector3f(Eigen::Vector3f::Map(seen.position) + rotation * tip.cast<float>());
+  };
+  FragmotionReach held{{-20, 40, 120}, 1, 1};  // to the right, forward, up
+  expect_ok(fragmotion_player_reach(player.get(), FRAGMOTION_LEFT_HAND, &held));
+  const auto play = [&](int frames) {
+    for (int frame = 0; frame < frames; ++frame) expect_ok(fragmotion_player_step(player.get(), &stands, kGameFrame));
+  };
+  play(90);
+  EXPECT_NEAR(hand().y(), 120, 0.1F);
+  const Eigen::Vector3f place = hand() + Eigen::Vector3f{3, 5, 2};
+  held.carried = 0;
+  for (int i = 0; i < 3; ++i) held.place[i] = place[i];
+  expect_ok(fragmotion_player_reach(player.get(), FRAGMOTION_LEFT_HAND, &held));
+  play(90);
+  EXPECT_LT((hand() - place).norm(), 0.1F);  // cm
+  expect_ok(fragmotion_player_move_to(player.get(), &there));
+  play(90);
+  EXPECT_GT((hand() - place).norm(), 100);
+  const FragmotionPlace back{{0, 0, 0}, 0};
+  expect_ok(fragmotion_player_move_to(player.get(), &back));
+  play(90);
+  EXPECT_LT((hand() - place).norm(), 0.1F);
+  expect_ok(fragmotion_player_reach(player.get(), FRAGMOTION_LEFT_HAND, nullptr));
+  play(90);
+  EXPECT_GT((hand() - place).norm(), 10);
+}
+
 }  // namespace
 }  // namespace fragmotion

@@ -78,6 +78,7 @@ TEST(ApiErrors, SayOfEachFunctionThatItsHandleWasReleased) {
       {"player_start_move", [&] { return fragmotion_player_start_move(player, 0); }},
       {"player_release_move", [&] { return fragmotion_player_release_move(player, 0); }},
       {"player_change_style", [&] { return fragmotion_player_change_style(player, 0); }},
+      {"player_reach", [&] { return fragmotion_player_reach(player, FRAGMOTION_LEFT_HAND, nullptr); }},
       {"player_look", [&] { return fragmotion_player_look(player, FRAGMOTION_LOOK_AHEAD, nullptr); }},
       {"player_force_class", [&] { return fragmotion_player_force_class(player, 0); }},
       {"player_state", [&] { return fragmotion_player_state(player, &state); }},

@@ -15,6 +15,9 @@ void go_wildly(FragmotionPlayer* player, int begin, int end) {
     if (frame % 61 == 0) {
       const float place[] = {static_cast<float>(frame % 7), 2, 1};
       expect_ok(fragmotion_player_look(player, frame / 61 % 3, place));
+      const FragmotionReach held{
+          {place[0], place[1], place[2]}, frame / 61 % 2, 0.5F * static_cast<float>(frame / 61 % 3)};
+      expect_ok(fragmotion_player_reach(player, frame / 61 % 2, &held));
     }
     FragmotionInput input = wild_input(frame);
     if (frame / 50 % 4 == 3) {

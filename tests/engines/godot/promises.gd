@@ -191,6 +191,53 @@ func test_what_is_wrong_is_said_and_harms_nothing() -> void:
 	_play(character, 0.1, Vector2(0, 1))
 
 
+func test_its_head_turns_to_what_it_looks_at() -> void:
+	var character := _made()
+	var target := Node3D.new()
+	root.add_child(target)
+	character.look_target = target
+	character.look = FragmotionCharacter.Look.AT
+	var turned := []
+	for side in [-5, 5]:
+		target.position = Vector3(side, 1.6, -1)
+		_play(character, 2, Vector2.ZERO)
+		var skeleton: Skeleton3D = character.find_children("*", "Skeleton3D", true, false)[0]
+		var head := skeleton.global_transform * skeleton.get_bone_global_pose(skeleton.find_bone("head"))
+		turned.append(head.basis.z)
+	_expect(turned[0].signed_angle_to(turned[1], Vector3.UP) < -0.8, "its head: %s" % [turned])
+
+
+func test_a_crowd_makes_way() -> void:
+	var crowd := FragmotionCrowd.new()
+	crowd.policy = load("res://demo/sample.policy")
+	for number in 12:
+		var walker := FragmotionCharacter.new()
+		walker.policy = crowd.policy
+		walker.callback = FragmotionCharacter.Callback.MANUAL
+		walker.ground_mask = 0
+		walker.steer = FragmotionCharacter.Steer.WORLD
+		walker.position = Vector3(4, 0, 0).rotated(Vector3.UP, TAU * number / 12)
+		walker.velocity = -walker.position / 4
+		walker.rotation.y = atan2(walker.position.x, walker.position.z)
+		crowd.add_child(walker)
+	root.add_child(crowd)
+	var nearest := INF
+	for frame in 600:
+		crowd.players.make_way(crowd.radius, FRAME, PackedVector3Array())
+		for one in crowd.get_children():
+			one.advance(FRAME)
+			for other in crowd.get_children():
+				if one != other:
+					nearest = minf(nearest, one.position.distance_to(other.position))
+	_expect(nearest > 0.4, "they come to %.2f m of each other" % nearest)
+	for one in crowd.get_children():
+		var far: float = one.position.dot(one.velocity)
+		_expect(far > 1, "and pass: at %s" % one.position)
+	_expect(not FragmotionPlayers.new().make(null, 3, 1), "a crowd of nothing")
+	_expect(not FragmotionPlayers.new().make_way(0.3, FRAME, PackedVector3Array()), "nobody makes way")
+	_expect(not FragmotionPlayer.new().play_one_of(crowd.players, 99), "one that is none of them")
+
+
 func test_a_hundred_play_at_sixty_frames_a_second() -> void:
 	var all := []
 	for number in 100:

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Chromium without a window, by its own protocol over a pipe; and a plain static server.
 import { spawn } from "node:child_process";
-import { createReadStream, existsSync, mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { createReadStream, existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import { extname, join, normalize } from "node:path";
 
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
+const TICKS = 100; // a second, of Linux' clock of processes
 // A page that no other is beside has a fine clock.
 const ALONE = { "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" };
-const OPTIONS = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--mute-audio",
+const OPTIONS = ["--headless", "--no-sandbox", "--enable-unsafe-swiftshader", "--mute-audio",
   "--disable-dev-shm-usage", "--no-first-run", "--disable-background-networking", "--hide-scrollbars", "--remote-debugging-pipe"];
 
 /** Serves a folder on this machine; its address. */
@@ -23,6 +24,15 @@ export async function serve(folder) {
   });
   await new Promise((done) => server.listen(0, "127.0.0.1", done));
   return { address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() };
+}
+
+/** Of /proc/PID/stat what follows the name; nothing where the process has ended. */
+function statOf(pid) {
+  try {
+    return readFileSync(`/proc/${pid}/stat`, "utf8").split(") ").at(-1).split(" ");
+  } catch {
+    return [];
+  }
 }
 
 export class Browser {
@@ -104,6 +114,18 @@ export class Browser {
     const at = await this.tell(`(({left, top, width, height}) => [left + width / 2, top + height / 2])(document.getElementById("${id}").getBoundingClientRect())`);
     await this.mouse("mousePressed", at);
     await this.mouse("mouseReleased", at);
+  }
+
+  /** What all its processes have taken of the processors, ms. */
+  processorTime() {
+    const parents = new Map(), times = new Map();
+    for (const pid of readdirSync("/proc").filter((name) => /^\d+$/.test(name))) {
+      const told = statOf(pid);
+      parents.set(Number(pid), Number(told[1]));
+      times.set(Number(pid), (1000 / TICKS) * (Number(told[11]) + Number(told[12])));
+    }
+    const isOurs = (pid) => pid === this.process.pid || (parents.has(pid) && isOurs(parents.get(pid)));
+    return [...times].reduce((sum, [pid, time]) => (isOurs(pid) ? sum + time : sum), 0);
   }
 
   async picture(path) {

@@ -46,6 +46,16 @@ walker.setPath([[0, 0, 0], [0, 0, -3], [2, 0, -5]]);
 for (let frame = 0; frame < 900; ++frame) walker.step({ steer: "path" }, SECONDS);
 const { pathArrived, position } = walker.state;
 
+const gazer = character.player(), head = character.findBone("head");
+function turnedBy(where, place) {
+  gazer.reset();
+  gazer.look(where, place);
+  for (let frame = 0; frame < 60; ++frame) gazer.step({}, SECONDS);
+  const [, , , x, y, z, w] = gazer.pose(null, "model").subarray(7 * head, 7 * head + 7);
+  return Math.atan2(2 * (x * z + w * y), 1 - 2 * (x * x + y * y));
+}
+const gaze = { ahead: turnedBy("ahead"), left: turnedBy("at", [-5, 1.6, -1]), right: turnedBy("at", [5, 1.6, -1]) };
+
 const crowd = character.crowd(3, { seed: 1 });
 play(crowd.players[0], FRAMES);
 const isAlone = crowd.players[0].checksum() !== crowd.players[1].checksum();
@@ -64,6 +74,7 @@ const failures = {
   cutShort: message(() => fragmotion.character(bytes.subarray(0, 5000))),
   noMove: message(() => player.startMove(99)),
   notANumber: message(() => player.step({ move: [NaN, 0] }, SECONDS)),
+  noLook: message(() => player.look("down")),
   noSteer: message(() => player.step({ steer: "wheel" }, SECONDS)),
   fadesLater: message(() => player.setOptions({ crossFades: true })),
 };
@@ -78,7 +89,7 @@ for (let frame = 0; frame < 10000;) {
   }
   times.push((performance.now() - start) / 20);
 }
-for (const each of [player, grounded, walker, timed, crowd, rig, character]) each.release();
+for (const each of [player, grounded, walker, timed, gazer, crowd, rig, character]) each.release();
 console.log(JSON.stringify({
   version: fragmotion.version, moves: character.moves, styles: character.styles, isBack, isOnSlope, isAlone,
-  pathArrived, position, events: [...events], failures, frame: Math.min(...times) * 1000 }));
+  pathArrived, position, gaze, events: [...events], failures, frame: Math.min(...times) * 1000 }));

@@ -4,20 +4,21 @@
 from __future__ import annotations
 
 from ...recordings.looks import Aim
+from ...recordings.reaches import Holds
 from .actor import Actor
-from .looking import Looking
+from .looking import Holding, Looking
 from .punch import Punch
 from .recorder import Taken
 from .styling import Styling
 
 
 class Asking:
-    """The moves that are held, the style, and where to look: the user's, and those of a recording that is recorded
-    over."""
+    """The moves that are held, the style, where to look and what hands hold: the user's, and those of a recording that
+    is recorded over."""
 
     def __init__(self, actor: Actor) -> None:
         self._actor = actor
-        self.styling, self._looking = Styling(actor), Looking(actor)
+        self.styling, self._looking, self._holding = Styling(actor), Looking(actor), Holding(actor)
         self._held: set[int] = set()
         self._own_held: set[int] = set()  # those that the recording holds
         self._own_style = 0  # that it was in last
@@ -31,13 +32,14 @@ class Asking:
     def start_afresh(self) -> None:
         """The player begins anew, in the style that it plays."""
         self._looking.reset()
+        self._holding.reset()
         self._held = set()
 
     def is_touched(self, held: set[int]) -> bool:
         """Whether the user asks for anything that the recording does not."""
         return bool(held) or self.styling.wanted != self._own_style
 
-    def tell(self, held: set[int], aim: Aim, taken: Taken | None, punch: Punch | None) -> None:
+    def tell(self, held: set[int], aim: Aim, holds: Holds, taken: Taken | None, punch: Punch | None) -> None:
         """Tell the player what the next step asks for, where the user holds these moves: first what a recording does
         that is recorded over. `taken` keeps what the user does."""
         if punch is not None:
@@ -49,6 +51,7 @@ class Asking:
         self._held = self._hold_moves(self._held, held if taken is None else taken.hold_moves(held))
         self.styling.tell(taken)
         self._looking.tell(aim, taken if punch is None else None)
+        self._holding.tell(holds, taken if punch is None else None)
 
     def hand_back(self) -> None:
         """The rest of the recording plays: what it holds is the user's from now on."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from ...input.steering import Control
 from ...recordings.asked import Asked
 from ...recordings.looks import Aim, LookChange, look_before, looks_between
+from ...recordings.reaches import Holds, ReachChange, holds_before, reaches_between
 from ...recordings.recordings import TRACE_RATE
 from ...recordings.styles import AS_EVER, StyleChange, Styled
 from .recorder import Taken
@@ -114,6 +115,11 @@ class Punch:
         return look_before(self.own.asked.looks, self._now + 1)
 
     @property
+    def holds(self) -> Holds:
+        """What the recording's hands hold in the next step, whoever drives."""
+        return holds_before(self.own.asked.reaches, self._now + 1)
+
+    @property
     def begun(self) -> bool:
         """Whether anything was taken."""
         return bool(len(self.taken.trace))
@@ -128,7 +134,7 @@ class Punch:
     @property
     def asked(self) -> Asked:
         """What the recording asks for beside it, with what was taken so far."""
-        first, end, (moves, begin, styles, looks) = self.first, self._end, self.own.asked
+        first, end, (moves, begin, styles, looks, reaches) = self.first, self._end, self.own.asked
         taken = [move._replace(control=move.control + first) for move in self.taken.moves]
         changes = [change._replace(control=change.control + first) for change in self.taken.styles]
         return Asked(
@@ -141,19 +147,21 @@ class Punch:
                 *(c for c in styles if c.control > end),
             ],
             looks,
+            reaches,
         )
 
     @property
-    def rest(self) -> tuple[Doubles, list[Sequence[int]], list[Sequence[int]], list[LookChange]]:
-        """The controls [N,4] that are still to be played, one at least, and the moves, styles and looks in them; moves
-        that are held since before begin there at a negative one."""
+    def rest(self) -> tuple[Doubles, list[Sequence[int]], list[Sequence[int]], list[LookChange], list[ReachChange]]:
+        """The controls [N,4] that are still to be played, one at least, and the moves, styles, looks and reaches in
+        them; moves that are held since before begin there at a negative one."""
         now = self._now
         moves: list[Sequence[int]] = [[control - now, move, held] for control, move, held in self._own_moves(now)]
         later: list[Sequence[int]] = [
             [control - now, style] for control, style in self.own.styled.changes if control > now
         ]
         looks = looks_between(self.own.asked.looks, now, len(self.own.trace))
-        return self.own.trace[min(now, len(self.own.trace) - 1) :], moves, [[0, self.style], *later], looks
+        reaches = reaches_between(self.own.asked.reaches, now, len(self.own.trace))
+        return self.own.trace[min(now, len(self.own.trace) - 1) :], moves, [[0, self.style], *later], looks, reaches
 
     @property
     def _now(self) -> int:

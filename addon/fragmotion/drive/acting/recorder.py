@@ -12,6 +12,7 @@ from ...character.moves import names_of
 from ...input.steering import Control
 from ...recordings.asked import StartedMove
 from ...recordings.looks import Aim, LookChange
+from ...recordings.reaches import EMPTY, Holds, ReachChange, changes
 from ...recordings.recordings import TRACE_RATE
 from ...recordings.styles import StyleChange
 from ...rig.motion import Motion
@@ -45,6 +46,9 @@ class Taken:
         self._aim = Aim()
         self.looks: list[LookChange] = []
         """Where it looked."""
+        self._holds = EMPTY
+        self.reaches: list[ReachChange] = []
+        """What hands reached for."""
 
     def hear(self, jump: bool, held: set[int]) -> None:
         """What is pressed before its first control goes into that, also where it is let go meanwhile."""
@@ -92,6 +96,14 @@ class Taken:
             self._aim = wanted
             self.looks.append(LookChange(len(self._controls) - 1, *wanted))
         return self._aim
+
+    def hold_hands(self, wanted: Holds) -> Holds:
+        """What hands reach for in the next step, likewise."""
+        if self._begins:
+            new = changes(len(self._controls) - 1, self._holds, wanted)
+            self.reaches += new
+            self._holds = wanted if new else self._holds
+        return self._holds
 
     @property
     def seconds(self) -> float:

@@ -15,8 +15,10 @@ from ...edits.replaying import play_again
 from ...errors import UserError, reported
 from ...jobs import Job
 from ...recordings.curves import curves_of, read_curves, show_curves
+from ...recordings.holding import holds_over_time
 from ...recordings.looks import aim_of, looks_from
-from ...recordings.recordings import TRACE_RATE, active_recording, asked_of, trace_of
+from ...recordings.reaches import EMPTY, reaches_from
+from ...recordings.recordings import TRACE_RATE, Recording, active_recording, asked_of, trace_of
 from ...settings.drawing import aligned
 from ...settings.pin_fields import PinFields
 from ..base.background import Background, poll_idle
@@ -201,19 +203,47 @@ class FRAGMOTION_OT_look_recording(OnRecording, bpy.types.Operator):
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj, recording = active_armature(context), selected(context)
-        now, trace = playhead(context, recording), trace_of(recording)
-        control = round(now * TRACE_RATE)
-        if not 0 <= control < len(trace):
-            raise UserError(
-                f"The playhead is {now:.1f} s after the beginning of recording '{recording.name}', which lasts "
-                f"{recording.seconds:.1f} s: move it onto the recording"
-            )
+        control, trace = _control_at_playhead(context, recording), trace_of(recording)
         asked = asked_of(recording)
         later = [look for look in asked.looks if look.control > control]
         looks = [*looks_from(asked.looks, control, aim_of(obj.fragmotion.look)), *later]
         play_again(obj, recording, trace, control, asked._replace(looks=looks))
         self.report({"INFO"}, f"'{recording.name}' looks there from {control / TRACE_RATE:.1f} s on")
         return {"FINISHED"}
+
+
+class FRAGMOTION_OT_reach_recording(OnRecording, bpy.types.Operator):
+    """Let hands hold what the panel says, from the playhead to the recording's end"""
+
+    bl_idname = "fragmotion.reach_recording"
+    bl_label = "Hold From Here"
+    bl_description = (
+        "From the playhead to the recording's end hands reach for what the fields above say, as their objects move and "
+        "are keyed in this time. The way that the character goes does not change"
+    )
+
+    @reported
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        obj, recording = active_armature(context), selected(context)
+        control, trace = _control_at_playhead(context, recording), trace_of(recording)
+        first = first_frame(obj, recording) + control * frame_rate(context, recording) / TRACE_RATE
+        holds = holds_over_time(context, obj, first, len(trace) - control) or [EMPTY]
+        asked = asked_of(recording)
+        play_again(obj, recording, trace, control, asked._replace(reaches=reaches_from(asked.reaches, control, holds)))
+        self.report({"INFO"}, f"'{recording.name}' holds that from {control / TRACE_RATE:.1f} s on")
+        return {"FINISHED"}
+
+
+def _control_at_playhead(context: bpy.types.Context, recording: Recording) -> int:
+    """The recording's control at the playhead; UserError where that is not on it."""
+    now = playhead(context, recording)
+    control = round(now * TRACE_RATE)
+    if not 0 <= control < len(trace_of(recording)):
+        raise UserError(
+            f"The playhead is {now:.1f} s after the beginning of recording '{recording.name}', which lasts "
+            f"{recording.seconds:.1f} s: move it onto the recording"
+        )
+    return control
 
 
 class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.Operator):
@@ -295,5 +325,6 @@ CLASSES = (
     FRAGMOTION_OT_cut_recording,
     FRAGMOTION_OT_glue_recording,
     FRAGMOTION_OT_look_recording,
+    FRAGMOTION_OT_reach_recording,
     FRAGMOTION_OT_pin_recording,
 )

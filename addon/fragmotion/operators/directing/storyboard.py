@@ -67,8 +67,8 @@ class FRAGMOTION_OT_record_story(bpy.types.Operator):
     bl_idname = "fragmotion.record_story"
     bl_label = "Record Storyboard"
     bl_description = (
-        "Play the entries one after another from the armature's origin on, and keep that as the recording "
-        "'Storyboard', in the place of the one before; Update Bake bakes it anew"
+        "Play the entries one after another from the armature's origin on, and keep that as a recording, in the "
+        "place of the one that was made of them before; Update Bake bakes it anew"
     )
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO"}
 

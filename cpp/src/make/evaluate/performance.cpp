@@ -128,12 +128,16 @@ class Hindsight {
   std::vector<double> value_;            // [frames + 1, classes] of what follows a class that ends at a frame
 };
 
-// Starts and releases moves, and changes styles and looks, as a trace is played.
+// Starts and releases moves, and changes styles, looks and what hands reach for, as a trace is played.
 class Pressing {
  public:
   Pressing(const Player& player, const std::vector<MovePress>& presses, const std::vector<StyleChange>& styles,
-           const std::vector<LookChange>& looks, std::size_t controls)
-      : looks_(looks) {
+           const std::vector<LookChange>& looks, const std::vector<ReachChange>& reaches, std::size_t controls)
+      : looks_(looks), reaches_(reaches) {
+    for (const ReachChange& change : reaches) {
+      check(change.control, controls, "a hand");
+      events_.push_back({change.control, static_cast<int>(&change - reaches.data()), Event::reach});
+    }
     for (const LookChange& look : looks) {
       check(look.control, controls, "a look");
       events_.push_back({look.control, static_cast<int>(&look - looks.data()), Event::look});
@@ -155,6 +159,7 @@ class Pressing {
   void until(std::size_t control, Player& player) {
     for (; next_ < events_.size() && events_[next_].control <= static_cast<long long>(control); ++next_) {
       const auto& [at, number, kind] = events_[next_];
+      if (kind == Event::reach) player.reach(reaches_[number].hand, reaches_[number].aim);
       if (kind == Event::look) player.look(looks_[number].look, looks_[number].place);
       if (kind == Event::change_style) player.change_style(number);
       if (kind == Event::start) player.start_move(number);
@@ -164,7 +169,7 @@ class Pressing {
 
  private:
   struct Event {
-    enum Kind { look, change_style, start, release };
+    enum Kind { reach, look, change_style, start, release };
     long long control;
     int number;
     Kind kind;
@@ -197,6 +202,7 @@ class Pressing {
   }
 
   const std::vector<LookChange>& looks_;
+  const std::vector<ReachChange>& reaches_;
   std::vector<Event> events_;
   std::size_t next_ = 0;
 };
@@ -217,9 +223,9 @@ void check_shown(const Character& character, const Trace& trace, const Clip& cli
 
 Performance perform(Player& player, const Trace& trace, double rate, const Progress& progress,
                     const std::vector<MovePress>& moves, const std::vector<StyleChange>& styles,
-                    const std::vector<LookChange>& looks) {
+                    const std::vector<LookChange>& looks, const std::vector<ReachChange>& reaches) {
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
-  Pressing pressing(player, moves, styles, looks, trace.size());
+  Pressing pressing(player, moves, styles, looks, reaches, trace.size());
   const int entered = player.entered();
   Performance p;
   p.rate = rate;

@@ -51,15 +51,22 @@ struct LookChange {
   Vector3 place = Vector3::Zero();
 };
 
+/// What a hand was asked to hold or to reach for while a trace was played, as Player::reach.
+struct ReachChange {
+  int control = 0;  ///< Before which of the trace's controls.
+  int hand = 0;
+  HandAim aim;
+};
+
 /// By how much a body of 1.8 m changes its velocity, m/s^2.
 constexpr double kBodyAcceleration = 5;
 
 /// Steps a player through a trace from now: frames 0 .. round(duration * rate), each control for 1/kTraceRate s. Throws
 /// std::invalid_argument on an empty trace and a rate that is not over 0 and at most 1000, and on a move that does not
-/// exist, is asked for after the trace or held for less than no time; likewise on styles and looks.
+/// exist, is asked for after the trace or held for less than no time; likewise on styles, looks and reaches.
 Performance perform(Player& player, const Trace& trace, double rate, const Progress& progress = {},
                     const std::vector<MovePress>& moves = {}, const std::vector<StyleChange>& styles = {},
-                    const std::vector<LookChange>& looks = {});
+                    const std::vector<LookChange>& looks = {}, const std::vector<ReachChange>& reaches = {});
 inline Performance perform(Player&& player, const Trace& trace, double rate, const Progress& progress = {},
                            const std::vector<MovePress>& moves = {}, const std::vector<StyleChange>& styles = {}) {
   return perform(player, trace, rate, progress, moves, styles);

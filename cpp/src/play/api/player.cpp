@@ -111,12 +111,20 @@ void FragmotionPlayer::move_to(const FragmotionPlace& place) {
   const Vector3 to = hero->axes.place(place.position);
   const CharacterFrame inside = shown().frame;
   const Vector3 looked_at = shift.place(player.gaze().place());
+  std::array<HandAim, 2> aims{player.reaching().aim(0), player.reaching().aim(1)};
+  for (HandAim& aim : aims) {
+    if (!aim.carried) aim.place = shift.place(aim.place);
+  }
   shift.none = false;
   shift.heading = std::remainder(hero->axes.yaw(static_cast<double>(place.heading)) - inside.heading, 2 * kPi);
   shift.offset = to.head<2>() - turn_by(shift.heading) * inside.position;
   shift.lift = to.z() - shown().level;
   player.look(player.gaze().looks(), shift.place_inside(looked_at));
   player.forget_ground();
+  for (int hand = 0; hand < 2; ++hand) {
+    if (!aims[hand].carried) aims[hand].place = shift.place_inside(aims[hand].place);
+    player.reach(hand, aims[hand]);
+  }
   if (route) route->follower.moved(frame());
 }
 

@@ -210,6 +210,27 @@ FragmotionResult fragmotion_player_look(FragmotionPlayer* player, FragmotionLook
   });
 }
 
+FragmotionResult fragmotion_player_reach(FragmotionPlayer* player, FragmotionHand hand,
+                                         const FragmotionReach* reach) noexcept {
+  return call("fragmotion_player_reach", [&] {
+    FragmotionPlayer& p = alive(player);
+    demand_index("hand", hand, 2);
+    if (reach == nullptr) {
+      HandAim aim = p.player.reaching().aim(hand);
+      aim.weight = 0;
+      return p.player.reach(hand, aim);
+    }
+    const bool carried = reach->carried == 1;
+    const Vector3 seen = Eigen::Vector3f::Map(reach->place).cast<double>() / p.hero->axes.unit(),
+                  there = carried ? seen : p.hero->axes.place(reach->place);
+    demand(there.allFinite() && there.cwiseAbs().maxCoeff() <= kFarthestGame, FRAGMOTION_ERROR_ARGUMENT,
+           "the place to reach for holds what is not a number, or is farther away than a million km");
+    demand(reach->weight >= 0 && reach->weight <= 1, FRAGMOTION_ERROR_ARGUMENT, "the weight of a hand must be 0 to 1");
+    demand(reach->carried == 0 || reach->carried == 1, FRAGMOTION_ERROR_ARGUMENT, "carried must be 0 or 1");
+    p.player.reach(hand, {carried ? there : p.shift.place_inside(there), static_cast<double>(reach->weight), carried});
+  });
+}
+
 FragmotionResult fragmotion_player_force_class(FragmotionPlayer* player, std::int32_t index) noexcept {
   return call("fragmotion_player_force_class", [&] {
     FragmotionPlayer& p = alive(player);

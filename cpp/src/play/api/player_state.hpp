@@ -73,6 +73,8 @@ struct PlayerState {
   template <typename Archive>
   static void exchange(Archive& a, Gaze& gaze);
   template <typename Archive>
+  static void exchange(Archive& a, Reaching& reaching);
+  template <typename Archive>
   static void exchange(Archive& a, Moment& moment);
   template <typename Archive>
   static int exchange(Archive& a, MoveTrack& track, bool upper_body);

@@ -164,6 +164,23 @@ void PlayerState::exchange(Archive& a, Gaze& gaze) {
 }
 
 template <typename Archive>
+void PlayerState::exchange(Archive& a, Reaching& reaching) {
+  for (Reaching::Hand& hand : reaching.hands_) {
+    vector(a, hand.aim.place, kMostPlace);
+    a.number(hand.aim.weight, 0, 1);
+    a.number(hand.aim.carried, 0, 1);
+    for (Approach& place : hand.place) approach(a, place);
+    approach(a, hand.weight);
+    for (double* due : {&hand.place_due, &hand.weight_due}) a.number(*due, 0, kMostPlace);
+    a.number(hand.since, 0, kMostPlace);
+  }
+  frame(a, reaching.frame_);
+  a.number(reaching.level_, -kMostPlace, kMostPlace);
+  vector(a, reaching.speed_, kMostPlace);
+  a.number(reaching.turning_, -kMostPlace, kMostPlace);
+}
+
+template <typename Archive>
 void PlayerState::exchange(Archive& a, Moment& moment) {
   a.number(moment.begins_in_, 0, kMostTime);
   a.number(moment.patience_, 0, kLongestWait);
@@ -271,6 +288,7 @@ void PlayerState::exchange(Archive& a, Player& player) {
   exchange(a, player.governor_);
   exchange(a, player.correction_);
   exchange(a, player.gaze_);
+  exchange(a, player.reaching_);
   a.number(player.entered_, 0, kMostCount);
   a.number(player.fragment_, 0, fragments - 1);
   vector(a, player.root_, kMostPlace);

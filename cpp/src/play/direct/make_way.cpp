@@ -81,6 +81,10 @@ HalfPlane least_change(const Walker& one, const Walker& other, double seconds) {
 
 }  // namespace
 
+void Clearance::add(const HalfPlane& plane) {
+  if (count < kMost + kMostOthers) planes[static_cast<std::size_t>(count++)] = plane;
+}
+
 Vector2 Clearance::nearest(const Vector2& wanted, double most) const {
   if (const auto clear = Program(*this, 0, most).solve(wanted)) return *clear;
   double least = 0, enough = most;

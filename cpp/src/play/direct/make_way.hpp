@@ -17,9 +17,13 @@ struct HalfPlane {
 
 /// The velocities by which one keeps clear of those around it.
 struct Clearance {
-  static constexpr int kMost = 10;  ///< Those that are nearest count.
-  std::array<HalfPlane, kMost> planes;
+  static constexpr int kMost = 10;       ///< Those that are nearest count,
+  static constexpr int kMostOthers = 4;  ///< and so many things beside.
+  std::array<HalfPlane, kMost + kMostOthers> planes;
   int count = 0;
+
+  /// Keeps clear of something else, too; beyond the most of them of nothing more.
+  void add(const HalfPlane& plane);
 
   /// The one next to what is wanted, at most so fast; where there is none, that which is off by the least.
   Vector2 nearest(const Vector2& wanted, double most) const;

@@ -40,7 +40,8 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
       selector_(*workspace_, options.seed),
       playback_(*character_, *workspace_, options.stitching, within_one(options.stitch, "stitching time, in s,")),
       correction_(*character_, *workspace_, options.lock_feet),
-      gaze_(*workspace_) {
+      gaze_(*workspace_),
+      reaching_(*workspace_) {
   reset();
 }
 
@@ -90,6 +91,7 @@ void Player::reset(const CharacterFrame& frame, int style) {
   selector_.reset();
   correction_.reset();
   gaze_.reset();
+  reaching_.reset();
   if (follower_ != nullptr) follower_->reset();
   fragment_ = styled_character().classes.representatives[director_.playing_class()];
   playback_.reset(fragment_, frame);
@@ -130,12 +132,21 @@ void Player::correct(const Control& control, double seconds) {
   }
   root_ = workspace_->shown.root;
   gaze_.apply(governor_.command(control, frame().heading, seconds), styled_character().space.turn_rate(), seconds);
+  reaching_.apply(ground_level(), seconds);
 }
 
 void Player::look(Look look, const Vector3& place) {
   for (const double value : place)
     require_range("a place to look at", value, -10 * kFarthestPlace, 10 * kFarthestPlace);
   gaze_.look(look, place);
+}
+
+void Player::reach(int hand, const HandAim& aim) {
+  if (hand < 0 || hand > 1) throw std::invalid_argument("hand " + std::to_string(hand) + " does not exist");
+  require_range("the weight of a hand", aim.weight, 0, 1);
+  for (const double value : aim.place)
+    require_range("a place to reach for", value, -10 * kFarthestPlace, 10 * kFarthestPlace);
+  reaching_.reach(hand, aim);
 }
 
 void Player::stand_on(Ground ground) {

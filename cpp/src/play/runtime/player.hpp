@@ -11,6 +11,7 @@
 #include "runtime/director.hpp"
 #include "runtime/gaze.hpp"
 #include "runtime/pose_correction.hpp"
+#include "runtime/reaching.hpp"
 #include "runtime/upper_body.hpp"
 
 namespace fragmotion {
@@ -42,7 +43,7 @@ constexpr double kStyleWait = 0.8;
 /// The run time (Sec. 3.3, Fig. 3): a RootGovernor asks of the body what it can do and says where it goes, a Director
 /// decides which class comes next and when, a FragmentSelector chooses one of its fragments, Playback stitches that on
 /// to what is shown, and PoseCorrection lets the pose go with the root. Moves play in between (MoveTrack) or over it
-/// (UpperBody); a Gaze looks somewhere over all that.
+/// (UpperBody); a Gaze looks somewhere over all that, and hands reach for things (Reaching).
 class Player {
  public:
   /// Throws std::invalid_argument on an option that is out of its range.
@@ -98,6 +99,10 @@ class Player {
   /// reset as captured. Throws std::invalid_argument unless the place is within 1e10 m.
   void look(Look look, const Vector3& place = Vector3::Zero());
   const Gaze& gaze() const { return gaze_; }
+  /// What a hand (0 left, 1 right) holds or reaches for from now on (reaching.hpp); nothing after a reset. Throws
+  /// std::invalid_argument unless there is the hand, its weight is 0 .. 1 and the place is within 1e10 m.
+  void reach(int hand, const HandAim& aim);
+  const Reaching& reaching() const { return reaching_; }
   /// Stands and goes from now on on this ground (ground_follower.hpp), or, without one, on level ground at height 0.
   void stand_on(Ground ground);
   /// The ground is another than it was, or lies otherwise to where it plays: what feet know of it beyond what they
@@ -196,6 +201,7 @@ class Player {
   Playback playback_;
   PoseCorrection correction_;
   Gaze gaze_;
+  Reaching reaching_;
   std::shared_ptr<Extras> extras_;            // its own; null without moves and styles, and in a rehearsal
   std::shared_ptr<GroundFollower> follower_;  // its own; null without ground
   int entered_ = 0;

@@ -6,7 +6,6 @@
 #include "fragments/entry_poses.hpp"
 #include "fragments/look.hpp"
 #include "fragments/successors.hpp"
-#include "motion/trunk.hpp"
 
 namespace fragmotion {
 namespace {
@@ -30,6 +29,7 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
       body(std::make_shared<FootLock::Body>(kinematics, character.legs)),
       floors(usual_floors(character.contacts)),
       look(look_bones(kinematics.skeleton())),
+      trunk(kinematics.skeleton()),
       move_entries(entry_poses(character.pool, character.move_parts)),
       tips{BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton)},
       onward(character.entry_poses.size() / character.pool.fragments.size()) {
@@ -45,8 +45,14 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
   Looks found = looks_in(pools);
   fastest_looks = std::move(found.fastest);
   gaze = found.gaze;
+  arms = arm_ranges(pools);
+  std::vector<int> hands;
+  for (const ArmRange& range : arms) {
+    if (range.arm.exists()) hands.push_back(range.arm.hand);
+  }
+  arm_chains = kinematics.chains(hands);
   if (!look.empty()) head_chain = kinematics.chains({look.back()});
-  if (const Trunk trunk(kinematics.skeleton()); trunk.head >= 0) {
+  if (trunk.head >= 0) {
     for (const int b : head_chain) {
       if (kinematics.skeleton().is_below(b, trunk.base) && !kinematics.skeleton().is_below(b, look.front()))
         spine.push_back(b);

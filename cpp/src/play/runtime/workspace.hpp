@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "character/character.hpp"
+#include "fragments/arm_range.hpp"
 #include "fragments/body_tips.hpp"
 #include "fragments/gaze_range.hpp"
 #include "motion/foot_lock.hpp"
+#include "motion/trunk.hpp"
 #include "runtime/transition_cost.hpp"
 
 namespace fragmotion {
@@ -44,7 +46,10 @@ struct Workspace {
   GazeRange gaze;                    ///< Likewise.
   std::vector<int> head_chain;       ///< From the hips to the head,
   std::vector<int> spine;            ///< and what of it is above the legs and below the look's.
-  std::vector<float> move_entries;   ///< entry_poses() of the moves' parts
+  Trunk trunk;
+  std::array<ArmRange, 2> arms;     ///< arm_ranges() of all styles
+  std::vector<int> arm_chains;      ///< From the hips to the hands of these.
+  std::vector<float> move_entries;  ///< entry_poses() of the moves' parts
 
   // Of the FragmentSelector's: rows as those of Character::entry_poses.
   std::array<BodyTips, 3> tips;

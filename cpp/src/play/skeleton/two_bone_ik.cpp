@@ -22,6 +22,7 @@ constexpr double kShortest = 1e-3;  // m of a 1.8 m character: a bone of a leg t
 const double kBendsWell = std::cos(kStraight), kFoldsWell = std::cos(kFolded);
 
 constexpr double kTires = kStretched - kSoft;  // of a leg's length: from where it follows less
+static_assert(kArmReach <= kTires);
 
 double softly(double distance) {
   return distance < kTires ? distance : kTires + kSoft * (1 - std::exp((kTires - distance) / kSoft));
@@ -63,6 +64,17 @@ class Knee {
     wanted /= length_;
     wanted += std::max(0.0, 1 - std::abs(wanted - now) / kNear) * (natural - now);
     return length_ * apart(natural, wanted);
+  }
+
+  // The same of an arm, which may be bent as it is: it is folded up no further than it is folded or bears.
+  double ends_of_arm(double wanted) const {
+    const double now = distance(cosine_), folded = std::min(now, distance(kFoldsWell));
+    return length_ * std::max(folded, apart(now, wanted / length_));
+  }
+
+  // What turns it back to where it is if it is bent backward, by this share.
+  Quaternion backward(double share) const {
+    return Quaternion{Eigen::AngleAxisd(share * 2 * std::min(0.0, std::atan2(sine_, cosine_)), axis_)};
   }
 
   // What turns the lower leg for the leg's ends to be so far apart.
@@ -142,7 +154,70 @@ void hinge_at_rest(const Skeleton& skeleton, Legs& legs) {
   for (Leg& leg : legs) leg.hinge = rotations[leg.thigh].conjugate() * left.normalized();
 }
 
+// How well two joints serve as shoulder and elbow of a hand.
+double evenness(const Vector3& shoulder, const Vector3& elbow, const Vector3& hand) {
+  const double upper = (elbow - shoulder).norm(), lower = (hand - elbow).norm();
+  return square(std::min(upper, lower)) / std::max({upper, lower, kShortest});
+}
+
+// The arm to a hand from below the bone `trunk`, which carries both.
+Arm arm_of(const Skeleton& skeleton, int trunk, int hand, int other_hand) {
+  if (hand < 0 || hand == trunk || skeleton.is_below(other_hand, hand)) return {};
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> rotations;
+  rest_pose(skeleton, heads, rotations);
+  Arm arm{-1, -1, hand};
+  double best = kShortest / standard_scale(skeleton);
+  for (int elbow = skeleton.parents[hand]; elbow != trunk; elbow = skeleton.parents[elbow]) {
+    for (int upper = skeleton.parents[elbow]; upper != trunk; upper = skeleton.parents[upper]) {
+      const double found = evenness(heads[upper], heads[elbow], heads[hand]);
+      if (found > best) best = found, arm.upper = upper, arm.elbow = elbow;
+    }
+  }
+  return arm;
+}
+
+// The lowest bone that carries both; -1 where there is none.
+int carrier(const Skeleton& skeleton, int a, int b) {
+  while (a >= 0 && !skeleton.is_below(b, a)) a = skeleton.parents[a];
+  return a;
+}
+
 }  // namespace
+
+std::array<Arm, 2> resting_arms(const Skeleton& skeleton) {
+  const Roles& roles = skeleton.roles;
+  if (roles.left_hand < 0 || roles.right_hand < 0) return {};
+  const int trunk = carrier(skeleton, roles.left_hand, roles.right_hand);
+  if (trunk < 0 || !skeleton.is_below(trunk, roles.hips)) return {};
+  return {arm_of(skeleton, trunk, roles.left_hand, roles.right_hand),
+          arm_of(skeleton, trunk, roles.right_hand, roles.left_hand)};
+}
+
+Vector3 palm(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed) {
+  return posed.heads[arm.hand] + posed.rotations[arm.hand] * (skeleton.tips[arm.hand] / 2);
+}
+
+double arm_length(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed) {
+  const Vector3& elbow = posed.heads[arm.elbow];
+  return (elbow - posed.heads[arm.upper]).norm() + (palm(skeleton, arm, posed) - elbow).norm();
+}
+
+void reach(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed, const Vector3& place, double weight,
+           const Vector3& halfway, double* rotations) {
+  const Vector3 upper = posed.heads[arm.elbow] - posed.heads[arm.upper],
+                lower = palm(skeleton, arm, posed) - posed.heads[arm.elbow], way = place - posed.heads[arm.upper];
+  const Knee elbow(upper, lower, posed.rotations[arm.upper] * arm.hinge);
+  const Quaternion bend = elbow.backward(1 - weight) * elbow.bent_by(elbow.ends_of_arm(way.norm())),
+                   swing = turn_between(halfway, way) * turn_between(upper + bend * lower, halfway);
+  const auto turn = [&](int bone, const Quaternion& by) {
+    const Quaternion& parent = posed.rotations[skeleton.parents[bone]];
+    store_quaternion((parent.conjugate() * by * posed.rotations[bone]).normalized(),
+                     rotations + std::ptrdiff_t{4} * bone);
+  };
+  turn(arm.upper, swing);
+  turn(arm.elbow, bend);
+}
 
 Legs resting_legs(const Skeleton& skeleton) {
   const Roles& roles = skeleton.roles;

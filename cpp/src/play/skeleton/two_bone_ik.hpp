@@ -51,6 +51,32 @@ double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle);
 /// and foot; `posed` stays as it was before.
 void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations);
 
+/// An arm by its roles: any chain of bones from a shoulder joint of its own to a hand, with a joint between them.
+struct Arm {
+  int upper = -1, elbow = -1, hand = -1;
+  Vector3 hinge = Vector3::UnitX();  ///< The axis that the elbow bends about, as the upper arm sees it.
+
+  bool exists() const { return elbow >= 0; }
+};
+
+/// The left and the right arm below the bone that both hang from, each where the skeleton has it. Shoulder and elbow
+/// are the joints that divide the way to the hand into the two longest and most even parts. The hinge is not known yet.
+std::array<Arm, 2> resting_arms(const Skeleton& skeleton);
+
+/// The middle of the hand.
+Vector3 palm(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed);
+
+/// From the shoulder over the elbow to the palm, m.
+double arm_length(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed);
+
+/// Two-bone inverse kinematics as that of a leg, but that the hand goes along with the forearm: the palm comes to
+/// `place`. Up to kArmReach of its length it is there; beyond, it follows ever less. The arm swings by way of
+/// `halfway`, a direction, so that the elbow is where it is of an arm that is raised so. An elbow that is bent backward
+/// stays so by as much as `weight` is below 1.
+void reach(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed, const Vector3& place, double weight,
+           const Vector3& halfway, double* rotations);
+constexpr double kArmReach = 0.965;
+
 /// How far the ends of a leg may be from each other, m.
 struct Reach {
   double least = 0, most = 0;

@@ -38,6 +38,13 @@ enum Steer {
 	PATH, ## Along the path of [method follow].
 }
 
+## Where head and chest look, as far and as fast as in its takes.
+enum Look {
+	AS_CAPTURED, ## As its takes have it.
+	AHEAD, ## Where it goes.
+	AT, ## At [member look_target].
+}
+
 ## When it plays on.
 enum Callback {
 	PHYSICS, ## Each physics frame: the only one for bodies and ground.
@@ -63,6 +70,12 @@ enum Callback {
 
 ## It stands and walks on what is on these layers, down to 100 m below; none: on level ground at the height of its place.
 @export_flags_3d_physics var ground_mask := 1
+
+## Where head and chest look.
+@export var look := Look.AS_CAPTURED
+
+## What [constant Look.AT] looks at; none: as captured.
+@export var look_target: Node3D
 
 @export_group("Playing")
 
@@ -109,6 +122,8 @@ var jump := false
 var player := FragmotionPlayer.new()
 
 var _plays := false
+var _players: FragmotionPlayers # of the crowd that it joined
+var _index := 0 # among them
 var _query: PhysicsRayQueryParameters3D
 
 
@@ -130,6 +145,7 @@ func _process(delta: float) -> void:
 func advance(seconds: float) -> void:
 	if not _plays:
 		return
+	_look()
 	player.step(steer, _asked(), _faced(), turn, jump, seconds)
 	_carry(seconds)
 	player.show()
@@ -166,6 +182,13 @@ func follow(curve: Curve3D, closed := false, speed := 0.0) -> bool:
 	return player.set_path(curve.get_baked_points(), closed, 1 if closed else 0, speed)
 
 
+## Plays from now on as one of those who make way for each other; [FragmotionCrowd] does that for its children.
+func join(players: FragmotionPlayers, index: int) -> void:
+	_players = players
+	_index = index
+	_begin()
+
+
 ## Puts it somewhere else at once: all goes along that it does.
 func teleport(to: Transform3D) -> void:
 	_carried().global_transform = to
@@ -194,7 +217,7 @@ func restore_state(state: PackedByteArray) -> bool:
 
 
 func _begin() -> void:
-	_plays = policy != null and policy.is_valid() and player.play(policy, random_seed)
+	_plays = policy != null and policy.is_valid() and _play()
 	if not _plays:
 		return
 	for option in ["responsiveness", "time_scale", "step_interval", "fixed_step"]:
@@ -202,6 +225,17 @@ func _begin() -> void:
 	_bind()
 	_find_ground()
 	reset()
+
+
+func _play() -> bool:
+	return player.play(policy, random_seed) if _players == null else player.play_one_of(_players, _index)
+
+
+func _look() -> void:
+	if look == Look.AT and look_target != null:
+		player.look(look, look_target.global_position)
+	else:
+		player.look(Look.AS_CAPTURED if look == Look.AT else look, Vector3.ZERO)
 
 
 func _bind() -> void:
