@@ -58,14 +58,18 @@ void measure_frame(benchmark::State& state, const std::shared_ptr<const Characte
 
 void measure_stairs(benchmark::State& state, const std::shared_ptr<const Character>& character) {
   Player player(character);
-  double asked = 0;
+  double asked = 0, most = 0;
   player.stand_on([&asked](const Vector3& from) {
     ++asked;
     return GroundPoint{kRise * std::floor(from.y() / kTread), Vector3::UnitZ()};
   });
   const Control ahead{0, character->space.walk(), 0, 0};
-  for (auto _ : state) player.step(ahead, kFrame);
-  state.counters["asked"] = benchmark::Counter(asked, benchmark::Counter::kAvgIterations);
+  for (auto _ : state) {
+    const double before = asked;
+    player.step(ahead, kFrame);
+    most = std::max(most, asked - before);
+  }
+  state.counters["asked"] = most;
 }
 
 }  // namespace

@@ -659,7 +659,7 @@ class Player:
     def stand_on(self, ground: Callable[[float, float, float], Sequence[float] | None] | None) -> None:
         """Stand and go from the next step or reset on on this ground: a function that is given a place x, y, z, from
         which a ray goes straight down, and returns the height of the first ground that it meets and that ground's
-        normal x, y, z, or None; None is level ground at height 0. It is asked some twenty times a step, and must not
+        normal x, y, z, or None; None is level ground at height 0. It is asked at most 8 times a step, and must not
         call the player. What is not finite counts as no ground. What it raises ends the step; the player must be reset
         then. TypeError on what cannot be called or returns something else."""
     ground_level: float

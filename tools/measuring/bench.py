@@ -43,7 +43,7 @@ _DECISIONS = 200  # of NumPy
 _LARGE = "large build"
 _FRAME_GOALS = {"free": 1e-6, "locked": 2e-6}  # s, under a stick that is held
 _RESTLESS = 1.3  # times that for one that is not
-_ASKED = 8  # times that a player's step asks for the ground
+_ASKED = 8  # times that a player's step asks for the ground at most
 _CROWDS = ("crowd step", "crowd step, two threads")  # 10,000 players
 
 
@@ -290,7 +290,7 @@ def _frame_goals(measured: Measured) -> list[Goal]:
             listed.append(Goal(f"{frame}, held", held, limit, _nanoseconds))
             listed.append(Goal(f"{frame}, restless over held", restless / held, _RESTLESS, "{:.2f}x".format))
         asked = measured.asked[f"{character} on stairs"]
-        listed.append(Goal(f"{character} on stairs, ground asked for", asked, _ASKED, "{:.0f} times".format))
+        listed.append(Goal(f"{character} on stairs, ground asked for at most", asked, _ASKED, "{:.0f} times".format))
     return listed
 
 

@@ -369,8 +369,9 @@ typedef struct FragmotionGroundHit {
   float normal[3];
 } FragmotionGroundHit;
 
-/* What of the ground is first below a place: not 0 where there is any. Called by a step, on its thread, some fifty
- * times; it must not call the player that asks. */
+/* What of the ground is first below a place: not 0 where there is any. Called on the thread of the call that needs it:
+ * at most 8 times in a step (with a fixed_step in each of these), 80 in a reset. It must not call the player that asks.
+ * A foot in the air remembers what it asked, until move_to. */
 typedef int32_t (*FragmotionGround)(void* user, const float from[3], FragmotionGroundHit* hit);
 
 /* It stands and goes on this ground from now on; null: on level ground at the height of its place. */

@@ -197,7 +197,7 @@ export interface Player {
   reset(place?: Place | null, style?: number): void;
   /** Something else than its motion has put it there. */
   moveTo(place: Place): void;
-  /** What of the ground is first below a place, or null; asked some fifty times a step. null: level ground. */
+  /** What of the ground is first below a place, or null; asked at most 8 times a step. null: level ground. */
   setGround(ground: ((x: number, y: number, z: number) => { height: number; normal: Vector } | null) | null): void;
   startMove(move: number): void;
   releaseMove(move: number): void;

@@ -120,6 +120,35 @@ TEST(ApiState, IsRefusedWhereItIsNoneOfThisPlayer) {
   expect_ok(fragmotion_player_restore(player.get(), bytes.data(), bytes.size()));
 }
 
+std::int32_t counted_stairs(void* asked, const float from[3], FragmotionGroundHit* hit) {
+  ++*static_cast<int*>(asked);
+  *hit = {0.17F * std::floor(from[1] / 0.3F), {0, 0, 1}};
+  return 1;
+}
+
+TEST(ApiState, AsksForTheGroundAtMostEightTimesAStepRolledBackAndMovedToo) {
+  const auto player = playing(styled_api_character());
+  int asked = 0;
+  expect_ok(fragmotion_player_set_ground(player.get(), &counted_stairs, &asked));
+  const auto go = [&](int begin, int end) {
+    for (int frame = begin; frame < end; ++frame) {
+      asked = 0;
+      go_wildly(player.get(), frame, frame + 1);
+      EXPECT_LE(asked, 8) << frame;
+    }
+  };
+  for (int frame = 0; frame < 1800; frame += 8) {
+    const std::vector<unsigned char> bytes = saved(player.get());
+    go(frame, frame + 8);
+    const std::uint64_t there = checksum_of(player.get());
+    expect_ok(fragmotion_player_restore(player.get(), bytes.data(), bytes.size()));
+    go(frame, frame + 8);
+    EXPECT_EQ(checksum_of(player.get()), there) << frame;
+    const FragmotionPlace place{{1, static_cast<float>(frame), 2}, 0.5F};
+    if (frame % 400 == 0) expect_ok(fragmotion_player_move_to(player.get(), &place));
+  }
+}
+
 // Any word of a state changed, and the checksum put right: it is refused, or plays numbers.
 TEST(ApiState, PlaysNumbersWhateverAStrangersBytesSay) {
   const auto player = playing(styled_api_character());

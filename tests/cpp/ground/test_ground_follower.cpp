@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -98,6 +99,49 @@ TEST(GroundFollower, StaysWithinABodysReachOfTheGroundItIsOver) {
   }
 }
 
+// The most times that a step asks for the ground, in half a minute; `restless`: an explorer, and not straight on.
+int most_asked(const Ground& ground, double heading, double seconds, bool restless) {
+  int asked = 0, most = 0, all = 0;
+  Player player(gait_character());
+  const ControlSpace& space = player.character().space;
+  Trace trace = simulate_trace("explorer", 30, 5, space);
+  for (std::size_t i = 0; i < trace.size() && !restless; ++i)
+    trace[i] = {0, i < 150 ? space.walk() : space.run(), 0, 0};
+  player.reset({{0, 0.1}, heading});
+  player.stand_on([&](const Vector3& from) {
+    ++asked;
+    return ground(from);
+  });
+  for (const Control& control : trace) {
+    for (double rest = 0.1; rest > 1e-9; rest -= seconds) {
+      asked = 0;
+      player.step(control, seconds);
+      most = std::max(most, asked);
+      all += asked;
+    }
+  }
+  EXPECT_GT(all, 300);
+  return most;
+}
+
+TEST(GroundFollower, AsksForTheGroundAtMostEightTimesAStep) {
+  const Ground low =
+                   [](const Vector3&from) {
+                     return GroundPoint{0.17 * std::floor(from.y() / 0.3), {0, 0, 1}};
+                   },
+               rough = [](const Vector3&from) {
+                 return GroundPoint{0.08 * std::sin(7 * from.x()) * std::cos(9 * from.y()), {0.2, 0.1, 1}};
+               };
+  for (const Ground& ground : {Ground(up_along_y), Ground(stairs), low, rough, level(1)}) {
+    for (const double heading : {0.0, kPi / 3, kPi}) {
+      for (const bool restless : {false, true}) {
+        EXPECT_LE(most_asked(ground, heading, kStep, restless), 8);
+        EXPECT_LE(most_asked(ground, heading, 0.1, restless), 8);
+      }
+    }
+  }
+}
+
 TEST(GroundFollower, TellsHowLongThereWasNoGroundAndKeepsItsHeight) {
   const Ground none = [](const Vector3&) { return std::nullopt; };
   const Shown without = play({}), on = play(none);
@@ -150,28 +194,60 @@ TEST(Approach, GetsThereAtTheTimeAndAtRest) {
   EXPECT_EQ(many.speed, 0);
 }
 
-TEST(GroundProbe, StandsOnTheHighestGroundUnderASole) {
+constexpr int kMany = 1000;
+
+TEST(PlaneUnder, IsOnTheHighestGroundUnderASole) {
   const Sole sole{{0, 0.2, 0}, {0, 0.32, 0}, {0, 0.38, 0}};
   const Ground steps = stairs, slope = up_along_y;
-  const auto footing = GroundProbe(steps, 1).under(sole);
+  const auto under = [&](const Ground& ground) {
+    GroundProbe probe(ground, 1, 3);
+    std::array<std::optional<Footing>, 3> points;
+    for (std::size_t i = 0; i < 3; ++i) points[i] = probe.at(sole.points()[i].head<2>());
+    EXPECT_FALSE(probe.may_ask());
+    return plane_under(sole, points);
+  };
+  const auto footing = under(steps);
   ASSERT_TRUE(footing);
   EXPECT_DOUBLE_EQ(footing->height, 0.18);
   EXPECT_TRUE(footing->slope.isZero(0));
-  const auto sloping = GroundProbe(slope, 1).under(sole);
+  const auto sloping = under(slope);
   ASSERT_TRUE(sloping);
   EXPECT_NEAR(sloping->height, 0.32 * kSlope, 1e-12);
   EXPECT_NEAR(sloping->slope.y(), kSlope, 1e-12);
+  EXPECT_FALSE(under([](const Vector3&) { return std::nullopt; }));
 }
 
-TEST(GroundProbe, FindsEdgesUnderASoleAndNoneOnASlope) {
+TEST(KnownGround, FindsEdgesUnderASoleAndNoneOnASlope) {
+  const auto edges = [](const Ground& ground, const Sole& sole, bool descends) {
+    GroundProbe probe(ground, 1, kMany);
+    return KnownGround().edges(sole, descends, 0, probe);
+  };
   const Ground steps = stairs, slope = up_along_y;
   const Sole free{{0, 0.36, 0}, {0, 0.48, 0}, {0, 0.54, 0}}, low{{0, 0.44, 0}, {0, 0.56, 0}, {0, 0.62, 0}};
-  EXPECT_EQ(GroundProbe(steps, 1).edges(free, false), 0);
-  EXPECT_GE(GroundProbe(steps, 1).edges(low, false), GroundProbe::kInTheWay) << "its tip is in the next step";
-  EXPECT_EQ(GroundProbe(slope, 1).edges(low, false), 0);
+  EXPECT_EQ(edges(steps, free, false), 0);
+  EXPECT_GE(edges(steps, low, false), KnownGround::kInTheWay) << "its tip is in the next step";
+  EXPECT_EQ(edges(slope, low, false), 0);
   const Sole down{{0, 0.54, 0}, {0, 0.42, 0}, {0, 0.36, 0}}, up{{0, 0.24, 0}, {0, 0.36, 0}, {0, 0.42, 0}};
-  EXPECT_LT(GroundProbe(steps, 1).edges(up, false), GroundProbe(steps, 1).edges(up, true)) << "a heel over the edge";
-  EXPECT_EQ(GroundProbe(steps, 1).edges(down, true), 0);
+  EXPECT_LT(edges(steps, up, false), edges(steps, up, true)) << "a heel over the edge";
+  EXPECT_EQ(edges(steps, down, true), 0);
+}
+
+TEST(KnownGround, AsksForNoPlaceBetweenTwoOnOnePlane) {
+  const Ground steps = stairs;
+  GroundProbe probe(steps, 1, 4);
+  KnownGround known;
+  const KnownGround::Along along{{0, 1}, 0.01};
+  known.ask({0, 0.1}, probe);
+  known.ask({0, 0.2}, probe);
+  known.ask({0, 0.32}, probe);
+  EXPECT_EQ(known.at({0, 0.15}, along, probe)->height, 0);
+  EXPECT_TRUE(probe.may_ask());
+  EXPECT_EQ(known.at({0, 0.29}, along, probe)->height, 0) << "it is asked for: there is an edge between";
+  EXPECT_FALSE(probe.may_ask());
+  EXPECT_EQ(known.at({0, 0.298}, along, probe)->height, 0) << "as the nearest that is known";
+  EXPECT_EQ(known.at({0, 0.5}, along, probe)->height, 0.18);
+  known.forget();
+  EXPECT_FALSE(known.at({0, 0.15}, along, probe));
 }
 
 // A foot over stairs that is on level ground at a place, and lands there in a time.
@@ -187,31 +263,31 @@ FootAhead foot_at(double y, double due, double landing) {
 
 TEST(FootOnGround, IsOnTheTreadThatWasForeseenWhenItLands) {
   const Ground steps = stairs;
-  const GroundProbe probe(steps, 5);
+  GroundProbe probe(steps, 5, kMany);
   FootOnGround foot;
-  foot.advance(foot_at(0.16, 0, 0.16), 0, 0, probe);
+  foot.advance(foot_at(0.16, 0, 0.16), 0, 0, probe, 0);
   EXPECT_DOUBLE_EQ(foot.height(), 0);
   for (int i = 1; i < 30; ++i) {
-    foot.advance(foot_at(0.16 + 0.02 * i, (30 - i) * kStep, 0.76), 0, kStep, probe);
+    foot.advance(foot_at(0.16 + 0.02 * i, (30 - i) * kStep, 0.76), 0, kStep, probe, 0);
     const double y = 0.16 + 0.02 * i + foot.shift().y();
     EXPECT_GE(foot.height() + 1e-9, stairs({0, y, 0}).height) << "it goes over the steps";
   }
-  foot.advance(foot_at(0.76, 0, 0.76), 0, kStep, probe);
+  foot.advance(foot_at(0.76, 0, 0.76), 0, kStep, probe, 0);
   EXPECT_NEAR(foot.height(), 0.36, 0.02);
-  for (int i = 0; i < 5; ++i) foot.advance(foot_at(0.76, 0, 0.76), 0, kStep, probe);
+  for (int i = 0; i < 5; ++i) foot.advance(foot_at(0.76, 0, 0.76), 0, kStep, probe, 0);
   EXPECT_NEAR(foot.height(), 0.36, 0.001);
   EXPECT_TRUE(foot.slope().isZero(1e-6));
 }
 
 TEST(FootOnGround, ComesDownQuicklyWhereItsLandingWasNotForeseen) {
   const Ground steps = stairs;
-  const GroundProbe probe(steps, 5);
+  GroundProbe probe(steps, 5, kMany);
   FootOnGround foot;
-  foot.advance(foot_at(0.16, 0, 0.16), 0, 0, probe);
-  for (int i = 1; i < 15; ++i) foot.advance(foot_at(0.16 + 0.02 * i, (30 - i) * kStep, 0.76), 0, kStep, probe);
+  foot.advance(foot_at(0.16, 0, 0.16), 0, 0, probe, 0);
+  for (int i = 1; i < 15; ++i) foot.advance(foot_at(0.16 + 0.02 * i, (30 - i) * kStep, 0.76), 0, kStep, probe, 0);
   double last = foot.height();
   for (int i = 0; i < 6; ++i) {
-    foot.advance(foot_at(0.46, 0, 0.46), 0, kStep, probe);
+    foot.advance(foot_at(0.46, 0, 0.46), 0, kStep, probe, 0);
     EXPECT_LT(std::abs(foot.height() - last), 5 * kStep) << "no faster than a foot goes";
     last = foot.height();
   }
@@ -220,7 +296,7 @@ TEST(FootOnGround, ComesDownQuicklyWhereItsLandingWasNotForeseen) {
 
 TEST(HipsOnGround, GoUpASlopeAsThePlaneDoesAndOverStairsWithoutAKink) {
   for (const Ground& ground : {Ground(up_along_y), Ground(stairs)}) {
-    const GroundProbe probe(ground, 50);
+    GroundProbe probe(ground, 50, 240 * kMany);
     FeetOnGround feet;
     HipsOnGround hips;
     double before = 0, speed = 0;
@@ -229,7 +305,7 @@ TEST(HipsOnGround, GoUpASlopeAsThePlaneDoesAndOverStairsWithoutAKink) {
         const int phase = i + 30 * side, step = phase / 60;
         const double from = 1.2 * step - 0.6 * side, part = std::max(0, phase % 60 - 30) / 30.0;
         feet[side].advance(foot_at(from + 1.2 * part, part > 0 ? (1 - part) * 0.5 : 0, from + (part > 0 ? 1.2 : 0)), 0,
-                           i > 0 ? kStep : 0, probe);
+                           i > 0 ? kStep : 0, probe, 0);
       }
       const double y = 1.2 * i * kStep;
       hips.advance({0, y}, feet, i > 0 ? kStep : 0);

@@ -120,6 +120,7 @@ void FragmotionPlayer::move_to(const FragmotionPlace& place) {
   shift.offset = to.head<2>() - turn_by(shift.heading) * inside.position;
   shift.lift = to.z() - shown().level;
   player.look(player.gaze().looks(), shift.place_inside(looked_at));
+  player.forget_ground();
   for (int hand = 0; hand < 2; ++hand) {
     if (!aims[hand].carried) aims[hand].place = shift.place_inside(aims[hand].place);
     player.reach(hand, aims[hand]);

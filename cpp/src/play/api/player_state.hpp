@@ -81,6 +81,8 @@ struct PlayerState {
   template <typename Archive>
   static int exchange(Archive& a, Player::Extras& extras);
   template <typename Archive>
+  static void exchange(Archive& a, KnownGround& ground);
+  template <typename Archive>
   static void exchange(Archive& a, FootOnGround& foot);
   template <typename Archive>
   static void exchange(Archive& a, HipsOnGround& hips);

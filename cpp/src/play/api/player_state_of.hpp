@@ -226,12 +226,24 @@ int PlayerState::exchange(Archive& a, Player::Extras& extras) {
 }
 
 template <typename Archive>
+void PlayerState::exchange(Archive& a, KnownGround& ground) {
+  a.number(ground.count_, 0, KnownGround::kMost);
+  a.number(ground.next_, 0, KnownGround::kMost - 1);
+  for (KnownGround::Known& known : ground.known_) {
+    footing(a, known.plane);
+    a.number(known.exists, 0, 1);
+  }
+}
+
+template <typename Archive>
 void PlayerState::exchange(Archive& a, FootOnGround& foot) {
   a.number(foot.fresh_, 0, 1);
   a.number(foot.stood_, 0, 1);
+  a.number(foot.found_, 0, 1);
   for (Footing* plane : {&foot.last_, &foot.next_, &foot.plane_}) footing(a, *plane);
   approach(a, foot.error_);
   for (Approach& turn : foot.turn_) approach(a, turn);
+  exchange(a, foot.known_);
   vector(a, foot.beside_, kMostPlace);
   for (Approach& shift : foot.shift_) approach(a, shift);
   approach(a, foot.clearance_);

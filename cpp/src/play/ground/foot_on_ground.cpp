@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSettle = 0.03;     // s in which a foot that stands gets onto its footing, where it is not on it
 constexpr double kFastestError = 3;  // m/s at which it does so
-constexpr double kSlid = 0.02;       // m that a foot may slide on the same footing
+constexpr double kSlid = 0.005;      // m that a foot may slide on the same footing
 constexpr double kPace = 0.1;        // m/s with which a foot that steps on the spot is on its way
 constexpr double kLoading = 0.12;    // s before it stands, and
 constexpr double kUnloading = 0.15;  // s after it, in which a foot bears more and more, and less and less
@@ -27,18 +27,27 @@ constexpr int kTrials = 8;           // times that, to the front and to the back
 constexpr double kSameTread = 0.05;  // m between heights of one tread
 constexpr double kHysteresis = 0.1;  // s: the sooner it lands, the more it keeps to the tread that was foreseen
 
+constexpr double kLandingBeside = 0.01;  // m beside a place where a foot is to stand, that counts as there,
+constexpr double kNowBeside = 0.02;      // where it is now,
+constexpr double kWayBeside = 0.09;      // and where it is on its way
+constexpr double kFootPart = 0.1;  // of its length along it that a foot's way is taken to go: it has a direction then
+
 // The height of a foot's clearance at a part of its way.
 double arch(double part) { return 1 - std::pow(2 * part - 1, 4); }
 
 }  // namespace
 
-bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, const GroundProbe& probe) {
+bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, GroundProbe& probe, int spared) {
   due_ = foot.stands ? 0 : foot.due;
   swing_time_ = foot.stands ? 0 : swing_time_ + seconds;
   const Vector2 place = foot.now.place() + shift();
   Footing before = on_way(place, 0);
   if (foot.stands) before.height += lift_;
-  const bool found = foot.stands ? stand(foot, probe) : swing(foot, probe);
+  if (foot.stands) {
+    stand(foot, probe, spared);
+  } else {
+    swing(foot, probe, spared);
+  }
   advance_shift(foot, fresh_ ? kSettle : seconds);
   if (!fresh_) {
     const Footing now = on_way(place, 0);
@@ -51,36 +60,46 @@ bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, 
   bear(foot, seconds);
   stood_ = foot.stands;
   fresh_ = false;
-  return found;
+  return found_;
 }
 
-bool FootOnGround::stand(const FootAhead& foot, const GroundProbe& probe) {
+void FootOnGround::stand(const FootAhead& foot, GroundProbe& probe, int spared) {
   const bool lands = fresh_ || !stood_;
-  if (lands) beside_ = shift();
-  const double edges = probe.edges(foot.landing().moved(beside_), false);
-  const bool slid = (foot.landing().place() + beside_ - last_.place).norm() > kSlid;
-  if (!lands && !slid && edges < GroundProbe::kInTheWay) return true;
-  if (edges > 0) beside_ = beside_edges(foot, probe);
+  probe.spare(spared + kAsksAtLeast);
+  if (lands) beside_ = fresh_ ? beside_edges(foot, probe) : shift();
   const Sole sole = foot.landing().moved(beside_);
-  const std::optional<Footing> under = probe.under(sole);
-  next_ = under.value_or(lands && !fresh_ ? Footing{sole.place(), next_.height, next_.slope}
-                                          : Footing{sole.place(), last_.at(sole.place()), last_.slope});
-  last_ = next_;
-  return under.has_value();
+  if (lands || !found_ || (sole.place() - last_.place).norm() > kSlid) {
+    const std::optional<Footing> under = ask_under(sole, probe);
+    next_ = under.value_or(lands && !fresh_ ? Footing{sole.place(), next_.height, next_.slope}
+                                            : Footing{sole.place(), last_.at(sole.place()), last_.slope});
+    last_ = next_;
+    found_ = under.has_value();
+  }
+  probe.spare(spared);
+  const double edges = known_.edges(sole, false, 0, probe);
+  if (edges >= KnownGround::kInTheWay || (lands && edges > 0)) beside_ = beside_edges(foot, probe);
 }
 
-bool FootOnGround::swing(const FootAhead& foot, const GroundProbe& probe) {
+void FootOnGround::swing(const FootAhead& foot, GroundProbe& probe, int spared) {
   if (fresh_ || stood_) next_ = last_;
+  probe.spare(spared + kAsksAtLeast);
   beside_ = beside_edges(foot, probe);
   const Sole sole = foot.landing().moved(beside_);
-  const std::optional<Footing> under = probe.under(sole);
+  const std::optional<Footing> under = ask_under(sole, probe);
   next_ = under.value_or(Footing{sole.place(), next_.height, next_.slope});
   if (fresh_) last_ = next_;
-  return under.has_value();
+  found_ = under.has_value();
+  probe.spare(spared);
+}
+
+std::optional<Footing> FootOnGround::ask_under(const Sole& sole, GroundProbe& probe) {
+  std::array<std::optional<Footing>, 3> points;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = known_.ask(sole.points()[i].head<2>(), probe);
+  return plane_under(sole, points);
 }
 
 // The least move that sets a sole beside edges, rather on the tread that it was on its way to.
-Vector2 FootOnGround::beside_edges(const FootAhead& foot, const GroundProbe& probe) const {
+Vector2 FootOnGround::beside_edges(const FootAhead& foot, GroundProbe& probe) {
   const Sole& sole = foot.landing();
   const Vector2 along = (sole.tip - sole.heel).head<2>().normalized();
   const bool planned = !fresh_ && !stood_;
@@ -93,9 +112,10 @@ Vector2 FootOnGround::beside_edges(const FootAhead& foot, const GroundProbe& pro
     const Vector2 moved = (i % 2 == 0 ? kTried : -kTried) * steps * along;
     if (moved.norm() >= least) break;
     const Sole there = sole.moved(moved);
-    const std::optional<GroundPoint> ground = planned ? probe.at(there.place()) : std::nullopt;
+    const std::optional<Footing> ground =
+        planned ? known_.at(there.place(), {along, kLandingBeside}, probe) : std::nullopt;
     const double off = ground ? std::max(0.0, std::abs(ground->height - next_.height) - kSameTread) : 0;
-    const double cost = moved.norm() + keeps * off + probe.edges(there, descends);
+    const double cost = moved.norm() + keeps * off + known_.edges(there, descends, kLandingBeside, probe);
     if (cost < least) least = cost, best = moved;
   }
   return best;
@@ -125,25 +145,28 @@ void FootOnGround::advance_errors(double seconds) {
 }
 
 // Steps over what is in its way, in one arch.
-void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, const GroundProbe& probe) {
+void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, GroundProbe& probe) {
   if (foot.stands) {
     clearance_ = {};
     lift_ = 0;
     return;
   }
+  const Sole now = foot.now.moved(shift());
+  const Vector2 way = foot.landing().place() + beside_ - now.place() + kFootPart * (now.tip - now.heel).head<2>();
+  const KnownGround::Along along{way.normalized(), kWayBeside};
+  Footing shown = plane_;
+  shown.height += error_.value;
+  const double reaches = known_.over(now, lower, shown, {along.way, kNowBeside}, probe);
   double wanted = 0;
   for (std::size_t i = 0; i < FootAhead::kPoints; ++i) {
     const double u = static_cast<double>(i + 1) / FootAhead::kPoints, later = u * due_;
     const Sole at = foot.way[i].moved(shift() + u * (beside_ - shift()));
-    const double over = probe.over(at, lower, on_way(at.place(), later));
+    const double over = known_.over(at, lower, on_way(at.place(), later), along, probe);
     const double height = arch(part_of_way(at.place(), later));
     if (over > 0 && height > kLeast) wanted = std::max(wanted, (over + std::min(over, kMargin)) / height);
   }
   clearance_.advance(std::min(wanted, kMostClearance), fresh_ ? 0 : kClearing, seconds);
-  const Sole now = foot.now.moved(shift());
-  Footing shown = plane_;
-  shown.height += error_.value;
-  lift_ = std::max(std::max(clearance_.value, 0.0) * arch(part_of_way(now.place(), 0)), probe.over(now, lower, shown));
+  lift_ = std::max(std::max(clearance_.value, 0.0) * arch(part_of_way(now.place(), 0)), reaches);
 }
 
 void FootOnGround::bear(const FootAhead& foot, double seconds) {

@@ -2,17 +2,21 @@
 #pragma once
 
 #include "ground/approach.hpp"
-#include "ground/footing.hpp"
+#include "ground/known_ground.hpp"
 
 namespace fragmotion {
 
 /// How one foot is moved from level ground onto the ground: it stands on the plane of its footing, and goes from one to
-/// the next over what is in its way. Where it comes to stand on another than was foreseen, it gets there smoothly, too.
+/// the next over what is in its way. A foot that rests asks nothing; one on its way asks for what is under its landing,
+/// and with what is left of a step's questions for edges beside that and for what is before it. Where it comes to stand
+/// on another footing than was foreseen, it gets there smoothly, too.
 class FootOnGround {
  public:
-  /// Goes on by `seconds`. `lower`: how much lower than captured it is shown, m. Returns whether there is ground where
-  /// the foot stands, or where it is to.
-  bool advance(const FootAhead& foot, double lower, double seconds, const GroundProbe& probe);
+  static constexpr int kAsksAtLeast = 3;  ///< times, for what is under its sole
+
+  /// Goes on by `seconds`. `lower`: how much lower than captured it is shown, m. Asks the ground until only `spared`
+  /// questions are left. Returns whether there is ground where the foot stands, or where it is to.
+  bool advance(const FootAhead& foot, double lower, double seconds, GroundProbe& probe, int spared);
 
   /// Of what would be level ground under it, with what it clears; m.
   double height() const { return plane_.height + error_.value + lift_; }
@@ -24,29 +28,33 @@ class FootOnGround {
   /// How much its sole is on its footing rather than as high as it was captured, likewise.
   double sole_weight() const { return sole_weight_; }
 
+  /// What it knows of the ground beside its footings is of another place.
+  void forget_ground() { known_.forget(); }
+
   /// On which it stands, or stood last, and on which it is to stand.
   const Footing& last() const { return last_; }
   const Footing& next() const { return next_; }
   /// Since it stood, s.
   double swing_time() const { return swing_time_; }
-  /// Whether it is on its footing as foreseen.
-  bool arrived() const { return error_.rests() && turn_[0].rests() && turn_[1].rests() && lift_ == 0; }
 
  private:
   friend struct PlayerState;
 
-  bool stand(const FootAhead& foot, const GroundProbe& probe);
-  bool swing(const FootAhead& foot, const GroundProbe& probe);
-  Vector2 beside_edges(const FootAhead& foot, const GroundProbe& probe) const;
+  void stand(const FootAhead& foot, GroundProbe& probe, int spared);
+  void swing(const FootAhead& foot, GroundProbe& probe, int spared);
+  Vector2 beside_edges(const FootAhead& foot, GroundProbe& probe);
+  std::optional<Footing> ask_under(const Sole& sole, GroundProbe& probe);
   void advance_shift(const FootAhead& foot, double seconds);
   void advance_errors(double seconds);
-  void clear(const FootAhead& foot, double lower, double seconds, const GroundProbe& probe);
+  void clear(const FootAhead& foot, double lower, double seconds, GroundProbe& probe);
   void bear(const FootAhead& foot, double seconds);
   double part_of_way(const Vector2& place, double later) const;
   Footing on_way(const Vector2& place, double later) const;
 
   bool fresh_ = true, stood_ = false;
+  bool found_ = true;  // ground under where it stands, or is to
   Footing last_, next_;
+  KnownGround known_;
   Footing plane_;                     // under it now, from the one to the other
   Approach error_;                    // of the height that is shown
   std::array<Approach, 2> turn_;      // likewise of the slope

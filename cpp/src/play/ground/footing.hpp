@@ -17,26 +17,28 @@ struct Footing {
   double at(const Vector2& there) const { return height + dot(slope, there - place); }
 };
 
-/// What feet ask the ground, from one height downward.
+/// The plane that touches the ground under a sole's points and is nowhere below it, as steep as the ground is on
+/// average. None where there is no ground.
+std::optional<Footing> plane_under(const Sole& sole, const std::array<std::optional<Footing>, 3>& points);
+
+/// What feet ask the ground, from one height downward, so many times at most.
 class GroundProbe {
  public:
-  static constexpr double kInTheWay = 1;  ///< m: edges() of a sole that reaches into a step.
+  GroundProbe(const Ground& ground, double above, int most) : ground_(&ground), above_(above), left_(most) {}
 
-  GroundProbe(const Ground& ground, double above) : ground_(&ground), above_(above) {}
-
-  std::optional<GroundPoint> at(const Vector2& place) const;
-  /// The plane that touches the ground under a sole and is nowhere below it, as steep as the ground is on average, and
-  /// at most as a foot is turned. None where there is no ground.
-  std::optional<Footing> under(const Sole& sole) const;
-  /// How far a sole is better moved than set where it is, m: 0 unless ground of another height than that under its ball
-  /// is under its ends or just beyond them. On the way up rather the heel is over an edge, on the way down the tip.
-  double edges(const Sole& sole, bool descends) const;
-  /// How far the ground reaches over a plane into a sole that is so much lower than captured, m; 0 where it does not.
-  double over(const Sole& sole, double lower, const Footing& plane) const;
+  /// Whether it may, if so many questions are spared for others.
+  bool may_ask() const { return left_ > spared_; }
+  void spare(int spared) { spared_ = spared; }
+  void look_from(double above) { above_ = above; }
+  /// What the ground answers, if it is ground.
+  std::optional<GroundPoint> ask(const Vector2& place);
+  /// The plane of the ground at a place, at most as steep as a foot is turned.
+  std::optional<Footing> at(const Vector2& place);
 
  private:
   const Ground* ground_;
   double above_;
+  int left_, spared_ = 0;
 };
 
 }  // namespace fragmotion

@@ -14,8 +14,9 @@ struct GroundPoint {
   Vector3 normal = Vector3::UnitZ();  ///< Of any length; one that points down is that of a face seen from below.
 };
 
-/// The ground as a character asks for it, some fifty times a step: the first that a ray downward from a place meets, or
-/// none. What is not finite, a height beyond a million km and a normal without length (1e-100 to 1e100) count as none.
+/// The ground as a character asks for it, at most 8 times a step, and up to 80 in a reset: the first that a ray
+/// downward from a place meets, or none. It is taken to stay as it is while a foot is above it. What is not finite, a
+/// height beyond a million km and a normal without length (1e-100 to 1e100) count as none.
 using Ground = std::function<std::optional<GroundPoint>(const Vector3& from)>;
 
 }  // namespace fragmotion

@@ -26,6 +26,8 @@ constexpr double kMostRaised = 1;     // rad of a heel
 constexpr double kToesUp = 0.05;      // m that a heel is lower than the ball, where it is not raised
 constexpr double kMostUpright = 1.3;  // rad from the level, of a foot whose heel is raised
 constexpr int kHalvings = 12;         // of that, to find how much it must
+constexpr int kAsked = 8;             // times that a step asks for the ground,
+constexpr int kAskedAtFirst = 80;     // and a reset
 constexpr double kHips = 0.15;        // s: time constant of hips without legs
 
 Quaternion turned_by(const Vector2& slope) {
@@ -49,29 +51,44 @@ double softly_positive(double value, double soft) {
 void GroundFollower::reset() {
   feet_ = {};
   hips_ = {};
-  fresh_ = true;
+  fresh_ = appears_ = true;
   exact_ = level_ = missed_ = 0;
 }
 
-// From where to ask for the ground.
-double GroundFollower::above(const WorldPose& pose) const {
+void GroundFollower::forget_ground() {
+  for (FootOnGround& foot : feet_) foot.forget_ground();
+}
+
+// What asks for the ground: from a step's height over where it is.
+GroundProbe GroundFollower::probe(const WorldPose& pose) const {
   const double highest = kHighestStep / body_->scale;
-  if (!fresh_) return level_ + highest;
-  const auto from = [&](double height) { return GroundProbe(ground_, height).at(pose.root.head<2>()); };
-  const std::optional<GroundPoint> near = from(highest);
-  if (near && near->normal.z() > 0) return highest;
-  const std::optional<GroundPoint> top = from(kSky);
-  return top ? top->height + highest : highest;
+  GroundProbe probe(ground_, level_ + highest, appears_ ? kAskedAtFirst : kAsked);
+  if (!fresh_) return probe;
+  const std::optional<GroundPoint> near = probe.ask(pose.root.head<2>());
+  if (near && near->normal.z() > 0) return probe;
+  probe.look_from(kSky);
+  const std::optional<GroundPoint> top = probe.ask(pose.root.head<2>());
+  probe.look_from(top ? top->height + highest : highest);
+  return probe;
+}
+
+// The foot that stands, or lands first, asks first. Returns whether there is ground for both.
+bool GroundFollower::advance_feet(const FeetAhead& feet, double seconds, GroundProbe& probe) {
+  const int first = feet[1].due < feet[0].due ? 1 : 0;
+  bool found = true;
+  for (const int side : {first, 1 - first}) {
+    const int spared = side == first ? FootOnGround::kAsksAtLeast : 0;
+    found = feet_[side].advance(feet[side], lower(side, feet[side]), seconds, probe, spared) && found;
+  }
+  return found;
 }
 
 void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double seconds) {
-  const GroundProbe probe(ground_, above(pose));
+  GroundProbe probe = this->probe(pose);
+  appears_ = false;
   auto& [kinematics, legs, scale, bones, posed] = *body_;
   if (!legs[0].exists() || !legs[1].exists()) return follow_hips(pose, seconds, probe);
-  bool found = true;
-  for (int side = 0; side < 2; ++side)
-    found = feet_[side].advance(feet[side], lower(side, feet[side]), seconds, probe) && found;
-  if (!found) missed_ += seconds;
+  if (!advance_feet(feet, seconds, probe)) missed_ += seconds;
   get_exact(seconds);
   hips_.advance(pose.root.head<2>(), feet_, seconds);
   level_ = hips_.level();
@@ -123,8 +140,8 @@ bool GroundFollower::is_flat() const {
   return level(feet_[0]) && level(feet_[1]) && exact_ == 0 && hips_.sunk() == 0;
 }
 
-void GroundFollower::follow_hips(WorldPose& pose, double seconds, const GroundProbe& probe) {
-  const std::optional<GroundPoint> under = probe.at(pose.root.head<2>());
+void GroundFollower::follow_hips(WorldPose& pose, double seconds, GroundProbe& probe) {
+  const std::optional<Footing> under = probe.at(pose.root.head<2>());
   if (!under) missed_ += seconds;
   const double wanted = under ? under->height : level_;
   level_ += (fresh_ ? 1 : filtered(seconds, kHips)) * (wanted - level_);

@@ -21,6 +21,8 @@ class GroundFollower {
   /// Forgets where it was: the next pose stands on the ground under it, on the highest where several are one above the
   /// other, unless one of them is met from a step's height over 0.
   void reset();
+  /// The ground may be another than it was, under a body that goes on.
+  void forget_ground();
   /// Moves a pose that is shown `seconds` after the last one.
   void apply(WorldPose& pose, const FeetAhead& feet, double seconds);
 
@@ -32,8 +34,9 @@ class GroundFollower {
  private:
   friend struct PlayerState;
 
-  void follow_hips(WorldPose& pose, double seconds, const GroundProbe& probe);
-  double above(const WorldPose& pose) const;
+  void follow_hips(WorldPose& pose, double seconds, GroundProbe& probe);
+  GroundProbe probe(const WorldPose& pose) const;
+  bool advance_feet(const FeetAhead& feet, double seconds, GroundProbe& probe);
   void get_exact(double seconds);
   double lower(int side, const FootAhead& foot) const;
   bool is_flat() const;
@@ -48,7 +51,8 @@ class GroundFollower {
   HipsOnGround hips_;
   std::array<Quaternion, 2> turns_, heels_;  // of the feet: along the slope, and up at the heel after that
   bool fresh_ = true;
-  double exact_ = 0;  // how exactly a sole stands on its footing: 0 (as high as it was captured) .. 1
+  bool appears_ = false;  // by a reset, and not in a step
+  double exact_ = 0;      // how exactly a sole stands on its footing: 0 (as high as it was captured) .. 1
   double level_ = 0, missed_ = 0;
 };
 

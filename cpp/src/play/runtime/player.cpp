@@ -158,6 +158,10 @@ void Player::stand_on(Ground ground) {
   follower_ = ground ? std::make_shared<GroundFollower>(workspace_->body, std::move(ground)) : nullptr;
 }
 
+void Player::forget_ground() {
+  if (follower_ != nullptr) follower_->forget_ground();
+}
+
 double Player::ground_level() const { return follower_ != nullptr ? follower_->level() : 0; }
 
 double Player::ground_missed() const { return follower_ != nullptr ? follower_->missed() : 0; }

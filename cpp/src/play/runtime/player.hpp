@@ -105,6 +105,9 @@ class Player {
   const Reaching& reaching() const { return reaching_; }
   /// Stands and goes from now on on this ground (ground_follower.hpp), or, without one, on level ground at height 0.
   void stand_on(Ground ground);
+  /// The ground is another than it was, or lies otherwise to where it plays: what feet know of it beyond what they
+  /// stand on is asked for again.
+  void forget_ground();
   /// The height of the ground under it, m, as its hips follow it.
   double ground_level() const;
   /// Since it stands on its ground, or a reset: s in which it asked for ground where there is none, and went on at the

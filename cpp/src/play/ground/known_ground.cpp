@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "ground/known_ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kThere = 0.004;     // m within which it is the same place
+constexpr double kApart = 0.13;      // m between places that may be on one plane
+constexpr double kBeyondEnd = 0.03;  // m beyond the last place that is known, where the ground goes on
+constexpr double kOnePlane = 0.015;  // m by which two planes differ that are one
+
+constexpr double kEdge = 0.05;                                   // m that ground is beside a plane, at an edge
+constexpr double kBeyond = 0.04;                                 // m beyond the ends of a sole that are to be free
+constexpr double kOver = 0.15, kRatherOver = 0.1, kNear = 0.05;  // m that a sole is better moved
+
+}  // namespace
+
+bool KnownGround::agree(const Known& a, const Known& b) {
+  if (!a.exists || !b.exists) return a.exists == b.exists;
+  return std::abs(a.plane.at(b.plane.place) - b.plane.height) < kOnePlane &&
+         std::abs(b.plane.at(a.plane.place) - a.plane.height) < kOnePlane;
+}
+
+std::optional<Footing> KnownGround::ask(const Vector2& place, GroundProbe& probe) {
+  const std::optional<Footing> found = probe.at(place);
+  known_[next_] = {found.value_or(Footing{place, 0, Vector2::Zero()}), found.has_value()};
+  next_ = (next_ + 1) % kMost;
+  count_ = std::max(count_, next_ == 0 ? kMost : next_);
+  return found;
+}
+
+std::optional<Footing> KnownGround::at(const Vector2& place, const Along& along, GroundProbe& probe) {
+  struct Near {
+    const Known* known = nullptr;
+    double square = std::numeric_limits<double>::infinity(), ahead = 0, aside = 0;
+  };
+  Near behind, before;
+  for (int i = 0; i < count_; ++i) {
+    const Vector2 off = known_[i].plane.place - place;
+    const double square = off.x() * off.x() + off.y() * off.y(),
+                 ahead = off.x() * along.way.x() + off.y() * along.way.y();
+    Near& side = ahead > 0 ? before : behind;
+    if (square < side.square)
+      side = {&known_[i], square, std::abs(ahead), std::abs(off.x() * along.way.y() - off.y() * along.way.x())};
+  }
+  const Near& nearest = behind.square < before.square ? behind : before;
+  const bool between = behind.known && before.known && behind.ahead + before.ahead <= kApart,
+             one = between && agree(*behind.known, *before.known), same = nearest.square < kThere * kThere;
+  const auto level_with = [&](const Near& near) { return near.aside <= along.beside; };
+  const bool sure = same || (between ? one && level_with(behind) && level_with(before)
+                                     : nearest.known && nearest.ahead < kBeyondEnd && level_with(nearest));
+  if (!sure && probe.may_ask()) return ask(place, probe);
+  if (nearest.known == nullptr || !nearest.known->exists) return std::nullopt;
+  Footing found{place, nearest.known->plane.at(place), nearest.known->plane.slope};
+  if (one && !same) {
+    const double part = behind.ahead / (behind.ahead + before.ahead);
+    found.height = (1 - part) * behind.known->plane.at(place) + part * before.known->plane.at(place);
+  }
+  return found;
+}
+
+double KnownGround::edges(const Sole& sole, bool descends, double beside, GroundProbe& probe) {
+  const Vector2 heel = sole.heel.head<2>(), tip = sole.tip.head<2>(), along = (tip - heel).normalized();
+  const std::optional<Footing> ground = at(sole.place(), {along, beside}, probe);
+  if (count_ == 0) return 0;
+  if (!ground) return kInTheWay;
+  const auto edge = [&](const Vector2& place, double overhanging) {
+    const std::optional<Footing> there = at(place, {along, beside}, probe);
+    const double higher = there ? there->height - ground->at(place) : 0;
+    return higher > kEdge ? kInTheWay : higher < -kEdge ? overhanging : 0;
+  };
+  return edge(heel, descends ? kOver : kRatherOver) + edge(heel - kBeyond * along, kNear) +
+         edge(sole.place() + kBeyond * along, kInTheWay) + edge(tip + kBeyond * along, kNear) +
+         edge(tip, descends ? kRatherOver : kOver);
+}
+
+double KnownGround::over(const Sole& sole, double lower, const Footing& plane, const Along& along, GroundProbe& probe) {
+  double most = 0;
+  for (const Vector3& point : sole.points()) {
+    const std::optional<Footing> ground = at(point.head<2>(), along, probe);
+    if (!ground) continue;
+    most = std::max(most, ground->height - plane.at(point.head<2>()) - std::max(0.0, point.z() - lower));
+  }
+  return most;
+}
+
+}  // namespace fragmotion
