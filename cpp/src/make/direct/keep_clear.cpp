@@ -98,7 +98,7 @@ class Heeding {
 
   Walker walker(double radius) const {
     const CharacterFrame at = player().frame();
-    const Vector2 velocity = Eigen::Rotation2Dd(at.heading) * player().playback().mean_travel().velocity;
+    const Vector2 velocity = Eigen::Rotation2Dd(at.heading) * player().commanded_velocity();
     if (is_done()) return {place(at.position), Vector2::Zero(), radius, false};
     return {place(at.position), way(velocity), radius + kGoesOn * way(velocity).norm(), true};
   }

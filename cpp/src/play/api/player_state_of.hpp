@@ -289,7 +289,7 @@ void PlayerState::exchange(Archive& a, Player& player) {
   exchange(a, player.governor_);
   exchange(a, player.correction_);
   exchange(a, player.gaze_);
-  exchange(a, player.reaching_);
+  if (player.reaching_ != nullptr) exchange(a, *player.reaching_);
   a.number(player.entered_, 0, kMostCount);
   a.number(player.fragment_, 0, fragments - 1);
   vector(a, player.root_, kMostPlace);

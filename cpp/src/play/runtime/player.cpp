@@ -27,6 +27,8 @@ double within_one(double value, const char* name) {
 
 Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options)
     : Player(character, options, std::make_shared<Workspace>(*character, options.constants)) {
+  reaching_ = std::make_shared<Reaching>(*workspace_);
+  reaching_->apply(ground_level(), 0);
   make_extras(options);
 }
 
@@ -40,8 +42,7 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
       selector_(*workspace_, options.seed),
       playback_(*character_, *workspace_, options.stitching, within_one(options.stitch, "stitching time, in s,")),
       correction_(*character_, *workspace_, options.lock_feet),
-      gaze_(*workspace_),
-      reaching_(*workspace_) {
+      gaze_(*workspace_) {
   reset();
 }
 
@@ -58,6 +59,7 @@ void Player::set_options(const PlayerOptions& options) {
 
 Player Player::branch() const {
   Player player(*this);
+  if (reaching_ != nullptr) player.reaching_ = std::make_shared<Reaching>(*reaching_);
   if (extras_ != nullptr) player.extras_ = std::make_shared<Extras>(*extras_);
   if (follower_ != nullptr) player.follower_ = std::make_shared<GroundFollower>(*follower_);
   return player;
@@ -91,7 +93,7 @@ void Player::reset(const CharacterFrame& frame, int style) {
   selector_.reset();
   correction_.reset();
   gaze_.reset();
-  reaching_.reset();
+  if (reaching_ != nullptr) reaching_->reset();
   if (follower_ != nullptr) follower_->reset();
   fragment_ = styled_character().classes.representatives[director_.playing_class()];
   playback_.reset(fragment_, frame);
@@ -137,7 +139,7 @@ void Player::correct(const Control& control, double seconds) {
   }
   root_ = workspace_->shown.root;
   gaze_.apply(governor_.command(control, frame().heading, seconds), styled_character().space.turn_rate(), seconds);
-  reaching_.apply(ground_level(), seconds);
+  if (reaching_ != nullptr) reaching_->apply(ground_level(), seconds);
 }
 
 void Player::look(Look look, const Vector3& place) {
@@ -151,7 +153,7 @@ void Player::reach(int hand, const HandAim& aim) {
   require_range("the weight of a hand", aim.weight, 0, 1);
   for (const double value : aim.place)
     require_range("a place to reach for", value, -10 * kFarthestPlace, 10 * kFarthestPlace);
-  reaching_.reach(hand, aim);
+  reaching_->reach(hand, aim);
 }
 
 void Player::stand_on(Ground ground) {

@@ -102,7 +102,7 @@ class Player {
   /// What a hand (0 left, 1 right) holds or reaches for from now on (reaching.hpp); nothing after a reset. Throws
   /// std::invalid_argument unless there is the hand, its weight is 0 .. 1 and the place is within 1e10 m.
   void reach(int hand, const HandAim& aim);
-  const Reaching& reaching() const { return reaching_; }
+  const Reaching& reaching() const { return *reaching_; }
   /// Stands and goes from now on on this ground (ground_follower.hpp), or, without one, on level ground at height 0.
   void stand_on(Ground ground);
   /// The ground is another than it was, or lies otherwise to where it plays: what feet know of it beyond what they
@@ -204,7 +204,7 @@ class Player {
   Playback playback_;
   PoseCorrection correction_;
   Gaze gaze_;
-  Reaching reaching_;
+  std::shared_ptr<Reaching> reaching_;        // its own; null in a crowd's and in a rehearsal
   std::shared_ptr<Extras> extras_;            // its own; null without moves and styles, and in a rehearsal
   std::shared_ptr<GroundFollower> follower_;  // its own; null without ground
   int entered_ = 0;
