@@ -62,6 +62,14 @@ def test_a_table_marks_what_fails() -> None:
     assert lines[2].split() == ["sway", "0.7", "0.1", "0.9", "-0.2"]
 
 
+def test_a_bar_that_holds_is_not_lowered() -> None:
+    before = Spread(1.0, 0.1)
+    within, beyond, better = (Change("auc", before, now) for now in (Spread(1.05, 0.2), Spread(1.2, 0), Spread(0.9, 0)))
+    assert within.kept.now == before
+    assert beyond.kept == beyond
+    assert better.kept == better
+
+
 def test_a_bar_is_lowered_only_with_a_reason() -> None:
     better = [Change("auc", Spread(0.9, 0.1), Spread(0.7, 0.1))]
     assert lowering(better, "") == []

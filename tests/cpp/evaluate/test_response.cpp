@@ -17,7 +17,8 @@ TEST(ResponseTimes, AreOneForEveryStepBetweenVelocities) {
 }
 
 TEST(ResponseTimes, TellWhatAPolicyCannotDo) {
-  // Its takes stand, or walk forward: no step to another direction is ever answered. Others run forward, but to no side.
+  // Its takes stand, or walk forward: no step to another direction is ever answered. Others run forward, but to no
+  // side.
   const auto stands = std::make_shared<const Character>(tiny_character());
   const std::vector<double> times = response_times(stands);
   EXPECT_GT(std::count(times.begin(), times.end(), kNoResponse), 100);

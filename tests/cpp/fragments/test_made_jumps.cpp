@@ -77,8 +77,8 @@ TEST(MadeJumps, OfARunLandOnTheOtherFoot) {
     ++jumps;
     hops += contacts.feet[0][before] == contacts.feet[0][after] ? 1 : 0;
   }
-  EXPECT_GT(jumps, 20);
-  EXPECT_LE(hops, jumps / 20);
+  EXPECT_GE(jumps, 3);
+  EXPECT_EQ(hops, 0);
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "fragments/speed_range.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "base/random.hpp"
+#include "fragments/speed_range.hpp"
 
 namespace fragmotion {
 namespace {

@@ -157,7 +157,7 @@ TEST(FragmentSelector, LeavesAFragmentWithinItsTimeAndAtOnceWhereWaitingCostsMuc
   Choice choice(1);
   const Character& c = *choice.character;
   std::set<double> moments;
-  for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 53) {
+  for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 29) {
     choice.playback.reset(fragment, {});
     choice.playback.advance(0.04);
     const double end = choice.playback.seconds() + choice.playback.left();

@@ -27,7 +27,9 @@ def compare_or_write(why: str | None) -> int:
     say(gate.table(some))
     if why is None:
         return 1 if any(change.fails for change in some) else 0
-    gate.BASELINE.write_text(gate.written(now, [*lowered, *lowering(some, why.strip())]))
+    some = [change.kept for change in some]
+    kept = {**now, **{change.name: change.now for change in some}}
+    gate.BASELINE.write_text(gate.written(kept, [*lowered, *lowering(some, why.strip())]))
     say(f"written: {gate.BASELINE}")
     return 0
 

@@ -117,6 +117,11 @@ class Change(NamedTuple):
         return bar(self.name, self.now) > bar(self.name, self.before) + self._rounding
 
     @property
+    def kept(self) -> Change:
+        """What a new baseline keeps: the former one where that would be lowered, though nothing fails."""
+        return self._replace(now=self.before) if self.lowers and not self.fails else self
+
+    @property
     def _rounding(self) -> float:
         return _ROUNDING * abs(self.before.mean)
 

@@ -116,8 +116,7 @@ void PlayerState::exchange(Archive& a, Playback& playback, int of_style, const N
 
 template <typename Archive>
 void PlayerState::exchange(Archive& a, FootLock& lock) {
-  for (int leg = 0; leg < std::max(2, lock.body_->legs.count()); ++leg) {
-    FootLock::Foot& foot = lock.feet_[leg];
+  for (FootLock::Foot& foot : lock.feet_) {
     a.number(foot.locked, 0, 1);
     a.number(foot.steps, 0, 1);
     for (Vector2* place : {&foot.moved, &foot.shown, &foot.place, &foot.offset}) vector(a, *place, kMostPlace);

@@ -66,11 +66,14 @@ FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs)
 FootLock::FootLock(const Kinematics& kinematics, const Legs& legs)
     : FootLock(std::make_shared<Body>(kinematics, legs)) {}
 
-FootLock::FootLock(std::shared_ptr<Body> body) : body_(std::move(body)) { reset(); }
+FootLock::FootLock(std::shared_ptr<Body> body) : body_(std::move(body)), feet_(std::max(2, body_->legs.count())) {
+  reset();
+}
 
 void FootLock::reset() {
-  feet_ = {};
-  for (Foot& foot : feet_) foot.free = kRelease;
+  Foot free;
+  free.free = kRelease;
+  std::fill(feet_.begin(), feet_.end(), free);
   sunk_ = stood_ = 0;
   fresh_ = true;
 }
@@ -82,7 +85,7 @@ void FootLock::lock(Foot& foot, const Vector2& shown, double seconds) const {
 }
 
 bool FootLock::all_locked() const {
-  return std::all_of(feet_.begin(), feet_.begin() + body_->legs.count(), [](const Foot& foot) { return foot.locked; });
+  return std::all_of(feet_.begin(), feet_.end(), [](const Foot& foot) { return foot.locked; });
 }
 
 // A body that has come to stand does not stay in the middle of a stride.

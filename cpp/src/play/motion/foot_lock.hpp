@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "motion/contacts.hpp"
 #include "motion/pose.hpp"
@@ -88,10 +89,10 @@ class FootLock {
   void release(Foot& foot, const Vector2& held) const;
 
   std::shared_ptr<Body> body_;
-  std::array<Foot, kMostLegs> feet_;
-  bool fresh_ = true;  // no pose was shown yet
-  double stood_ = 0;   // s that all feet are locked
-  double sunk_ = 0;    // m that the hips are lowered
+  std::vector<Foot> feet_;  // of each leg, or two where there is none
+  bool fresh_ = true;       // no pose was shown yet
+  double stood_ = 0;        // s that all feet are locked
+  double sunk_ = 0;         // m that the hips are lowered
 };
 
 }  // namespace fragmotion
