@@ -54,7 +54,7 @@ def _readme(options: argparse.Namespace) -> None:
 
 
 def _film(options: argparse.Namespace) -> None:
-    _run_python("tools.docs.film")
+    _run_python("tools.film")
 
 
 def _play(options: argparse.Namespace) -> None:

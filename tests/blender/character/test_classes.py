@@ -215,7 +215,7 @@ def test_a_file_that_is_saved_during_a_preview_has_the_armature_as_it_was(
 
 def test_a_preview_that_is_too_far_away_says_so(addon: ModuleType, obj: bpy.types.Object) -> None:
     before = making.contents()
-    obj.location.xy = 1e6, 1e6
+    obj.location.xy = 1e6 + 10, 1e6 + 10
     with pytest.raises(addon.errors.UserError, match=f"^Armature '{obj.name}': .*more than 1000 km from the origin"):
         addon.preview.class_preview.ClassPreview(bpy.context, obj, 0)
     assert making.contents() == before

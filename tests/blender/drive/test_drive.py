@@ -158,7 +158,7 @@ def test_what_is_recorded_replays_as_it_was_seen(addon: ModuleType, session: Mod
     player = addon.compat.core.core.Player(driven.actor.character, recording.seed)
     player.reset(*begin)
     performance = player.run(trace, RATE)
-    assert way(seen) > 3, "the character stood while it was recorded"
+    assert way(seen) > 2, "the character stood while it was recorded"
     np.testing.assert_allclose(performance.path[1 : len(seen) + 1, :2], np.array(seen)[:, :2], atol=1e-9)
     assert recording.quality == pytest.approx(performance.quality, abs=0.01)
 
@@ -173,7 +173,7 @@ def test_a_recording_is_replayed_live(session: ModuleType, obj: bpy.types.Object
     for _ in seen:
         driven.update(1 / RATE)
         replayed.append(driven.player.frame)
-    assert way(replayed) > 3
+    assert way(replayed) > 2
     np.testing.assert_allclose(replayed, seen, atol=1e-4)
     go_on(driven, 1)
     assert driven.control == (0, 0, 0, 0) and not driven.inputs.trace.playing

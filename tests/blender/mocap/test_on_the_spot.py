@@ -50,7 +50,7 @@ def test_a_few_clips_make_a_character_that_goes_everywhere(addon: ModuleType, sp
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
     obj = bpy.context.view_layer.objects.active
     figures, character = obj.fragmotion.figures, addon.character.building.load(obj)
-    assert figures.abilities.startswith("Walks and runs in all directions")
+    assert figures.abilities.startswith("Walks in all directions and runs forward")
     assert character.space.speeds == pytest.approx(list(speeds.values()), rel=0.15)
 
 
