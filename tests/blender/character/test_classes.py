@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -214,11 +215,16 @@ def test_a_file_that_is_saved_during_a_preview_has_the_armature_as_it_was(
 
 
 def test_a_preview_that_is_too_far_away_says_so(addon: ModuleType, obj: bpy.types.Object) -> None:
-    before = making.contents()
-    obj.location.xy = 1e6 + 10, 1e6 + 10
-    with pytest.raises(addon.errors.UserError, match=f"^Armature '{obj.name}': .*more than 1000 km from the origin"):
-        addon.preview.class_preview.ClassPreview(bpy.context, obj, 0)
-    assert making.contents() == before
+    preview, before, said = addon.preview.class_preview.ClassPreview, making.contents(), set()
+    obj.location.xy = 1e6, 1e6
+    for number in range(len(addon.character.building.load(obj).representatives)):
+        try:
+            preview(bpy.context, obj, number).end()
+        except addon.errors.UserError as error:
+            said.add(str(error))
+        assert making.contents() == before
+    (text,) = said
+    assert re.match(f"Armature '{obj.name}': .*more than 1000 km from the origin", text)
 
 
 def test_the_inspector_shows_the_best_and_the_chosen(addon: ModuleType, obj: bpy.types.Object) -> None:
