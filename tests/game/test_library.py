@@ -8,6 +8,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -102,6 +103,20 @@ def test_what_is_installed_is_the_libraries_and_two_headers(prefix: Path) -> Non
     headers = {path.name for path in prefix.rglob("*.h*")}
     assert headers == {"fragmotion.h", "fragmotion.hpp"}
     assert (prefix.rglob("fragmotion.pc")) and list(prefix.rglob("fragmotionConfig.cmake"))
+
+
+@pytest.mark.parametrize("standard", ["c99", "c17", "c++17", "c++20", "c++2b"])
+@pytest.mark.parametrize("c", [c for c, _ in COMPILERS] + ["zig"])
+def test_no_compiler_finds_fault_with_the_headers(c: str, standard: str, tmp_path: Path) -> None:
+    is_cpp = standard.startswith("c++")
+    zig = [sys.executable, "-m", "ziglang", "c++" if is_cpp else "cc"]
+    command = zig if c == "zig" else [dict(COMPILERS)[c] if is_cpp else c]
+    source = tmp_path / ("game.cpp" if is_cpp else "game.c")
+    source.write_text(f"#include <fragmotion/fragmotion.h{'pp' if is_cpp else ''}>\n")
+    strict = ["-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Werror"]
+    caches = {"ZIG_GLOBAL_CACHE_DIR": str(TOP / "build" / "zig" / "cache"), "ZIG_LOCAL_CACHE_DIR": str(tmp_path)}
+    options = [f"-std={standard}", *strict, f"-I{HEADER.parents[1]}", "-c", source, "-o", tmp_path / "game.o"]
+    run(*command, *options, **caches)
 
 
 @pytest.fixture(scope="session")

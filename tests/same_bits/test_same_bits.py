@@ -25,6 +25,7 @@ INCLUDE = f"-I{TOP / 'cpp' / 'include'}"
 FOLDER = BUILD / "same-bits"
 POLICY = TOP / "tests" / "data" / "styles.policy"
 LIBRARY = ("fragmotion_static", "game/libfragmotion.a")
+DLL = ("fragmotion_shared", "game/libfragmotion.dll.a")
 # What the add-on's module is linked from, and the mathematics' objects: compiled with the flags that the module has, as
 # everything else here.
 ADDON = (
@@ -76,11 +77,12 @@ def by_zig(
     options = cross.toolchain(folder.name, target, system)
     libraries = built(folder, wanted, options, cross.environment())
     compilers = [cross.zig(), "cc", "-target", target], [cross.zig(), "c++", "-target", target]
-    return [*runner, link(folder, *compilers, libraries, "wild_game.exe" if system == "Windows" else "wild_game")]
+    game = "wild_game.exe" if system == "Windows" else "wild_game"
+    return [*runner, link(folder / "game", *compilers, libraries, game)]
 
 
 def by_wine(folder: Path, wanted: tuple[str, ...]) -> list[str | Path]:
-    """For Windows, compiled as the add-on's core for it is."""
+    """For Windows, compiled as the add-on's core for it is; the game stands beside the library."""
     return by_zig(WINDOWS.target, WINDOWS.system, [windows.loader()], folder, wanted)
 
 
@@ -110,7 +112,8 @@ MACHINES = (
     Machine("addon", by_this_machine, ADDON),
     Machine("clang-musl", partial(by_zig, "x86_64-linux-musl", "Linux", ())),
     Machine("arm64", partial(by_zig, "aarch64-linux-musl", "Linux", ("qemu-aarch64",))),
-    Machine("windows", by_wine, ADDON),
+    Machine("windows", by_wine, DLL),
+    Machine("windows-addon", by_wine, ADDON),
     Machine("web", by_emscripten),
 )
 
