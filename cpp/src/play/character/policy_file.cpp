@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "base/fnv.hpp"
 #include "base/read_file.hpp"
@@ -45,7 +46,7 @@ void check_memory(const Character& c, std::size_t size) {
 void complete(Character& c, std::uint32_t version) {
   Legs legs = resting_legs(c.pool.skeleton);
   for (int leg = 0; leg < kMostLegs; ++leg) legs[leg].hinge = c.legs[leg].hinge;
-  c.legs = legs;
+  c.legs = std::move(legs);
   if (version < 5) repair_policies(c);
   find_whole_jumps(c.pool);
   c.entry_poses = entry_poses(c.pool);
