@@ -70,11 +70,8 @@ bool Player::held(bool done, const char* function) const {
 }
 
 bool Player::play(Object policy, std::int64_t seed) {
-  auto* given = ours<Policy>(policy);
-  if (given == nullptr || !given->is_valid()) {
-    complain("there is no policy: import a .policy file and set it", __func__);
-    return false;
-  }
+  const Policy* given = Policy::given(policy, __func__);
+  if (given == nullptr) return false;
   FragmotionPlayerOptions options = fragmotion_player_options();
   options.seed = static_cast<std::uint64_t>(seed);
   game::Player made(given->character(), options);

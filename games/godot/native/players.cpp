@@ -7,11 +7,8 @@
 namespace fragmotion::godot {
 
 bool Players::make(Object policy, std::int64_t count, std::int64_t seed) {
-  auto* given = ours<Policy>(policy);
-  if (given == nullptr || !given->is_valid()) {
-    complain("there is no policy: import a .policy file and set it", __func__);
-    return false;
-  }
+  const Policy* given = Policy::given(policy, __func__);
+  if (given == nullptr) return false;
   FragmotionPlayerOptions options = fragmotion_player_options();
   options.seed = static_cast<std::uint64_t>(seed);
   const auto many = static_cast<std::int32_t>(std::clamp<std::int64_t>(count, -1, INT32_MAX));

@@ -19,6 +19,13 @@ StringArray names(std::int32_t count, const Name_& name) {
 
 }  // namespace
 
+Policy* Policy::given(Object policy, const char* function) {
+  auto* given = ours<Policy>(policy);
+  if (given != nullptr && given->is_valid()) return given;
+  complain("there is no policy: import a .policy file and set it", function);
+  return nullptr;
+}
+
 void Policy::set_data(ByteArray data) {
   data_ = std::move(data);
   const std::int64_t size = size_of(data_);

@@ -12,6 +12,9 @@ class Policy {
   static constexpr const char *kName = "FragmotionPolicy", *kParent = "Resource";
   static void add();
 
+  /// The one that a call was given; where that is none or holds no character it is complained of, and nullptr.
+  static Policy* given(Object policy, const char* function);
+
   /// Bytes that are no policy are complained of, and leave no character.
   void set_data(ByteArray data);
   ByteArray get_data() { return data_; }
