@@ -17,10 +17,9 @@ constexpr double kControl = 1 / kTraceRate;        // s
 constexpr double kNearGoal = 0.5;                  // m of a 1.8 m character: what is nearer than that is no goal
 constexpr double kGoalLate = 1.5, kGoalLater = 3;  // times as long as planned, and s more: then a goal is given up
 constexpr double kMostScale = 1e6;
-constexpr double kGoesOn =
-    0.2;                      // s that a body goes on as it goes, until it can do otherwise: it takes so much more room
-constexpr int kForgets = 10;  // controls after which it forgets on which side it went past something
-constexpr int kGlances = 8;   // at the way that it would go, for what stands there
+constexpr double kGoesOn = 0.2;  // s until a body can do otherwise, in which it goes on: it takes so much more room
+constexpr int kForgets = 10;     // controls after which it forgets on which side it went past something
+constexpr int kGlances = 8;      // at the way that it would go, for what stands there
 
 // The place of an outline that is next to another, and whether that is inside.
 struct Beside {
