@@ -85,7 +85,7 @@ def test_every_figure_of_the_run_time_is_shown(run: Run) -> None:
 @pytest.mark.thorough
 def test_response_beyond_physics_is_what_a_body_does_not_need(built: core.Character) -> None:
     space, found = built.space, run_time.responses(built, [3])
-    velocities = [space.points[i][:2] for i in range(0, 102, 6)]
+    velocities = list(built.able(space.points[::6])[:, :2])
     changes = [np.linalg.norm(b - a) for a in velocities for b in velocities if a is not b]
     rest = core.response_times(built, 3) - np.array(changes) * space.scale / 5
     assert found["response_beyond_physics_p50_s"] == pytest.approx(np.median(rest))

@@ -8,11 +8,13 @@ namespace {
 
 constexpr double kOfStep = 0.9;  // of the step
 
-double response(Runner& runner, const Control& from, const Control& to) {
-  const Vector2 before{from.x, from.y}, step = Vector2{to.x, to.y} - before;
+double response(Runner& runner, const Character& character, const Control& from, const Control& to) {
+  const Control before = character.admitted(from), after = character.admitted(to);
+  const Vector2 begin{before.x, before.y}, step = Vector2{after.x, after.y} - begin;
+  if (step.isZero()) return 0;
   for (int f = 1; f <= kNoResponse * Runner::kRate; ++f) {
     runner.frame(to);
-    if ((runner.velocity() - before).dot(step) >= kOfStep * step.squaredNorm()) return f / Runner::kRate;
+    if ((runner.velocity() - begin).dot(step) >= kOfStep * step.squaredNorm()) return f / Runner::kRate;
   }
   return kNoResponse;
 }
@@ -30,7 +32,7 @@ std::vector<double> response_times(const std::shared_ptr<const Character>& chara
     for (int to = 0; to < space.layout().velocities(); ++to) {
       if (to == from) continue;
       runner.hold(point(from), random);
-      times.push_back(response(runner, point(from), point(to)));
+      times.push_back(response(runner, *character, point(from), point(to)));
     }
   }
   return times;

@@ -157,15 +157,17 @@ def responses(character: core.Character, seeds: Iterable[int], **options: Any) -
     """Half of all changes of velocity are answered within p50, 95 of 100 within p95, s, by players of these seeds; and
     the same of what is left of each answer's time without the time that a body needs for the change."""
     times = np.array([core.response_times(character, seed, **options) for seed in seeds])
-    quickest = _changes(character.space) * character.space.scale / _BODY
+    quickest = _changes(character) * character.space.scale / _BODY
     names = ("response_p50_s", "response_p95_s", *BEYOND_PHYSICS)
     figures = [*np.percentile(times, [50, 95]), *np.percentile(times - quickest, [50, 95])]
     return {name: float(figure) for name, figure in zip(names, figures)}
 
 
-def _changes(space: core.ControlSpace) -> core.Doubles:
-    """How much the velocity changes, m/s, in each of the core's response times: from each velocity to every other."""
-    velocities = space.points.reshape(*space.shape, -1)[:, 0, 0, :2]
+def _changes(character: core.Character) -> core.Doubles:
+    """How much the velocity changes, m/s, in each of the core's response times: from each velocity to every other, as
+    far as the character is able to do them."""
+    space = character.space
+    velocities = character.able(space.points.reshape(*space.shape, -1)[:, 0, 0])[:, :2]
     changes: core.Doubles = np.linalg.norm(velocities[:, None] - velocities[None], axis=2)
     different: core.Doubles = changes[~np.eye(len(changes), dtype=bool)]
     return different
