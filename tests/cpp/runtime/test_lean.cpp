@@ -15,7 +15,7 @@ namespace {
 struct LeaningBody {
   Skeleton skeleton = humanoid();
   Kinematics kinematics{skeleton};
-  Lean lean{Trunk(skeleton), 1};
+  Lean lean{Trunk(skeleton), resting_legs(skeleton), 1};
   Clip clip = gait_clip({0, 0, 0});
   double heading = 0;
 
@@ -25,9 +25,15 @@ struct LeaningBody {
     clip = gait_clip(gait);
   }
 
-  // The heads of hips, chest, head and left foot, seen from the character frame, after an acceleration for a while.
-  std::array<Vector3, 4> after(const Vector2& acceleration, double seconds) {
-    std::array<Vector3, 4> heads;
+  // Seen from the character frame, m.
+  struct Seen {
+    Vector3 hips, head, foot;
+    Quaternion chest;
+  };
+
+  // As it is after an acceleration for a while.
+  Seen after(const Vector2& acceleration, double seconds) {
+    Seen seen;
     for (double t = 0; t < seconds; t += kStep) {
       WorldPose pose{load_vector(clip.root_positions.data()), clip.headings[0], {}};
       pose.rotations.assign(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
@@ -35,33 +41,36 @@ struct LeaningBody {
       PosedBones posed(skeleton.size());
       kinematics.world(pose.root, pose.rotations.data(), posed.heads.data(), posed.rotations.data());
       const CharacterFrame frame{pose.root.head<2>(), pose.heading};
-      const int bones[] = {skeleton.roles.hips, 1, skeleton.roles.head, skeleton.roles.left_foot};
-      for (int i = 0; i < 4; ++i) heads[i] = frame.rotation().inverse() * (posed.heads[bones[i]] - pose.root);
+      const Eigen::Quaterniond back{frame.rotation().inverse()};
+      const auto place = [&](int bone) { return Vector3{back * (posed.heads[bone] - pose.root)}; };
+      seen = {place(skeleton.roles.hips), place(skeleton.roles.head), place(skeleton.roles.left_foot),
+              back * posed.rotations[Trunk(skeleton).chest]};
     }
-    return heads;
+    return seen;
   }
 };
 
 TEST(Lean, LeansTheTrunkIntoTheAccelerationByHalfOfWhatBalancesIt) {
   LeaningBody body;
   const auto upright = body.after({0, 0}, 0.5);
+  const double hip_joint = body.skeleton.offsets[resting_legs(body.skeleton)[0].thigh].norm();
   for (const double angle : {0.0, 1.0, 2.5, -2.0}) {
     const Vector2 acceleration = 4 * Vector2{std::cos(angle), std::sin(angle)};
     const auto leaning = body.after(acceleration, 2);
-    const Vector2 goes = (leaning[2] - upright[2]).head<2>();
-    EXPECT_GT(goes.dot(acceleration.normalized()), 0.99 * goes.norm());
-    const double spine = (upright[2] - upright[1]).norm();
-    EXPECT_NEAR(goes.norm() / spine, std::sin(0.5 * std::atan(4 / 9.81)), 0.03);
-    for (const int still : {0, 3}) EXPECT_LT((leaning[still] - upright[still]).norm(), 1e-9);
+    const Eigen::AngleAxisd lean{leaning.chest * upright.chest.conjugate()};
+    EXPECT_GT(lean.axis().dot(Vector3{-acceleration.y(), acceleration.x(), 0}.normalized()), 0.99);
+    EXPECT_NEAR(lean.angle(), 0.5 * std::atan(4 / 9.81), 0.01);
+    EXPECT_LT((leaning.hips - upright.hips).norm(), 1e-9);
+    EXPECT_LT((leaning.foot - upright.foot).norm(), lean.angle() * hip_joint);
   }
 }
 
 TEST(Lean, ComesAndGoesSmoothly) {
   LeaningBody body;
-  Vector3 before = body.after({0, 0}, kStep)[2];
+  Vector3 before = body.after({0, 0}, kStep).head;
   const auto steps = [&](const Vector2& acceleration) {
     for (int f = 0; f < 60; ++f) {
-      const Vector3 now = body.after(acceleration, kStep / 2)[2];
+      const Vector3 now = body.after(acceleration, kStep / 2).head;
       EXPECT_LT((now - before).norm(), 0.02) << f;  // 1.2 m/s
       before = now;
     }
@@ -76,13 +85,11 @@ TEST(Lean, ComesAndGoesSmoothly) {
 TEST(Lean, TurnsTheTrunkNoFasterThanPeopleDoWhereAPushIsReversed) {
   constexpr double kFastest = 1.6;  // rad/s
   LeaningBody body;
-  const auto upright = body.after({0, 0}, kStep);
-  const double spine = (upright[2] - upright[1]).norm();
-  Vector3 before = body.after({0, 4.8}, 2)[2];
+  Quaternion before = body.after({0, 4.8}, 2).chest;
   double fastest = 0;
   for (int f = 0; f < 60; ++f) {
-    const Vector3 now = body.after({0, -4.8}, kStep / 2)[2];
-    fastest = std::max(fastest, (now - before).norm() / spine / kStep);
+    const Quaternion now = body.after({0, -4.8}, kStep / 2).chest;
+    fastest = std::max(fastest, now.angularDistance(before) / kStep);
     before = now;
   }
   EXPECT_LT(fastest, kFastest);
@@ -92,9 +99,11 @@ TEST(Lean, TurnsTheTrunkNoFasterThanPeopleDoWhereAPushIsReversed) {
 TEST(Lean, LeavesASkeletonWithoutASpineAsItIs) {
   LeaningBody body;
   body.skeleton.roles.left_hand = body.skeleton.roles.right_hand = -1;
-  body.lean = Lean(Trunk(body.skeleton), 1);
+  body.lean = Lean(Trunk(body.skeleton), resting_legs(body.skeleton), 1);
   const auto upright = body.after({0, 0}, 0.5), leaning = body.after({0, 5}, 1);
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(upright[i], leaning[i]);
+  EXPECT_EQ(upright.head, leaning.head);
+  EXPECT_EQ(upright.foot, leaning.foot);
+  EXPECT_EQ(upright.chest.coeffs(), leaning.chest.coeffs());
 }
 
 }  // namespace

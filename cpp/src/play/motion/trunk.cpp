@@ -44,6 +44,11 @@ void turn_spine(const Skeleton& skeleton, const Trunk& trunk, const Vector3& axi
   int bones = 0;
   for (int b = trunk.chest; b != end; b = skeleton.parents[b]) ++bones;
   for (int b = trunk.chest; b != end; b = skeleton.parents[b]) turn_bone(skeleton, b, axis, angle / bones, rotations);
+  turn_head_back(skeleton, trunk, axis, angle, rotations);
+}
+
+void turn_head_back(const Skeleton& skeleton, const Trunk& trunk, const Vector3& axis, double angle,
+                    double* rotations) {
   if (trunk.head >= 0) turn_bone(skeleton, trunk.head, axis, -kHead * angle, rotations);
 }
 

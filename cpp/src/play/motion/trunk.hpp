@@ -22,4 +22,7 @@ void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, double a
 /// of it. Does nothing where there is no spine.
 void turn_spine(const Skeleton& skeleton, const Trunk& trunk, const Vector3& axis, double angle, double* rotations);
 
+/// Turns the head, where there is one, back by half of the angle by which the trunk has turned.
+void turn_head_back(const Skeleton& skeleton, const Trunk& trunk, const Vector3& axis, double angle, double* rotations);
+
 }  // namespace fragmotion

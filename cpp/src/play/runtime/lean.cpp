@@ -22,9 +22,21 @@ void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& accel
   acceleration_ += part * (pushed_ - acceleration_);
   const double strength = acceleration_.norm();
   if (strength < kLeast || trunk_.base < 0) return;
-  const double angle = kShare * std::atan(strength / kGravity);
-  const Vector2 across = Eigen::Rotation2Dd(pose.heading) * Vector2{-acceleration_.y(), acceleration_.x()} / strength;
-  turn_spine(skeleton, trunk_, {across.x(), across.y(), 0}, angle, pose.rotations.data());
+  const Vector2 lean = kShare * std::atan(strength / kGravity) / strength * acceleration_;
+  pitch(skeleton, pose.heading, lean.y(), pose.rotations.data());
+  const Vector2 forward = Eigen::Rotation2Dd(pose.heading) * Vector2::UnitY();
+  turn_spine(skeleton, trunk_, {forward.x(), forward.y(), 0}, lean.x(), pose.rotations.data());
+}
+
+// Forward; the legs stay as they are.
+void Lean::pitch(const Skeleton& skeleton, double heading, double angle, double* rotations) const {
+  const Vector2 left = Eigen::Rotation2Dd(heading) * -Vector2::UnitX();
+  const Vector3 axis{left.x(), left.y(), 0};
+  for (const int thigh : thighs_) {
+    if (thigh >= 0) turn_bone(skeleton, thigh, axis, -angle, rotations);
+  }
+  turn_bone(skeleton, skeleton.roles.hips, axis, angle, rotations);
+  turn_head_back(skeleton, trunk_, axis, angle, rotations);
 }
 
 }  // namespace fragmotion

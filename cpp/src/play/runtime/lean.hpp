@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+
 #include "motion/pose.hpp"
 #include "motion/trunk.hpp"
+#include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
 
-/// Leans the trunk of a body that gets faster, slower or turns aside into its acceleration, as what pushes at its feet
-/// must not tip it over: by part of the angle whose tangent is the acceleration over gravity. The head goes back by
-/// half of that. Does nothing to a skeleton without a spine. Allocates nothing once it is made.
+/// Leans a body that gets faster, slower or turns aside into its acceleration, as what pushes at its feet must not tip
+/// it over: by part of the angle whose tangent is the acceleration over gravity, forward and backward from the hips on,
+/// to the side by its spine, as hips that tilt would lift a foot. The head goes back by half of that. Does nothing to a
+/// skeleton without a spine. Allocates nothing once it is made.
 class Lean {
  public:
   /// `scale` as ControlSpace::scale().
-  Lean(const Trunk& trunk, double scale) : trunk_(trunk), scale_(scale) {}
+  Lean(const Trunk& trunk, const Legs& legs, double scale)
+      : trunk_(trunk), thighs_{legs[0].thigh, legs[1].thigh}, scale_(scale) {}
 
   /// Stands upright.
   void reset() { pushed_ = acceleration_ = Vector2::Zero(); }
@@ -25,7 +30,10 @@ class Lean {
  private:
   friend struct PlayerState;
 
+  void pitch(const Skeleton& skeleton, double heading, double angle, double* rotations) const;
+
   Trunk trunk_;
+  std::array<int, 2> thighs_;
   double scale_;
   Vector2 pushed_ = Vector2::Zero(), acceleration_ = Vector2::Zero();  // halfway, and as the lean follows it
 };

@@ -20,7 +20,7 @@ PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace,
       scale_(character.space.scale()),
       lock_feet_(lock_feet),
       foot_lock_(workspace.body),
-      lean_(Trunk(workspace.kinematics.skeleton()), scale_) {}
+      lean_(workspace.trunk, workspace.body->legs, scale_) {}
 
 void PoseCorrection::set_lock_feet(bool lock_feet) {
   if (lock_feet != lock_feet_) foot_lock_.reset();
