@@ -17,8 +17,7 @@ inline constexpr StitchConstants kUsualStitch{};
 struct RootLimits {
   double acceleration = 4.8;  ///< m/s^2 of a 1.8 m character: of the velocity, at a responsiveness of a half.
   double stride = 0.6;        ///< Of a fragment's speed: by so much its strides are made longer or shorter at most.
-  double slowest = 0.75;      ///< Of the captured tempo: at least so fast, and
-  double fastest = 1.2;       ///< at most so fast its steps follow each other.
+  double fastest = 1.2;       ///< Of the captured tempo: at most so fast its steps follow each other.
   double settles = 0.03;      ///< s: time constant of what is added to what plays.
   double sways = 0.05;        ///< m/s of a 1.8 m character: at most so fast one sways that stands.
 };
@@ -53,7 +52,6 @@ void for_each_constant(Constants& constants, const Visit& visit) {
   visit("stitch_calms", constants.stitch.calms);
   visit("root_acceleration", constants.root.acceleration);
   visit("root_stride", constants.root.stride);
-  visit("root_slowest", constants.root.slowest);
   visit("root_fastest", constants.root.fastest);
   visit("root_settles", constants.root.settles);
   visit("root_sways", constants.root.sways);

@@ -54,7 +54,7 @@ void RootGovernor::steer_tempo(const Control& command, const Playback& playback,
   const double least = kMoving / space_->scale();
   const bool goes = evident.speed() > least && command.speed() > least && !evident.jumps();
   const double faster = goes ? std::sqrt(command.speed() / evident.speed()) : 1,
-               wanted = 1 + root_adjustment_ * (std::clamp(faster, limits_->slowest, limits_->fastest) - 1);
+               wanted = 1 + root_adjustment_ * (std::min(faster, limits_->fastest) - 1);
   tempo_ += filtered(seconds, playback.step_seconds() / 2) * (wanted - tempo_);
 }
 
