@@ -44,13 +44,16 @@ class Hop {
   double flight() const;                                 ///< s
   double seconds() const { return 2 * crouch() + flight(); }
   double at(double seconds) const;  ///< The height at a time from the beginning, 0 .. seconds().
+  /// rad by which the arms are swung forward then: back as the body begins to sink, forward until it flies, and down to
+  /// the landing; further for a jump that takes off faster.
+  double arms(double seconds) const;
 
  private:
   double dip_, sinking_, speed_, pushing_;
 };
 
 /// Adds a hop to a clip, from its first frame on: the knees bend and the trunk bows as the body goes down over the
-/// feet, and in the air the feet are drawn up.
+/// feet, the arms swing, and in the air the feet are drawn up.
 void add_hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, const Hop& hop);
 
 }  // namespace fragmotion
