@@ -30,6 +30,7 @@ INTERVAL = 0.5  # s between moments, about
 FEWEST = 12  # moments: with fewer the bodies would be higher than their row
 LARGEST = 150.0  # pixels a metre, from above
 ROOM = 0.62  # statures that a moment is wide
+ARMS_UP = 0.2  # statures over the head
 LEFT, RIGHT, SLIDES, INK, FAINT = "#0b7d9c", "#d3691f", "#e0003c", "#222222", "#9a9a9a"
 PUSHES, PUSHED = "#2c9440", SLIDES
 HARD = 6.0  # m/s^2 of a 1.8 m character: a sprinter's start
@@ -47,15 +48,17 @@ def draw_sheet(movement: Movement, rows: Sequence[Row], actor: Actor, feet: Feet
     plans = [_seen_from_above(row.motion, feet) for row in rows]
     scale = min(_scale(plan) for plan in plans)
     heights = [_height(plan, scale) for plan in plans]
-    tall = 2 * LINE + 8 + sum(LINE + STRIP + AXIS + height + LINE + 12 for height in heights) + 2 * LINE
+    duration = max(row.motion.seconds for row in rows)
+    width = _moments(duration) * ROOM * actor.stature
+    strip = STRIP + INNER / width * max(_flight(row.motion, actor.stature) for row in rows)
+    tall = 2 * LINE + 8 + sum(LINE + strip + AXIS + height + LINE + 12 for height in heights) + 2 * LINE
     figure = pyplot.figure(figsize=(WIDTH / DPI, tall / DPI), dpi=DPI, facecolor=PAPER)
     _write(figure, tall, LINE, movement.title, size=15, weight="bold")
     top: float = 2 * LINE + 8
-    duration = max(row.motion.seconds for row in rows)
     for row, plan, height in zip(rows, plans, heights):
-        _draw_row(figure, tall, top, row, actor, duration)
-        _draw_plan(_axes(figure, tall, top + LINE + STRIP + AXIS, height), plan, row.motion, feet, scale)
-        top += LINE + STRIP + AXIS + height
+        _draw_row(figure, tall, top, row, actor, duration, round(strip))
+        _draw_plan(_axes(figure, tall, top + LINE + strip + AXIS, height), plan, row.motion, feet, scale)
+        top += LINE + strip + AXIS + height
         _write(figure, tall, top + LINE / 2, row.figures, size=11)
         top += LINE + 12
     _write(figure, tall, top + LINE, _LEGEND, size=9, color="#555555")
@@ -74,9 +77,19 @@ def _write(figure: Figure, tall: float, top: float, text: str, **how: Any) -> No
     figure.text(MARGIN / WIDTH, 1 - top / tall, text, va="center", **{"color": INK, **how})
 
 
-def _draw_row(figure: Figure, tall: float, top: float, row: Row, actor: Actor, duration: float) -> None:
-    """The moments over a line of time with the stitches."""
-    count = max(FEWEST, round(duration / INTERVAL) + 1)
+def _moments(duration: float) -> int:
+    return max(FEWEST, round(duration / INTERVAL) + 1)
+
+
+def _flight(motion: Motion, stature: float) -> float:
+    """How much higher than a body that stands one gets that jumps and holds its arms up, m."""
+    rise = float(np.max(motion.roots[:, 2]) - np.median(motion.roots[:, 2]))
+    return rise + ARMS_UP * stature if rise > ARMS_UP * stature / 2 else 0.0
+
+
+def _draw_row(figure: Figure, tall: float, top: float, row: Row, actor: Actor, duration: float, high: int) -> None:
+    """The moments over a line of time with the stitches, in a strip that is so high."""
+    count = _moments(duration)
     interval = duration / (count - 1)
     motion = row.motion
     times = [k * interval for k in range(count) if k * interval <= motion.seconds + 1e-6]
@@ -84,12 +97,12 @@ def _draw_row(figure: Figure, tall: float, top: float, row: Row, actor: Actor, d
     places = [(k + 0.5) * ROOM * actor.stature for k in range(len(times))]
     frames = [min(round(time * motion.rate), len(motion.roots) - 1) for time in times]
     _write(figure, tall, top + LINE / 2, row.title, size=11, weight="bold")
-    picture = actor.strip(motion, frames, places, width, (INNER, STRIP))
-    strip = _axes(figure, tall, top + LINE, STRIP)
+    picture = actor.strip(motion, frames, places, width, (INNER, high))
+    strip = _axes(figure, tall, top + LINE, high)
     strip.imshow(picture, aspect="auto")
     for frame, place in zip(frames, places):
-        _draw_acceleration(strip, motion, frame, place, INNER / width, actor.stature)
-    line = _axes(figure, tall, top + LINE + STRIP, AXIS)
+        _draw_acceleration(strip, motion, frame, place, INNER / width, actor.stature, high)
+    line = _axes(figure, tall, top + LINE + high, AXIS)
     line.set(xlim=(-interval / 2, duration + interval / 2), ylim=(0, 1))
     line.plot([0, motion.seconds], [0.85, 0.85], color=FAINT, lw=0.8)
     line.plot(motion.stitches / motion.rate, np.full(len(motion.stitches), 0.85), "v", color=INK, ms=5)
@@ -97,11 +110,13 @@ def _draw_row(figure: Figure, tall: float, top: float, row: Row, actor: Actor, d
         line.text(time, 0.32, f"{time:.1f} s", ha="center", va="center", size=8, color="#555555")
 
 
-def _draw_acceleration(axes: Axes, motion: Motion, frame: int, place: float, scale: float, stature: float) -> None:
-    """An arrow at the hips of a body that stands at `place` m in a strip of `scale` pixels a metre."""
+def _draw_acceleration(
+    axes: Axes, motion: Motion, frame: int, place: float, scale: float, stature: float, high: int
+) -> None:  # fmt: skip
+    """An arrow at the hips of a body that stands at `place` m in a strip of `scale` pixels a metre, so high."""
     acceleration = motion.acceleration(frame)
     right, up = seen(acceleration * (stature / _GRAVITY)) * scale
-    x, y = place * scale, STRIP - above_the_lower_edge(motion.roots[frame, 2], stature) * scale
+    x, y = place * scale, high - above_the_lower_edge(motion.roots[frame, 2], stature) * scale
     colour = PUSHED if np.linalg.norm(acceleration) * STATURE / stature > HARD else PUSHES
     arrow = {"arrowstyle": "-|>", "color": colour, "lw": 2, "shrinkA": 0, "shrinkB": 0}
     if np.hypot(right, up) > _SHORTEST:
