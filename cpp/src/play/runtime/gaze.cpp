@@ -14,9 +14,10 @@ constexpr double kTurnsIn =
     0.5;  // s: a person's head takes so long (W. Zangemeister, L. Stark, Exp. Neurology 77, 1982)
 constexpr double kSeenAhead =
     1;  // s: walkers look where they are then (A. Patla, J. Vickers, Exp. Brain Research 148, 2003)
-constexpr double kPeak = 1.5;      // times as fast as on the mean is an Approach half way
-constexpr double kSlowest = 1e-3;  // rad/s, of a head that never turns in its takes
-constexpr double kNearest = 1e-3;  // m: what is nearer to the eyes has no direction
+constexpr double kPeak = 1.5;                // times as fast as on the mean is an Approach half way
+constexpr double kSlowest = 1e-3;            // rad/s, of a head that never turns in its takes
+constexpr double kRightBehind = 0.75 * kPi;  // rad: from there on it is over the shoulder that was looked over already
+constexpr double kNearest = 1e-3;            // m: what is nearer to the eyes has no direction
 
 double turned(double angle) { return std::remainder(angle, 2 * kPi); }
 
@@ -54,7 +55,7 @@ Gaze::Angles Gaze::towards(const Vector3& eyes) const {
 
 Gaze::Angles Gaze::within(Angles angles) const {
   const GazeRange& range = workspace_->gaze;
-  const bool behind = std::abs(angles[0]) > kPi / 2 && wants_;
+  const bool behind = std::abs(angles[0]) > kRightBehind && wants_;
   if (std::abs(angles[0]) > range.turn) angles[0] = std::copysign(range.turn, behind ? wanted_[0] : angles[0]);
   angles[1] = std::clamp(angles[1], range.down, range.up);
   return angles;
