@@ -55,6 +55,8 @@ _THREADED_TESTS = "Thread|ParallelFor|Crowd"
 # Whole characters made again and again for their figures, an hour's takes: what these call, others call as well.
 # Neither under sanitizers nor among the quick ones.
 _THOROUGH = (
+    "ApiMakeWay.KeepsTwoHundredOnASquareApart",
+    "ApiMakeWay.LetsNobodyTouchWhereAHundredGoThroughOnePlace",
     "Build.GivesTheSameBitsForAnyNumberOfThreads",
     "Build.GivesTheSameBitsWhereASkeletonHasOneLeg",
     "Build.HasClassesForHopsOnTheSpotAndAhead",
@@ -75,8 +77,11 @@ _THOROUGH = (
     "Doctor.LosesNothingWhereThePiecesOfALongTakeMeet",
     "Doctor.PutsRightAnyUnit",
     "FragmentSelector.Leaves*",
+    "GroundFollower.AsksForTheGroundAtMostEightTimesAStep",
     "GroundFollower.GoesTheSameWayOnTheSlopeAndIsTheSameEveryTime",
     "GroundFollower.ShowsOnLevelGroundToTheBitWhatIsShownWithoutGround",
+    "KeepClear.KeepsTwoHundredOnASquareApart",
+    "MakeWay.LetsNobodyTouchAnotherWhoDoesAsIsSaid",
     "Mirror.ReflectsRealTakesWithinTheBonesAsymmetry",
     "MotionMetrics.FindsLessSkateWhereFeetAreLocked",
     "OptimalPerformance.IsNeverReachedByAPlayer",
