@@ -45,8 +45,9 @@ def test_worse_is_more_or_less_or_further_away() -> None:
     assert fails("successors", 0.5, 0.1, 0.39) and not fails("successors", 0.5, 0.1, 0.41)
     assert not fails("successors", 0.5, 0.1, 0.9)
     assert fails("sway", 0.8, 0.1, 0.69) and fails("sway", 0.8, 0.1, 1.31) and not fails("sway", 0.8, 0.1, 1.29)
-    assert fails("whips", 0, 0, 0.01) and not fails("whips", 0, 0, 0)
     assert not fails("response_p50_s", 0.5, 0, 0.516) and fails("response_p50_s", 0.5, 0, 0.517), "a frame"
+    assert not fails("whips", 0, 0, 0.2) and fails("whips", 0, 0, 0.21), "one in five minutes"
+    assert not fails("left_right", 1, 0, 1.033) and fails("left_right", 1, 0, 1.034), "a frame of a step"
 
 
 def test_a_spread_is_of_all_seeds() -> None:

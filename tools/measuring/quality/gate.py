@@ -15,7 +15,7 @@ SEEDS = (1, 2, 3, 4)
 ABOUT = (
     "Figures of `fragmotion evaluate --quick` on the sample's takes, which tools/measuring/quality/sample.py "
     "makes: mean, and spread (greatest less least), over seeds 1 to 4. A change may make no mean worse by more "
-    "than its spread, or, of times of response, a frame: tests/python/test_quality.py. `python3 -m "
+    "than its spread, or, of what is told by frames or counted, the least that can be told: tests/python/test_quality.py. `python3 -m "
     "tools.measuring.quality` compares; with --write 'why' it writes this anew, and under `lowered` each bar that"
     " is lower than it was, and why. A bar is the worst mean that passes; of a figure that is best at a value, "
     "how far from that it may be."
@@ -77,7 +77,13 @@ WORSE: Mapping[str, Better] = {
 """The figures, by their names in the JSON file of `fragmotion evaluate`, and what makes each of them better."""
 
 _FRAME = 1 / 60  # s, by which times of response are told
-_GRAINS = {name: _FRAME for name in WORSE if name.startswith("response")}
+_STEP = 0.5  # s, of which left ones are told over right ones
+_A_MINUTE = 0.2  # whips, which are few: as many as are allowed
+_GRAINS = {
+    **{name: _FRAME for name in WORSE if name.startswith("response")},
+    "left_right": _FRAME / _STEP,
+    "whips": _A_MINUTE,
+}
 _DIGITS = 6  # of what is written
 _ROUNDING = 1e-5  # of a figure, which is no change
 

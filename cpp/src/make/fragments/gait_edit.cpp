@@ -267,8 +267,12 @@ Clip gait_in_flight(const Kinematics& kinematics, const Clip& clip, double take_
   return result;
 }
 
-Hop::Hop(double height, double dip, double sinking)
-    : dip_(dip), sinking_(sinking), speed_(std::sqrt(2 * kGravity * height)), pushing_(2 * dip / speed_) {}
+Hop::Hop(double height, double dip, double sinking, double running)
+    : dip_(dip),
+      sinking_(sinking),
+      speed_(std::sqrt(2 * kGravity * height)),
+      pushing_(2 * dip / speed_),
+      swing_((1 - running) * speed_) {}
 
 double Hop::flight() const { return 2 * speed_ / kGravity; }
 
@@ -282,7 +286,7 @@ double Hop::at(double seconds) const {
 }
 
 double Hop::arms(double seconds) const {
-  const double forward = kArmsForward * speed_, back = -kArmsBack * speed_;
+  const double forward = kArmsForward * swing_, back = -kArmsBack * swing_;
   const double turn = sinking_ / 2, top = crouch() + flight() / 4, landing = crouch() + flight();
   if (seconds < turn) return back * ease_in_ease_out(seconds / turn);
   if (seconds < top) return back + (forward - back) * ease_in_ease_out((seconds - turn) / (top - turn));

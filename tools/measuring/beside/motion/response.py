@@ -29,14 +29,16 @@ class Steps(NamedTuple):
     after: list[Array]
 
 
-def step_traces(space: core.ControlSpace, seed: int) -> list[Steps]:
-    """One for each of the 17 velocities."""
+def step_traces(character: core.Character, seed: int) -> list[Steps]:
+    """One for each of the 17 velocities; what is waited for is as much of each as the character is able to do."""
     random = np.random.default_rng(seed)
-    velocities = space.points.reshape(*space.shape, -1)[:, 0, 0, :2]
-    return [_steps(velocities, i, random) for i in range(len(velocities))]
+    space = character.space
+    controls = space.points.reshape(*space.shape, -1)[:, 0, 0]
+    able = character.able(controls)[:, :2]
+    return [_steps(controls[:, :2], able, i, random) for i in range(len(controls))]
 
 
-def _steps(velocities: Array, own: int, random: np.random.Generator) -> Steps:
+def _steps(velocities: Array, able: Array, own: int, random: np.random.Generator) -> Steps:
     shown: list[int] = []
     rows, after = [], []
     for other in range(len(velocities)):
@@ -44,16 +46,16 @@ def _steps(velocities: Array, own: int, random: np.random.Generator) -> Steps:
             continue
         shown += [own] * int(random.integers(_LEAST, _MOST + 1))
         rows.append(len(shown))
-        after.append(velocities[other])
+        after.append(able[other])
         shown += [other] * _AFTER
     trace = np.zeros((len(shown), 4))
     trace[:, :2] = velocities[shown]
-    return Steps(velocities[own], trace, rows, after)
+    return Steps(able[own], trace, rows, after)
 
 
 def response_times(setting: Setting, system: System, seed: int) -> Array:
     """[272] s; NO_RESPONSE where it takes longer."""
-    steps = step_traces(setting.space, seed)
+    steps = step_traces(setting.character, seed)
     played = system.play([each.trace for each in steps], [seed] * len(steps))
     times = [
         _time(shown.judged.path, each.before, after, _FRAMES_A_ROW * row)
