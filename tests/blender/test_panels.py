@@ -15,7 +15,7 @@ class Layout:
     """Notes what a panel draws: fields by their names, buttons by their operators."""
 
     def __init__(self, noted: dict[str, list[str]] | None = None) -> None:
-        self.__dict__["noted"] = {"fields": [], "buttons": [], "texts": []} if noted is None else noted
+        self.__dict__["noted"] = {"fields": [], "buttons": [], "texts": [], "icons": []} if noted is None else noted
 
     def __setattr__(self, name: str, value: object) -> None:
         """Any layout's settings are welcome."""
@@ -36,13 +36,17 @@ class Layout:
         self.noted["buttons"].append(name)
         return SimpleNamespace()
 
-    def label(self, text: str = "", **_options: Any) -> None:
+    def label(self, text: str = "", icon: str = "NONE", **_options: Any) -> None:
         self.noted["texts"].append(text)
+        self.noted["icons"].append(icon)
+
+    def separator(self, factor: float = 1.0, **_options: Any) -> None:
+        self.noted["icons"].append(f"{factor:g}")
 
     def template_list(self, *_arguments: Any, **_options: Any) -> None:
         """A list is no field."""
 
-    progress = template_ID = template_icon = separator = menu = template_list
+    progress = template_ID = template_icon = menu = template_list
 
 
 def drawn(panel: Any) -> dict[str, list[str]]:
@@ -104,6 +108,18 @@ def test_every_panel_can_be_drawn(addon: ModuleType) -> None:
     panels = shown(addon, lambda _panel: True)
     assert len(panels) > 20
     assert all(any(drawn(panel).values()) for panel in panels if panel.bl_label != "Coverage"), "but for pictures"
+
+
+@pytest.mark.skipif(bpy.app.version < (4, 3, 0), reason="all icons are as wide as high")
+def test_wide_icons_of_keys_get_room_in_the_status_bar(addon: ModuleType) -> None:
+    status, shown, layout = addon.operators.base.status, [], Layout()
+    workspace = SimpleNamespace(status_text_set=shown.append)
+    status.show(workspace, [status.Hint(("ESC", "W"), "End"), status.Hint(("SPACE",), "Jump")])
+    shown[0](SimpleNamespace(layout=layout), None)
+    assert layout.noted["icons"] == [
+        *("EVENT_ESC", "1.5", "EVENT_W", "NONE", "2"),
+        *("EVENT_SPACEKEY", "3", "NONE", "2"),
+    ]
 
 
 @pytest.mark.parametrize(

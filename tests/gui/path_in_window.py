@@ -61,6 +61,20 @@ def walk_to_a_click() -> Iterator[None]:
     yield from window.until(lambda: session.current is None, "the end of the drive", 50)
 
 
+def edit_curves() -> Iterator[None]:
+    """The curves of a recording are shown, in a window of their own where no editor would show them."""
+    manager = bpy.context.window_manager
+    for _ in range(2):
+        window.press(bpy.ops.fragmotion.edit_curves, "EXEC_DEFAULT", True)
+        yield from window.drawn()
+        assert len(manager.windows) == 2, "one Graph Editor is enough"
+    added = manager.windows[-1]
+    assert [area.ui_type for area in added.screen.areas] == ["FCURVES"]
+    with bpy.context.temp_override(window=added):
+        bpy.ops.wm.window_close()
+    yield from window.drawn()
+
+
 def session_of_tests() -> Iterator[None]:
     """The whole of it."""
     obj = making.open_sample()
@@ -91,6 +105,7 @@ def session_of_tests() -> Iterator[None]:
     bpy.context.scene.frame_set(70)
     yield from window.picture("2 followed")
     yield from walk_to_a_click()
+    yield from edit_curves()
     window.show_all()
     print("SESSION PASSED")
 

@@ -195,7 +195,7 @@ class FRAGMOTION_PT_build(Sidebar, bpy.types.Panel):
             return
         if obj is not None and building.has_character(obj):
             column = layout.column(align=True)
-            draw_fold(column, context, "build", f"{obj.fragmotion.figures.classes} classes")
+            draw_fold(column, context, "build", "Build Again")
             draw_summary(column, context, obj.fragmotion.figures)
             if is_stale(obj):
                 layout.label(text="Stale: Actions changed", icon="ERROR")
