@@ -15,7 +15,7 @@ class Layout:
     """Notes what a panel draws: fields by their names, buttons by their operators."""
 
     def __init__(self, noted: dict[str, list[str]] | None = None) -> None:
-        self.__dict__["noted"] = {"fields": [], "buttons": [], "texts": [], "icons": []} if noted is None else noted
+        self.__dict__["noted"] = {"fields": [], "buttons": [], "texts": [], "icons": [], "button icons": []} if noted is None else noted
 
     def __setattr__(self, name: str, value: object) -> None:
         """Any layout's settings are welcome."""
@@ -32,8 +32,9 @@ class Layout:
     def prop_search(self, _data: Any, name: str, *_others: Any, **_options: Any) -> None:
         self.noted["fields"].append(name)
 
-    def operator(self, name: str, **_options: Any) -> SimpleNamespace:
+    def operator(self, name: str, icon: str = "NONE", **_options: Any) -> SimpleNamespace:
         self.noted["buttons"].append(name)
+        self.noted["button icons"].append(icon)
         return SimpleNamespace()
 
     def label(self, text: str = "", icon: str = "NONE", **_options: Any) -> None:
@@ -96,6 +97,21 @@ def test_a_new_user_has_few_fields_in_sight(addon: ModuleType) -> None:
     assert stages["recorded"]["fields"] == ["relative"]
     for stage, needed in (("sample", "build"), ("built", "drive"), ("recorded", "bake")):
         assert f"fragmotion.{needed}" in stages[stage]["buttons"]
+
+
+def test_who_is_new_sees_three_clicks_until_he_waves_them_away(addon: ModuleType) -> None:
+    preferences, panel = addon.settings.preferences, addon.panels.first_steps.FRAGMOTION_PT_first_steps
+    assert in_sight(addon)["panels"][0] == "First Steps"
+    assert drawn(panel)["buttons"] == ["fragmotion.add_sample", "fragmotion.build", "fragmotion.drive"]
+    assert in_sight(addon)["buttons"].count("fragmotion.add_sample") == 1
+    for done, button in enumerate(drawn(panel)["buttons"][:2], 1):
+        assert getattr(bpy.ops.fragmotion, button.partition(".")[2])("EXEC_DEFAULT") == {"FINISHED"}
+        assert drawn(panel)["button icons"].count("CHECKMARK") == done
+    preferences.end_first_steps(bpy.context)
+    assert "First Steps" not in in_sight(addon)["panels"]
+    bpy.context.view_layer.objects.active = None
+    assert in_sight(addon)["buttons"].count("fragmotion.add_sample") == 1
+    preferences.get(bpy.context).first_steps = True
 
 
 def test_every_panel_can_be_drawn(addon: ModuleType) -> None:

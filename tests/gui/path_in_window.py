@@ -44,10 +44,12 @@ def draw() -> Iterator[None]:
 
 def walk_to_a_click() -> Iterator[None]:
     """Drive, and click on the ground: the character goes there, and the drive ends as any."""
+    preferences = window.module("settings.preferences")
     session, ground = window.module("drive.session"), window.module("paths.drawing").ground_under
     window.press(bpy.ops.fragmotion.drive)
     yield from window.seconds(0.5)
     driven, (x, y) = session.current, CLICKED
+    assert preferences.get(bpy.context).first_steps, "the first steps go before the first drive"
     driven.settings.follow = False
     area = window.view()["area"]
     region = window.view()["region"]
@@ -59,6 +61,7 @@ def walk_to_a_click() -> Iterator[None]:
     assert math.dist(driven.actor.frame[:2], place[:2]) < 0.3
     yield from window.send("ESC", "PRESS", x, y)
     yield from window.until(lambda: session.current is None, "the end of the drive", 50)
+    yield from window.until(lambda: not preferences.get(bpy.context).first_steps, "the end of the first steps", 50)
 
 
 def edit_curves() -> Iterator[None]:

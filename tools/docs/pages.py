@@ -53,6 +53,10 @@ def _readme(options: argparse.Namespace) -> None:
     _run_python("tools.docs.drive_picture")
 
 
+def _icon(options: argparse.Namespace) -> None:
+    _run_python("tools.docs.icon")
+
+
 def _film(options: argparse.Namespace) -> None:
     _run_python("tools.film")
 
@@ -141,6 +145,7 @@ def _run_in_window(script: str, folder: Path) -> None:
 
 PAGES: dict[str, Callable[[argparse.Namespace], None]] = {
     "readme": _readme,
+    "icon": _icon,
     "guide": _guide,
     "play": _play,
     "motion": _motion,
