@@ -15,7 +15,8 @@ class Layout:
     """Notes what a panel draws: fields by their names, buttons by their operators."""
 
     def __init__(self, noted: dict[str, list[str]] | None = None) -> None:
-        self.__dict__["noted"] = {"fields": [], "buttons": [], "texts": [], "icons": [], "button icons": []} if noted is None else noted
+        kinds = ("fields", "buttons", "button icons", "texts", "icons")
+        self.__dict__["noted"] = {kind: [] for kind in kinds} if noted is None else noted
 
     def __setattr__(self, name: str, value: object) -> None:
         """Any layout's settings are welcome."""
