@@ -12,6 +12,7 @@ from pathlib import Path
 
 from tools import demo
 from tools.docs import pages
+from tools.docs.in_window import running as windows
 from tools.games import godot, web
 from tools.measuring import benchmarks, running
 from tools.measuring.beside import inputs as beside_inputs
@@ -57,7 +58,8 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     docs = commands.add_parser("docs", help="make the pictures and tables of README.md and docs")
     pages.add_arguments(docs)
     unstable_parser = commands.add_parser(
-        "unstable", help="set up Debian unstable for `test engines`, several gigabytes; or run a command in it"
+        "unstable",
+        help="set up Debian unstable for `test engines` and `docs`, gigabytes; or run a command in it",
     )
     unstable_parser.add_argument("words", nargs=argparse.REMAINDER, metavar="COMMAND", help="what to run")
     live = commands.add_parser("web", help="make the live page: a folder of static files for any web server")
@@ -91,10 +93,10 @@ def package(names: list[str] | None, python: str | None) -> int:
 
 
 def run_in_unstable(words: list[str]) -> int:
-    """Set Debian unstable up for the engines, or run a command in it, from this folder."""
+    """Set Debian unstable up for the engines and the pictures, or run a command in it, from this folder."""
     if words:
         return subprocess.run(unstable.command(words), check=False).returncode
-    unstable.set_up(engines.packages())
+    unstable.set_up(sorted({*engines.packages(), *windows.PACKAGES}))
     return 0
 
 

@@ -7,6 +7,7 @@ import bpy
 
 from . import command_line, operators
 from .character import building, coverage_picture, inspector, staleness, storing
+from .compat import icons
 from .drive import handlers
 from .games import serving
 from .mocap import actions
@@ -30,7 +31,7 @@ def register() -> None:
     for cls in _CLASSES:
         bpy.utils.register_class(cls)
     properties.register()
-    for part in (mending, staleness, storing, keymaps, menus, handlers, command_line):
+    for part in (icons, mending, staleness, storing, keymaps, menus, handlers, command_line):
         part.register()
 
 
@@ -39,7 +40,7 @@ def unregister() -> None:
     background.stop()
     serving.stop()
     waking.unregister()
-    for part in (command_line, handlers, menus, keymaps, storing, staleness, mending):
+    for part in (command_line, handlers, menus, keymaps, storing, staleness, mending, icons):
         part.unregister()
     properties.unregister()
     for cls in reversed(_CLASSES):

@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "direct/follow_path.hpp"
 #include "direct/keep_clear.hpp"
+#include "direct/painted_area.hpp"
 #include "direct/steering.hpp"
 #include "player_options.hpp"
 
@@ -17,6 +18,7 @@ using OneFollower = OneCallAtATime<PathFollower>;
 using Frame = std::tuple<double, double, double>;
 
 constexpr double kFarthest = 1e6;  // m
+constexpr int kMostPlaces = 1000000;
 
 CharacterFrame to_frame(const Frame& frame) {
   const auto& [x, y, heading] = frame;
@@ -222,6 +224,57 @@ void bind_keep_clear(py::module_& m) {
   });
 }
 
+PaintedArea make_area(const Doubles& corners, const Doubles& paint) {
+  check_shape(corners, "corners", {-1, 3, 3});
+  check_shape(paint, "paint", {corners.shape(0), 3});
+  const std::vector<double> places = to_vector(corners, "corners", -kFarthest, kFarthest), shares = to_vector(paint);
+  std::vector<PaintedTriangle> triangles(static_cast<std::size_t>(corners.shape(0)));
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      triangles[t].corners[corner] = Eigen::Map<const Vector3>(&places[9 * t + 3 * corner]);
+      triangles[t].paint[corner] = shares[3 * t + corner];
+    }
+  }
+  return PaintedArea(std::move(triangles));
+}
+
+py::array_t<double> to_rows(const std::vector<Vector3>& places) {
+  std::vector<double> rows;
+  for (const Vector3& place : places) rows.insert(rows.end(), place.data(), place.data() + 3);
+  return to_array(std::move(rows), {static_cast<py::ssize_t>(places.size()), 3});
+}
+
+void check_count(int count) {
+  if (count < 0 || count > kMostPlaces) throw std::invalid_argument("the number of places must be 0 to 1000000");
+}
+
+void bind_area(py::module_& m) {
+  py::class_<PaintedArea>(m, "PaintedArea", py::module_local())
+      .def(py::init(&make_area), py::arg("corners"), py::arg("paint"))
+      .def(
+          "draw",
+          [](const PaintedArea& area, int count, std::uint64_t seed) {
+            check_count(count);
+            return to_rows(without_gil([&] {
+              Random random(seed);
+              std::vector<Vector3> places;
+              for (int i = 0; i < count; ++i) places.push_back(area.draw(random));
+              return places;
+            }));
+          },
+          py::arg("count"), py::arg("seed"))
+      .def(
+          "draw_apart",
+          [](const PaintedArea& area, int count, double spacing, std::uint64_t seed) {
+            check_count(count);
+            return to_rows(without_gil([&] {
+              Random random(seed);
+              return area.draw_apart(random, count, spacing);
+            }));
+          },
+          py::arg("count"), py::arg("spacing"), py::arg("seed"));
+}
+
 void bind_steering(py::module_& m) {
   py::class_<Steering>(m, "Steering", py::module_local())
       .def(py::init([](const ControlSpace& space, bool walk_turns, bool run_turns) {
@@ -253,6 +306,7 @@ void bind_direct(py::module_& m) {
   bind_follower(m);
   bind_walk(m);
   bind_keep_clear(m);
+  bind_area(m);
   bind_steering(m);
 }
 

@@ -915,6 +915,17 @@ def keep_clear(
     Stepped at `rate`, from the same start and seed, each shows the same motion. ValueError on what is out of its
     range."""
 
+class PaintedArea:
+    """Triangles, corners [T,3,3] in m, each corner painted 0 to 1, [T,3]; ValueError where nothing is painted."""
+
+    def __init__(self, corners: ArrayLike, paint: ArrayLike) -> None: ...
+    def draw(self, count: int, seed: int) -> Doubles:
+        """Places [count,3] on it: the more is painted there, the likelier, linear between the corners."""
+
+    def draw_apart(self, count: int, spacing: float, seed: int) -> Doubles:
+        """Such places [N,3], seen from above no two of them nearer than `spacing`, m: N is `count`, or fewer where no
+        room is found for more."""
+
 class Performance:
     """What a player did."""
 

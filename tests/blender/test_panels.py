@@ -15,7 +15,8 @@ class Layout:
     """Notes what a panel draws: fields by their names, buttons by their operators."""
 
     def __init__(self, noted: dict[str, list[str]] | None = None) -> None:
-        self.__dict__["noted"] = {"fields": [], "buttons": [], "texts": []} if noted is None else noted
+        kinds = ("fields", "buttons", "button icons", "texts", "icons")
+        self.__dict__["noted"] = {kind: [] for kind in kinds} if noted is None else noted
 
     def __setattr__(self, name: str, value: object) -> None:
         """Any layout's settings are welcome."""
@@ -32,17 +33,22 @@ class Layout:
     def prop_search(self, _data: Any, name: str, *_others: Any, **_options: Any) -> None:
         self.noted["fields"].append(name)
 
-    def operator(self, name: str, **_options: Any) -> SimpleNamespace:
+    def operator(self, name: str, icon: str = "NONE", **_options: Any) -> SimpleNamespace:
         self.noted["buttons"].append(name)
+        self.noted["button icons"].append(icon)
         return SimpleNamespace()
 
-    def label(self, text: str = "", **_options: Any) -> None:
+    def label(self, text: str = "", icon: str = "NONE", **_options: Any) -> None:
         self.noted["texts"].append(text)
+        self.noted["icons"].append(icon)
+
+    def separator(self, factor: float = 1.0, **_options: Any) -> None:
+        self.noted["icons"].append(f"{factor:g}")
 
     def template_list(self, *_arguments: Any, **_options: Any) -> None:
         """A list is no field."""
 
-    progress = template_ID = template_icon = separator = menu = template_list
+    progress = template_ID = template_icon = menu = template_list
 
 
 def drawn(panel: Any) -> dict[str, list[str]]:
@@ -94,6 +100,21 @@ def test_a_new_user_has_few_fields_in_sight(addon: ModuleType) -> None:
         assert f"fragmotion.{needed}" in stages[stage]["buttons"]
 
 
+def test_who_is_new_sees_three_clicks_until_he_waves_them_away(addon: ModuleType) -> None:
+    preferences, panel = addon.settings.preferences, addon.panels.first_steps.FRAGMOTION_PT_first_steps
+    assert in_sight(addon)["panels"][0] == "First Steps"
+    assert drawn(panel)["buttons"] == ["fragmotion.add_sample", "fragmotion.build", "fragmotion.drive"]
+    assert in_sight(addon)["buttons"].count("fragmotion.add_sample") == 1
+    for done, button in enumerate(drawn(panel)["buttons"][:2], 1):
+        assert getattr(bpy.ops.fragmotion, button.partition(".")[2])("EXEC_DEFAULT") == {"FINISHED"}
+        assert drawn(panel)["button icons"].count("CHECKMARK") == done
+    preferences.end_first_steps(bpy.context)
+    assert "First Steps" not in in_sight(addon)["panels"]
+    bpy.context.view_layer.objects.active = None
+    assert in_sight(addon)["buttons"].count("fragmotion.add_sample") == 1
+    preferences.get(bpy.context).first_steps = True
+
+
 def test_every_panel_can_be_drawn(addon: ModuleType) -> None:
     assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
     obj = bpy.context.active_object
@@ -104,6 +125,18 @@ def test_every_panel_can_be_drawn(addon: ModuleType) -> None:
     panels = shown(addon, lambda _panel: True)
     assert len(panels) > 20
     assert all(any(drawn(panel).values()) for panel in panels if panel.bl_label != "Coverage"), "but for pictures"
+
+
+@pytest.mark.skipif(bpy.app.version < (4, 3, 0), reason="all icons are as wide as high")
+def test_wide_icons_of_keys_get_room_in_the_status_bar(addon: ModuleType) -> None:
+    status, shown, layout = addon.operators.base.status, [], Layout()
+    workspace = SimpleNamespace(status_text_set=shown.append)
+    status.show(workspace, [status.Hint(("ESC", "W"), "End"), status.Hint(("SPACE",), "Jump")])
+    shown[0](SimpleNamespace(layout=layout), None)
+    assert layout.noted["icons"] == [
+        *("EVENT_ESC", "1.5", "EVENT_W", "NONE", "2"),
+        *("EVENT_SPACEKEY", "3", "NONE", "2"),
+    ]
 
 
 @pytest.mark.parametrize(

@@ -67,7 +67,7 @@ def test_every_operator_has_a_tooltip_and_undoes_what_it_changes(addon: ModuleTy
 def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) -> None:
     panels = [cls for cls in addon.panels.panel.CLASSES if issubclass(cls, bpy.types.Panel)]
     assert [panel.bl_label for panel in panels] == [
-        *("Control Rig", "Mocap", "Style", "Left Out", "Doctor", "Bones"),
+        *("First Steps", "Control Rig", "Mocap", "Style", "Left Out", "Doctor", "Bones"),
         *("Build", "Build Options", "Numbers Tried", "Classes", "Coverage"),
         *("Advanced", "Training", "Figures", "Inspector", "Policy File"),
         *("Drive", "Drive Options", "Feel", "Ground", "Gamepads", "Overlays", "Trace"),

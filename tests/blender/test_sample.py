@@ -103,3 +103,9 @@ def test_it_stands_at_the_origin_where_nothing_is_in_its_way(addon: ModuleType) 
     bpy.context.active_object.hide_set(True)
     assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
     assert tuple(bpy.context.active_object.location) == (0, 0, 0)
+
+
+def test_nothing_is_amiss_on_the_console(addon: ModuleType, capfd: pytest.CaptureFixture[str]) -> None:
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    said = capfd.readouterr()
+    assert "matches no enum" not in said.out + said.err

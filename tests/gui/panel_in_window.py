@@ -89,6 +89,7 @@ def steps() -> Iterator[None]:
     bpy.data.objects.remove(bpy.data.objects["Cube"])
     yield from open_tab()
     yield from picture("1 empty")
+    window.module("settings.preferences").end_first_steps(bpy.context)
     takes = Path(FOLDER) / "takes"
     takes.mkdir()
     for seed in (1, 2, 3):

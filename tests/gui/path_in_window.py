@@ -44,10 +44,12 @@ def draw() -> Iterator[None]:
 
 def walk_to_a_click() -> Iterator[None]:
     """Drive, and click on the ground: the character goes there, and the drive ends as any."""
+    preferences = window.module("settings.preferences")
     session, ground = window.module("drive.session"), window.module("paths.drawing").ground_under
     window.press(bpy.ops.fragmotion.drive)
     yield from window.seconds(0.5)
     driven, (x, y) = session.current, CLICKED
+    assert preferences.get(bpy.context).first_steps, "the first steps go before the first drive"
     driven.settings.follow = False
     area = window.view()["area"]
     region = window.view()["region"]
@@ -59,6 +61,21 @@ def walk_to_a_click() -> Iterator[None]:
     assert math.dist(driven.actor.frame[:2], place[:2]) < 0.3
     yield from window.send("ESC", "PRESS", x, y)
     yield from window.until(lambda: session.current is None, "the end of the drive", 50)
+    yield from window.until(lambda: not preferences.get(bpy.context).first_steps, "the end of the first steps", 50)
+
+
+def edit_curves() -> Iterator[None]:
+    """The curves of a recording are shown, in a window of their own where no editor would show them."""
+    manager = bpy.context.window_manager
+    for _ in range(2):
+        window.press(bpy.ops.fragmotion.edit_curves, "EXEC_DEFAULT", True)
+        yield from window.drawn()
+        assert len(manager.windows) == 2, "one Graph Editor is enough"
+    added = manager.windows[-1]
+    assert [area.ui_type for area in added.screen.areas] == ["FCURVES"]
+    with bpy.context.temp_override(window=added):
+        bpy.ops.wm.window_close()
+    yield from window.drawn()
 
 
 def session_of_tests() -> Iterator[None]:
@@ -91,6 +108,7 @@ def session_of_tests() -> Iterator[None]:
     bpy.context.scene.frame_set(70)
     yield from window.picture("2 followed")
     yield from walk_to_a_click()
+    yield from edit_curves()
     window.show_all()
     print("SESSION PASSED")
 

@@ -4,6 +4,7 @@ folder for what they write and picture. Importing it installs the add-on."""
 
 from __future__ import annotations
 
+import subprocess
 import sys
 import time
 import traceback
@@ -81,8 +82,17 @@ def until(done: Callable[[], bool], what: str, ticks: int = 1200) -> Iterator[No
 def picture(name: str) -> Iterator[None]:
     """Let the panel be drawn, and take a picture of the window."""
     yield from drawn()
-    with bpy.context.temp_override(**view()):
-        bpy.ops.screen.screenshot(filepath=f"{FOLDER}/{name}.png")
+    photograph(name)
+
+
+def photograph(name: str) -> None:
+    """A picture of the window as it is drawn."""
+    path = f"{FOLDER}/{name}.png"
+    if bpy.app.version >= (5, 0, 0):  # whose own picture of a window that is drawn by software is black
+        subprocess.run(["import", "-window", "root", path], check=True)
+        return
+    with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
+        bpy.ops.screen.screenshot(filepath=path)
 
 
 def send(kind: str, value: str, x: int, y: int, **modifiers: bool) -> Iterator[None]:

@@ -10,11 +10,12 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
+from tools.docs.in_window import running
 from tools.games import web
 from tools.measuring.directing.inputs import SAMPLE
 from tools.packaging import packages
 from tools.packaging.compiling import installed_core
-from tools.paths import BLENDER, BUILD, LOGS, TOP
+from tools.paths import BUILD, TOP
 from tools.setup import blender, machine, unstable
 from tools.setup.environments import BPY_PYTHON, environment_python
 from tools.shell import Failure, run, say
@@ -22,8 +23,6 @@ from tools.shell import Failure, run, say
 _DOCS = TOP / "docs"
 _LONG = "film"  # takes half an hour, and is no part of the repository: only where it is asked for
 _SCRIPTS = Path(__file__).parent
-_SCREEN = ("xvfb-run", "--auto-servernum", "--server-args", "-screen 0 1600x900x24")
-_WINDOW = ("--factory-startup", "--enable-event-simulate", "--window-geometry", "0", "0", "1600", "900")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -53,6 +52,10 @@ def _readme(options: argparse.Namespace) -> None:
     _run_python("tools.docs.drive_picture")
 
 
+def _icon(options: argparse.Namespace) -> None:
+    _run_python("tools.docs.icon")
+
+
 def _film(options: argparse.Namespace) -> None:
     _run_python("tools.film")
 
@@ -67,7 +70,7 @@ def _play(options: argparse.Namespace) -> None:
 
 
 def _guide(options: argparse.Namespace) -> None:
-    _run_in_window("guide_in_window.py", _DOCS / "guide")
+    running.run_script("guide", _DOCS / "guide")
 
 
 def _motion(options: argparse.Namespace) -> None:
@@ -78,7 +81,7 @@ def _directing(options: argparse.Namespace) -> None:
     folder = _DOCS / "directing"
     _run_python("tools.measuring.directing", "--figures", str(folder), "--json", str(folder / "directing.json"))
     _run_python("tools.docs.directing")
-    _run_in_window("recordings_in_window.py", folder)
+    running.run_script("recordings", folder)
 
 
 def _ground(options: argparse.Namespace) -> None:
@@ -127,18 +130,6 @@ def _run_python(module: str, *arguments: str) -> None:
         raise Failure(f"{module} failed; what it printed says why")
 
 
-def _run_in_window(script: str, folder: Path) -> None:
-    """Run a script in a window of Debian's Blender, on a screen of its own."""
-    machine.set_up(machine.GUI)
-    package = packages.build_for_debian(BUILD / "packages-quick")
-    environment = {**blender.debian_environment("docs"), "LIBGL_ALWAYS_SOFTWARE": "1"}
-    command: list[str | Path] = [*_SCREEN, BLENDER, *_WINDOW, "--python", _SCRIPTS / script, "--", package, folder]
-    log = f"docs-{Path(script).stem}"
-    run(command, log, environment, echo=True)
-    if "SESSION PASSED" not in (LOGS / f"{log}.log").read_text():
-        raise Failure(f"{script} did not come to its end; what it printed says why")
-
-
 PAGES: dict[str, Callable[[argparse.Namespace], None]] = {
     "readme": _readme,
     "guide": _guide,
@@ -148,6 +139,7 @@ PAGES: dict[str, Callable[[argparse.Namespace], None]] = {
     "ground": _ground,
     "evaluation": _evaluation,
     "retargeting": _retargeting,
+    "icon": _icon,
     "film": _film,
 }
 """What makes the pictures and tables of each page."""

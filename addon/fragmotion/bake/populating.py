@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 from ..character.building import load
 from ..compat.core import core
 from ..errors import UserError
-from ..ground.areas import Area, outlines
+from ..ground.areas import outlines, painted_area, places_apart
 from ..ground.belongings import belongings
 from ..ground.meshes import find_ground
 from ..jobs import Report
@@ -134,7 +134,7 @@ def _keep_clear(
         for each in bakes:
             each.walk = together.add(each.walk.path, each.walk.path.start, each.moved)
     elif settings.layout == "AREA":
-        _go_about(Area(context, chosen.area), settings, bakes, Together(stands, settings.seconds, {}, settings.clear))
+        _go_about(context, chosen.area, settings, bakes, Together(stands, settings.seconds, {}, settings.clear))
     else:
         together, start = Together(stands, settings.seconds, {}), origin_frame(obj)
         for each in bakes:
@@ -142,16 +142,23 @@ def _keep_clear(
             each.walk = together.add(make_trace(each, character.in_style(style).space), start, each.moved)
 
 
-def _go_about(area: Area, settings: Any, bakes: Sequence[SimpleNamespace], together: Together) -> None:
+def _go_about(
+    context: bpy.types.Context,
+    mesh: Any,
+    settings: Any,
+    bakes: Sequence[SimpleNamespace],
+    together: Together,
+) -> None:
     """Let them go from place to place on an area."""
-    random = Random(settings.seed)
-    starts = area.draw_apart(random, len(bakes), settings.spacing)
+    area, random = painted_area(context, mesh), Random(settings.seed)
+    starts = places_apart(area, mesh.name, len(bakes), settings.spacing, settings.seed)
     goals = math.ceil(settings.seconds / _GOAL)
-    for each, start in zip(bakes, starts):
+    places = area.draw(goals * len(bakes), settings.seed + 1).reshape(-1, goals, 3)
+    for each, start, wished in zip(bakes, starts, places):
         seen = each.moved.inverted()
-        x, y, _ = seen @ start
-        places = np.array([(seen @ area.draw(random)).xy for _ in range(goals)])
-        each.walk = together.add(places, (x, y, random.uniform(-math.pi, math.pi)), each.moved)
+        x, y, _ = seen @ Vector(start)
+        own = np.array([(seen @ Vector(place)).xy for place in wished])
+        each.walk = together.add(own, (x, y, random.uniform(-math.pi, math.pi)), each.moved)
 
 
 def _curves(paths: bpy.types.Collection | None) -> list[bpy.types.Object]:

@@ -139,7 +139,7 @@ def free() -> None:
 
 def _draw_legend(layout: bpy.types.UILayout, gaits: tuple[str, ...]) -> None:
     column = layout.column(align=True)
-    for (name, distance), text in zip(_SWATCHES.items(), ("Performed well", "Not quite: a hole", "Far off: a hole")):
+    for (name, distance), text in zip(_SWATCHES.items(), ("In the takes", "Near them: a hole", "Far off: a hole")):
         icon = icon_of(name, lambda distance=distance: draw_swatch(distance), b"legend")
         column.label(text=text, icon_value=icon)
     sides = ("Circle",) if len(gaits) == 1 else ("Inner circle", *[""] * (len(gaits) - 2), "Outer circle")

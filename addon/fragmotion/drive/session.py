@@ -22,7 +22,7 @@ from ..preview.posed_armature import PosedArmature
 from ..recordings.holding import holds_of
 from ..recordings.looks import Aim, LookChange, aim_of
 from ..recordings.reaches import Holds, ReachChange
-from ..recordings.recordings import POSE_RATE, TRACE_RATE, add_recording
+from ..recordings.recordings import NEXT, POSE_RATE, TRACE_RATE, add_recording
 from ..recordings.styles import AS_EVER, Styled
 from ..settings import preferences
 from .acting.actor import Actor
@@ -326,7 +326,7 @@ class Session:
         if kept is None:
             return False
         recording = add_recording(self.obj, **kept)
-        self.inputs.messages.append(f"Recorded '{recording.name}': {recording.seconds:.1f} s")
+        self.inputs.messages.append(f"Recorded '{recording.name}': {recording.seconds:.1f} s; {NEXT}")
         return True
 
     def end_recording(self) -> dict[str, Any] | None:

@@ -7,6 +7,7 @@ from typing import Any
 
 import bpy
 
+from ..compat.icons import own_icon
 from ..drive import session
 from ..operators.base.context import active_armature
 from ..recordings.recordings import active_recording
@@ -50,4 +51,4 @@ def unregister() -> None:
 
 def _draw(self: Any, _context: bpy.types.Context) -> None:
     self.layout.separator()
-    self.layout.operator("fragmotion.drive", icon="PLAY")
+    self.layout.operator("fragmotion.drive", icon_value=own_icon())

@@ -21,6 +21,7 @@ from ..mocap.doctor import worst
 from ..operators.base import background
 from ..operators.base.context import active_armature
 from ..preview.take_preview import TakePreview
+from ..settings import preferences
 from ..settings.drawing import (
     aligned,
     draw_bake_buttons,
@@ -35,7 +36,20 @@ from ..settings.drawing import (
     draw_training,
     draw_wrapped,
 )
-from . import bones, classes, control_rig, doctor, drive, game, left_out, moves, path, recordings, storyboard
+from . import (
+    bones,
+    classes,
+    control_rig,
+    doctor,
+    drive,
+    first_steps,
+    game,
+    left_out,
+    moves,
+    path,
+    recordings,
+    storyboard,
+)
 from .doctor import LIGHTS
 from .sidebar import Sidebar, SubPanel, TakePanel, draw_fold, draw_play, is_folded
 
@@ -124,8 +138,9 @@ class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
             return
         layout.operator("fragmotion.import_mocap", text="Import Mocap...", icon="IMPORT")
         if obj is None:
-            layout.label(text="Click your character, or:", icon="INFO")
-            layout.operator("fragmotion.add_sample", icon="OUTLINER_OB_ARMATURE")
+            if not preferences.get(context).first_steps:
+                layout.label(text="Click your character, or:", icon="INFO")
+                layout.operator("fragmotion.add_sample", icon="OUTLINER_OB_ARMATURE")
             return
         if obj.fragmotion.source or _has_other_armatures(obj):
             row = layout.row(align=True)
@@ -195,7 +210,7 @@ class FRAGMOTION_PT_build(Sidebar, bpy.types.Panel):
             return
         if obj is not None and building.has_character(obj):
             column = layout.column(align=True)
-            draw_fold(column, context, "build", f"{obj.fragmotion.figures.classes} classes")
+            draw_fold(column, context, "build", "Build Again")
             draw_summary(column, context, obj.fragmotion.figures)
             if is_stale(obj):
                 layout.label(text="Stale: Actions changed", icon="ERROR")
@@ -314,6 +329,7 @@ class FRAGMOTION_PT_bake(Sidebar, bpy.types.Panel):
 
 
 CLASSES = (
+    *first_steps.CLASSES,
     *control_rig.CLASSES,
     FRAGMOTION_UL_actions,
     FRAGMOTION_PT_mocap,

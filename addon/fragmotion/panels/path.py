@@ -37,7 +37,7 @@ def _draw_source(column: bpy.types.UILayout, settings: PathSettings) -> None:
     if settings.source == "CURVE":
         row = column.row(align=True)
         row.prop(settings, "curve")
-        row.operator("fragmotion.draw_path", text="", icon="GREASEPENCIL")
+        row.operator("fragmotion.draw_path", text="" if settings.curve else "Draw", icon="GREASEPENCIL")
     elif settings.source == "COLLECTION":
         column.prop(settings, "collection")
     column.prop(settings, "start")

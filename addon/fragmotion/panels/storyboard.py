@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 
 from ..operators.base.context import active_armature
-from ..settings.drawing import aligned, draw_look
+from ..settings.drawing import aligned, draw_look, draw_wrapped
 from .sidebar import SubPanel
 
 _ROWS = 4
@@ -49,6 +49,8 @@ class FRAGMOTION_PT_storyboard(SubPanel, bpy.types.Panel):
         buttons = row.column(align=True)
         buttons.operator("fragmotion.add_beat", text="", icon="ADD")
         buttons.operator("fragmotion.remove_beat", text="", icon="REMOVE")
+        if not len(settings.story):
+            draw_wrapped(layout.column(align=True), context, "Put the 3D cursor at a place, and press +", "INFO")
         if 0 <= settings.active_beat < len(settings.story):
             beat, column = settings.story[settings.active_beat], aligned(layout)
             column.prop(beat, "frame")

@@ -53,6 +53,13 @@ def aim_of(settings: Any) -> Aim:
     return Aim()
 
 
+def look_in_words(settings: Any) -> str:
+    """The same in words."""
+    if settings.kind == "OBJECT" and settings.object is not None:
+        return f"at '{settings.object.name}'"
+    return "where it goes" if settings.kind == "AHEAD" else "as captured"
+
+
 def read_looks(text: str, controls: int) -> list[LookChange] | None:
     """The looks that a recording of so many controls keeps, in order; None where the text is damaged."""
     return read_rows(text, LookChange, lambda look: _is_look(look, controls))

@@ -35,6 +35,9 @@ TRACE_RATE = 10
 POSE_RATE = 60
 """Poses a second that a drive shows; a recording keeps no more of them."""
 
+NEXT = "Replay or Bake it"
+"""What to do with one that was made."""
+
 _COLUMNS = 4
 _MOST_TURN = 6.0  # turn rates, as in the core's trace files
 _NUMBER, _SMALL = "<f8", "<f4"

@@ -184,7 +184,7 @@ def draw_summary(layout: bpy.types.UILayout, context: bpy.types.Context, figures
         draw_wrapped(layout, context, figures.abilities, "ERROR" if figures.abilities == NOTHING else "CHECKMARK")
     layout.label(text=f"{figures.quality:.0f} % of the possible", icon="CHECKMARK")
     if figures.coverage:
-        icon = "CHECKMARK" if figures.performed == figures.controls else "ERROR"
+        icon = "CHECKMARK" if figures.performed == figures.controls else "INFO"
         layout.label(text=f"{figures.performed} of {figures.controls} controls", icon=icon)
 
 

@@ -75,7 +75,7 @@ def _are_sound(entries: Any, prop: Any) -> bool:
         return _is_to_data(prop) and all(_is_sound(each, prop) for each in entries)
     if prop.type == "COLLECTION":
         return not any(len(getattr(each, prop.identifier)) for each in entries)
-    if _is_computed(prop) or prop.type == "BOOLEAN" or prop.subtype == "BYTE_STRING":
+    if _is_computed(prop) or prop.type == "BOOLEAN" or _are_bytes(prop):
         return True
     if prop.type in {"INT", "FLOAT"}:
         return _are_within(entries, prop)
@@ -96,6 +96,11 @@ def _are_within(entries: Any, prop: Any) -> bool:
 def _is_computed(prop: Any) -> bool:
     """Whether nothing of a property is stored: what can't be set, or is chosen among items listed by a function."""
     return prop.is_readonly or (prop.type == "ENUM" and not prop.enum_items)
+
+
+def _are_bytes(prop: Any) -> bool:
+    """Blender warns on the console where the subtype of a number with a unit is asked for."""
+    return bool(prop.type == "STRING" and prop.subtype == "BYTE_STRING")
 
 
 def _is_to_data(prop: Any) -> bool:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
 from ..compat.core import ADDON
 from ..compat.event_keys import KEYS
@@ -56,6 +56,11 @@ class FragmotionPreferences(bpy.types.AddonPreferences):
         min=0.3,
         max=4.0,
     )
+    first_steps: BoolProperty(  # type: ignore[valid-type]
+        name="First Steps",
+        description="Show at the top of the sidebar how to begin. It goes with the first drive",
+        default=True,
+    )
     live_page: StringProperty(  # type: ignore[valid-type]
         name="Live Page",
         description="The folder of the live page that Open in Browser shows, as `dev.py web` makes it",
@@ -84,6 +89,7 @@ class FragmotionPreferences(bpy.types.AddonPreferences):
         column.prop(self, "dead_zone")
         column.prop(self, "curve")
         column.prop(self, "live_page")
+        column.prop(self, "first_steps")
         layout.label(text="Keys of Drive (click a key, then press another; the arrow keys work too):")
         grid = layout.grid_flow(row_major=True, columns=3, even_columns=True)
         for name, label in _LABELS.items():
@@ -96,3 +102,11 @@ class FragmotionPreferences(bpy.types.AddonPreferences):
 def get(context: bpy.types.Context) -> Any:
     """The add-on's preferences."""
     return context.preferences.addons[ADDON].preferences
+
+
+def end_first_steps(context: bpy.types.Context) -> None:
+    """Someone has driven, and need not be told how."""
+    settings = get(context)
+    if settings.first_steps:
+        settings.first_steps = False
+        context.preferences.is_dirty = True

@@ -252,7 +252,7 @@ def test_a_crowd_goes_about_on_what_is_painted(addon: ModuleType, obj: bpy.types
     with pytest.raises(RuntimeError, match="has room for"):
         populate(layout="AREA", count=300, spacing=2.0)
     settings.area.vertex_groups.active.remove(range(8))
-    with pytest.raises(RuntimeError, match="Nothing of 'Area' is painted"):
+    with pytest.raises(RuntimeError, match="'Area' is no area: nothing of the area is painted"):
         populate(layout="AREA")
 
 

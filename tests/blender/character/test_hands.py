@@ -14,6 +14,7 @@ from mathutils import Matrix, Quaternion, Vector
 
 FINGERS = ("thumb", "index", "middle", "ring", "pinky")
 BENT = (45.0, 37.5, 15.0)
+PACKED = 2e-3  # rad: within what a kept pose is as captured
 ACROSS = Vector((0, 1, 0))  # a hand at rest, from its index finger on: the body faces -Y
 
 
@@ -39,9 +40,9 @@ def built(addon: ModuleType, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def build_and_bake() -> None:
+def build_and_bake(seconds: float = 2.0) -> None:
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=12, synthesize=False, seconds=10.0) == {"FINISHED"}
-    assert bpy.ops.fragmotion.bake("EXEC_DEFAULT", trace_source="PLAYER", seconds=2.0) == {"FINISHED"}
+    assert bpy.ops.fragmotion.bake("EXEC_DEFAULT", trace_source="PLAYER", seconds=seconds) == {"FINISHED"}
     bpy.context.scene.frame_set(20)
 
 
@@ -71,7 +72,7 @@ def test_fingers_are_bent_and_side_by_side(obj: bpy.types.Object) -> None:
         assert abs(Quaternion().rotation_difference(thumb).angle) < 1e-3
 
 
-def test_a_hand_pose_of_ones_own_is_taken(obj: bpy.types.Object) -> None:
+def test_a_hand_pose_of_ones_own_is_taken_in_mirror_images_too(addon: ModuleType, obj: bpy.types.Object) -> None:
     takes = list(bpy.data.actions)
     obj.animation_data.action = None
     fist = bpy.data.actions.new("Fist")
@@ -81,14 +82,23 @@ def test_a_hand_pose_of_ones_own_is_taken(obj: bpy.types.Object) -> None:
     bone.rotation_quaternion = Quaternion((1, 0, 0), 0.8)
     bone.keyframe_insert("rotation_quaternion", frame=7)
     obj.animation_data.action = takes[0]
-    obj.fragmotion.hands, obj.fragmotion.build.mirror = "ACTION", False  # a mirrored take has the hands' poses swapped
+    obj.fragmotion.hands, obj.fragmotion.build.mirror = "ACTION", True
     with pytest.raises(RuntimeError, match="hand pose is chosen"):
         build_and_bake()
     obj.fragmotion.hand_action = fist
-    build_and_bake()
-    turned = obj.pose.bones["index_1.L"].rotation_quaternion
-    assert turned.rotation_difference(Quaternion((1, 0, 0), 0.8)).angle == pytest.approx(0, abs=1e-3)
-    assert obj.pose.bones["ring_1.L"].rotation_quaternion.angle == pytest.approx(0, abs=1e-3)
+    build_and_bake(20.0)
+    character, core = addon.character.building.load(obj), addon.compat.core.core
+    trace = core.simulate_trace("walker", 20.0, 1, character.space)
+    played = core.Player(character, seed=1).run(trace, 60.0).fragments
+    assert "mirrored" in {character.fragment_origins[fragment] for fragment in played}, (
+        "what is baked has no mirror image in it"
+    )
+    for frame in range(1, 600, 7):
+        bpy.context.scene.frame_set(frame)
+        turned = obj.pose.bones["index_1.L"].rotation_quaternion
+        assert turned.rotation_difference(Quaternion((1, 0, 0), 0.8)).angle == pytest.approx(0, abs=PACKED)
+        for bone in ("ring_1.L", "index_1.R"):
+            assert obj.pose.bones[bone].rotation_quaternion.angle == pytest.approx(0, abs=PACKED)
 
 
 def test_fingers_rest_where_that_is_wanted(obj: bpy.types.Object) -> None:

@@ -45,6 +45,12 @@ def add(obj: bpy.types.Object, place: tuple[float, float] | None, frame: int, **
     return beat
 
 
+def test_a_new_place_is_selected_to_be_moved(obj: bpy.types.Object) -> None:
+    beat = add(obj, (1, 2), 49)
+    assert bpy.context.selected_objects == [beat.place]
+    assert bpy.context.view_layer.objects.active == obj
+
+
 def record(addon: ModuleType, obj: bpy.types.Object) -> tuple[Any, Any]:
     """The recording, and what it shows."""
     assert bpy.ops.fragmotion.record_story() == {"FINISHED"}

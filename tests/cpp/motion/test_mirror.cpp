@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "io/bvh.hpp"
 #include "mocap_files.hpp"
@@ -68,6 +70,55 @@ TEST(Mirror, TwiceIsTheOriginal) {
     expect_same(mirror(mirror(clip)), clip, 1e-7);
     EXPECT_LT(worst_reflection(kinematics, mirror(mirror(clip)), mirror(clip)), 1e-9);
   }
+}
+
+// humanoid() with two fingers of two joints at each hand; tells the left ones' first joints.
+Skeleton with_fingers_of_its_own(std::vector<int>& left) {
+  Skeleton s = humanoid();
+  for (const std::string side : {".L", ".R"}) {
+    const int hand = static_cast<int>(std::find(s.names.begin(), s.names.end(), "hand" + side) - s.names.begin());
+    for (const auto& [finger, aside] : {std::pair<std::string, double>{"index", -0.02}, {"middle", 0.0}}) {
+      for (int joint = 1; joint <= 2; ++joint) {
+        if (side == ".L" && joint == 1) left.push_back(s.size());
+        s.parents.push_back(joint == 1 ? hand : s.size() - 1);
+        s.names.push_back(finger + "_" + std::to_string(joint) + side);
+        s.rest_rotations.push_back(Quaternion::Identity());
+        s.offsets.emplace_back(joint == 1 ? Vector3{0, aside, -0.09} : Vector3{0, 0, -0.04});
+        s.tips.emplace_back(0, 0, -0.04);
+      }
+    }
+  }
+  return make_skeleton(std::move(s));
+}
+
+TEST(Mirror, LeavesFingersThatNoTakeMovesOnTheirSide) {
+  std::vector<int> left;
+  const Skeleton skeleton = with_fingers_of_its_own(left);
+  const Kinematics kinematics(skeleton);
+  Clip clip = make_clip(skeleton, random_clip(skeleton, 8, 5));
+  const std::vector<int> counterpart = mirror_bones(skeleton);
+  ASSERT_NE(counterpart[left[0]], left[0]);
+  const auto rotation = [&](Clip& of, int frame, int bone) {
+    return &of.rotations[std::size_t{4} * (frame * skeleton.size() + bone)];
+  };
+  const Quaternion bent{Eigen::AngleAxisd(0.8, Vector3::UnitX())}, straight = Quaternion::Identity();
+  for (int f = 0; f < clip.frames; ++f) {
+    store_quaternion(bent, rotation(clip, f, left[0]));
+    store_quaternion(straight, rotation(clip, f, counterpart[left[0]]));
+  }
+  const Mirror mirror(kinematics, {clip});
+  Clip image = mirror(clip);
+  const MirrorTurns turns = mirror.turns();
+  for (int f = 0; f < clip.frames; ++f) {
+    EXPECT_LT(load_quaternion(rotation(image, f, left[0])).angularDistance(bent), 1e-9);
+    EXPECT_LT(load_quaternion(rotation(image, f, counterpart[left[0]])).angularDistance(straight), 1e-9);
+    for (int b = 1; b < skeleton.size(); ++b) {
+      const Quaternion q = load_quaternion(rotation(clip, f, turns.counterparts[b]));
+      const Quaternion shown = load_quaternion(rotation(image, f, b));
+      EXPECT_LT(shown.angularDistance(turns.before[b] * q * turns.after[b]), 1e-6) << skeleton.names[b];
+    }
+  }
+  EXPECT_EQ(turns.counterparts[left[1]], counterpart[left[1]]) << "a finger that a take moves is mirrored";
 }
 
 TEST(Mirror, SwapsTheFeetOnTheGround) {

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import bpy
 
 from ...compat import versions
-from ...compat.event_keys import icon_of, name_of
+from ...compat.event_keys import icon_of, name_of, room_beside
 
 _BAR = 14  # times a button's height: the width of a progress bar
 
@@ -53,5 +53,7 @@ def _draw(row: bpy.types.UILayout, hint: Hint) -> None:
     for key in hint.keys:
         icon = icon_of(key)
         row.label(text="" if icon else name_of(key), icon=icon or "NONE", translate=False)
+        if room_beside(icon):
+            row.separator(factor=room_beside(icon))
     row.label(text=hint.text, translate=False)
     row.separator(factor=2.0)

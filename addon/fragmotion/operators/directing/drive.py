@@ -81,6 +81,7 @@ class _Hearing(Woken):
         """The drive is over: say how it ended, where that is not said yet."""
         rest(self._timer)
         self._tell()
+        preferences.end_first_steps(bpy.context)
         if self._session.farewell:
             self.report({"WARNING"}, self._session.farewell)
             self._session.farewell = ""

@@ -16,9 +16,10 @@ from ...errors import UserError, reported
 from ...jobs import Job
 from ...recordings.curves import curves_of, read_curves, show_curves
 from ...recordings.holding import holds_over_time
-from ...recordings.looks import aim_of, looks_from
+from ...recordings.looks import aim_of, look_in_words, looks_from
 from ...recordings.reaches import EMPTY, reaches_from
 from ...recordings.recordings import TRACE_RATE, Recording, active_recording, asked_of, trace_of
+from ...rig.selection import select
 from ...settings.drawing import aligned
 from ...settings.pin_fields import PinFields
 from ..base.background import Background, poll_idle
@@ -44,12 +45,20 @@ class FRAGMOTION_OT_edit_curves(OnRecording, bpy.types.Operator):
             empty = show_curves(context.scene, obj, recording, first_frame(obj, recording))
         if context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
-        for other in context.selected_objects:
-            other.select_set(False)
-        empty.select_set(True)
-        context.view_layer.objects.active = empty
+        select(context, [empty], empty)
+        _ensure_graph_editor(context)
         self.report({"INFO"}, f"The curves of '{recording.name}' are in the Graph Editor; Play Again uses them")
         return {"FINISHED"}
+
+
+def _ensure_graph_editor(context: bpy.types.Context) -> None:
+    """A Graph Editor in a window of its own, as Blender's of drivers, where no window has one."""
+    manager = context.window_manager
+    areas = [area for window in manager.windows for area in window.screen.areas]
+    if bpy.app.background or any(area.type == "GRAPH_EDITOR" for area in areas):
+        return
+    bpy.ops.wm.window_new()
+    manager.windows[-1].screen.areas[0].ui_type = "FCURVES"
 
 
 class FRAGMOTION_OT_play_again(OnRecording, bpy.types.Operator):
@@ -208,7 +217,8 @@ class FRAGMOTION_OT_look_recording(OnRecording, bpy.types.Operator):
         later = [look for look in asked.looks if look.control > control]
         looks = [*looks_from(asked.looks, control, aim_of(obj.fragmotion.look)), *later]
         play_again(obj, recording, trace, control, asked._replace(looks=looks))
-        self.report({"INFO"}, f"'{recording.name}' looks there from {control / TRACE_RATE:.1f} s on")
+        words = look_in_words(obj.fragmotion.look)
+        self.report({"INFO"}, f"'{recording.name}' looks {words} from {control / TRACE_RATE:.1f} s on")
         return {"FINISHED"}
 
 
@@ -230,7 +240,9 @@ class FRAGMOTION_OT_reach_recording(OnRecording, bpy.types.Operator):
         holds = holds_over_time(context, obj, first, len(trace) - control) or [EMPTY]
         asked = asked_of(recording)
         play_again(obj, recording, trace, control, asked._replace(reaches=reaches_from(asked.reaches, control, holds)))
-        self.report({"INFO"}, f"'{recording.name}' holds that from {control / TRACE_RATE:.1f} s on")
+        hands = (obj.fragmotion.left_hand, obj.fragmotion.right_hand)
+        held = " and ".join(f"'{hand.object.name}'" for hand in hands if hand.object is not None) or "nothing"
+        self.report({"INFO"}, f"'{recording.name}' holds {held} from {control / TRACE_RATE:.1f} s on")
         return {"FINISHED"}
 
 

@@ -10,6 +10,7 @@ import bpy
 from ...bake.performing import character_frame
 from ...errors import reported
 from ...paths.following import follow
+from ...recordings.recordings import NEXT
 from ...rig.rigs import make_rig
 from ..base.background import poll_character
 from ..base.context import active_armature
@@ -35,7 +36,7 @@ class FRAGMOTION_OT_follow_path(bpy.types.Operator):
         obj = active_armature(context)
         standing = character_frame(context, obj, make_rig(obj))
         recording, told, warnings = follow(context, obj, obj.fragmotion.path, standing)
-        self.report({"INFO"}, f"Recorded '{recording.name}' ({recording.seconds:.1f} s): {told}")
+        self.report({"INFO"}, f"Recorded '{recording.name}' ({recording.seconds:.1f} s): {told}; {NEXT}")
         for warning in warnings:
             self.report({"WARNING"}, warning)
         return {"FINISHED"}

@@ -9,6 +9,8 @@ import bpy
 
 from ...edits.storyboard import record
 from ...errors import UserError, reported
+from ...recordings.recordings import NEXT
+from ...rig.selection import select
 from ..base.background import poll_character
 from ..base.context import active_armature, poll_armature
 
@@ -42,6 +44,9 @@ class FRAGMOTION_OT_add_beat(_OnStory, bpy.types.Operator):
         beat.name, beat.place = empty.name, empty
         beat.frame = former + round(_APART * render.fps / render.fps_base)
         settings.active_beat = len(settings.story) - 1
+        if context.mode == "OBJECT":
+            select(context, [empty], context.view_layer.objects.active)
+        self.report({"INFO"}, f"'{beat.name}' is at the 3D cursor, and selected: move it (G) to where it is to be")
         return {"FINISHED"}
 
 
@@ -79,7 +84,7 @@ class FRAGMOTION_OT_record_story(bpy.types.Operator):
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         recording, told = record(context, active_armature(context))
-        self.report({"INFO"}, f"Recorded '{recording.name}' ({recording.seconds:.1f} s)")
+        self.report({"INFO"}, f"Recorded '{recording.name}' ({recording.seconds:.1f} s): {NEXT}")
         for late in told:
             self.report({"WARNING"}, late)
         return {"FINISHED"}

@@ -8,12 +8,13 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRests = 1e-3;  // rad from its rest: what a file's digits make of none
+constexpr double kStill = 1e-3;  // rad: what a file's digits make of none
 
-bool rests(const Skeleton& skeleton, const Clip& clip, int bone) {
-  const std::size_t width = std::size_t{4} * skeleton.size();
+// Whether a bone is turned so in all of a clip.
+bool stays(const Clip& clip, int bones, int bone, const Quaternion& rotation) {
+  const std::size_t width = std::size_t{4} * bones;
   for (std::size_t at = std::size_t{4} * bone; at < clip.rotations.size(); at += width) {
-    if (load_quaternion(&clip.rotations[at]).angularDistance(skeleton.rest_rotations[bone]) > kRests) return false;
+    if (load_quaternion(&clip.rotations[at]).angularDistance(rotation) > kStill) return false;
   }
   return true;
 }
@@ -23,12 +24,23 @@ bool rests(const Skeleton& skeleton, const Clip& clip, int bone) {
 Clip with_fingers(const Skeleton& skeleton, Clip clip, const std::vector<double>& pose) {
   const std::size_t width = std::size_t{4} * skeleton.size();
   for (const int bone : finger_bones(skeleton)) {
-    if (!rests(skeleton, clip, bone)) continue;
+    if (!stays(clip, skeleton.size(), bone, skeleton.rest_rotations[bone])) continue;
     for (std::size_t at = std::size_t{4} * bone; at < clip.rotations.size(); at += width) {
       std::copy_n(&pose[std::size_t{4} * bone], 4, &clip.rotations[at]);
     }
   }
   return clip;
+}
+
+std::vector<int> still_fingers(const Skeleton& skeleton, const std::vector<Clip>& clips) {
+  if (clips.empty()) return {};
+  std::vector<int> still;
+  for (const int bone : finger_bones(skeleton)) {
+    const Quaternion first = load_quaternion(&clips.front().rotations[std::size_t{4} * bone]);
+    const auto stands = [&](const Clip& clip) { return stays(clip, skeleton.size(), bone, first); };
+    if (std::all_of(clips.begin(), clips.end(), stands)) still.push_back(bone);
+  }
+  return still;
 }
 
 }  // namespace fragmotion

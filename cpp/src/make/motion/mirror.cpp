@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "motion/fingers.hpp"
 #include "motion/pose.hpp"
 
 namespace fragmotion {
@@ -82,7 +83,9 @@ Matrix3 snapped_to_axes(const Matrix3& turn) {
 }  // namespace
 
 Mirror::Mirror(const Kinematics& kinematics, const std::vector<Clip>& clips)
-    : kinematics_(kinematics), counterpart_(mirror_bones(kinematics.skeleton())) {
+    : kinematics_(kinematics),
+      counterpart_(mirror_bones(kinematics.skeleton())),
+      still_(still_fingers(kinematics.skeleton(), clips)) {
   std::vector<Matrix3> symmetric = symmetric_rest(kinematics, counterpart_);
   const bool by_rest = !symmetric.empty();
   if (!by_rest) symmetric = mean_orientations(kinematics, clips);
@@ -105,7 +108,7 @@ Clip Mirror::operator()(const Clip& clip) const {
       mirrored[b] = Quaternion{kReflection * pose.orientations[counterpart_[b]].toRotationMatrix() * turn_[b]};
     }
     for (int b = 0; b < bones; ++b) {
-      if (!skeleton.is_below(b, skeleton.roles.hips)) continue;
+      if (!skeleton.is_below(b, skeleton.roles.hips) || std::binary_search(still_.begin(), still_.end(), b)) continue;
       const bool hips = b == skeleton.roles.hips;
       store_quaternion(hips ? mirrored[b] : mirrored[skeleton.parents[b]].inverse() * mirrored[b],
                        &result.rotations[4 * (static_cast<std::size_t>(f) * bones + b)]);
@@ -134,6 +137,10 @@ MirrorTurns Mirror::turns() const {
     if (b != hips && skeleton.parents[counterpart_[b]] != counterpart_[parent]) return {};
     turns.after.emplace_back(Matrix3{-turn_[b]});
     turns.before.push_back(b == hips ? Quaternion{0, 1, 0, 0} : turns.after[parent].conjugate());
+  }
+  for (const int b : still_) {
+    turns.counterparts[b] = b;
+    turns.before[b] = turns.after[b] = Quaternion::Identity();
   }
   return turns;
 }

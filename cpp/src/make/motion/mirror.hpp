@@ -16,12 +16,12 @@ struct MirrorTurns {
 
 /// Turns a motion into its mirror image, left for right. Each bone's frame is reflected and then turned by a constant
 /// that makes it a frame of its counterpart: told by the rest pose where that is symmetric, else by the takes' mean
-/// pose, which gait makes symmetric.
+/// pose, which gait makes symmetric. Fingers that no take moves are no part of the motion: they stay as they are.
 class Mirror {
  public:
   Mirror(const Kinematics& kinematics, const std::vector<Clip>& clips);
 
-  /// The mirror image of a clip, reflected in the world's plane x = 0; named "NAME mirrored".
+  /// The mirror image of one of the takes, reflected in the world's plane x = 0; named "NAME mirrored".
   Clip operator()(const Clip& clip) const;
 
   /// Empty where a bone and its counterpart do not hang on counterparts.
@@ -30,6 +30,7 @@ class Mirror {
  private:
   const Kinematics& kinematics_;
   std::vector<int> counterpart_;
+  std::vector<int> still_;             // fingers that no take moves, in ascending order
   std::vector<Eigen::Matrix3d> turn_;  // improper: W' = S W_counterpart turn
 };
 

@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 from mathutils import Euler
 
-TESTS = Path(__file__).resolve().parents[2] / "tests"
+TESTS = Path(__file__).resolve().parents[3] / "tests"
 sys.path[:0] = [str(TESTS / "gui"), str(TESTS / "blender")]
 
 making: Any = import_module("making")
@@ -42,9 +42,8 @@ def take(part: Any) -> Iterator[None]:
     for _ in range(4):
         part.tag_redraw()
         yield
+    window.photograph("whole")
     path = Path(window.FOLDER) / "whole.png"
-    with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
-        bpy.ops.screen.screenshot(filepath=str(path))
     image = bpy.data.images.load(str(path))
     width, height = image.size
     pixels = np.empty(width * height * 4, np.float32)
@@ -79,10 +78,11 @@ def recorded() -> Iterator[None]:
 
 def picture_of_curves() -> Iterator[None]:
     """The curves in the Graph Editor, where the viewport was."""
-    window.press(bpy.ops.fragmotion.edit_curves, "EXEC_DEFAULT", True)
     area = window.view()["area"]
     area.type = "GRAPH_EDITOR"
     yield
+    with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
+        bpy.ops.fragmotion.edit_curves("EXEC_DEFAULT")
     region = next(r for r in area.regions if r.type == "WINDOW")
     with bpy.context.temp_override(window=bpy.context.window_manager.windows[0], area=area, region=region):
         bpy.ops.graph.view_all()
@@ -93,10 +93,10 @@ def picture_of_curves() -> Iterator[None]:
 
 
 def picture_of_the_panel() -> Iterator[None]:
-    """The panel Change, below Recordings."""
+    """The panel Change."""
     making.activate(character())
     yield from window.open_tab()
-    window.show_only("Recordings", "Change")
+    window.show_only("Change")
     yield
     yield from take(window.sidebar()["region"])
     part = taken.pop()

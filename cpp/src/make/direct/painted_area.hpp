@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/random.hpp"
+#include "base/types.hpp"
+
+namespace fragmotion {
+
+/// A triangle's corners, m, and how much each is painted; between them the paint is linear.
+struct PaintedTriangle {
+  std::array<Vector3, 3> corners;
+  std::array<double, 3> paint;
+};
+
+/// Places on a painted surface: the more it is painted, the likelier. Throws std::invalid_argument unless corners are
+/// finite, paint is 0 to 1, and something is painted.
+class PaintedArea {
+ public:
+  explicit PaintedArea(std::vector<PaintedTriangle> triangles);
+
+  /// A place on it.
+  Vector3 draw(Random& random) const;
+
+  /// So many places, seen from above no two of them nearer than `spacing`, m; as many as are found in 400 draws for
+  /// each where there is no room for all.
+  std::vector<Vector3> draw_apart(Random& random, int count, double spacing) const;
+
+ private:
+  std::vector<PaintedTriangle> triangles_;
+  std::vector<double> sums_;  // of sizes, were all of a triangle painted as its most painted corner, up to each
+};
+
+}  // namespace fragmotion

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "direct/painted_area.hpp"
+
+namespace fragmotion {
+namespace {
+
+const PaintedTriangle kSlope{{Vector3{0, 0, 0}, Vector3{2, 0, 1}, Vector3{0, 1, 0}}, {0.2, 1.0, 0.0}};
+const PaintedTriangle kFar{{Vector3{5, 5, 0}, Vector3{6, 5, 0}, Vector3{5, 6, 0}}, {0.5, 0.5, 0.5}};
+const PaintedTriangle kBare{{Vector3{9, 9, 9}, Vector3{19, 9, 9}, Vector3{9, 19, 9}}, {0, 0, 0}};
+
+double size(const PaintedTriangle& triangle) {
+  const auto& [a, b, c] = triangle.corners;
+  return (b - a).cross(c - a).norm() / 2;
+}
+
+// How much paint is on a triangle, and where the middle of it is: over a triangle of size A, the integral of two
+// barycentric shares is A/6 where they are the same, else A/12.
+double paint_on(const PaintedTriangle& triangle, Vector3& middle) {
+  const double whole = triangle.paint[0] + triangle.paint[1] + triangle.paint[2];
+  middle = Vector3::Zero();
+  for (int corner = 0; corner < 3; ++corner) {
+    middle += triangle.corners[corner] * (triangle.paint[corner] + whole) / (4 * whole);
+  }
+  return size(triangle) * whole / 3;
+}
+
+TEST(PaintedArea, PlacesAreAsLikelyAsTheyArePainted) {
+  const PaintedArea area({kSlope, kBare, kFar});
+  Random random(7);
+  constexpr int kCount = 100000;
+  Vector3 on_slope = Vector3::Zero(), expected, far_middle;
+  int count = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const Vector3 place = area.draw(random);
+    EXPECT_LT(place.z(), 9);
+    if (place.y() < 5) on_slope += place, ++count;
+  }
+  const double slope = paint_on(kSlope, expected), far = paint_on(kFar, far_middle);
+  const double share = slope / (slope + far);
+  EXPECT_NEAR(count / double{kCount}, share, 4 * std::sqrt(share * (1 - share) / kCount));
+  EXPECT_LT((on_slope / count - expected).norm(), 4 * std::sqrt(1.0 / count));
+}
+
+TEST(PaintedArea, PlacesAreApartAsSeenFromAbove) {
+  const PaintedArea area({kSlope, kFar});
+  Random random(3);
+  const std::vector<Vector3> places = area.draw_apart(random, 12, 0.25);
+  ASSERT_EQ(places.size(), 12U);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GE((places[i] - places[j]).head<2>().norm(), 0.25);
+  }
+  Random again(3);
+  EXPECT_EQ(area.draw_apart(again, 12, 0.25), places);
+}
+
+TEST(PaintedArea, IsFullWhereThereIsNoRoom) {
+  Random random(1);
+  const std::size_t found = PaintedArea({kFar}).draw_apart(random, 50, 0.8).size();
+  EXPECT_GE(found, 1U);
+  EXPECT_LE(found, 3U);
+}
+
+TEST(PaintedArea, RefusesWhatIsNoPaintedSurface) {
+  PaintedTriangle wrong = kFar;
+  wrong.paint[1] = 1.5;
+  EXPECT_THROW(PaintedArea({wrong}), std::invalid_argument);
+  wrong = kFar;
+  wrong.corners[0].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(PaintedArea({wrong}), std::invalid_argument);
+  EXPECT_THROW(PaintedArea({}), std::invalid_argument);
+  EXPECT_THROW(PaintedArea({kBare}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace fragmotion

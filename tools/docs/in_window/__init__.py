@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Pictures that are made in a Blender with a window."""
