@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "dog.hpp"
-#include "motion/foot_lock.hpp"
+#include "feet/foot_lock.hpp"
 #include "motion/in_place.hpp"
 #include "motion/legs.hpp"
 

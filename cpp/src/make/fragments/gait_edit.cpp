@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "control/control.hpp"
+#include "feet/foot_lock.hpp"
 #include "fragments/body_pose.hpp"
-#include "motion/foot_lock.hpp"
 #include "motion/pose.hpp"
 #include "motion/trunk.hpp"
 

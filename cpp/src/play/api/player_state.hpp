@@ -4,7 +4,7 @@
 #include "api/state_bytes.hpp"
 #include "direct/path_follower.hpp"
 #include "direct/steering.hpp"
-#include "ground/ground_follower.hpp"
+#include "feet/ground_follower.hpp"
 #include "runtime/player.hpp"
 
 namespace fragmotion {

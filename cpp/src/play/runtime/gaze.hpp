@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "base/approach.hpp"
 #include "control/control.hpp"
-#include "ground/approach.hpp"
 #include "motion/pose.hpp"
 #include "runtime/workspace.hpp"
 

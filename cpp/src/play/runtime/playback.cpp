@@ -74,6 +74,13 @@ void Playback::sample_stitched(Placed placed, double seconds, WorldPose& pose) c
 
 void Playback::sample(double seconds, WorldPose& pose) const { sample_stitched(now_, seconds, pose); }
 
+void Playback::sample_body(double seconds, WorldPose& pose) const {
+  Placed placed = now_;
+  placed.seconds = seconds;
+  sample(placed, pose);
+  if (stitching_ == Stitching::inertialize) inertialization_.apply(std::max(0.0, seconds), pose);
+}
+
 Vector2 Playback::start(int fragment) { return start(place(style_, fragment, frame_)); }
 
 Vector2 Playback::start_move(int part) { return start(place(0, part, frame_)); }

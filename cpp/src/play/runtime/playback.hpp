@@ -58,6 +58,8 @@ class Playback {
   void show();
   /// As it is shown at a time since the fragment's first pose, without a crossfade's old fragment.
   void sample(double seconds, WorldPose& pose) const;
+  /// Likewise, but for neck and head, which are somewhere between the old and the new motion.
+  void sample_body(double seconds, WorldPose& pose) const;
 
   /// What plays.
   const Fragment& fragment() const { return fragment(now_); }

@@ -8,8 +8,8 @@
 
 #include "base/ranges.hpp"
 #include "base/simd.hpp"
-#include "ground/ground_follower.hpp"
-#include "runtime/look_ahead.hpp"
+#include "feet/ground_follower.hpp"
+#include "feet/look_ahead.hpp"
 
 namespace fragmotion {
 namespace {
@@ -134,12 +134,25 @@ Vector2 Player::commanded_velocity() const {
 
 void Player::correct(const Control& control, double seconds) {
   correction_.correct(playback_, governor_, seconds);
-  if (follower_ != nullptr) {
-    follower_->apply(workspace_->shown, look_ahead(playback_, governor_, correction_, *workspace_), seconds);
-  }
+  if (follower_ != nullptr) follower_->apply(workspace_->shown, feet_ahead(), seconds);
   root_ = workspace_->shown.root;
   gaze_.apply(governor_.command(control, frame().heading, seconds), styled_character().space.turn_rate(), seconds);
   if (reaching_ != nullptr) reaching_->apply(ground_level(), seconds);
+}
+
+FeetAhead Player::feet_ahead() const {
+  const Contacts& contacts = playback_.contacts();
+  if (contacts.feet[0].empty()) return {};
+  Course course{playback_.frame(), governor_.velocity(), governor_.turn_rate(), correction_.steps(), {}, {}, {}};
+  for (int side = 0; side < 2; ++side) {
+    course.stands[side] = correction_.plants(side, contacts.stands(side, playback_.frame_of_clip()));
+    course.until_standing[side] = playback_.until_standing(side) / governor_.tempo();
+  }
+  course.sample = [this](double seconds, WorldPose& pose) {
+    playback_.sample_body(playback_.seconds() + governor_.tempo() * seconds, pose);
+  };
+  return look_ahead(*workspace_->body, workspace_->floors, correction_.foot_lock(), course, workspace_->shown,
+                    workspace_->poses[0]);
 }
 
 void Player::look(Look look, const Vector3& place) {

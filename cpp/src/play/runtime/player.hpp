@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ground/ground.hpp"
+#include "feet/feet_ahead.hpp"
+#include "feet/ground.hpp"
 #include "runtime/director.hpp"
 #include "runtime/gaze.hpp"
 #include "runtime/pose_correction.hpp"
@@ -194,6 +195,7 @@ class Player {
   void resume(const Control& control);
   void enter_best_class(const Control& wanted);
   void correct(const Control& control, double seconds);
+  FeetAhead feet_ahead() const;
   void forget_markers();
 
   std::shared_ptr<const Character> character_;

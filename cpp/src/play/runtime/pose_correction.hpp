@@ -18,11 +18,10 @@ class PoseCorrection {
   /// As it was told when it was made. Feet that were held and are not any more are free.
   void set_lock_feet(bool lock_feet);
   const StepEdit& steps() const { return steps_; }
-  /// Whether a foot stands: it is held where it is, or, where feet are not held, it is to stand and is low.
+  /// Whether a foot stands: it is held where it is, or, where feet are not held, it is to stand.
   bool plants(int side, bool stands) const { return lock_feet_ ? foot_lock_.locked(side) : stands; }
-  /// Of a foot that is held, as FootLock has it.
-  Vector2 coming_to_rest(int side) const { return lock_feet_ ? foot_lock_.coming_to_rest(side) : Vector2::Zero(); }
-  double stepping(int side) const { return lock_feet_ ? foot_lock_.stepping(side) : 0; }
+  /// What holds its feet, or null.
+  const FootLock* foot_lock() const { return lock_feet_ ? &foot_lock_ : nullptr; }
   /// Corrects Workspace::shown, `seconds` after the pose that was shown last.
   void correct(const Playback& playback, const RootGovernor& governor, double seconds);
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "ground/approach.hpp"
+#include "base/approach.hpp"
 #include "runtime/workspace.hpp"
 
 namespace fragmotion {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "character/character.hpp"
+#include "feet/foot_lock.hpp"
 #include "fragments/arm_range.hpp"
 #include "fragments/body_tips.hpp"
 #include "fragments/gaze_range.hpp"
-#include "motion/foot_lock.hpp"
 #include "motion/trunk.hpp"
 #include "runtime/transition_cost.hpp"
 

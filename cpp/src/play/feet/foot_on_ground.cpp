@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ground/foot_on_ground.hpp"
+#include "feet/foot_on_ground.hpp"
 
 #include <algorithm>
 #include <cmath>

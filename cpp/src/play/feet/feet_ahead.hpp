@@ -9,6 +9,9 @@
 
 namespace fragmotion {
 
+/// m over its floor, of a 1.8 m character, within which a foot comes down to it.
+constexpr double kLanding = 0.06;
+
 /// Points of a sole on level ground at height 0, under heel, ball and tip of a foot; z is how high each is, m.
 struct Sole {
   Vector3 heel = Vector3::Zero(), ball = Vector3::Zero(), tip = Vector3::Zero();

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "ground/feet_ahead.hpp"
-#include "ground/ground.hpp"
+#include "feet/feet_ahead.hpp"
+#include "feet/ground.hpp"
 
 namespace fragmotion {
 

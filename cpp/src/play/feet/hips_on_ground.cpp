@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ground/hips_on_ground.hpp"
+#include "feet/hips_on_ground.hpp"
 
 #include <algorithm>
 #include <cmath>

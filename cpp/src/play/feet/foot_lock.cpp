@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "motion/foot_lock.hpp"
+#include "feet/foot_lock.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,23 +12,22 @@ namespace fragmotion {
 namespace {
 
 // Lengths are those of a character of 1.8 m.
-constexpr double kTooFar = 0.3;        // m from its motion at which a foot is let go,
-constexpr double kTooFarAlone = 0.5;   // and at which the only one that stands is
-constexpr double kLanding = 0.06;      // m over the floor within which a foot is planted
-constexpr double kStrained = 0.1;      // m that the hips would have to sink for a foot: from there it steps on
-constexpr double kForgets = 4;         // times kRelease, until nothing is seen of a foot that was let go
-constexpr double kSettle = 0.02;       // s: time constant of a foot that comes to rest
-constexpr double kSoftGround = 0.006;  // m: a foot sinks in at most half of that
-constexpr double kHovers = 0.015;      // m over the floor from where a planted foot is lowered,
-constexpr double kLowering = 0.05;     // s: time constant of that
-constexpr double kRaising = 0.05;      // s: time constant of a heel that rises,
-constexpr double kHighest = 0.6;       // rad, by so much at most
-constexpr double kLevel = 1e-4;        // rad, below which nothing is seen of it
-constexpr double kPatience = 0.3;      // s that both feet stand before one steps to where its motion has it
-constexpr double kAstray = 0.07;       // m from its motion at least, for a foot to step there rather than slide
-constexpr double kStepHeight = 0.04;   // m
-constexpr double kDeepest = 0.08;      // m that the hips may sink
-constexpr double kSinking = 0.1;       // s: time constant of the hips
+constexpr double kTooFar = 0.3;          // m from its motion at which a foot is let go,
+constexpr double kTooFarAlone = 0.5;     // and at which the only one that stands is
+constexpr double kStrained = 0.1;        // m that the hips would have to sink for a foot: from there it steps on
+constexpr double kForgets = 4;           // times kRelease, until nothing is seen of a foot that was let go
+constexpr double kComesToRest = 0.02;    // s: time constant of a foot that comes to rest
+constexpr double kSoftGround = 0.006;    // m: a foot sinks in at most half of that
+constexpr double kHovers = 0.015;        // m over the floor from where a planted foot is lowered,
+constexpr double kLowering = 0.05;       // s: time constant of that
+constexpr double kRaising = 0.05;        // s: time constant of a heel that rises,
+constexpr double kHighest = 0.6;         // rad, by so much at most
+constexpr double kLevel = 1e-4;          // rad, below which nothing is seen of it
+constexpr double kPatience = 0.3;        // s that both feet stand before one steps to where its motion has it
+constexpr double kAstray = 0.07;         // m from its motion at least, for a foot to step there rather than slide
+constexpr double kStepHeight = 0.04;     // m
+constexpr double kDeepestAtOnce = 0.08;  // m that the hips may sink
+constexpr double kSinksIn = 0.1;         // s: time constant of the hips
 
 // The least angle, rad, by which `from_ball` must turn about `axis`, upright to it, to come within `length` of a place
 // that is `hip` from the ball; 0 where that brings it no nearer.
@@ -61,7 +60,10 @@ FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs)
       scale(standard_scale(kinematics.skeleton())),
       bones(kinematics.chains({legs[0].foot, legs[0].toe, legs[1].foot, legs[1].toe, legs[2].foot, legs[2].toe,
                                legs[3].foot, legs[3].toe})),
-      posed(kinematics.bones()) {}
+      posed(kinematics.bones()) {
+  for (int side = 0; side < legs.count(); ++side)
+    leg_bones[side] = kinematics.chains({legs[side].foot, legs[side].toe});
+}
 
 FootLock::FootLock(const Kinematics& kinematics, const Legs& legs)
     : FootLock(std::make_shared<Body>(kinematics, legs)) {}
@@ -104,7 +106,7 @@ void FootLock::settle(double seconds) {
 
 Vector2 FootLock::coming_to_rest(int side) const {
   const Foot& foot = feet_[side];
-  return foot.locked ? Vector2{kSettle * foot.drift} : Vector2::Zero();
+  return foot.locked ? Vector2{kComesToRest * foot.drift} : Vector2::Zero();
 }
 
 double FootLock::stepping(int side) const {
@@ -169,8 +171,8 @@ Vector2 FootLock::away(int side, const Vector2& moved, bool planted, double seco
   const double too_far = foot.locked && feet_[other(side)].locked ? kTooFar : kTooFarAlone;
   if (planted && !foot.locked && !stepping && away.norm() * body_->scale < kTooFar) lock(foot, moved + away, seconds);
   if (foot.locked) {
-    const double goes_on = std::exp(-seconds / kSettle);
-    foot.place += kSettle * (1 - goes_on) * foot.drift;
+    const double goes_on = std::exp(-seconds / kComesToRest);
+    foot.place += kComesToRest * (1 - goes_on) * foot.drift;
     foot.drift *= goes_on;
     away = foot.place - moved;
     if (!planted || away.norm() * body_->scale > too_far) release(foot, away);
@@ -194,7 +196,7 @@ double FootLock::height(int side, const FootHeights& floor) const {
 
 void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds,
                      const StepEdit& edit) {
-  auto& [kinematics, legs, scale, bones, posed] = *body_;
+  auto& [kinematics, legs, scale, leg_bones, bones, posed] = *body_;
   const int count = legs.count();
   if (count == 0) return;
   const Skeleton& skeleton = kinematics.skeleton();
@@ -220,10 +222,10 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     if (by.isZero(1e-9) && lift == 0) continue;
     const double strain = sinking(legs[side], posed, ankles[side]);
     if (feet_[side].locked && strain * scale > kStrained) release(feet_[side], held);
-    sink = std::max(sink, std::min(kDeepest / scale, strain));
+    sink = std::max(sink, std::min(kDeepestAtOnce / scale, strain));
   }
   fresh_ = false;
-  sunk_ += (sink - sunk_) * filtered(seconds, kSinking);
+  sunk_ += (sink - sunk_) * filtered(seconds, kSinksIn);
   pose.root.z() -= sunk_;
   for (Vector3& head : posed.heads) head.z() -= sunk_;
   for (int side = 0; side < count; ++side) {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "ground/footing.hpp"
+#include "feet/footing.hpp"
 
 namespace fragmotion {
 

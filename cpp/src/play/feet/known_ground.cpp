@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ground/known_ground.hpp"
+#include "feet/known_ground.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "motion/contacts.hpp"
+#include "feet/feet_ahead.hpp"
 #include "motion/pose.hpp"
 #include "skeleton/two_bone_ik.hpp"
 
@@ -40,7 +40,8 @@ class FootLock {
     Kinematics kinematics;
     Legs legs;
     double scale;
-    std::vector<int> bones;  // of the legs
+    std::array<std::vector<int>, kMostLegs> leg_bones;  // of each leg, from below the hips,
+    std::vector<int> bones;                             // and of all
     PosedBones posed;
   };
 

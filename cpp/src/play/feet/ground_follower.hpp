@@ -4,8 +4,8 @@
 #include <memory>
 #include <utility>
 
-#include "ground/hips_on_ground.hpp"
-#include "motion/foot_lock.hpp"
+#include "feet/foot_lock.hpp"
+#include "feet/hips_on_ground.hpp"
 
 namespace fragmotion {
 

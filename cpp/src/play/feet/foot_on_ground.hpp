@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "ground/approach.hpp"
-#include "ground/known_ground.hpp"
+#include "base/approach.hpp"
+#include "feet/known_ground.hpp"
 
 namespace fragmotion {
 

@@ -8,7 +8,7 @@
 
 #include "allocations.hpp"
 #include "control/simulated_players.hpp"
-#include "ground/ground_follower.hpp"
+#include "feet/ground_follower.hpp"
 #include "runtime/player.hpp"
 #include "small_character.hpp"
 
@@ -181,17 +181,6 @@ TEST(GroundFollower, AllocatesNothing) {
   const std::size_t before = allocations;
   for (const Control& control : trace) player.step(control, 0.1);
   EXPECT_EQ(allocations, before);
-}
-
-TEST(Approach, GetsThereAtTheTimeAndAtRest) {
-  Approach one{1, -2}, many{1, -2};
-  one.advance(3, 0.5, 0.25);
-  for (int i = 0; i < 5; ++i) many.advance(3, 0.5 - 0.05 * i, 0.05);
-  EXPECT_NEAR(one.value, many.value, 1e-12) << "whatever the steps";
-  EXPECT_NEAR(one.speed, many.speed, 1e-12);
-  many.advance(3, 0.25, 0.25);
-  EXPECT_EQ(many.value, 3);
-  EXPECT_EQ(many.speed, 0);
 }
 
 constexpr int kMany = 1000;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "ground/approach.hpp"
-#include "ground/foot_on_ground.hpp"
+#include "base/approach.hpp"
+#include "feet/foot_on_ground.hpp"
 
 namespace fragmotion {
 

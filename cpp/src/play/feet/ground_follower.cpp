@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ground/ground_follower.hpp"
+#include "feet/ground_follower.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,6 @@ constexpr double kSky = 1e5;          // m: over all ground
 constexpr double kUneven = 0.03;      // m by which ground differs where feet stand on it exactly
 constexpr double kFootLength = 0.25;  // m over which a slope counts
 constexpr double kGetsExact = 0.15;   // s in which they come to
-constexpr double kContact = 0.06;     // m over its floor, within which a sole that was captured is lowered to it
 constexpr double kReached = 0.985;    // of a leg's length, that the hips leave it at most
 constexpr double kStretched = 0.998;  // and that it is stretched to
 constexpr double kSoft = 0.02;        // m: by how much what a leg lacks is rounded off
@@ -86,7 +85,7 @@ bool GroundFollower::advance_feet(const FeetAhead& feet, double seconds, GroundP
 void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double seconds) {
   GroundProbe probe = this->probe(pose);
   appears_ = false;
-  auto& [kinematics, legs, scale, bones, posed] = *body_;
+  auto& [kinematics, legs, scale, leg_bones, bones, posed] = *body_;
   if (!legs[0].exists() || !legs[1].exists()) return follow_hips(pose, seconds, probe);
   if (!advance_feet(feet, seconds, probe)) missed_ += seconds;
   get_exact(seconds);
@@ -127,7 +126,7 @@ void GroundFollower::get_exact(double seconds) {
 
 // How much lower than captured a foot is shown, m: one that is low comes down to its floor, softly.
 double GroundFollower::lower(int side, const FootAhead& foot) const {
-  const double contact = kContact / body_->scale, height = foot.now.height();
+  const double contact = kLanding / body_->scale, height = foot.now.height();
   const double lowered = height <= 0 ? 0 : height < contact ? height * height / (2 * contact) : height - contact / 2;
   return exact_ * feet_[side].sole_weight() * (height - lowered);
 }

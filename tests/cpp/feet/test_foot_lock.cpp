@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "motion/foot_lock.hpp"
+#include "feet/foot_lock.hpp"
 #include "motion/legs.hpp"
 #include "walker.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ground/footing.hpp"
+#include "feet/footing.hpp"
 
 #include <algorithm>
 #include <cmath>
