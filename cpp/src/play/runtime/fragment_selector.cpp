@@ -16,9 +16,9 @@ constexpr double kLook = kEntry / 2;  // s between the moments at which a fragme
 }  // namespace
 
 FragmentSelector::FragmentSelector(Workspace& workspace, std::uint64_t seed)
-    : workspace_(&workspace), style_(&workspace.styles.front()), seed_(seed), random_(seed) {}
+    : workspace_(&workspace), style_(&workspace.styles->front()), seed_(seed), random_(seed) {}
 
-void FragmentSelector::change_style(int style) { style_ = &workspace_->styles[style]; }
+void FragmentSelector::change_style(int style) { style_ = &(*workspace_->styles)[style]; }
 
 // Poses what plays as it is shown at a time since its first pose.
 CharacterFrame FragmentSelector::pose_tips(const Playback& playback, double seconds, BodyTips& tips) const {

@@ -198,7 +198,7 @@ double Playback::left() const {
 }
 
 double Playback::step_seconds() const {
-  return plays_move() ? kLongestStep : workspace_->styles[now_.style].step_seconds[now_.number];
+  return plays_move() ? kLongestStep : (*workspace_->styles)[now_.style].step_seconds[now_.number];
 }
 
 Travel Playback::mean_travel() const {

@@ -27,6 +27,11 @@ double within_one(double value, const char* name) {
 
 Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options)
     : Player(character, options, std::make_shared<Workspace>(*character, options.constants)) {
+  complete(options);
+}
+
+// Makes what a player of a crowd may lack.
+void Player::complete(const PlayerOptions& options) {
   reaching_ = std::make_shared<Reaching>(*workspace_);
   reaching_->apply(ground_level(), 0);
   make_extras(options);
@@ -55,6 +60,12 @@ void Player::set_options(const PlayerOptions& options) {
   playback_.set_stitch(stitch);
   correction_.set_lock_feet(options.lock_feet);
   if (extras_ != nullptr) extras_->upper_body.set_stitch(stitch);
+}
+
+Player Player::another(const PlayerOptions& options) const {
+  Player player(character_, options, std::make_shared<Workspace>(workspace_->another()));
+  player.complete(options);
+  return player;
 }
 
 Player Player::branch() const {
