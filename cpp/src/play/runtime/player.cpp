@@ -209,12 +209,20 @@ void Player::step(const Control& given, double seconds) {
   const Control control = styled_character().admitted(given);
   director_.observe(control);
   if (seconds == 0) playback_.show();
-  for (double rest = seconds; rest > kRounding * seconds;) rest -= advance(control, std::min(rest, kFinest));
+  for (double rest = seconds; rest > kRounding * seconds;) {
+    rest -= advance(control, std::min(rest, kFinest));
+    const bool is_seen = rest <= kRounding * seconds || extras_ != nullptr;  // what begins over a pose looks at it
+    if (is_seen) {
+      playback_.show();
+    } else {
+      playback_.find_frame();
+    }
+  }
   if (extras_ != nullptr) extras_->upper_body.lay(workspace_->shown);
   correct(control, seconds);
 }
 
-// Plays on for a while, which it returns, and shows it.
+// Plays on for a while, which it returns.
 double Player::advance(const Control& control, double most) {
   if (extras_ != nullptr) most = begin_style(control, begin_moves(control, most));
   const double part = continue_move(control) ? advance_by_move(most) : advance_by_policy(control, most);
@@ -223,7 +231,6 @@ double Player::advance(const Control& control, double most) {
     extras_->style.moment.wait(part);
     extras_->upper_body.advance(part);
   }
-  playback_.show();
   return part;
 }
 
