@@ -45,6 +45,8 @@ _FRAME_GOALS = {"free": 1e-6, "locked": 2e-6}  # s, under a stick that is held
 _RESTLESS = 1.3  # times that for one that is not
 _ASKED = 8  # times that a player's step asks for the ground at most
 _CROWDS = ("crowd step", "crowd step, two threads")  # 10,000 players
+_FAR_CROWD = "far crowd step"  # 50,000
+_FAR_ERROR = "far crowd's error"
 
 
 @dataclass(frozen=True)
@@ -93,6 +95,7 @@ class Measured:
         self.seconds: dict[str, float] = {}
         self.whole: dict[str, Any] = {}
         self.asked: dict[str, float] = {}
+        self.off: dict[int, float] = {}  # by how many frames a player steps at once: m
         large: dict[int, list[tuple[float, float, float]]] = {}
         for run in runs:
             name, _, arguments = run["name"].partition("/")
@@ -101,6 +104,8 @@ class Measured:
             if name == _LARGE:
                 figures = (seconds, run["cpu_time"] * _UNITS[run["time_unit"]], run["peak_bytes"])
                 large.setdefault(int(arguments.partition("/")[0]), []).append(figures)
+            elif name == _FAR_ERROR:
+                self.off[int(arguments.partition("/")[0])] = run["off"]
             elif "asked" in run:
                 self.asked[name] = run["asked"]
             elif seconds < self.seconds.get(name, float("inf")):
@@ -269,6 +274,7 @@ def goals(rows: list[Row], measured: Measured, stored: Stored) -> list[Goal]:
         Goal("decision", core["decision"].seconds, 50e-9, _duration),
         *_frame_goals(measured),
         Goal("step of a crowd of 10000", measured.seconds[_CROWDS[0]], 1 / 60, _duration),
+        Goal("step of a crowd of 50000 by distance", measured.seconds[_FAR_CROWD], 1 / 60, _duration),
         Goal("crowd's gain by a second thread", _gain(measured), 1.8, "{:.2f}x".format, more=True),
         Goal(f"{growth.fragments[-1]} fragments", growth.seconds[-1], 6, _duration),
         Goal(f"memory of {growth.fragments[-1]} fragments", growth.peak_bytes[-1], 480e6, _megabytes),
@@ -312,6 +318,8 @@ def show(rows: list[Row], remarks: dict[str, str], measured: Measured, data: Arr
     print(f"\nWhole build: {whole['fragments']:.0f} fragments ({whole['captured']:.0f} not synthesized), {cpu} of CPU")
     print(f"The fastest one's stages: {parts}")
     show_growth(measured.growth)
+    far = ", ".join(f"every {frames}. frame {off:.3f} m" for frames, off in sorted(measured.off.items()))
+    print(f"\nPlayers that step in some frames, without held feet, are off there: {far} (median of all bones)")
     show_goals(goals(rows, measured, stored))
 
 

@@ -139,6 +139,22 @@ TEST(PackedClip, ShowsBetweenFramesWhatTheClipShows) {
   }
 }
 
+TEST(PackedClip, ShowsSomeBonesAsItShowsAll) {
+  const Skeleton skeleton = humanoid();
+  const PackedPool packed = pack(gait_pool(gait_takes()));
+  std::vector<double> all(std::size_t{4} * skeleton.size());
+  Random random(4);
+  for (int n = 0; n < 1000; ++n) {
+    const PackedClip& clip = packed.clips[random.below(static_cast<int>(packed.clips.size()))];
+    const double at = n % 2 == 0 ? random.below(clip.frames) : clip.frames * random.uniform();
+    const Vector3 root = sample_pose(clip, at, all.data());
+    const int bones = random.below(skeleton.size() + 1);
+    std::vector<double> some(all.size());
+    EXPECT_EQ(sample_pose(clip, at, bones, some.data()), root);
+    for (int i = 0; i < 4 * bones; ++i) EXPECT_EQ(some[i], all[i]);
+  }
+}
+
 // Of a packed clip at these times.
 Clip sampled(const PackedClip& packed, const std::vector<double>& times) {
   const std::size_t width = std::size_t{4} * packed.grid->bones;

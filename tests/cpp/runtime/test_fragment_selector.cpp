@@ -53,7 +53,7 @@ double stated_cost(const Choice& choice, const std::vector<EndVelocities>& ends,
   if (f.clip != left.clip) cost += weights.other_take;
   if (moves(f.evident) && moves(left.evident)) {
     cost += weights.out_of_turn *
-            steps_out_of_turn(choice.playback.steps(), choice.workspace.styles[0].entry_steps[fragment]);
+            steps_out_of_turn(choice.playback.steps(), choice.workspace.styles->front().entry_steps[fragment]);
   }
   const std::vector<float>& onward = choice.workspace.onward;
   const int stride = static_cast<int>(onward.size()) / 3;
@@ -79,7 +79,7 @@ TEST(FragmentSelector, ChoosesMembersThatCostNearlyAsLittleAsAnyByTheStatedEquat
       };
       EXPECT_TRUE(may_play(c.pool.fragments[chosen].evident));
       double least = std::numeric_limits<double>::infinity();
-      for (const int member : choice.workspace.styles[0].members[k]) {
+      for (const int member : choice.workspace.styles->front().members[k]) {
         if (may_play(c.pool.fragments[member].evident))
           least = std::min(least, stated_cost(choice, ends, member, control));
       }
@@ -225,7 +225,12 @@ TEST(FragmentSelector, LeavesAFragmentAtTheSameMomentWhereTheSameLimbsAreOfMoreB
 int steps_out_of_turn_when_left(Choice& choice, bool known) {
   int all = 0;
   const Character& c = *choice.character;
-  if (!known) choice.workspace.styles[0].entry_steps.assign(c.pool.fragments.size(), EntrySteps{});
+  if (!known) {
+    std::vector<FragmentLists> lists = *choice.workspace.styles;
+    lists[0].entry_steps.assign(c.pool.fragments.size(), EntrySteps{});
+    choice.workspace.styles = std::make_shared<const std::vector<FragmentLists>>(std::move(lists));
+    choice.selector.change_style(0);
+  }
   const std::vector<EntrySteps> entries = entry_steps(c);
   for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 3) {
     if (!(c.pool.fragments[fragment].evident.speed() > kMoving)) continue;

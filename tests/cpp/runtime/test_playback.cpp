@@ -66,6 +66,25 @@ TEST(Playback, ShowsTheSameAtTheBeginningOfAStitchOfEitherKind) {
   }
 }
 
+TEST(Playback, FindsTheFrameInWhichItIsShown) {
+  for (const Stitching stitching : {Stitching::inertialize, Stitching::crossfade}) {
+    Stage stage(stitching);
+    stage.playback.reset(static_cast<int>(stage.character->pool.fragments.size()) - 1, {{3, -2}, 1.1});
+    stage.playback.advance(0.07);
+    stage.playback.show();
+    stage.playback.start(0);
+    for (int i = 0; i < 20; ++i) {  // beyond the stitch
+      stage.playback.advance(0.02);
+      stage.playback.move({0.3, 0.1}, 0.5, 0.02);
+      stage.playback.find_frame();
+      const CharacterFrame found = stage.playback.frame();
+      stage.playback.show();
+      EXPECT_EQ(found.position, stage.playback.frame().position);
+      EXPECT_EQ(found.heading, stage.playback.frame().heading);
+    }
+  }
+}
+
 TEST(Playback, ShowsOnlyTheNewFragmentOnceACrossfadeIsOver) {
   Stage fading(Stitching::crossfade, 0.1), alone(Stitching::crossfade, 0.1);
   fading.playback.reset(static_cast<int>(fading.character->pool.fragments.size()) - 1, {});

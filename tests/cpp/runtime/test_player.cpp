@@ -73,6 +73,24 @@ TEST(Player, ShowsTheSameAfterAStepOfNoTime) {
   }
 }
 
+TEST(Player, MadeLikeAnotherPlaysAsOneMadeAnew) {
+  const auto character = gait_character();
+  PlayerOptions options;
+  options.seed = 7;
+  options.responsiveness = 0.8;
+  Player like(character);
+  const Control wanted{0.4, 1.1, 0.5, 0};
+  for (int i = 0; i < 100; ++i) like.step(wanted, 1.0 / 60);
+  Player made = like.another(options), anew(character, options);
+  for (int i = 0; i < 600; ++i) {
+    like.step(wanted, 1.0 / 60);  // room of its own
+    const Control control{std::sin(0.03 * i), 1 + std::cos(0.02 * i), 0.1, i % 100 < 5 ? 1.0 : 0.0};
+    for (Player* player : {&made, &anew}) player->step(control, 1.0 / 60);
+    ASSERT_EQ(made.root_position(), anew.root_position()) << i;
+    ASSERT_EQ(made.rotations(), anew.rotations()) << i;
+  }
+}
+
 TEST(Player, NeverJumps) {
   const auto c = gait_character();
   const Kinematics kinematics(c->pool.skeleton);

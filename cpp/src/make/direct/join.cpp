@@ -145,7 +145,7 @@ Motion spread(const Skeleton& skeleton, const Motion& motion, int begin, int end
     require_range("the place and the heading to be at", value, -kFarthestPlace, kFarthestPlace);
   const CharacterFrame reached = motion.frame(end);
   const Vector2 move = target.position - reached.position;
-  const double turn = std::remainder(target.heading - reached.heading, 2 * kPi);
+  const double turn = wrapped(target.heading - reached.heading);
   Motion moved = motion;
   for (int f = begin + 1; f < motion.frames(); ++f) {
     const double share = ease_in_ease_out(static_cast<double>(f - begin) / (end - begin));

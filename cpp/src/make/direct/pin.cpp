@@ -181,9 +181,7 @@ class PinSearch {
   }
 
   double distance(const Trial& trial) const { return (trial.reached.position - goal_.position).norm(); }
-  double angle(const Trial& trial) const {
-    return std::abs(std::remainder(trial.reached.heading - goal_.heading, 2 * kPi));
-  }
+  double angle(const Trial& trial) const { return std::abs(wrapped(trial.reached.heading - goal_.heading)); }
   bool fits(const Trial& trial) const { return distance(trial) <= options_.distance && angle(trial) <= options_.angle; }
 
   Pin result(const Trial& before, const Trial& best, int tries) const {

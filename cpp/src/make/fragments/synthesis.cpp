@@ -45,7 +45,7 @@ constexpr double kClosed = 3 / kTunedReach;                  // m a metre of rea
 constexpr double kOpen = kTunedReach;                        // of effort, for each such between them
 
 double angle_between(const Control& a, const Control& b) {
-  return std::remainder(std::atan2(b.y, b.x) - std::atan2(a.y, a.x), 2 * kPi);
+  return wrapped(std::atan2(b.y, b.x) - std::atan2(a.y, a.x));
 }
 
 Control mix(const Control& a, const Control& b, double w) {

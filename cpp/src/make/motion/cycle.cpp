@@ -52,7 +52,7 @@ class Poses {
 
 // From one character frame to another, as the first sees it.
 CharacterFrame between(const CharacterFrame& a, const CharacterFrame& b) {
-  return {Eigen::Rotation2Dd(-a.heading) * (b.position - a.position), std::remainder(b.heading - a.heading, 2 * kPi)};
+  return {Eigen::Rotation2Dd(-a.heading) * (b.position - a.position), wrapped(b.heading - a.heading)};
 }
 
 CharacterFrame after(const CharacterFrame& a, const CharacterFrame& step) {

@@ -62,7 +62,7 @@ class Treading {
     for (const Sole& sole : soles_) {
       for (int f = 0; f < windows_; ++f) {
         if (std::max(height(sole.heel(), f), height(sole.ball(), f)) > kLow) continue;
-        sum -= std::remainder(direction(sole, f + span_) - direction(sole, f), 2 * kPi) * rate_ / span_;
+        sum -= wrapped(direction(sole, f + span_) - direction(sole, f)) * rate_ / span_;
         ++count;
       }
     }

@@ -44,8 +44,7 @@ int end_of(const RoleMap& map, const RoleBone& limb) {
 
 // The part of a rotation that is about an axis, rad.
 double angle_about(const Quaternion& rotation, const Vector3& axis) {
-  const double angle = 2 * std::atan2(rotation.vec().dot(axis), rotation.w());
-  return std::remainder(angle, 2 * kPi);
+  return wrapped(2 * std::atan2(rotation.vec().dot(axis), rotation.w()));
 }
 
 }  // namespace

@@ -80,12 +80,13 @@ std::string plain_name(const std::string& name) {
 
 Hero::Hero(Character&& loaded, std::uint64_t which, FragmotionAxes engine, double unit)
     : character(std::make_shared<const Character>(std::move(loaded))),
+      player(character),
       fingerprint(which),
       axes(engine, unit),
       kinematics(character->pool.skeleton) {
   for (int style = 0; style < character->style_count(); ++style) {
     class_names.push_back(fragmotion::class_names(character->in_style(style)));
-    turns_well.push_back(fragmotion::turns_well(character, {}, style));
+    turns_well.push_back(fragmotion::turns_well(player, style));
     for (const PackedClip& clip : character->in_style(style).pool.clips) {
       for (const Marker& marker : clip.markers) {
         if (find_marker(marker.name) < 0) marker_names.push_back(marker.name);

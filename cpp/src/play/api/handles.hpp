@@ -26,6 +26,7 @@ struct Hero {
   Hero(Character&& loaded, std::uint64_t which, FragmotionAxes engine, double unit);
 
   std::shared_ptr<const Character> character;
+  Player player;              ///< Whom all others are made like.
   std::uint64_t fingerprint;  ///< Of the file.
   Axes axes;
   Kinematics kinematics;

@@ -116,7 +116,7 @@ void FragmotionPlayer::move_to(const FragmotionPlace& place) {
     if (!aim.carried) aim.place = shift.place(aim.place);
   }
   shift.none = false;
-  shift.heading = std::remainder(hero->axes.yaw(static_cast<double>(place.heading)) - inside.heading, 2 * kPi);
+  shift.heading = wrapped(hero->axes.yaw(static_cast<double>(place.heading)) - inside.heading);
   shift.offset = to.head<2>() - turn_by(shift.heading) * inside.position;
   shift.lift = to.z() - shown().level;
   player.look(player.gaze().looks(), shift.place_inside(looked_at));
@@ -136,7 +136,7 @@ Vector3 FragmotionPlayer::place() const {
 FragmotionPlace FragmotionPlayer::theirs(const Vector3& place, double heading) const {
   FragmotionPlace found;
   hero->axes.write_place(place, found.position);
-  found.heading = static_cast<float>(hero->axes.yaw(std::remainder(heading, 2 * kPi)));
+  found.heading = static_cast<float>(hero->axes.yaw(wrapped(heading)));
   return found;
 }
 
@@ -165,7 +165,7 @@ Control FragmotionPlayer::control(const FragmotionInput& input, double seconds) 
       return {axes.metres(static_cast<double>(input.move[0])), axes.metres(static_cast<double>(input.move[1])), turn,
               jump ? 1.0 : 0.0};
     case FRAGMOTION_STEER_WORLD: {
-      const double off = std::remainder(heading_of_way(facing) - frame().heading, 2 * kPi);
+      const double off = wrapped(heading_of_way(facing) - frame().heading);
       const double asked = turn == 0 && faces ? space().turn_towards(off) : turn;
       return towards(axes.place(input.move), asked, jump);
     }
@@ -297,6 +297,6 @@ void FragmotionPlayer::step(const FragmotionInput& input, double seconds) {
   const Vector3 way = place() - from;
   const Vector2 seen = turn_by(-faced) * Vector2{way.head<2>()};
   report.motion = {seen.x(), seen.y(), way.z()};
-  report.turned = std::remainder(heading() - faced, 2 * kPi);
+  report.turned = wrapped(heading() - faced);
   if (seconds > 0) report.velocity = way / seconds;
 }

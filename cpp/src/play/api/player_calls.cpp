@@ -63,7 +63,7 @@ void tell_state(const FragmotionPlayer& p, FragmotionState& state) {
   state.path_arrived = p.arrived ? 1 : 0;
   state.place = p.theirs(p.place(), p.heading());
   const Axes& axes = p.hero->axes;
-  axes.write_heading(std::remainder(p.heading(), 2 * kPi), state.rotation);
+  axes.write_heading(wrapped(p.heading()), state.rotation);
   axes.write_place(p.report.velocity, state.velocity);
   axes.write_place(p.report.motion, state.motion);
   state.motion_heading = static_cast<float>(axes.yaw(p.report.turned));
@@ -76,7 +76,7 @@ void tell_state(const FragmotionPlayer& p, FragmotionState& state) {
 
 std::unique_ptr<FragmotionPlayer> make_player(const std::shared_ptr<const Hero>& hero,
                                               const FragmotionPlayerOptions& options) {
-  return std::make_unique<FragmotionPlayer>(hero, Player(hero->character, to_options(options)),
+  return std::make_unique<FragmotionPlayer>(hero, hero->player.another(to_options(options)),
                                             std::make_shared<Scratch>(hero->bones()), options);
 }
 

@@ -3,11 +3,15 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace fragmotion {
 
 /// Half a turn, rad.
 constexpr double kPi = 3.14159265358979323846;
+
+/// An angle within half a turn to either side, rad: std::remainder() by a turn, and most often at no cost.
+inline double wrapped(double angle) { return std::abs(angle) <= kPi ? angle : std::remainder(angle, 2 * kPi); }
 
 /// What pulls everything down, m/s^2.
 constexpr double kGravity = 9.81;

@@ -186,7 +186,7 @@ double PathFollower::angle_to_face(const CharacterFrame& frame, const Aim& aim) 
     const bool away = aim.off.norm() > scaled(kReach);
     heading = heading_of(away ? aim.off : direction(way_ + kTurning * velocity_.norm(), scaled(kView)));
   }
-  return std::remainder(heading - frame.heading, 2 * kPi);
+  return wrapped(heading - frame.heading);
 }
 
 }  // namespace fragmotion

@@ -42,7 +42,12 @@ TurnsWell turns_well(const std::shared_ptr<const Character>& character, const st
   options.policy = policy;
   check_style(*character, style);
   Player player(character, options);
-  const ControlSpace& space = character->in_style(style).space;
+  return turns_well(player, style);
+}
+
+TurnsWell turns_well(Player& player, int style) {
+  player.reset({}, style);
+  const ControlSpace& space = player.styled_character().space;
   const auto turns = [&](double pace) {
     double sum = 0;
     for (const double turn : {1.0, -1.0}) {

@@ -9,6 +9,8 @@
 
 namespace fragmotion {
 
+class Player;
+
 /// How far a stick is pushed for a walk; fully pushed it is a run.
 constexpr double kHalfPush = 0.5;
 
@@ -31,6 +33,8 @@ struct TurnsWell {
 /// try. `policy`: as PlayerOptions::policy. Throws std::invalid_argument on a policy or a style that there is
 /// not.
 TurnsWell turns_well(const std::shared_ptr<const Character>& character, const std::string& policy = {}, int style = 0);
+/// The same of a player, which is let try itself.
+TurnsWell turns_well(Player& player, int style);
 
 /// Steers by the view or by the character.
 ///

@@ -43,7 +43,7 @@ class ArmReader {
 
   void read(const PackedClip& clip, double frame) {
     const Vector3 root = sample_pose(clip, frame, rotations_.data());
-    kinematics_.world(root, rotations_.data(), chains_, posed_.heads.data(), posed_.rotations.data());
+    kinematics_.world_below(root, rotations_.data(), chains_, posed_.heads.data(), posed_.rotations.data());
     const Quaternion facing = frame_at(clip, frame).rotation();
     for (int side = 0; side < 2; ++side) {
       const Arm& arm = (*ranges_)[side].arm;

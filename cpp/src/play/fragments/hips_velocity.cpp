@@ -14,7 +14,7 @@ constexpr int kMoments = 8;
 
 Travel travel_between(const PackedClip& clip, double begin, double end) {
   const CharacterFrame from = frame_at(clip, begin), to = frame_at(clip, end);
-  const double angle = std::remainder(to.heading - from.heading, 2 * kPi), rate = clip.rate / (end - begin);
+  const double angle = wrapped(to.heading - from.heading), rate = clip.rate / (end - begin);
   return {Eigen::Rotation2Dd(-from.heading - angle / 2) * (to.position - from.position) * rate, angle * rate};
 }
 

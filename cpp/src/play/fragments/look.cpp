@@ -32,8 +32,8 @@ class Reader {
     const double apart = std::max(1.0, std::round(clip.rate / kRate)),
                  seen = apart * std::max(1.0, std::round(clip.rate / kGazes / apart));
     for (double frame = 0; frame < clip.frames; frame += apart) {
-      const Vector3 root = sample_pose(clip, frame, rotations_.data());
-      kinematics_.world(root, rotations_.data(), chain_, heads_.data(), now_.data());
+      const Vector3 root = sample_pose(clip, frame, chain_.back() + 1, rotations_.data());
+      kinematics_.world_below(root, rotations_.data(), chain_, heads_.data(), now_.data());
       for (std::size_t i = 0; frame > 0 && i < bones_.size(); ++i) {
         const double angle = before_[bones_[i]].angularDistance(now_[bones_[i]]);
         fastest_[i] = std::max(fastest_[i], static_cast<float>(angle * clip.rate / apart));

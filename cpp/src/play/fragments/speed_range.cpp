@@ -23,7 +23,8 @@ SpeedRange::SpeedRange(const std::vector<Fragment>& fragments, const ControlSpac
     if (is_made(fragment.origin)) continue;
     const double at = direction(fragment.evident), speed = kBeyond * fragment.evident.speed();
     for (int i = 0; i < kDirections; ++i) {
-      if (std::abs(std::remainder(i * kTurn - at, 2 * kPi)) <= kAround) most_[i] = std::max(most_[i], speed);
+      const double off = std::abs(i * kTurn - at);  // up to one and a half turns
+      if (std::min(off, std::abs(off - 2 * kPi)) <= kAround) most_[i] = std::max(most_[i], speed);
     }
   }
 }

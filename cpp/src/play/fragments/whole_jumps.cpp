@@ -18,8 +18,7 @@ class HipsHeights {
  public:
   HipsHeights(const Skeleton& skeleton, const PackedClip& clip, int first, int last)
       : first_(first), last_(last), tolerance_(kUpright / standard_scale(skeleton)), rate_(clip.rate) {
-    std::vector<double> rotations(std::size_t{4} * skeleton.size());
-    for (int f = first; f <= last; ++f) heights_.push_back(sample_pose(clip, f, rotations.data()).z());
+    for (int f = first; f <= last; ++f) heights_.push_back(sample_pose(clip, f, 0, nullptr).z());
   }
 
   double operator()(int frame) const { return heights_[frame - first_]; }

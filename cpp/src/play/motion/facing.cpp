@@ -15,7 +15,7 @@ std::vector<double> hips_headings(const Kinematics& kinematics, const Clip& clip
   for (int f = 0; f < clip.frames; ++f) {
     const double* rotation = &clip.rotations[4 * (static_cast<std::size_t>(f) * kinematics.bones() + hips)];
     headings[f] = kinematics.frame(load_vector(&clip.root_positions[3 * f]), load_quaternion(rotation)).heading;
-    if (f > 0) headings[f] = headings[f - 1] + std::remainder(headings[f] - headings[f - 1], 2 * kPi);
+    if (f > 0) headings[f] = headings[f - 1] + wrapped(headings[f] - headings[f - 1]);
   }
   return headings;
 }

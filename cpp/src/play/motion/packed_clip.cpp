@@ -87,13 +87,31 @@ void check_poses(const PackedPoses& poses, int frames, const PoseGrid& grid) {
 }
 
 using Lanes = float[kBoneBlock];
+using Turns = std::int32_t[3][kBoneBlock];
+
+// Reads the turns of a block of bones from a pose, from a bit on, and of a second pose where there is one; returns the
+// bit after them.
+template <bool kTwo>
+[[gnu::always_inline]] inline unsigned read_turns(const PackedBetween& between, unsigned bit, const std::uint8_t* bits,
+                                                  const std::int32_t* least, Turns& first, Turns& second) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < kBoneBlock; ++i) {
+      const std::uint32_t mask = mask_of(*bits);
+      first[axis][i] = *least + static_cast<std::int32_t>(read_bits(between.pose, bit, mask));
+      if (kTwo) second[axis][i] = *least + static_cast<std::int32_t>(read_bits(between.next, bit, mask));
+      ++least;
+      bit += *bits++;
+    }
+  }
+  return bit;
+}
 
 // Unit quaternions from the turns x, y, z that are given in steps.
 struct LaneQuaternions {
   Lanes w, x, y, z;
 
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): the loop fills them
-  [[gnu::always_inline]] LaneQuaternions(const std::int32_t (&numbers)[3][kBoneBlock], const float* steps) {
+  [[gnu::always_inline]] LaneQuaternions(const Turns& numbers, const float* steps) {
     for (int i = 0; i < kBoneBlock; ++i) {
       const float a = steps[i] * static_cast<float>(numbers[0][i]), b = steps[i] * static_cast<float>(numbers[1][i]),
                   c = steps[i] * static_cast<float>(numbers[2][i]), square = a * a + b * b + c * c,
@@ -184,28 +202,28 @@ Clip unpack(const PackedClip& packed) {
   return clip;
 }
 
-FRAGMOTION_VECTORISED Vector3 sample_pose(const PackedClip& clip, double at, double* rotations) {
+Vector3 sample_pose(const PackedClip& clip, double at, double* rotations) {
+  return sample_pose(clip, at, clip.grid->bones, rotations);
+}
+
+FRAGMOTION_VECTORISED Vector3 sample_pose(const PackedClip& clip, double at, int bones, double* rotations) {
   const PoseGrid& grid = *clip.grid;
+  const int blocks = clip.mirrored && bones > 0 ? grid.blocks() : (bones + kBoneBlock - 1) / kBoneBlock;
   const PackedBetween between(clip, at);
   double root[kRootNumbers];
   unsigned bit = between.root(clip, root);
   const std::int32_t* least = clip.poses->least.data();
   const std::uint8_t* bits = &clip.poses->bits[kRootNumbers];
-  for (int block = 0; block < grid.blocks(); ++block) {
-    std::int32_t a[3][kBoneBlock], b[3][kBoneBlock];
-    for (int axis = 0; axis < 3; ++axis) {
-      for (int i = 0; i < kBoneBlock; ++i) {
-        const std::uint32_t mask = mask_of(*bits);
-        a[axis][i] = *least + static_cast<std::int32_t>(read_bits(between.pose, bit, mask));
-        b[axis][i] = *least++ + static_cast<std::int32_t>(read_bits(between.next, bit, mask));
-        bit += *bits++;
-      }
-    }
+  const bool is_between = between.weight > 0;
+  for (int block = 0; block < blocks; ++block, bits += 3 * kBoneBlock, least += 3 * kBoneBlock) {
+    Turns a, b;
+    bit = is_between ? read_turns<true>(between, bit, bits, least, a, b)
+                     : read_turns<false>(between, bit, bits, least, a, b);
     const int first = kBoneBlock * block, count = std::min(kBoneBlock, grid.bones - first);
     const std::size_t lanes = std::size_t{4} * first;
     const float* steps = &grid.steps[first];
     LaneQuaternions quaternions(a, steps);
-    quaternions.blend(LaneQuaternions(b, steps), static_cast<float>(between.weight));
+    quaternions.blend(is_between ? LaneQuaternions(b, steps) : quaternions, static_cast<float>(between.weight));
     float blended[kBoneBlock][4];
     if (clip.mirrored) {
       quaternions.turn_after(&grid.mirror.after[lanes]);

@@ -86,6 +86,8 @@ void check(const PoseGrid& grid, const Skeleton& skeleton);
 
 /// As those of Clip (pose.hpp), but that between frames rotations go straight and are made unit again.
 Vector3 sample_pose(const PackedClip& clip, double at, double* rotations);
+/// The same, but of rotations no more than those of the first `bones` bones need be written: 0, only the hips' place.
+Vector3 sample_pose(const PackedClip& clip, double at, int bones, double* rotations);
 CharacterFrame frame_at(const PackedClip& clip, double at);
 
 }  // namespace fragmotion

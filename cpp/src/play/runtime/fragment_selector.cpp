@@ -16,9 +16,9 @@ constexpr double kLook = kEntry / 2;  // s between the moments at which a fragme
 }  // namespace
 
 FragmentSelector::FragmentSelector(Workspace& workspace, std::uint64_t seed)
-    : workspace_(&workspace), style_(&workspace.styles.front()), seed_(seed), random_(seed) {}
+    : workspace_(&workspace), style_(&workspace.styles->front()), seed_(seed), random_(seed) {}
 
-void FragmentSelector::change_style(int style) { style_ = &workspace_->styles[style]; }
+void FragmentSelector::change_style(int style) { style_ = &(*workspace_->styles)[style]; }
 
 // Poses what plays as it is shown at a time since its first pose.
 CharacterFrame FragmentSelector::pose_tips(const Playback& playback, double seconds, BodyTips& tips) const {
@@ -205,30 +205,37 @@ double FragmentSelector::distance_to(int move, const Playback& playback) const {
   return style_->cost.of_joining(tip_distance(onward.data(), entry, static_cast<int>(onward.size()) / 3), 0);
 }
 
-// No moment is looked at once waiting alone costs too much. What is shown kEntry before a moment is known from the last
-// but one.
+// No moment is looked at once waiting, and what of the costs is known, are too much. What is shown kEntry before a
+// moment is known from the last but one.
 Exit FragmentSelector::best_exit(const std::array<Exit, 2>& classes, const Control& control, const Playback& playback,
                                  double haste, Exit best) const {
   const double seconds = playback.seconds(), rest = playback.left();
   const Left left{playback.fragment(), playback.contacts()};
   auto& [long_before, before, now] = workspace_->tips;
+  std::array<float, 2> known{};
   for (std::size_t i = 0; i < classes.size(); ++i) {
-    if (classes[i].next_class >= 0) find_candidates(classes[i].next_class, control, left, workspace_->candidates[i]);
+    known[i] = std::numeric_limits<float>::infinity();
+    if (classes[i].next_class < 0) continue;
+    find_candidates(classes[i].next_class, control, left, workspace_->candidates[i]);
+    known[i] = workspace_->candidates[i].front().first;
   }
+  const auto most = [&](std::size_t i, double wait) {
+    return static_cast<float>(best.cost - (classes[i].cost + haste * wait));
+  };
+  const auto may_gain = [&](double wait) { return known[0] < most(0, wait) || known[1] < most(1, wait); };
+  if (!may_gain(0)) return best;
   pose_tips(playback, seconds - kEntry, long_before);
   pose_tips(playback, seconds - kLook, before);
   StepSequence steps = playback.steps();
-  for (double wait = 0; haste * wait < best.cost; wait = std::min(wait + kLook, rest)) {
+  for (double wait = 0; may_gain(wait); wait = std::min(wait + kLook, rest)) {
     if (wait == rest) pose_tips(playback, seconds + wait - kEntry, long_before);
     extrapolate(pose_tips(playback, seconds + wait, now), long_before, now);
     if (wait > 0) steps.advance(playback.standing_feet(seconds + wait), kLook);
     for (std::size_t i = 0; i < classes.size(); ++i) {
       if (classes[i].next_class < 0) continue;
-      const double more = classes[i].cost + haste * wait;
-      const auto most = static_cast<float>(best.cost - more);
-      const float cost =
-          least_cost(classes[i].next_class, left.fragment.evident, steps, workspace_->candidates[i], most);
-      if (cost < most) best = {classes[i].next_class, seconds + wait, cost + more};
+      const float limit = most(i, wait), cost = least_cost(classes[i].next_class, left.fragment.evident, steps,
+                                                           workspace_->candidates[i], limit);
+      if (cost < limit) best = {classes[i].next_class, seconds + wait, cost + (classes[i].cost + haste * wait)};
     }
     if (wait >= rest) break;
     std::swap(long_before, before);

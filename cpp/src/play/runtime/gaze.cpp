@@ -19,8 +19,6 @@ constexpr double kSlowest = 1e-3;            // rad/s, of a head that never turn
 constexpr double kRightBehind = 0.75 * kPi;  // rad: from there on it is over the shoulder that was looked over already
 constexpr double kNearest = 1e-3;            // m: what is nearer to the eyes has no direction
 
-double turned(double angle) { return std::remainder(angle, 2 * kPi); }
-
 }  // namespace
 
 void Gaze::look(Look look, const Vector3& place) {
@@ -44,7 +42,8 @@ Gaze::Seen Gaze::see() const {
 Gaze::Angles Gaze::angles(const Quaternion& rotation) const { return angles(rotation * workspace_->gaze.forward); }
 
 Gaze::Angles Gaze::angles(const Vector3& way) const {
-  return {turned(std::atan2(-way.x(), way.y()) - workspace_->shown.heading), std::atan2(way.z(), way.head<2>().norm())};
+  return {wrapped(std::atan2(-way.x(), way.y()) - workspace_->shown.heading),
+          std::atan2(way.z(), way.head<2>().norm())};
 }
 
 Gaze::Angles Gaze::towards(const Vector3& eyes) const {
@@ -76,21 +75,21 @@ double Gaze::fastest() const {
 
 // What is shown is so far from what is wanted.
 void Gaze::put_off(const Angles& shown, const Angles& wanted) {
-  offset_[0].value = turned(shown[0] - wanted[0]);
+  offset_[0].value = wrapped(shown[0] - wanted[0]);
   offset_[1].value = shown[1] - wanted[1];
 }
 
 // What is wanted is followed at once where it moves; where it is another, from what was shown. Returns where to look.
 Gaze::Angles Gaze::advance(const Angles& wanted, bool begins, double seconds) {
   const double most = fastest() * seconds;
-  const Angles shown = angles(head_), moved{turned(wanted[0] - wanted_[0]), wanted[1] - wanted_[1]};
+  const Angles shown = angles(head_), moved{wrapped(wanted[0] - wanted_[0]), wanted[1] - wanted_[1]};
   if (begins || moved.norm() > most) {
     put_off(shown, wanted);
     due_ = std::max(kTurnsIn, kPeak * std::hypot(offset_[0].value, offset_[1].value) / fastest());
   }
   for (Approach& offset : offset_) offset.advance(0, due_, seconds);
   due_ = std::max(0.0, due_ - seconds);
-  const Angles way{turned(wanted[0] + offset_[0].value - shown[0]), wanted[1] + offset_[1].value - shown[1]};
+  const Angles way{wrapped(wanted[0] + offset_[0].value - shown[0]), wanted[1] + offset_[1].value - shown[1]};
   const Angles aim = shown + std::min(1.0, most / std::max(way.norm(), most)) * way;
   if (way.norm() > most) put_off(aim, wanted);
   wanted_ = wanted;
@@ -100,7 +99,7 @@ Gaze::Angles Gaze::advance(const Angles& wanted, bool begins, double seconds) {
 // How far the chest turns with a head that turns so.
 double Gaze::chest_of(double turn) const {
   const GazeRange& range = workspace_->gaze;
-  return range.turn > 0 ? range.chest / range.turn * turned(turn) : 0;
+  return range.turn > 0 ? range.chest / range.turn * wrapped(turn) : 0;
 }
 
 // Turns the spine's bones by as much each, and then neck and head so that they look `to`.
@@ -113,7 +112,7 @@ void Gaze::turn(double chest, const Angles& to) {
   turn_each(workspace_->spine, Vector3::UnitZ(), chest);
   const Angles from = see().angles;
   const double heading = workspace_->shown.heading + to[0];
-  turn_each(workspace_->look, Vector3::UnitZ(), turned(to[0] - from[0]));
+  turn_each(workspace_->look, Vector3::UnitZ(), wrapped(to[0] - from[0]));
   turn_each(workspace_->look, Vector3{std::cos(heading), std::sin(heading), 0}, to[1] - from[1]);
 }
 

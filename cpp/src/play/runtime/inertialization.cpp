@@ -114,10 +114,19 @@ Fade Inertialization::fade(double damping, double time) const {
 
 void Inertialization::apply(double time, WorldPose& pose) const {
   if (!active(time)) return;
-  const auto [offset, speed] = fade(damping_, time);
-  pose.root += offset * root_ + speed * root_speed_;
-  pose.heading += offset * heading_ + speed * heading_speed_;
-  add_turns(offsets_.data(), bones(), static_cast<float>(offset), static_cast<float>(speed), pose.rotations.data());
+  const Fade left = fade(damping_, time);
+  move(left, pose);
+  add_turns(offsets_.data(), bones(), static_cast<float>(left.offset), static_cast<float>(left.speed),
+            pose.rotations.data());
+}
+
+void Inertialization::move(double time, WorldPose& pose) const {
+  if (active(time)) move(fade(damping_, time), pose);
+}
+
+void Inertialization::move(const Fade& left, WorldPose& pose) const {
+  pose.root += left.offset * root_ + left.speed * root_speed_;
+  pose.heading += left.offset * heading_ + left.speed * heading_speed_;
 }
 
 }  // namespace fragmotion

@@ -52,6 +52,8 @@ class Inertialization {
 
   /// Adds what is left `time` seconds after the beginning.
   void apply(double time, WorldPose& pose) const;
+  /// The same of the hips' place and the heading alone.
+  void move(double time, WorldPose& pose) const;
 
   const StitchConstants& constants() const { return *constants_; }
   /// `time` seconds after the beginning of a stitch of this damping, 1/s.
@@ -66,6 +68,7 @@ class Inertialization {
 
   int bones() const { return static_cast<int>(offsets_.size()) / 6; }
   std::size_t slot(int bone, int value) const;
+  void move(const Fade& left, WorldPose& pose) const;
 
   const StitchConstants* constants_;
   double damping_ = 0, end_ = 0;  // 1/s, s

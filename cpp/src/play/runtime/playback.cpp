@@ -53,17 +53,22 @@ Playback::Placed Playback::place(int style, int number, const CharacterFrame& fr
   return placed;
 }
 
-void Playback::sample(const Placed& placed, WorldPose& pose) const {
-  const PackedClip& source = clip(placed);
-  const double at = fragment(placed).first_played() + placed.seconds * source.rate;
-  const Vector3 root = sample_pose(source, at, pose.rotations.data());
+// Places hips and heading of a frame of the clip, in which these are at `root`; returns by what all is turned.
+Quaternion Playback::put(const Placed& placed, double at, const Vector3& root, WorldPose& pose) const {
   // By half the angle, for the quaternion as well as for the plane.
   const double w = std::cos(placed.heading / 2), z = std::sin(placed.heading / 2), c = w * w - z * z, s = 2 * w * z;
   pose.root = {placed.offset.x() + c * root.x() - s * root.y(), placed.offset.y() + s * root.x() + c * root.y(),
                root.z()};
-  pose.heading = placed.heading + frame_at(source, at).heading;
+  pose.heading = placed.heading + frame_at(clip(placed), at).heading;
+  return {w, 0, 0, z};
+}
+
+void Playback::sample(const Placed& placed, WorldPose& pose) const {
+  const PackedClip& source = clip(placed);
+  const double at = fragment(placed).first_played() + placed.seconds * source.rate;
+  const Quaternion turn = put(placed, at, sample_pose(source, at, pose.rotations.data()), pose);
   double* hips = &pose.rotations[std::size_t{4} * character_->pool.skeleton.roles.hips];
-  store_quaternion(Quaternion{w, 0, 0, z} * load_quaternion(hips), hips);
+  store_quaternion(turn * load_quaternion(hips), hips);
 }
 
 void Playback::sample_stitched(Placed placed, double seconds, WorldPose& pose) const {
@@ -153,6 +158,14 @@ void Playback::show() {
   frame_ = {shown.root.head<2>(), shown.heading};
 }
 
+void Playback::find_frame() {
+  if (stitching_ == Stitching::crossfade) return show();
+  WorldPose place;
+  put(now_, at(), sample_pose(clip(now_), at(), 0, nullptr), place);
+  inertialization_.move(now_.seconds, place);
+  frame_ = {place.root.head<2>(), place.heading};
+}
+
 // Goes so far from what played before to the pose.
 void Playback::crossfade(double weight, WorldPose& pose) const {
   WorldPose& old = workspace_->poses[0];
@@ -205,7 +218,7 @@ double Playback::left() const {
 }
 
 double Playback::step_seconds() const {
-  return plays_move() ? kLongestStep : workspace_->styles[now_.style].step_seconds[now_.number];
+  return plays_move() ? kLongestStep : (*workspace_->styles)[now_.style].step_seconds[now_.number];
 }
 
 Travel Playback::mean_travel() const {

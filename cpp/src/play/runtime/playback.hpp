@@ -56,6 +56,8 @@ class Playback {
 
   /// Writes what plays to Workspace::shown.
   void show();
+  /// Finds frame() as show() does, without the pose.
+  void find_frame();
   /// As it is shown at a time since the fragment's first pose, without a crossfade's old fragment.
   void sample(double seconds, WorldPose& pose) const;
   /// Likewise, but for neck and head, which are somewhere between the old and the new motion.
@@ -123,6 +125,7 @@ class Playback {
   Placed place(int style, int number, const CharacterFrame& frame) const;
   Vector2 start(const Placed& next);
   void play(const Placed& placed);
+  Quaternion put(const Placed& placed, double at, const Vector3& root, WorldPose& pose) const;
   void sample(const Placed& placed, WorldPose& pose) const;
   void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
   Vector2 begin_stitch(const Placed& old);

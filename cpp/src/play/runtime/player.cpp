@@ -27,6 +27,11 @@ double within_one(double value, const char* name) {
 
 Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options)
     : Player(character, options, std::make_shared<Workspace>(*character, options.constants)) {
+  complete(options);
+}
+
+// Makes what a player of a crowd may lack.
+void Player::complete(const PlayerOptions& options) {
   reaching_ = std::make_shared<Reaching>(*workspace_);
   reaching_->apply(ground_level(), 0);
   make_extras(options);
@@ -55,6 +60,12 @@ void Player::set_options(const PlayerOptions& options) {
   playback_.set_stitch(stitch);
   correction_.set_lock_feet(options.lock_feet);
   if (extras_ != nullptr) extras_->upper_body.set_stitch(stitch);
+}
+
+Player Player::another(const PlayerOptions& options) const {
+  Player player(character_, options, std::make_shared<Workspace>(workspace_->another()));
+  player.complete(options);
+  return player;
 }
 
 Player Player::branch() const {
@@ -211,12 +222,20 @@ void Player::step(const Control& given, double seconds) {
   const Control control = styled_character().admitted(given);
   director_.observe(control);
   if (seconds == 0) playback_.show();
-  for (double rest = seconds; rest > kRounding * seconds;) rest -= advance(control, std::min(rest, kFinest));
+  for (double rest = seconds; rest > kRounding * seconds;) {
+    rest -= advance(control, std::min(rest, kFinest));
+    const bool is_seen = rest <= kRounding * seconds || extras_ != nullptr;  // what begins over a pose looks at it
+    if (is_seen) {
+      playback_.show();
+    } else {
+      playback_.find_frame();
+    }
+  }
   if (extras_ != nullptr) extras_->upper_body.lay(workspace_->shown);
   correct(control, seconds);
 }
 
-// Plays on for a while, which it returns, and shows it.
+// Plays on for a while, which it returns.
 double Player::advance(const Control& control, double most) {
   if (extras_ != nullptr) most = begin_style(control, begin_moves(control, most));
   const double part = continue_move(control) ? advance_by_move(most) : advance_by_policy(control, most);
@@ -225,7 +244,6 @@ double Player::advance(const Control& control, double most) {
     extras_->style.moment.wait(part);
     extras_->upper_body.advance(part);
   }
-  playback_.show();
   return part;
 }
 

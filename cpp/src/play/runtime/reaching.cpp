@@ -68,7 +68,7 @@ void Reaching::follow_frame(double level, double seconds) {
   frame_ = {pose.root.head<2>(), pose.heading};
   level_ = level;
   speed_ = seconds > 0 ? Vector2((frame_.position - before.position) / seconds) : Vector2::Zero();
-  turning_ = seconds > 0 ? std::remainder(frame_.heading - before.heading, 2 * kPi) / seconds : 0;
+  turning_ = seconds > 0 ? wrapped(frame_.heading - before.heading) / seconds : 0;
 }
 
 void Reaching::see() const {

@@ -81,7 +81,7 @@ void RootGovernor::steer_turn(double asked, double mean, const Playback& playbac
   const double time = playback.step_seconds() / 2, most = kTurnsAtMost * std::max(std::abs(asked), space_->turn_rate()),
                heading = playback.frame().heading;
   target_heading_ += seconds * asked;
-  const double behind = std::clamp(std::remainder(target_heading_ - heading, 2 * kPi), -most * time, most * time);
+  const double behind = std::clamp(wrapped(target_heading_ - heading), -most * time, most * time);
   target_heading_ = heading + behind;
   const double wanted = root_adjustment_ * (std::clamp(asked + behind / time, -most, most) - tempo_ * mean);
   turn_rate_ += filtered(seconds, limits_->settles) * (wanted - turn_rate_);

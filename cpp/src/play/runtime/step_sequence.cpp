@@ -19,6 +19,15 @@ struct Wrap {
   int end = -1, begin = 0;
 };
 
+// The frames in which a foot comes down.
+std::vector<int> strikes(const std::vector<bool>& stands) {
+  std::vector<int> frames;
+  for (std::size_t f = 1; f < stands.size(); ++f) {
+    if (stands[f] && !stands[f - 1]) frames.push_back(static_cast<int>(f));
+  }
+  return frames;
+}
+
 // Of each clip.
 std::vector<Wrap> wraps(const Character& character) {
   const std::vector<Fragment>& fragments = character.pool.fragments;
@@ -31,14 +40,14 @@ std::vector<Wrap> wraps(const Character& character) {
   return all;
 }
 
-float until_strike(const std::vector<bool>& stands, int first, const Wrap& wrap, double rate) {
-  const bool wraps = wrap.end >= 0 && !stands.empty();
-  const int cycle = wrap.end - wrap.begin, last = wraps ? first + cycle : static_cast<int>(stands.size()) - 1;
-  for (int f = first + 1; f <= last; ++f) {
-    const int at = wraps && f > wrap.end ? f - cycle : f;
-    if (stands[at] && !stands[at - 1]) return static_cast<float>((f - first) / rate);
-  }
-  return std::numeric_limits<float>::infinity();
+// By the frames in which a foot comes down.
+float until_strike(const std::vector<int>& strikes, int first, const Wrap& wrap, double rate) {
+  const auto after = [&](int frame) { return std::upper_bound(strikes.begin(), strikes.end(), frame); };
+  const auto next = after(first), again = after(wrap.begin);
+  const bool wraps = wrap.end >= 0;
+  if (next != strikes.end() && !(wraps && *next > wrap.end)) return static_cast<float>((*next - first) / rate);
+  if (!wraps || again == strikes.end() || *again > first) return std::numeric_limits<float>::infinity();
+  return static_cast<float>((*again + wrap.end - wrap.begin - first) / rate);
 }
 
 }  // namespace
@@ -54,12 +63,15 @@ void StepSequence::advance(const std::array<bool, 2>& now, double seconds) {
 std::vector<EntrySteps> entry_steps(const Character& character) {
   std::vector<EntrySteps> all;
   const std::vector<Wrap> wraps = fragmotion::wraps(character);
+  std::vector<std::array<std::vector<int>, 2>> strikes;
+  for (const Contacts& contacts : character.contacts)
+    strikes.push_back({fragmotion::strikes(contacts.feet[0]), fragmotion::strikes(contacts.feet[1])});
   for (const Fragment& f : character.pool.fragments) {
     const Contacts& contacts = character.contacts[f.clip];
     EntrySteps entry{standing_feet(contacts, f.first_played()), {}};
     for (int side = 0; side < 2; ++side) {
       entry.strikes[side] =
-          until_strike(contacts.feet[side], f.first_played(), wraps[f.clip], character.pool.clips[f.clip].rate);
+          until_strike(strikes[f.clip][side], f.first_played(), wraps[f.clip], character.pool.clips[f.clip].rate);
     }
     all.push_back(entry);
   }
@@ -72,10 +84,12 @@ std::vector<double> step_seconds(const Character& character) {
   for (const Contacts& contacts : character.contacts) strikes.push_back(foot_strikes(contacts));
   for (const Fragment& f : character.pool.fragments) {
     const double rate = character.pool.clips[f.clip].rate, reach = kLongestStep * rate;
+    const std::vector<int>& of_clip = strikes[f.clip];
     std::vector<double> times;
-    for (std::size_t i = 1; i < strikes[f.clip].size(); ++i) {
-      const int from = strikes[f.clip][i - 1], to = strikes[f.clip][i];
-      if (to > f.begin - reach && from < f.end + reach) times.push_back((to - from) / rate);
+    for (auto to = std::upper_bound(of_clip.begin(), of_clip.end(), f.begin - reach); to != of_clip.end(); ++to) {
+      if (to == of_clip.begin()) continue;
+      if (to[-1] >= f.end + reach) break;
+      times.push_back((to[0] - to[-1]) / rate);
     }
     all.push_back(times.empty() ? kLongestStep : std::min(kLongestStep, median(times)));
   }

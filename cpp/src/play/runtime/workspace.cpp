@@ -2,6 +2,7 @@
 #include "runtime/workspace.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "fragments/entry_poses.hpp"
 #include "fragments/look.hpp"
@@ -35,13 +36,15 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
       onward(character.entry_poses.size() / character.pool.fragments.size()) {
   std::size_t most = 0;
   std::vector<const PackedPool*> pools;
+  std::vector<FragmentLists> lists;
   for (int style = 0; style < character.style_count(); ++style) {
     const Character& c = character.in_style(style);
-    styles.push_back({&c, c.classes.members(), entry_steps(c), TransitionCost(c, constants.transition), step_seconds(c),
-                      successors(c.pool.fragments), beside_usual(c)});
+    lists.push_back({&c, c.classes.members(), entry_steps(c), TransitionCost(c, constants.transition), step_seconds(c),
+                     successors(c.pool.fragments), beside_usual(c)});
     most = std::max(most, c.pool.fragments.size());
     pools.push_back(&c.pool);
   }
+  styles = std::make_shared<const std::vector<FragmentLists>>(std::move(lists));
   Looks found = looks_in(pools);
   fastest_looks = std::move(found.fastest);
   gaze = found.gaze;
@@ -62,6 +65,13 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
   shown.rotations.resize(std::size_t{4} * kinematics.bones());
   poses.fill(shown);
   for (WorldPose& pose : looks) pose.rotations.resize(4 * look.size());
+}
+
+Workspace Workspace::another() const {
+  Workspace made(*this);
+  made.body = std::make_shared<FootLock::Body>(*body);
+  for (std::size_t i = 0; i < candidates.size(); ++i) made.candidates[i].reserve(candidates[i].capacity());
+  return made;
 }
 
 }  // namespace fragmotion

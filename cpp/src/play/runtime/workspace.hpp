@@ -34,13 +34,15 @@ using Candidates = std::vector<std::pair<float, int>>;
 struct Workspace {
   /// The character must outlive it.
   explicit Workspace(const Character& character, const PlayerConstants& constants = {});
+  /// Room for other players of the character, which may step at the same time: what never changes is shared.
+  Workspace another() const;
 
   PlayerConstants constants;
 
   Kinematics kinematics;
   std::shared_ptr<FootLock::Body> body;
   Floors floors;  ///< The medians of those of the takes.
-  std::vector<FragmentLists> styles;
+  std::shared_ptr<const std::vector<FragmentLists>> styles;
   std::vector<int> look;             ///< look_bones()
   std::vector<float> fastest_looks;  ///< looks_in() all styles
   GazeRange gaze;                    ///< Likewise.

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// A crowd by its level of detail, as a game has it.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "character/policy_file.hpp"
+#include "fragmotion/fragmotion.hpp"
+#include "workload.hpp"
+
+namespace fragmotion::benchmarks {
+namespace {
+
+constexpr double kFrame = 1.0 / 60;  // s
+constexpr int kFramesPerControl = 6, kManyPlayers = 50000;
+constexpr std::size_t kSetOff = 60;           // frames until they go
+constexpr int kMeasured = 24;                 // frames, in which each has stepped as often as it does
+constexpr double kNear = 20, kMiddle = 60;    // m from the camera: the limits of levels, with one player a square metre
+constexpr int kCompared = 100, kSteps = 600;  // players, and steps for which they are
+
+struct Level {
+  int step_interval;
+  bool hold_feet;
+};
+
+Level level_at(double distance) {
+  if (distance < kNear) return {1, true};
+  return {distance < kMiddle ? 2 : 4, false};
+}
+
+void require(bool holds) {
+  if (!holds) throw std::runtime_error(game::last_error());
+}
+
+game::Character loaded() {
+  const std::string bytes = to_bytes(*workload().built);
+  FragmotionLoadOptions options = fragmotion_load_options();
+  options.axes = FRAGMOTION_AXES_BLENDER;
+  game::Character character = game::Character::load(bytes.data(), bytes.size(), options);
+  require(static_cast<bool>(character));
+  return character;
+}
+
+void set_level(game::PlayerRef player, const Level& level) {
+  FragmotionPlayerOptions options = player.options();
+  options.step_interval = static_cast<std::uint32_t>(level.step_interval);
+  options.hold_feet = level.hold_feet ? 1 : 0;
+  require(player.set_options(options));
+}
+
+// As many ways as there are controls.
+void steer(std::size_t frame, std::vector<FragmotionInput>& inputs) {
+  const Trace& trace = workload().trace;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const Control& control = trace[(frame / kFramesPerControl + 7 * i) % trace.size()];
+    inputs[i].move[0] = static_cast<float>(control.x);
+    inputs[i].move[1] = static_cast<float>(control.y);
+    inputs[i].turn = static_cast<float>(control.turn);
+    inputs[i].jump = control.jumps() ? 1 : 0;
+  }
+}
+
+void measure_far_crowd(benchmark::State& state) {
+  const game::Character character = loaded();
+  FragmotionPlayerOptions far = fragmotion_player_options();
+  far.step_interval = 4;  // so that they take turns
+  game::Crowd crowd(character, kManyPlayers, 1, far);
+  for (int i = 0; i < kManyPlayers; ++i) set_level(crowd[i], level_at(std::sqrt(i / kPi)));
+  std::vector<FragmotionInput> inputs(kManyPlayers, fragmotion_input());
+  std::size_t frame = 0;
+  const auto step = [&] { require(crowd.step(inputs.data(), kFrame)); };
+  for (; frame < kSetOff; ++frame) steer(frame, inputs), step();
+  for (auto _ : state) {
+    state.PauseTiming();
+    steer(frame++, inputs);
+    state.ResumeTiming();
+    step();
+  }
+}
+
+// How far bones are from where they are without a level of detail, m: the median of all, of players and of steps.
+void measure_far_error(benchmark::State& state) {
+  const game::Character character = loaded();
+  game::Crowd whole(character, kCompared), coarse(character, kCompared);
+  for (int i = 0; i < kCompared; ++i) set_level(coarse[i], {static_cast<int>(state.range(0)), false});
+  const int bones = character.info().bones;
+  std::vector<FragmotionTransform> shown(bones), right(bones);
+  std::vector<FragmotionInput> inputs(kCompared, fragmotion_input());
+  std::vector<float> off;
+  for (auto _ : state) {
+    for (std::size_t frame = 0; frame < kSteps; ++frame) {
+      steer(frame, inputs);
+      require(whole.step(inputs.data(), kFrame) && coarse.step(inputs.data(), kFrame));
+      for (int i = 0; i < kCompared; ++i) {
+        require(whole[i].pose(FRAGMOTION_SPACE_WORLD, right.data(), bones) &&
+                coarse[i].pose(FRAGMOTION_SPACE_WORLD, shown.data(), bones));
+        for (int b = 0; b < bones; ++b) {
+          const float *p = shown[b].position, *q = right[b].position;
+          off.push_back(std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+        }
+      }
+    }
+  }
+  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+  std::nth_element(off.begin(), middle, off.end());
+  state.counters["off"] = *middle;
+}
+
+BENCHMARK(measure_far_crowd)
+    ->Name("far crowd step")
+    ->Iterations(kMeasured)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(measure_far_error)->Name("far crowd's error")->Arg(2)->Arg(4)->Iterations(1)->UseRealTime();
+
+}  // namespace
+}  // namespace fragmotion::benchmarks
