@@ -5,6 +5,7 @@
 #include <map>
 
 #include "arrays.hpp"
+#include "retarget/doubts.hpp"
 #include "retarget/retarget.hpp"
 
 namespace fragmotion::bindings {
@@ -47,6 +48,17 @@ Body new_body(const Skeleton& skeleton, const std::vector<Clip>& clips,
 }  // namespace
 
 void bind_retarget(py::module_& m) {
+  m.def(
+      "role_doubts",
+      [](const Skeleton& skeleton, const std::optional<std::map<std::string, std::string>>& roles) {
+        const RoleMap map = roles ? role_map_of(skeleton, *roles) : find_role_map(skeleton);
+        std::vector<std::tuple<std::string, std::string, std::string>> doubts;
+        for (const RoleDoubt& doubt : find_doubts(skeleton, map)) {
+          doubts.emplace_back(doubt.role, skeleton.names[doubt.bone], doubt.text);
+        }
+        return doubts;
+      },
+      py::arg("skeleton"), py::arg("roles") = py::none());
   py::class_<Body>(m, "Body", py::module_local())
       .def(py::init([](const Skeleton& skeleton, const std::vector<Clip>& clips,
                        const std::optional<std::map<std::string, std::string>>& roles) {
@@ -68,7 +80,15 @@ void bind_retarget(py::module_& m) {
       .def_property_readonly("foot_skate_ratio", [](const RetargetedClip& r) { return r.report.foot_skate_ratio; })
       .def_property_readonly("contact_error", [](const RetargetedClip& r) { return r.report.contact_error; })
       .def_property_readonly("knee_beyond", [](const RetargetedClip& r) { return r.report.knee_beyond; })
-      .def_property_readonly("hips_moved", [](const RetargetedClip& r) { return r.report.hips_moved; });
+      .def_property_readonly("hips_moved", [](const RetargetedClip& r) { return r.report.hips_moved; })
+      .def_property_readonly("limb_angles", [](const RetargetedClip& r) { return r.report.limb_angles; })
+      .def_property_readonly("remarks", [](const RetargetedClip& r) {
+        std::vector<std::tuple<std::string, std::string, std::string>> remarks;
+        for (const RetargetRemark& remark : r.report.remarks) {
+          remarks.emplace_back(remark.code, remark.is_error ? "error" : "warning", remark.text);
+        }
+        return remarks;
+      });
   py::class_<Retarget>(m, "Retarget", py::module_local())
       .def(py::init([](const Body& source, const Body& target) {
              return without_gil([&] { return Retarget(source, target); });

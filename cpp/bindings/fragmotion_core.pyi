@@ -262,6 +262,10 @@ def mirrored(skeleton: Skeleton, clips: Sequence[Clip]) -> list[Clip]:
     is told by the rest pose where that is symmetric, else by the clips' mean pose. ValueError where a clip has not the
     skeleton's number of bones."""
 
+def role_doubts(skeleton: Skeleton, roles: dict[str, str] | None = None) -> list[tuple[str, str, str]]:
+    """(role, bone name, what is doubtful and what to do) of each bone that a person should look at before motion is
+    brought onto the skeleton; `roles` as of Body."""
+
 class Body:
     """A skeleton as a body that motion goes from or onto: its roles, and the pose that bodies are compared in, which is
     told by the rest pose, however its arms are held, or by clips."""
@@ -294,6 +298,11 @@ class RetargetedClip:
     """How far a knee bends less or more than it ever does in the source, rad."""
     hips_moved: float
     """How far at most the hips are lowered or raised for the legs to reach, m."""
+    limb_angles: dict[str, float]
+    """Role -> how far the limb is from the actor's on the mean, rad: the angle between where both lead in the
+    world; a hand or a foot leads as the bone before it does when straight, at rest or, of the actor, in a T."""
+    remarks: list[tuple[str, str, str]]
+    """(code, "warning" or "error", what a viewer may find fault with)."""
 
 class Retarget:
     """Brings clips of one body onto another, by roles: bones turn as the source's do, lengths are scaled by the legs,

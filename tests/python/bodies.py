@@ -177,12 +177,20 @@ FAMILIES: dict[str, dict[str, list[str]]] = {
 
 
 def humanoid(
-    family: str, size: float = 1.0, leg: float = 1.0, thigh: float = 1.0, wide: float = 1.0, arms: float = 0.0
+    family: str,
+    size: float = 1.0,
+    leg: float = 1.0,
+    thigh: float = 1.0,
+    wide: float = 1.0,
+    arms: float = 0.0,
+    fingers: bool = True,
 ) -> core.Skeleton:
     """A body of some 1.75 m times `size` that faces -y, in the bones of a family of rigs. `leg`: the length of its legs
     of the usual, its trunk as long as ever; `thigh`: that of the thigh, at the cost of the shin; `wide`: that of its
-    hips; `arms`: how far they hang down from a T, degrees."""
+    hips; `arms`: how far they hang down from a T, degrees; `fingers`: whether it has any."""
     names, builder = FAMILIES[family], Builder()
+    if not fingers:
+        names = {**names, "fingers": []}
     rise = 0.83 * (leg - 1)
     chest = add_trunk(builder, names, rise)
     for side, sign in zip(names["sides"], (1, -1)):

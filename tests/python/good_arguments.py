@@ -182,6 +182,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Clip.character_frames": {"self": walk, "skeleton": skeleton},
         "mirrored": {"skeleton": skeleton, "clips": clips[:1]},
         "Body": {"skeleton": human, "clips": [strolling], "roles": body.roles},
+        "role_doubts": {"skeleton": human, "roles": core.Body(human).roles},
         "Retarget": {"source": body, "target": core.Body(humanoid("unreal"))},
         "Retarget.apply": {"self": core.Retarget(body, body), "clip": strolling},
         "Retarget.apply_all": {"self": core.Retarget(body, body), "clips": [strolling], "threads": 1},

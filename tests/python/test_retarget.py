@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from bodies import (
     FAMILIES,
+    Builder,
     about,
     angles,
     humanoid,
@@ -288,3 +289,61 @@ def test_feet_without_toes_stand_whatever_end_an_importer_gave_them(source: Sour
     for result in core.Retarget(source.body, core.Body(up, roles=roles)).apply_all(source.clips):
         assert result.contact_error <= 0.01, result.clip.name
         assert result.foot_skate_ratio <= 1.1, result.clip.name
+
+
+def with_tails_aside(skeleton: core.Skeleton, roles: dict[str, str]) -> core.Skeleton:
+    """With hands whose bones end at a right angle to them, as importers make them that know no bones' ends."""
+    world, tips = rest_rotations(skeleton), np.array(skeleton.tips)
+    for side in ("left", "right"):
+        hand = skeleton.names.index(roles[f"{side}_hand"])
+        tips[hand] = turned(inverse(world[hand]), np.array([0, 0.02, -0.1]))
+    return core.Skeleton(skeleton.names, skeleton.parents, skeleton.rest_rotations, skeleton.offsets, tips)
+
+
+@pytest.mark.parametrize("fingers", [True, False])
+def test_hands_point_where_the_actors_do_whatever_end_an_importer_gave_them(source: Source, fingers: bool) -> None:
+    """By their fingers, and where they have none straight on from the lower arm, from which these hands rest 2 degrees
+    away."""
+    bare = humanoid("mixamo", fingers=fingers)
+    aside = with_tails_aside(bare, core.Body(bare).roles)
+    for clip in source.clips:
+        true, other = (core.Retarget(source.body, core.Body(each)).apply(clip) for each in (bare, aside))
+        assert angles(true.clip.rotations, other.clip.rotations).max() < (1e-3 if fingers else 3), clip.name
+        for side in ("left", "right"):
+            assert other.limb_angles[f"{side}_hand"] < np.radians(20), clip.name
+
+
+def test_a_wrist_that_is_bent_where_the_actors_is_not_is_told(bandai_body: Source) -> None:
+    """Of a body whose hands rest at a right angle to the arms, and so cannot be compared."""
+    skeleton = humanoid("mixamo")
+    roles = core.Body(skeleton).roles
+    world = posed(skeleton, rest_rotations(skeleton), {roles["left_hand"]: about([0, 1, 0], 90)})
+    result = core.Retarget(bandai_body.body, core.Body(remade(skeleton, world))).apply(bandai_body.clips[0])
+    assert result.limb_angles["left_hand"] > np.radians(60)
+    for role, angle in result.limb_angles.items():
+        assert role == "left_hand" or angle < np.radians(20), role
+
+
+def test_a_usual_body_leaves_no_doubt() -> None:
+    for family in FAMILIES:
+        for fingers in (True, False):
+            assert core.role_doubts(humanoid(family, fingers=fingers)) == []
+
+
+def test_what_a_person_should_look_at_is_named() -> None:
+    bare = humanoid("mixamo", fingers=False)
+    doubts = core.role_doubts(with_tails_aside(bare, core.Body(bare).roles))
+    assert [(role, bone) for role, bone, _ in doubts] == [("left_hand", "LeftHand"), ("right_hand", "RightHand")]
+    assert "wrist" in doubts[0][2]
+
+
+def test_hips_between_the_feet_and_legs_that_end_in_the_air_are_doubtful() -> None:
+    builder = Builder()
+    builder.add_chain(["Root", "Pole"], "", [[0, 0, 0], [0, 0, -3], [0, 0, -3.1]])
+    builder.add_chain(["Spine", "Head"], "Root", [[0, 0, 1], [0, 0, 1.6], [0, 0, 1.8]])
+    for side, x in (("Left", 0.1), ("Right", -0.1)):
+        places = [[x, 0, 1.0], [x, -0.02, 0.5], [x, 0, 0.1], [x, -0.1, 0.02]]
+        builder.add_chain([f"{side}UpLeg", f"{side}Leg", f"{side}Foot"], "Root", places)
+    told = {role: text for role, _, text in core.role_doubts(builder.finished())}
+    assert "between the feet" in told["hips"]
+    assert "does not end on the ground" in told["left_foot"] and "right_foot" in told

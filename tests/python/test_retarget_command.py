@@ -16,7 +16,7 @@ from fragmotion_command import main
 from fragmotion_command.retarget import roles
 from sample_motions import write_sample
 
-FIGURES = {"foot_skate_ratio", "contact_error_m", "knee_beyond_degrees"}
+FIGURES = {"foot_skate_ratio", "contact_error_m", "knee_beyond_degrees", "limb_degrees"}
 
 
 @pytest.fixture
@@ -54,6 +54,7 @@ def test_every_take_has_its_figures(result: dict[str, Any]) -> None:
         assert take["foot_skate_ratio"] <= 1.1
         assert take["contact_error_m"] <= 0.01
         assert take["knee_beyond_degrees"] <= 0.01
+        assert max(take["limb_degrees"].values()) < 30
         assert take["findings"] == []
 
 

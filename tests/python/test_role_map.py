@@ -220,6 +220,22 @@ def test_the_shin_of_a_leg_that_has_a_joint_more_is_not_told(back: float, told: 
     assert roles["left_foot"][0] == "LeftFoot"
 
 
+def test_no_shin_is_told_of_a_leg_with_a_joint_more_before_what_is_named_so() -> None:
+    """Thigh, knee ahead, hock behind and foot, as of birds and of Quaternius' robots."""
+    bones = bones_of(humanoid("mixamo"))
+    for side in ("Left", "Right"):
+        insert(bones, f"{side}UpLeg", f"{side}Knee", 0.5)
+        bones.heads[f"{side}Knee"] = bones.heads[f"{side}Knee"] + [0, -0.2, 0]
+    calls = {"Knee": "MidLeg", "Leg": "LowerLeg", "Foot": "FootBack"}
+    names = {}
+    for bone in ordered(bones, np.random.default_rng(1)):
+        side = next((side for side in ("Left", "Right") if bone.startswith(side)), "")
+        names[bone] = side + calls.get(bone[len(side) :], bone[len(side) :])
+    roles = skeleton_of(bones, names).role_map()
+    assert "left_shin" not in roles and "right_shin" not in roles
+    assert (roles["left_thigh"][0], roles["left_foot"][0]) == ("LeftUpLeg", "LeftFootBack")
+
+
 @pytest.mark.parametrize(("left", "right", "told"), [("Left", "Right", True), ("Right", "Left", False)])
 def test_the_shape_tells_no_arm_whose_names_say_the_other_side(left: str, right: str, told: bool) -> None:
     arms = {f"{side}{part}": f"{name}Fin{part[0]}" for side, name in (("Left", left), ("Right", right)) for part in ARM}

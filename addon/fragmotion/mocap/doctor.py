@@ -95,6 +95,13 @@ def keep_findings(action: bpy.types.Action, found: Sequence[Found]) -> None:
         row.mendable, row.mended = finding.mendable, mended
 
 
+def keep_remarks(action: bpy.types.Action, remarks: Sequence[tuple[str, str, str]]) -> None:
+    """Keep with an Action what a viewer may find fault with in how it was brought onto its armature."""
+    for code, severity, text in remarks:
+        row = action.fragmotion.findings.add()
+        row.code, row.severity, row.text = code, severity, text
+
+
 def worst(action: bpy.types.Action) -> str:
     """'error', 'warning' or 'info': the worst that was found in an Action's take and not mended; '' for nothing."""
     found = {row.severity for row in action.fragmotion.findings if not row.mended}

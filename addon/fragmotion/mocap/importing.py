@@ -22,8 +22,8 @@ from ..rig.selection import select
 from ..rig.writing import write_poses
 from . import by_blender
 from .by_blender import NoTakes
-from .doctor import WAIT, examine, keep_findings
-from .retargeting import Channels, has_names_of, key_times, make_action, retargeted_takes
+from .doctor import WAIT, examine, keep_findings, keep_remarks
+from .retargeting import Brought, Channels, has_names_of, key_times, make_action, retargeted_takes
 from .scratch import scratch_scene
 from .take_files import BY_BLENDER, TakeFile
 
@@ -84,12 +84,13 @@ def import_takes(
     with _undone_on_error(context):
         obj = onto or make_armature(context, name, takes[0].skeleton)
         rig = make_rig(obj)
-        channels = _channels(obj, rig, takes, is_new=onto is None)
-        moving = set(carriers(obj, rig)) | (set() if onto else _moving_bones(obj, channels))
+        brought = _brought(obj, rig, takes, is_new=onto is None)
+        moving = set(carriers(obj, rig)) | (set() if onto else _moving_bones(obj, [each.channels for each in brought]))
         actions = []
-        for index, (each, (locations, rotations)) in enumerate(zip(examined, channels)):
+        for index, (each, ((locations, rotations), remarks)) in enumerate(zip(examined, brought)):
             actions.append(make_action(context.scene, each.take.name, each.take.rate))
             keep_findings(actions[-1], each.found)
+            keep_remarks(actions[-1], remarks)
             times = key_times(actions[-1], len(rotations))
             write_poses(actions[-1], obj, times, locations, rotations, moving)
             yield _STAGE * (2 + index / len(examined))
@@ -162,11 +163,11 @@ def _read_by_core(file: TakeFile, unit: float) -> list[Take]:
         return [core.read_asf_amc(asf, file.path) if asf else core.read_bvh(file.path, unit)]
 
 
-def _channels(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], is_new: bool) -> list[Channels]:
+def _brought(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], is_new: bool) -> list[Brought]:
     """Each take's channels: as they are on the armature that was made from them, else brought onto its body."""
     own = [is_new and has_names_of(rig, take.skeleton) for take in takes]
     others = iter(retargeted_takes(obj, rig, [take for take, is_own in zip(takes, own) if not is_own]))
-    return [rig.take_channels(take) if is_own else next(others) for take, is_own in zip(takes, own)]
+    return [Brought(rig.take_channels(take), []) if is_own else next(others) for take, is_own in zip(takes, own)]
 
 
 @contextmanager

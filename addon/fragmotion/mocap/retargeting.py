@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
 import numpy as np
@@ -15,14 +15,24 @@ from ..rig.bodies import make_body
 from ..rig.rigs import carriers, make_rig
 from ..rig.writing import write_poses
 from .actions import RATE, SCENE_RATE
+from .doctor import keep_remarks
 from .left_out import leave_out_likewise
 from .markers import mark_likewise
 from .sampling import sample, sample_times, scene_rate
 
 if TYPE_CHECKING:
-    from fragmotion_core import Body, Clip, Doubles, Rig, Skeleton, Take
+    from fragmotion_core import Body, Clip, Doubles, RetargetedClip, Rig, Skeleton, Take
 
 Channels = tuple["Doubles", "Doubles"]
+Remarks = list[tuple[str, str, str]]
+
+
+class Brought(NamedTuple):
+    """A take as channels of an armature, and what a viewer may find fault with in it."""
+
+    channels: Channels
+    remarks: Remarks
+
 
 FIRST_FRAME = 1
 _SAMPLING = 0.5  # share of the progress that reading Actions takes
@@ -33,22 +43,27 @@ def has_names_of(rig: Rig, skeleton: Skeleton) -> bool:
     return set(skeleton.names) <= set(rig.skeleton.names)
 
 
-def retargeted_takes(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take]) -> list[Channels]:
-    """Takes, of whatever skeletons, as channels of the armature, brought onto its body."""
-    channels: dict[int, Channels] = {}
+def retargeted_takes(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take]) -> list[Brought]:
+    """Takes, of whatever skeletons, brought onto the armature's body."""
+    brought: dict[int, Brought] = {}
     for members in core.group_skeletons([take.skeleton for take in takes]):
         skeleton = takes[members[0]].skeleton
         with core_errors(f"Take '{takes[members[0]].name}'"):
             clips = [core.Clip.from_take(takes[index], skeleton) for index in members]
             source = core.Body(skeleton, clips)
-        for index, clip in zip(members, _retargeted(source, obj, rig, clips)):
-            channels[index] = rig.channels(clip.root_positions, clip.rotations)
-    return [channels[index] for index in range(len(takes))]
+        for index, done in zip(members, _retargeted(source, obj, rig, clips)):
+            brought[index] = _brought(rig, done)
+    return [brought[index] for index in range(len(takes))]
 
 
-def _retargeted(source: Body, obj: bpy.types.Object, rig: Rig, clips: Sequence[Clip]) -> list[Clip]:
+def _brought(rig: Rig, done: RetargetedClip) -> Brought:
+    return Brought(rig.channels(done.clip.root_positions, done.clip.rotations), done.remarks)
+
+
+def _retargeted(source: Body, obj: bpy.types.Object, rig: Rig, clips: Sequence[Clip]) -> list[RetargetedClip]:
     with core_errors(f"Armature '{obj.name}'"):
-        return [done.clip for done in core.Retarget(source, make_body(obj, rig)).apply_all(clips)]
+        done: list[RetargetedClip] = core.Retarget(source, make_body(obj, rig)).apply_all(clips)
+        return done
 
 
 def retarget_actions(
@@ -67,9 +82,10 @@ def retarget_actions(
         yield _SAMPLING * index / len(actions)
     made: list[bpy.types.Action] = []
     try:
-        for index, clip in enumerate(_retargeted(make_body(source, source_rig, clips), obj, rig, clips)):
-            channels = rig.channels(clip.root_positions, clip.rotations)
-            made.append(make_action(context.scene, f"{clip.name} on {obj.name}", clip.rate))
+        for index, done in enumerate(_retargeted(make_body(source, source_rig, clips), obj, rig, clips)):
+            channels, remarks = _brought(rig, done)
+            made.append(make_action(context.scene, f"{done.clip.name} on {obj.name}", done.clip.rate))
+            keep_remarks(made[-1], remarks)
             times = key_times(made[-1], len(channels[1]))
             write_poses(made[-1], obj, times, *channels, moving)
             take_after(actions[index], sample_times(context.scene, source, actions[index]), made[-1], times)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..operators.base.context import active_armature
+from ..settings.drawing import draw_wrapped
 from .sidebar import SubPanel
 
 _ICONS = {True: "CHECKMARK", False: "QUESTION"}
@@ -33,8 +34,11 @@ class FRAGMOTION_PT_bones(SubPanel, bpy.types.Panel):
         column = layout.column(align=True)
         for role in roles:
             row = column.split(factor=_LABELS, align=True)
+            row.alert = bool(role.doubt)
             row.label(text=_label(role.name))
             row.prop_search(role, "bone", obj.data, "bones", text="", icon=_ICONS[role.bone in obj.data.bones])
+            if role.doubt:
+                draw_wrapped(column, context, role.doubt, "ERROR")
 
 
 def _label(role: str) -> str:

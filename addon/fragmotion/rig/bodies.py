@@ -14,6 +14,7 @@ from bpy.props import StringProperty
 from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..files import check_regular
+from .rigs import make_rig
 
 if TYPE_CHECKING:
     from fragmotion_core import Body, Clip, Rig
@@ -38,10 +39,17 @@ _NEEDED_ON_FOUR_LEGS = (
 """and those of a body that stands on four legs."""
 
 
-class RoleBone(bpy.types.PropertyGroup):
-    """The bone that has the role `name`; none where it is empty."""
+def _told_by_user(role: RoleBone, _context: bpy.types.Context) -> None:
+    role.doubt = ""
 
-    bone: StringProperty(name="Bone", description="The bone that is this part of the body")  # type: ignore[valid-type]
+
+class RoleBone(bpy.types.PropertyGroup):
+    """The bone that has the role `name`; none where it is empty. `doubt`: why it may not be that, if so."""
+
+    bone: StringProperty(  # type: ignore[valid-type]
+        name="Bone", description="The bone that is this part of the body", update=_told_by_user
+    )
+    doubt: StringProperty()  # type: ignore[valid-type]
 
 
 def chosen_roles(obj: bpy.types.Object) -> dict[str, str] | None:
@@ -63,6 +71,23 @@ def set_roles(obj: bpy.types.Object, found: Mapping[str, str]) -> None:
     for name in (*needed, *(role for role in found if role not in needed)):
         role = roles.add()
         role.name, role.bone = name, found.get(name, "")
+
+
+def find_and_doubt(obj: bpy.types.Object, rig: Rig) -> list[str]:
+    """Find the roles, keep them with the armature with what is doubtful about them, and return that."""
+    set_roles(obj, find_roles(rig))
+    doubts = {role: text for role, _, text in core.role_doubts(rig.skeleton)}
+    for role in obj.fragmotion.roles:
+        role.doubt = doubts.get(role.name, "")
+    return list(doubts.values())
+
+
+def doubts_at_import(obj: bpy.types.Object) -> list[str]:
+    """What is doubtful about the bones of an armature that takes were brought onto, where nobody has looked at them
+    yet: then they are kept for the panel to show."""
+    if chosen_roles(obj) is not None or not core.role_doubts(make_rig(obj).skeleton):
+        return []
+    return find_and_doubt(obj, make_rig(obj))
 
 
 def make_body(obj: bpy.types.Object, rig: Rig, clips: Sequence[Clip] = ()) -> Body:

@@ -181,3 +181,45 @@ def test_retargeting_that_is_stopped_in_the_middle_leaves_nothing(addon: ModuleT
     assert len(bpy.data.actions) > len(before["actions"])
     steps.close()
     assert making.contents() == before
+
+
+def add_doubtful_character() -> bpy.types.Object:
+    """Whose arms end in hands without fingers, the left of which points up."""
+    arms = (
+        ("lower_arm.L", "upper_arm.L", (0.5, 0, 1.4), (0.8, -0.1, 1.4)),
+        ("hand.L", "lower_arm.L", (0.8, -0.1, 1.4), (0.8, -0.1, 1.5)),
+    )
+    return making.add_armature([*(bone for bone in making.BODY if bone[0] != "hand.L"), *arms], name="Doubtful")
+
+
+@pytest.mark.skipif(not WALK.exists(), reason="no motion capture beside the project")
+def test_what_is_doubtful_about_bones_is_kept_at_the_import_until_the_user_says(tmp_path: Path) -> None:
+    (tmp_path / WALK.name).write_bytes(WALK.read_bytes())
+    obj = add_doubtful_character()
+    assert bpy.ops.fragmotion.import_mocap(directory=str(tmp_path), onto="ACTIVE") == {"FINISHED"}
+    doubts = {role.name: role.doubt for role in obj.fragmotion.roles if role.doubt}
+    assert list(doubts) == ["left_hand"] and "'hand.L'" in doubts["left_hand"]
+    obj.fragmotion.roles["left_hand"].bone = "hand.L"
+    assert not obj.fragmotion.roles["left_hand"].doubt
+
+
+@pytest.mark.skipif(not WALK.exists(), reason="no motion capture beside the project")
+def test_a_usual_character_keeps_no_roles_at_the_import(tmp_path: Path) -> None:
+    (tmp_path / WALK.name).write_bytes(WALK.read_bytes())
+    obj = add_character()
+    assert bpy.ops.fragmotion.import_mocap(directory=str(tmp_path), onto="ACTIVE") == {"FINISHED"}
+    assert not len(obj.fragmotion.roles)
+    assert not any(row.code == "limb" for action in bpy.data.actions for row in action.fragmotion.findings)
+
+
+@pytest.mark.skipif(not WALK.exists(), reason="no motion capture beside the project")
+def test_a_broken_wrist_is_an_error_in_the_doctor(tmp_path: Path) -> None:
+    """Of a character whose hand is bent by a right angle at rest."""
+    (tmp_path / WALK.name).write_bytes(WALK.read_bytes())
+    obj = add_doubtful_character()
+    with making.editing(obj) as bones:
+        finger = bones.new("f_index.01.L")
+        finger.parent, finger.head, finger.tail = bones["hand.L"], (0.8, -0.1, 1.5), (0.8, -0.1, 1.55)
+    assert bpy.ops.fragmotion.import_mocap(directory=str(tmp_path), onto="ACTIVE") == {"FINISHED"}
+    rows = [(row.severity, row.text) for row in obj.animation_data.action.fragmotion.findings if row.code == "limb"]
+    assert len(rows) == 1 and rows[0][0] == "error" and "left hand" in rows[0][1]

@@ -228,6 +228,33 @@ TEST(RoleMap, CountsFingersAsTheFamilyDoes) {
   }
 }
 
+TEST(RoleMap, CountsFingersByTheirOwnNumbers) {
+  Skeleton skeleton = Humanoid(family_named("Biped")).skeleton;
+  for (const char* bone : {"Finger0", "Finger1", "Finger4"}) {
+    append(skeleton, std::string("Bip01 L ") + bone, "Bip01 L Hand", {0.03, 0, 0});
+    append(skeleton, std::string("Bip01 L ") + bone + "1", std::string("Bip01 L ") + bone, {0.03, 0, 0});
+  }
+  const Names named = named_bones(skeleton, find_role_map(skeleton));
+  EXPECT_EQ(named.at("left_thumb_2"), "Bip01 L Finger01");
+  EXPECT_EQ(named.at("left_index_1"), "Bip01 L Finger1");
+  EXPECT_EQ(named.at("left_index_2"), "Bip01 L Finger11");
+  EXPECT_EQ(named.at("left_pinky_1"), "Bip01 L Finger4");
+}
+
+TEST(RoleMap, AFootOnWhichNothingHangsGivesWayToTheOneBesideIt) {
+  Skeleton skeleton = Humanoid(family_named("Unreal")).skeleton;
+  for (const std::string side : {"l", "r"}) {
+    skeleton.names[skeleton.find("foot_" + side)] = "joint_" + side;
+    append(skeleton, "foot_" + side, "calf_" + side, skeleton.offsets[skeleton.find("joint_" + side)]);
+  }
+  const Names named = named_bones(skeleton, find_role_map(skeleton));
+  for (const std::string side : {"l", "r"}) {
+    const std::string word = side == "l" ? "left" : "right";
+    EXPECT_EQ(named.at(word + "_foot"), "joint_" + side);
+    EXPECT_EQ(named.at(word + "_toe"), "ball_" + side);
+  }
+}
+
 TEST(RoleMap, OfAUserIsKept) {
   const Humanoid body(family_named("Daz"));
   const RoleMap map = role_map_of(body.skeleton, body.roles);

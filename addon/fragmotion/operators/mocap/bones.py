@@ -11,7 +11,7 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ...errors import UserError, reported
-from ...rig.bodies import chosen_roles, find_roles, read_roles, save_roles, set_roles
+from ...rig.bodies import chosen_roles, find_and_doubt, read_roles, save_roles, set_roles
 from ...rig.rigs import make_rig
 from ..base.context import active_armature, poll_armature
 from ..base.saving import Saving
@@ -33,10 +33,11 @@ class FRAGMOTION_OT_find_bones(bpy.types.Operator):
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         obj = active_armature(context)
-        found = find_roles(make_rig(obj))
-        set_roles(obj, found)
+        doubts = find_and_doubt(obj, make_rig(obj))
         missing = [role.name for role in obj.fragmotion.roles if not role.bone]
-        told = f"Found {len(found)} bones of the body"
+        told = f"Found {len(chosen_roles(obj) or ())} bones of the body"
+        for doubt in doubts:
+            self.report({"WARNING"}, doubt)
         self.report({"INFO"}, f"{told}; not found: {', '.join(missing)}" if missing else told)
         return {"FINISHED"}
 

@@ -15,6 +15,7 @@ from ...mocap import by_blender
 from ...mocap.doctor import worst
 from ...mocap.importing import METRES, Imported, import_takes
 from ...mocap.take_files import ENDINGS, find_takes
+from ...rig.bodies import doubts_at_import
 from ..base import background
 from ..base.background import Exclusive
 from ..base.context import active_armature, advise_on_foreign, can_change, check_plain, poll_idle
@@ -131,6 +132,8 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
         more = len(result.broken) - _MOST_TOLD
         if more > 0:
             self.report({"WARNING"}, f"Left out: {more} more files that cannot be read")
+        for doubt in doubts_at_import(result.obj) if self.onto == "ACTIVE" else ():
+            self.report({"WARNING"}, doubt)
         self.report({"INFO"}, _told(result))
 
     def _target(self, context: bpy.types.Context) -> bpy.types.Object | None:

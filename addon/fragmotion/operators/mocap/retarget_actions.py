@@ -12,6 +12,7 @@ from ...errors import UserError
 from ...jobs import Job, SteppedJob
 from ...mocap.actions import ticked
 from ...mocap.retargeting import retarget_actions
+from ...rig.bodies import doubts_at_import
 from ..base import background
 from ..base.background import Exclusive
 from ..base.context import active_armature, check_plain, poll_armature
@@ -49,4 +50,6 @@ class FRAGMOTION_OT_retarget_actions(Exclusive, bpy.types.Operator):
         return SteppedJob(f"Retargeting onto '{obj.name}'", f"{len(actions)} Actions", steps)
 
     def _keep(self, _context: bpy.types.Context, obj: bpy.types.Object, made: list[bpy.types.Action]) -> None:
+        for doubt in doubts_at_import(obj):
+            self.report({"WARNING"}, doubt)
         self.report({"INFO"}, f"Armature '{obj.name}' has {len(made)} Actions of '{obj.fragmotion.source.name}'")

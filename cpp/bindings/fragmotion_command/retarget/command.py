@@ -18,9 +18,6 @@ from .character import make_character
 from .roles import check_bones, make_body
 from .sources import Source, read_body, read_sources
 
-_SKATE, _CONTACT = 1.1, 0.01  # ratio, and m of a 1.8 m character: beyond these a take is remarked on
-_HIPS = 0.05  # m of a 1.8 m character that hips are moved without a remark
-
 
 class Retargeted(NamedTuple):
     """What was found, and the character."""
@@ -71,31 +68,20 @@ def onto(
         with core_failures(f"{source.paths[0]} onto {body.skeleton.names[0]}"):
             results = core.Retarget(make_body(source.skeleton, source.clips, roles), body).apply_all(source.clips)
         clips += [result.clip for result in results]
-        takes += [describe(path, result, body) for path, result in zip(source.paths, results)]
+        takes += [describe(path, result) for path, result in zip(source.paths, results)]
     return clips, takes
 
 
-def describe(path: Path, result: core.RetargetedClip, body: core.Body) -> dict[str, Any]:
+def describe(path: Path, result: core.RetargetedClip) -> dict[str, Any]:
     """A take's figures, and what is remarkable about them."""
     return {
         "path": str(path),
         "foot_skate_ratio": result.foot_skate_ratio,
         "contact_error_m": result.contact_error,
         "knee_beyond_degrees": math.degrees(result.knee_beyond),
-        "findings": findings(result, 1.8 / body.skeleton.stature),
+        "limb_degrees": {role: math.degrees(angle) for role, angle in result.limb_angles.items()},
+        "findings": [{"code": code, "severity": severity, "text": text} for code, severity, text in result.remarks],
     }
-
-
-def findings(result: core.RetargetedClip, scale: float) -> list[dict[str, str]]:
-    """What a viewer may find fault with; `scale` times, lengths are of a 1.8 m character."""
-    found = []
-    if result.foot_skate_ratio > _SKATE:
-        found.append(("foot_skate", f"feet slide {result.foot_skate_ratio:.2f} times as much as in the take"))
-    if result.contact_error * scale > _CONTACT:
-        found.append(("contact", f"a standing foot is up to {100 * result.contact_error:.1f} cm off the ground"))
-    if result.hips_moved * scale > _HIPS:
-        found.append(("hips", f"the hips are moved by up to {100 * result.hips_moved:.1f} cm for the legs to reach"))
-    return [{"code": code, "severity": "warning", "text": said} for code, said in found]
 
 
 def takes_table(takes: list[dict[str, Any]]) -> Table:
@@ -106,12 +92,28 @@ def takes_table(takes: list[dict[str, Any]]) -> Table:
             f"{take['foot_skate_ratio']:.2f}",
             f"{1000 * take['contact_error_m']:.1f}",
             f"{take['knee_beyond_degrees']:.2f}",
+            _farthest(take["limb_degrees"]),
             "; ".join(finding["text"] for finding in take["findings"]),
         ]
         for take in takes
     ]
-    header = ["take", "foot skate, ratio", "contact error, mm", "knee beyond, degrees", "findings"]
+    header = [
+        "take",
+        "foot skate, ratio",
+        "contact error, mm",
+        "knee beyond, degrees",
+        "farthest limb, degrees",
+        "findings",
+    ]
     return Table(f"{len(takes)} takes retargeted", header, rows)
+
+
+def _farthest(angles: dict[str, float]) -> str:
+    """The limb that is farthest from the actor's."""
+    if not angles:
+        return "-"
+    limb, angle = max(angles.items(), key=lambda item: item[1])
+    return f"{angle:.0f} ({limb.replace('_', ' ')})"
 
 
 def character_table(figures: dict[str, float]) -> Table:

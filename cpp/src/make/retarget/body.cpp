@@ -9,6 +9,7 @@
 #include "base/listed.hpp"
 #include "base/turn_between.hpp"
 #include "retarget/posture.hpp"
+#include "skeleton/likely_tips.hpp"
 
 namespace fragmotion {
 namespace {
@@ -21,17 +22,10 @@ constexpr double kFoot = 0.33, kLongFoot = 0.6;  // of a shin's length, from the
 constexpr double kBackUp = 0.5;                  // cosine of a foot to the way from it up the shin
 constexpr double kGround = 0.08;                 // m of a 1.8 m character: joints of feet are no higher over the ground
 
-std::string label_of(Role role, Side side) {
-  RoleBone bone;
-  bone.role = role;
-  bone.side = side;
-  return role_label(bone);
-}
-
 void check_complete(const RoleMap& map) {
   std::vector<std::string> missing;
   const auto require = [&](Role role, Side side) {
-    if (map.bone(role, side) < 0) missing.push_back(label_of(role, side));
+    if (map.bone(role, side) < 0) missing.push_back(role_label(role, side));
   };
   require(Role::kHips, Side::kNone);
   for (const Side side : kSides) {
@@ -45,8 +39,8 @@ void check_complete(const RoleMap& map) {
 void check_hangs(const Skeleton& skeleton, const RoleMap& map, Role role, Role above, Side side) {
   const int bone = map.bone(role, side), on = map.bone(above, above == Role::kHips ? Side::kNone : side);
   if (bone != on && skeleton.is_below(bone, on)) return;
-  throw std::invalid_argument(label_of(role, side) + " '" + skeleton.names[bone] + "' does not hang on " +
-                              label_of(above, above == Role::kHips ? Side::kNone : side) + " '" + skeleton.names[on] +
+  throw std::invalid_argument(role_label(role, side) + " '" + skeleton.names[bone] + "' does not hang on " +
+                              role_label(above, above == Role::kHips ? Side::kNone : side) + " '" + skeleton.names[on] +
                               "': choose bones of one chain from the hips to the foot");
 }
 
@@ -329,7 +323,8 @@ void set_reference(const Told& told, Body& body) {
 Body make_body(const Skeleton& skeleton, const RoleMap& map, const std::vector<Clip>& clips) {
   check_complete(map);
   check_legs(skeleton, map);
-  Body body(Kinematics(with_short_feet(with_roles(skeleton, map), map)), on_body(skeleton, map));
+  const Skeleton likely = with_likely_tips(with_short_feet(with_roles(skeleton, map), map), map);
+  Body body(Kinematics(likely), on_body(skeleton, map));
   body.legs = {leg_of(skeleton, map, Side::kLeft), leg_of(skeleton, map, Side::kRight)};
   measure(rest_posture(skeleton), body);
   Told told = told_posture(clips, body);

@@ -11,6 +11,8 @@
 #include "motion/pose.hpp"
 #include "retarget/drives.hpp"
 #include "retarget/feet.hpp"
+#include "retarget/limb_angles.hpp"
+#include "retarget/remarks.hpp"
 #include "retarget/twists.hpp"
 
 namespace fragmotion {
@@ -267,6 +269,7 @@ class Transfer {
   RetargetReport judge(const Clip& result) const {
     const LegMotion motion(parts_.target, result);
     RetargetReport report;
+    report.limb_angles = limb_angles(parts_.source, clip_, parts_.target, result);
     for (int side = 0; side < 2; ++side) {
       const KneeRange &mine = motion.knees[side], &theirs = motion_.knees[side];
       report.knee_beyond = std::max({report.knee_beyond, theirs.least - mine.least, mine.most - theirs.most});
@@ -278,6 +281,7 @@ class Transfer {
     report.source_foot_skate = parts_.scale * skate(motion_.paths, 0, size);
     const double slowest = kSlowest * parts_.scale / size;
     report.foot_skate_ratio = (report.foot_skate + slowest) / (report.source_foot_skate + slowest);
+    report.remarks = remarks_on(report, standard_scale(skeleton()));
     return report;
   }
 

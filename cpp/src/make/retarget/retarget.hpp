@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "retarget/body.hpp"
 
 namespace fragmotion {
+
+/// What a viewer may find fault with.
+struct RetargetRemark {
+  std::string code;  ///< "foot_skate", "contact", "hips" or "limb".
+  bool is_error = false;
+  std::string text;
+};
 
 /// What came of a clip on another body, beside the clip itself.
 struct RetargetReport {
@@ -16,6 +25,8 @@ struct RetargetReport {
   double contact_error = 0;      ///< Greatest height of a standing foot over or under where the source has it, m.
   double knee_beyond = 0;        ///< How far a knee bends less or more than it ever does in the source, rad.
   double hips_moved = 0;         ///< How far at most the hips are lowered or raised for the legs to reach, m.
+  std::map<std::string, double> limb_angles;  ///< See limb_angles().
+  std::vector<RetargetRemark> remarks;
 };
 
 struct RetargetedClip {

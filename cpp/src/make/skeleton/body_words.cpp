@@ -151,7 +151,7 @@ std::size_t longest_phrase(const BoneName& name, const Term (&terms)[N]) {
 
 bool is_vertebra(const BoneName& name) {  // Xsens: L5, L3, T12, T8
   if (name.words.size() != 1 || name.numbers.size() != 1) return false;
-  const int number = name.numbers[0];
+  const int number = name.numbers[0].value;
   return (name.words[0] == "l" && number >= 1 && number <= 5) || (name.words[0] == "t" && number >= 1 && number <= 12);
 }
 
@@ -207,9 +207,11 @@ int finger_of(const BoneName& name, int first) {
       if (extra_words(name, word) >= 0) return finger;
     }
   }
-  if (!has_any_word(name, {"finger"}) || name.numbers.empty()) return -1;
-  int number = name.numbers[0];
-  if (name.numbers.size() == 1 && number >= 10) number /= 10;  // Biped: Finger12 is the third bone of Finger1
+  const std::vector<NameNumber> numbers = numbers_from(name, {"finger"});
+  if (numbers.empty()) return -1;
+  int number = numbers[0].value;
+  // Biped: Finger12 is the third bone of Finger1, and Finger01 the second of Finger0
+  if (numbers.size() == 1 && (number >= 10 || (first == 0 && numbers[0].digits == 2))) number /= 10;
   number -= first;
   return number >= 0 && number < 5 ? number : -1;
 }

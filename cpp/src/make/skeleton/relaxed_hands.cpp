@@ -7,6 +7,7 @@
 
 #include "base/turn_between.hpp"
 #include "skeleton/bone_names.hpp"
+#include "skeleton/likely_tips.hpp"
 #include "skeleton/role_map.hpp"
 
 namespace fragmotion {
@@ -71,8 +72,7 @@ void relax(const Skeleton& skeleton, const FingerChains& fingers, const Palm& pa
 }
 
 template <typename Visit>
-void for_each_hand(const Skeleton& skeleton, const Visit& visit) {
-  const RoleMap map = find_role_map(skeleton);
+void for_each_hand(const Skeleton& skeleton, const RoleMap& map, const Visit& visit) {
   const std::vector<BoneName> names = read_names(skeleton.names);
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const int hand = map.bone(Role::kHand, side);
@@ -85,7 +85,7 @@ void for_each_hand(const Skeleton& skeleton, const Visit& visit) {
 
 std::vector<int> finger_bones(const Skeleton& skeleton) {
   std::vector<int> bones;
-  for_each_hand(skeleton, [&](const FingerChains& fingers, int, Side) {
+  for_each_hand(skeleton, find_role_map(skeleton), [&](const FingerChains& fingers, int, Side) {
     for (const std::vector<int>& finger : fingers) bones.insert(bones.end(), finger.begin(), finger.end());
   });
   std::sort(bones.begin(), bones.end());
@@ -99,9 +99,11 @@ std::vector<double> relaxed_pose(const Skeleton& skeleton) {
   std::vector<Vector3> heads;
   std::vector<Quaternion> rest;
   rest_pose(skeleton, heads, rest);
-  for_each_hand(skeleton, [&](const FingerChains& fingers, int hand, Side side) {
+  const RoleMap map = find_role_map(skeleton);
+  const Skeleton likely = with_likely_tips(skeleton, map);
+  for_each_hand(skeleton, map, [&](const FingerChains& fingers, int hand, Side side) {
     if (std::all_of(fingers.begin(), fingers.end(), [](const auto& finger) { return finger.empty(); })) return;
-    relax(skeleton, fingers, palm_of(fingers, hand, side, heads), heads, rest, rotations.data());
+    relax(likely, fingers, palm_of(fingers, hand, side, heads), heads, rest, rotations.data());
   });
   return rotations;
 }

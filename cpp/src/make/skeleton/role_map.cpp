@@ -10,13 +10,13 @@
 #include <utility>
 
 #include "skeleton/body_tree.hpp"
+#include "skeleton/named_legs.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kTold = 0.5;                           // the least confidence of a role
-constexpr int kMostJoints = 4;                          // of a finger
-constexpr double kJointApart = 0.15, kJointBent = 0.4;  // of the bones' lengths; sine
+constexpr double kTold = 0.5;   // the least confidence of a role
+constexpr int kMostJoints = 4;  // of a finger
 constexpr double kNamed = 0.95, kBetween = 0.75;
 
 constexpr std::array<Role, 5> kArmRoles = {Role::kShoulder, Role::kUpperArm, Role::kLowerArm, Role::kHand,
@@ -97,28 +97,6 @@ Body merged(const Body& named, const Body& shaped) {
   return body;
 }
 
-/// Whether a bone that is skipped between two of a limb bends away from their line at rest.
-bool has_joint_between(const std::vector<Vector3>& heads, const BodyTree& tree, int lower, int end) {
-  for (int b = tree.parents[end]; b != lower && b >= 0; b = tree.parents[b]) {
-    const Vector3 before = heads[b] - heads[lower], after = heads[end] - heads[b];
-    const bool is_long = std::min(before.norm(), after.norm()) > kJointApart * (heads[end] - heads[lower]).norm();
-    if (is_long && before.cross(after).norm() > kJointBent * before.norm() * after.norm()) return true;
-  }
-  return false;
-}
-
-/// Birds and cats have a joint more than men: what is their shin is not told.
-void forget_shins_of_beasts(const Skeleton& skeleton, const BodyTree& tree, Body& body) {
-  std::vector<Vector3> heads;
-  std::vector<Quaternion> rotations;
-  rest_pose(skeleton, heads, rotations);
-  for (Limb& leg : body.legs) {
-    int& shin = leg.bones[Limb::kLower];
-    if (shin >= 0 && leg.bones[Limb::kEnd] >= 0 && has_joint_between(heads, tree, shin, leg.bones[Limb::kEnd]))
-      shin = -1;
-  }
-}
-
 /// Writes the roles of a body into a map.
 class MapMaker {
  public:
@@ -184,9 +162,8 @@ class MapMaker {
   int first_finger() const {
     int least = 1;
     for (const BoneName& name : tree_.names) {
-      if (name.side != Side::kNone && has_any_word(name, {"finger"}) && !name.numbers.empty()) {
-        least = std::min(least, name.numbers[0]);
-      }
+      const std::vector<NameNumber> numbers = numbers_from(name, {"finger"});
+      if (name.side != Side::kNone && !numbers.empty()) least = std::min(least, numbers[0].value);
     }
     return least;
   }
@@ -334,10 +311,11 @@ RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion, Sid
   std::optional<Body> named = named_body(tree);
   if (!named) tree.forget_names();
   const Body shaped = shaped_body(skeleton, tree, motion);
-  if (named) forget_shins_of_beasts(skeleton, tree, *named);
+  if (named) mend_named_legs(skeleton, tree, *named);
   if (named && sides == Sides::of_the_body && is_mirrored(*named, shaped)) {
     tree.swap_sides();
     named = named_body(tree);
+    if (named) mend_named_legs(skeleton, tree, *named);
   }
   Body body = merged(named.value_or(Body{}), uncontradicted(tree, shaped));
   forget_shins_of_beasts(skeleton, tree, body);
@@ -352,6 +330,13 @@ std::string role_label(const RoleBone& bone) {
       bone.role == Role::kFinger && bone.finger >= 0 ? std::string(kFingerNames[bone.finger]) : role_word(bone.role);
   if (is_many(bone.role) || bone.order > 0) label += "_" + std::to_string(bone.order + 1);
   return label;
+}
+
+std::string role_label(Role role, Side side) {
+  RoleBone bone;
+  bone.role = role;
+  bone.side = side;
+  return role_label(bone);
 }
 
 std::map<std::string, std::string> named_bones(const Skeleton& skeleton, const RoleMap& map) {

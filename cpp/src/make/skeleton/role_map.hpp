@@ -85,6 +85,8 @@ Roles roles_of(const RoleMap& map);
 /// A role's name for the user: "hips", "spine_2", "left_upper_arm", "right_index_1" ...; single roles and the first
 /// toe have no number.
 std::string role_label(const RoleBone& bone);
+/// Of the first bone of a role.
+std::string role_label(Role role, Side side);
 
 /// Role -> bone's name, as a preset keeps it and role_map_of() reads it; twist bones are found again by the bones.
 std::map<std::string, std::string> named_bones(const Skeleton& skeleton, const RoleMap& map);

@@ -109,30 +109,28 @@ int find_counterpart(const std::string& lower, const SideMark& mark, const Bones
   return found == bones.end() ? -1 : found->second;
 }
 
-std::vector<std::string> plain_words(const std::string& lower, const std::vector<Piece>& pieces, const Piece& mark) {
-  std::vector<std::string> words;
+/// The number that a text ends with; of no digits where it has none.
+NameNumber number_at_end(std::string_view text) {
+  constexpr int kMostDigits = 4;
+  const auto last = static_cast<int>(text.find_last_not_of("0123456789"));
+  const int digits = static_cast<int>(text.size()) - last - 1;
+  if (digits == 0 || digits > kMostDigits) return {};
+  return {std::stoi(std::string(text.substr(text.size() - digits))), digits};
+}
+
+/// Words without the side's mark, and the numbers that they end with or that stand between them: of "finger1-2" 1
+/// and 2.
+void read_pieces(const std::string& lower, const std::vector<Piece>& pieces, const Piece& mark, BoneName& name) {
   for (const Piece& piece : pieces) {
     std::string word = lower.substr(piece.begin, piece.length);
+    NameNumber number = number_at_end(word);
     const bool marked = mark.begin >= piece.begin && mark.begin < piece.begin + piece.length;
     if (marked) word.erase(mark.begin - piece.begin, mark.length);
     while (!word.empty() && is_digit(word.back())) word.pop_back();
-    if (!word.empty()) words.push_back(std::move(word));
+    if (!word.empty()) name.words.push_back(std::move(word));
+    number.word = static_cast<int>(name.words.size()) - 1;
+    if (number.digits > 0) name.numbers.push_back(number);
   }
-  return words;
-}
-
-/// The numbers that words end with, or are: of "finger1-2" 1 and 2.
-std::vector<int> numbers_of(const std::string& lower, const std::vector<Piece>& pieces) {
-  constexpr std::size_t kMostDigits = 4;
-  std::vector<int> numbers;
-  for (const Piece& piece : pieces) {
-    std::size_t digits = 0;
-    while (digits < piece.length && is_digit(lower[piece.begin + piece.length - digits - 1])) ++digits;
-    if (digits > 0 && digits <= kMostDigits) {
-      numbers.push_back(std::stoi(lower.substr(piece.begin + piece.length - digits, digits)));
-    }
-  }
-  return numbers;
 }
 
 BoneName read_name(const std::string& name, const BonesByName& bones) {
@@ -148,9 +146,16 @@ BoneName read_name(const std::string& name, const BonesByName& bones) {
     mark = candidate.piece;
     if (counterpart >= 0) break;
   }
-  result.words = plain_words(lower, pieces, mark);
-  result.numbers = numbers_of(lower, pieces);
+  read_pieces(lower, pieces, mark, result);
   return result;
+}
+
+/// The first of some words in a name; as many as it has where there is none.
+int first_word(const BoneName& name, std::initializer_list<std::string_view> words) {
+  const auto is_one = [&](const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  return static_cast<int>(std::find_if(name.words.begin(), name.words.end(), is_one) - name.words.begin());
 }
 
 /// How many words of a name are not touched by `keyword` when words are written together.
@@ -177,9 +182,16 @@ std::vector<BoneName> read_names(const std::vector<std::string>& bone_names) {
 }
 
 bool has_any_word(const BoneName& name, std::initializer_list<std::string_view> words) {
-  return std::any_of(name.words.begin(), name.words.end(), [&](const std::string& word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-  });
+  return first_word(name, words) < static_cast<int>(name.words.size());
+}
+
+std::vector<NameNumber> numbers_from(const BoneName& name, std::initializer_list<std::string_view> words) {
+  const int first = first_word(name, words);
+  std::vector<NameNumber> numbers;
+  for (const NameNumber& number : name.numbers) {
+    if (number.word >= first) numbers.push_back(number);
+  }
+  return numbers;
 }
 
 int extra_words(const BoneName& name, std::string_view keyword) {

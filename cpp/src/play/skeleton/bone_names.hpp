@@ -10,10 +10,17 @@ namespace fragmotion {
 
 enum class Side { kNone, kLeft, kRight };
 
+/// A number in a bone's name.
+struct NameNumber {
+  int value = 0;
+  int digits = 0;
+  int word = -1;  ///< Which of the name's words it ends or follows; -1 ahead of all.
+};
+
 /// What a bone's name says, in lower case: words without the namespace, the side's mark and trailing numbers.
 struct BoneName {
   std::vector<std::string> words;
-  std::vector<int> numbers;  ///< In their order.
+  std::vector<NameNumber> numbers;  ///< In their order.
   Side side = Side::kNone;
   int counterpart = -1;  ///< The bone with the other side's mark, or -1.
 };
@@ -28,5 +35,9 @@ bool has_any_word(const BoneName& name, std::initializer_list<std::string_view> 
 int extra_words(const BoneName& name, std::string_view keyword);
 
 bool is_finger(const BoneName& name);
+
+/// The numbers at and behind the first of `words` that a name has: of "Bip01 L Finger12", "finger" 12. None where it
+/// has none of them.
+std::vector<NameNumber> numbers_from(const BoneName& name, std::initializer_list<std::string_view> words);
 
 }  // namespace fragmotion

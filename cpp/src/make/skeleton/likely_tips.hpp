@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "skeleton/role_map.hpp"
+
+namespace fragmotion {
+
+/// Whether the tip of a bone leads on from the bone before it at rest, by 60 degrees at most. That of a hand or of a
+/// finger that does not was made up by an importer of a format that knows no bones' ends.
+bool leads_on(const Skeleton& skeleton, int before, int bone);
+
+/// The skeleton with tips that hands and fingers can have: a hand's where the bones lead that hang on it but for the
+/// thumb, else, and of a finger's last joint, straight on from the bone before it where it does not lead on.
+Skeleton with_likely_tips(Skeleton skeleton, const RoleMap& map);
+
+}  // namespace fragmotion
