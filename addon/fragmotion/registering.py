@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import atexit
+
 import bpy
 
 from . import command_line, operators
@@ -33,10 +35,15 @@ def register() -> None:
     properties.register()
     for part in (icons, mending, staleness, storing, keymaps, menus, handlers, command_line):
         part.register()
+    if getattr(bpy.app, "module", False):
+        # A script that ends without unregistering: Blender waits for timers for ever, and frees a command by a Python
+        # that is no more.
+        atexit.register(unregister)
 
 
 def unregister() -> None:
     """Remove all that `register` added; a build or a drive that runs is stopped."""
+    atexit.unregister(unregister)
     background.stop()
     serving.stop()
     waking.unregister()

@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Callable
+from pathlib import Path
 from threading import Event
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -25,6 +28,15 @@ def test_unregister_leaves_nothing_and_register_brings_it_back(addon: ModuleType
     finally:
         addon.register()
     assert registered() == before
+
+
+@pytest.mark.skipif(not getattr(bpy.app, "module", False), reason="this Blender is a program")
+def test_a_script_that_does_not_unregister_ends_well(addon: ModuleType) -> None:
+    own = Path(addon.__file__ or "").parent
+    places = [str(own.parent), str(Path(addon.compat.core.core.__file__).parent)]
+    script = f"import sys; sys.path[:0] = {places}; import bpy, {own.name}; {own.name}.register(); print('the end')"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False, timeout=100)
+    assert done.returncode == 0 and "the end" in done.stdout, done.stderr
 
 
 def test_unregister_stops_a_build_with_its_thread_and_timer(addon: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
