@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/random.hpp"
+#include "feet/standing_leg.hpp"
 #include "fragments/body_pose.hpp"
 #include "motion/pose.hpp"
 #include "motion/trunk.hpp"
@@ -205,7 +206,10 @@ class Swayer {
     };
     posed();
     double sink = 0;
-    for (int side = 0; side < legs_.count(); ++side) sink = std::max(sink, sinking(legs_[side], posed_, ankles_[side]));
+    for (int side = 0; side < legs_.count(); ++side) {
+      const Leg& leg = legs_[side];
+      sink = std::max(sink, too_high(longest(leg, posed_), posed_.heads[leg.thigh], ankles_[side]));
+    }
     pose.height -= sink;
     posed();
     for (int side = 0; side < legs_.count(); ++side)

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/filtered.hpp"
+#include "feet/standing_leg.hpp"
 #include "motion/pose.hpp"
 
 namespace fragmotion {
@@ -28,15 +29,6 @@ constexpr double kAstray = 0.07;         // m from its motion at least, for a fo
 constexpr double kStepHeight = 0.04;     // m
 constexpr double kDeepestAtOnce = 0.08;  // m that the hips may sink
 constexpr double kSinksIn = 0.1;         // s: time constant of the hips
-
-// The least angle, rad, by which `from_ball` must turn about `axis`, upright to it, to come within `length` of a place
-// that is `hip` from the ball; 0 where that brings it no nearer.
-double turn_to_reach(const Vector3& hip, const Vector3& from_ball, const Vector3& axis, double length) {
-  const double along = -dot(hip, from_ball), across = -dot(hip, axis.cross(from_ball)),
-               wanted = (length * length - hip.squaredNorm() - from_ball.squaredNorm()) / 2;
-  if (along <= wanted || across >= 0) return 0;
-  return std::atan2(across, along) + std::acos(std::max(-1.0, wanted / std::hypot(along, across)));
-}
 
 // The other foot of a pair.
 int other(int side) { return side ^ 1; }
@@ -133,19 +125,13 @@ void FootLock::raise_heel(int side, const Vector3& ball, double seconds, Vector3
   Foot& foot = feet_[side];
   const Leg& leg = body_->legs[side];
   PosedBones& posed = body_->posed;
-  const Vector3 from_ball = ankle - ball, axis = from_ball.cross(Vector3::UnitZ()).normalized();
-  const double lacks =
-      foot.locked ? turn_to_reach(posed.heads[leg.thigh] - ball, from_ball, axis, longest(leg, posed)) : 0;
+  const Vector3 from_ball = ankle - ball, hip = posed.heads[leg.thigh] - ball;
+  const double lacks = foot.locked ? rise_to_reach(hip, from_ball, longest(leg, posed)) : 0;
   foot.raised += filtered(seconds, kRaising) * (std::min(lacks, kHighest) - foot.raised);
   if (foot.raised < kLevel) return;
-  const Quaternion turn{Eigen::AngleAxisd(foot.raised, axis)};
+  const Quaternion turn{Eigen::AngleAxisd(foot.raised, heel_axis(from_ball))};
   ankle = ball + turn * from_ball;
-  if (leg.toe >= 0) {  // it stays as it is
-    const Quaternion above = turn * posed.rotations[body_->kinematics.skeleton().parents[leg.toe]];
-    store_quaternion((above.conjugate() * posed.rotations[leg.toe]).normalized(),
-                     rotations + std::ptrdiff_t{4} * leg.toe);
-  }
-  posed.rotations[leg.foot] = turn * posed.rotations[leg.foot];
+  turn_foot(body_->kinematics.skeleton(), leg, turn, Quaternion::Identity(), posed, rotations);
 }
 
 void FootLock::release(Foot& foot, const Vector2& held) const {
@@ -205,7 +191,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
                 longer = heading * edit.stride * heading.transpose();
   const Vector2 shift = heading * edit.shift;
   std::array<Vector3, kMostLegs> ankles;
-  double sink = 0;
+  double strained = 0;
   settle(seconds);
   for (int side = 0; side < count; ++side) {
     const double over = height(side, contacts.floors[side]);
@@ -220,14 +206,14 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     ankles[side] = posed.heads[legs[side].foot] + moved;
     raise_heel(side, place + moved, seconds, ankles[side], pose.rotations.data());
     if (by.isZero(1e-9) && lift == 0) continue;
-    const double strain = sinking(legs[side], posed, ankles[side]);
+    const double strain =
+        std::max(0.0, too_high(longest(legs[side], posed), posed.heads[legs[side].thigh], ankles[side]));
     if (feet_[side].locked && strain * scale > kStrained) release(feet_[side], held);
-    sink = std::max(sink, std::min(kDeepestAtOnce / scale, strain));
+    strained = std::max(strained, std::min(kDeepestAtOnce / scale, strain));
   }
   fresh_ = false;
-  sunk_ += (sink - sunk_) * filtered(seconds, kSinksIn);
-  pose.root.z() -= sunk_;
-  for (Vector3& head : posed.heads) head.z() -= sunk_;
+  sunk_ += (strained - sunk_) * filtered(seconds, kSinksIn);
+  lower_hips(sunk_, pose.root, posed);
   for (int side = 0; side < count; ++side) {
     reach(skeleton, legs[side], posed, ankles[side], pose.rotations.data());
   }

@@ -6,6 +6,7 @@
 
 #include "base/filtered.hpp"
 #include "base/turn_between.hpp"
+#include "feet/standing_leg.hpp"
 
 namespace fragmotion {
 namespace {
@@ -24,7 +25,6 @@ constexpr double kDeepest = 0.45;     // m that they sink
 constexpr double kMostRaised = 1;     // rad of a heel
 constexpr double kToesUp = 0.05;      // m that a heel is lower than the ball, where it is not raised
 constexpr double kMostUpright = 1.3;  // rad from the level, of a foot whose heel is raised
-constexpr int kHalvings = 12;         // of that, to find how much it must
 constexpr int kAsked = 8;             // times that a step asks for the ground,
 constexpr int kAskedAtFirst = 80;     // and a reset
 constexpr double kHips = 0.15;        // s: time constant of hips without legs
@@ -32,12 +32,6 @@ constexpr double kHips = 0.15;        // s: time constant of hips without legs
 Quaternion turned_by(const Vector2& slope) {
   if (slope.isZero(0)) return Quaternion::Identity();
   return turn_between(Vector3::UnitZ(), Vector3{-slope.x(), -slope.y(), 1});
-}
-
-// How far a leg's upper end is too high to reach its ankle, m; less than 0 where it might be higher.
-double missing(double length, const Vector3& hip, const Vector3& ankle) {
-  const double most = kReached * length, aside = std::min((ankle - hip).head<2>().norm(), kReached * most);
-  return hip.z() - ankle.z() - std::sqrt(most * most - aside * aside);
 }
 
 // At least 0, without a kink.
@@ -98,14 +92,14 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
   kinematics.world_below(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
   std::array<Vector3, 2> ankles{place_foot(0, feet[0]), place_foot(1, feet[1])};
   sink(feet, ankles, since);
-  pose.root.z() -= hips_.sunk();
-  for (Vector3& head : posed.heads) head.z() -= hips_.sunk();
+  lower_hips(hips_.sunk(), pose.root, posed);
   for (int side = 0; side < 2; ++side) {
     raise_heel(side, feet[side], ankles[side]);
+    turn_foot(kinematics.skeleton(), legs[side], heels_[side] * turns_[side], turns_[side], posed,
+              pose.rotations.data());
     const double length = leg_length(legs[side], posed);
     reach(kinematics.skeleton(), legs[side], posed, ankles[side], Reach{0.2 * length, kStretched * length},
           pose.rotations.data());
-    turn_foot(side, pose.rotations.data());
   }
 }
 
@@ -166,8 +160,8 @@ void GroundFollower::sink(const FeetAhead& feet, const std::array<Vector3, 2>& a
   double now = 0, soon = 0, due = kLookAhead;
   for (int side = 0; side < 2; ++side) {
     const Leg& leg = body_->legs[side];
-    const double length = leg_length(leg, body_->posed),
-                 lacks = missing(length, body_->posed.heads[leg.thigh], ankles[side]);
+    const double length = kReached * leg_length(leg, body_->posed),
+                 lacks = too_high(length, body_->posed.heads[leg.thigh], ankles[side]);
     now = std::max(now, feet_[side].contact_weight() * softly_positive(lacks, soft));
     if (feet[side].stands || feet[side].due > due) continue;
     const FootAhead& foot = feet[side];
@@ -175,7 +169,7 @@ void GroundFollower::sink(const FeetAhead& feet, const std::array<Vector3, 2>& a
     const Vector2 shifted = foot.ankle.head<2>() + next.place - foot.landing().place();
     const Vector3 hip = foot.hip + Vector3{0, 0, level_between(feet_, foot.hips.head<2>())},
                   ankle{shifted.x(), shifted.y(), foot.ankle.z() + next.at(shifted)};
-    soon = softly_positive(missing(length, hip, ankle), soft);
+    soon = softly_positive(too_high(length, hip, ankle), soft);
     due = foot.due;
   }
   hips_.sink(std::min(exact_ * now, deepest), std::min(exact_ * soon, deepest), due, seconds);
@@ -189,37 +183,13 @@ void GroundFollower::raise_heel(int side, const FootAhead& foot, Vector3& ankle)
   const double flat = std::clamp((foot.now.heel.z() - foot.now.ball.z()) * body_->scale / kToesUp + 1, 0.0, 1.0),
                reached = kReached * leg_length(leg, posed);
   const Vector3 from_ball = turns_[side] * (posed.heads[leg.foot] - ball(body_->kinematics.skeleton(), leg, posed)),
-                ball = ankle - from_ball, axis = from_ball.cross(Vector3::UnitZ()).normalized();
+                ball = ankle - from_ball;
   const double upright = kMostUpright - std::atan2(from_ball.z(), from_ball.head<2>().norm()),
                most = std::min(kMostRaised, upright) * exact_ * feet_[side].contact_weight() * flat;
-  const auto raised = [&](double angle) { return Quaternion{Eigen::AngleAxisd(angle, axis)}; };
-  const auto reaches = [&](double angle) {
-    return (ball + raised(angle) * from_ball - posed.heads[leg.thigh]).norm() <= reached;
-  };
-  if (most <= 0 || reaches(0)) return;
-  double low = 0, high = most;
-  for (int i = 0; i < kHalvings && reaches(most); ++i) {
-    const double middle = (low + high) / 2;
-    (reaches(middle) ? high : low) = middle;
-  }
-  heels_[side] = raised(high);
+  if (most <= 0) return;
+  const double lacks = rise_to_reach(posed.heads[leg.thigh] - ball, from_ball, reached);
+  heels_[side] = Eigen::AngleAxisd(std::min(lacks, most), heel_axis(from_ball));
   ankle = ball + heels_[side] * from_ball;
-}
-
-void GroundFollower::turn_foot(int side, double* rotations) const {
-  const Leg& leg = body_->legs[side];
-  const Quaternion foot = body_->posed.rotations[leg.foot], toe = turns_[side], turn = heels_[side] * toe;
-  const auto turned = [&](int bone, const Quaternion& by, const Quaternion& world) {
-    double* local = rotations + std::ptrdiff_t{4} * bone;
-    store_quaternion((load_quaternion(local) * (world.conjugate() * by * world)).normalized(), local);
-  };
-  turned(leg.foot, turn, foot);
-  if (leg.toe < 0) return;
-  // The toe stays on the ground when the heel is raised.
-  const Quaternion back = toe.conjugate() * heels_[side].conjugate() * toe;
-  double* local = rotations + std::ptrdiff_t{4} * leg.toe;
-  const Quaternion above = body_->posed.rotations[body_->kinematics.skeleton().parents[leg.toe]];
-  store_quaternion((above.conjugate() * back * above * load_quaternion(local)).normalized(), local);
 }
 
 }  // namespace fragmotion

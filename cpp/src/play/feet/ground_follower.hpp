@@ -43,7 +43,6 @@ class GroundFollower {
   Vector3 place_foot(int side, const FootAhead& foot);
   void sink(const FeetAhead& feet, const std::array<Vector3, 2>& ankles, double seconds);
   void raise_heel(int side, const FootAhead& foot, Vector3& ankle);
-  void turn_foot(int side, double* rotations) const;
 
   std::shared_ptr<FootLock::Body> body_;
   Ground ground_;

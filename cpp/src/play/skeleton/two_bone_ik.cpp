@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/turn_between.hpp"
 
@@ -244,14 +243,6 @@ double leg_length(const Leg& leg, const PosedBones& posed) {
 }
 
 double longest(const Leg& leg, const PosedBones& posed) { return kStretched * leg_length(leg, posed); }
-
-double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle) {
-  const double length = longest(leg, posed);
-  const Vector3 way = ankle - posed.heads[leg.thigh];
-  const double square = length * length - way.head<2>().squaredNorm();
-  if (square <= 0) return std::numeric_limits<double>::infinity();
-  return std::max(0.0, -way.z() - std::sqrt(square));
-}
 
 void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations) {
   const Knee knee = knee_of(leg, posed);

@@ -54,9 +54,6 @@ inline Vector3 ball(const Skeleton& skeleton, const Leg& leg, const PosedBones& 
 double leg_length(const Leg& leg, const PosedBones& posed);
 double longest(const Leg& leg, const PosedBones& posed);
 
-/// How far the hips must sink for the leg to reach `ankle`, m: 0 where it does, infinite where no sinking helps.
-double sinking(const Leg& leg, const PosedBones& posed, const Vector3& ankle);
-
 /// Two-bone inverse kinematics: bends the knee, to the front where it is nearly straight, and swings the thigh, so that
 /// the foot's head comes to `ankle` or as near as the leg is long; near its length a leg follows ever less, so that its
 /// knee does not snap. Foot and toe keep their world rotations. Writes the local `rotations` [bones, 4] of thigh, knee

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "feet/standing_leg.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fragmotion {
+namespace {
+
+constexpr double kAside = 0.985;  // of a leg's length that an ankle is aside at most
+
+}  // namespace
+
+double too_high(double length, const Vector3& hip, const Vector3& ankle) {
+  const Vector3 way = ankle - hip;
+  const double most = kAside * length, aside = std::min(way.head<2>().squaredNorm(), most * most);
+  return -way.z() - std::sqrt(length * length - aside);
+}
+
+Vector3 heel_axis(const Vector3& from_ball) { return from_ball.cross(Vector3::UnitZ()).normalized(); }
+
+double rise_to_reach(const Vector3& hip, const Vector3& from_ball, double length) {
+  const double along = -dot(hip, from_ball), across = -dot(hip, heel_axis(from_ball).cross(from_ball)),
+               wanted = (length * length - hip.squaredNorm() - from_ball.squaredNorm()) / 2;
+  if (along <= wanted || across >= 0) return 0;
+  return std::atan2(across, along) + std::acos(std::max(-1.0, wanted / std::hypot(along, across)));
+}
+
+void turn_foot(const Skeleton& skeleton, const Leg& leg, const Quaternion& foot, const Quaternion& toe,
+               PosedBones& posed, double* rotations) {
+  if (leg.toe >= 0) {
+    const Quaternion above = foot * posed.rotations[skeleton.parents[leg.toe]];
+    store_quaternion((above.conjugate() * (toe * posed.rotations[leg.toe])).normalized(),
+                     rotations + std::ptrdiff_t{4} * leg.toe);
+  }
+  posed.rotations[leg.foot] = foot * posed.rotations[leg.foot];
+}
+
+void lower_hips(double by, Vector3& root, PosedBones& posed) {
+  root.z() -= by;
+  for (Vector3& head : posed.heads) head.z() -= by;
+}
+
+}  // namespace fragmotion

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "skeleton/two_bone_ik.hpp"
+
+namespace fragmotion {
+
+/// How much higher the upper end of a leg of this length is than it reaches its ankle from, m; less than 0 where it
+/// might be higher. An ankle further aside than the leg is long counts as one just within its reach.
+double too_high(double length, const Vector3& hip, const Vector3& ankle);
+
+/// The axis about which a heel rises whose ankle is `from_ball`.
+Vector3 heel_axis(const Vector3& from_ball);
+
+/// The least angle, rad, by which a heel must rise about the ball for its ankle, now `from_ball`, to come within
+/// `length` of a hip that is `hip` from the ball; 0 where that brings it no nearer.
+double rise_to_reach(const Vector3& hip, const Vector3& from_ball, double length);
+
+/// Turns a foot in the world, and its toe by `toe` alone: the foot's rotation in `posed`, which reach() keeps, and the
+/// toe's in the local `rotations` [bones, 4].
+void turn_foot(const Skeleton& skeleton, const Leg& leg, const Quaternion& foot, const Quaternion& toe,
+               PosedBones& posed, double* rotations);
+
+/// Lowers the hips, and all that hangs from them.
+void lower_hips(double by, Vector3& root, PosedBones& posed);
+
+}  // namespace fragmotion
