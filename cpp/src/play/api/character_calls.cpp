@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "api/handles.hpp"
-#include "base/fnv.hpp"
 #include "character/naming.hpp"
+#include "character/policy_bytes.hpp"
 #include "character/policy_file.hpp"
 #include "skeleton/role_names.hpp"
 
@@ -136,7 +136,7 @@ FragmotionResult fragmotion_character_load(const void* bytes, std::size_t size, 
            "units_per_metre must be over 0 to %g, not %g", kMostUnit, static_cast<double>(wanted.units_per_metre));
     const std::string_view text(static_cast<const char*>(bytes), size);
     auto made = std::make_unique<FragmotionCharacter>();
-    made->hero = std::make_shared<const Hero>(read_character(text), fnv1a(text.data(), text.size()), wanted.axes,
+    made->hero = std::make_shared<const Hero>(read_character(text), policy_checksum(text), wanted.axes,
                                               static_cast<double>(wanted.units_per_metre));
     list_alive(made.get(), Kind::character);
     *character = made.release();
