@@ -106,6 +106,17 @@ def test_every_panel_can_be_drawn(addon: ModuleType) -> None:
     assert all(any(drawn(panel).values()) for panel in panels if panel.bl_label != "Coverage"), "but for pictures"
 
 
+def test_a_doubtful_bone_is_named_with_its_takes_and_among_the_bones(addon: ModuleType) -> None:
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    assert bpy.ops.fragmotion.find_bones() == {"FINISHED"}
+    hand = bpy.context.active_object.fragmotion.roles["left_hand"]
+    panels = addon.panels.panel.FRAGMOTION_PT_mocap, addon.panels.bones.FRAGMOTION_PT_bones
+    assert not any("See Bones" in text for text in drawn(panels[0])["texts"])
+    hand.doubt = "ends aside of the arm"
+    assert f"See Bones for '{hand.bone}'" in drawn(panels[0])["texts"]
+    assert hand.doubt in drawn(panels[1])["texts"]
+
+
 @pytest.mark.parametrize(
     ("names", "beginning"),
     [
