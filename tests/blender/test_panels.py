@@ -139,6 +139,17 @@ def test_wide_icons_of_keys_get_room_in_the_status_bar(addon: ModuleType) -> Non
     ]
 
 
+def test_a_doubtful_bone_is_named_with_its_takes_and_among_the_bones(addon: ModuleType) -> None:
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    assert bpy.ops.fragmotion.find_bones() == {"FINISHED"}
+    hand = bpy.context.active_object.fragmotion.roles["left_hand"]
+    panels = addon.panels.panel.FRAGMOTION_PT_mocap, addon.panels.bones.FRAGMOTION_PT_bones
+    assert not any("See Bones" in text for text in drawn(panels[0])["texts"])
+    hand.doubt = "ends aside of the arm"
+    assert f"See Bones for '{hand.bone}'" in drawn(panels[0])["texts"]
+    assert hand.doubt in drawn(panels[1])["texts"]
+
+
 @pytest.mark.parametrize(
     ("names", "beginning"),
     [

@@ -151,9 +151,19 @@ class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
         if not actions:
             draw_wrapped(layout.column(align=True), context, f"No Actions for '{obj.name}'", "INFO")
             return
+        _draw_doubts(layout, context, obj)
         _draw_takes(layout, context, obj, len(actions))
         if obj.animation_data is not None and obj.animation_data.nla_tracks:
             layout.operator("fragmotion.take_strips", icon="NLA")
+
+
+def _draw_doubts(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:
+    """The bones that may not be what they are taken for, red until the user says so in the panel below."""
+    bones = [f"'{role.bone}'" for role in obj.fragmotion.roles if role.doubt]
+    if bones:
+        column = layout.column(align=True)
+        column.alert = True
+        draw_wrapped(column, context, f"See Bones for {', '.join(bones)}", "ERROR")
 
 
 def _draw_takes(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object, count: int) -> None:

@@ -17,8 +17,8 @@ ABOUT = (
     "makes: mean, and spread (greatest less least), over seeds 1 to 4. A change may make no mean worse by more "
     "than its spread, or, of what is told by frames or counted, the least that can be told: "
     "tests/python/test_quality.py. `python3 -m tools.measuring.quality` compares; with --write 'why' it writes this "
-    "anew, and under `lowered` each bar that is lower than it was, and why. A bar is the worst mean that passes; of a figure that is best at a value, "
-    "how far from that it may be."
+    "anew, and under `lowered` each bar that is lower than it was, and why. A bar is the worst mean that passes; of a "
+    "figure that is best at a value, how far from that it may be."
 )
 LESS, MORE = "less is better", "more is better"
 Better = Union[str, float]
