@@ -10,6 +10,9 @@ import bpy
 import numpy as np
 import pytest
 
+_SEEDED = {name: {"seed"} for name in ("Path", "Populate", "Trace")}
+"""What an animator tries other numbers of: another walk along the path, another crowd."""
+
 
 class Layout:
     """Notes what a panel draws: fields by their names, buttons by their operators."""
@@ -113,6 +116,19 @@ def test_who_is_new_sees_three_clicks_until_he_waves_them_away(addon: ModuleType
     bpy.context.view_layer.objects.active = None
     assert in_sight(addon)["buttons"].count("fragmotion.add_sample") == 1
     preferences.get(bpy.context).first_steps = True
+
+
+def test_terms_of_the_method_are_under_advanced(addon: ModuleType) -> None:
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=20, synthesize=False) == {"FINISHED"}
+    manager = bpy.context.window_manager.fragmotion
+    manager.show_mocap = manager.show_build = True
+    for panel in shown(addon, lambda panel: panel.bl_label != "Advanced"):
+        if panel.bl_label in {"Advanced", "Coverage"}:  # which draws pictures, for which there is no window here
+            continue
+        noted, seeded = drawn(panel), _SEEDED.get(panel.bl_label, set())
+        assert not {"policy", "cut", "seed"} & set(noted["fields"]) - seeded, panel.bl_label
+        assert not any(word in text for text in noted["texts"] for word in ("Optimal", "Paper")), panel.bl_label
 
 
 def test_every_panel_can_be_drawn(addon: ModuleType) -> None:

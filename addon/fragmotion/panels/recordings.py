@@ -12,12 +12,14 @@ from ..recordings.recordings import active_recording
 from ..settings.drawing import (
     aligned,
     draw_bake,
+    draw_bake_advanced,
     draw_bake_options,
     draw_hands,
     draw_look,
     draw_populate,
     draw_populated,
     draw_wrapped,
+    plays_anew,
 )
 from .sidebar import Sidebar, SubPanel
 
@@ -157,6 +159,22 @@ class FRAGMOTION_PT_bake_options(SubPanel, bpy.types.Panel):
         draw_bake_options(self.layout, obj.fragmotion.bake)
 
 
+class FRAGMOTION_PT_bake_advanced(SubPanel, bpy.types.Panel):
+    """What hardly anybody need change of a bake that is played anew."""
+
+    bl_idname = "FRAGMOTION_PT_bake_advanced"
+    bl_label = "Advanced"
+    bl_parent_id = "FRAGMOTION_PT_bake_options"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        obj = active_armature(context)
+        return obj is not None and plays_anew(obj.fragmotion.bake, obj)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        draw_bake_advanced(self.layout, active_armature(context).fragmotion.bake)
+
+
 class FRAGMOTION_PT_populate(SubPanel, bpy.types.Panel):
     """A crowd of the armature's copies."""
 
@@ -208,4 +226,4 @@ CLASSES = (
     FRAGMOTION_PT_change,
     FRAGMOTION_PT_replay_options,
 )
-BAKE_CLASSES = (FRAGMOTION_PT_bake_options, FRAGMOTION_PT_populate)
+BAKE_CLASSES = (FRAGMOTION_PT_bake_options, FRAGMOTION_PT_bake_advanced, FRAGMOTION_PT_populate)

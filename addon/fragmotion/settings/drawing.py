@@ -76,9 +76,7 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.O
     if source == "RECORDING":
         _draw_recording(layout, obj, settings)
         layout.prop(settings, "as_recorded")
-    if source != "RECORDING" or not settings.as_recorded:
-        layout.prop(settings, "policy")
-        layout.prop(settings, "seed")
+    if plays_anew(settings, obj):
         layout.prop(settings, "place")
     if source != "RECORDING" and obj.fragmotion.figures.styles:
         layout.prop(settings, "style")
@@ -86,6 +84,18 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.O
         draw_look(layout, obj.fragmotion.look)
         draw_hands(layout, obj)
     layout.prop(settings, "target")
+
+
+def plays_anew(settings: BakeFields, obj: bpy.types.Object) -> bool:
+    """Whether what is baked is played anew, and not as it was recorded."""
+    return baked_source(obj, settings) != "RECORDING" or not settings.as_recorded
+
+
+def draw_bake_advanced(layout: bpy.types.UILayout, settings: BakeFields) -> None:
+    """What plays, where it is played anew."""
+    layout = aligned(layout)
+    layout.prop(settings, "policy")
+    layout.prop(settings, "seed")
 
 
 def draw_baked(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.Object) -> None:

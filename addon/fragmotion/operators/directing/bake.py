@@ -15,7 +15,7 @@ from ...errors import UserError
 from ...jobs import Job
 from ...recordings.recordings import baked_source, digest_of, tell_baked
 from ...settings.bake_fields import BakeFields
-from ...settings.drawing import draw_bake, draw_bake_options
+from ...settings.drawing import draw_bake, draw_bake_advanced, draw_bake_options, plays_anew
 from ..base.background import Background, poll_character
 from ..base.context import active_armature
 
@@ -99,5 +99,8 @@ class FRAGMOTION_OT_bake(BakeFields, Baking, bpy.types.Operator):
             self.report({"WARNING"}, f"The pose will differ from the bake because of {'; '.join(others)}")
 
     def draw(self, context: bpy.types.Context) -> None:
-        draw_bake(self.layout, self, active_armature(context))
+        obj = active_armature(context)
+        draw_bake(self.layout, self, obj)
         draw_bake_options(self.layout, self)
+        if plays_anew(self, obj):
+            draw_bake_advanced(self.layout, self)
