@@ -56,7 +56,9 @@ void check_body(const FragmotionBody& body) {
 
 void step_part_of(FragmotionCrowd& crowd, int part, const FragmotionInput* inputs, double seconds) {
   const auto players = static_cast<std::int64_t>(crowd.players.size());
-  for (std::int64_t i = players * part / crowd.parts; i < players * (part + 1) / crowd.parts; ++i) {
+  const std::int64_t end = players * (part + 1) / crowd.parts;
+  for (std::int64_t i = players * part / crowd.parts; i < end; ++i) {
+    crowd.players[static_cast<std::size_t>(std::min(i + 1, end - 1))]->prefetch();
     crowd.players[static_cast<std::size_t>(i)]->step(inputs[i], seconds);
   }
 }

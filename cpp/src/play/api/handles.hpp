@@ -122,6 +122,7 @@ struct FragmotionPlayer {
   fragmotion::Vector3 place() const;
   double heading() const { return shift.frame(shown().frame).heading; }
 
+  void prefetch() const;
   void reset(const FragmotionPlace* place, int style);
   void make_room();
   void move_to(const FragmotionPlace& place);

@@ -269,6 +269,12 @@ void FragmotionPlayer::interpolate() {
   blend_rotations(before.rotations.data(), now.rotations.data(), share, hero->bones(), between.rotations.data());
 }
 
+// What its next step needs of it.
+void FragmotionPlayer::prefetch() const {
+  fragmotion::prefetch(this, 1);
+  if (has_fixed_step() || left_out + 1 >= options.step_interval) player.prefetch();
+}
+
 void FragmotionPlayer::step(const FragmotionInput& input, double seconds) {
   report.count = 0;
   report.motion = report.velocity = Vector3::Zero();

@@ -76,7 +76,6 @@ Player Player::branch() const {
   return player;
 }
 
-// A crowd's memory is more than the processor's caches hold.
 void Player::prefetch() const {
   fragmotion::prefetch(this, 1);
   playback_.prefetch();

@@ -70,6 +70,9 @@ class Player {
   /// Draws from another seed, from the next reset on.
   void reseed(std::uint64_t seed) { selector_.reseed(seed); }
 
+  /// Lets its memory be on its way to the processor: a crowd's is more than caches hold.
+  void prefetch() const;
+
   /// Plays on for `seconds` under a control, which need not be a point of its space. Allocates nothing. Throws
   /// std::invalid_argument unless each number of the control is within kMostControl and `seconds` is 0 .. 3600.
   void step(const Control& control, double seconds);
@@ -177,7 +180,6 @@ class Player {
   Control wanted(const Control& control) const;
   double cost_of_style(int style, const Control& wanted) const;
   MoveTrack& track_of(int move);
-  void prefetch() const;
   static void check_step(const Control& control, double seconds);
   void go_on(const Control& control);
   void play(int fragment);
