@@ -207,7 +207,7 @@ TEST(FragmentSelector, LeavesAFragmentAtTheSameMomentWhereTheSameLimbsAreOfMoreB
   const Character& c = *whole.character;
   int exits = 0, same = 0;
   double waited = 0, waited_of_split = 0;
-  for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 5) {
+  for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 3) {
     for (int k = 0; k < c.classes.count; ++k) {
       const double one = exit_for(whole, fragment, k), other = exit_for(split, fragment, k);
       ++exits;
