@@ -55,7 +55,7 @@ def _ensure_graph_editor(context: bpy.types.Context) -> None:
     """A Graph Editor in a window of its own, as Blender's of drivers, where no window has one."""
     manager = context.window_manager
     areas = [area for window in manager.windows for area in window.screen.areas]
-    if bpy.app.background or any(area.type == "GRAPH_EDITOR" for area in areas):
+    if bpy.app.background or any(area.ui_type == "FCURVES" for area in areas):
         return
     bpy.ops.wm.window_new()
     manager.windows[-1].screen.areas[0].ui_type = "FCURVES"

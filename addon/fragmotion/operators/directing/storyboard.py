@@ -44,9 +44,11 @@ class FRAGMOTION_OT_add_beat(_OnStory, bpy.types.Operator):
         beat.name, beat.place = empty.name, empty
         beat.frame = former + round(_APART * render.fps / render.fps_base)
         settings.active_beat = len(settings.story) - 1
-        if context.mode == "OBJECT":
+        selected = context.mode == "OBJECT"
+        if selected:
             select(context, [empty], context.view_layer.objects.active)
-        self.report({"INFO"}, f"'{beat.name}' is at the 3D cursor, and selected: move it (G) to where it is to be")
+        how = "it is selected, so G moves it" if selected else "select and move it"
+        self.report({"INFO"}, f"'{beat.name}' is at the 3D cursor: {how} to where it is to be")
         return {"FINISHED"}
 
 

@@ -27,6 +27,7 @@ struct TransitionWeights {
   double match = 0.9;       ///< A unit of ControlDis between what a fragment does and the control.
   double made = 0.3;        ///< That a fragment is synthesized.
   double unsteady = 5;      ///< Each m/s by which a fragment gets faster or slower: one limps through a held control.
+  double bent = 1.5;        ///< A turn rate by which what goes on turns otherwise than asked: planted feet are twisted.
   double hurried = 3;       ///< All of a step that a fragment lacks: parts of steps bring a stitch the more.
   double mirrored = 0.3;    ///< That captured and mirrored follow each other.
   double other_take = 0.3;  ///< That another take goes on, in its own manner.
@@ -58,6 +59,7 @@ void for_each_constant(Constants& constants, const Visit& visit) {
   visit("transition_match", constants.transition.match);
   visit("transition_made", constants.transition.made);
   visit("transition_unsteady", constants.transition.unsteady);
+  visit("transition_bent", constants.transition.bent);
   visit("transition_hurried", constants.transition.hurried);
   visit("transition_mirrored", constants.transition.mirrored);
   visit("transition_other_take", constants.transition.other_take);

@@ -2,6 +2,7 @@
 #include "runtime/transition_cost.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fragments/body_tips.hpp"
 
@@ -17,6 +18,7 @@ TransitionCost::TransitionCost(const Character& character, const TransitionWeigh
       ends_(end_velocities(character.pool)),
       match_(static_cast<float>(weights.match)),
       unsteady_(static_cast<float>(weights.unsteady * standard_scale(character.pool.skeleton))),
+      bent_(static_cast<float>(weights.bent)),
       mirrored_(static_cast<float>(weights.mirrored)),
       other_take_(static_cast<float>(weights.other_take)),
       out_of_turn_(static_cast<float>(weights.out_of_turn)),
@@ -43,7 +45,9 @@ float TransitionCost::of_performing(int fragment, const Control& control) const 
 }
 
 float TransitionCost::of_going_on(int fragment, const Control& control) const {
-  return of_performing(fragment, control) + unsteady_ * static_cast<float>(strays(fragment, control));
+  const double turned = std::abs(character_->pool.fragments[fragment].evident.turn - control.turn);
+  return of_performing(fragment, control) + unsteady_ * static_cast<float>(strays(fragment, control)) +
+         bent_ * static_cast<float>(turned);
 }
 
 float TransitionCost::of_entering(int fragment, const Control& control, const Fragment& left,

@@ -44,7 +44,7 @@ class TransitionCost {
 
   const Character* character_;
   std::vector<EndVelocities> ends_;
-  float match_, unsteady_, mirrored_, other_take_, out_of_turn_, per_distance_;
+  float match_, unsteady_, bent_, mirrored_, other_take_, out_of_turn_, per_distance_;
   std::vector<float> made_, entered_;  // of each fragment: of perform() and of enter() what no control tells
 };
 
