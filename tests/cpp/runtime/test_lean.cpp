@@ -16,6 +16,7 @@ struct LeaningBody {
   Skeleton skeleton = humanoid();
   Kinematics kinematics{skeleton};
   Lean lean{Trunk(skeleton), resting_legs(skeleton), 1};
+  int chest = Trunk(skeleton).chest;
   Clip clip = gait_clip({0, 0, 0});
   double heading = 0;
 
@@ -44,7 +45,7 @@ struct LeaningBody {
       const Eigen::Quaterniond back{frame.rotation().inverse()};
       const auto place = [&](int bone) { return Vector3{back * (posed.heads[bone] - pose.root)}; };
       seen = {place(skeleton.roles.hips), place(skeleton.roles.head), place(skeleton.roles.left_foot),
-              back * posed.rotations[Trunk(skeleton).chest]};
+              back * posed.rotations[chest]};
     }
     return seen;
   }

@@ -12,7 +12,7 @@ namespace fragmotion {
 /// A triangle's corners, m, and how much each is painted; between them the paint is linear.
 struct PaintedTriangle {
   std::array<Vector3, 3> corners;
-  std::array<double, 3> paint;
+  std::array<double, 3> paint{};
 };
 
 /// Places on a painted surface: the more it is painted, the likelier. Throws std::invalid_argument unless corners are
