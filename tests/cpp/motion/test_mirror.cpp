@@ -121,6 +121,25 @@ TEST(Mirror, LeavesFingersThatNoTakeMovesOnTheirSide) {
   EXPECT_EQ(turns.counterparts[left[1]], counterpart[left[1]]) << "a finger that a take moves is mirrored";
 }
 
+TEST(Mirror, MovesTheOtherHandWhereOneAloneMoves) {
+  std::vector<int> left;
+  const Skeleton skeleton = with_fingers_of_its_own(left);
+  const Kinematics kinematics(skeleton);
+  Clip clip = make_clip(skeleton, random_clip(skeleton, 8, 5));
+  const int other = mirror_bones(skeleton)[left[0]];
+  const std::size_t width = std::size_t{4} * skeleton.size();
+  for (int f = 0; f < clip.frames; ++f) {
+    store_quaternion(Quaternion::Identity(), &clip.rotations[f * width + std::size_t{4} * left[0]]);
+  }
+  const Mirror mirror(kinematics, {clip});
+  const MirrorTurns turns = mirror.turns();
+  EXPECT_EQ(turns.counterparts[left[0]], other);
+  EXPECT_EQ(turns.counterparts[other], left[0]);
+  const Clip image = mirror(clip);
+  const double* moved = &image.rotations[std::size_t{4} * left[0]];
+  EXPECT_GT(load_quaternion(moved).angularDistance(load_quaternion(moved + width)), 0.01);
+}
+
 TEST(Mirror, SwapsTheFeetOnTheGround) {
   const Kinematics kinematics(humanoid());
   for (const Clip& clip : gait_takes()) {

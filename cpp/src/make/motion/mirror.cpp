@@ -80,12 +80,21 @@ Matrix3 snapped_to_axes(const Matrix3& turn) {
   return best;
 }
 
+// Those whose counterparts are still, too: where one hand alone moves, the other one moves in the mirror image.
+std::vector<int> both_still(const std::vector<int>& still, const std::vector<int>& counterpart) {
+  std::vector<int> both;
+  for (const int bone : still) {
+    if (std::binary_search(still.begin(), still.end(), counterpart[bone])) both.push_back(bone);
+  }
+  return both;
+}
+
 }  // namespace
 
 Mirror::Mirror(const Kinematics& kinematics, const std::vector<Clip>& clips)
     : kinematics_(kinematics),
       counterpart_(mirror_bones(kinematics.skeleton())),
-      still_(still_fingers(kinematics.skeleton(), clips)) {
+      still_(both_still(still_fingers(kinematics.skeleton(), clips), counterpart_)) {
   std::vector<Matrix3> symmetric = symmetric_rest(kinematics, counterpart_);
   const bool by_rest = !symmetric.empty();
   if (!by_rest) symmetric = mean_orientations(kinematics, clips);

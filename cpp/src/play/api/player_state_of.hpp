@@ -138,7 +138,7 @@ void PlayerState::exchange(Archive& a, RootGovernor& governor) {
   vector(a, governor.played_, kMostSpeed);
   a.number(governor.begins_, 0, 1);
   a.number(governor.turn_rate_, -kMostSpeed, kMostSpeed);
-  a.number(governor.tempo_, 0.5, 2);
+  a.number(governor.tempo_, 0.01, 2);  // the square root of a slow walk's speed over a run's, and no quotient by 0
   a.number(governor.target_heading_, -kMostPlace, kMostPlace);
 }
 
