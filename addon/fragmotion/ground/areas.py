@@ -36,9 +36,8 @@ def painted_area(context: bpy.types.Context, obj: bpy.types.Object | None) -> Pa
     try:
         area: PaintedArea = core.PaintedArea(places[corners], painted[corners])
     except ValueError as error:
-        raise UserError(
-            f"'{obj.name}' is no area: {error}. Paint its active vertex group, or remove the group"
-        ) from None
+        mend = "" if group is None else ". Paint its active vertex group, or remove the group"
+        raise UserError(f"'{obj.name}' is no area: {error}{mend}") from None
     return area
 
 

@@ -85,9 +85,10 @@ def find_and_doubt(obj: bpy.types.Object, rig: Rig) -> list[str]:
 def doubts_at_import(obj: bpy.types.Object) -> list[str]:
     """What is doubtful about the bones of an armature that takes were brought onto, where nobody has looked at them
     yet: then they are kept for the panel to show."""
-    if chosen_roles(obj) is not None or not core.role_doubts(make_rig(obj).skeleton):
+    if chosen_roles(obj) is not None:
         return []
-    return find_and_doubt(obj, make_rig(obj))
+    rig = make_rig(obj)
+    return find_and_doubt(obj, rig) if core.role_doubts(rig.skeleton) else []
 
 
 def make_body(obj: bpy.types.Object, rig: Rig, clips: Sequence[Clip] = ()) -> Body:

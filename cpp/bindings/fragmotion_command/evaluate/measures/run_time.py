@@ -155,11 +155,13 @@ def _turns(measured: Sequence[core.MotionMeasures]) -> dict[str, float]:
 
 def responses(character: core.Character, seeds: Iterable[int], **options: Any) -> dict[str, float]:
     """Half of all changes of velocity are answered within p50, 95 of 100 within p95, s, by players of these seeds; and
-    the same of what is left of each answer's time without the time that a body needs for the change."""
-    times = np.array([core.response_times(character, seed, **options) for seed in seeds])
+    the same of what is left of each answer's time without the time that a body needs for the change. Changes of the
+    stick that are none of what the character is able to do do not count."""
     quickest = _changes(character) * character.space.scale / _BODY
+    seen = quickest > 0
+    times = np.array([core.response_times(character, seed, **options)[seen] for seed in seeds])
     names = ("response_p50_s", "response_p95_s", *BEYOND_PHYSICS)
-    figures = [*np.percentile(times, [50, 95]), *np.percentile(times - quickest, [50, 95])]
+    figures = [*np.percentile(times, [50, 95]), *np.percentile(times - quickest[seen], [50, 95])]
     return {name: float(figure) for name, figure in zip(names, figures)}
 
 
