@@ -126,7 +126,6 @@ def steps() -> Iterator[None]:
     yield from until(lambda: previews.current is None, "the end of a preview without its armature", 40)
     assert not waking._timers
     show_all()
-    print("SESSION PASSED")
 
 
 run(steps())

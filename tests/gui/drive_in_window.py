@@ -194,7 +194,6 @@ def session_of_tests() -> Iterator[None]:
         bpy.ops.test.count_timers("INVOKE_DEFAULT")
     yield from assert_nothing_is_left()
     yield from end_otherwise(obj)
-    print("SESSION PASSED")
 
 
 def drive_with_all_inputs(obj: bpy.types.Object, clock: Clock) -> Iterator[None]:

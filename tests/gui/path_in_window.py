@@ -110,7 +110,6 @@ def session_of_tests() -> Iterator[None]:
     yield from walk_to_a_click()
     yield from edit_curves()
     window.show_all()
-    print("SESSION PASSED")
 
 
 window.run(session_of_tests())

@@ -113,7 +113,6 @@ def session_of_tests() -> Iterator[None]:
         for other in list(bpy.data.objects):
             bpy.data.objects.remove(other)
     assert "StructRNA" not in reports()
-    print("SESSION PASSED")
 
 
 def hear_both_windows(before: list[Any]) -> Iterator[None]:
