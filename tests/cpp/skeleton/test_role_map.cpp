@@ -241,6 +241,17 @@ TEST(RoleMap, CountsFingersByTheirOwnNumbers) {
   EXPECT_EQ(named.at("left_pinky_1"), "Bip01 L Finger4");
 }
 
+TEST(RoleMap, CountsFingersThatHaveTwoDigitsFromZero) {
+  Skeleton skeleton = Humanoid(family_named("Biped")).skeleton;
+  for (const char* number : {"00", "01", "02", "03", "04"}) {
+    append(skeleton, std::string("Bip01 L Finger") + number, "Bip01 L Hand", {0.03, 0, 0});
+  }
+  const Names named = named_bones(skeleton, find_role_map(skeleton));
+  EXPECT_EQ(named.at("left_thumb_1"), "Bip01 L Finger00");
+  EXPECT_EQ(named.at("left_index_1"), "Bip01 L Finger01");
+  EXPECT_EQ(named.at("left_pinky_1"), "Bip01 L Finger04");
+}
+
 TEST(RoleMap, AFootOnWhichNothingHangsGivesWayToTheOneBesideIt) {
   Skeleton skeleton = Humanoid(family_named("Unreal")).skeleton;
   for (const std::string side : {"l", "r"}) {

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 
+#include "skeleton/role_map.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr double kNearAxis = 0.8;    // cosine
-constexpr int kMostPosesSeen = 200;  // that are looked at, at most
+constexpr double kNearAxis = 0.8;  // cosine
 
 Vector3 middle_of_feet(const Patient& patient, int frame) {
   return 0.5 * (patient.head(frame, patient.legs[0].end) + patient.head(frame, patient.legs[1].end));
@@ -45,7 +46,7 @@ std::string axis_name(const Vector3& axis) {
 Vector3 up_axis(const Patient& patient) {
   if (!patient.has_legs() || patient.skull < 0) return Vector3::Zero();
   Vector3 sum = Vector3::Zero();
-  const int apart = std::max(1, patient.frames() / kMostPosesSeen);
+  const int apart = frames_between_looks(patient.frames());
   int poses = 0;
   for (int f = 0; f < patient.frames(); f += apart, ++poses) {
     const Vector3 up = patient.head(f, patient.skull) - middle_of_feet(patient, f);

@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "retarget/posture.hpp"
+#include "skeleton/role_map.hpp"
 
 namespace fragmotion {
 namespace {
-
-constexpr int kMostPoses = 200;
 
 struct LimbPart {
   Role role, next;  // the bone's, and that of the next one of the limb: where a hand or a foot hangs, the one before
@@ -67,7 +66,7 @@ bool rests_standing(const Body& body) {
 
 std::map<std::string, double> limb_angles(const Body& source, const Clip& from, const Body& target, const Clip& to) {
   Actor actor(source, from, false), copy(target, to, rests_standing(target));
-  const int step = std::max(1, from.frames / kMostPoses), poses = (from.frames + step - 1) / step;
+  const int step = frames_between_looks(from.frames), poses = (from.frames + step - 1) / step;
   std::map<std::string, double> angles;
   for (int f = 0; f < from.frames; f += step) {
     actor.pose(f);

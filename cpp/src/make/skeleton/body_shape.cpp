@@ -6,7 +6,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr int kMostPoses = 200;
 constexpr int kFingers = 3;  // at least on a hand
 
 }  // namespace
@@ -24,7 +23,7 @@ void BodyShape::observe(const ObservedPoses* motion) {
     return;
   }
   moves_ = true;
-  const int step = std::max(1, motion->poses / kMostPoses);
+  const int step = frames_between_looks(motion->poses);
   for (int p = 0; p < motion->poses; p += step) {
     poses_.push_back(&motion->heads[static_cast<std::size_t>(p) * skeleton_->size()]);
   }

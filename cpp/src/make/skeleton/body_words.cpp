@@ -196,7 +196,7 @@ std::array<double, kRoles> says(const BoneName& name) {
   return scores;
 }
 
-int finger_of(const BoneName& name, int first) {
+int finger_of(const BoneName& name, const FingerNumbers& usual) {
   constexpr std::string_view kFingers[][5] = {{"thumb", "親指", "엄지", "拇指", "大拇指"},
                                               {"index", "人指", "人差指", "검지", "食指"},
                                               {"middle", "mid", "中指", "중지", "中指"},
@@ -210,9 +210,9 @@ int finger_of(const BoneName& name, int first) {
   const std::vector<NameNumber> numbers = numbers_from(name, {"finger"});
   if (numbers.empty()) return -1;
   int number = numbers[0].value;
-  // Biped: Finger12 is the third bone of Finger1, and Finger01 the second of Finger0
-  if (numbers.size() == 1 && (number >= 10 || (first == 0 && numbers[0].digits == 2))) number /= 10;
-  number -= first;
+  const bool of_thumb = usual.first == 0 && usual.one_digit && numbers[0].digits == 2;
+  if (numbers.size() == 1 && (number >= 10 || of_thumb)) number /= 10;  // Finger12, and Finger01
+  number -= usual.first;
   return number >= 0 && number < 5 ? number : -1;
 }
 

@@ -16,8 +16,15 @@ constexpr double kContradicts = -1e9;  ///< A name that says something else.
 /// less.
 std::array<double, kRoles> says(const BoneName& name);
 
-/// Which finger a name says, 0 thumb to 4 little finger, or -1. Numbered ones count from `first`.
-int finger_of(const BoneName& name, int first);
+/// How a skeleton numbers its fingers: from `first`, and where one of them is told by one digit a second one is its
+/// joint (Biped: Finger01 is the second bone of Finger0).
+struct FingerNumbers {
+  int first = 1;
+  bool one_digit = false;
+};
+
+/// Which finger a name says, 0 thumb to 4 little finger, or -1.
+int finger_of(const BoneName& name, const FingerNumbers& usual);
 
 /// Markers, controls, clothes and faces carry the name of the bone they serve.
 bool says_helper(const BoneName& name);

@@ -15,6 +15,7 @@
 namespace fragmotion {
 namespace {
 
+constexpr int kLooks = 200;
 constexpr double kTold = 0.5;   // the least confidence of a role
 constexpr int kMostJoints = 4;  // of a finger
 constexpr double kNamed = 0.95, kBetween = 0.75;
@@ -159,13 +160,15 @@ class MapMaker {
     add(Role::kHead, Side::kNone, body_.head, body_.head_confidence);
   }
 
-  int first_finger() const {
-    int least = 1;
+  FingerNumbers finger_numbers() const {
+    FingerNumbers usual;
     for (const BoneName& name : tree_.names) {
       const std::vector<NameNumber> numbers = numbers_from(name, {"finger"});
-      if (name.side != Side::kNone && !numbers.empty()) least = std::min(least, numbers[0].value);
+      if (name.side == Side::kNone || numbers.empty()) continue;
+      usual.first = std::min(usual.first, numbers[0].value);
+      usual.one_digit = usual.one_digit || numbers[0].digits == 1;
     }
-    return least;
+    return usual;
   }
 
   // CMU's thumbs hang on the wrist beside the hand.
@@ -173,11 +176,11 @@ class MapMaker {
     const Limb& arm = body_.arms[side];
     const int from = arm.bones[Limb::kLower] >= 0 ? arm.bones[Limb::kLower] : arm.bones[Limb::kEnd];
     if (from < 0) return;
-    const int first = first_finger();
+    const FingerNumbers usual = finger_numbers();
     std::array<std::vector<int>, 5> fingers;
     for (int b = from + 1; b < tree_.size(); ++b) {
       if (!tree_.in_body[b] || tree_.names[b].side != kSides[side] || !tree_.is_below(b, from)) continue;
-      const int finger = finger_of(tree_.names[b], first);
+      const int finger = finger_of(tree_.names[b], usual);
       if (finger < 0 || fingers[finger].size() >= kMostJoints) continue;
       const bool goes_on = fingers[finger].empty() || tree_.is_below(b, fingers[finger].back());
       if (goes_on) fingers[finger].push_back(b);
@@ -278,6 +281,8 @@ std::map<std::string, RoleBone> known_roles() {
 }
 
 }  // namespace
+
+int frames_between_looks(int frames) { return std::max(1, frames / kLooks); }
 
 int RoleMap::bone(Role role, Side side) const {
   for (const RoleBone& b : bones) {

@@ -68,6 +68,9 @@ struct ObservedPoses {
   std::vector<Vector3> heads;  ///< [poses, bones]
 };
 
+/// So many frames are those poses apart that are looked at of a motion, some 200 in all.
+int frames_between_looks(int frames);
+
 /// Whose left and right is told where names say left of all limbs that feet and knees say are right: a rig is named the
 /// wrong way round, or a file is mirrored.
 enum class Sides { of_the_body, of_the_names };
