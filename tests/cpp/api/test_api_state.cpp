@@ -80,6 +80,16 @@ TEST(ApiState, GoesBackToTheBit) { expect_rollback(fragmotion_player_options(), 
 
 TEST(ApiState, GoesBackToTheBitOnHillsWhereItWasMoved) { expect_rollback(fragmotion_player_options(), true, true); }
 
+TEST(ApiState, GoesBackToAWalkMuchSlowerThanTheTakes) {
+  const auto character = loaded(tiny_character({tiny_clip(0), tiny_clip(2.5)}));
+  const auto player = playing(*character);
+  FragmotionInput input = fragmotion_input();
+  input.move[1] = 0.35F;
+  for (int frame = 0; frame < 240; ++frame) expect_ok(fragmotion_player_step(player.get(), &input, kStateFrame));
+  const std::vector<unsigned char> bytes = saved(player.get());
+  expect_ok(fragmotion_player_restore(player.get(), bytes.data(), bytes.size()));
+}
+
 TEST(ApiState, GoesBackToTheBitBetweenFixedSteps) {
   FragmotionPlayerOptions options = fragmotion_player_options();
   options.fixed_step = 1.0 / 45;

@@ -6,6 +6,9 @@ namespace fragmotion {
 /// A value that gets to another at a given time, smoothly and at rest. Told the same time again and again, it gets
 /// there in about that time, ever more slowly.
 struct Approach {
+  /// Times as fast as on the mean it is half way, from rest to rest.
+  static constexpr double kPeak = 1.5;
+
   double value = 0, speed = 0;
 
   /// Goes on for `seconds` on its way to `target`, where it is to be in `due` seconds.

@@ -22,12 +22,12 @@ struct StepEdit {
 };
 
 /// Keeps planted feet where they are: the ball of a foot that is planted comes to rest and stays there, the leg follows
-/// (leg.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion smoothly, with
-/// a step where that is far; but the only foot that stands is kept for longer, and until the other one has come down
-/// whose turn it is. Where a leg would be a little too short, the heel of a foot that is left behind rises and the hips
-/// sink; where it would be much too short, the foot steps on. A planted foot that hovers is lowered to the floor. A
-/// body that has stood for a while in the middle of a stride steps out of it. The feet of a four-legged body are two
-/// pairs, each like a biped's. Does nothing to a skeleton without legs. Allocates nothing once it is made.
+/// (two_bone_ik.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion
+/// smoothly, with a step where that is far; but the only foot that stands is kept for longer, and until the other one
+/// has come down whose turn it is. Where a leg would be a little too short, the heel of a foot that is left behind
+/// rises and the hips sink; where it would be much too short, the foot steps on. A planted foot that hovers is lowered
+/// to the floor. A body that has stood for a while in the middle of a stride steps out of it. The feet of a four-legged
+/// body are two pairs, each like a biped's. Does nothing to a skeleton without legs. Allocates nothing once it is made.
 class FootLock {
  public:
   /// s in which a foot that is let go gets back to its motion, most of the way; it is critically damped, 1/s.

@@ -14,7 +14,6 @@ constexpr double kTurnsIn =
     0.5;  // s: a person's head takes so long (W. Zangemeister, L. Stark, Exp. Neurology 77, 1982)
 constexpr double kSeenAhead =
     1;  // s: walkers look where they are then (A. Patla, J. Vickers, Exp. Brain Research 148, 2003)
-constexpr double kPeak = 1.5;                // times as fast as on the mean is an Approach half way
 constexpr double kSlowest = 1e-3;            // rad/s, of a head that never turns in its takes
 constexpr double kRightBehind = 0.75 * kPi;  // rad: from there on it is over the shoulder that was looked over already
 constexpr double kNearest = 1e-3;            // m: what is nearer to the eyes has no direction
@@ -85,7 +84,7 @@ Gaze::Angles Gaze::advance(const Angles& wanted, bool begins, double seconds) {
   const Angles shown = angles(head_), moved{wrapped(wanted[0] - wanted_[0]), wanted[1] - wanted_[1]};
   if (begins || moved.norm() > most) {
     put_off(shown, wanted);
-    due_ = std::max(kTurnsIn, kPeak * std::hypot(offset_[0].value, offset_[1].value) / fastest());
+    due_ = std::max(kTurnsIn, Approach::kPeak * std::hypot(offset_[0].value, offset_[1].value) / fastest());
   }
   for (Approach& offset : offset_) offset.advance(0, due_, seconds);
   due_ = std::max(0.0, due_ - seconds);

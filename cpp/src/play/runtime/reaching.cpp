@@ -10,7 +10,6 @@ namespace {
 constexpr double kHeard = 0.1;      // s: what is told little by little is told so often at least
 constexpr double kReachesIn = 0.6;  // s of a whole reach (T. Flash, N. Hogan, J. Neuroscience 5, 1985)
 constexpr double kHandSpeed = 2;    // m/s at the most, of a 1.8 m character whose hand goes to another place (there)
-constexpr double kReachPeak = 1.5;  // times as fast as on the mean is an Approach half way
 // Of an arm's length: from where the trunk helps (L. Mark et al., J. Exp. Psychology: HPP 23, 1997); and from where to
 // where a hand gives up what is too far away.
 constexpr double kHelps = 0.9, kGivesUp = 1.4, kGone = 2.2;
@@ -41,7 +40,7 @@ void Reaching::reach(int side, const HandAim& aim) {
     hand.place_due = kReachesIn;
   } else if (aim.place != hand.aim.place) {
     const double way = (aim.place - hand.at()).norm() * workspace_->body->scale;
-    hand.place_due = std::max(heard, kReachPeak * way / kHandSpeed);
+    hand.place_due = std::max(heard, Approach::kPeak * way / kHandSpeed);
   }
   if (aim.weight != hand.aim.weight)
     hand.weight_due = std::max(heard, kReachesIn * std::abs(aim.weight - hand.weight.value));

@@ -34,7 +34,8 @@ using Candidates = std::vector<std::pair<float, int>>;
 struct Workspace {
   /// The character must outlive it.
   explicit Workspace(const Character& character, const PlayerConstants& constants = {});
-  /// Room for other players of the character, which may step at the same time: what never changes is shared.
+  /// Room for other players of the character, which may step at the same time: the lists of fragments, which never
+  /// change, are shared.
   Workspace another() const;
 
   PlayerConstants constants;
