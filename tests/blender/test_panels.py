@@ -143,7 +143,7 @@ def test_every_panel_can_be_drawn(addon: ModuleType) -> None:
     assert all(any(drawn(panel).values()) for panel in panels if panel.bl_label != "Coverage"), "but for pictures"
 
 
-@pytest.mark.skipif(bpy.app.version < (4, 3, 0), reason="all icons are as wide as high")
+@pytest.mark.skipif(bpy.app.version < (4, 3, 0), reason="this Blender draws all icons as wide as high")
 def test_wide_icons_of_keys_get_room_in_the_status_bar(addon: ModuleType) -> None:
     status, shown, layout = addon.operators.base.status, [], Layout()
     workspace = SimpleNamespace(status_text_set=shown.append)
