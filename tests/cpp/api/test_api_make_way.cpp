@@ -72,47 +72,121 @@ TEST(ApiMakeWay, KeepsTwoHundredOnASquareApart) {
   EXPECT_GT(heeding.nearest, 0.4);
 }
 
-// A hundred on a circle, each to the other side; or sixty, all to its middle.
-Nearest cross_a_circle(int count, double radius, double beyond, int frames, int& arrived) {
-  const auto hero = loaded(*gait_character());
-  const auto crowd = crowd_of(*hero, count);
-  std::vector<FragmotionInput> inputs(static_cast<std::size_t>(count), fragmotion_input());
-  std::vector<std::array<double, 2>> places(inputs.size()), goals(inputs.size());
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2 * kPi * i / count, x = radius * std::cos(angle), y = radius * std::sin(angle);
-    const FragmotionPlace place{{static_cast<float>(x), static_cast<float>(y), 0}, static_cast<float>(angle + kPi / 2)};
-    expect_ok(fragmotion_player_reset(fragmotion_crowd_player(crowd.get(), i), &place, 0));
-    goals[i] = {-beyond * x, -beyond * y};
-  }
-  Nearest found;
-  for (int frame = 0; frame < frames; ++frame) {
-    arrived = 0;
+// So many on a circle, each towards its goal, which lies so many radii beyond the middle.
+class Circle {
+ public:
+  Circle(int count, double radius, double beyond, float room)
+      : hero_(loaded(*gait_character())), crowd_(crowd_of(*hero_, count)), room_(room) {
     for (int i = 0; i < count; ++i) {
-      const FragmotionState state = state_of(fragmotion_crowd_player(crowd.get(), i));
-      places[i] = {state.place.position[0], state.place.position[1]};
-      const double x = goals[i][0] - places[i][0], y = goals[i][1] - places[i][1], left = std::hypot(x, y);
-      arrived += left < 1.5 ? 1 : 0;
-      inputs[i].steer = FRAGMOTION_STEER_WORLD;
-      inputs[i].move[0] = left < 1 ? 0 : static_cast<float>(1.3 * x / left);
-      inputs[i].move[1] = left < 1 ? 0 : static_cast<float>(1.3 * y / left);
+      const double angle = 2 * kPi * i / count, x = radius * std::cos(angle), y = radius * std::sin(angle);
+      const FragmotionPlace place{{static_cast<float>(x), static_cast<float>(y), 0},
+                                  static_cast<float>(angle + kPi / 2)};
+      expect_ok(fragmotion_player_reset(player(i), &place, 0));
+      goals_.push_back({-beyond * x, -beyond * y});
     }
-    found.look(places);
-    expect_ok(fragmotion_crowd_make_way(crowd.get(), kRoom, kFrameOfCrowd, nullptr, 0));
-    expect_ok(fragmotion_crowd_step(crowd.get(), inputs.data(), kFrameOfCrowd));
+    places_.resize(goals_.size());
+    inputs_.assign(goals_.size(), fragmotion_input());
   }
-  std::printf("nearest %.2f m, %d arrived\n", found.nearest, arrived);
-  return found;
-}
+
+  FragmotionPlayer* player(int i) const { return fragmotion_crowd_player(crowd_.get(), i); }
+  const Nearest& nearest() const { return nearest_; }
+
+  int arrived() const {
+    int count = 0;
+    for (std::size_t i = 0; i < goals_.size(); ++i) count += left(i) < 1.5 ? 1 : 0;
+    return count;
+  }
+
+  double mean_speed() const {
+    double speed = 0;
+    for (std::size_t i = 0; i < goals_.size(); ++i) {
+      const FragmotionState state = state_of(player(static_cast<int>(i)));
+      speed += std::hypot(state.velocity[0], state.velocity[1]) / static_cast<double>(goals_.size());
+    }
+    return speed;
+  }
+
+  void play(int frames) {
+    for (int frame = 0; frame < frames; ++frame) {
+      for (std::size_t i = 0; i < goals_.size(); ++i) ask(i);
+      nearest_.look(places_);
+      expect_ok(fragmotion_crowd_make_way(crowd_.get(), room_, kFrameOfCrowd, nullptr, 0));
+      expect_ok(fragmotion_crowd_step(crowd_.get(), inputs_.data(), kFrameOfCrowd));
+    }
+  }
+
+ private:
+  double left(std::size_t i) const { return std::hypot(goals_[i][0] - places_[i][0], goals_[i][1] - places_[i][1]); }
+
+  void ask(std::size_t i) {
+    const FragmotionState state = state_of(player(static_cast<int>(i)));
+    places_[i] = {state.place.position[0], state.place.position[1]};
+    inputs_[i].steer = FRAGMOTION_STEER_WORLD;
+    for (int k = 0; k < 2; ++k) {
+      inputs_[i].move[k] = left(i) < 1 ? 0 : static_cast<float>(1.3 * (goals_[i][k] - places_[i][k]) / left(i));
+    }
+  }
+
+  Held<FragmotionCharacter> hero_;
+  Held<FragmotionCrowd> crowd_;
+  float room_;
+  std::vector<FragmotionInput> inputs_;
+  std::vector<std::array<double, 2>> goals_, places_;
+  Nearest nearest_;
+};
 
 TEST(ApiMakeWay, LetsNobodyTouchWhereAHundredGoThroughOnePlace) {
-  int arrived = 0;
-  EXPECT_GT(cross_a_circle(100, 20, 1, 3000, arrived).nearest, 0.4);
-  EXPECT_EQ(arrived, 100);
+  Circle circle(100, 20, 1, kRoom);
+  circle.play(3000);
+  std::printf("nearest %.2f m, %d arrived\n", circle.nearest().nearest, circle.arrived());
+  EXPECT_GT(circle.nearest().nearest, 0.4);
+  EXPECT_EQ(circle.arrived(), 100);
 }
 
 TEST(ApiMakeWay, LetsNobodyTouchWhereSixtyWantToBe) {
-  int arrived = 0;
-  EXPECT_GT(cross_a_circle(60, 12, 0, 900, arrived).nearest, 0.4);
+  Circle circle(60, 12, 0, kRoom);
+  circle.play(900);
+  EXPECT_GT(circle.nearest().nearest, 0.4);
+}
+
+// Alone by what is next to what they want, each stands before the one who stands before him.
+TEST(ApiMakeWay, LetsFewPassWhoAllWaitForEachOther) {
+  for (const int count : {4, 6, 8, 12}) {
+    Circle circle(count, 3, 1, 0.35F);
+    circle.play(450);
+    EXPECT_EQ(circle.arrived(), count);
+    EXPECT_GT(circle.nearest().nearest, 0.4) << count;
+  }
+}
+
+TEST(ApiMakeWay, LetsThoseWaitWhoCannotAllBeInOnePlace) {
+  Circle circle(20, 6, 0, kRoom);
+  double least = 1e9;
+  for (int second = 0; second < 40; ++second) {
+    circle.play(30);
+    least = std::min(least, circle.mean_speed());
+  }
+  EXPECT_LT(least, 0.1) << "they do not circle for ever";
+}
+
+TEST(ApiMakeWay, GoesBackToTheBit) {
+  constexpr int kCount = 12;
+  Circle circle(kCount, 4, 0, kRoom);
+  circle.play(300);
+  std::vector<std::vector<unsigned char>> states;
+  for (int i = 0; i < kCount; ++i) states.push_back(saved(circle.player(i)));
+  const auto checksums = [&] {
+    std::vector<std::uint64_t> sums;
+    for (int i = 0; i < kCount; ++i) sums.push_back(checksum_of(circle.player(i)));
+    return sums;
+  };
+  circle.play(60);
+  const auto later = checksums();
+  for (int i = 0; i < kCount; ++i) {
+    expect_ok(fragmotion_player_restore(circle.player(i), states[i].data(), states[i].size()));
+  }
+  circle.play(60);
+  EXPECT_EQ(checksums(), later);
 }
 
 TEST(ApiMakeWay, GoesAroundWhoDoesNotYieldAndForgetsHim) {

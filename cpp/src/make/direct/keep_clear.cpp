@@ -109,7 +109,7 @@ class Heeding {
     const Eigen::Rotation2Dd turned(player().frame().heading);
     const Vector2 asked = way(turned * Vector2{control.x, control.y}),
                   meant = detour_.around(options.obstacles, place(player().frame().position), asked, options.radius);
-    const Vector2 clear = back(clearance.nearest(meant, member_->scale * most));
+    const Vector2 clear = back(way_round_.choose(clearance, meant, member_->scale * most, kControl));
     const Vector2 seen = turned.inverse() * clear;
     control.x = seen.x();
     control.y = seen.y();
@@ -155,6 +155,7 @@ class Heeding {
   std::optional<PathFollower> follower_;
   double due_ = 0;  // s until a goal is given up
   Detour detour_;
+  WayRound way_round_;
   Trace trace_;
 };
 

@@ -101,6 +101,7 @@ struct FragmotionPlayer {
   FragmotionPlayerOptions options;
   bool in_crowd = false;
   std::optional<fragmotion::Clearance> clearance;  // of the next step
+  fragmotion::WayRound way_round;
   FragmotionGround ground = nullptr;
   void* ground_user = nullptr;
 
@@ -142,7 +143,7 @@ struct FragmotionPlayer {
  private:
   fragmotion::Control control(const FragmotionInput& input, double seconds);
   fragmotion::Control towards(const fragmotion::Vector3& velocity, double turn, bool jump) const;
-  void keep_clear(fragmotion::Control& control) const;
+  void keep_clear(fragmotion::Control& control, double seconds);
   fragmotion::Steering& steers();
   void advance(const FragmotionInput& input, double seconds);
   void play(const FragmotionInput& input, double seconds);

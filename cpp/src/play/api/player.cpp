@@ -101,6 +101,7 @@ void FragmotionPlayer::reset(const FragmotionPlace* place, int style) {
   arrived = false;
   banked = 0;
   left_out = 0;
+  way_round = {};
   report = {};
   take_pose(now);
   if (has_fixed_step()) before = between = now;
@@ -183,10 +184,11 @@ Control FragmotionPlayer::control(const FragmotionInput& input, double seconds) 
 }
 
 // Who stands may be asked to walk.
-void FragmotionPlayer::keep_clear(Control& control) const {
+void FragmotionPlayer::keep_clear(Control& control, double seconds) {
   const Matrix2 turn = turn_by(frame().heading).toRotationMatrix();
-  const Vector2 wanted = turn * Vector2{control.x, control.y},
-                clear = turn.transpose() * clearance->nearest(wanted, std::max(wanted.norm(), space().walk()));
+  const Vector2 wanted = turn * Vector2{control.x, control.y};
+  const double most = std::max(wanted.norm(), space().walk());
+  const Vector2 clear = turn.transpose() * way_round.choose(*clearance, wanted, most, seconds);
   control.x = clear.x();
   control.y = clear.y();
 }
@@ -221,7 +223,7 @@ void FragmotionPlayer::tell(FragmotionEventType type, int index, const Vector3& 
 // Plays on by so much, and takes the pose.
 void FragmotionPlayer::advance(const FragmotionInput& input, double seconds) {
   Control asked = control(input, seconds);
-  if (clearance) keep_clear(asked);
+  if (clearance) keep_clear(asked, seconds);
   player.step(asked, seconds);
   take_pose(now);
 }

@@ -8,7 +8,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kForeseen = 1.0 / 60;      // s of a step that is foreseen
-constexpr std::uint32_t kStateVersion = 3;  // of what exchange() and PlayerState hold
+constexpr std::uint32_t kStateVersion = 4;  // of what exchange() and PlayerState hold
 constexpr char kStateMagic[9] = "FRAGSTAT";
 constexpr std::size_t kStateHeader = 16, kStateEnd = 8;  // bytes: magic, version and size; hash
 
@@ -65,6 +65,7 @@ void FragmotionPlayer::exchange(Archive& a) {
     }
   }
   PlayerState::exchange(a, steering);
+  PlayerState::exchange(a, way_round);
   a.number(arrived, 0, 1);
   a.number(banked, 0, has_fixed_step() ? options.fixed_step : kLongestCall);
   a.number(left_out, 0, kMostSteps);

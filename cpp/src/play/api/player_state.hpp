@@ -2,6 +2,7 @@
 #pragma once
 
 #include "api/state_bytes.hpp"
+#include "direct/make_way.hpp"
 #include "direct/path_follower.hpp"
 #include "direct/steering.hpp"
 #include "feet/ground_follower.hpp"
@@ -18,6 +19,8 @@ struct PlayerState {
   static void exchange(Archive& a, PathFollower& follower);
   template <typename Archive>
   static void exchange(Archive& a, Steering& steering);
+  template <typename Archive>
+  static void exchange(Archive& a, WayRound& way_round);
 
   /// Which feet stand, as they are shown.
   static std::array<bool, 2> standing_feet(const Player& player) {

@@ -317,4 +317,9 @@ void PlayerState::exchange(Archive& a, Steering& steering) {
   a.number(steering.side_, -1, 1);
 }
 
+template <typename Archive>
+void PlayerState::exchange(Archive& a, WayRound& way_round) {
+  a.number(way_round.held_up_, 0, WayRound::kPatience);
+}
+
 }  // namespace fragmotion

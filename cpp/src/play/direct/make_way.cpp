@@ -99,6 +99,18 @@ Vector2 Clearance::nearest(const Vector2& wanted, double most) const {
   return Program(*this, enough, most).solve(wanted).value_or(Vector2::Zero());
 }
 
+Vector2 WayRound::choose(const Clearance& clearance, const Vector2& wanted, double most, double seconds) {
+  const auto held_up = [&](const Vector2& velocity) {
+    return std::clamp(1 - dot(velocity, wanted) / wanted.squaredNorm(), 0.0, 1.0);
+  };
+  const Vector2 clear = clearance.nearest(wanted, most);
+  if (wanted == Vector2::Zero()) return held_up_ = 0, clear;
+  const double right_angles = held_up(clear) * (1 - held_up_ / kPatience);
+  const Vector2 chosen = clearance.nearest(Eigen::Rotation2Dd(-kPi / 2 * right_angles) * wanted, most);
+  held_up_ = std::clamp(held_up_ + (2 * held_up(chosen) - 1) * seconds, 0.0, kPatience);
+  return chosen;
+}
+
 std::int64_t MakeWay::cell(const Vector2& place, int column, int row) const {
   const auto index = [&](double along) { return static_cast<std::int64_t>(std::floor(along / reach_)); };
   return (index(place.y()) + row) * kRows + index(place.x()) + column;

@@ -29,6 +29,22 @@ struct Clearance {
   Vector2 nearest(const Vector2& wanted, double most) const;
 };
 
+/// How one gets past others who want to go as well: by the right-hand rule of deadlocked robots and of people, who is
+/// held up turns to his right, the more so the more he is, up to a right angle. Who gets no further all the same, as
+/// where all want to be in one place, waits.
+class WayRound {
+ public:
+  static constexpr double kPatience = 10;  ///< s of being held up wholly after which one waits.
+
+  /// The velocity for the next `seconds`.
+  Vector2 choose(const Clearance& clearance, const Vector2& wanted, double most, double seconds);
+
+ private:
+  friend struct PlayerState;
+
+  double held_up_ = 0;  // s, 0 .. kPatience
+};
+
 /// One of many on the ground, as if it were round.
 struct Walker {
   Vector2 place, velocity;  ///< m, m/s
