@@ -27,7 +27,7 @@ class LookStitch {
  private:
   friend struct PlayerState;
 
-  void see(const WorldPose& pose, double heading, WorldPose& look) const;
+  void see(const WorldPose& pose, const Quaternion& after, WorldPose& look) const;
   Quaternion turn_below(const WorldPose& pose) const;
   bool active(double time, const Inertialization& body) const;
 
