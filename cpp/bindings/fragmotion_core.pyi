@@ -270,10 +270,17 @@ class Body:
     """A skeleton as a body that motion goes from or onto: its roles, and the pose that bodies are compared in, which is
     told by the rest pose, however its arms are held, or by clips."""
 
-    def __init__(self, skeleton: Skeleton, clips: Sequence[Clip] = (), roles: dict[str, str] | None = None) -> None:
+    def __init__(
+        self,
+        skeleton: Skeleton,
+        clips: Sequence[Clip] = (),
+        roles: dict[str, str] | None = None,
+        told: dict[str, str] = ...,
+    ) -> None:
         """`clips` of the skeleton tell how it stands where its rest pose is not that of a standing body, as in many BVH
-        files, and how its feet stand flat; `roles` (as Skeleton.role_map has them, role -> bone name) take the place of
-        those that are found. ValueError names what is missing of hips, thighs, shins and feet, or hangs wrong."""
+        files, how its feet stand flat, and what bones are that names do not tell; `roles` (as Skeleton.role_map has
+        them, role -> bone name) take the place of all that are found, `told` of some. ValueError names what is missing
+        of hips, thighs, shins and feet, or hangs wrong."""
     skeleton: Skeleton
     roles: dict[str, str]
     """Role -> bone name."""

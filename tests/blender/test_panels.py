@@ -164,12 +164,19 @@ def test_wide_icons_of_keys_get_room_in_the_status_bar(addon: ModuleType) -> Non
 def test_a_doubtful_bone_is_named_with_its_takes_and_among_the_bones(addon: ModuleType) -> None:
     assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
     assert bpy.ops.fragmotion.find_bones() == {"FINISHED"}
-    hand = bpy.context.active_object.fragmotion.roles["left_hand"]
-    panels = addon.panels.panel.FRAGMOTION_PT_mocap, addon.panels.bones.FRAGMOTION_PT_bones
-    assert not any("See Bones" in text for text in drawn(panels[0])["texts"])
-    hand.doubt = "ends aside of the arm"
-    assert f"See Bones for '{hand.bone}'" in drawn(panels[0])["texts"]
-    assert hand.doubt in drawn(panels[1])["texts"]
+    settings = bpy.context.active_object.fragmotion
+    bone = settings.roles["left_hand"].bone
+    mocap, bones = addon.panels.panel.FRAGMOTION_PT_mocap, addon.panels.bones.FRAGMOTION_PT_bones
+    assert not any("See Bones" in text for text in drawn(mocap)["texts"])
+    doubt = settings.doubts.add()
+    doubt.name, doubt.bone, doubt.text = "left_hand", bone, "ends aside of the arm"
+    for _ in range(2):  # among the roles, and where none is chosen
+        assert f"See Bones for '{bone}'" in drawn(mocap)["texts"]
+        assert doubt.text in drawn(bones)["texts"] and "fragmotion.confirm_bone" in drawn(bones)["buttons"]
+        settings.roles.clear()
+    doubt.right = True
+    assert not any("See Bones" in text for text in drawn(mocap)["texts"])
+    assert doubt.text not in drawn(bones)["texts"]
 
 
 @pytest.mark.parametrize(

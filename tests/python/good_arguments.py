@@ -181,7 +181,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Clip.led_by_feet": {"self": walk, "skeleton": skeleton, "speed": 0.0},
         "Clip.character_frames": {"self": walk, "skeleton": skeleton},
         "mirrored": {"skeleton": skeleton, "clips": clips[:1]},
-        "Body": {"skeleton": human, "clips": [strolling], "roles": body.roles},
+        "Body": {"skeleton": human, "clips": [strolling], "roles": body.roles, "told": {"head": body.roles["head"]}},
         "role_doubts": {"skeleton": human, "roles": core.Body(human).roles},
         "Retarget": {"source": body, "target": core.Body(humanoid("unreal"))},
         "Retarget.apply": {"self": core.Retarget(body, body), "clip": strolling},

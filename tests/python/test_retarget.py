@@ -242,6 +242,23 @@ def test_what_is_missing_is_named() -> None:
         core.Body(humanoid("mixamo"), walking_clips(skeleton))
 
 
+def test_what_is_told_of_one_bone_leaves_the_others_to_motion(bandai_body: Source) -> None:
+    """Of a skeleton whose names say nothing."""
+    old = bandai_body.body.skeleton
+    names = {name: f"{index}" for index, name in enumerate(old.names)}
+    skeleton = remade(old, rename=names.__getitem__)
+    clips = [
+        core.Clip(skeleton, clip.name, clip.rate, clip.root_positions, clip.rotations) for clip in bandai_body.clips
+    ]
+    found = core.Body(skeleton, clips).roles
+    resting = {role: bone for role, (bone, _) in skeleton.role_map().items()}
+    assert len(found) > len(resting), "motion has told nothing"
+    assert core.Body(skeleton, clips, told={"hips": found["hips"]}).roles == found
+    told = core.Body(skeleton, clips, told={"left_hand": found["left_lower_arm"]}).roles
+    kept = {role: bone for role, bone in found.items() if role != "left_lower_arm"}
+    assert told == {**kept, "left_hand": found["left_lower_arm"]}
+
+
 def test_a_rest_pose_that_tells_nothing_wants_clips(bandai_body: Source) -> None:
     unknown = core.Body(bandai_body.body.skeleton)
     assert not unknown.stands

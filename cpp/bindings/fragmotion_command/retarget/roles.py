@@ -22,11 +22,7 @@ def role_of(text: str) -> tuple[str, str]:
 
 def make_body(skeleton: core.Skeleton, clips: Sequence[core.Clip], told: Sequence[tuple[str, str]]) -> core.Body:
     """The body of a skeleton, whose bones are what is told of those that it has."""
-    own = {role: bone for role, bone in told if bone in skeleton.names}
-    if not own:
-        return core.Body(skeleton, clips)
-    found = {role: bone for role, (bone, _) in skeleton.role_map().items() if bone not in own.values()}
-    return core.Body(skeleton, clips, {**found, **own})
+    return core.Body(skeleton, clips, told={role: bone for role, bone in told if bone in skeleton.names})
 
 
 def check_bones(skeletons: Sequence[core.Skeleton], told: Sequence[tuple[str, str]]) -> None:

@@ -376,4 +376,14 @@ RoleMap role_map_of(const Skeleton& skeleton, const std::map<std::string, std::s
   return map;
 }
 
+RoleMap with_told(const Skeleton& skeleton, const RoleMap& found, const std::map<std::string, std::string>& told) {
+  std::set<std::string> taken;
+  for (const auto& [label, name] : told) taken.insert(name);
+  std::map<std::string, std::string> bones = told;
+  for (const auto& [label, name] : named_bones(skeleton, found)) {
+    if (!taken.count(name)) bones.emplace(label, name);
+  }
+  return role_map_of(skeleton, bones);
+}
+
 }  // namespace fragmotion

@@ -98,4 +98,7 @@ std::map<std::string, std::string> named_bones(const Skeleton& skeleton, const R
 /// skeleton lacks and on one that is named twice.
 RoleMap role_map_of(const Skeleton& skeleton, const std::map<std::string, std::string>& bones);
 
+/// A map that was found, but for some roles that a user gives, as for role_map_of().
+RoleMap with_told(const Skeleton& skeleton, const RoleMap& found, const std::map<std::string, std::string>& told);
+
 }  // namespace fragmotion
