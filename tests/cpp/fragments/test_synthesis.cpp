@@ -196,6 +196,30 @@ TEST(Hop, CrouchesFliesAsABodyFallsAndLandsAsItTookOff) {
   }
 }
 
+TEST(Hop, SwingsTheArmsBackAndThenForwardAndLowersThemInTheAir) {
+  Gait stands{0, 0, 0};
+  Clip clip = gait_clip(stands);
+  const Hop hop(0.3, 0.15, 0.2);
+  add_hop(kKinematics, find_legs(kKinematics, {clip}), clip, hop);
+  const auto hands = [&](double seconds) {  // ahead of their shoulders, m
+    PosedBones posed(kSkeleton.size());
+    const int f = static_cast<int>(std::lround(seconds * clip.rate));
+    world(kKinematics, clip, f, posed.heads.data(), posed.rotations.data());
+    Vector2 least = Vector2::Constant(1);
+    for (int side = 0; side < 2; ++side) {
+      const Arm arm = resting_arms(kSkeleton)[side];
+      const Vector2 way = (posed.heads[arm.hand] - posed.heads[arm.upper]).head<2>();
+      least[side] = (Eigen::Rotation2Dd(-clip.headings[f]) * way).y();
+    }
+    EXPECT_NEAR(least[0], least[1], 0.05) << "both together";
+    return least.mean();
+  };
+  const double usual = hands(hop.seconds()), landing = hop.crouch() + hop.flight();
+  EXPECT_LT(hands(0.1), usual - 0.1);
+  EXPECT_GT(hands(hop.crouch() + hop.flight() / 4), usual + 0.3);
+  EXPECT_NEAR(hands(landing), usual, 0.05);
+}
+
 TEST(Hop, BendsTheKneesWithTheFeetNeverBelowWhereTheyWere) {
   Clip clip = gait_clip({1.2, 0, 0}), before = clip;
   const Legs legs = find_legs(kKinematics, {clip});

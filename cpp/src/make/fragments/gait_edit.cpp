@@ -20,6 +20,9 @@ constexpr double kFlexion = 2;   // rad that the trunk bows forward for each m o
 constexpr double kWidest = 0.2;  // m of a 1.8 m character that each foot is set out so as not to cross the other
 constexpr double kLevel = 0.8;   // of the way to flat, where feet go straight to the side
 constexpr double kTuck = 0.35;   // of the body's height: how much further the feet are lifted
+// rad for each m/s of the take-off; they point level at a little more than 2.75 m/s, with which people who jump as high
+// as they can take off when they swing them (M. Feltner et al., J. Sports Sciences 17, 1999)
+constexpr double kArmsForward = 0.6, kArmsBack = 0.3;
 
 // The frame of a clip that is number `f` of a motion that goes round and round frames begin .. end of it.
 int frame_of(int f, int begin, int end) {
@@ -264,8 +267,12 @@ Clip gait_in_flight(const Kinematics& kinematics, const Clip& clip, double take_
   return result;
 }
 
-Hop::Hop(double height, double dip, double sinking)
-    : dip_(dip), sinking_(sinking), speed_(std::sqrt(2 * kGravity * height)), pushing_(2 * dip / speed_) {}
+Hop::Hop(double height, double dip, double sinking, double running)
+    : dip_(dip),
+      sinking_(sinking),
+      speed_(std::sqrt(2 * kGravity * height)),
+      pushing_(2 * dip / speed_),
+      swing_((1 - running) * speed_) {}
 
 double Hop::flight() const { return 2 * speed_ / kGravity; }
 
@@ -278,9 +285,18 @@ double Hop::at(double seconds) const {
   return dip_ * (pushed * pushed - 1);
 }
 
+double Hop::arms(double seconds) const {
+  const double forward = kArmsForward * swing_, back = -kArmsBack * swing_;
+  const double turn = sinking_ / 2, top = crouch() + flight() / 4, landing = crouch() + flight();
+  if (seconds < turn) return back * ease_in_ease_out(seconds / turn);
+  if (seconds < top) return back + (forward - back) * ease_in_ease_out((seconds - turn) / (top - turn));
+  return forward * (1 - ease_in_ease_out((seconds - top) / (landing - top)));
+}
+
 void add_hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, const Hop& hop) {
   const Skeleton& skeleton = kinematics.skeleton();
   const Trunk trunk(skeleton);
+  const std::array<Arm, 2> arms = resting_arms(skeleton);
   PosedBones posed(kinematics.bones());
   for (int f = 0; f < clip.frames && f < hop.seconds() * clip.rate; ++f) {
     const double height = hop.at(f / clip.rate), rise = height / standard_scale(skeleton);
@@ -296,6 +312,9 @@ void add_hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, const H
     }
     const Vector3 left{-std::cos(clip.headings[f]), -std::sin(clip.headings[f]), 0};
     turn_spine(skeleton, trunk, left, kFlexion * std::max(0.0, -height), rotations);
+    for (const Arm& arm : arms) {
+      if (arm.exists()) turn_bone(skeleton, arm.upper, left, -hop.arms(f / clip.rate), rotations);
+    }
   }
 }
 

@@ -37,20 +37,23 @@ Clip gait_in_flight(const Kinematics& kinematics, const Clip& clip, double take_
 /// a body falls, and lands as it took off. Lengths in m of a 1.8 m character, times in s, all above 0.
 class Hop {
  public:
-  /// `height` of the flight, `dip` of the crouch, and the time to sink into it.
-  Hop(double height, double dip, double sinking);
+  /// `height` of the flight, `dip` of the crouch, and the time to sink into it; `running`: 0 on the spot .. 1.
+  Hop(double height, double dip, double sinking, double running = 0);
 
   double crouch() const { return sinking_ + pushing_; }  ///< s until the take-off, and from the landing on.
   double flight() const;                                 ///< s
   double seconds() const { return 2 * crouch() + flight(); }
   double at(double seconds) const;  ///< The height at a time from the beginning, 0 .. seconds().
+  /// rad by which the arms are swung forward then: back as the body begins to sink, forward until it flies, and down to
+  /// the landing; further for a jump that takes off faster, not in a run, whose arms swing already.
+  double arms(double seconds) const;
 
  private:
-  double dip_, sinking_, speed_, pushing_;
+  double dip_, sinking_, speed_, pushing_, swing_;
 };
 
 /// Adds a hop to a clip, from its first frame on: the knees bend and the trunk bows as the body goes down over the
-/// feet, and in the air the feet are drawn up.
+/// feet, the arms swing, and in the air the feet are drawn up.
 void add_hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, const Hop& hop);
 
 }  // namespace fragmotion

@@ -347,7 +347,7 @@ class Synthesizer {
   // Of a character that goes so fast.
   Hop hop_at(double speed) const {
     const double running = std::min(1.0, speed / space_.run());
-    return {kJumpHeight, dip_ * (1 + running * (kRunningDip - 1)), kSinking * (1 - running / 2)};
+    return {kJumpHeight, dip_ * (1 + running * (kRunningDip - 1)), kSinking * (1 - running / 2), running};
   }
 
   // Adds a clip with a hop in it, whose flight is the fragment.
