@@ -26,6 +26,7 @@ from .mocap.target_rigs import open_rig, save_minute
 from .operators.base.context import active_armature
 from .recordings.recordings import Recording, trace_of
 from .rig.rigs import make_rig
+from .rig.skins import make_skin
 
 if TYPE_CHECKING:
     import argparse
@@ -327,8 +328,9 @@ def _retarget(options: argparse.Namespace) -> running.Done:
         raise UserError(f"--blend is for rigs, and {options.onto.name} is a skeleton alone: leave it out")
     takes = sources.read_sources(options.takes, options.unit)
     obj = open_rig(options.onto, options.armature)
+    rig = make_rig(obj)
     with core_errors(f"Armature '{obj.name}'"):
-        body = roles.make_body(make_rig(obj).skeleton, [], options.roles)
+        body = roles.make_body(rig.skeleton, [], options.roles, make_skin(obj, rig))
     done, character = retargeting.bring(options, takes, body)
     save_minute(obj, character, options.seed, options.blend)
     return done

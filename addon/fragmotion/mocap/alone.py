@@ -12,12 +12,13 @@ import bpy
 
 from ..errors import UserError
 from ..rig.rigs import make_rig
+from ..rig.skins import make_skin
 from . import by_blender
 from .scratch import scratch_scene
 from .target_rigs import open_rig
 
 if TYPE_CHECKING:
-    from fragmotion_core import Skeleton, Take
+    from fragmotion_core import Skeleton, Skin, Take
 
 
 def read_takes(path: Path) -> list[Take]:
@@ -26,10 +27,13 @@ def read_takes(path: Path) -> list[Take]:
         return by_blender.read_takes(bpy.context, path, "")
 
 
-def read_rig(path: Path, armature: str | None) -> Skeleton:
-    """The skeleton of the armature of that name, or of the file's only one; ValueError where there is none."""
+def read_rig(path: Path, armature: str | None) -> tuple[Skeleton, Skin]:
+    """The skeleton and the skin of the armature of that name, or of the file's only one; ValueError where there is
+    none."""
     with _as_the_core_says():
-        return make_rig(open_rig(path, armature)).skeleton
+        obj = open_rig(path, armature)
+        rig = make_rig(obj)
+        return rig.skeleton, make_skin(obj, rig)
 
 
 @contextmanager

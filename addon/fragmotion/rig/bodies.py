@@ -16,9 +16,10 @@ from ..errors import UserError, core_errors
 from ..files import check_regular
 from .rigs import make_rig
 from .selection import highlight
+from .skins import make_skin
 
 if TYPE_CHECKING:
-    from fragmotion_core import Body, Clip, Rig
+    from fragmotion_core import Body, Clip, Rig, Skin
 
 NEEDED = (
     "hips",
@@ -68,9 +69,9 @@ def chosen_roles(obj: bpy.types.Object) -> dict[str, str] | None:
     return {role.name: role.bone for role in roles if role.bone} if len(roles) else None
 
 
-def find_roles(rig: Rig) -> dict[str, str]:
+def _find_roles(rig: Rig, skin: Skin) -> dict[str, str]:
     """Role -> bone name as the core finds them."""
-    return {role: bone for role, (bone, _) in rig.skeleton.role_map().items()}
+    return {role: bone for role, (bone, _) in rig.skeleton.role_map(skin=skin).items()}
 
 
 def set_roles(obj: bpy.types.Object, found: Mapping[str, str]) -> None:
@@ -90,8 +91,9 @@ def open_doubts(obj: bpy.types.Object) -> list[DoubtfulBone]:
 
 def find_and_doubt(obj: bpy.types.Object, rig: Rig) -> list[str]:
     """Find the roles, keep them with the armature with what is doubtful about them, and return that."""
-    set_roles(obj, find_roles(rig))
-    return _doubt(obj, rig)
+    skin = make_skin(obj, rig)
+    set_roles(obj, _find_roles(rig, skin))
+    return _doubt(obj, rig, skin)
 
 
 def doubts_at_import(obj: bpy.types.Object) -> list[str]:
@@ -99,17 +101,18 @@ def doubts_at_import(obj: bpy.types.Object) -> list[str]:
     for the panel to show, and these bones selected. No role is chosen by it."""
     if chosen_roles(obj) is not None:
         return []
-    texts = _doubt(obj, make_rig(obj))
+    rig = make_rig(obj)
+    texts = _doubt(obj, rig, make_skin(obj, rig))
     if texts:
         highlight(obj, [doubt.bone for doubt in open_doubts(obj)])
     return texts
 
 
-def _doubt(obj: bpy.types.Object, rig: Rig) -> list[str]:
+def _doubt(obj: bpy.types.Object, rig: Rig, skin: Skin) -> list[str]:
     """Keep what is doubtful about the bones that the core finds, and return it but for what is said to be right."""
     right = _said_to_be_right(obj)
     obj.fragmotion.doubts.clear()
-    for role, bone, text in core.role_doubts(rig.skeleton):
+    for role, bone, text in core.role_doubts(rig.skeleton, skin=skin):
         doubt = obj.fragmotion.doubts.add()
         doubt.name, doubt.bone, doubt.text, doubt.right = role, bone, text, right.get(role) == bone
     return [doubt.text for doubt in open_doubts(obj)]
@@ -125,7 +128,7 @@ def make_body(obj: bpy.types.Object, rig: Rig, clips: Sequence[Clip] = ()) -> Bo
     roles = chosen_roles(obj)
     told = _said_to_be_right(obj) if roles is None else {}
     with core_errors(f"Armature '{obj.name}'"):
-        body: Body = core.Body(rig.skeleton, clips, roles, told)
+        body: Body = core.Body(rig.skeleton, clips, roles, told, make_skin(obj, rig))
         return body
 
 

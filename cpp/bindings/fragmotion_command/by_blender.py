@@ -36,12 +36,12 @@ def read_takes(path: Path) -> list[core.Take]:
     return takes
 
 
-def read_rig(path: Path, armature: str | None) -> core.Skeleton:
-    """The skeleton of the armature of that name in a file, or of its only one; ValueError as above."""
+def read_rig(path: Path, armature: str | None) -> tuple[core.Skeleton, core.Skin]:
+    """The skeleton and the skin of the armature of that name in a file, or of its only one; ValueError as above."""
     reader = _reader()
     with _said_aside():
-        skeleton: core.Skeleton = reader.read_rig(path, armature)
-    return skeleton
+        rig: tuple[core.Skeleton, core.Skin] = reader.read_rig(path, armature)
+    return rig
 
 
 def check() -> None:

@@ -20,9 +20,15 @@ def role_of(text: str) -> tuple[str, str]:
     return (side + role[:-2] if side else role), bone
 
 
-def make_body(skeleton: core.Skeleton, clips: Sequence[core.Clip], told: Sequence[tuple[str, str]]) -> core.Body:
+def make_body(
+    skeleton: core.Skeleton,
+    clips: Sequence[core.Clip],
+    told: Sequence[tuple[str, str]],
+    skin: core.Skin | None = None,
+) -> core.Body:
     """The body of a skeleton, whose bones are what is told of those that it has."""
-    return core.Body(skeleton, clips, told={role: bone for role, bone in told if bone in skeleton.names})
+    own = {role: bone for role, bone in told if bone in skeleton.names}
+    return core.Body(skeleton, clips, told=own, skin=skin)
 
 
 def check_bones(skeletons: Sequence[core.Skeleton], told: Sequence[tuple[str, str]]) -> None:

@@ -43,8 +43,9 @@ def _source(takes: Sequence[core.Take], paths: list[Path]) -> Source:
 def read_body(path: Path, unit: float, roles: Sequence[tuple[str, str]], armature: str | None) -> core.Body:
     """The body of a file's skeleton, or of the rig of that name in it; the motion in a BVH tells how it stands."""
     clips: list[core.Clip] = []
+    skin = None
     if path.suffix.lower() in RIGS:
-        skeleton = read_rig(path, armature)
+        skeleton, skin = read_rig(path, armature)
     elif path.suffix.lower() == ".asf":
         skeleton = core.read_asf(path)
     else:
@@ -52,4 +53,4 @@ def read_body(path: Path, unit: float, roles: Sequence[tuple[str, str]], armatur
         skeleton = take.skeleton
         clips = [core.Clip.from_take(take)] if len(take.rotations) > 1 else []
     with core_failures(str(path)):
-        return make_body(skeleton, clips, roles)
+        return make_body(skeleton, clips, roles, skin)

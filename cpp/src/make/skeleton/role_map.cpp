@@ -310,8 +310,8 @@ double RoleMap::confidence(Role role, Side side) const {
   return least;
 }
 
-RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion, Sides sides) {
-  BodyTree tree(skeleton);
+RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion, Sides sides, const Skin* skin) {
+  BodyTree tree(skeleton, skin);
   if (const std::optional<Body> beast = four_legged_body(skeleton, tree)) return MapMaker(tree, *beast).make();
   std::optional<Body> named = named_body(tree);
   if (!named) tree.forget_names();
