@@ -20,7 +20,6 @@ from ..compat.core import core
 from ..compat.machine import memory
 from ..errors import UserError
 from ..ground.areas import outlines, painted_area, places_apart
-from ..ground.belongings import belongings
 from ..ground.meshes import find_ground
 from ..jobs import Report
 from ..mocap.sampling import scene_rate
@@ -29,6 +28,7 @@ from ..paths.lines import TYPES as LINES
 from ..paths.lines import line_of
 from ..recordings.curves import curves_of
 from ..recordings.traces import make_trace
+from ..rig.belongings import belongings
 from ..settings.bake_fields import MIXED, BakeFields
 from . import baking
 from .crowd import Together

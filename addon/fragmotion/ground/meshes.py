@@ -12,8 +12,8 @@ from mathutils import Matrix, Vector
 from mathutils.bvhtree import BVHTree
 
 from ..errors import UserError
+from ..rig.belongings import belongings
 from ..rig.external_motion import animated
-from .belongings import belongings
 
 if TYPE_CHECKING:
     from fragmotion_core import Player

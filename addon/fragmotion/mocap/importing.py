@@ -22,6 +22,7 @@ from ..rig.selection import select
 from ..rig.writing import write_poses
 from . import by_blender
 from .by_blender import NoTakes
+from .comparing import keep_source
 from .doctor import WAIT, examine, keep_findings, keep_remarks
 from .retargeting import Brought, Channels, has_names_of, key_times, make_action, retargeted_takes
 from .scratch import scratch_scene
@@ -87,12 +88,14 @@ def import_takes(
         brought = _brought(obj, rig, takes, is_new=onto is None)
         moving = set(carriers(obj, rig)) | (set() if onto else _moving_bones(obj, [each.channels for each in brought]))
         actions = []
-        for index, (each, ((locations, rotations), remarks)) in enumerate(zip(examined, brought)):
+        for index, (each, (channels, remarks, clip, skeleton)) in enumerate(zip(examined, brought)):
             actions.append(make_action(context.scene, each.take.name, each.take.rate))
             keep_findings(actions[-1], each.found)
             keep_remarks(actions[-1], remarks)
-            times = key_times(actions[-1], len(rotations))
-            write_poses(actions[-1], obj, times, locations, rotations, moving)
+            if clip is not None and skeleton is not None:
+                keep_source(actions[-1], clip, skeleton)
+            times = key_times(actions[-1], len(channels[1]))
+            write_poses(actions[-1], obj, times, *channels, moving)
             yield _STAGE * (2 + index / len(examined))
         versions.assign(obj, actions[0])
         context.view_layer.update()

@@ -15,6 +15,7 @@ from ..rig.bodies import make_body
 from ..rig.rigs import carriers, make_rig
 from ..rig.writing import write_poses
 from .actions import RATE, SCENE_RATE
+from .comparing import keep_source
 from .doctor import keep_remarks
 from .left_out import leave_out_likewise
 from .markers import mark_likewise
@@ -28,10 +29,12 @@ Remarks = list[tuple[str, str, str]]
 
 
 class Brought(NamedTuple):
-    """A take as channels of an armature, and what a viewer may find fault with in it."""
+    """A take as channels of an armature, what a viewer may find fault with in it, and of what it was made."""
 
     channels: Channels
     remarks: Remarks
+    clip: Clip | None = None
+    skeleton: Skeleton | None = None
 
 
 FIRST_FRAME = 1
@@ -51,8 +54,8 @@ def retargeted_takes(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take]) -> 
         with core_errors(f"Take '{takes[members[0]].name}'"):
             clips = [core.Clip.from_take(takes[index], skeleton) for index in members]
             source = core.Body(skeleton, clips)
-        for index, done in zip(members, _retargeted(source, obj, rig, clips)):
-            brought[index] = _brought(rig, done)
+        for index, clip, done in zip(members, clips, _retargeted(source, obj, rig, clips)):
+            brought[index] = _brought(rig, done)._replace(clip=clip, skeleton=skeleton)
     return [brought[index] for index in range(len(takes))]
 
 
@@ -83,9 +86,10 @@ def retarget_actions(
     made: list[bpy.types.Action] = []
     try:
         for index, done in enumerate(_retargeted(make_body(source, source_rig, clips), obj, rig, clips)):
-            channels, remarks = _brought(rig, done)
+            channels, remarks, *_ = _brought(rig, done)
             made.append(make_action(context.scene, f"{done.clip.name} on {obj.name}", done.clip.rate))
             keep_remarks(made[-1], remarks)
+            keep_source(made[-1], clips[index], source_rig.skeleton)
             times = key_times(made[-1], len(channels[1]))
             write_poses(made[-1], obj, times, *channels, moving)
             take_after(actions[index], sample_times(context.scene, source, actions[index]), made[-1], times)

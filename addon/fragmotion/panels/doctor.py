@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..mocap.actions import chosen
+from ..mocap.comparing import source_of
 from ..mocap.doctor import DUPLICATE, IN_PLACE
 from ..operators.base.context import active_armature
 from ..settings.drawing import draw_wrapped
@@ -39,6 +40,8 @@ class FRAGMOTION_PT_doctor(SubPanel, bpy.types.Panel):
             if row.mendable and not row.mended:
                 label = "Untick" if row.code == DUPLICATE else "Mend"
                 column.operator("fragmotion.mend_finding", text=label, icon="MODIFIER").index = index
+        if source_of(action) is not None:
+            self.layout.operator("fragmotion.compare_take", icon="IMAGE_DATA")
 
 
 CLASSES = (FRAGMOTION_PT_doctor,)

@@ -24,6 +24,7 @@ from ...settings.drawing import aligned
 from ...settings.pin_fields import PinFields
 from ..base.background import Background, poll_idle
 from ..base.context import active_armature, first_frame, frame_rate, playhead
+from ..base.editors import ensure_editor
 from .recordings import OnRecording, selected
 
 
@@ -46,19 +47,9 @@ class FRAGMOTION_OT_edit_curves(OnRecording, bpy.types.Operator):
         if context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
         select(context, [empty], empty)
-        _ensure_graph_editor(context)
+        ensure_editor(context, "FCURVES")
         self.report({"INFO"}, f"The curves of '{recording.name}' are in the Graph Editor; Play Again uses them")
         return {"FINISHED"}
-
-
-def _ensure_graph_editor(context: bpy.types.Context) -> None:
-    """A Graph Editor in a window of its own, as Blender's of drivers, where no window has one."""
-    manager = context.window_manager
-    areas = [area for window in manager.windows for area in window.screen.areas]
-    if bpy.app.background or any(area.ui_type == "FCURVES" for area in areas):
-        return
-    bpy.ops.wm.window_new()
-    manager.windows[-1].screen.areas[0].ui_type = "FCURVES"
 
 
 class FRAGMOTION_OT_play_again(OnRecording, bpy.types.Operator):

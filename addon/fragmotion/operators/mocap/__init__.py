@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from . import bones, control_rig
 from .add_sample import FRAGMOTION_OT_add_sample
+from .compare_take import FRAGMOTION_OT_compare_take
 from .import_mocap import DROP_HANDLERS, FRAGMOTION_OT_import_mocap
 from .mend_finding import FRAGMOTION_OT_mend_finding
 from .play_take import FRAGMOTION_OT_play_take
@@ -18,6 +19,7 @@ __all__ = ["CLASSES", "DROP_HANDLERS"]
 CLASSES = (
     FRAGMOTION_OT_add_sample,
     *bones.CLASSES,
+    FRAGMOTION_OT_compare_take,
     *control_rig.CLASSES,
     FRAGMOTION_OT_import_mocap,
     FRAGMOTION_OT_mend_finding,
