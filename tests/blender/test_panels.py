@@ -103,7 +103,7 @@ def test_a_new_user_has_few_fields_in_sight(addon: ModuleType) -> None:
         assert f"fragmotion.{needed}" in stages[stage]["buttons"]
 
 
-def test_who_is_new_sees_three_clicks_until_he_waves_them_away(addon: ModuleType) -> None:
+def test_who_is_new_sees_three_clicks_until_he_waves_them_away(addon: ModuleType, session: ModuleType) -> None:
     preferences, panel = addon.settings.preferences, addon.panels.first_steps.FRAGMOTION_PT_first_steps
     assert in_sight(addon)["panels"][0] == "First Steps"
     assert drawn(panel)["buttons"] == ["fragmotion.add_sample", "fragmotion.build", "fragmotion.drive"]
@@ -111,6 +111,12 @@ def test_who_is_new_sees_three_clicks_until_he_waves_them_away(addon: ModuleType
     for done, button in enumerate(drawn(panel)["buttons"][:2], 1):
         assert getattr(bpy.ops.fragmotion, button.partition(".")[2])("EXEC_DEFAULT") == {"FINISHED"}
         assert drawn(panel)["button icons"].count("CHECKMARK") == done
+    bpy.context.view_layer.objects.active = None  # what is done stays ticked
+    assert drawn(panel)["button icons"].count("CHECKMARK") == 2
+    bpy.context.view_layer.objects.active = next(obj for obj in bpy.data.objects if obj.type == "ARMATURE")
+    session.start(bpy.context, bpy.context.object)
+    assert drawn(panel)["button icons"].count("CHECKMARK") == 3
+    session.stop()
     preferences.end_first_steps(bpy.context)
     assert "First Steps" not in in_sight(addon)["panels"]
     bpy.context.view_layer.objects.active = None

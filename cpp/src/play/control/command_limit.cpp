@@ -11,7 +11,11 @@ void CommandLimit::reset(double heading, const Vector2& velocity) {
 Vector2 CommandLimit::velocity(double heading) const { return Eigen::Rotation2Dd(heading_ - heading) * velocity_; }
 
 Control CommandLimit::after(const Control& control, double heading, double seconds) const {
-  const Vector2 going = velocity(heading), asked{control.x, control.y};
+  return limited(control, velocity(heading), seconds);
+}
+
+Control CommandLimit::limited(const Control& control, const Vector2& going, double seconds) const {
+  const Vector2 asked{control.x, control.y};
   const double most = acceleration_ * seconds;
   if (!((asked - going).norm() > most)) return control;
   const Vector2 able = going + clamp_length(asked - going, most);
@@ -19,8 +23,8 @@ Control CommandLimit::after(const Control& control, double heading, double secon
 }
 
 Vector2 CommandLimit::advance(const Control& control, double heading, double seconds) {
-  const Control now = after(control, heading, seconds);
   const Vector2 going = velocity(heading);
+  const Control now = limited(control, going, seconds);
   velocity_ = {now.x, now.y};
   heading_ = heading;
   return (velocity_ - going) / seconds;

@@ -27,6 +27,8 @@ class CommandLimit {
  private:
   friend struct PlayerState;
 
+  Control limited(const Control& control, const Vector2& going, double seconds) const;
+
   double acceleration_;
   Vector2 velocity_ = Vector2::Zero();  // m/s, in the character frame
   double heading_ = 0;                  // of that frame, rad

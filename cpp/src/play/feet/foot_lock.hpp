@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/simd.hpp"
 #include "feet/feet_ahead.hpp"
 #include "motion/pose.hpp"
 #include "skeleton/two_bone_ik.hpp"
@@ -59,6 +60,8 @@ class FootLock {
   bool locked(int side) const { return feet_[side].locked; }
   /// How far a locked foot goes on until it is at rest, m.
   Vector2 coming_to_rest(int side) const;
+  /// Lets its memory be on its way to the processor.
+  void prefetch() const { fragmotion::prefetch(feet_.data(), feet_.size()); }
   /// Until a foot that steps to where its motion has it is there, s; 0 where none does.
   double stepping(int side) const;
 

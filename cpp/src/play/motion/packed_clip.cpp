@@ -233,7 +233,7 @@ FRAGMOTION_VECTORISED Vector3 sample_pose(const PackedClip& clip, double at, int
       }
     } else {
       quaternions.write(&grid.usual[lanes], blended);
-      std::copy_n(&blended[0][0], 4 * count, rotations + lanes);
+      std::copy_n(&blended[0][0], count < kBoneBlock ? 4 * count : 4 * kBoneBlock, rotations + lanes);
     }
   }
   return {root[0], root[1], root[2]};

@@ -19,35 +19,41 @@ float rounded(double value) { return std::abs(value) < 1e-12 ? 0.0F : static_cas
 
 using Lanes = float[kBoneBlock];
 
-// Turns the rotations [bones, 4] further by what is left of the offsets and the speeds.
-FRAGMOTION_VECTORISED void add_turns(const float* offsets, int bones, float offset, float speed, double* rotations) {
-  for (; bones > 0; bones -= kBoneBlock, rotations += 4 * kBoneBlock) {
-    const int count = std::min(kBoneBlock, bones), values = 4 * count;
-    float q[kBoneBlock][4] = {};
-    std::copy_n(rotations, values, &q[0][0]);
-    Lanes turn[3] = {}, turning[3] = {};
-    for (Lanes* lanes : {turn, turning}) {
-      for (int axis = 0; axis < 3; ++axis, offsets += count) std::copy_n(offsets, count, lanes[axis]);
-    }
-    Lanes w, x, y, z;
-    for (int i = 0; i < kBoneBlock; ++i) {
-      const float a = offset * turn[0][i] + speed * turning[0][i], b = offset * turn[1][i] + speed * turning[1][i],
-                  c = offset * turn[2][i] + speed * turning[2][i], square = a * a + b * b + c * c,
-                  scale = 1 / (1 + square);
-      w[i] = (1 - square) * scale;
-      x[i] = 2 * scale * a;
-      y[i] = 2 * scale * b;
-      z[i] = 2 * scale * c;
-    }
-    for (int i = 0; i < kBoneBlock; ++i) {
-      const float a = q[i][0], b = q[i][1], c = q[i][2], d = q[i][3];
-      q[i][0] = w[i] * a - x[i] * b - y[i] * c - z[i] * d;
-      q[i][1] = w[i] * b + x[i] * a + y[i] * d - z[i] * c;
-      q[i][2] = w[i] * c - x[i] * d + y[i] * a + z[i] * b;
-      q[i][3] = w[i] * d + x[i] * c - y[i] * b + z[i] * a;
-    }
-    std::copy_n(&q[0][0], values, rotations);
+// Turns the rotations of a block of bones, of which there are `count`.
+[[gnu::always_inline]] inline void turn_block(const float* offsets, int count, float offset, float speed,
+                                              double* rotations) {
+  float q[kBoneBlock][4] = {};
+  std::copy_n(rotations, 4 * count, &q[0][0]);
+  Lanes turn[3] = {}, turning[3] = {};
+  for (Lanes* lanes : {turn, turning}) {
+    for (int axis = 0; axis < 3; ++axis, offsets += count) std::copy_n(offsets, count, lanes[axis]);
   }
+  Lanes w, x, y, z;
+  for (int i = 0; i < kBoneBlock; ++i) {
+    const float a = offset * turn[0][i] + speed * turning[0][i], b = offset * turn[1][i] + speed * turning[1][i],
+                c = offset * turn[2][i] + speed * turning[2][i], square = a * a + b * b + c * c,
+                scale = 1 / (1 + square);
+    w[i] = (1 - square) * scale;
+    x[i] = 2 * scale * a;
+    y[i] = 2 * scale * b;
+    z[i] = 2 * scale * c;
+  }
+  for (int i = 0; i < kBoneBlock; ++i) {
+    const float a = q[i][0], b = q[i][1], c = q[i][2], d = q[i][3];
+    q[i][0] = w[i] * a - x[i] * b - y[i] * c - z[i] * d;
+    q[i][1] = w[i] * b + x[i] * a + y[i] * d - z[i] * c;
+    q[i][2] = w[i] * c - x[i] * d + y[i] * a + z[i] * b;
+    q[i][3] = w[i] * d + x[i] * c - y[i] * b + z[i] * a;
+  }
+  std::copy_n(&q[0][0], 4 * count, rotations);
+}
+
+// Turns the rotations [bones, 4] further by what is left of the offsets and the speeds. A whole block's size is known
+// when this is compiled.
+FRAGMOTION_VECTORISED void add_turns(const float* offsets, int bones, float offset, float speed, double* rotations) {
+  for (; bones >= kBoneBlock; bones -= kBoneBlock, offsets += 6 * kBoneBlock, rotations += 4 * kBoneBlock)
+    turn_block(offsets, kBoneBlock, offset, speed, rotations);
+  if (bones > 0) turn_block(offsets, bones, offset, speed, rotations);
 }
 
 }  // namespace
@@ -108,8 +114,8 @@ Quaternion Inertialization::left(int bone, const Fade& fade) const {
 }
 
 Fade Inertialization::fade(double damping, double time) const {
-  return {(1 + damping * time) * std::exp(-damping * time),
-          time * std::exp(-std::max(damping, constants_->calms) * time)};
+  const double fades = std::exp(-damping * time), calms = constants_->calms;
+  return {(1 + damping * time) * fades, time * (damping < calms ? std::exp(-calms * time) : fades)};
 }
 
 void Inertialization::apply(double time, WorldPose& pose) const {

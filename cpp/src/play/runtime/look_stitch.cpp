@@ -7,6 +7,12 @@
 #include <cstddef>
 
 namespace fragmotion {
+namespace {
+
+// From the world to how a pose is headed.
+Quaternion to_frame_of(const WorldPose& pose) { return CharacterFrame{{}, -pose.heading}.rotation(); }
+
+}  // namespace
 
 // How the bone that the neck is on is turned in the world.
 Quaternion LookStitch::turn_below(const WorldPose& pose) const {
@@ -19,9 +25,9 @@ Quaternion LookStitch::turn_below(const WorldPose& pose) const {
   return world;
 }
 
-// Writes how neck and head are turned, seen from a heading, as the pose of a body that is these bones.
-void LookStitch::see(const WorldPose& pose, double heading, WorldPose& look) const {
-  Quaternion seen = CharacterFrame{{}, -heading}.rotation() * turn_below(pose);
+// Writes how neck and head are turned, which is seen after a rotation, as the pose of a body that is these bones.
+void LookStitch::see(const WorldPose& pose, const Quaternion& after, WorldPose& look) const {
+  Quaternion seen = after * turn_below(pose);
   double* out = look.rotations.data();
   for (const int bone : workspace_->look) {
     seen = seen * load_quaternion(&pose.rotations[std::size_t{4} * bone]);
@@ -37,7 +43,8 @@ void LookStitch::begin(const WorldPose& old, const WorldPose& old_later, const W
   if (workspace_->look.empty()) return;
   auto& looks = workspace_->looks;
   const std::array poses{&old, &old_later, &fresh, &fresh_later};
-  for (std::size_t i = 0; i < looks.size(); ++i) see(*poses[i], fresh.heading, looks[i]);
+  const Quaternion to_frame = to_frame_of(fresh);
+  for (std::size_t i = 0; i < looks.size(); ++i) see(*poses[i], to_frame, looks[i]);
   const double fades = body.constants().fades;
   damping_ = fades / seconds;
   for (std::size_t i = 0; i < workspace_->look.size(); ++i) {
@@ -57,11 +64,11 @@ bool LookStitch::active(double time, const Inertialization& body) const {
 void LookStitch::apply(double time, const Inertialization& body, WorldPose& pose) const {
   if (!active(time, body)) return body.apply(time, pose);
   WorldPose& look = workspace_->looks[0];
-  const double heading = pose.heading;
-  see(pose, heading, look);
+  const Quaternion to_frame = to_frame_of(pose);
+  see(pose, to_frame, look);
   body.apply(time, pose);
   const Fade fade = body.fade(damping_, time);
-  Quaternion from = CharacterFrame{{}, -heading}.rotation() * turn_below(pose);
+  Quaternion from = to_frame * turn_below(pose);
   const double* seen = look.rotations.data();
   for (const int bone : workspace_->look) {
     const Quaternion turned = body.left(bone, fade) * load_quaternion(seen);

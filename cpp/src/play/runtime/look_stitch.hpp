@@ -6,9 +6,6 @@
 
 namespace fragmotion {
 
-/// So much faster than ever in the takes a bone turns at most.
-constexpr double kTurnsAtMost = 1.25;
-
 /// s that a stitch of neck and head takes at most.
 constexpr double kSlowestStitch = 1;
 
@@ -30,7 +27,7 @@ class LookStitch {
  private:
   friend struct PlayerState;
 
-  void see(const WorldPose& pose, double heading, WorldPose& look) const;
+  void see(const WorldPose& pose, const Quaternion& after, WorldPose& look) const;
   Quaternion turn_below(const WorldPose& pose) const;
   bool active(double time, const Inertialization& body) const;
 

@@ -79,6 +79,7 @@ Player Player::branch() const {
 void Player::prefetch() const {
   fragmotion::prefetch(this, 1);
   playback_.prefetch();
+  correction_.prefetch();
 }
 
 void Player::check_step(const Control& control, double seconds) {

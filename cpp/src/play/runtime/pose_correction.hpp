@@ -22,6 +22,7 @@ class PoseCorrection {
   bool plants(int side, bool stands) const { return lock_feet_ ? foot_lock_.locked(side) : stands; }
   /// What holds its feet, or null.
   const FootLock* foot_lock() const { return lock_feet_ ? &foot_lock_ : nullptr; }
+  void prefetch() const { foot_lock_.prefetch(); }
   /// Corrects Workspace::shown, `seconds` after the pose that was shown last.
   void correct(const Playback& playback, const RootGovernor& governor, double seconds);
 
