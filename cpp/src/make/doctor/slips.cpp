@@ -31,8 +31,8 @@ Footing footing_of(const Patient& patient) {
     const auto foot = [&](int side) { return patient.toes[side] >= 0 ? patient.toes[side] : patient.legs[side].end; };
     const int lower = patient.head(f, foot(0)).z() < patient.head(f, foot(1)).z() ? foot(0) : foot(1);
     const Vector3 hips = patient.head(f + beside, patient.hips) - patient.head(f - beside, patient.hips);
-    footing.hips.push_back(rate * hips);
-    footing.feet.push_back(rate * (patient.head(f + beside, lower) - patient.head(f - beside, lower) - hips));
+    footing.hips.emplace_back(rate * hips);
+    footing.feet.emplace_back(rate * (patient.head(f + beside, lower) - patient.head(f - beside, lower) - hips));
   }
   return footing;
 }
