@@ -132,7 +132,7 @@ def read_asf_amc(asf: str | PathLike[str], amc: str | PathLike[str], rate: float
 
 FINDING_CODES: list[str]
 """Every code that a finding can have: missing, unit, up, mirrored, facing, flip, spike, doubled, frozen,
-calibration, dropped, jump, ground, slope, in_place, rate, size, body, short, duplicate."""
+calibration, dropped, jump, ground, slope, axes, drift, in_place, noise, rate, size, body, short, duplicate."""
 
 class Finding:
     """Something about a take that a person should know before anything is made of it."""

@@ -179,6 +179,21 @@ def test_a_doubtful_bone_is_named_with_its_takes_and_among_the_bones(addon: Modu
     assert doubt.text not in drawn(bones)["texts"]
 
 
+def test_findings_that_differ_by_their_frames_are_one_line(addon: ModuleType) -> None:
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    doctor = addon.panels.doctor.FRAGMOTION_PT_doctor
+    findings = addon.mocap.actions.chosen(bpy.context, bpy.context.active_object).fragmotion.findings
+    findings.clear()
+    for number, (code, mended) in enumerate([("dropped", False), ("ground", False), *[("dropped", False)] * 22]):
+        row = findings.add()
+        row.code, row.severity, row.text, row.mendable, row.mended = code, "warning", f"{code} {number}", True, mended
+    findings[-1].mended = True
+    noted = drawn(doctor)
+    text = " ".join(noted["texts"])
+    assert "dropped 0 (and 21 more like it)" in text and "ground 1" in text and "dropped 23 (mended)" in text
+    assert noted["buttons"] == ["fragmotion.mend_finding"] * 2
+
+
 @pytest.mark.parametrize(
     ("names", "beginning"),
     [

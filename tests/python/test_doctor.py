@@ -11,6 +11,7 @@ from pathlib import Path
 import fragmotion_core as core
 import numpy as np
 import pytest
+from bodies import times
 from conftest import BANDAI, CMU, Array
 
 # Bandai's takes of walking turns that begin or end in each other: their rotations are the same bits.
@@ -242,6 +243,53 @@ def test_feet_are_put_on_the_ground(walk: core.Take, height: float) -> None:
     translations = walk.translations.copy()
     translations[:, 0, 2] += height
     assert_mended(remade(walk, translations), "ground", (0, len(walk.rotations) - 1), walk, 0.05)
+
+
+def test_all_47_other_axes_of_the_root_are_told(takes: list[core.Take]) -> None:
+    """Of a walk in a curve; in one straight ahead, the way to the side hardly matters."""
+    walk = next(take for take in takes if take.name == "dataset-2_walk-turn-left_normal_003")
+    hips = walk.skeleton.names.index(walk.skeleton.roles["hips"])
+    way = walk.translations[:, hips] - walk.translations[0, hips]
+    for order in itertools.permutations(range(3)):
+        for signs in itertools.product((1, -1), repeat=3):
+            as_written = {f"+{'XYZ'[o]} as {'-+'[signs[i] > 0]}{'XYZ'[i]}" for i, o in enumerate(order)}
+            translations = walk.translations.copy()
+            translations[:, hips] += (way[:, order] * signs) - way
+            texts = [f.text for f in findings_of(remade(walk, translations)) if f.code == "axes"]
+            told = {pair for text in texts for pair in text.split("(")[1].split(")")[0].split(", ")}
+            assert told == as_written - {f"+{axis} as +{axis}" for axis in "XYZ"}
+
+
+@pytest.mark.parametrize("speed", [0.3, 0.45, 1.0])
+def test_a_drift_of_standing_feet_is_told(takes: list[core.Take], speed: float) -> None:
+    """Across the way of walks that go far; one along it may leave them on the spot."""
+    for take in [take for take in takes if "dataset-2_walk_normal" in take.name]:
+        translations = take.translations.copy()
+        translations[:, 0, 0] += speed * np.arange(len(translations)) / take.rate
+        texts = [finding.text for finding in findings_of(remade(take, translations)) if finding.code == "drift"]
+        assert len(texts) == 1, take.name
+        assert float(texts[0].split(" m/s")[0].split()[-1]) == pytest.approx(speed, abs=0.1)
+
+
+@pytest.mark.parametrize("degrees", [2, 4])
+def test_noise_is_told(takes: list[core.Take], degrees: float) -> None:
+    random = np.random.default_rng(1)
+    for take in [take for take in takes if len(take.rotations) >= 30][::10]:
+        turn = np.radians(degrees) / np.sqrt(3) / 2 * random.normal(size=(*take.rotations.shape[:2], 3))
+        noise = np.concatenate([np.ones_like(turn[..., :1]), turn], -1)
+        noise /= np.linalg.norm(noise, axis=-1, keepdims=True)
+        noisy = remade(take, rotations=times(take.rotations, noise))
+        assert "noise" in [finding.code for finding in findings_of(noisy)], take.name
+
+
+@pytest.mark.parametrize("rate", [24, 30, 60, 240])
+def test_a_jump_tells_the_true_rate(rate: float) -> None:
+    if not (CMU / "02_04.amc").exists():
+        pytest.skip("no motion capture beside the project")
+    jump = core.read_asf_amc(CMU / "02.asf", CMU / "02_04.amc")
+    assert jump.rate == 120 and findings_of(jump) == []
+    (told,) = (finding for finding in findings_of(remade(jump, rate=rate)) if finding.code == "rate")
+    assert float(told.text.split("some ")[1].split()[0]) == pytest.approx(120, rel=0.05)
 
 
 @pytest.mark.parametrize("count", [1, 30])

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 
 def mend_finding(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action, row: TakeFinding) -> bool:
-    """Put right in an Action of the armature what a finding says, or untick it where it is a duplicate. False where
-    nothing of it was left to mend. UserError where the Action stays as it was."""
+    """Put right in an Action of the armature what a finding says and all of its code, or untick it where it is a
+    duplicate. False where nothing of it was left to mend. UserError where the Action stays as it was."""
     if row.code == DUPLICATE:
         action.fragmotion.use, row.mended = False, True
         return True
@@ -33,7 +33,8 @@ def mend_finding(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.
     if found:
         with core_errors(f"Action '{action.name}'"):
             _write(context, obj, action, rig, take, core.mend(take, found))
-    row.mended = True
+    for each in action.fragmotion.findings:
+        each.mended = each.mended or (each.mendable and each.code == row.code)
     return bool(found)
 
 

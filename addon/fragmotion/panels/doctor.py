@@ -3,14 +3,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
 import bpy
 
+from ..compat.core import command
 from ..mocap.actions import chosen
 from ..mocap.comparing import source_of
-from ..mocap.doctor import DUPLICATE, IN_PLACE
+from ..mocap.doctor import DUPLICATE, IN_PLACE, TakeFinding
 from ..operators.base.context import active_armature
 from ..settings.drawing import draw_wrapped
 from .sidebar import SubPanel
+
+if TYPE_CHECKING:
+    from fragmotion_command.takes import with_more
+else:
+    with_more = command("takes").with_more
 
 LIGHTS = {"error": "CANCEL", "warning": "ERROR", "info": "INFO"}
 
@@ -31,8 +40,9 @@ class FRAGMOTION_PT_doctor(SubPanel, bpy.types.Panel):
         findings = action.fragmotion.findings
         if not len(findings):
             self.layout.label(text="Nothing is wrong", icon="CHECKMARK")
-        for index, row in enumerate(findings):
-            text = f"{row.text} (mended)" if row.mended else row.text
+        for index, alike in _grouped(findings):
+            row = findings[index]
+            text = with_more([each.text for each in alike]) + (" (mended)" if row.mended else "")
             column = self.layout.column(align=True)
             draw_wrapped(column, context, text, "CHECKMARK" if row.mended else LIGHTS[row.severity])
             if row.code == IN_PLACE and not row.mended:
@@ -42,6 +52,14 @@ class FRAGMOTION_PT_doctor(SubPanel, bpy.types.Panel):
                 column.operator("fragmotion.mend_finding", text=label, icon="MODIFIER").index = index
         if source_of(action) is not None:
             self.layout.operator("fragmotion.compare_take", icon="IMAGE_DATA")
+
+
+def _grouped(findings: Sequence[TakeFinding]) -> Iterator[tuple[int, list[TakeFinding]]]:
+    """Findings that differ by their frames alone, together, by the number of the first."""
+    groups: dict[tuple[str, str, bool], tuple[int, list[TakeFinding]]] = {}
+    for index, row in enumerate(findings):
+        groups.setdefault((row.code, row.severity, row.mended), (index, []))[1].append(row)
+    yield from groups.values()
 
 
 CLASSES = (FRAGMOTION_PT_doctor,)

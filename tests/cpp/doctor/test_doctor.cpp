@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 #include <utility>
 
 #include "examined_walks.hpp"
@@ -294,6 +295,47 @@ TEST(Doctor, LeadsByItsFeetWhatGoesInPlace) {
 TEST(Doctor, LeavesWhoStandsOnTheSpot) {
   const Take swaying = walk({0, 0.2, 0.3});
   EXPECT_EQ(codes_of(in_place(swaying)), std::vector<std::string>{});
+}
+
+TEST(Doctor, TellsARootThatGoesAlongOtherAxes) {
+  Take take = walk({0.2, 1.2, 0.3});
+  for (int f = 0; f < take.frames; ++f) std::swap(place(take, f)[0], place(take, f)[1]);
+  ASSERT_EQ(codes_of(take), std::vector<std::string>{"axes"});
+  EXPECT_NE(findings_of(take)[0].text.find("(+X as +Y, +Y as +X)"), std::string::npos) << findings_of(take)[0].text;
+}
+
+TEST(Doctor, TellsFeetThatDrift) {
+  Take take = walk({0.2, 1.2, 0.3});
+  for (int f = 0; f < take.frames; ++f) place(take, f)[1] -= 0.45 * f / take.rate;
+  ASSERT_EQ(codes_of(take), std::vector<std::string>{"drift"});
+  EXPECT_NE(findings_of(take)[0].text.find("at 0.45 m/s"), std::string::npos) << findings_of(take)[0].text;
+}
+
+TEST(Doctor, TellsNoise) {
+  Take take = walk();
+  std::mt19937 random(1);
+  std::normal_distribution<double> off(0, 4 * kPi / 180 / std::sqrt(3.0));  // about each of three axes
+  for (std::size_t i = 0; i < take.rotations.size(); i += 4) {
+    const Vector3 turn(off(random), off(random), off(random));
+    const Quaternion noisy = load_quaternion(&take.rotations[i]) * Eigen::AngleAxisd(turn.norm(), turn.normalized());
+    store_quaternion(noisy, &take.rotations[i]);
+  }
+  const std::vector<std::string> codes = codes_of(take);
+  EXPECT_EQ(std::count(codes.begin(), codes.end(), "noise"), 1);
+}
+
+TEST(Doctor, TellsByFallsThatTheRateIsAnother) {
+  Gait hop;
+  hop.rate = 120;
+  hop.jump = kGravity * 0.25 / 8;  // of half a second
+  Take take = walk(hop);
+  EXPECT_EQ(codes_of(take), std::vector<std::string>{});
+  for (const double rate : {30.0, 60.0, 240.0}) {
+    take.rate = rate;
+    const std::vector<Finding> findings = findings_of(take);
+    ASSERT_EQ(codes_of(take), std::vector<std::string>{"rate"});
+    EXPECT_NE(findings[0].text.find("in some 12"), std::string::npos) << findings[0].text;
+  }
 }
 
 TEST(Doctor, TellsARateThatCannotBe) {

@@ -134,7 +134,7 @@ Findings find_mirrored(const Patient& patient) {
   if (!points_back(front_of(patient))) return {};
   return {mendable(found(patient, "mirrored", Severity::kWarning,
                          "the left leg is on the body's right: feet and knees point backward; the file is mirrored (a "
-                         "left-handed or negated axis); mirror it back"))};
+                         "left-handed or negated axis), or left and right are swapped in its names; mirror it back"))};
 }
 
 void mirror_back(Patient& patient, const Findings&) { patient.change_basis(kMirror); }

@@ -60,9 +60,14 @@ void cut_ends(Patient& patient, const Findings& findings);
 Findings find_ground(const Patient& patient);
 void put_on_ground(Patient& patient, const Findings& findings);
 Findings find_slope(const Patient& patient);
+/// Of feet that stand: other axes of the root's way by which they would, or a drift.
+Findings find_slips(const Patient& patient);
 Findings find_in_place(const Patient& patient);
 void lead_by_feet(Patient& patient, const Findings& findings);
 
+Findings find_noise(const Patient& patient);
+/// A rate by which the body falls as no body does.
+Findings find_falls(const Patient& patient);
 /// Rate, size, missing parts of the body, too few frames.
 Findings find_plain_facts(const Patient& patient);
 

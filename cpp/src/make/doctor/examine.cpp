@@ -151,9 +151,10 @@ class Rounds {
 }  // namespace
 
 const std::vector<std::string>& finding_codes() {
-  static const std::vector<std::string> codes = {
-      "missing", "unit", "up",     "mirrored", "facing",   "flip", "spike", "doubled", "frozen", "calibration",
-      "dropped", "jump", "ground", "slope",    "in_place", "rate", "size",  "body",    "short",  "duplicate"};
+  static const std::vector<std::string> codes = {"missing", "unit",    "up",     "mirrored",    "facing",   "flip",
+                                                 "spike",   "doubled", "frozen", "calibration", "dropped",  "jump",
+                                                 "ground",  "slope",   "axes",   "drift",       "in_place", "noise",
+                                                 "rate",    "size",    "body",   "short",       "duplicate"};
   return codes;
 }
 

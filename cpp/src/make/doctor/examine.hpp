@@ -41,7 +41,8 @@ struct Examination {
 /// Every code that a finding can have, in the order in which they are looked for and mended:
 /// missing (not a number), unit, up, mirrored, facing, flip (a bone turned over for a moment), spike (out of line for a
 /// moment), doubled (each frame stands several times), frozen, calibration, dropped (frames left out), jump (no body
-/// gets from one frame to the next), ground, slope, in_place, rate, size, body, short, duplicate.
+/// gets from one frame to the next), ground, slope, axes (of the root's way), drift (of feet that stand), in_place,
+/// noise, rate, size, body, short, duplicate.
 const std::vector<std::string>& finding_codes();
 
 /// Examines takes as they were read, each by itself and for motion that is in several of them; `threads` as

@@ -27,7 +27,7 @@ Vector3 way_of_skin(const Skeleton& skeleton, const Skin& skin, int bone) {
   Vector3 sum = Vector3::Zero();
   for (const Skin::Weight& weight : skin.weights) {
     if (weight.bone != bone || weight.weight <= kMostOf) continue;
-    ways.push_back(skin.points[weight.point] - heads[bone]);
+    ways.emplace_back(skin.points[weight.point] - heads[bone]);
     sum += ways.back();
   }
   if (sum.squaredNorm() == 0) return sum;
