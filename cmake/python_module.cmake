@@ -17,3 +17,9 @@ target_compile_definitions(fragmotion_core PRIVATE FRAGMOTION_VERSION="${PROJECT
 install(TARGETS fragmotion_core LIBRARY DESTINATION .)
 install(FILES cpp/bindings/fragmotion_core.pyi DESTINATION .)
 install(DIRECTORY cpp/bindings/fragmotion_command DESTINATION . FILES_MATCHING PATTERN *.py)
+# What of the add-on reads files by Blender's importers, for the command where bpy is installed.
+file(STRINGS cmake/fragmotion_blender.txt fragmotion_blender)
+foreach(file IN LISTS fragmotion_blender)
+  get_filename_component(folder ${file} DIRECTORY)
+  install(FILES addon/fragmotion/${file} DESTINATION fragmotion_blender/${folder})
+endforeach()

@@ -26,6 +26,7 @@ from .mocap.target_rigs import open_rig, save_minute
 from .operators.base.context import active_armature
 from .recordings.recordings import Recording, trace_of
 from .rig.rigs import make_rig
+from .rig.skins import make_skin
 
 if TYPE_CHECKING:
     import argparse
@@ -99,7 +100,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_json(bake)
     for word in (made.build, bake, made.retarget):
         word.add_argument("--blend", type=Path, metavar="FILE", help="where to write the .blend")
-    for word in (made.build, bake, made.evaluate, made.info, made.retarget):
+    for word in (made.build, bake, made.evaluate, made.info):
         word.add_argument("--armature", metavar="NAME", help="which armature, where a file has several")
     return made.parser
 
@@ -320,20 +321,18 @@ def _is_blend(path: Path, options: argparse.Namespace) -> bool:
 
 
 def _retarget(options: argparse.Namespace) -> running.Done:
-    ending = options.onto.suffix.lower()
-    if ending not in (_BLEND, *BY_BLENDER):
-        for name in ("armature", "blend"):
-            if getattr(options, name):
-                raise UserError(f"--{name} is for rigs, and {options.onto.name} is a skeleton alone: leave it out")
+    if not options.blend:
         return retargeting.retarget(options)
     retarget_inputs.check(options)
+    if options.onto.suffix.lower() in retarget_inputs.SKELETONS:
+        raise UserError(f"--blend is for rigs, and {options.onto.name} is a skeleton alone: leave it out")
     takes = sources.read_sources(options.takes, options.unit)
     obj = open_rig(options.onto, options.armature)
+    rig = make_rig(obj)
     with core_errors(f"Armature '{obj.name}'"):
-        body = roles.make_body(make_rig(obj).skeleton, [], options.roles)
+        body = roles.make_body(rig.skeleton, [], options.roles, make_skin(obj, rig))
     done, character = retargeting.bring(options, takes, body)
-    if options.blend:
-        save_minute(obj, character, options.seed, options.blend)
+    save_minute(obj, character, options.seed, options.blend)
     return done
 
 

@@ -7,6 +7,7 @@
 #include "arrays.hpp"
 #include "retarget/doubts.hpp"
 #include "retarget/retarget.hpp"
+#include "skins.hpp"
 
 namespace fragmotion::bindings {
 namespace {
@@ -36,13 +37,20 @@ ObservedPoses observed(const Skeleton& skeleton, const std::vector<Clip>& clips)
   return poses;
 }
 
-Body new_body(const Skeleton& skeleton, const std::vector<Clip>& clips,
-              const std::optional<std::map<std::string, std::string>>& roles) {
-  check_bones(clips, skeleton);
-  if (roles) return make_body(skeleton, role_map_of(skeleton, *roles), clips);
-  if (clips.empty()) return make_body(skeleton, find_role_map(skeleton), clips);
+using NamedBones = std::map<std::string, std::string>;
+
+RoleMap found_map(const Skeleton& skeleton, const std::vector<Clip>& clips, const Skin* skin) {
+  if (clips.empty()) return find_role_map(skeleton, nullptr, Sides::of_the_body, skin);
   const ObservedPoses poses = observed(skeleton, clips);
-  return make_body(skeleton, find_role_map(skeleton, &poses), clips);
+  return find_role_map(skeleton, &poses, Sides::of_the_body, skin);
+}
+
+Body new_body(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::optional<NamedBones>& roles,
+              const NamedBones& told, const BoundSkin* bound) {
+  check_bones(clips, skeleton);
+  const Skin* skin = skin_of(bound, skeleton);
+  const RoleMap map = roles ? role_map_of(skeleton, *roles) : found_map(skeleton, clips, skin);
+  return make_body(skeleton, told.empty() ? map : with_told(skeleton, map, told), clips, skin);
 }
 
 }  // namespace
@@ -50,21 +58,23 @@ Body new_body(const Skeleton& skeleton, const std::vector<Clip>& clips,
 void bind_retarget(py::module_& m) {
   m.def(
       "role_doubts",
-      [](const Skeleton& skeleton, const std::optional<std::map<std::string, std::string>>& roles) {
-        const RoleMap map = roles ? role_map_of(skeleton, *roles) : find_role_map(skeleton);
+      [](const Skeleton& skeleton, const std::optional<NamedBones>& roles, const BoundSkin* bound) {
+        const Skin* skin = skin_of(bound, skeleton);
+        const RoleMap map = roles ? role_map_of(skeleton, *roles) : found_map(skeleton, {}, skin);
         std::vector<std::tuple<std::string, std::string, std::string>> doubts;
-        for (const RoleDoubt& doubt : find_doubts(skeleton, map)) {
+        for (const RoleDoubt& doubt : find_doubts(skeleton, map, skin)) {
           doubts.emplace_back(doubt.role, skeleton.names[doubt.bone], doubt.text);
         }
         return doubts;
       },
-      py::arg("skeleton"), py::arg("roles") = py::none());
+      py::arg("skeleton"), py::arg("roles") = py::none(), py::arg("skin") = py::none());
   py::class_<Body>(m, "Body", py::module_local())
-      .def(py::init([](const Skeleton& skeleton, const std::vector<Clip>& clips,
-                       const std::optional<std::map<std::string, std::string>>& roles) {
-             return without_gil([&] { return new_body(skeleton, clips, roles); });
+      .def(py::init([](const Skeleton& skeleton, const std::vector<Clip>& clips, const std::optional<NamedBones>& roles,
+                       const NamedBones& told, const BoundSkin* skin) {
+             return without_gil([&] { return new_body(skeleton, clips, roles, told, skin); });
            }),
-           py::arg("skeleton"), py::arg("clips") = std::vector<Clip>(), py::arg("roles") = py::none())
+           py::arg("skeleton"), py::arg("clips") = std::vector<Clip>(), py::arg("roles") = py::none(),
+           py::arg("told") = NamedBones(), py::arg("skin") = py::none())
       .def_property_readonly("skeleton", &Body::skeleton)
       .def_property_readonly("roles", [](const Body& body) { return named_bones(body.skeleton(), body.map); })
       .def_readonly("stands", &Body::stands)

@@ -10,6 +10,7 @@
 #include "skeleton/roles.hpp"
 #include "skeleton/same_skeleton.hpp"
 #include "skeleton/skeleton.hpp"
+#include "skins.hpp"
 
 namespace fragmotion::bindings {
 namespace {
@@ -57,7 +58,8 @@ py::array_t<double> rest_points(const Skeleton& skeleton, bool tails) {
 
 /// Role -> (bone's name, confidence).
 std::map<std::string, std::pair<std::string, double>> role_map(const Skeleton& skeleton,
-                                                               const std::optional<Doubles>& heads) {
+                                                               const std::optional<Doubles>& heads,
+                                                               const BoundSkin* skin) {
   ObservedPoses motion;
   if (heads) {
     check_shape(*heads, "heads", {-1, skeleton.size(), 3});
@@ -68,7 +70,8 @@ std::map<std::string, std::pair<std::string, double>> role_map(const Skeleton& s
     }
   }
   std::map<std::string, std::pair<std::string, double>> roles;
-  for (const RoleBone& bone : find_role_map(skeleton, heads ? &motion : nullptr).bones) {
+  for (const RoleBone& bone :
+       find_role_map(skeleton, heads ? &motion : nullptr, Sides::of_the_body, skin_of(skin, skeleton)).bones) {
     roles[role_label(bone)] = {skeleton.names[bone.bone], bone.confidence};
   }
   return roles;
@@ -86,7 +89,7 @@ void bind_skeleton(py::module_& m) {
       .def_property_readonly("offsets", [](const Skeleton& s) { return vectors(s.offsets); })
       .def_property_readonly("tips", [](const Skeleton& s) { return vectors(s.tips); })
       .def_property_readonly("roles", &named_roles)
-      .def("role_map", &role_map, py::arg("heads") = py::none())
+      .def("role_map", &role_map, py::arg("heads") = py::none(), py::arg("skin") = py::none())
       .def_property_readonly("stature", &stature)
       .def("relaxed_pose",
            [](const Skeleton& s) {
@@ -94,6 +97,9 @@ void bind_skeleton(py::module_& m) {
            })
       .def("rest_heads", [](const Skeleton& s) { return rest_points(s, false); })
       .def("rest_tails", [](const Skeleton& s) { return rest_points(s, true); });
+  py::class_<BoundSkin>(m, "Skin", py::module_local())
+      .def(py::init<const Skeleton&>(), py::arg("skeleton"))
+      .def("add", &BoundSkin::add, py::arg("world"), py::arg("points"), py::arg("groups"), py::arg("weights"));
   m.def("group_skeletons", &group_skeletons, py::arg("skeletons"), py::call_guard<GilRelease>());
 }
 

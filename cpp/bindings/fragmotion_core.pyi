@@ -57,11 +57,11 @@ class Skeleton:
     """Role -> bone name, for the roles that the skeleton has."""
     stature: float
     """Height of a person with these legs, m."""
-    def role_map(self, heads: ArrayLike | None = None) -> dict[str, tuple[str, float]]:
+    def role_map(self, heads: ArrayLike | None = None, skin: Skin | None = None) -> dict[str, tuple[str, float]]:
         """Role -> (bone name, confidence 0.5 to 1) of every bone that is told: root, hips, spine_1 ..., neck_1 ...,
         head, and with left_ or right_ shoulder, upper_arm, lower_arm, hand, thumb_1 ... pinky_1 ..., thigh, shin, foot,
         toe. Names tell them, and where those say nothing the shape; `heads` [P,B,3] m, places in a motion, tell more.
-        """
+        Of two feet of one leg the foot is the one that carries `skin`."""
     def relaxed_pose(self) -> Doubles:
         """Rotations [B,4] of the rest pose with relaxed hands: fingers side by side and bent as a hand's at rest (K.-S.
         Lee, M.-C. Jung, Safety and Health at Work 6, 2015); of hands of which two fingers are known at least."""
@@ -69,6 +69,16 @@ class Skeleton:
         """World position [B,3] of each bone's head at rest, m."""
     def rest_tails(self) -> Doubles:
         """World position [B,3] of each bone's tail at rest, m."""
+
+class Skin:
+    """What of meshes follows which bones of a skeleton: which of them are a body's, and where a hand points."""
+
+    def __init__(self, skeleton: Skeleton) -> None: ...
+    def add(self, world: ArrayLike, points: ArrayLike, groups: Sequence[str], weights: ArrayLike) -> None:
+        """A mesh: points [V,3] in its own space; world [4,4]: its place (m) where the skeleton rests; weights [N,3], as
+        rows of a point's number, the number of a group and how much the point follows it, 0 to 1, of what bones have of
+        it; groups that are named as no bone count for nothing. ValueError on numbers of no point or group, and on other
+        weights."""
 
 def group_skeletons(skeletons: Sequence[Skeleton]) -> list[list[int]]:
     """Indices of the skeletons that are the same, in their order: motion of one is motion of the others as it stands.
@@ -262,7 +272,9 @@ def mirrored(skeleton: Skeleton, clips: Sequence[Clip]) -> list[Clip]:
     is told by the rest pose where that is symmetric, else by the clips' mean pose. ValueError where a clip has not the
     skeleton's number of bones."""
 
-def role_doubts(skeleton: Skeleton, roles: dict[str, str] | None = None) -> list[tuple[str, str, str]]:
+def role_doubts(
+    skeleton: Skeleton, roles: dict[str, str] | None = None, skin: Skin | None = None
+) -> list[tuple[str, str, str]]:
     """(role, bone name, what is doubtful and what to do) of each bone that a person should look at before motion is
     brought onto the skeleton; `roles` as of Body."""
 
@@ -270,10 +282,19 @@ class Body:
     """A skeleton as a body that motion goes from or onto: its roles, and the pose that bodies are compared in, which is
     told by the rest pose, however its arms are held, or by clips."""
 
-    def __init__(self, skeleton: Skeleton, clips: Sequence[Clip] = (), roles: dict[str, str] | None = None) -> None:
+    def __init__(
+        self,
+        skeleton: Skeleton,
+        clips: Sequence[Clip] = (),
+        roles: dict[str, str] | None = None,
+        told: dict[str, str] = ...,
+        skin: Skin | None = None,
+    ) -> None:
         """`clips` of the skeleton tell how it stands where its rest pose is not that of a standing body, as in many BVH
-        files, and how its feet stand flat; `roles` (as Skeleton.role_map has them, role -> bone name) take the place of
-        those that are found. ValueError names what is missing of hips, thighs, shins and feet, or hangs wrong."""
+        files, how its feet stand flat, and what bones are that names do not tell; `roles` (as Skeleton.role_map has
+        them, role -> bone name) take the place of all that are found, `told` of some; `skin` tells where hands without
+        fingers point, and feet from what stands beside them. ValueError names what is missing of hips, thighs, shins
+        and feet, or hangs wrong."""
     skeleton: Skeleton
     roles: dict[str, str]
     """Role -> bone name."""

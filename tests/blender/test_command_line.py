@@ -4,7 +4,10 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
@@ -334,6 +337,50 @@ def test_what_is_for_rigs_alone_is_refused(addon: ModuleType, walk: Path, capsys
     for option in ("--armature", "--blend"):
         assert run(addon, "retarget", walk, "--onto", walk, option, "x") == 1
         assert f"{option} is for rigs, and walk.bvh is a skeleton alone" in capsys.readouterr().err
+
+
+def as_fbx(path: Path) -> None:
+    bpy.ops.export_scene.fbx(filepath=str(path), object_types={"ARMATURE"}, add_leaf_bones=False, **ONE_ACTION)
+
+
+def as_glb(path: Path) -> None:
+    bpy.ops.export_scene.gltf(filepath=str(path), export_animation_mode="ACTIVE_ACTIONS")
+
+
+ONE_ACTION = {"bake_anim_use_nla_strips": False, "bake_anim_use_all_actions": False, "bake_anim_simplify_factor": 0}
+
+
+@pytest.mark.skipif(bool(bpy.app.binary_path), reason="this Blender is no module of Python's")
+@pytest.mark.parametrize("write", [as_fbx, as_glb])
+def test_the_command_alone_reads_takes_and_rigs_through_bpy(
+    addon: ModuleType, walk: Path, tmp_path: Path, write: Callable[[Path], None]
+) -> None:
+    """As pip's users have it: without the add-on, and in a process of its own."""
+    obj = making.open_sample()
+    addon.compat.versions.assign(obj, bpy.data.actions["walk forward"])
+    bpy.context.scene.render.fps = 30
+    bpy.context.scene.frame_start, bpy.context.scene.frame_end = map(int, obj.animation_data.action.frame_range)
+    path = tmp_path / f"again.{write.__name__[3:]}"
+    write(path)
+    command = addon.compat.core.command("running")
+    environment = {**os.environ, "PYTHONPATH": str(Path(command.__file__).parents[1])}
+    words = [sys.executable, "-m", "fragmotion_command", "retarget", walk, path, "--onto", path, "--json", "-"]
+    ended = subprocess.run(
+        [*map(str, words), "--into", str(tmp_path / "moved")],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ended.returncode == 0, ended.stderr
+    told = json.loads(ended.stdout)
+    assert [Path(take["path"]).name for take in told["takes"]] == ["walk.bvh", path.name]
+    assert all(take["contact_error_m"] <= 0.01 for take in told["takes"])
+    first, second = (
+        addon.compat.core.core.read_bvh(tmp_path / "moved" / f"{name}.bvh").world_transforms()[0]
+        for name in ("walk", "again")
+    )
+    np.testing.assert_allclose(second[: len(first)], first[: len(second)], atol=0.01)
 
 
 @pytest.mark.thorough

@@ -103,7 +103,7 @@ def test_a_new_user_has_few_fields_in_sight(addon: ModuleType) -> None:
         assert f"fragmotion.{needed}" in stages[stage]["buttons"]
 
 
-def test_who_is_new_sees_three_clicks_until_he_waves_them_away(addon: ModuleType) -> None:
+def test_who_is_new_sees_three_clicks_until_he_waves_them_away(addon: ModuleType, session: ModuleType) -> None:
     preferences, panel = addon.settings.preferences, addon.panels.first_steps.FRAGMOTION_PT_first_steps
     assert in_sight(addon)["panels"][0] == "First Steps"
     assert drawn(panel)["buttons"] == ["fragmotion.add_sample", "fragmotion.build", "fragmotion.drive"]
@@ -111,6 +111,12 @@ def test_who_is_new_sees_three_clicks_until_he_waves_them_away(addon: ModuleType
     for done, button in enumerate(drawn(panel)["buttons"][:2], 1):
         assert getattr(bpy.ops.fragmotion, button.partition(".")[2])("EXEC_DEFAULT") == {"FINISHED"}
         assert drawn(panel)["button icons"].count("CHECKMARK") == done
+    bpy.context.view_layer.objects.active = None  # what is done stays ticked
+    assert drawn(panel)["button icons"].count("CHECKMARK") == 2
+    bpy.context.view_layer.objects.active = next(obj for obj in bpy.data.objects if obj.type == "ARMATURE")
+    session.start(bpy.context, bpy.context.object)
+    assert drawn(panel)["button icons"].count("CHECKMARK") == 3
+    session.stop()
     preferences.end_first_steps(bpy.context)
     assert "First Steps" not in in_sight(addon)["panels"]
     bpy.context.view_layer.objects.active = None
@@ -158,12 +164,19 @@ def test_wide_icons_of_keys_get_room_in_the_status_bar(addon: ModuleType) -> Non
 def test_a_doubtful_bone_is_named_with_its_takes_and_among_the_bones(addon: ModuleType) -> None:
     assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
     assert bpy.ops.fragmotion.find_bones() == {"FINISHED"}
-    hand = bpy.context.active_object.fragmotion.roles["left_hand"]
-    panels = addon.panels.panel.FRAGMOTION_PT_mocap, addon.panels.bones.FRAGMOTION_PT_bones
-    assert not any("See Bones" in text for text in drawn(panels[0])["texts"])
-    hand.doubt = "ends aside of the arm"
-    assert f"See Bones for '{hand.bone}'" in drawn(panels[0])["texts"]
-    assert hand.doubt in drawn(panels[1])["texts"]
+    settings = bpy.context.active_object.fragmotion
+    bone = settings.roles["left_hand"].bone
+    mocap, bones = addon.panels.panel.FRAGMOTION_PT_mocap, addon.panels.bones.FRAGMOTION_PT_bones
+    assert not any("See Bones" in text for text in drawn(mocap)["texts"])
+    doubt = settings.doubts.add()
+    doubt.name, doubt.bone, doubt.text = "left_hand", bone, "ends aside of the arm"
+    for _ in range(2):  # among the roles, and where none is chosen
+        assert f"See Bones for '{bone}'" in drawn(mocap)["texts"]
+        assert doubt.text in drawn(bones)["texts"] and "fragmotion.confirm_bone" in drawn(bones)["buttons"]
+        settings.roles.clear()
+    doubt.right = True
+    assert not any("See Bones" in text for text in drawn(mocap)["texts"])
+    assert doubt.text not in drawn(bones)["texts"]
 
 
 @pytest.mark.parametrize(

@@ -69,7 +69,7 @@ def test_the_imported_mesh_stands_as_the_library_says(project: Project, poses: P
 
 def test_the_node_holds_its_promises(project: Project) -> None:
     printed = project.play("promises.gd")
-    assert not re.findall(r"^failed .*", printed, re.MULTILINE)
+    assert not re.findall(r"^failed .*", printed, re.MULTILINE), printed
     assert len(re.findall(r"^passed ", printed, re.MULTILINE)) == 14
     assert "SCRIPT ERROR" not in printed
     assert "it is no Fragmotion policy file" in printed

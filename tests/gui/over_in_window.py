@@ -46,8 +46,11 @@ def steps() -> Iterator[None]:
     yield from window.until(lambda: driven.punch.begun, "the takeover")
     yield from window.picture("2 yours")
     assert driven.shown().title.startswith("Recording over") and driven.inputs.label == "Keyboard"
-    yield from window.send("ESC", "PRESS", *MIDDLE)
-    assert session.current is None and timeline._handlers == []
+    yield from window.send("D", "RELEASE", *MIDDLE)
+    yield from window.until(lambda: driven.punch is None, "the end of the stretch")
+    assert driven.shown().title.startswith("Kept")
+    yield from window.until(lambda: session.current is None, "the end of the rest, with which the drive ends")
+    assert timeline._handlers == [] and not window.says_keys()
 
 
 window.run(steps())

@@ -151,11 +151,15 @@ def test_wheels_tell_what_is_in_them(platform: Platform) -> None:
             expected = base64.urlsafe_b64encode(hashlib.sha256(files[path]).digest()).rstrip(b"=").decode()
             assert (digest, int(size)) == (f"sha256={expected}", len(files[path]))
         metadata = Metadata.from_email(files[f"{info}/METADATA"])  # raises where PyPI would
-        assert metadata.name == "fragmotion_core" and metadata.license_expression == "MIT"
+        assert metadata.name == "fragmotion_core" and metadata.license_expression == "MIT AND GPL-3.0-or-later"
         assert metadata.description and metadata.description.startswith("# fragmotion_core")
         tag = re.search(r"^Tag: (\S+)$", files[f"{info}/WHEEL"].decode(), re.MULTILINE)
         assert tag and name.endswith(f"-{tag[1]}.whl")
-        assert {f"{info}/licenses/LICENSE", f"{info}/licenses/LICENSE-third-party"} <= set(files)
+        licences = ("LICENSE", "LICENSE-third-party", "addon/fragmotion/LICENSE")
+        assert {f"{info}/licenses/{licence}" for licence in licences} <= set(files)
+        for path, text in files.items():  # what of the add-on is inside is in a folder of its own
+            is_gpl = text.startswith(b"# SPDX-License-Identifier: GPL-3.0-or-later")
+            assert is_gpl == path.startswith("fragmotion_blender/"), path
 
 
 @platforms

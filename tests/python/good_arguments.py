@@ -88,7 +88,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
     turns = np.tile([1.0, 0, 0, 0], (frames, bones, 1))
     human = humanoid("mixamo")
     strolling = core.Clip(human, "stroll", 30.0, roots, np.tile(human.rest_rotations, (frames, 1, 1)))
-    body = core.Body(human)
+    body, skin = core.Body(human), core.Skin(human)
     performance = core.Player(made).run(trace, 30)
     short = core.Player(made).run(trace[:10], 30)
     motion = {
@@ -114,7 +114,11 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "candidates": [1],
         },
         "Skeleton.relaxed_pose": {"self": skeleton},
-        "Skeleton.role_map": {"self": skeleton, "heads": np.stack([skeleton.rest_heads()] * 2)},
+        "Skeleton.role_map": {
+            "self": skeleton,
+            "heads": np.stack([skeleton.rest_heads()] * 2),
+            "skin": core.Skin(skeleton),
+        },
         "Skeleton.rest_heads": {"self": skeleton},
         "Skeleton.rest_tails": {"self": skeleton},
         "group_skeletons": {"skeletons": [skeleton, human]},
@@ -181,8 +185,19 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Clip.led_by_feet": {"self": walk, "skeleton": skeleton, "speed": 0.0},
         "Clip.character_frames": {"self": walk, "skeleton": skeleton},
         "mirrored": {"skeleton": skeleton, "clips": clips[:1]},
-        "Body": {"skeleton": human, "clips": [strolling], "roles": body.roles},
-        "role_doubts": {"skeleton": human, "roles": core.Body(human).roles},
+        "Body": {
+            "skeleton": human,
+            "clips": [strolling],
+            "roles": body.roles,
+            "told": {"head": body.roles["head"]},
+            "skin": skin,
+        },
+        "Skin": {"skeleton": human},
+        "Skin.add": {
+            **{"self": core.Skin(human), "world": np.eye(4), "points": np.zeros((2, 3)), "groups": ["hips", "none"]},
+            "weights": np.array([[0, 0, 1.0], [1, 0, 0.5], [1, 1, 0.5]]),
+        },
+        "role_doubts": {"skeleton": human, "roles": core.Body(human).roles, "skin": skin},
         "Retarget": {"source": body, "target": core.Body(humanoid("unreal"))},
         "Retarget.apply": {"self": core.Retarget(body, body), "clip": strolling},
         "Retarget.apply_all": {"self": core.Retarget(body, body), "clips": [strolling], "threads": 1},

@@ -242,6 +242,23 @@ def test_what_is_missing_is_named() -> None:
         core.Body(humanoid("mixamo"), walking_clips(skeleton))
 
 
+def test_what_is_told_of_one_bone_leaves_the_others_to_motion(bandai_body: Source) -> None:
+    """Of a skeleton whose names say nothing."""
+    old = bandai_body.body.skeleton
+    names = {name: f"{index}" for index, name in enumerate(old.names)}
+    skeleton = remade(old, rename=names.__getitem__)
+    clips = [
+        core.Clip(skeleton, clip.name, clip.rate, clip.root_positions, clip.rotations) for clip in bandai_body.clips
+    ]
+    found = core.Body(skeleton, clips).roles
+    resting = {role: bone for role, (bone, _) in skeleton.role_map().items()}
+    assert len(found) > len(resting), "motion has told nothing"
+    assert core.Body(skeleton, clips, told={"hips": found["hips"]}).roles == found
+    told = core.Body(skeleton, clips, told={"left_hand": found["left_lower_arm"]}).roles
+    kept = {role: bone for role, bone in found.items() if role != "left_lower_arm"}
+    assert told == {**kept, "left_hand": found["left_lower_arm"]}
+
+
 def test_a_rest_pose_that_tells_nothing_wants_clips(bandai_body: Source) -> None:
     unknown = core.Body(bandai_body.body.skeleton)
     assert not unknown.stands
@@ -311,6 +328,53 @@ def test_hands_point_where_the_actors_do_whatever_end_an_importer_gave_them(sour
         assert angles(true.clip.rotations, other.clip.rotations).max() < (1e-3 if fingers else 3), clip.name
         for side in ("left", "right"):
             assert other.limb_angles[f"{side}_hand"] < np.radians(20), clip.name
+
+
+def skin_of_hands(skeleton: core.Skeleton, roles: dict[str, str], ways: dict[str, Array]) -> core.Skin:
+    """Of a part of a sphere about each hand, half as wide as its way is long, from the wrist on."""
+    heads, skin = skeleton.rest_heads(), core.Skin(skeleton)
+    ball = np.random.default_rng(1).normal(size=(200, 3))
+    ball /= 2 * np.linalg.norm(ball, axis=1, keepdims=True)
+    for side, way in ways.items():
+        hand = roles[f"{side}_hand"]
+        points = heads[skeleton.names.index(hand)] + way / 2 + np.linalg.norm(way) * ball
+        rows = np.column_stack([np.arange(200), np.zeros(200), np.ones(200)])
+        skin.add(np.eye(4), points, [hand], rows)
+    return skin
+
+
+def test_a_hand_without_fingers_points_where_its_skin_does() -> None:
+    """Against its bone's end, an importer's, and also where it is bent at rest."""
+    bare = humanoid("mixamo", fingers=False)
+    roles = core.Body(bare).roles
+    aside = with_tails_aside(bare, roles)
+    ways = {"left": np.array([-0.1, 0.1, 0]), "right": np.array([0.15, 0, 0])}
+    skin = skin_of_hands(aside, roles, ways)
+    body = core.Body(aside, skin=skin)
+    assert [core.role_doubts(aside, skin=each) != [] for each in (None, skin)] == [True, False]
+    for side, way in ways.items():
+        hand = aside.names.index(roles[f"{side}_hand"])
+        tip = turned(rest_rotations(aside)[hand], body.skeleton.tips[hand])
+        assert np.linalg.norm(tip) == pytest.approx(np.linalg.norm(way), rel=0.05)
+        assert np.dot(tip, way) > 0.99 * np.linalg.norm(tip) * np.linalg.norm(way)
+        pointed = turned(body.reference[hand], body.skeleton.tips[hand])
+        np.testing.assert_allclose(pointed / np.linalg.norm(pointed), np.sign(way * [1, 0, 0]), atol=1e-6)
+
+
+def test_a_hand_with_fingers_points_where_they_do_whatever_its_skin() -> None:
+    whole = humanoid("mixamo")
+    roles = core.Body(whole).roles
+    skin = skin_of_hands(whole, roles, {"left": np.array([0, 0, 0.2]), "right": np.array([0, 0, 0.2])})
+    np.testing.assert_array_equal(core.Body(whole, skin=skin).reference, core.Body(whole).reference)
+
+
+def test_a_skin_of_another_skeleton_is_refused() -> None:
+    skin = core.Skin(humanoid("mixamo"))
+    with pytest.raises(ValueError, match="of another skeleton"):
+        core.Body(humanoid("unreal"), skin=skin)
+    for row, words in (([2, 0, 1], "no such vertex"), ([0, 1.5, 1], "no such group"), ([0, 0, 2], "from 0 to 1")):
+        with pytest.raises(ValueError, match=words):
+            skin.add(np.eye(4), np.zeros((2, 3)), ["Hips", "Spine"], [row])
 
 
 def test_a_wrist_that_is_bent_where_the_actors_is_not_is_told(bandai_body: Source) -> None:

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -80,7 +82,8 @@ def test_a_source_without_knees_is_refused_by_name(legless: Path, capsys: pytest
 def test_what_cannot_be_read_is_refused(legless: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert "no such file" in refusal(capsys, legless, "--onto", tmp_path / "missing.bvh")
     (tmp_path / "notes.txt").write_text("")
-    assert "not a skeleton that is read without Blender" in refusal(capsys, legless, "--onto", tmp_path / "notes.txt")
+    assert "neither a skeleton" in refusal(capsys, legless, "--onto", tmp_path / "notes.txt")
+    assert "--armature is for rigs" in refusal(capsys, legless, "--onto", legless, "--armature", "Hero")
     assert "no such file" in refusal(capsys, tmp_path / "missing.bvh", "--onto", legless)
     (tmp_path / "empty.bvh").write_text("")
     assert "empty.bvh" in refusal(capsys, legless, "--onto", tmp_path / "empty.bvh")
@@ -119,3 +122,28 @@ def test_takes_are_written_as_they_move_on_the_other_skeleton(
     for file in files:
         before, after = (core.read_bvh(path).world_transforms()[0] for path in (file, tmp_path / "moved" / file.name))
         np.testing.assert_allclose(after[:, -1], before[:, -1], atol=0.02)
+
+
+def without_bpy(*words: object, version: tuple[int, int]) -> subprocess.CompletedProcess[str]:
+    """Run the command in a Python that has no bpy and says that it is of that version."""
+    lines = (
+        "import sys, fragmotion_command, fragmotion_command.parser",
+        f"sys.modules['bpy'], sys.version_info = None, {(*version, 0)}",
+        f"sys.exit(fragmotion_command.main({[*map(str, words)]!r}))",
+    )
+    code = "; ".join(lines)
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+
+
+def test_without_bpy_it_is_said_how_to_get_it(tmp_path: Path) -> None:
+    write_sample(tmp_path)
+    take = next(tmp_path.glob("*.bvh"))
+    (tmp_path / "a.fbx").write_text("")
+    (tmp_path / "b.glb").write_text("")
+    for first, onto in ((tmp_path / "a.fbx", take), (take, tmp_path / "b.glb")):
+        ended = without_bpy("retarget", first, "--onto", onto, version=(3, 11))
+        assert ended.returncode == 1 and "pip install 'bpy==4.5.*'" in ended.stderr, ended.stderr
+    ended = without_bpy("retarget", tmp_path / "a.fbx", "--onto", take, version=(3, 12))
+    assert "not there for Python 3.12" in ended.stderr and "3.13 (bpy 5.2)" in ended.stderr
+    ended = without_bpy("retarget", tmp_path, "--onto", take, version=(3, 11))
+    assert ended.returncode == 0 and ended.stderr.count("left out: ") == 1 and "(and 1 more like it)" in ended.stderr

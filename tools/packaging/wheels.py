@@ -11,7 +11,7 @@ from typing import Any
 
 import tomllib
 
-from tools.paths import TOP, version
+from tools.paths import ADDON, TOP, version
 
 _BINDINGS = TOP / "cpp" / "bindings"
 _MOMENT = (1980, 1, 1, 0, 0, 0)  # the first that a zip can tell
@@ -27,6 +27,7 @@ def pack(module: Path, python: str, platform_tag: str, folder: Path) -> Path:
     files = {
         module.name: module.read_bytes(),
         **{path.relative_to(_BINDINGS).as_posix(): path.read_bytes() for path in _beside()},
+        **{f"fragmotion_blender/{name}": (ADDON / name).read_bytes() for name in _readers()},
         f"{info}/METADATA": _metadata(project).encode(),
         f"{info}/entry_points.txt": _entry_points(project).encode(),
         f"{info}/WHEEL": _wheel(f"{tag}-{tag}-{platform_tag}").encode(),
@@ -52,6 +53,11 @@ def write_zip(target: Path, files: dict[str, bytes]) -> None:
 def _beside() -> list[Path]:
     """What lies beside the module: its stub and the command."""
     return [_BINDINGS / "fragmotion_core.pyi", *sorted((_BINDINGS / "fragmotion_command").rglob("*.py"))]
+
+
+def _readers() -> list[str]:
+    """What of the add-on reads files by Blender's importers, for the command where bpy is installed."""
+    return (TOP / "cmake" / "fragmotion_blender.txt").read_text().split()
 
 
 def _project() -> dict[str, Any]:

@@ -17,11 +17,13 @@ from mathutils import Matrix, Vector
 
 from ..character.building import load
 from ..compat.core import core
+from ..compat.machine import memory
 from ..errors import UserError
 from ..ground.areas import outlines, painted_area, places_apart
 from ..ground.belongings import belongings
 from ..ground.meshes import find_ground
 from ..jobs import Report
+from ..mocap.sampling import scene_rate
 from ..paths.following import shared
 from ..paths.lines import TYPES as LINES
 from ..paths.lines import line_of
@@ -39,6 +41,8 @@ if TYPE_CHECKING:
 Spot = tuple[float, float, float]
 """Where a copy stands as the original sees it on the ground: x, y (m) and how far it is turned (rad)."""
 
+_VALUE, _KEY = 8, 72  # bytes of a channel on a frame, and of a key of Blender's
+_CHANNELS = 4  # of a bone
 _REST = 2.0  # s that who has come to a path's end stands there
 _GOAL = 3.0  # s that is gone for a place of an area at least
 _FIXED = {"target": "NEW", "action": "", "root": "BONE", "place": "ORIGIN", "as_recorded": False, "markers": "NONE"}
@@ -67,6 +71,7 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
     it is at the copies' places.
     """
     bakes = list(_bakes(obj, settings))
+    _check_memory(context, obj, settings, bakes)
     ground = find_ground(context, obj)
     for each, moved in zip(bakes, movements(obj, settings)):
         each.moved = moved
@@ -98,6 +103,21 @@ def movements(obj: bpy.types.Object, settings: Any) -> list[Matrix]:
     places = spots(settings.count, settings.layout, settings.spacing)
     sizes = (1 + settings.sizes * Random(settings.seed + index).uniform(-1, 1) for index in range(settings.count))
     return [_around(obj, spot, size) for spot, size in zip(places, sizes)]
+
+
+def _check_memory(
+    context: bpy.types.Context, obj: bpy.types.Object, settings: Any, bakes: Sequence[SimpleNamespace]
+) -> None:
+    """UserError where what is played for a time that is set would fill the computer's memory."""
+    if settings.layout == "PATH" or bakes[0].trace_source == "RECORDING":
+        return
+    frames = len(bakes) * settings.seconds * scene_rate(context.scene)
+    needed = frames * _CHANNELS * len(obj.data.bones) * (_VALUE if bakes[0].reduce else _VALUE + _KEY)
+    if needed > memory():
+        raise UserError(
+            f"{len(bakes)} copies for {settings.seconds:g} s need some {needed / 1e9:.0f} GB, and this computer has "
+            f"{memory() / 1e9:.0f}: let there be fewer, or shorter, under Populate"
+        )
 
 
 def _set_walks(

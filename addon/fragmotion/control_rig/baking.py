@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Sequence
 from math import ceil, floor
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
 import numpy as np
@@ -14,15 +14,26 @@ from ..compat import versions
 from ..errors import UserError
 from ..mocap.actions import BAKED
 from ..rig.keys import Bone, Poses, Track, make_tracks
+from ..rig.rigs import bone_path
 from ..rig.writing import keep_former, write_tracks
 from .binding import follows, motion_of, set_following
 from .following import constraints_of
+from .stretching import Stretching
 from .wiring import Switch, read_switch
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
 
-Stepping = Generator[float, None, Poses]
+
+class Keyed(NamedTuple):
+    """What is keyed of the controls: their channels, and of some by their names the scales [F,N]."""
+
+    poses: Poses
+    scaled: list[str]
+    scales: Doubles
+
+
+Stepping = Generator[float, None, Keyed]
 
 
 def span(obj: bpy.types.Object) -> range:
@@ -34,7 +45,7 @@ def span(obj: bpy.types.Object) -> range:
 def _motion(obj: bpy.types.Object) -> bpy.types.Action:
     """The Action that the rig's motion skeleton plays."""
     motion = motion_of(obj)
-    if motion is None:
+    if motion is None or obj.fragmotion.control_rig.anchors is None:
         raise UserError(f"Armature '{obj.name}' has no motion skeleton any more: press Unbind, and make it anew")
     action, _ = versions.assignment(motion)
     if action is None or not versions.curves_of(action, motion):
@@ -59,41 +70,59 @@ def step(context: bpy.types.Context, obj: bpy.types.Object, frames: range) -> St
     names = [bone.name for bone in keyed_controls(obj)]
     locations, rotations = np.empty((len(frames), len(names), 3)), np.empty((len(frames), len(names), 4))
     set_following(obj, True)
+    stretching = Stretching(context, obj, motion_of(obj))
+    scales = np.empty((len(frames), len(stretching.controls)))
     try:
         for index, number in enumerate(frames):
             scene.frame_set(number)
+            scales[index] = stretching.settle()
             locations[index], rotations[index] = _channels(context, obj, names)
             turned_round = (rotations[index] * rotations[max(index - 1, 0)]).sum(-1) < 0
             rotations[index, turned_round] *= -1
             yield (index + 1) / len(frames)
     finally:
+        stretching.restore()
         set_following(obj, did_follow)
         scene.frame_set(floor(frame), subframe=frame - floor(frame))
-    return Poses(locations, rotations)
+    return Keyed(Poses(locations, rotations), stretching.controls, scales)
 
 
 def _channels(context: bpy.types.Context, obj: bpy.types.Object, names: Sequence[str]) -> tuple[Doubles, Doubles]:
-    """What the controls' own channels would have to be for their pose."""
-    posed = obj.evaluated_get(context.evaluated_depsgraph_get())
-    bones = [posed.pose.bones[name] for name in names]
+    """What the controls' own channels would have to be where they follow, before a solver turns them."""
+    graph = context.evaluated_depsgraph_get()
+    posed, anchors = obj.evaluated_get(graph), obj.fragmotion.control_rig.anchors.evaluated_get(graph)
     own = [
-        posed.convert_space(pose_bone=bone, matrix=bone.matrix, from_space="POSE", to_space="LOCAL") for bone in bones
+        posed.convert_space(
+            pose_bone=posed.pose.bones[name],
+            matrix=anchors.pose.bones[name].matrix,
+            from_space="POSE",
+            to_space="LOCAL",
+        )
+        for name in names
     ]
     return np.array([matrix.translation for matrix in own]), np.array([matrix.to_quaternion() for matrix in own])
 
 
-def keep(context: bpy.types.Context, obj: bpy.types.Object, frames: range, poses: Poses) -> bpy.types.Action:
+def keep(context: bpy.types.Context, obj: bpy.types.Object, frames: range, keyed: Keyed) -> bpy.types.Action:
     """Write the channels to a new Action, with the switches as they stand, and let the rig play it and follow no
     more."""
     action = bpy.data.actions.new(f"{_motion(obj).name} on {obj.name}")
     action[BAKED] = True
-    controls = make_tracks([*keyed_controls(obj), Bone("", obj.rotation_mode, False)], poses)
-    write_tracks(action, obj, np.array(frames, float), [*controls, *_switch_tracks(obj)], replace=True)
+    controls = make_tracks([*keyed_controls(obj), Bone("", obj.rotation_mode, False)], keyed.poses)
+    tracks = [*controls, *_scale_tracks(keyed), *_switch_tracks(obj)]
+    write_tracks(action, obj, np.array(frames, float), tracks, replace=True)
     keep_former(obj, action)
     versions.assign(obj, action)
     set_following(obj, False)
     context.view_layer.update()
     return action
+
+
+def _scale_tracks(keyed: Keyed) -> Iterator[Track]:
+    """Keys of the controls' scales, the same on all axes."""
+    every = np.arange(len(keyed.scales), dtype=np.int32)
+    for name, scales in zip(keyed.scaled, keyed.scales.T, strict=True):
+        yield Track(bone_path(name, "scale"), name, 0, "", np.tile(scales[:, None], 3), every)
 
 
 def _switch_tracks(obj: bpy.types.Object) -> Iterator[Track]:

@@ -19,7 +19,6 @@ from .armatures import out_of_modes
 from .controls import Controls, Trying, find_controls
 from .following import (
     bone_name,
-    carry,
     constrain,
     constraints_of,
     deviations,
@@ -27,6 +26,7 @@ from .following import (
     make_motion_skeleton,
 )
 from .joints import Joint, find_joints, height_of, without
+from .planes import carry
 from .wiring import Switch, find_circle, heeded_switches, read_switch, set_switch
 
 _OPTIONAL = re.compile(r"(spine|neck|.+_(thumb|index|middle|ring|pinky))_\d+|.+_(shoulder|toe)")
@@ -189,7 +189,7 @@ def _build(
     context.scene.collection.children.link(collection)
     motion = settings.motion = make_motion_skeleton(context, obj, collection, controls, joints)
     motion.fragmotion.control_rig.rig = obj
-    anchors = settings.anchors = make_anchors(context, obj, collection, motion, controls)
+    anchors = settings.anchors = make_anchors(context, obj, collection, motion, controls, joints)
     anchors.fragmotion.control_rig.rig = obj
     constrain(obj, anchors, controls)
     set_roles(motion, {role: bone_name(role) for role in joints})
@@ -207,10 +207,10 @@ def _choose_carrier(
     trunk = {role: joint for role, joint in joints.items() if _TRUNK.fullmatch(role)}
     off = {}
     for role in trunk:
-        carry(settings.anchors, controls.body, role)
+        carry(settings.anchors, controls.body, settings.motion, bone_name(role))
         off[role] = deviations(context, obj, settings.motion, trunk)
     best = min(off, key=lambda role: max(off[role].values()))
-    carry(settings.anchors, controls.body, best)
+    carry(settings.anchors, controls.body, settings.motion, bone_name(best))
     return off[best]
 
 

@@ -10,12 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 import bpy
-from mathutils import Euler, Vector
+from mathutils import Euler, Matrix, Vector
 
 from ..rig.posing import playing, reset_pose
 from .armatures import RestBone, make_armature
 from .controls import ROOT, Controls
 from .joints import Joint, height_of
+from .planes import carry, lay_plane, plane_bones, plane_name
 
 PREFIX = "Fragmotion"
 """What the names of all constraints on the rig begin with."""
@@ -48,20 +49,21 @@ def make_anchors(
     collection: bpy.types.Collection,
     motion: bpy.types.Object,
     controls: Controls,
+    joints: Mapping[str, Joint],
 ) -> bpy.types.Object:
-    """Bones that rest as the controls do, and that the motion skeleton carries."""
-    rests = [_rest(obj.data.bones[follower.control]) for follower in controls.followers]
-    anchors = make_armature(context, f"{obj.name} Anchors", collection, obj, rests)
+    """Bones that rest as the controls do, and that the motion skeleton carries, or the planes of its limbs."""
+    planes = {follower.plane.limb: follower.plane for follower in controls.followers if follower.plane}.values()
+    rests = [_anchor(obj.data.bones[follower.control], follower.rest) for follower in controls.followers]
+    laid = [bone for plane in planes for bone in plane_bones(plane, joints)]
+    anchors = make_armature(context, f"{obj.name} Anchors", collection, obj, [*rests, *laid])
+    for plane in planes:
+        lay_plane(anchors, plane, motion, {role: bone_name(role) for role in plane.limb})
     for follower in controls.followers:
-        constraint = anchors.pose.bones[follower.control].constraints.new("ARMATURE")
-        constraint.targets.new().target = motion
-        carry(anchors, follower.control, follower.role)
+        if follower.plane is None:
+            carry(anchors, follower.control, motion, bone_name(follower.role))
+        else:
+            carry(anchors, follower.control, anchors, plane_name(follower.plane))
     return anchors
-
-
-def carry(anchors: bpy.types.Object, control: str, role: str) -> None:
-    """Let the motion skeleton's bone of a role carry a control's anchor."""
-    anchors.pose.bones[control].constraints[0].targets[0].subtarget = bone_name(role)
 
 
 def constrain(obj: bpy.types.Object, anchors: bpy.types.Object, controls: Controls) -> None:
@@ -114,6 +116,12 @@ def _plain_bones(obj: bpy.types.Object, controls: Controls, joints: Mapping[str,
         parent = joint.parent or (ROOT if controls.root else "")
         up = obj.data.bones[joint.bone].matrix_local.col[2].to_3d()
         yield RestBone(bone_name(role), bone_name(parent) if parent else "", joint.head, joint.tail, up)
+
+
+def _anchor(bone: bpy.types.Bone, rest: Matrix) -> RestBone:
+    """A bone as a control is that rests so."""
+    along, up = (rest.col[axis].to_3d().normalized() for axis in (1, 2))
+    return RestBone(bone.name, "", rest.translation, rest.translation + bone.length * along, up)
 
 
 def _rest(bone: bpy.types.Bone) -> RestBone:

@@ -21,10 +21,10 @@ _SAME_PLACE = 1e-3  # of the body's height
 
 
 class Turned(NamedTuple):
-    """Of the parts of a body, by their roles: which turn just as a control does, and of these, whose joint stays."""
+    """Of the parts of a body, by their roles: which turn just as a control does, and whose joint stays in its place."""
 
     along: frozenset[str]
-    in_place: frozenset[str]
+    stay: frozenset[str]
 
 
 class Prober:
@@ -44,8 +44,16 @@ class Prober:
         self.turned.cache_clear()
         self.shifted.cache_clear()
 
+    def rest(self, control: str) -> Matrix:
+        """Where a control is in the armature's space while it rests itself, whatever a solver makes of it then."""
+        return self._converted(control, Matrix(), "LOCAL", "POSE")
+
+    def is_near(self, one: Vector, other: Vector) -> bool:
+        """Whether two places are one, by the body's size."""
+        return bool((one - other).length < _SAME_PLACE * self._height)
+
     def _turned(self, control: str) -> Turned:
-        posed = self._trial(control, _TURN)
+        posed = self._trial(control, self._rest[control] @ _TURN)
         if posed is None:
             return Turned(frozenset(), frozenset())
         turn = (posed[control] @ self._rest[control].inverted()).to_3x3().normalized()
@@ -54,37 +62,42 @@ class Prober:
             for role, joint in self._joints.items()
             if (turn @ _way(self._rest[joint.bone])).angle(_way(posed[joint.bone]), pi) < _SAME_WAY
         ]
-        stays = [role for role in along if self._is_near(self._went(posed, self._joints[role].bone), Vector())]
-        return Turned(frozenset(along), frozenset(stays))
+        ways = {role: self._went(posed, joint.bone) for role, joint in self._joints.items()}
+        return Turned(frozenset(along), frozenset(role for role, gone in ways.items() if self.is_near(gone, Vector())))
 
     def _shifted(self, control: str) -> frozenset[str]:
         """The roles whose joint goes just as far as the control when that is moved towards the hips."""
         rest = self._rest[control]
         way = (self._joints["hips"].head - rest.translation).normalized() + _ASIDE
-        posed = self._trial(control, Matrix.Translation(rest.to_3x3().inverted() @ (_SHIFT * self._height * way)))
+        posed = self._trial(control, Matrix.Translation(_SHIFT * self._height * way) @ rest)
         if posed is None:
             return frozenset()
         ways = {role: self._went(posed, joint.bone) for role, joint in self._joints.items()}
-        return frozenset(role for role, gone in ways.items() if self._is_near(gone, self._went(posed, control)))
+        return frozenset(role for role, gone in ways.items() if self.is_near(gone, self._went(posed, control)))
 
-    def _trial(self, control: str, basis: Matrix) -> dict[str, Matrix] | None:
-        """The pose with the control posed so; None where the control itself does not obey."""
+    def _trial(self, control: str, wanted: Matrix) -> dict[str, Matrix] | None:
+        """The pose with the control there, in the armature's space; None where the control itself does not obey."""
         bone = self._obj.pose.bones[control]
         former = bone.matrix_basis.copy()
-        bone.matrix_basis = basis
+        bone.matrix_basis = self._converted(control, wanted, "POSE", "LOCAL")
         posed = self._pose({control, *self._bones})
         bone.matrix_basis = former
-        expected = self._rest[control] @ basis
-        obeys = self._is_near(posed[control].translation, expected.translation)
-        return posed if obeys and _way(posed[control]).angle(_way(expected), pi) < _SAME_WAY else None
+        obeys = self.is_near(posed[control].translation, wanted.translation)
+        return posed if obeys and _way(posed[control]).angle(_way(wanted), pi) < _SAME_WAY else None
+
+    def _converted(self, control: str, matrix: Matrix, source: str, target: str) -> Matrix:
+        posed = self._evaluated()
+        return posed.convert_space(
+            pose_bone=posed.pose.bones[control], matrix=matrix, from_space=source, to_space=target
+        )
+
+    def _evaluated(self) -> bpy.types.Object:
+        return self._obj.evaluated_get(self._context.evaluated_depsgraph_get())
 
     def _pose(self, names: Iterable[str]) -> dict[str, Matrix]:
         self._context.view_layer.update()
-        bones = self._obj.evaluated_get(self._context.evaluated_depsgraph_get()).pose.bones
+        bones = self._evaluated().pose.bones
         return {name: bones[name].matrix.copy() for name in names}
-
-    def _is_near(self, one: Vector, other: Vector) -> bool:
-        return bool((one - other).length < _SAME_PLACE * self._height)
 
     def _went(self, posed: Mapping[str, Matrix], bone: str) -> Vector:
         return posed[bone].translation - self._rest[bone].translation

@@ -52,6 +52,12 @@ def above(obj: bpy.types.Object, bone: str) -> set[str]:
     return found
 
 
+def first_of_chain(bone: bpy.types.PoseBone, solver: bpy.types.KinematicConstraint) -> bpy.types.PoseBone:
+    """The bone of a solver's chain that is nearest to the trunk."""
+    chain = [bone, *bone.parent_recursive] if solver.use_tail else bone.parent_recursive or [bone]
+    return chain[min(solver.chain_count or len(chain), len(chain)) - 1]
+
+
 def find_circle(obj: bpy.types.Object) -> list[str]:
     """Bones of which each depends on the next and the last on the first; empty where there are none."""
     done: set[str] = set()

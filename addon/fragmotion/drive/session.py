@@ -78,6 +78,7 @@ class Session:
         self.readings = Readings(self.actor, RATE)
         self.recording: Recorder | None = None
         self._over: Over | None = None
+        self._ends_with_trace = False
         self._elapsed, self._steps = 0.0, 0
         self._replays = False
         self.cost = self.interval = 0.0
@@ -281,6 +282,7 @@ class Session:
         """Keep what was recorded over a recording, once; whether there was anything."""
         over, self._over = self._over, None
         kept, told = (False, "") if over is None else over.keep()
+        self._ends_with_trace = over is not None
         if told:
             self._announce(told)
         return kept
@@ -300,7 +302,7 @@ class Session:
     def playing(self) -> str:
         """How far the trace is that plays, in words; empty while none does."""
         trace = self.inputs.trace
-        verb = "Replaying" if self._replays else "Playing"
+        verb = "Kept: playing the rest," if self._ends_with_trace else "Replaying" if self._replays else "Playing"
         return f"{verb} {trace.elapsed:.1f} of {trace.seconds:.1f} s" if trace.playing else ""
 
     def toggle_recording(self) -> None:
@@ -348,6 +350,12 @@ class Session:
             "looks": recording.looks,
             "reaches": recording.reaches,
         }
+
+    @property
+    def is_done(self) -> bool:
+        """Whether nothing is left to do: what was recorded over is kept, and the rest has played, or something else was
+        touched."""
+        return self._ends_with_trace and not self.inputs.trace.playing
 
     def trouble(self) -> str:
         """Why the drive cannot go on, empty where it can."""

@@ -5,17 +5,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
+from ..compat.core import command
 from ..errors import UserError
 
-BY_CORE = (".bvh", ".amc")
-"""Endings of the takes that the core reads."""
+if TYPE_CHECKING:
+    from fragmotion_command import files
+else:
+    files = command("files")
 
-BY_BLENDER = (".fbx", ".glb", ".gltf", ".vrm", ".usd", ".usda", ".usdc", ".usdz")
+BY_BLENDER = files.BY_BLENDER
 """Endings of the files that Blender reads, whatever they hold."""
 
-ENDINGS = BY_CORE + BY_BLENDER
+ENDINGS = files.ENDINGS + BY_BLENDER
 
 
 class TakeFile(NamedTuple):

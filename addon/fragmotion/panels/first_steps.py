@@ -7,7 +7,7 @@ import bpy
 
 from ..character.building import has_character
 from ..compat.icons import own_icon
-from ..operators.base.context import active_armature
+from ..drive import session
 from ..settings import preferences
 from ..settings.drawing import draw_wrapped
 from .sidebar import Sidebar
@@ -30,13 +30,13 @@ class FRAGMOTION_PT_first_steps(Sidebar, bpy.types.Panel):
         self.layout.prop(preferences.get(context), "first_steps", text="", icon="X", emboss=False)
 
     def draw(self, context: bpy.types.Context) -> None:
-        obj = active_armature(context)
+        armatures = [obj for obj in context.scene.objects if obj.type == "ARMATURE"]
         column = self.layout.column(align=True)
         for number, (operator, text, done) in enumerate(
             (
-                ("fragmotion.add_sample", "Add Sample Character", obj is not None),
-                ("fragmotion.build", "Build", obj is not None and has_character(obj)),
-                ("fragmotion.drive", "Drive", False),
+                ("fragmotion.add_sample", "Add Sample Character", bool(armatures)),
+                ("fragmotion.build", "Build", any(map(has_character, armatures))),
+                ("fragmotion.drive", "Drive", session.current is not None),
             ),
             1,
         ):

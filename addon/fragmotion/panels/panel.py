@@ -21,6 +21,7 @@ from ..mocap.doctor import worst
 from ..operators.base import background
 from ..operators.base.context import active_armature
 from ..preview.take_preview import TakePreview
+from ..rig.bodies import open_doubts
 from ..settings import preferences
 from ..settings.drawing import (
     aligned,
@@ -158,8 +159,8 @@ class FRAGMOTION_PT_mocap(Sidebar, bpy.types.Panel):
 
 
 def _draw_doubts(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:
-    """The bones that may not be what they are taken for, red until the user says so in the panel below."""
-    bones = [f"'{role.bone}'" for role in obj.fragmotion.roles if role.doubt]
+    """The bones that may not be what they are taken for, red until the user says in the panel below what they are."""
+    bones = [f"'{doubt.bone}'" for doubt in open_doubts(obj)]
     if bones:
         column = layout.column(align=True)
         column.alert = True

@@ -9,15 +9,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
-from bpy.props import StringProperty
+from bpy.props import BoolProperty, StringProperty
 
 from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..files import check_regular
 from .rigs import make_rig
+from .selection import highlight
+from .skins import make_skin
 
 if TYPE_CHECKING:
-    from fragmotion_core import Body, Clip, Rig
+    from fragmotion_core import Body, Clip, Rig, Skin
 
 NEEDED = (
     "hips",
@@ -39,17 +41,26 @@ _NEEDED_ON_FOUR_LEGS = (
 """and those of a body that stands on four legs."""
 
 
-def _told_by_user(role: RoleBone, _context: bpy.types.Context) -> None:
-    role.doubt = ""
+def _drop_doubt_of_another(role: RoleBone, _context: bpy.types.Context) -> None:
+    doubts = role.id_data.fragmotion.doubts
+    if role.name in doubts and doubts[role.name].bone != role.bone:
+        doubts.remove(doubts.find(role.name))
 
 
 class RoleBone(bpy.types.PropertyGroup):
-    """The bone that has the role `name`; none where it is empty. `doubt`: why it may not be that, if so."""
+    """The bone that has the role `name`; none where it is empty."""
 
     bone: StringProperty(  # type: ignore[valid-type]
-        name="Bone", description="The bone that is this part of the body", update=_told_by_user
+        name="Bone", description="The bone that is this part of the body", update=_drop_doubt_of_another
     )
-    doubt: StringProperty()  # type: ignore[valid-type]
+
+
+class DoubtfulBone(bpy.types.PropertyGroup):
+    """A bone that is taken for the role `name`, and why it may not be that, until the user says that it is `right`."""
+
+    bone: StringProperty()  # type: ignore[valid-type]
+    text: StringProperty()  # type: ignore[valid-type]
+    right: BoolProperty()  # type: ignore[valid-type]
 
 
 def chosen_roles(obj: bpy.types.Object) -> dict[str, str] | None:
@@ -58,9 +69,9 @@ def chosen_roles(obj: bpy.types.Object) -> dict[str, str] | None:
     return {role.name: role.bone for role in roles if role.bone} if len(roles) else None
 
 
-def find_roles(rig: Rig) -> dict[str, str]:
+def _find_roles(rig: Rig, skin: Skin) -> dict[str, str]:
     """Role -> bone name as the core finds them."""
-    return {role: bone for role, (bone, _) in rig.skeleton.role_map().items()}
+    return {role: bone for role, (bone, _) in rig.skeleton.role_map(skin=skin).items()}
 
 
 def set_roles(obj: bpy.types.Object, found: Mapping[str, str]) -> None:
@@ -73,28 +84,51 @@ def set_roles(obj: bpy.types.Object, found: Mapping[str, str]) -> None:
         role.name, role.bone = name, found.get(name, "")
 
 
+def open_doubts(obj: bpy.types.Object) -> list[DoubtfulBone]:
+    """What is doubtful about the armature's bones, and nobody has said to be right."""
+    return [doubt for doubt in obj.fragmotion.doubts if not doubt.right and doubt.bone in obj.data.bones]
+
+
 def find_and_doubt(obj: bpy.types.Object, rig: Rig) -> list[str]:
     """Find the roles, keep them with the armature with what is doubtful about them, and return that."""
-    set_roles(obj, find_roles(rig))
-    doubts = {role: text for role, _, text in core.role_doubts(rig.skeleton)}
-    for role in obj.fragmotion.roles:
-        role.doubt = doubts.get(role.name, "")
-    return list(doubts.values())
+    skin = make_skin(obj, rig)
+    set_roles(obj, _find_roles(rig, skin))
+    return _doubt(obj, rig, skin)
 
 
 def doubts_at_import(obj: bpy.types.Object) -> list[str]:
-    """What is doubtful about the bones of an armature that takes were brought onto, where nobody has looked at them
-    yet: then they are kept for the panel to show."""
+    """What is doubtful about the bones of an armature that takes were brought onto, where nobody has chosen them: kept
+    for the panel to show, and these bones selected. No role is chosen by it."""
     if chosen_roles(obj) is not None:
         return []
     rig = make_rig(obj)
-    return find_and_doubt(obj, rig) if core.role_doubts(rig.skeleton) else []
+    texts = _doubt(obj, rig, make_skin(obj, rig))
+    if texts:
+        highlight(obj, [doubt.bone for doubt in open_doubts(obj)])
+    return texts
+
+
+def _doubt(obj: bpy.types.Object, rig: Rig, skin: Skin) -> list[str]:
+    """Keep what is doubtful about the bones that the core finds, and return it but for what is said to be right."""
+    right = _said_to_be_right(obj)
+    obj.fragmotion.doubts.clear()
+    for role, bone, text in core.role_doubts(rig.skeleton, skin=skin):
+        doubt = obj.fragmotion.doubts.add()
+        doubt.name, doubt.bone, doubt.text, doubt.right = role, bone, text, right.get(role) == bone
+    return [doubt.text for doubt in open_doubts(obj)]
+
+
+def _said_to_be_right(obj: bpy.types.Object) -> dict[str, str]:
+    """Role -> bone name of the doubtful bones that the armature still has and the user said to be right."""
+    return {row.name: row.bone for row in obj.fragmotion.doubts if row.right and row.bone in obj.data.bones}
 
 
 def make_body(obj: bpy.types.Object, rig: Rig, clips: Sequence[Clip] = ()) -> Body:
     """The armature as a body; UserError names what is missing of it."""
+    roles = chosen_roles(obj)
+    told = _said_to_be_right(obj) if roles is None else {}
     with core_errors(f"Armature '{obj.name}'"):
-        body: Body = core.Body(rig.skeleton, clips, chosen_roles(obj))
+        body: Body = core.Body(rig.skeleton, clips, roles, told, make_skin(obj, rig))
         return body
 
 

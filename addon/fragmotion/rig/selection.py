@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which objects are selected."""
+"""Which objects and bones are selected."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import bpy
+
+from ..compat import versions
 
 
 def select(context: bpy.types.Context, objects: Iterable[bpy.types.Object], active: bpy.types.Object | None) -> None:
@@ -15,3 +17,10 @@ def select(context: bpy.types.Context, objects: Iterable[bpy.types.Object], acti
     for obj in objects:
         obj.select_set(True)
     context.view_layer.objects.active = active
+
+
+def highlight(obj: bpy.types.Object, bones: Sequence[str]) -> None:
+    """Select these bones of an armature alone, the first of them active: as Pose Mode shows them."""
+    names = obj.data.bones.keys()
+    versions.set_bone_selection(obj, {name: (name in bones,) * 3 for name in names})
+    obj.data.bones.active = obj.data.bones[bones[0]]

@@ -23,7 +23,7 @@ from ..character.suggesting import NumberTried
 from ..control_rig.binding import ControlRigSettings, is_source
 from ..ground.meshes import WITH_FACES
 from ..recordings.recordings import Recording
-from ..rig.bodies import RoleBone
+from ..rig.bodies import DoubtfulBone, RoleBone
 from ..rig.hanging import HangingBone
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
@@ -306,6 +306,7 @@ class CharacterSettings(bpy.types.PropertyGroup):
 
     roles: CollectionProperty(type=RoleBone)  # type: ignore[valid-type]
     """What the bones are to the body, where the user has looked at it."""
+    doubts: CollectionProperty(type=DoubtfulBone)  # type: ignore[valid-type]
     hanging: CollectionProperty(type=HangingBone)  # type: ignore[valid-type]
     source: PointerProperty(  # type: ignore[valid-type]
         name="From",

@@ -25,7 +25,7 @@ from ..control_rig.binding import ControlRigSettings, FormerSwitch
 from ..mocap.doctor import TakeFinding
 from ..mocap.left_out import FrameSpan
 from ..recordings.recordings import Recording
-from ..rig.bodies import RoleBone
+from ..rig.bodies import DoubtfulBone, RoleBone
 from ..rig.hanging import HangingBone
 from .armature import (
     BakeSettings,
@@ -102,6 +102,7 @@ CLASSES = (
     FrameSpan,
     TakeFinding,
     RoleBone,
+    DoubtfulBone,
     HangingBone,
     FormerSwitch,
     ControlRigSettings,

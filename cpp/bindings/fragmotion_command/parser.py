@@ -25,8 +25,10 @@ _EXAMPLES = (
     "evaluate walks/ --quick",
     "doctor walks/ --json findings.json",
     "retarget walks/ --onto hero.bvh --into retargeted/",
+    "retarget walks/ --onto hero.glb --into retargeted/",
 )
-_EPILOG = """Takes are BVH files, AMC files with their ASF beside them, and folders of such, at any depth.
+_EPILOG = """Takes are BVH files, AMC files with their ASF beside them, and folders of such, at any depth. Retarget
+reads FBX, glTF, VRM and USD files, too, where Blender's module bpy is installed.
 A trace is a CSV file: velocity_x,velocity_y (m/s), turn (-1 to 1), jump (0 or 1), 10 rows a second; columns `move` and
 `style` after these may name the moves that are held and the style. The exit code is 0 where all was done; else it is 1,
 or 2 where the command was not understood, and the cause is told."""
@@ -139,7 +141,8 @@ def _add_evaluate(word: argparse.ArgumentParser) -> argparse._MutuallyExclusiveG
 
 def _add_retarget(word: argparse.ArgumentParser) -> None:
     _add_takes(word)
-    word.add_argument("--onto", type=Path, required=True, metavar="FILE", help="a BVH or ASF file of the skeleton")
+    word.add_argument("--onto", type=Path, required=True, metavar="FILE", help="a file of the skeleton or rig")
+    word.add_argument("--armature", metavar="NAME", help="which armature, where a file has several")
     word.add_argument("--into", type=Path, metavar="FOLDER", help="write the takes there as BVH files")
     _add_unit(word)
     word.add_argument("--onto-unit", type=float, metavar="M", help="in one of the skeleton's (as --unit)")

@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
+from . import by_blender
 from .core import core
 from .files import ENDINGS, UNIT
 from .running import say
@@ -29,7 +30,7 @@ def read_take(path: Path, unit: float = UNIT) -> core.Take:
     if path.suffix.lower() not in ENDINGS:
         raise ValueError(
             f"{path}: not motion capture that is read without Blender ({', '.join(ENDINGS)}); FBX, glTF and others are "
-            "read by `blender -c fragmotion`"
+            "read by `fragmotion retarget` and by `blender -c fragmotion`"
         )
     return core.read_bvh(path, unit) if path.suffix.lower() == ".bvh" else core.read_asf_amc(core.find_asf(path), path)
 
@@ -50,15 +51,37 @@ def _read_or_cause(path: Path, unit: float) -> core.Take | str:
 def read_mended(paths: Sequence[Path], unit: float | None) -> list[FileTake]:
     """The takes, with what is surely wrong put right and said; a file that cannot be read is named and left out.
     ValueError where that is each of them. `unit`: m in one of a BVH file; None: the body's size tells."""
-    read = read_each(paths, UNIT if unit is None else unit)
-    causes = [cause for cause in read if isinstance(cause, str)]
-    takes = [FileTake(path, take) for path, take in zip(paths, read) if not isinstance(take, str)]
+    others = [path for path in paths if by_blender.needs_blender(path)]
+    own = [path for path in paths if path not in others]
+    read = read_each(own, UNIT if unit is None else unit)
+    takes = [FileTake(path, take) for path, take in zip(own, read) if not isinstance(take, str)]
+    by_others, causes = _read_by_blender(others)
+    takes += by_others
+    causes += [cause for cause in read if isinstance(cause, str)]
     if not takes:
         raise ValueError("; ".join(causes))
     for cause in causes:
         say(f"left out: {cause}")
     examined = core.examine([each.take for each in takes], progress=hear)
     return [_mended(each, examination, unit is not None) for each, examination in zip(takes, examined)]
+
+
+def _read_by_blender(paths: Sequence[Path]) -> tuple[list[FileTake], list[str]]:
+    """All takes of files that Blender reads, and why others cannot be read; one cause for all where there is no bpy."""
+    takes: list[FileTake] = []
+    causes: list[str] = []
+    if not paths:
+        return takes, causes
+    try:
+        by_blender.check()
+    except ValueError as error:
+        return takes, [f"{with_more([str(path) for path in paths])}: {error}"]
+    for path in paths:
+        try:
+            takes += [FileTake(path, take) for take in by_blender.read_takes(path)]
+        except ValueError as error:
+            causes.append(str(error))
+    return takes, causes
 
 
 def hear(_fraction: float, _stage: str) -> None:

@@ -181,6 +181,13 @@ def test_copies_on_one_path_keep_apart(obj: bpy.types.Object, end: str) -> None:
     assert min(nearest) > 1.5
 
 
+def test_what_would_fill_the_memory_is_refused(obj: bpy.types.Object) -> None:
+    before = making.contents()
+    with pytest.raises(RuntimeError, match=r"1000 copies for 3000 s need some \d+ GB, and this computer has \d+: let"):
+        bpy.ops.fragmotion.populate("EXEC_DEFAULT", count=1000, seconds=3000)
+    assert making.contents() == before
+
+
 def test_a_path_too_short_for_so_many_is_refused(obj: bpy.types.Object) -> None:
     obj.fragmotion.path.curve = add_path([(0, 0), (0, 5)], closed=False)
     former = digest()

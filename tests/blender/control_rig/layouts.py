@@ -149,8 +149,10 @@ def _solve(obj: bpy.types.Object, side: str) -> None:
         bpy.context.view_layer.update()
         return float((knee.head - Vector(knee.bone.head_local)).length)
 
+    best = 0.0
     for step in (0.1, 0.01, 0.001, 0.0001):
-        solver.pole_angle = min((solver.pole_angle + step * count for count in range(-32, 33)), key=error)
+        best = min([best + step * count for count in range(-32, 33)], key=error)
+    solver.pole_angle = best
 
 
 def _copy(obj: bpy.types.Object, bone: str, source: str, kind: str) -> Any:

@@ -131,7 +131,11 @@ def test_the_view_says_whose_turn_it_is(session: ModuleType, obj: bpy.types.Obje
     assert driven.shown().title == "Kept: 'Stroll' is recorded over from 5.0 s to 7.0 s"
     assert driven.shown().span is None
     go_on(driven, 3)
-    assert driven.shown().title == "Playing 3.0 of 5.0 s"
+    assert driven.shown().title == "Kept: playing the rest, 3.0 of 5.0 s" and not driven.is_done
+    go_on(driven, 1.9)
+    assert not driven.is_done
+    go_on(driven, 0.2)
+    assert driven.is_done
 
 
 @pytest.mark.parametrize(("begin", "end"), [(-3.0, 2.0), (12.5, 14.0)])

@@ -192,15 +192,66 @@ def add_doubtful_character() -> bpy.types.Object:
     return making.add_armature([*(bone for bone in making.BODY if bone[0] != "hand.L"), *arms], name="Doubtful")
 
 
-@pytest.mark.skipif(not WALK.exists(), reason="no motion capture beside the project")
-def test_what_is_doubtful_about_bones_is_kept_at_the_import_until_the_user_says(tmp_path: Path) -> None:
+@pytest.fixture
+def doubtful(addon: ModuleType, tmp_path: Path) -> bpy.types.Object:
+    """A doubtful character onto which a take was imported."""
+    if not WALK.exists():
+        pytest.skip("no motion capture beside the project")
     (tmp_path / WALK.name).write_bytes(WALK.read_bytes())
     obj = add_doubtful_character()
-    assert bpy.ops.fragmotion.import_mocap(directory=str(tmp_path), onto="ACTIVE") == {"FINISHED"}
-    doubts = {role.name: role.doubt for role in obj.fragmotion.roles if role.doubt}
-    assert list(doubts) == ["left_hand"] and "'hand.L'" in doubts["left_hand"]
-    obj.fragmotion.roles["left_hand"].bone = "hand.L"
-    assert not obj.fragmotion.roles["left_hand"].doubt
+    assert import_again(tmp_path) == {"FINISHED"}
+    return obj
+
+
+def import_again(folder: Path) -> set[str]:
+    done: set[str] = bpy.ops.fragmotion.import_mocap(directory=str(folder), onto="ACTIVE")
+    return done
+
+
+def open_doubts(addon: ModuleType, obj: bpy.types.Object) -> list[tuple[str, str]]:
+    return [(doubt.name, doubt.bone) for doubt in addon.rig.bodies.open_doubts(obj)]
+
+
+def test_what_is_doubtful_about_bones_is_shown_at_the_import_and_chooses_no_role(
+    addon: ModuleType, doubtful: bpy.types.Object
+) -> None:
+    assert open_doubts(addon, doubtful) == [("left_hand", "hand.L")]
+    assert "'hand.L'" in doubtful.fragmotion.doubts["left_hand"].text
+    assert addon.rig.bodies.chosen_roles(doubtful) is None and doubtful.data.bones.active.name == "hand.L"
+    selected = addon.compat.versions.get_bone_selection(doubtful)
+    assert [name for name, (whole, _, _) in selected.items() if whole] == ["hand.L"]
+
+
+def test_a_bone_is_confirmed_by_one_click_and_stays_that_part(
+    addon: ModuleType, doubtful: bpy.types.Object, tmp_path: Path
+) -> None:
+    assert bpy.ops.fragmotion.confirm_bone(role="left_hand") == {"FINISHED"}
+    assert import_again(tmp_path) == {"FINISHED"}
+    assert not open_doubts(addon, doubtful) and addon.rig.bodies.chosen_roles(doubtful) is None
+    rig = addon.rig.rigs.make_rig(doubtful)
+    assert addon.rig.bodies.make_body(doubtful, rig).roles["left_hand"] == "hand.L"
+    doubtful.fragmotion.doubts["left_hand"].bone = "lower_arm.L"  # as if that had been found and confirmed
+    assert addon.rig.bodies.make_body(doubtful, rig).roles["left_hand"] == "lower_arm.L"
+    with pytest.raises(RuntimeError, match="nothing is doubtful about its left_foot"):
+        bpy.ops.fragmotion.confirm_bone(role="left_foot")
+
+
+def test_another_bone_that_is_chosen_ends_a_doubt(addon: ModuleType, doubtful: bpy.types.Object) -> None:
+    assert bpy.ops.fragmotion.find_bones() == {"FINISHED"}
+    assert open_doubts(addon, doubtful) == [("left_hand", "hand.L")]
+    doubtful.fragmotion.roles["left_hand"].bone = "lower_arm.L"
+    assert not open_doubts(addon, doubtful)
+
+
+def test_a_doubtful_bone_is_shown_in_pose_mode(addon: ModuleType, doubtful: bpy.types.Object) -> None:
+    addon.rig.selection.highlight(doubtful, ["head"])
+    assert bpy.ops.fragmotion.show_bone(role="left_hand") == {"FINISHED"}
+    assert doubtful.mode == "POSE" and bpy.context.active_pose_bone.name == "hand.L"
+    assert [bone.name for bone in bpy.context.selected_pose_bones] == ["hand.L"]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    doubtful.hide_set(True)
+    with pytest.raises(RuntimeError, match="is hidden"):
+        bpy.ops.fragmotion.show_bone(role="left_hand")
 
 
 @pytest.mark.skipif(not WALK.exists(), reason="no motion capture beside the project")
@@ -208,7 +259,7 @@ def test_a_usual_character_keeps_no_roles_at_the_import(tmp_path: Path) -> None:
     (tmp_path / WALK.name).write_bytes(WALK.read_bytes())
     obj = add_character()
     assert bpy.ops.fragmotion.import_mocap(directory=str(tmp_path), onto="ACTIVE") == {"FINISHED"}
-    assert not len(obj.fragmotion.roles)
+    assert not len(obj.fragmotion.roles) and not len(obj.fragmotion.doubts)
     assert not any(row.code == "limb" for action in bpy.data.actions for row in action.fragmotion.findings)
 
 

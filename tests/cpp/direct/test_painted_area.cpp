@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -63,6 +64,30 @@ TEST(PaintedArea, IsFullWhereThereIsNoRoom) {
   const std::size_t found = PaintedArea({kFar}).draw_apart(random, 50, 0.8).size();
   EXPECT_GE(found, 1U);
   EXPECT_LE(found, 3U);
+}
+
+TEST(PaintedArea, KeepsThoseOfItsDrawsThatAreFarFromAllBefore) {
+  const PaintedArea area({kSlope, kFar});
+  Random random(5), same(5);
+  constexpr double kSpacing = 0.05;
+  std::vector<Vector3> expected;
+  while (expected.size() < 100) {
+    const Vector3 place = area.draw(same);
+    const auto is_near = [&](const Vector3& other) { return (place - other).head<2>().norm() < kSpacing; };
+    if (std::none_of(expected.begin(), expected.end(), is_near)) expected.push_back(place);
+  }
+  EXPECT_EQ(area.draw_apart(random, 100, kSpacing), expected);
+}
+
+TEST(PaintedArea, IsSoonFullForAMillionWideApart) {
+  Random random(2), same(2);
+  const std::size_t found = PaintedArea({kFar}).draw_apart(random, 1000000, 0.5).size();
+  EXPECT_GE(found, 1U);
+  EXPECT_LE(found, 6U);
+  const double next = random.uniform();
+  int drawn = 0;
+  while (drawn < 100000 && same.uniform() != next) ++drawn;
+  EXPECT_LT(drawn, 100000) << "numbers were drawn";
 }
 
 TEST(PaintedArea, RefusesWhatIsNoPaintedSurface) {

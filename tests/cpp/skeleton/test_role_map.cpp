@@ -266,6 +266,27 @@ TEST(RoleMap, AFootOnWhichNothingHangsGivesWayToTheOneBesideIt) {
   }
 }
 
+TEST(RoleMap, AFootThatCarriesNoSkinGivesWayToTheOneBesideItThatDoes) {
+  Skeleton skeleton = Humanoid(family_named("Unreal")).skeleton;
+  for (const std::string side : {"l", "r"}) {  // with toes of its own, as a chain of controls has them
+    const int real = skeleton.find("foot_" + side);
+    skeleton.names[real] = "joint_" + side;
+    append(skeleton, "foot_" + side, "calf_" + side, skeleton.offsets[real]);
+    append(skeleton, "toes_" + side, "foot_" + side, Vector3{0, 0.1, 0});
+  }
+  Skin skin;
+  skin.points.assign(1, Vector3::Zero());
+  const auto foot = [&](const Skin* known) {
+    return named_bones(skeleton, find_role_map(skeleton, nullptr, Sides::of_the_body, known)).at("left_foot");
+  };
+  EXPECT_EQ(foot(nullptr), "foot_l");
+  EXPECT_EQ(foot(&skin), "foot_l") << "a skin without weights tells nothing";
+  for (const std::string name : {"pelvis", "ball_l", "ball_r"}) skin.weights.push_back({0, skeleton.find(name), 1});
+  EXPECT_EQ(foot(&skin), "joint_l");
+  skin.weights.push_back({0, skeleton.find("toes_l"), 0.1});
+  EXPECT_EQ(foot(&skin), "foot_l");
+}
+
 TEST(RoleMap, OfAUserIsKept) {
   const Humanoid body(family_named("Daz"));
   const RoleMap map = role_map_of(body.skeleton, body.roles);

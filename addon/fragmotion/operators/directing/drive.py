@@ -193,6 +193,9 @@ class FRAGMOTION_OT_drive(_Hearing, bpy.types.Operator):
             with core_errors("Drive"):
                 if self._session.update(seconds):
                     views.tag_redraw()
+        if self._session.is_done:
+            session.stop()
+            return self._end()
         self._tell()
         self._show_hints(context)
         if now - self._drawn > _PANEL_INTERVAL:

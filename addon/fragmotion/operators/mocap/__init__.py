@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from . import control_rig
+from . import bones, control_rig
 from .add_sample import FRAGMOTION_OT_add_sample
-from .bones import FRAGMOTION_OT_find_bones, FRAGMOTION_OT_load_bones, FRAGMOTION_OT_save_bones
 from .import_mocap import DROP_HANDLERS, FRAGMOTION_OT_import_mocap
 from .mend_finding import FRAGMOTION_OT_mend_finding
 from .play_take import FRAGMOTION_OT_play_take
@@ -18,9 +17,7 @@ __all__ = ["CLASSES", "DROP_HANDLERS"]
 
 CLASSES = (
     FRAGMOTION_OT_add_sample,
-    FRAGMOTION_OT_find_bones,
-    FRAGMOTION_OT_save_bones,
-    FRAGMOTION_OT_load_bones,
+    *bones.CLASSES,
     *control_rig.CLASSES,
     FRAGMOTION_OT_import_mocap,
     FRAGMOTION_OT_mend_finding,

@@ -11,7 +11,6 @@ from ...control_rig import baking, binding
 from ...control_rig.detecting import is_control_rig
 from ...errors import reported
 from ...jobs import Job, SteppedJob
-from ...rig.keys import Poses
 from ...rig.posing import check_free
 from ..base.background import Exclusive, poll_idle
 from ..base.context import active_rig, poll_rig
@@ -104,9 +103,9 @@ class FRAGMOTION_OT_bake_to_controls(_Bound, Exclusive, bpy.types.Operator):
         steps = baking.step(context, obj, self._frames)
         return SteppedJob(f"Baking '{obj.name}'", f"{len(self._frames)} frames", steps)
 
-    def _keep(self, context: bpy.types.Context, obj: bpy.types.Object, result: Poses) -> None:
+    def _keep(self, context: bpy.types.Context, obj: bpy.types.Object, result: baking.Keyed) -> None:
         action = baking.keep(context, obj, self._frames, result)
-        count, first, last = result.rotations.shape[1], self._frames[0], self._frames[-1]
+        count, first, last = result.poses.rotations.shape[1], self._frames[0], self._frames[-1]
         self.report({"INFO"}, f"Baked {count} controls, frames {first}-{last}, to Action '{action.name}'")
 
 

@@ -27,11 +27,11 @@ class Retargeted(NamedTuple):
 
 
 def retarget(options: argparse.Namespace) -> Done:
-    """Bring takes onto a skeleton of a BVH or ASF file."""
+    """Bring takes onto the skeleton of a file."""
     inputs.check(options)
-    inputs.check_skeleton(options.onto)
     sources = read_sources(options.takes, options.unit)
-    return bring(options, sources, read_body(options.onto, options.onto_unit, options.roles)).done
+    body = read_body(options.onto, options.onto_unit, options.roles, options.armature)
+    return bring(options, sources, body).done
 
 
 def bring(options: argparse.Namespace, sources: list[Source], body: core.Body) -> Retargeted:

@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
+from ..by_blender import RIGS
 from ..files import UNIT
 from .roles import role_of
 
@@ -16,6 +16,7 @@ def check(options: argparse.Namespace) -> None:
     """Fill in what nobody told; ValueError on what cannot be used."""
     if not options.onto.is_file():
         raise ValueError(f"{options.onto}: there is no such file")
+    _check_ending(options)
     if options.onto_unit is None:
         options.onto_unit = UNIT if options.unit is None else options.unit
     options.roles = [role_of(text) for text in options.role]
@@ -26,10 +27,9 @@ def check(options: argparse.Namespace) -> None:
             raise ValueError(f"--{name.replace('_', '-')} is {value:g}, and must be over 0")
 
 
-def check_skeleton(path: Path) -> None:
-    """ValueError where the target is nothing that the core reads."""
-    if path.suffix.lower() not in SKELETONS:
-        raise ValueError(
-            f"{path}: not a skeleton that is read without Blender ({', '.join(SKELETONS)}); rigs are read by "
-            "`blender -c fragmotion retarget`"
-        )
+def _check_ending(options: argparse.Namespace) -> None:
+    ending = options.onto.suffix.lower()
+    if ending not in (*SKELETONS, *RIGS):
+        raise ValueError(f"{options.onto}: neither a skeleton ({', '.join(SKELETONS)}) nor a rig ({', '.join(RIGS)})")
+    if options.armature and ending in SKELETONS:
+        raise ValueError(f"--armature is for rigs, and {options.onto.name} is a skeleton alone: leave it out")

@@ -20,13 +20,15 @@ def role_of(text: str) -> tuple[str, str]:
     return (side + role[:-2] if side else role), bone
 
 
-def make_body(skeleton: core.Skeleton, clips: Sequence[core.Clip], told: Sequence[tuple[str, str]]) -> core.Body:
+def make_body(
+    skeleton: core.Skeleton,
+    clips: Sequence[core.Clip],
+    told: Sequence[tuple[str, str]],
+    skin: core.Skin | None = None,
+) -> core.Body:
     """The body of a skeleton, whose bones are what is told of those that it has."""
     own = {role: bone for role, bone in told if bone in skeleton.names}
-    if not own:
-        return core.Body(skeleton, clips)
-    found = {role: bone for role, (bone, _) in skeleton.role_map().items() if bone not in own.values()}
-    return core.Body(skeleton, clips, {**found, **own})
+    return core.Body(skeleton, clips, told=own, skin=skin)
 
 
 def check_bones(skeletons: Sequence[core.Skeleton], told: Sequence[tuple[str, str]]) -> None:

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <unordered_map>
 #include <utility>
 
 namespace fragmotion {
 namespace {
 
-constexpr int kTries = 400;  // for each place, until the area counts as full
+constexpr int kTries = 400;        // in a row for each place that is there, until the area counts as full
+constexpr double kFinest = 1e-12;  // of the furthest corner: a finer grid has no numbers for its cells
 
 double most_paint(const PaintedTriangle& triangle) {
   return *std::max_element(triangle.paint.begin(), triangle.paint.end());
@@ -23,6 +25,53 @@ void check(const PaintedTriangle& triangle) {
       throw std::invalid_argument("the paint of an area must be 0 to 1");
     }
   }
+}
+
+// Places by the cells of a grid, seen from above: what is near another lies in a cell beside it.
+class Grid {
+ public:
+  explicit Grid(double cell) : cell_(cell) {}
+
+  void add(const Vector3& place) { places_[cell_of(place)].push_back(place); }
+
+  bool has_nearer(const Vector3& place, double spacing) const {
+    const auto [x, y] = cell_of(place);
+    for (std::int64_t i = x - 1; i <= x + 1; ++i) {
+      for (std::int64_t j = y - 1; j <= y + 1; ++j) {
+        const auto found = places_.find({i, j});
+        if (found == places_.end()) continue;
+        for (const Vector3& other : found->second) {
+          if ((place - other).head<2>().norm() < spacing) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  using Cell = std::pair<std::int64_t, std::int64_t>;
+
+  struct Hash {
+    std::size_t operator()(const Cell& cell) const {
+      return static_cast<std::size_t>(cell.first) * 0x9E3779B97F4A7C15u ^ static_cast<std::size_t>(cell.second);
+    }
+  };
+
+  Cell cell_of(const Vector3& place) const {
+    return {static_cast<std::int64_t>(std::floor(place.x() / cell_)),
+            static_cast<std::int64_t>(std::floor(place.y() / cell_))};
+  }
+
+  double cell_;
+  std::unordered_map<Cell, std::vector<Vector3>, Hash> places_;
+};
+
+double furthest_of(const std::vector<PaintedTriangle>& triangles) {
+  double furthest = 0;
+  for (const PaintedTriangle& triangle : triangles) {
+    for (const Vector3& corner : triangle.corners) furthest = std::max(furthest, corner.cwiseAbs().maxCoeff());
+  }
+  return furthest;
 }
 
 }  // namespace
@@ -58,11 +107,17 @@ Vector3 PaintedArea::draw(Random& random) const {
 
 std::vector<Vector3> PaintedArea::draw_apart(Random& random, int count, double spacing) const {
   std::vector<Vector3> places;
-  for (std::int64_t tries = std::int64_t{kTries} * count; tries > 0 && static_cast<int>(places.size()) < count;
-       --tries) {
+  Grid grid(std::max(spacing, kFinest * furthest_of(triangles_)));
+  std::int64_t misses = 0;
+  while (static_cast<int>(places.size()) < count && misses < kTries * static_cast<std::int64_t>(places.size() + 1)) {
     const Vector3 place = draw(random);
-    const auto is_near = [&](const Vector3& other) { return (place - other).head<2>().norm() < spacing; };
-    if (std::none_of(places.begin(), places.end(), is_near)) places.push_back(place);
+    if (grid.has_nearer(place, spacing)) {
+      ++misses;
+      continue;
+    }
+    places.push_back(place);
+    grid.add(place);
+    misses = 0;
   }
   return places;
 }

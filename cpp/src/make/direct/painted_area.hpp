@@ -24,8 +24,8 @@ class PaintedArea {
   /// A place on it.
   Vector3 draw(Random& random) const;
 
-  /// So many places, seen from above no two of them nearer than `spacing`, m; as many as are found in 400 draws for
-  /// each where there is no room for all.
+  /// So many places, seen from above no two of them nearer than `spacing`, m; fewer where 400 draws in a row for each
+  /// place that is there find no room for another.
   std::vector<Vector3> draw_apart(Random& random, int count, double spacing) const;
 
  private:

@@ -335,11 +335,12 @@ class Synthesizer {
     }
   }
 
-  // A gait that begins with frame `first` of a cycle, whose flight in a hop ends on the foot that did not take off.
+  // A gait that begins with frame `first` of a cycle, whose flight in a hop ends on the foot that did not take off:
+  // legs in the air get there kTurnsAtMost times as fast as steps may follow each other.
   Clip landing_in_turn(Clip clip, const Cycle& cycle, int first, const Hop& hop) {
     const double take_off = hop.crouch() * clip.rate, flight = hop.flight() * clip.rate;
     const int down = next_foot_down(contacts(cycle.clip), cycle.begin, cycle.end, first + static_cast<int>(take_off),
-                                    static_cast<int>(kMostTempo * flight));
+                                    static_cast<int>(kTurnsAtMost * kMostTempo * flight));
     return down < 0 ? clip : gait_in_flight(kinematics_, clip, take_off, take_off + flight, down - first);
   }
 

@@ -320,10 +320,10 @@ void set_reference(const Told& told, Body& body) {
 
 }  // namespace
 
-Body make_body(const Skeleton& skeleton, const RoleMap& map, const std::vector<Clip>& clips) {
+Body make_body(const Skeleton& skeleton, const RoleMap& map, const std::vector<Clip>& clips, const Skin* skin) {
   check_complete(map);
   check_legs(skeleton, map);
-  const Skeleton likely = with_likely_tips(with_short_feet(with_roles(skeleton, map), map), map);
+  const Skeleton likely = with_likely_tips(with_short_feet(with_roles(skeleton, map), map), map, skin);
   Body body(Kinematics(likely), on_body(skeleton, map));
   body.legs = {leg_of(skeleton, map, Side::kLeft), leg_of(skeleton, map, Side::kRight)};
   measure(rest_posture(skeleton), body);

@@ -17,8 +17,8 @@ constexpr Side kBothSides[] = {Side::kLeft, Side::kRight};
 
 class Doubts {
  public:
-  Doubts(const Skeleton& skeleton, const RoleMap& map)
-      : skeleton_(skeleton), map_(map), rest_(rest_posture(skeleton)) {}
+  Doubts(const Skeleton& skeleton, const RoleMap& map, const Skin* skin)
+      : skeleton_(skeleton), map_(map), skin_(skin), rest_(rest_posture(skeleton)) {}
 
   std::vector<RoleDoubt> find() {
     for (const Side side : kBothSides) look_at_leg(side);
@@ -75,6 +75,7 @@ class Doubts {
     if (hand < 0 || arm < 0 || leads_on(with_likely_tips(skeleton_, map_), arm, hand) == leads_on(skeleton_, arm, hand))
       return;
     if (std::find(skeleton_.parents.begin(), skeleton_.parents.end(), hand) != skeleton_.parents.end()) return;
+    if (skin_ && way_of_skin(skeleton_, *skin_, hand).squaredNorm() > 0) return;
     add(Role::kHand, side, hand,
         "has no fingers and ends aside of the arm: it is taken to be straight at rest; see whether the wrist is right");
   }
@@ -90,14 +91,15 @@ class Doubts {
 
   const Skeleton& skeleton_;
   const RoleMap& map_;
+  const Skin* skin_;
   PosedBones rest_;
   std::vector<RoleDoubt> doubts_;
 };
 
 }  // namespace
 
-std::vector<RoleDoubt> find_doubts(const Skeleton& skeleton, const RoleMap& map) {
-  return Doubts(skeleton, map).find();
+std::vector<RoleDoubt> find_doubts(const Skeleton& skeleton, const RoleMap& map, const Skin* skin) {
+  return Doubts(skeleton, map, skin).find();
 }
 
 }  // namespace fragmotion

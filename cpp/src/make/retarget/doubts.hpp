@@ -17,7 +17,7 @@ struct RoleDoubt {
 
 /// What of a map a person should look at before motion is brought onto the skeleton: bones that their place alone
 /// tells, a joint too many in a leg, legs that end far over the ground or hang on a bone between the feet, and hands
-/// whose direction nothing tells. At most one doubt a bone.
-std::vector<RoleDoubt> find_doubts(const Skeleton& skeleton, const RoleMap& map);
+/// whose direction nothing tells, nor `skin` where given. At most one doubt a bone.
+std::vector<RoleDoubt> find_doubts(const Skeleton& skeleton, const RoleMap& map, const Skin* skin = nullptr);
 
 }  // namespace fragmotion

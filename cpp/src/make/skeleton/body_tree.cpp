@@ -78,7 +78,7 @@ std::vector<int> layer_parents(const Skeleton& skeleton, const Names& names, con
 
 }  // namespace
 
-BodyTree::BodyTree(const Skeleton& skeleton) {
+BodyTree::BodyTree(const Skeleton& skeleton, const Skin* skin) {
   const Names plain = without_node_numbers(skeleton.names);
   names = read_names(plain);
   in_layer = in_body = body_layer(plain);
@@ -86,6 +86,7 @@ BodyTree::BodyTree(const Skeleton& skeleton) {
   depth.assign(size(), 0);
   holds.assign(size(), {});
   twist.assign(size(), false);
+  bare = skin ? bare_bones(skeleton, *skin) : std::vector<bool>(size(), false);
   for (const BoneName& name : names) said.push_back(fragmotion::says(name));
   silence_numbered_limbs();
   for (int b = 0; b < size(); ++b) {

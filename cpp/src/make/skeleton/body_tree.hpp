@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "skeleton/body_words.hpp"
+#include "skeleton/skin.hpp"
 
 namespace fragmotion {
 
 /// A skeleton as its names tell it: which bones may be a body's, and how those hang on each other. Of a rig in layers
 /// (Rigify's DEF-, ORG-, MCH- and controls) the body is one layer, whose bones often hang on those of the others.
 struct BodyTree {
-  explicit BodyTree(const Skeleton& skeleton);
+  explicit BodyTree(const Skeleton& skeleton, const Skin* skin = nullptr);
 
   /// What remains where names lie.
   void forget_names();
@@ -32,6 +33,7 @@ struct BodyTree {
   std::vector<bool> in_layer;
   std::vector<bool> in_body;               ///< Of the body's layer, and no helper by its name.
   std::vector<bool> twist;                 ///< By its name.
+  std::vector<bool> bare;                  ///< See bare_bones(); none where no skin is known.
   std::vector<int> parents;                ///< Among the bones of the layer, -1 above.
   std::vector<int> depth;                  ///< Bones of the layer above.
   std::vector<std::array<bool, 2>> holds;  ///< Whether it, or a bone below it, is named of the left, of the right.

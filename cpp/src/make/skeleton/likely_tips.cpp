@@ -47,7 +47,7 @@ bool leads_on(const Skeleton& skeleton, int before, int bone) {
   return RestBones(skeleton).leads_on(skeleton.tips[bone], before, bone);
 }
 
-Skeleton with_likely_tips(Skeleton skeleton, const RoleMap& map) {
+Skeleton with_likely_tips(Skeleton skeleton, const RoleMap& map, const Skin* skin) {
   const RestBones rest(skeleton);
   const auto straighten = [&](int before, int bone) {
     Vector3& tip = skeleton.tips[bone];
@@ -55,9 +55,11 @@ Skeleton with_likely_tips(Skeleton skeleton, const RoleMap& map) {
   };
   for (const RoleBone& bone : map.bones) {
     if (bone.role == Role::kHand) {
-      const Vector3 way = palm(skeleton, map, bone.bone);
-      if (way.squaredNorm() > 0) skeleton.tips[bone.bone] = way;
-      straighten(map.bone(Role::kLowerArm, bone.side), bone.bone);
+      const Vector3 knuckles = palm(skeleton, map, bone.bone);
+      const Vector3 hand = skin && knuckles.squaredNorm() == 0 ? way_of_skin(skeleton, *skin, bone.bone) : knuckles;
+      if (hand.squaredNorm() > 0) skeleton.tips[bone.bone] = hand;
+      if (knuckles.squaredNorm() > 0 || hand.squaredNorm() == 0)
+        straighten(map.bone(Role::kLowerArm, bone.side), bone.bone);
     } else if (bone.role == Role::kFinger && bone.order > 0) {
       straighten(skeleton.parents[bone.bone], bone.bone);
     }

@@ -10,7 +10,8 @@ namespace fragmotion {
 bool leads_on(const Skeleton& skeleton, int before, int bone);
 
 /// The skeleton with tips that hands and fingers can have: a hand's where the bones lead that hang on it but for the
-/// thumb, else, and of a finger's joints but the first, straight on from the bone before it where it does not lead on.
-Skeleton with_likely_tips(Skeleton skeleton, const RoleMap& map);
+/// thumb, else where its part of `skin` does, else, and of a finger's joints but the first, straight on from the bone
+/// before it where it does not lead on.
+Skeleton with_likely_tips(Skeleton skeleton, const RoleMap& map, const Skin* skin = nullptr);
 
 }  // namespace fragmotion

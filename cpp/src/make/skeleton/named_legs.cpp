@@ -38,17 +38,19 @@ int next_bone(const std::vector<Vector3>& heads, const BodyTree& tree, int bone,
   return -1;
 }
 
-/// The leg's chain is the one that goes on to the ground.
+/// The leg's chain is the one that carries what is seen, and goes on to the ground.
 void leave_dead_end(const std::vector<Vector3>& heads, const BodyTree& tree, Limb& leg) {
   const int shin = leg.bones[Limb::kLower], foot = leg.bones[Limb::kEnd];
-  if (shin < 0 || foot < 0 || leg.bones[Limb::kTip] >= 0) return;
+  if (shin < 0 || foot < 0) return;
+  const bool bare = tree.bare[foot], goes_on = leg.bones[Limb::kTip] >= 0 || next_bone(heads, tree, foot, 0) >= 0;
+  if (goes_on && !bare) return;
   const double length = (heads[foot] - heads[shin]).norm();
-  if (next_bone(heads, tree, foot, 0) >= 0) return;
   for (int b = shin + 1; b < tree.size(); ++b) {
     const bool beside = b != foot && tree.in_body[b] && !tree.twist[b] && tree.parents[b] == tree.parents[foot] &&
                         tree.says(b, Role::kFoot) >= 0 && (heads[b] - heads[foot]).norm() <= kBeside * length;
-    const int toe = beside ? next_bone(heads, tree, b, kGoesOn * length) : -1;
-    if (toe < 0) continue;
+    if (!beside || tree.bare[b]) continue;
+    const int toe = next_bone(heads, tree, b, kGoesOn * length);
+    if (toe < 0 && !bare) continue;
     leg.bones[Limb::kEnd] = b, leg.bones[Limb::kTip] = toe;
     leg.confidence[Limb::kEnd] = leg.confidence[Limb::kTip] = kToldByShape;
     return;

@@ -310,8 +310,8 @@ double RoleMap::confidence(Role role, Side side) const {
   return least;
 }
 
-RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion, Sides sides) {
-  BodyTree tree(skeleton);
+RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion, Sides sides, const Skin* skin) {
+  BodyTree tree(skeleton, skin);
   if (const std::optional<Body> beast = four_legged_body(skeleton, tree)) return MapMaker(tree, *beast).make();
   std::optional<Body> named = named_body(tree);
   if (!named) tree.forget_names();
@@ -374,6 +374,16 @@ RoleMap role_map_of(const Skeleton& skeleton, const std::map<std::string, std::s
   }
   find_twists(skeleton, BodyTree(skeleton), map);
   return map;
+}
+
+RoleMap with_told(const Skeleton& skeleton, const RoleMap& found, const std::map<std::string, std::string>& told) {
+  std::set<std::string> taken;
+  for (const auto& [label, name] : told) taken.insert(name);
+  std::map<std::string, std::string> bones = told;
+  for (const auto& [label, name] : named_bones(skeleton, found)) {
+    if (!taken.count(name)) bones.emplace(label, name);
+  }
+  return role_map_of(skeleton, bones);
 }
 
 }  // namespace fragmotion

@@ -7,6 +7,7 @@
 
 #include "skeleton/bone_names.hpp"
 #include "skeleton/skeleton.hpp"
+#include "skeleton/skin.hpp"
 
 namespace fragmotion {
 
@@ -78,9 +79,10 @@ enum class Sides { of_the_body, of_the_names };
 /// The roles that names tell, and where they say nothing the shape: pairs of limbs that are alike, the lengths of their
 /// bones, what is lowest, where the feet point; by `motion` too, where given: which joints bend, to where knees do,
 /// which way is up. Names that contradict the hierarchy tell nothing, nor does the shape what names contradict, but for
-/// left and right, where `sides` are the body's. What stands on four legs at rest is told by its shape alone.
-RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion = nullptr,
-                      Sides sides = Sides::of_the_body);
+/// left and right, where `sides` are the body's. What stands on four legs at rest is told by its shape alone. Of two
+/// feet of a leg that names tell, the one that carries `skin`, where given, is the foot.
+RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion = nullptr, Sides sides = Sides::of_the_body,
+                      const Skin* skin = nullptr);
 
 /// The bones of a map that the method needs; -1 where it has none.
 Roles roles_of(const RoleMap& map);
@@ -97,5 +99,8 @@ std::map<std::string, std::string> named_bones(const Skeleton& skeleton, const R
 /// The map that a user gives, with full confidence. Throws std::invalid_argument on an unknown role, on a bone that the
 /// skeleton lacks and on one that is named twice.
 RoleMap role_map_of(const Skeleton& skeleton, const std::map<std::string, std::string>& bones);
+
+/// A map that was found, but for some roles that a user gives, as for role_map_of().
+RoleMap with_told(const Skeleton& skeleton, const RoleMap& found, const std::map<std::string, std::string>& told);
 
 }  // namespace fragmotion

@@ -6,9 +6,6 @@
 
 namespace fragmotion {
 
-/// So much faster than ever in the takes a bone turns at most.
-constexpr double kTurnsAtMost = 1.25;
-
 /// s that a stitch of neck and head takes at most.
 constexpr double kSlowestStitch = 1;
 

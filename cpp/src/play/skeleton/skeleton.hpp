@@ -23,6 +23,9 @@ struct Roles {
   int left_fore_leg = -1, right_fore_leg = -1;  ///< Where the fore legs begin.
 };
 
+/// So much faster than ever in the takes a bone turns at most.
+constexpr double kTurnsAtMost = 1.25;
+
 /// How many legs a body has at most. Legs and feet are numbered: the left and the right one, and of a four-legged body
 /// these are the hind ones, and the fore ones follow.
 constexpr int kMostLegs = 4;

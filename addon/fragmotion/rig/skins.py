@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What of meshes follows which bones of an armature."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ..compat.core import core
+
+if TYPE_CHECKING:
+    from fragmotion_core import Doubles, Rig, Skin
+
+
+def make_skin(obj: bpy.types.Object, rig: Rig) -> Skin:
+    """The skin of an armature: the meshes that it deforms by their vertex groups, and those that are its bones'
+    children."""
+    skin: Skin = core.Skin(rig.skeleton)
+    for mesh in bpy.data.objects:
+        if mesh.type != "MESH":
+            continue
+        if mesh.find_armature() == obj:
+            skin.add(np.array(mesh.matrix_world), _points(mesh), mesh.vertex_groups.keys(), _weights(mesh))
+        elif mesh.parent == obj and mesh.parent_type == "BONE" and mesh.parent_bone in obj.data.bones:
+            points = _points(mesh)
+            rows = np.column_stack([np.arange(len(points)), np.zeros(len(points)), np.ones(len(points))])
+            skin.add(_resting(mesh, obj), points, [mesh.parent_bone], rows)
+    return skin
+
+
+def _points(mesh: bpy.types.Object) -> Doubles:
+    points = np.empty(3 * len(mesh.data.vertices), np.float32)
+    mesh.data.vertices.foreach_get("co", points)
+    return points.reshape(-1, 3).astype(float)
+
+
+def _weights(mesh: bpy.types.Object) -> Doubles:
+    """Rows of a vertex, a group and how much it follows that."""
+    rows = [(vertex.index, group.group, group.weight) for vertex in mesh.data.vertices for group in vertex.groups]
+    return np.array(rows, float).reshape(-1, 3)
+
+
+def _resting(mesh: bpy.types.Object, obj: bpy.types.Object) -> Doubles:
+    """Where a bone's child is while the armature rests."""
+    bone = obj.pose.bones[mesh.parent_bone]
+    return np.array(
+        obj.matrix_world @ bone.bone.matrix_local @ (obj.matrix_world @ bone.matrix).inverted_safe() @ mesh.matrix_world
+    )
