@@ -84,5 +84,13 @@ TEST(ParallelFor, ThrowsTheLowestPartsException) {
   }
 }
 
+TEST(ParallelMap, ReturnsWhatIsMadeOfEachIndexInOrder) {
+  for (const int threads : {1, 3, 16}) {
+    EXPECT_EQ(parallel_map(5, threads, [](int i) { return std::to_string(i * i); }),
+              (std::vector<std::string>{"0", "1", "4", "9", "16"}));
+  }
+  EXPECT_TRUE(parallel_map(0, 3, [](int i) { return i; }).empty());
+}
+
 }  // namespace
 }  // namespace fragmotion

@@ -75,11 +75,8 @@ class Reduction {
 
   // The tolerance is in the armature's units.
   std::vector<FittedKeys> fitted(const Deviation& tolerance) const {
-    std::vector<FittedKeys> keys(tracks_.size());
-    parallel_for(static_cast<int>(tracks_.size()), thread_count(0), [&](int begin, int end) {
-      for (int i = begin; i < end; ++i) keys[i] = fit_keys(tracks_[i].values, tracks_[i].width(), own(i, tolerance));
-    });
-    return keys;
+    return parallel_map(static_cast<int>(tracks_.size()), thread_count(0),
+                        [&](int i) { return fit_keys(tracks_[i].values, tracks_[i].width(), own(i, tolerance)); });
   }
 
   // A quaternion's components change half as fast as its angle.

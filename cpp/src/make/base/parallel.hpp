@@ -47,4 +47,14 @@ void parallel_for(int count, int threads, const Body& body) {
   }
 }
 
+/// make(i) of each i in 0 .. count - 1, in order, made on `threads` threads as by parallel_for.
+template <typename Make>
+auto parallel_map(int count, int threads, const Make& make) {
+  std::vector<decltype(make(0))> made(std::max(0, count));
+  parallel_for(count, threads, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) made[i] = make(i);
+  });
+  return made;
+}
+
 }  // namespace fragmotion

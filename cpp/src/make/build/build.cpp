@@ -53,13 +53,13 @@ class Stopwatch {
 };
 
 // Cuts the clips from `first` on and marks their fragments.
-void cut(FragmentPool& pool, const Kinematics& kinematics, std::size_t first, Origin origin,
-         const CutOptions& options) {
-  for (std::size_t c = first; c < pool.clips.size(); ++c) {
-    const std::size_t before = pool.fragments.size();
-    cut_fragments(pool, static_cast<int>(c), find_contacts(kinematics, pool.clips[c]), options);
-    for (std::size_t i = before; i < pool.fragments.size(); ++i) pool.fragments[i].origin = origin;
-  }
+void cut(FragmentPool& pool, const Kinematics& kinematics, int first, Origin origin, const BuildOptions& options) {
+  const int count = static_cast<int>(pool.clips.size()) - first;
+  const auto contacts = parallel_map(count, thread_count(options.threads),
+                                     [&](int c) { return find_contacts(kinematics, pool.clips[first + c]); });
+  const std::size_t before = pool.fragments.size();
+  for (int c = 0; c < count; ++c) cut_fragments(pool, first + c, contacts[c], options.cut);
+  for (std::size_t i = before; i < pool.fragments.size(); ++i) pool.fragments[i].origin = origin;
 }
 
 // The clip, again and again where it is a short cycle: so that it goes on where it ends.
@@ -82,26 +82,29 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
                            MirrorImages& images) {
   const Skeleton& skeleton = kinematics.skeleton();
   FragmentPool pool{skeleton, {}, {}};
-  for (const Clip& clip : clips) pool.clips.push_back(in_rounds(kinematics, make_clip(skeleton, clip)));
-  cut(pool, kinematics, 0, Origin::captured, options.cut);
+  const int takes = static_cast<int>(clips.size()), threads = thread_count(options.threads);
+  pool.clips =
+      parallel_map(takes, threads, [&](int c) { return in_rounds(kinematics, make_clip(skeleton, clips[c])); });
+  cut(pool, kinematics, 0, Origin::captured, options);
   if (pool.fragments.empty()) {
     throw std::invalid_argument("the takes are too short: none holds a fragment of " +
                                 std::to_string(options.cut.shortest) + " s");
   }
   if (options.mirror) {
     const Mirror mirror(kinematics, pool.clips);
-    for (std::size_t c = 0; c < clips.size(); ++c) pool.clips.push_back(mirror(pool.clips[c]));
-    images = mirror_images(mirror.turns(), static_cast<int>(clips.size()));
-    cut(pool, kinematics, clips.size(), Origin::mirrored, options.cut);
+    for (Clip& image : parallel_map(takes, threads, [&](int c) { return mirror(pool.clips[c]); }))
+      pool.clips.push_back(std::move(image));
+    images = mirror_images(mirror.turns(), takes);
+    cut(pool, kinematics, takes, Origin::mirrored, options);
   }
   return pool;
 }
 
 // Fills the evident controls; returns the space that fits them and the usual height of the centre of mass.
-ControlSpace perform(FragmentPool& pool, const Kinematics& kinematics, const ControlOptions& options, double& usual) {
+ControlSpace perform(FragmentPool& pool, const Kinematics& kinematics, const BuildOptions& options, double& usual) {
   const double scale = standard_scale(pool.skeleton);
-  std::vector<BodyMotion> motions;
-  for (const Clip& clip : pool.clips) motions.push_back(body_motion(kinematics, clip));
+  const auto motions = parallel_map(static_cast<int>(pool.clips.size()), thread_count(options.threads),
+                                    [&](int c) { return body_motion(kinematics, pool.clips[c]); });
   usual = usual_height(motions);
   const ControlSpace standard(1.2, 3.3, ControlSpace().turn_rate(), scale);
   std::vector<Control> evident;
@@ -109,7 +112,7 @@ ControlSpace perform(FragmentPool& pool, const Kinematics& kinematics, const Con
     f.evident = evident_control(motions[f.clip], pool.clips[f.clip].rate, f.begin, f.end, usual, standard);
     evident.push_back(f.evident);
   }
-  const ControlSpace space = control_space_of(evident, scale, options);
+  const ControlSpace space = control_space_of(evident, scale, options.controls);
   for (Fragment& f : pool.fragments) f.evident.turn *= standard.turn_rate() / space.turn_rate();
   return space;
 }
@@ -255,7 +258,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   FragmentPool pool = captured_pool(kinematics, clips, options, images);
   c.report["captured"] = static_cast<double>(pool.fragments.size());
   double usual = 0;
-  c.space = perform(pool, kinematics, options.controls, usual);
+  c.space = perform(pool, kinematics, options, usual);
   report_held(c, pool);
   c.report["cut_seconds"] = stage.lap();
   report(progress, 0.5, "Synthesizing fragments");

@@ -270,9 +270,9 @@ class Synthesizer {
     if (!dips.empty()) dip_ = std::clamp(median(std::move(dips)), kLeastDip, kMostDip);
   }
 
-  // What it costs a cycle's looks to be made to perform a control. Whether it jumps makes no difference: what hops is
-  // made of what goes, so that the one follows the other.
-  double effort(const Cycle& cycle, const Control& control) const {
+  // What it costs a cycle's looks to be made to perform a control, if that is less than `most`. Whether it jumps makes
+  // no difference: what hops is made of what goes, so that the one follows the other.
+  double effort(const Cycle& cycle, const Control& control, double most) const {
     const Control& ev = cycle.evident;
     const double moving = kMoving / space_.scale();
     const bool moves = ev.speed() > moving, wants = control.speed() > moving, steps = wants || control.turn != 0;
@@ -280,7 +280,7 @@ class Synthesizer {
     double effort = kOpen * cycle.gap + 0.5 * std::abs(control.turn - ev.turn) + 2 * ev.jump;
     if (cycle.backward()) effort += kBackward;
     if (steps && !wants) effort += ev.speed() / space_.walk();  // it steps in place
-    if (wants) {
+    if (wants && effort < most) {
       effort += std::abs(angle_between(ev, control)) / (kPi / 4);
       const double faster = std::log(control.speed() / ev.speed()) / std::log(1.5);
       effort += faster > 0 ? faster * faster : -faster;
@@ -293,7 +293,7 @@ class Synthesizer {
     const Cycle* best = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (const Cycle& cycle : cycles_) {
-      const double cost = effort(cycle, control);
+      const double cost = effort(cycle, control, least);
       if (cost < least - kAlike) least = cost, best = &cycle;
     }
     return best;

@@ -111,13 +111,17 @@ Clip Mirror::operator()(const Clip& clip) const {
   result.name += " mirrored";
   Pose pose(bones);
   std::vector<Quaternion> mirrored(bones);
+  std::vector<int> turned;
+  for (int b = 0; b < bones; ++b) {
+    const bool still = std::binary_search(still_.begin(), still_.end(), b);
+    if (!still && skeleton.is_below(b, skeleton.roles.hips)) turned.push_back(b);
+  }
   for (int f = 0; f < clip.frames; ++f) {
     world(kinematics_, clip, f, pose.heads.data(), pose.orientations.data());
     for (int b = 0; b < bones; ++b) {
       mirrored[b] = Quaternion{kReflection * pose.orientations[counterpart_[b]].toRotationMatrix() * turn_[b]};
     }
-    for (int b = 0; b < bones; ++b) {
-      if (!skeleton.is_below(b, skeleton.roles.hips) || std::binary_search(still_.begin(), still_.end(), b)) continue;
+    for (const int b : turned) {
       const bool hips = b == skeleton.roles.hips;
       store_quaternion(hips ? mirrored[b] : mirrored[skeleton.parents[b]].inverse() * mirrored[b],
                        &result.rotations[4 * (static_cast<std::size_t>(f) * bones + b)]);

@@ -223,10 +223,11 @@ std::vector<std::int32_t> steps_of(const Skeleton& skeleton, const PoseGrid& gri
 void measure_turns(const std::vector<std::int32_t>& steps, std::size_t width, PackedPoses& poses) {
   std::vector<std::int32_t> most(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(width));
   poses.least = most;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    std::int32_t &low = poses.least[i % width], &high = most[i % width];
-    low = std::min(low, steps[i]);
-    high = std::max(high, steps[i]);
+  for (std::size_t pose = 0; pose < steps.size(); pose += width) {
+    for (std::size_t i = 0; i < width; ++i) {
+      poses.least[i] = std::min(poses.least[i], steps[pose + i]);
+      most[i] = std::max(most[i], steps[pose + i]);
+    }
   }
   for (std::size_t i = 0; i < width; ++i) {
     poses.bits.push_back(static_cast<std::uint8_t>(bits_for(most[i] - poses.least[i])));

@@ -358,11 +358,7 @@ RetargetedClip Retarget::apply(const Clip& clip) const {
 }
 
 std::vector<RetargetedClip> Retarget::apply(const std::vector<Clip>& clips, int threads) const {
-  std::vector<RetargetedClip> results(clips.size());
-  parallel_for(static_cast<int>(clips.size()), thread_count(threads), [&](int begin, int end) {
-    for (int c = begin; c < end; ++c) results[c] = apply(clips[c]);
-  });
-  return results;
+  return parallel_map(static_cast<int>(clips.size()), thread_count(threads), [&](int c) { return apply(clips[c]); });
 }
 
 }  // namespace fragmotion
