@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fragments/fragment.hpp"
+#include "motion/joint_ranges.hpp"
 
 namespace fragmotion {
 
@@ -11,27 +12,6 @@ namespace fragmotion {
 /// degree, and the furthest, rad.
 struct Excess {
   double share = 0, worst = 0;
-};
-
-/// How a joint's rotation relative to its parent is looked at: as the rotation vector from its mean, rad, along the
-/// axes about which the joint turns most, less and least. A knee's first number tells how much it is bent.
-struct JointAxes {
-  int bone = 0;
-  Quaternion mean = Quaternion::Identity();
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns
-
-  /// Of rotations [bones, 4].
-  Vector3 turn(const double* rotations) const;
-};
-
-/// The least and the greatest of a joint's turns about each axis.
-struct TurnRange {
-  Vector3 least, greatest;
-
-  TurnRange();  ///< Nothing seen yet.
-  void add(const Vector3& turn);
-  void add(const TurnRange& other);
-  double excess(const Vector3& turn) const;  ///< rad; infinite where nothing was seen
 };
 
 /// The ranges of the joints, which are the measured_bones() below the hips, in the takes and their mirror images.
@@ -48,7 +28,7 @@ class JointLimits {
  private:
   std::size_t width_;  // numbers of a pose
   std::vector<JointAxes> joints_;
-  std::vector<TurnRange> ranges_;  // [joints]
+  TurnRanges ranges_;
   Excess takes_;
 };
 

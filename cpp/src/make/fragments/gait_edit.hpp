@@ -13,6 +13,7 @@ struct GaitEdit {
   double speed = 1;      ///< Scales the path.
   double tempo = 1;      ///< The steps follow each other so much faster.
   double turn = 0;       ///< Turns path and body at this rate, rad/s.
+  double hips = 0;       ///< Turns the hips under the chest, rad; of a body on two legs.
 };
 
 /// `frames` + 1 frames that go round and round frames begin .. end of a clip, a gait's cycle, with the path

@@ -10,6 +10,7 @@
 
 #include "base/quantile.hpp"
 #include "base/ranges.hpp"
+#include "fragments/bearable_gait.hpp"
 #include "fragments/blend.hpp"
 #include "fragments/coverage.hpp"
 #include "fragments/distance.hpp"
@@ -104,7 +105,7 @@ double longest_stand(const FragmentPool& pool, const std::vector<int>& standing)
 // Fills the holes of a pool's control space.
 class Synthesizer {
  public:
-  Synthesizer(FragmentPool& pool, const ControlSpace& space, double usual, double longest)
+  Synthesizer(FragmentPool& pool, std::size_t takes, const ControlSpace& space, double usual, double longest)
       : pool_(pool),
         space_(space),
         usual_(usual),
@@ -112,6 +113,7 @@ class Synthesizer {
         kinematics_(pool.skeleton),
         legs_(find_legs(kinematics_, pool.clips)),
         trajectories_(trajectories(pool)),
+        bearable_(kinematics_, legs_, pool, takes),
         originals_(static_cast<int>(pool.fragments.size())) {
     find_cycles();
     find_dip();
@@ -321,6 +323,7 @@ class Synthesizer {
     const double sideways = std::abs(std::sin(change.direction)), cadence = 1 + sideways * (kSideways - 1);
     change.tempo = std::max(usual / pieces, cadence * std::clamp(std::sqrt(faster), 1 / kMostTempo, kMostTempo));
     change.speed = faster / change.tempo;
+    change = bearable_(best->clip, best->begin, best->end, change);
     const int beyond = tail(clip.rate * change.tempo);
     const Hop hop = hop_at(control.speed());
     const int whole = static_cast<int>(std::ceil(hop.seconds() * clip.rate * change.tempo));
@@ -366,6 +369,7 @@ class Synthesizer {
   Kinematics kinematics_;
   Legs legs_;
   Trajectories trajectories_;
+  BearableGaits bearable_;
   int originals_;
   std::vector<Cycle> cycles_;
   double dip_ = kLeastDip;            // m of a 1.8 m character that jumps on the spot
@@ -381,9 +385,11 @@ void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, dou
     if (space.distance(pool.fragments[f].evident, {}) <= kPerformed) standing.push_back(static_cast<int>(f));
   }
   const std::size_t fragments = pool.fragments.size(), clips = pool.clips.size();
+  const bool mirrored = std::any_of(pool.fragments.begin(), pool.fragments.end(),
+                                    [](const Fragment& f) { return f.origin == Origin::mirrored; });
   if (standing.empty()) add_standing(pool);
   const bool stands_long = longest_stand(pool, standing) >= kStandsLong;
-  Synthesizer(pool, space, usual, longest).fill();
+  Synthesizer(pool, mirrored ? clips / 2 : clips, space, usual, longest).fill();
   if (stands_long) return;
   add_living_stand(pool, space, usual, static_cast<int>(standing.empty() ? clips : pool.clips.size()));
   if (standing.empty()) pool.fragments.erase(pool.fragments.begin() + static_cast<std::ptrdiff_t>(fragments));

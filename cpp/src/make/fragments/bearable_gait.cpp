@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "fragments/bearable_gait.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fragments/strides.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr int kLooked = 16;          // poses of a cycle that tell what its joints bear
+constexpr int kHalvings = 6;         // of what is not borne whole
+constexpr double kSeen = kPi / 180;  // rad: what one sees of a joint that is beyond its range
+
+GaitCycle thinned(const GaitCycle& cycle) {
+  GaitCycle thin;
+  const int count = std::min(kLooked, cycle.frames());
+  for (int i = 0; i < count; ++i) thin.poses.push_back(cycle.poses[i * cycle.frames() / count]);
+  thin.end = cycle.end;
+  return thin;
+}
+
+std::vector<int> thighs_and_knees(const Legs& legs) {
+  std::vector<int> bones;
+  for (const Leg& leg : legs) bones.insert(bones.end(), {leg.thigh, leg.knee});
+  return bones;
+}
+
+// How far the joint of a cycle is beyond its range that is furthest beyond, rad.
+double excess(const JointRanges& ranges, const GaitCycle& cycle) {
+  double most = 0;
+  for (const BodyPose& pose : cycle.poses) most = std::max(most, ranges.excess(pose.rotations.data()));
+  return most;
+}
+
+// As much as is wanted, or as is borne.
+template <typename IsBorne>
+double most_borne(double wanted, const IsBorne& is_borne) {
+  if (is_borne(wanted)) return wanted;
+  double borne = 0;
+  for (int i = 0, part = 2; i < kHalvings; ++i, part *= 2) {
+    const double more = borne + wanted / part;
+    if (is_borne(more)) borne = more;
+  }
+  return borne;
+}
+
+// The edit with steps in place, and the one with no longer steps than those of the gait, straight on.
+GaitEdit in_place(GaitEdit edit) {
+  edit.speed = 0;
+  return edit;
+}
+GaitEdit straight_on(GaitEdit edit) {
+  edit.direction = 0;
+  edit.speed = std::min(1.0, edit.speed);
+  return edit;
+}
+
+}  // namespace
+
+BearableGaits::BearableGaits(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool,
+                             std::size_t takes)
+    : kinematics_(kinematics),
+      legs_(legs),
+      pool_(pool),
+      leg_ranges_(thighs_and_knees(legs), pool.clips, takes),
+      spine_ranges_(spine_bones(pool.skeleton), pool.clips, takes) {}
+
+GaitEdit BearableGaits::operator()(int clip, int begin, int end, GaitEdit edit) {
+  const auto [found, fresh] = found_.try_emplace({clip, begin, end, edit.direction, edit.speed}, edit);
+  if (fresh) {
+    found->second.turn = 0;
+    found->second = find(pool_.clips[clip], begin, end, found->second);
+  }
+  edit.hips = found->second.hips;
+  edit.speed = found->second.speed;
+  return edit;
+}
+
+GaitEdit BearableGaits::find(const Clip& clip, int begin, int end, GaitEdit edit) const {
+  const GaitCycle whole = gait_cycle_of(kinematics_, clip, begin, end), cycle = thinned(whole);
+  const double rate = clip.rate * edit.tempo * cycle.frames() / whole.frames();
+  const auto beyond = [&](const GaitEdit& tried) {
+    GaitCycle changed = cycle;
+    turn_hips(pool_.skeleton, changed, tried.hips);
+    Strides strides(kinematics_, legs_, changed, tried, rate);
+    for (BodyPose& pose : changed.poses) strides.change(pose);
+    return excess(leg_ranges_, changed);
+  };
+  const double usual = std::max(
+      {kSeen, leg_ranges_.usual(), excess(leg_ranges_, cycle), beyond(in_place(edit)), beyond(straight_on(edit))});
+  const auto is_borne = [&](double hips, double speed) {
+    GaitEdit tried = edit;
+    tried.hips = hips;
+    tried.speed = speed;
+    return beyond(tried) <= usual;
+  };
+  if (is_borne(0, edit.speed)) return edit;
+  const double most = most_turn(cycle, std::sin(2 * edit.direction) / 2);
+  if (is_borne(most, edit.speed)) {
+    edit.hips = most - most_borne(most, [&](double less) { return is_borne(most - less, edit.speed); });
+  } else {
+    edit.hips = most;
+    edit.speed = most_borne(edit.speed, [&](double speed) { return is_borne(most, speed); });
+  }
+  return edit;
+}
+
+// How far the hips may be turned under the head, rad.
+double BearableGaits::most_turn(const GaitCycle& cycle, double wanted) const {
+  if (legs_.count() != 2 || spine_bones(pool_.skeleton).empty()) return 0;
+  const double usual = std::max(kSeen, excess(spine_ranges_, cycle));
+  return most_borne(wanted, [&](double angle) {
+    GaitCycle turned = cycle;
+    turn_hips(pool_.skeleton, turned, angle);
+    return excess(spine_ranges_, turned) <= usual;
+  });
+}
+
+}  // namespace fragmotion

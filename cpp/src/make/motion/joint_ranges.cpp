@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "motion/joint_ranges.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "motion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kLooks = 10;  // poses a second: joints of a gait are near their ends for longer than between two
+
+Vector3 rotation_vector(const Quaternion& q) {
+  const Eigen::AngleAxisd turn(q);
+  return turn.angle() * turn.axis();
+}
+
+void find_means(const EachPose& each_pose, std::vector<JointAxes>& joints) {
+  std::vector<Eigen::Vector4d> sums(joints.size(), Eigen::Vector4d::Zero());
+  each_pose([&](const double* rotations) {
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      add_rotation(rotations + std::ptrdiff_t{4} * joints[j].bone, sums[j].data());
+    }
+  });
+  for (std::size_t j = 0; j < joints.size(); ++j) joints[j].mean = load_quaternion(sums[j].data()).normalized();
+}
+
+void find_axes(const EachPose& each_pose, std::vector<JointAxes>& joints) {
+  std::vector<Eigen::Matrix3d> spreads(joints.size(), Eigen::Matrix3d::Zero());
+  each_pose([&](const double* rotations) {
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const Vector3 turn = joints[j].turn(rotations);
+      spreads[j] += turn * turn.transpose();
+    }
+  });
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    joints[j].axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spreads[j]).eigenvectors().rowwise().reverse();
+  }
+}
+
+// Of the joint that is furthest beyond, in the mean of the takes.
+double usual_excess(const std::vector<TurnRanges>& by_take) {
+  double sum = 0;
+  for (std::size_t take = 0; take < by_take.size(); ++take) {
+    const TurnRanges others = together(by_take, take);
+    double most = 0;
+    for (std::size_t j = 0; j < others.size(); ++j) most = std::max(most, others[j].excess(by_take[take][j]));
+    sum += most;
+  }
+  return sum / static_cast<double>(by_take.size());
+}
+
+}  // namespace
+
+Vector3 JointAxes::turn(const double* rotations) const {
+  const Quaternion now = load_quaternion(rotations + std::ptrdiff_t{4} * bone);
+  return axes.transpose() * rotation_vector(mean.conjugate() * now);
+}
+
+TurnRange::TurnRange() {
+  least.setConstant(std::numeric_limits<double>::infinity());
+  greatest = -least;
+}
+
+void TurnRange::add(const Vector3& turn) {
+  least = least.cwiseMin(turn);
+  greatest = greatest.cwiseMax(turn);
+}
+
+void TurnRange::add(const TurnRange& other) {
+  least = least.cwiseMin(other.least);
+  greatest = greatest.cwiseMax(other.greatest);
+}
+
+double TurnRange::excess(const Vector3& turn) const {
+  return (least - turn).cwiseMax(turn - greatest).cwiseMax(Vector3::Zero()).norm();
+}
+
+double TurnRange::excess(const TurnRange& other) const {
+  return (least - other.least).cwiseMax(other.greatest - greatest).cwiseMax(Vector3::Zero()).norm();
+}
+
+std::vector<JointAxes> joint_axes(const std::vector<int>& bones, const EachPose& each_pose) {
+  std::vector<JointAxes> joints(bones.size());
+  for (std::size_t j = 0; j < bones.size(); ++j) joints[j].bone = bones[j];
+  find_means(each_pose, joints);
+  find_axes(each_pose, joints);
+  return joints;
+}
+
+TurnRanges together(const std::vector<TurnRanges>& by_take, std::size_t but) {
+  TurnRanges all(by_take[0].size());
+  for (std::size_t take = 0; take < by_take.size(); ++take) {
+    for (std::size_t j = 0; take != but && j < all.size(); ++j) all[j].add(by_take[take][j]);
+  }
+  return all;
+}
+
+JointRanges::JointRanges(const std::vector<int>& bones, const std::vector<Clip>& clips, std::size_t takes) {
+  using Visit = std::function<void(std::size_t, const double*)>;
+  const auto each_pose = [&](const Visit& visit) {
+    for (std::size_t c = 0; c < clips.size(); ++c) {
+      const std::size_t width = clips[c].rotations.size() / clips[c].frames;
+      const int step = std::max(1, static_cast<int>(std::lround(clips[c].rate / kLooks)));
+      for (int f = 0; f < clips[c].frames; f += step) visit(c % takes, &clips[c].rotations[width * f]);
+    }
+  };
+  joints_ = joint_axes(
+      bones, [&](const auto& visit) { each_pose([&](std::size_t, const double* rotations) { visit(rotations); }); });
+  std::vector<TurnRanges> by_take(takes, TurnRanges(bones.size()));
+  each_pose([&](std::size_t take, const double* rotations) {
+    for (std::size_t j = 0; j < joints_.size(); ++j) by_take[take][j].add(joints_[j].turn(rotations));
+  });
+  ranges_ = together(by_take, takes);
+  usual_ = usual_excess(by_take);
+}
+
+double JointRanges::excess(const double* rotations) const {
+  double most = 0;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    most = std::max(most, ranges_[j].excess(joints_[j].turn(rotations)));
+  }
+  return most;
+}
+
+}  // namespace fragmotion

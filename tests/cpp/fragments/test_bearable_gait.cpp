@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "fragments/bearable_gait.hpp"
+#include "measured_clips.hpp"
+#include "motion/legs.hpp"
+#include "motion/pose.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kRadian = kPi / 180;  // of a degree
+constexpr int kBegin = 15, kEnd = 45;  // a cycle of a walk
+
+void turn(Clip& clip, int frame, const char* bone, const Quaternion& by) {
+  double* rotation = &clip.rotations[std::size_t{4} * (kSkeleton.size() * frame + kSkeleton.find(bone))];
+  store_quaternion(by * load_quaternion(rotation), rotation);
+}
+
+// A walk whose thighs go a little about each axis beside, and whose spine is twisted to and fro, rad.
+Clip restless(double twist) {
+  Clip clip = gait_clip({});
+  for (int f = 0; f < clip.frames; ++f) {
+    const Quaternion aside{Eigen::AngleAxisd(f % 2 == 0 ? 0.15 : -0.15, Vector3::Unit(f / 2 % 3))};
+    for (const char* thigh : {"thigh.L", "thigh.R"}) turn(clip, f, thigh, aside);
+    const Quaternion twisted{Eigen::AngleAxisd(twist * std::sin(0.2 * f), Vector3::UnitZ())};
+    for (const char* bone : {"spine", "head"}) turn(clip, f, bone, twisted);
+  }
+  return make_clip(kSkeleton, clip);
+}
+
+// A walk and a restless one, and each once more: no take is beyond the others.
+FragmentPool walks(double twist) {
+  const Clip walk = gait_clip({});
+  return {kSkeleton, {walk, restless(twist), walk, restless(twist)}, {}};
+}
+
+GaitEdit towards(double degrees, double speed = 1) {
+  GaitEdit edit;
+  edit.direction = degrees * kRadian;
+  edit.speed = speed;
+  return edit;
+}
+
+GaitEdit borne(const FragmentPool& pool, const GaitEdit& edit) {
+  const Legs legs = find_legs(kKinematics, pool.clips);
+  return BearableGaits(kKinematics, legs, pool, pool.clips.size())(0, kBegin, kEnd, edit);
+}
+
+// How far thighs and knees are beyond the walks at most in the gait that this edit makes of the first, degrees.
+double beyond(const FragmentPool& pool, const GaitEdit& edit) {
+  const Legs legs = find_legs(kKinematics, pool.clips);
+  const JointRanges ranges({legs[0].thigh, legs[0].knee, legs[1].thigh, legs[1].knee}, pool.clips, pool.clips.size());
+  const Contacts contacts = find_contacts(kKinematics, pool.clips[0]);
+  const Clip made = transformed(kKinematics, legs, pool.clips[0], contacts, kBegin, kEnd, kEnd - kBegin, edit);
+  double most = 0;
+  for (int f = 0; f < made.frames; ++f) {
+    most = std::max(most, ranges.excess(&made.rotations[std::size_t{4} * kSkeleton.size() * f]));
+  }
+  return most / kRadian;
+}
+
+TEST(BearableGaits, AreNotChangedWhereJointsStayWithinTheTakes) {
+  const FragmentPool pool = walks(0);
+  for (const GaitEdit& edit : {GaitEdit{}, towards(0, 0.6), towards(10)}) {
+    const GaitEdit same = borne(pool, edit);
+    EXPECT_EQ(same.hips, 0);
+    EXPECT_EQ(same.speed, edit.speed);
+  }
+}
+
+TEST(BearableGaits, GoAsFastToTheSideAsLegsBear) {
+  const FragmentPool pool = walks(0);
+  for (const double degrees : {90, -90}) {
+    const GaitEdit wanted = towards(degrees), edit = borne(pool, wanted);
+    EXPECT_GT(beyond(pool, wanted), 8);
+    EXPECT_LT(edit.speed, 0.8);
+    EXPECT_GT(edit.speed, 0.1);
+    EXPECT_LT(beyond(pool, edit), 3);
+    GaitEdit faster = edit;
+    faster.speed += 0.15;
+    EXPECT_GT(beyond(pool, faster), beyond(pool, edit) + 1);
+  }
+}
+
+TEST(BearableGaits, LengthenStridesAsFarAsLegsBear) {
+  const FragmentPool pool = walks(0);
+  const GaitEdit edit = borne(pool, towards(0, 1.6));
+  EXPECT_GT(edit.speed, 0.99);
+  EXPECT_LT(edit.speed, 1.3);
+  EXPECT_EQ(edit.hips, 0);
+}
+
+TEST(BearableGaits, TurnTheHipsAsFarAsIsNeededAndTheSpineBears) {
+  const FragmentPool stiff = walks(0), supple = walks(0.3);
+  const GaitEdit little = borne(stiff, towards(40)), much = borne(supple, towards(40)),
+                 other = borne(supple, towards(-40));
+  EXPECT_LT(std::abs(little.hips), 2.5 * kRadian) << "a degree of each bone of the spine";
+  EXPECT_LT(little.speed, 0.95);
+  EXPECT_GT(much.hips, 4 * kRadian);
+  EXPECT_EQ(much.speed, 1);
+  EXPECT_LT(beyond(supple, much), 3);
+  EXPECT_NEAR(other.hips, -much.hips, 1 * kRadian);
+}
+
+TEST(BearableGaits, KeepTheHeadOverHipsThatTurn) {
+  const FragmentPool pool = walks(0.3);
+  const Legs legs = find_legs(kKinematics, pool.clips);
+  const Contacts contacts = find_contacts(kKinematics, pool.clips[0]);
+  GaitEdit edit = towards(40);
+  const auto world = [&](const char* bone) {
+    const Clip made = transformed(kKinematics, legs, pool.clips[0], contacts, kBegin, kEnd, kEnd - kBegin, edit);
+    PosedBones posed(kSkeleton.size());
+    fragmotion::world(kKinematics, made, 7, posed.heads.data(), posed.rotations.data());
+    return posed.rotations[kSkeleton.find(bone)];
+  };
+  const Quaternion head = world("head"), hips = world("hips");
+  edit.hips = 0.3;
+  EXPECT_LT(world("head").angularDistance(head), 1e-6);
+  EXPECT_NEAR((world("hips") * hips.conjugate()).angularDistance(Quaternion{Eigen::AngleAxisd(0.3, Vector3::UnitZ())}),
+              0, 1e-6);
+}
+
+TEST(BearableGaits, OfASingleTakeAreWhatIsAskedFor) {
+  FragmentPool pool{kSkeleton, {gait_clip({})}, {}};
+  const GaitEdit edit = borne(pool, towards(90, 1.5));
+  EXPECT_EQ(edit.speed, 1.5);
+  EXPECT_EQ(edit.hips, 0);
+}
+
+}  // namespace
+}  // namespace fragmotion
