@@ -73,24 +73,10 @@ TEST(SpeedRange, LeavesAloneWhatIsWithinItAndWalksEverywhere) {
   EXPECT_FALSE(range.allows(going(1.3, 180)));
 }
 
-TEST(SpeedRange, IsNoFasterThanAWalkForWhatIsMadeGoesFaster) {
+TEST(SpeedRange, TakesNoNoticeOfWhatIsMade) {
   const SpeedRange range({fragment(going(3, 180), Origin::transformed), fragment(going(3, 90), Origin::interpolated)},
                          kSpace);
   for (double degrees = 0; degrees < 360; degrees += 7) EXPECT_NEAR(most(range, degrees), kSpace.walk(), 1e-12);
-}
-
-TEST(SpeedRange, IsThatOfWhatCouldBeMadeWhereNoTakeWalks) {
-  Fragment jump = fragment(going(1.1, 90), Origin::transformed), turns = fragment(going(0.1, 90), Origin::transformed);
-  jump.evident.jump = 1;
-  const SpeedRange range({fragment(going(0.3, 90)), fragment(going(0.5, 90), Origin::transformed),
-                          fragment(going(0.6, 110), Origin::transformed), fragment(going(2, 0)),
-                          fragment(going(0.7, 0), Origin::transformed), jump, turns},
-                         kSpace);
-  EXPECT_NEAR(most(range, 65), 0.6, 1e-9) << "what it may miss by is added";
-  EXPECT_NEAR(most(range, 100), 0.7, 1e-9);
-  EXPECT_NEAR(most(range, 0), 2.6, 1e-9) << "there a take walks";
-  EXPECT_NEAR(most(range, 180), kSpace.walk(), 1e-12) << "nothing tells of it";
-  EXPECT_FALSE(range.allows(going(1, 90)));
 }
 
 }  // namespace

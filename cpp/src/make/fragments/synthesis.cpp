@@ -10,11 +10,11 @@
 
 #include "base/quantile.hpp"
 #include "base/ranges.hpp"
-#include "fragments/bearable_gait.hpp"
 #include "fragments/blend.hpp"
 #include "fragments/coverage.hpp"
 #include "fragments/distance.hpp"
 #include "fragments/gait_edit.hpp"
+#include "fragments/hip_turns.hpp"
 #include "fragments/speed_range.hpp"
 #include "fragments/standing.hpp"
 #include "fragments/successors.hpp"
@@ -113,7 +113,7 @@ class Synthesizer {
         kinematics_(pool.skeleton),
         legs_(find_legs(kinematics_, pool.clips)),
         trajectories_(trajectories(pool)),
-        bearable_(kinematics_, legs_, pool, takes),
+        hip_turns_(kinematics_, legs_, pool, takes),
         originals_(static_cast<int>(pool.fragments.size())) {
     find_cycles();
     find_dip();
@@ -323,7 +323,7 @@ class Synthesizer {
     const double sideways = std::abs(std::sin(change.direction)), cadence = 1 + sideways * (kSideways - 1);
     change.tempo = std::max(usual / pieces, cadence * std::clamp(std::sqrt(faster), 1 / kMostTempo, kMostTempo));
     change.speed = faster / change.tempo;
-    change = bearable_(best->clip, best->begin, best->end, change);
+    change.hips = hip_turns_.of(best->clip, best->begin, best->end, change);
     const int beyond = tail(clip.rate * change.tempo);
     const Hop hop = hop_at(control.speed());
     const int whole = static_cast<int>(std::ceil(hop.seconds() * clip.rate * change.tempo));
@@ -369,7 +369,7 @@ class Synthesizer {
   Kinematics kinematics_;
   Legs legs_;
   Trajectories trajectories_;
-  BearableGaits bearable_;
+  HipTurns hip_turns_;
   int originals_;
   std::vector<Cycle> cycles_;
   double dip_ = kLeastDip;            // m of a 1.8 m character that jumps on the spot

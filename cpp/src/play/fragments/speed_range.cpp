@@ -9,34 +9,24 @@ namespace {
 
 constexpr double kBeyond = 1.3;      // of the takes' speed: a body goes so fast that never was seen to
 constexpr double kAround = kPi / 6;  // rad to either side of a direction
-constexpr double kNearly = 0.1;      // m/s of a 1.8 m character, by which a fragment may miss what it was made for
 constexpr double kRounding = 1 + 1e-9;
 constexpr int kDirections = 72;
 constexpr double kTurn = 2 * kPi / kDirections;
 
 double direction(const Control& control) { return std::atan2(control.x, control.y); }
 
-void raise(std::vector<double>& most, const Control& evident, double speed) {
-  const double at = direction(evident);
-  for (int i = 0; i < kDirections; ++i) {
-    const double off = std::abs(i * kTurn - at);  // up to one and a half turns
-    if (std::min(off, std::abs(off - 2 * kPi)) <= kAround) most[i] = std::max(most[i], speed);
-  }
-}
-
 }  // namespace
 
 SpeedRange::SpeedRange(const std::vector<Fragment>& fragments, const ControlSpace& space)
-    : walk_(space.walk()), most_(kDirections, 0) {
-  std::vector<double> made(kDirections, 0);
+    : walk_(space.walk()), most_(kDirections, walk_) {
   for (const Fragment& fragment : fragments) {
-    const Control& ev = fragment.evident;
-    if (!is_made(fragment.origin))
-      raise(most_, ev, kBeyond * ev.speed());
-    else if (ev.speed() * space.scale() > kMoving && !ev.jumps())
-      raise(made, ev, ev.speed() + kNearly / space.scale());
+    if (is_made(fragment.origin)) continue;
+    const double at = direction(fragment.evident), speed = kBeyond * fragment.evident.speed();
+    for (int i = 0; i < kDirections; ++i) {
+      const double off = std::abs(i * kTurn - at);  // up to one and a half turns
+      if (std::min(off, std::abs(off - 2 * kPi)) <= kAround) most_[i] = std::max(most_[i], speed);
+    }
   }
-  for (int i = 0; i < kDirections; ++i) most_[i] = std::max(most_[i], made[i] > 0 ? std::min(made[i], walk_) : walk_);
 }
 
 double SpeedRange::most(const Control& control) const {
@@ -48,7 +38,7 @@ double SpeedRange::most(const Control& control) const {
 
 bool SpeedRange::allows(const Control& control) const {
   const double speed = control.speed();
-  return speed <= most(control) * kRounding;
+  return speed <= walk_ || speed <= most(control) * kRounding;
 }
 
 Control SpeedRange::within(const Control& control) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fragments/bearable_gait.hpp"
+#include "fragments/hip_turns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ double excess(const JointRanges& ranges, const GaitCycle& cycle) {
   return most;
 }
 
-// As much as is wanted, or as is borne.
+// As much as is wanted, or as is borne of it.
 template <typename IsBorne>
 double most_borne(double wanted, const IsBorne& is_borne) {
   if (is_borne(wanted)) return wanted;
@@ -59,7 +59,7 @@ GaitEdit straight_on(GaitEdit edit) {
 
 }  // namespace
 
-BearableGaits::BearableGaits(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool,
+HipTurns::HipTurns(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool,
                              std::size_t takes)
     : kinematics_(kinematics),
       legs_(legs),
@@ -67,18 +67,14 @@ BearableGaits::BearableGaits(const Kinematics& kinematics, const Legs& legs, con
       leg_ranges_(thighs_and_knees(legs), pool.clips, takes),
       spine_ranges_(spine_bones(pool.skeleton), pool.clips, takes) {}
 
-GaitEdit BearableGaits::operator()(int clip, int begin, int end, GaitEdit edit) {
-  const auto [found, fresh] = found_.try_emplace({clip, begin, end, edit.direction, edit.speed}, edit);
-  if (fresh) {
-    found->second.turn = 0;
-    found->second = find(pool_.clips[clip], begin, end, found->second);
-  }
-  edit.hips = found->second.hips;
-  edit.speed = found->second.speed;
-  return edit;
+double HipTurns::of(int clip, int begin, int end, GaitEdit edit) {
+  edit.turn = edit.hips = 0;
+  const auto [found, fresh] = found_.try_emplace({clip, begin, end, edit.direction, edit.speed}, 0.0);
+  if (fresh) found->second = find(pool_.clips[clip], begin, end, edit);
+  return found->second;
 }
 
-GaitEdit BearableGaits::find(const Clip& clip, int begin, int end, GaitEdit edit) const {
+double HipTurns::find(const Clip& clip, int begin, int end, const GaitEdit& edit) const {
   const GaitCycle whole = gait_cycle_of(kinematics_, clip, begin, end), cycle = thinned(whole);
   const double rate = clip.rate * edit.tempo * cycle.frames() / whole.frames();
   const auto beyond = [&](const GaitEdit& tried) {
@@ -90,25 +86,18 @@ GaitEdit BearableGaits::find(const Clip& clip, int begin, int end, GaitEdit edit
   };
   const double usual = std::max(
       {kSeen, leg_ranges_.usual(), excess(leg_ranges_, cycle), beyond(in_place(edit)), beyond(straight_on(edit))});
-  const auto is_borne = [&](double hips, double speed) {
+  const auto is_borne = [&](double hips) {
     GaitEdit tried = edit;
     tried.hips = hips;
-    tried.speed = speed;
     return beyond(tried) <= usual;
   };
-  if (is_borne(0, edit.speed)) return edit;
+  if (is_borne(0)) return 0;
   const double most = most_turn(cycle, std::sin(2 * edit.direction) / 2);
-  if (is_borne(most, edit.speed)) {
-    edit.hips = most - most_borne(most, [&](double less) { return is_borne(most - less, edit.speed); });
-  } else {
-    edit.hips = most;
-    edit.speed = most_borne(edit.speed, [&](double speed) { return is_borne(most, speed); });
-  }
-  return edit;
+  return most - most_borne(most, [&](double less) { return is_borne(most - less); });
 }
 
 // How far the hips may be turned under the head, rad.
-double BearableGaits::most_turn(const GaitCycle& cycle, double wanted) const {
+double HipTurns::most_turn(const GaitCycle& cycle, double wanted) const {
   if (legs_.count() != 2 || spine_bones(pool_.skeleton).empty()) return 0;
   const double usual = std::max(kSeen, excess(spine_ranges_, cycle));
   return most_borne(wanted, [&](double angle) {
