@@ -97,9 +97,7 @@ TEST(HipTurns, KeepTheHeadOverHipsThatTurn) {
               0, 1e-6);
 }
 
-TEST(HipTurns, OfASingleTakeAreNone) {
-  EXPECT_EQ(hips({kSkeleton, {gait_clip({})}, {}}, towards(90, 1.5)), 0);
-}
+TEST(HipTurns, OfASingleTakeAreNone) { EXPECT_EQ(hips({kSkeleton, {gait_clip({})}, {}}, towards(90, 1.5)), 0); }
 
 }  // namespace
 }  // namespace fragmotion

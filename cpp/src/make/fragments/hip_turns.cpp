@@ -59,8 +59,7 @@ GaitEdit straight_on(GaitEdit edit) {
 
 }  // namespace
 
-HipTurns::HipTurns(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool,
-                             std::size_t takes)
+HipTurns::HipTurns(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool, std::size_t takes)
     : kinematics_(kinematics),
       legs_(legs),
       pool_(pool),
