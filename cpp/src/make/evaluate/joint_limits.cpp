@@ -76,7 +76,7 @@ class Tally {
 Excess beyond_the_others(Seen& seen, const std::vector<JointAxes>& joints, const std::vector<TurnRanges>& by_take) {
   if (seen.takes() < 2) return {};
   std::vector<TurnRanges> others;
-  for (std::size_t take = 0; take < seen.takes(); ++take) others.push_back(together(by_take, take));
+  for (std::size_t take = 0; take < seen.takes(); ++take) others.push_back(together(by_take, joints.size(), take));
   Tally tally;
   seen.each_pose([&](std::size_t take, const double* rotations) {
     for (std::size_t j = 0; j < joints.size(); ++j) tally.add(others[take][j].excess(joints[j].turn(rotations)));
@@ -92,7 +92,7 @@ JointLimits::JointLimits(const PackedPool& pool) : width_(std::size_t{4} * pool.
     seen.each_pose([&](std::size_t, const double* rotations) { visit(rotations); });
   });
   const std::vector<TurnRanges> by_take = ranges_by_take(seen, joints_);
-  ranges_ = together(by_take, by_take.size());
+  ranges_ = together(by_take, joints_.size(), by_take.size());
   takes_ = beyond_the_others(seen, joints_, by_take);
 }
 

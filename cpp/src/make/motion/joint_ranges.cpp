@@ -45,7 +45,7 @@ void find_axes(const EachPose& each_pose, std::vector<JointAxes>& joints) {
 double usual_excess(const std::vector<TurnRanges>& by_take) {
   double sum = 0;
   for (std::size_t take = 0; take < by_take.size(); ++take) {
-    const TurnRanges others = together(by_take, take);
+    const TurnRanges others = together(by_take, by_take[take].size(), take);
     double most = 0;
     for (std::size_t j = 0; j < others.size(); ++j) most = std::max(most, others[j].excess(by_take[take][j]));
     sum += most;
@@ -91,8 +91,8 @@ std::vector<JointAxes> joint_axes(const std::vector<int>& bones, const EachPose&
   return joints;
 }
 
-TurnRanges together(const std::vector<TurnRanges>& by_take, std::size_t but) {
-  TurnRanges all(by_take[0].size());
+TurnRanges together(const std::vector<TurnRanges>& by_take, std::size_t joints, std::size_t but) {
+  TurnRanges all(joints);
   for (std::size_t take = 0; take < by_take.size(); ++take) {
     for (std::size_t j = 0; take != but && j < all.size(); ++j) all[j].add(by_take[take][j]);
   }
@@ -114,7 +114,7 @@ JointRanges::JointRanges(const std::vector<int>& bones, const std::vector<Clip>&
   each_pose([&](std::size_t take, const double* rotations) {
     for (std::size_t j = 0; j < joints_.size(); ++j) by_take[take][j].add(joints_[j].turn(rotations));
   });
-  ranges_ = together(by_take, takes);
+  ranges_ = together(by_take, joints_.size(), takes);
   usual_ = usual_excess(by_take);
 }
 

@@ -38,8 +38,8 @@ std::vector<JointAxes> joint_axes(const std::vector<int>& bones, const EachPose&
 
 using TurnRanges = std::vector<TurnRange>;  // [joints]
 
-/// The ranges of all takes but one, of at least one take.
-TurnRanges together(const std::vector<TurnRanges>& by_take, std::size_t but);
+/// The ranges of all takes but one.
+TurnRanges together(const std::vector<TurnRanges>& by_take, std::size_t joints, std::size_t but);
 
 /// The ranges of some joints in takes, of which it looks at ten poses a second.
 class JointRanges {
