@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 namespace fragmotion {
@@ -51,19 +51,13 @@ class Grid {
  private:
   using Cell = std::pair<std::int64_t, std::int64_t>;
 
-  struct Hash {
-    std::size_t operator()(const Cell& cell) const {
-      return static_cast<std::size_t>(cell.first) * 0x9E3779B97F4A7C15u ^ static_cast<std::size_t>(cell.second);
-    }
-  };
-
   Cell cell_of(const Vector3& place) const {
     return {static_cast<std::int64_t>(std::floor(place.x() / cell_)),
             static_cast<std::int64_t>(std::floor(place.y() / cell_))};
   }
 
   double cell_;
-  std::unordered_map<Cell, std::vector<Vector3>, Hash> places_;
+  std::map<Cell, std::vector<Vector3>> places_;
 };
 
 double furthest_of(const std::vector<PaintedTriangle>& triangles) {

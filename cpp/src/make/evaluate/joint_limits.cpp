@@ -10,8 +10,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSeen = kPi / 180;  // rad
-
 // The takes and their mirror images, which come in the order of the takes.
 class Seen {
  public:
@@ -64,7 +62,7 @@ class Tally {
  public:
   void add(double excess) {
     ++count_;
-    if (excess > kSeen) ++beyond_;
+    if (excess > kSeenExcess) ++beyond_;
     worst_ = std::max(worst_, excess);
   }
   Excess result() const { return {count_ > 0 ? beyond_ / count_ : 0, worst_}; }

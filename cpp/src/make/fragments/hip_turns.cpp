@@ -9,9 +9,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr int kLooked = 16;          // poses of a cycle that tell what its joints bear
-constexpr int kHalvings = 6;         // of what is not borne whole
-constexpr double kSeen = kPi / 180;  // rad: what one sees of a joint that is beyond its range
+constexpr int kLooked = 16;   // poses of a cycle that tell what its joints bear
+constexpr int kHalvings = 6;  // of what is not borne whole
 
 GaitCycle thinned(const GaitCycle& cycle) {
   GaitCycle thin;
@@ -74,6 +73,8 @@ double HipTurns::of(int clip, int begin, int end, GaitEdit edit) {
 }
 
 double HipTurns::find(const Clip& clip, int begin, int end, const GaitEdit& edit) const {
+  const double wanted = std::sin(2 * edit.direction) / 2;
+  if (wanted == 0 || legs_.count() != 2 || spine_bones(pool_.skeleton).empty()) return 0;
   const GaitCycle whole = gait_cycle_of(kinematics_, clip, begin, end), cycle = thinned(whole);
   const double rate = clip.rate * edit.tempo * cycle.frames() / whole.frames();
   const auto beyond = [&](const GaitEdit& tried) {
@@ -83,22 +84,21 @@ double HipTurns::find(const Clip& clip, int begin, int end, const GaitEdit& edit
     for (BodyPose& pose : changed.poses) strides.change(pose);
     return excess(leg_ranges_, changed);
   };
-  const double usual = std::max(
-      {kSeen, leg_ranges_.usual(), excess(leg_ranges_, cycle), beyond(in_place(edit)), beyond(straight_on(edit))});
+  const double usual = std::max({kSeenExcess, leg_ranges_.usual(), excess(leg_ranges_, cycle), beyond(in_place(edit)),
+                                 beyond(straight_on(edit))});
   const auto is_borne = [&](double hips) {
     GaitEdit tried = edit;
     tried.hips = hips;
     return beyond(tried) <= usual;
   };
   if (is_borne(0)) return 0;
-  const double most = most_turn(cycle, std::sin(2 * edit.direction) / 2);
+  const double most = most_turn(cycle, wanted);
   return most - most_borne(most, [&](double less) { return is_borne(most - less); });
 }
 
 // How far the hips may be turned under the head, rad.
 double HipTurns::most_turn(const GaitCycle& cycle, double wanted) const {
-  if (legs_.count() != 2 || spine_bones(pool_.skeleton).empty()) return 0;
-  const double usual = std::max(kSeen, excess(spine_ranges_, cycle));
+  const double usual = std::max(kSeenExcess, excess(spine_ranges_, cycle));
   return most_borne(wanted, [&](double angle) {
     GaitCycle turned = cycle;
     turn_hips(pool_.skeleton, turned, angle);

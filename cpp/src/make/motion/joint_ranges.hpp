@@ -19,6 +19,9 @@ struct JointAxes {
   Vector3 turn(const double* rotations) const;
 };
 
+/// rad: what one sees of a joint that is beyond its range.
+constexpr double kSeenExcess = kPi / 180;
+
 /// The least and the greatest of a joint's turns about each axis.
 struct TurnRange {
   Vector3 least, greatest;
