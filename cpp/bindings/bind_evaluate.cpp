@@ -124,6 +124,7 @@ void bind_yardsticks(py::module_& m) {
       },
       py::arg("character"), py::arg("trace"), py::arg("rate"), py::arg("shortest") = kSoonest);
   define_trials(m, "response_times", response_times);
+  m.attr("NO_RESPONSE") = kNoResponse;
   define_trials(m, "about_face_times", about_face_times);
 }
 

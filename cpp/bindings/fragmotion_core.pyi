@@ -1013,10 +1013,13 @@ def abilities(character: Character, threads: int = 0) -> list[bool]:
     """Which of its controls the character does: those without a jump are asked for over four seconds, and done where
     velocity and turn rate are within a fifth and 30 %; of those with a jump, which a fragment performs."""
 
+NO_RESPONSE: float
+"""s after which a change of the stick counts as not answered."""
+
 @overload
 def response_times(character: Character, options: PlayerOptions) -> Doubles:
     """[272] seconds from each step of the command between two of the 17 velocities until the velocity over the last
-    0.1 s has made 90 % of the way; 3 where it takes longer."""
+    0.1 s has made 90 % of the way; NO_RESPONSE where it takes longer."""
 
 @overload
 def response_times(

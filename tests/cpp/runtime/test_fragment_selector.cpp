@@ -255,21 +255,27 @@ TEST(FragmentSelector, LeavesAFragmentWhereFeetComeDownInTurn) {
   EXPECT_LT(steps_out_of_turn_when_left(knows, true), steps_out_of_turn_when_left(does_not, false));
 }
 
-TEST(FragmentSelector, GoesOnInTheTakeWhereThatJumpsAndGoesAsAsked) {
+// Or a body whose stick is let go would go on for as long as its take does.
+TEST(FragmentSelector, GoesOnInTheTakeWhereThatJumpsGoesAndStopsAsAsked) {
   Choice choice(1);
   const Character& c = *choice.character;
   const std::vector<int> next = successors(c.pool.fragments);
-  int stays = 0, leaves = 0;
+  const std::vector<EndVelocities> ends = end_velocities(c.pool);
+  int stays = 0, leaves = 0, goes_on_without_a_stick = 0;
   for (int fragment = 0; fragment < static_cast<int>(next.size()); fragment += 3) {
     for (int point = 0; point < kPaperPoints; point += 5) {
       const Control& control = c.space.point(point);
       const int found = choice.selector.successor(fragment, control);
-      const bool may = next[fragment] >= 0 && matches_jump(c.pool.fragments[next[fragment]].evident, control) &&
-                       (control.speed() == 0 || answers(c.pool.fragments[next[fragment]].evident, control));
-      EXPECT_EQ(found, may ? next[fragment] : -1);
+      const int after = next[fragment];
+      const bool stands = after >= 0 && ends[after].last.norm() * c.space.scale() <= kMoving;
+      const bool may = after >= 0 && matches_jump(c.pool.fragments[after].evident, control) &&
+                       (control.speed() == 0 ? stands : answers(c.pool.fragments[after].evident, control));
+      EXPECT_EQ(found, may ? after : -1);
       (found < 0 ? leaves : stays) += 1;
+      if (after >= 0 && control.speed() == 0 && !stands) ++goes_on_without_a_stick;
     }
   }
+  EXPECT_GT(goes_on_without_a_stick, 20);
   EXPECT_GT(stays, 20);
   EXPECT_GT(leaves, stays);
 }

@@ -107,6 +107,7 @@ _RUN_TIME: tuple[tuple[str, Callable[[Result], str]], ...] = (
     ("jump error, %", lambda r: number(_percent(r["jump_error"]))),
     ("response p50, s", lambda r: number(r["response_p50_s"], 2)),
     ("response p95, s", lambda r: number(r["response_p95_s"], 2)),
+    ("no response, %", lambda r: number(_percent(r["no_response_share"]))),
     ("foot skate, x takes'", lambda r: number(r["foot_skate_ratio"], 2)),
     ("joint step, x takes'", lambda r: number(r["joint_step_ratio"], 2)),
     ("sliding, %", lambda r: number(_percent(r["sliding_contact_share"]))),

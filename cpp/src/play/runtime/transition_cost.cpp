@@ -33,6 +33,10 @@ TransitionCost::TransitionCost(const Character& character, const TransitionWeigh
   }
 }
 
+bool TransitionCost::comes_to_rest(int fragment) const {
+  return ends_[fragment].last.norm() * character_->space.scale() <= kMoving;
+}
+
 double TransitionCost::strays(int fragment, const Control& control) const {
   const Vector2 asked{control.x, control.y};
   const EndVelocities& ends = ends_[fragment];

@@ -25,6 +25,7 @@ FIGURES = (
     "jump_error",
     "response_p50_s",
     "response_p95_s",
+    "no_response_share",
     "foot_skate_ratio",
     "joint_step_ratio",
     "sliding_contact_share",
@@ -155,13 +156,14 @@ def _turns(measured: Sequence[core.MotionMeasures]) -> dict[str, float]:
 
 def responses(character: core.Character, seeds: Iterable[int], **options: Any) -> dict[str, float]:
     """Half of all changes of velocity are answered within p50, 95 of 100 within p95, s, by players of these seeds; and
-    the same of what is left of each answer's time without the time that a body needs for the change. Changes of the
-    stick that are none of what the character is able to do do not count."""
+    the same of what is left of each answer's time without the time that a body needs for the change; and the share that
+    is not answered at all. Changes of the stick that are none of what the character is able to do do not count."""
     quickest = _changes(character) * character.space.scale / _BODY
     seen = quickest > 0
     times = np.array([core.response_times(character, seed, **options)[seen] for seed in seeds])
-    names = ("response_p50_s", "response_p95_s", *BEYOND_PHYSICS)
-    figures = [*np.percentile(times, [50, 95]), *np.percentile(times - quickest[seen], [50, 95])]
+    names = ("response_p50_s", "response_p95_s", *BEYOND_PHYSICS, "no_response_share")
+    beyond, unanswered = times - quickest[seen], np.mean(times >= core.NO_RESPONSE)
+    figures = [*np.percentile(times, [50, 95]), *np.percentile(beyond, [50, 95]), unanswered]
     return {name: float(figure) for name, figure in zip(names, figures)}
 
 
