@@ -84,10 +84,13 @@ class FRAGMOTION_OT_play_again(OnRecording, bpy.types.Operator):
 
 _CUT = (1.0, 0.1, 0.1, 0.35)
 _LETTERS = 44  # of a line of the dialog
+_SPAN = 10.0  # s that a field's whole slide is: more is typed
 
 
 def _moment(name: str, description: str, default: float) -> Any:
-    return FloatProperty(name=f"{name} (s)", description=description, default=default, min=0.0, step=10, precision=1)
+    return FloatProperty(
+        name=f"{name} (s)", description=description, default=default, min=0.0, soft_max=_SPAN, step=10, precision=1
+    )
 
 
 class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):

@@ -15,7 +15,7 @@ from ..base.background import poll_character
 from ..base.context import active_armature, poll_armature
 
 _APART = 2.0  # s between an entry and the next, at first
-_SIZE = 0.3  # m, of the empty that an entry is at
+_SIZE = 0.15  # m, of the empty that an entry is at
 
 
 class _OnStory:
@@ -39,7 +39,7 @@ class FRAGMOTION_OT_add_beat(_OnStory, bpy.types.Operator):
         beat = settings.story.add()
         empty = bpy.data.objects.new(f"Place {len(settings.story)}", None)
         empty.location = context.scene.cursor.location
-        empty.empty_display_type, empty.empty_display_size = "CIRCLE", _SIZE
+        empty.empty_display_type, empty.empty_display_size = "SPHERE", _SIZE
         context.scene.collection.objects.link(empty)
         beat.name, beat.place = empty.name, empty
         beat.frame = former + round(_APART * render.fps / render.fps_base)
