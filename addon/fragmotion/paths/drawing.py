@@ -31,7 +31,7 @@ def ground_behind_cursor(context: bpy.types.Context, ground: Ground | None) -> V
     region = next(part for part in context.area.regions if part.type == "WINDOW")
     view = context.area.spaces.active.region_3d
     pixel = location_3d_to_region_2d(region, view, context.scene.cursor.location)
-    return None if pixel is None else ground_under(context.area, *pixel, ground)
+    return None if pixel is None else ground_under(context.area, pixel.x, pixel.y, ground)
 
 
 def add_curve(context: bpy.types.Context, points: Sequence[Vector]) -> bpy.types.Object:
