@@ -121,7 +121,10 @@ class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
         return result
 
     def check(self, context: bpy.types.Context) -> bool:
-        """Show the joins anew where the dialog's fields have changed."""
+        """Keep the stretch within the recording, and show the joins anew, where the dialog's fields have changed."""
+        least, length = 1 / TRACE_RATE, selected(context).seconds
+        self.end = max(min(self.end, length - least), 2 * least)
+        self.start = max(min(self.start, self.end - least), least)
         self._show_joins(context)
         return True
 
