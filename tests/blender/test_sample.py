@@ -91,7 +91,7 @@ def test_it_stands_beside_what_is_there(addon: ModuleType) -> None:
     own = {"Fragmotion Sample", "Fragmotion Sample Body"}
     assert in_the_way(context) == [own]
     body = context.active_object
-    assert body.location.x == pytest.approx(4.15, abs=0.05) and tuple(body.location)[1:] == (0, 0)
+    assert body.location.x == pytest.approx(5.15, abs=0.05) and tuple(body.location)[1:] == (0, 0)
     assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
     assert [own, {f"{name}.001" for name in own}] == sorted(in_the_way(context), key=lambda pair: sorted(pair))
 

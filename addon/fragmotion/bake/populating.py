@@ -71,7 +71,8 @@ def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) ->
     it is at the copies' places.
     """
     bakes = list(_bakes(obj, settings))
-    _check_memory(context, obj, settings, bakes)
+    if settings.layout != "PATH":
+        _check_memory(context, obj, [_seconds(obj, each) for each in bakes])
     ground = find_ground(context, obj)
     for each, moved in zip(bakes, movements(obj, settings)):
         each.moved = moved
@@ -105,17 +106,20 @@ def movements(obj: bpy.types.Object, settings: Any) -> list[Matrix]:
     return [_around(obj, spot, size) for spot, size in zip(places, sizes)]
 
 
-def _check_memory(
-    context: bpy.types.Context, obj: bpy.types.Object, settings: Any, bakes: Sequence[SimpleNamespace]
-) -> None:
-    """UserError where what is played for a time that is set would fill the computer's memory."""
-    if settings.layout == "PATH" or bakes[0].trace_source == "RECORDING":
-        return
-    frames = len(bakes) * settings.seconds * scene_rate(context.scene)
-    needed = frames * _CHANNELS * len(obj.data.bones) * (_VALUE if bakes[0].reduce else _VALUE + _KEY)
+def _seconds(obj: bpy.types.Object, bake: SimpleNamespace) -> float:
+    """How long a bake plays that goes along no path."""
+    recorded = bake.trace_source == "RECORDING"
+    return float(obj.fragmotion.recordings[bake.recording].seconds if recorded else bake.seconds)
+
+
+def _check_memory(context: bpy.types.Context, obj: bpy.types.Object, seconds: Sequence[float]) -> None:
+    """UserError where copies that play for so long each would fill the computer's memory."""
+    frames = sum(seconds) * scene_rate(context.scene)
+    reduce = obj.fragmotion.bake.reduce
+    needed = frames * _CHANNELS * len(obj.data.bones) * (_VALUE if reduce else _VALUE + _KEY)
     if needed > memory():
         raise UserError(
-            f"{len(bakes)} copies for {settings.seconds:g} s need some {needed / 1e9:.0f} GB, and this computer has "
+            f"{len(seconds)} copies for {max(seconds):.0f} s need some {needed / 1e9:.0f} GB, and this computer has "
             f"{memory() / 1e9:.0f}: let there be fewer, or shorter, under Populate"
         )
 
@@ -129,6 +133,7 @@ def _set_walks(
         lines = [line_of(context, each) for each in _curves(obj.fragmotion.crowd.paths)]
         moved = [each.moved for each in bakes]
         walks = shared(context, obj, obj.fragmotion.path, character.space, moved, settings.spacing, lines)
+        _check_memory(context, obj, [each.seconds for each in walks])
         for each, walk in zip(bakes, walks):
             each.walk = walk
     if (settings.clear and (crowd or settings.traces == "PLAYERS")) or settings.layout == "AREA":

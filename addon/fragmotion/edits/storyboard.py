@@ -11,8 +11,9 @@ import bpy
 import numpy as np
 
 from ..bake.performing import origin_frame
-from ..character.building import check_skeleton, load, make_player
+from ..character.building import check_skeleton, has_character, load, make_player
 from ..character.moves import bring_up_to_date
+from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..ground.meshes import find_ground, remarks_of
 from ..paths.storyboard import Beat, Played, play
@@ -64,6 +65,18 @@ def record(context: bpy.types.Context, obj: bpy.types.Object) -> tuple[Recording
     set_shown(recording, np.arange(len(motion.path)) / POSE_RATE, motion)
     renew_curves(obj, recording)
     return recording, [*_missed(beats, played, shown), *remarks_of(player, ground)]
+
+
+def seconds_to(obj: bpy.types.Object, place: Sequence[float]) -> float:
+    """How long the armature's character walks to a place from the last one of its storyboard, or from its origin; 0
+    where there is no character."""
+    if not has_character(obj):
+        return 0.0
+    former = [beat.place.matrix_world.translation for beat in obj.fragmotion.story if beat.place]
+    begin = tuple((former[-1] if former else origin_frame(obj))[:2])
+    if math.dist(begin, place[:2]) < _NEAR:
+        return 0.0
+    return float(core.PathFollower(load(obj).space, core.Path([begin, tuple(place[:2])])).seconds_left)
 
 
 def _recording_of(obj: bpy.types.Object, trace: Doubles) -> Recording:

@@ -17,7 +17,7 @@ SAMPLE = Path(__file__).parents[1] / "sample_character.blend"
 """The file of `sample_rigs`, as `dev.py package` puts it into the zips."""
 
 _WITHOUT_BODY = {"CAMERA", "EMPTY", "LIGHT", "LIGHT_PROBE", "SPEAKER", "FORCE_FIELD"}
-_APART = 0.5  # m between the character and what is there
+_APART = 1.5  # m between the character and what is there: room to set off in any direction
 _FLAT = 0.05  # m: what is no higher is stood upon
 _NAME = "Fragmotion Sample"  # the objects of the character; the others are its stage
 _GROUNDS = "Sample Grounds"  # the collection of what it may go on

@@ -14,6 +14,7 @@ from ..operators.base import background
 from ..operators.base.context import active_armature
 from ..preview.class_preview import ClassPreview
 from ..settings.drawing import draw_shown_style, draw_wrapped
+from ..words import counted
 from .sidebar import SubPanel, draw_play
 
 _ROWS = 7
@@ -99,9 +100,8 @@ class FRAGMOTION_PT_classes(_ClassPanel, bpy.types.Panel):
 
 def _draw_class(layout: bpy.types.UILayout, context: bpy.types.Context, number: int, row: Any) -> None:
     column = layout.column(align=True)
-    plural = "s" if row.fragments != 1 else ""
     draw_wrapped(column, context, row.name)
-    column.label(text=f"Class {number}: {row.fragments} fragment{plural}")
+    column.label(text=f"Class {number}: {counted(row.fragments, 'fragment')}")
     for part in row.described.split(", "):
         column.label(text=part, icon="BLANK1")
 

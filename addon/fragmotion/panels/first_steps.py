@@ -31,17 +31,20 @@ class FRAGMOTION_PT_first_steps(Sidebar, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         armatures = [obj for obj in context.scene.objects if obj.type == "ARMATURE"]
+        built = any(map(has_character, armatures))
         column = self.layout.column(align=True)
         for number, (operator, text, done) in enumerate(
             (
                 ("fragmotion.add_sample", "Add Sample Character", bool(armatures)),
-                ("fragmotion.build", "Build", any(map(has_character, armatures))),
+                ("fragmotion.build", "Build", built),
                 ("fragmotion.drive", "Drive", session.current is not None),
             ),
             1,
         ):
             column.operator(operator, text=f"{number}   {text}", icon="CHECKMARK" if done else "BLANK1")
-        words = "Then press W, A, S, D. For a character of your own click it, and Import Mocap instead of 1"
+        words = "Then press W, A, S, D"
+        if not built:
+            words += ". For a character of your own click it, and Import Mocap instead of 1"
         draw_wrapped(self.layout.column(align=True), context, words)
 
 

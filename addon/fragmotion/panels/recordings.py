@@ -14,6 +14,7 @@ from ..settings.drawing import (
     draw_bake,
     draw_bake_advanced,
     draw_bake_options,
+    draw_cursor,
     draw_hands,
     draw_look,
     draw_populate,
@@ -134,6 +135,8 @@ class FRAGMOTION_PT_change(_RecordingPanel, bpy.types.Panel):
         column.prop(settings, "pin_at", text="Object")
         column.prop(settings.pin, "any_heading")
         column.prop(settings.pin, "stretch", text="Over")
+        if settings.pin_at is None:
+            draw_cursor(group, context, active_armature(context))
         group.operator("fragmotion.pin_recording", icon="PINNED")
         if len(settings.story):
             group.operator("fragmotion.pin_recording", text="Pin to Storyboard", icon="PINNED").place = "STORY"

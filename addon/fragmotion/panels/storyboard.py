@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 
 from ..operators.base.context import active_armature
-from ..settings.drawing import aligned, draw_look, draw_wrapped
+from ..settings.drawing import aligned, draw_cursor, draw_look, draw_wrapped
 from .sidebar import SubPanel
 
 _ROWS = 4
@@ -51,6 +51,7 @@ class FRAGMOTION_PT_storyboard(SubPanel, bpy.types.Panel):
         buttons.operator("fragmotion.remove_beat", text="", icon="REMOVE")
         if not len(settings.story):
             draw_wrapped(layout.column(align=True), context, "Put the 3D cursor at a place, and press +", "INFO")
+        draw_cursor(layout, context, active_armature(context))
         if 0 <= settings.active_beat < len(settings.story):
             beat, column = settings.story[settings.active_beat], aligned(layout)
             column.prop(beat, "frame")

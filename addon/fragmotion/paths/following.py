@@ -106,6 +106,12 @@ class Walk(NamedTuple):
     path: Path
     options: dict[str, Any]
 
+    @property
+    def seconds(self) -> float:
+        """How long it takes: up to its end, or for as long as was asked where it goes on from there."""
+        longest, stands = self.options["seconds"], self.options["end"] == "stand"
+        return float(min(longest, self.options["arrive"]) if stands else longest)
+
     def enter(self, player: Player, scale: float) -> None:
         """This player is to walk it, of a body that is so much smaller than 1.8 m: it need not be known beforehand."""
 

@@ -188,6 +188,21 @@ def test_what_would_fill_the_memory_is_refused(obj: bpy.types.Object) -> None:
     assert making.contents() == before
 
 
+def test_recordings_and_paths_that_would_fill_the_memory_are_refused(
+    addon: ModuleType, obj: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    recording = addon.recordings.recordings.add_recording(obj, np.tile([0, 1.2, 0, 0], (200, 1)).astype(float))
+    recording.train = True
+    obj.fragmotion.path.curve = add_path([(0, 0), (0, 50)], closed=False)
+    monkeypatch.setattr(addon.bake.populating, "memory", lambda: 10**6)
+    before = making.contents()
+    with pytest.raises(RuntimeError, match="8 copies for 20 s need some"):
+        populate(count=8, traces="RECORDINGS")
+    with pytest.raises(RuntimeError, match=r"8 copies for \d+ s need some"):
+        populate(count=8, layout="PATH", spacing=2.0)
+    assert making.contents() == before
+
+
 def test_a_path_too_short_for_so_many_is_refused(obj: bpy.types.Object) -> None:
     obj.fragmotion.path.curve = add_path([(0, 0), (0, 5)], closed=False)
     former = digest()

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from types import ModuleType
+from importlib import import_module
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import bpy
@@ -130,3 +131,15 @@ def test_where_it_would_be_cut_is_found_before(addon: ModuleType, obj: bpy.types
     assert (recording.controls, recording.shown) == (controls, poses)
     assert 38 <= seam.end <= 40 and 60 <= seam.beginning <= 63 and 0 <= seam.distance < 1
     assert addon.edits.cutting.cut_out(obj, recording, 4.0, 6.0) == seam
+
+
+@pytest.mark.parametrize(("fields", "kept"), [((40, 6), (5.9, 6)), ((4, 60), (4, 11.9)), ((0, 0), (0.1, 0.2))])
+def test_the_dialogs_fields_stay_within_the_recording(
+    addon: ModuleType, recording: Any, fields: tuple[float, float], kept: tuple[float, float]
+) -> None:
+    operators = import_module(f"{addon.__name__}.operators.directing.edit_recordings")
+    shown: list[tuple[float, float]] = []
+    dialog = SimpleNamespace(start=fields[0], end=fields[1])
+    dialog._show_joins = lambda context: shown.append((dialog.start, dialog.end))
+    assert operators.FRAGMOTION_OT_cut_recording.check(dialog, bpy.context)
+    assert shown == [pytest.approx(kept)]

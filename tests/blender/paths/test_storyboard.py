@@ -51,6 +51,21 @@ def test_a_new_place_is_selected_to_be_moved(obj: bpy.types.Object) -> None:
     assert bpy.context.view_layer.objects.active == obj
 
 
+def test_a_new_place_has_time_to_be_walked_to(addon: ModuleType, obj: bpy.types.Object) -> None:
+    start, fps = addon.bake.performing.origin_frame(obj), bpy.context.scene.render.fps
+    frames = [obj.fragmotion.bake.frame_start]
+    for x, y in ((0.5, 0), (6, 0), (6, 8)):
+        bpy.context.scene.cursor.location = (start[0] + x, start[1] + y, 0)
+        assert bpy.ops.fragmotion.add_beat() == {"FINISHED"}
+        bpy.context.view_layer.update()
+        frames.append(obj.fragmotion.story[-1].frame)
+    walk = addon.character.building.load(obj).space.walk
+    near, far, farther = (seconds / fps for seconds in np.diff(frames))
+    assert near == 2 and 5.5 / walk < far < 5.5 / walk + 1 and 8 / walk < farther < 8 / walk + 1
+    shown, told = addon.edits.storyboard.record(bpy.context, obj)
+    assert shown.seconds > near + far + farther - 1 and told == []
+
+
 def record(addon: ModuleType, obj: bpy.types.Object) -> tuple[Any, Any]:
     """The recording, and what it shows."""
     assert bpy.ops.fragmotion.record_story() == {"FINISHED"}

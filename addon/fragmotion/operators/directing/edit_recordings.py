@@ -84,10 +84,13 @@ class FRAGMOTION_OT_play_again(OnRecording, bpy.types.Operator):
 
 _CUT = (1.0, 0.1, 0.1, 0.35)
 _LETTERS = 44  # of a line of the dialog
+_SPAN = 10.0  # s that a field's whole slide is: more is typed
 
 
 def _moment(name: str, description: str, default: float) -> Any:
-    return FloatProperty(name=f"{name} (s)", description=description, default=default, min=0.0, step=10, precision=1)
+    return FloatProperty(
+        name=f"{name} (s)", description=description, default=default, min=0.0, soft_max=_SPAN, step=10, precision=1
+    )
 
 
 class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
@@ -118,7 +121,10 @@ class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
         return result
 
     def check(self, context: bpy.types.Context) -> bool:
-        """Show the joins anew where the dialog's fields have changed."""
+        """Keep the stretch within the recording, and show the joins anew, where the dialog's fields have changed."""
+        least, length = 1 / TRACE_RATE, selected(context).seconds
+        self.end = max(min(self.end, length - least), 2 * least)
+        self.start = max(min(self.start, self.end - least), least)
         self._show_joins(context)
         return True
 

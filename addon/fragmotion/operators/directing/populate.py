@@ -11,6 +11,7 @@ from ...control_rig.binding import rig_of
 from ...jobs import Job
 from ...settings.bake_fields import PopulateFields
 from ...settings.drawing import draw_populate
+from ...words import counted
 from ..base.context import active_armature
 from .bake import Baking
 
@@ -44,7 +45,9 @@ class FRAGMOTION_OT_populate(PopulateFields, Baking, bpy.types.Operator):
     def _keep(self, context: bpy.types.Context, obj: bpy.types.Object, crowd: list[Baked]) -> None:
         collection = populate(context, obj, crowd, self)
         longest = max(len(baked.classes) for baked in crowd)
-        self.report({"INFO"}, f"Added {len(crowd)} copies, of {longest} frames, to collection '{collection.name}'")
+        copies = "copy" if len(crowd) == 1 else "copies"
+        where = f"collection '{collection.name}'"
+        self.report({"INFO"}, f"Added {len(crowd)} {copies}, of {counted(longest, 'frame')}, to {where}")
 
     def draw(self, _context: bpy.types.Context) -> None:
         draw_populate(self.layout, self)

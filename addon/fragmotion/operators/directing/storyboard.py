@@ -3,19 +3,20 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, ClassVar
 
 import bpy
 
-from ...edits.storyboard import record
+from ...edits.storyboard import record, seconds_to
 from ...errors import UserError, reported
 from ...recordings.recordings import NEXT
 from ...rig.selection import select
 from ..base.background import poll_character
 from ..base.context import active_armature, poll_armature
 
-_APART = 2.0  # s between an entry and the next, at first
-_SIZE = 0.3  # m, of the empty that an entry is at
+_APART = 2.0  # s between an entry and the next at first, at least
+_SIZE = 0.15  # m, of the empty that an entry is at
 
 
 class _OnStory:
@@ -27,7 +28,7 @@ class _OnStory:
 
 
 class FRAGMOTION_OT_add_beat(_OnStory, bpy.types.Operator):
-    """Add an entry to the storyboard, at a new empty where the 3D cursor is, two seconds after the one before"""
+    """Add an entry to the storyboard, at a new empty where the 3D cursor is, by when the character can walk there"""
 
     bl_idname = "fragmotion.add_beat"
     bl_label = "Add Entry"
@@ -36,13 +37,14 @@ class FRAGMOTION_OT_add_beat(_OnStory, bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         settings, render = active_armature(context).fragmotion, context.scene.render
         former = settings.story[-1].frame if len(settings.story) else settings.bake.frame_start
+        seconds = max(seconds_to(active_armature(context), context.scene.cursor.location), _APART)
         beat = settings.story.add()
         empty = bpy.data.objects.new(f"Place {len(settings.story)}", None)
         empty.location = context.scene.cursor.location
-        empty.empty_display_type, empty.empty_display_size = "CIRCLE", _SIZE
+        empty.empty_display_type, empty.empty_display_size = "SPHERE", _SIZE
         context.scene.collection.objects.link(empty)
         beat.name, beat.place = empty.name, empty
-        beat.frame = former + round(_APART * render.fps / render.fps_base)
+        beat.frame = former + math.ceil(seconds * render.fps / render.fps_base)
         settings.active_beat = len(settings.story) - 1
         selected = context.mode == "OBJECT"
         if selected:

@@ -16,6 +16,7 @@ from ...mocap.doctor import worst
 from ...mocap.importing import METRES, Imported, import_takes
 from ...mocap.take_files import ENDINGS, find_takes
 from ...rig.bodies import doubts_at_import
+from ...words import counted
 from ..base import background
 from ..base.background import Exclusive
 from ..base.context import active_armature, advise_on_foreign, can_change, check_plain, poll_idle
@@ -118,7 +119,7 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
         files = find_takes(folder, [file.name for file in self.files if file.name])
         name, unit = folder.name or "Mocap", METRES.get(self.unit)
         steps = import_takes(context, name, files, unit, self._target(context), self.mend, self.character)
-        return SteppedJob(f"Importing '{name}'", f"{len(files)} files", steps)
+        return SteppedJob(f"Importing '{name}'", counted(len(files), "file"), steps)
 
     def _owner(self) -> None:
         """There may be none yet."""
@@ -131,7 +132,7 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
             self.report({"WARNING"}, f"Left out: {cause}")
         more = len(result.broken) - _MOST_TOLD
         if more > 0:
-            self.report({"WARNING"}, f"Left out: {more} more files that cannot be read")
+            self.report({"WARNING"}, f"Left out: {counted(more, 'more file')} that cannot be read")
         for doubt in doubts_at_import(result.obj) if self.onto == "ACTIVE" else ():
             self.report({"WARNING"}, doubt)
         self.report({"INFO"}, _told(result))
@@ -150,14 +151,14 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
 
 def _told(imported: Imported) -> str:
     obj, actions, _, without, broken = imported
-    told = f"Imported {len(actions)} takes onto armature '{obj.name}' ({len(obj.data.bones)} bones)"
+    told = f"Imported {counted(len(actions), 'take')} onto armature '{obj.name}' ({len(obj.data.bones)} bones)"
     mended = sum(row.mended for action in actions for row in action.fragmotion.findings)
     left = sum(worst(action) in {"warning", "error"} for action in actions)
     parts = (
-        f"{mended} faults mended" if mended else "",
-        f"{left} takes to look at in Doctor" if left else "",
-        f"{len(without)} files left out in which no armature is animated" if without else "",
-        f"{len(broken)} files left out that cannot be read" if broken else "",
+        f"{counted(mended, 'fault')} mended" if mended else "",
+        f"{counted(left, 'take')} to look at in Doctor" if left else "",
+        f"{counted(len(without), 'file')} left out in which no armature is animated" if without else "",
+        f"{counted(len(broken), 'file')} left out that cannot be read" if broken else "",
     )
     return "; ".join([told, *filter(None, parts)])
 
