@@ -4,6 +4,7 @@
 #include <map>
 
 #include "arrays.hpp"
+#include "skeleton/other_feet.hpp"
 #include "skeleton/relaxed_hands.hpp"
 #include "skeleton/role_map.hpp"
 #include "skeleton/role_names.hpp"
@@ -90,6 +91,12 @@ void bind_skeleton(py::module_& m) {
       .def_property_readonly("tips", [](const Skeleton& s) { return vectors(s.tips); })
       .def_property_readonly("roles", &named_roles)
       .def("role_map", &role_map, py::arg("heads") = py::none(), py::arg("skin") = py::none())
+      .def("other_feet",
+           [](const Skeleton& s) {
+             std::vector<std::string> feet;
+             for (const int bone : other_feet(s)) feet.push_back(s.names[bone]);
+             return feet;
+           })
       .def_property_readonly("stature", &stature)
       .def("relaxed_pose",
            [](const Skeleton& s) {

@@ -62,6 +62,9 @@ class Skeleton:
         head, and with left_ or right_ shoulder, upper_arm, lower_arm, hand, thumb_1 ... pinky_1 ..., thigh, shin, foot,
         toe. Names tell them, and where those say nothing the shape; `heads` [P,B,3] m, places in a motion, tell more.
         Of two feet of one leg the foot is the one that carries `skin`."""
+    def other_feet(self) -> list[str]:
+        """The bones that end the limbs on which the body stands at rest beside those that end in its feet: a spider's
+        other six, which no foot lock holds."""
     def relaxed_pose(self) -> Doubles:
         """Rotations [B,4] of the rest pose with relaxed hands: fingers side by side and bent as a hand's at rest (K.-S.
         Lee, M.-C. Jung, Safety and Health at Work 6, 2015); of hands of which two fingers are known at least."""

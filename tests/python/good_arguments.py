@@ -119,6 +119,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "heads": np.stack([skeleton.rest_heads()] * 2),
             "skin": core.Skin(skeleton),
         },
+        "Skeleton.other_feet": {"self": skeleton},
         "Skeleton.rest_heads": {"self": skeleton},
         "Skeleton.rest_tails": {"self": skeleton},
         "group_skeletons": {"skeletons": [skeleton, human]},

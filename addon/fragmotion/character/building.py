@@ -34,7 +34,7 @@ from .staleness import digest_of, sources_of
 from .storing import keep_policy, key_of, read_policy
 
 if TYPE_CHECKING:
-    from fragmotion_core import BuildOptions, Character, Clip, Doubles, Player, Rig
+    from fragmotion_core import BuildOptions, Character, Clip, Doubles, Player, Rig, Skeleton
 
 _EXAM_SECONDS = 60.0
 _EXAM_SEED = 7_001
@@ -95,7 +95,16 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
     options = make_options(settings)
     traces = make_traces(obj, settings, options.usual_space)
     styled, warnings = _sample_all(context, obj, takes, rig)
-    return Material(rig, grouped(styled), traces, options, found + warnings)
+    return Material(rig, grouped(styled), traces, options, found + say_feet(rig.skeleton) + warnings)
+
+
+def say_feet(skeleton: Skeleton) -> list[str]:
+    """Which feet are not held, where it has more of them than those that are."""
+    others = skeleton.other_feet()
+    held = [bone for role, bone in skeleton.roles.items() if role.endswith("foot")]
+    if not others or not held:
+        return []
+    return [f"Held where they stand are {' and '.join(held)} alone; {', '.join(others)} go as in the takes"]
 
 
 def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Prepared:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from types import ModuleType
 
 import bpy
@@ -75,3 +76,17 @@ def test_build_says_which(addon: ModuleType, baked_ik: bpy.types.Object) -> None
     told = addon.rig.hanging.find_hanging(bpy.context, baked_ik, [bpy.data.actions["walk forward"]])
     assert len(told) == 1
     assert "'foot.L' with 'shin.L', 'foot.R' with 'shin.R'" in told[0]
+
+
+def test_build_says_which_feet_are_not_held(addon: ModuleType) -> None:
+    obj = making.open_sample()
+    assert addon.character.building.say_feet(addon.rig.rigs.make_rig(obj).skeleton) == []
+    with making.editing(obj) as bones:
+        for side, end in ((1, ".L"), (-1, ".R")):
+            above, heights = bones["hips"], (0.9, 0.4, 0.05, 0.02)
+            for number, (head, tail) in enumerate(itertools.pairwise(heights)):
+                bone = bones.new(f"more{number}{end}")
+                bone.head, bone.tail, bone.parent = (0.4 * side, 0.2, head), (0.4 * side, 0.2, tail), above
+                above = bone
+    told = addon.character.building.say_feet(addon.rig.rigs.make_rig(obj).skeleton)
+    assert told == ["Held where they stand are foot.L and foot.R alone; more2.L, more2.R go as in the takes"]

@@ -55,5 +55,27 @@ TEST(CommandLimit, WithoutALimitIsTheCommand) {
   }
 }
 
+TEST(CommandLimit, GoesRoundATurnAheadAndNoFasterThanTheAccelerationLeads) {
+  const double rate = 1.25;
+  for (const Control& asked :
+       {Control{0, 3, 1, 1}, Control{3, -4, 1, 0}, Control{0, 9, -0.5, 0}, Control{8, 0, 3, 0}}) {
+    CommandLimit limit(5);
+    const Control held = limit.round_turn(asked, rate);
+    const double turn = std::clamp(asked.turn, -1.0, 1.0);
+    EXPECT_NEAR(held.speed(), std::min(asked.speed(), 5 / (std::abs(turn) * rate)), 1e-12);
+    EXPECT_NEAR(held.x * asked.y, held.y * asked.x, 1e-12);
+    EXPECT_EQ(held.turn, asked.turn);
+    EXPECT_EQ(held.jump, asked.jump);
+    limit.reset(0, velocity(held));
+    for (int f = 1; f < 600; ++f) {
+      const double heading = turn * rate * f / 60;
+      limit.advance(held, heading, 1.0 / 60);
+      EXPECT_NEAR((limit.velocity(heading) - velocity(held)).norm(), 0, 1e-9);
+    }
+  }
+  const Control straight{0, 99, 0, 0};
+  EXPECT_EQ(CommandLimit(5).round_turn(straight, rate).y, 99);
+}
+
 }  // namespace
 }  // namespace fragmotion

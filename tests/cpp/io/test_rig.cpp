@@ -334,6 +334,32 @@ TEST(RigClip, NamesTheFrameAndBoneOfBadMatrices) {
   }
 }
 
+// Quaternius' robots blink by an eye that is scaled to nothing, and a little beyond.
+TEST(RigClip, LeavesABoneThatCarriesNoOtherAsItWasTurnedWhereItIsSquashed) {
+  const Armature armature = random_armature(18);
+  const Rig rig(armature);
+  const Channels channels = random_channels(12, 4, 19);
+  const auto matrices_of = [&](int frames, int squashed, double scale) {
+    std::vector<double> matrices;
+    for (int f = 0; f < frames; ++f) {
+      std::vector<Matrix4> pose = blender_pose(armature, &channels.locations[36 * f], &channels.rotations[48 * f]);
+      if (f == squashed) pose[11].col(1) *= scale;
+      for (const Matrix4& matrix : pose) append(matrix, matrices);
+    }
+    return matrices;
+  };
+  const auto clip = [&](const std::vector<double>& matrices) {
+    return rig.clip_from_matrices("blink", 30, 4, matrices.data());
+  };
+  const Clip seen = clip(matrices_of(4, -1, 1));
+  const auto head_at = [&](const Clip& c, int f) { return load_quaternion(&c.rotations[4 * (10 * f + 9)]); };
+  for (const double scale : {0.0, -0.1}) {
+    const Clip blinks = clip(matrices_of(4, 2, scale));
+    for (const int f : {0, 1, 3}) EXPECT_LT(head_at(blinks, f).angularDistance(head_at(seen, f)), 1e-9);
+    EXPECT_LT(head_at(blinks, 2).angularDistance(head_at(seen, 1)), 1e-9);
+  }
+}
+
 class RigChannels : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(InheritAndLocal, RigChannels, testing::Bool());
 

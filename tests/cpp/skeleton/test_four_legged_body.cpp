@@ -36,6 +36,30 @@ TEST(FourLeggedBody, HasItsHeadAtItsForeLegs) {
   EXPECT_EQ(turned.names[turned.roles.right_fore_foot], "h3.L");
 }
 
+// As Quaternius' rat has them, whose body's bone is low between them.
+TEST(FourLeggedBody, MayHaveAllItsLegsOnOneBone) {
+  Skeleton skeleton = dog();
+  skeleton.roles = {};
+  skeleton.names[2] = "head";
+  const Vector3 low{0, -0.4, -0.3};
+  for (int b = 1; b < skeleton.size(); ++b) {
+    if (skeleton.parents[b] == 0) skeleton.offsets[b] -= low;
+    if (skeleton.parents[b] != 1 || b == 2) continue;
+    skeleton.offsets[b] += Vector3{0, -kDogTrunk, 0} - low;
+    skeleton.parents[b] = 0;
+  }
+  skeleton.offsets[0] += low;
+  const Skeleton found = make_skeleton(skeleton);
+  const Roles& roles = found.roles;
+  EXPECT_EQ(roles.hips, 0);
+  EXPECT_EQ(found.names[roles.left_foot], "h3.L");
+  EXPECT_EQ(found.names[roles.right_foot], "h3.R");
+  EXPECT_EQ(found.names[roles.left_fore_foot], "f3.L");
+  EXPECT_EQ(found.names[roles.right_fore_leg], "f1.R");
+  skeleton.names[2] = "c";
+  EXPECT_EQ(make_skeleton(skeleton).roles.left_fore_foot, -1) << "nothing tells which end is the head's";
+}
+
 TEST(FourLeggedBody, IsNoManWhoseArmsHang) {
   const Skeleton skeleton = humanoid();
   EXPECT_EQ(skeleton.roles.left_fore_foot, -1);

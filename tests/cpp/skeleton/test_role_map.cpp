@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/random.hpp"
+#include "dog.hpp"
 #include "humanoids.hpp"
 #include "mocap_files.hpp"
 #include "skeleton/role_map.hpp"
@@ -285,6 +286,26 @@ TEST(RoleMap, AFootThatCarriesNoSkinGivesWayToTheOneBesideItThatDoes) {
   EXPECT_EQ(foot(&skin), "joint_l");
   skin.weights.push_back({0, skeleton.find("toes_l"), 0.1});
   EXPECT_EQ(foot(&skin), "foot_l");
+}
+
+// As Quaternius' dinosaurs have them, whose arms are called legs.
+TEST(RoleMap, OfABeastWithHindLegsItsOtherLegsAreNoLegs) {
+  Skeleton skeleton = dog();
+  skeleton.roles = {};
+  skeleton.names = {"Body", "Torso", "Head"};
+  for (const std::string limb : {"Front", "Back"}) {
+    for (const std::string side : {".L", ".R"}) {
+      for (const std::string part : {"UpLeg", "LowLeg", "Foot"}) skeleton.names.push_back(limb + part + side);
+    }
+  }
+  for (int b = 0; b < skeleton.size(); ++b) {
+    if (skeleton.names[b].rfind("Front", 0) == 0 && skeleton.parents[b] != 0) skeleton.offsets[b] *= 0.3;
+  }
+  const Skeleton beast = make_skeleton(skeleton);
+  EXPECT_EQ(beast.names[beast.roles.left_foot], "BackFoot.L");
+  EXPECT_EQ(beast.names[beast.roles.right_foot], "BackFoot.R");
+  EXPECT_EQ(beast.names[beast.roles.left_thigh], "BackUpLeg.L");
+  EXPECT_EQ(beast.roles.left_fore_foot, -1);
 }
 
 TEST(RoleMap, OfAUserIsKept) {

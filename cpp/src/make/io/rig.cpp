@@ -326,11 +326,18 @@ Clip Rig::clip_from_matrices(const std::string& name, double rate, int frames, c
                              const double* worlds) const {
   Clip clip = empty_clip(name, rate, frames);
   std::vector<Rigid> pose(bones());
+  std::vector<Quaternion> turned(bones(), Quaternion::Identity());  // away from rest, as last seen
+  std::vector<bool> carries(bones(), false);
+  for (const int b : skeleton_bones_) {
+    if (hangs_[b] >= 0) carries[hangs_[b]] = true;
+  }
   for (int f = 0; f < frames; ++f) {
     for (const int b : skeleton_bones_) {
       const RowMajor matrix(matrices + 16 * offset_of(f, bones(), b));
       const std::string label = frame_label(name, f) + ", " + bone_label(armature_, b);
-      pose[b] = {matrix.topRightCorner<3, 1>(), extract_rotation(matrix, label)};
+      const Quaternion above = unmoved(b, pose.data()).rotation;
+      if (carries[b] || !is_squashed(matrix)) turned[b] = above.conjugate() * extract_rotation(matrix, label);
+      pose[b] = {matrix.topRightCorner<3, 1>(), (above * turned[b]).normalized()};
     }
     store_pose(object_at(name, worlds, f), pose.data(), f, clip);
   }

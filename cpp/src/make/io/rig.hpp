@@ -52,8 +52,9 @@ class Rig {
   Clip clip(const std::string& name, double rate, int frames, const double* locations, const double* rotations,
             const double* worlds = nullptr) const;
 
-  /// Pose matrices [frames, bones, 4, 4] in the armature's space to a clip; their scale is dropped. Throws as clip
-  /// does, also on a mirrored or flat matrix.
+  /// Pose matrices [frames, bones, 4, 4] in the armature's space to a clip; their scale is dropped. A bone that carries
+  /// no other, an eye that blinks, may be squashed: it stays turned as it was seen last. Throws as clip does, also on a
+  /// mirrored or flat matrix of another bone.
   Clip clip_from_matrices(const std::string& name, double rate, int frames, const double* matrices,
                           const double* worlds = nullptr) const;
 

@@ -21,6 +21,12 @@ using RowMajor = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>;
 
 inline Vector3 column_lengths(const RowMajor& matrix) { return matrix.topLeftCorner<3, 3>().colwise().norm(); }
 
+/// Whether a matrix is finite and scales to nothing, or to the other side of it: it has no rotation.
+inline bool is_squashed(const RowMajor& matrix) {
+  const Eigen::Matrix3d m = matrix.topLeftCorner<3, 3>();
+  return matrix.allFinite() && (m.colwise().norm().minCoeff() < kFlat || m.determinant() <= 0);
+}
+
 /// The rotation in a matrix that may scale; keeps the direction of y, along the bone, where it also shears.
 inline Quaternion extract_rotation(const RowMajor& matrix, const std::string& label) {
   const Eigen::Matrix3d m = matrix.topLeftCorner<3, 3>();

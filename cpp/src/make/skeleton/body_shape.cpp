@@ -35,6 +35,7 @@ void BodyShape::grow(const BodyTree& tree) {
   parents_.assign(bones, -1);
   children_.assign(bones, {});
   reach_.assign(bones, 0);
+  for (const BoneName& name : tree.names) sides_.push_back(name.side);
   for (int b = 0; b < bones; ++b) {
     int above = tree.parents[b];
     while (above >= 0 && !taken(above)) above = tree.parents[above];

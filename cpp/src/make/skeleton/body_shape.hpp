@@ -45,6 +45,8 @@ class BodyShape {
   /// The longest way from a leaf to another one, m.
   double size() const { return size_; }
 
+  /// As its name tells.
+  Side side(int bone) const { return sides_[bone]; }
   int parent(int bone) const { return parents_[bone]; }
   const std::vector<int>& children(int bone) const { return children_[bone]; }
   bool is_below(int bone, int ancestor) const;
@@ -74,13 +76,14 @@ class BodyShape {
   std::vector<Quaternion> rotations_;
   Poses poses_;
   bool moves_ = false;
+  std::vector<Side> sides_;
   std::vector<int> parents_;
   std::vector<std::vector<int>> children_;
   std::vector<double> reach_;
   double size_ = 0;
 };
 
-/// The pairs of limbs that are alike, at most one a bone.
+/// The pairs of limbs that are alike, of those that hang on the same bone and are not named of the same side.
 std::vector<LimbPair> find_limb_pairs(const BodyShape& shape);
 
 /// How far the ends of a pair's limbs are under their node, on the mean over poses, in lengths of the limbs.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -89,6 +90,7 @@ BodyTree::BodyTree(const Skeleton& skeleton, const Skin* skin) {
   bare = skin ? bare_bones(skeleton, *skin) : std::vector<bool>(size(), false);
   for (const BoneName& name : names) said.push_back(fragmotion::says(name));
   silence_numbered_limbs();
+  contradict_fore_legs();
   for (int b = 0; b < size(); ++b) {
     depth[b] = parents[b] < 0 ? 0 : depth[parents[b]] + 1;
     twist[b] = in_body[b] && says_twist(names[b]);
@@ -132,6 +134,22 @@ void BodyTree::silence_numbered_limbs() {
       if (arm) silence(bone, kArm);
       if (leg) silence(bone, kLeg);
     }
+  }
+}
+
+/// Of a beast whose names tell hind legs and others, the others are no legs of the two that carry it.
+void BodyTree::contradict_fore_legs() {
+  const auto is_leg = [&](int bone) {
+    return has_any_word(names[bone], {"leg", "foot"}) && names[bone].side != Side::kNone;
+  };
+  const auto is_hind = [&](int bone) { return is_leg(bone) && has_any_word(names[bone], {"back", "hind", "rear"}); };
+  std::vector<int> bones(size());
+  std::iota(bones.begin(), bones.end(), 0);
+  if (std::none_of(bones.begin(), bones.end(), is_hind)) return;
+  for (const int bone : bones) {
+    if (!is_leg(bone) || !has_any_word(names[bone], {"front", "fore", "mid"})) continue;
+    for (const Role role : {Role::kThigh, Role::kShin, Role::kFoot, Role::kToe})
+      said[bone][static_cast<int>(role)] = kContradicts;
   }
 }
 

@@ -40,6 +40,7 @@ struct BodyTree {
 
  private:
   void silence_numbered_limbs();
+  void contradict_fore_legs();
 };
 
 /// A limb from the trunk outward; -1 where a bone is not told.

@@ -23,10 +23,11 @@ class FourLegs {
   std::optional<Body> find() const {
     std::vector<LimbPair> legs;
     for (LimbPair& pair : find_limb_pairs(shape_)) {
-      if (depth_of(pair, shape_.resting()) > kUpright) legs.push_back(std::move(pair));
+      if (leads_down(pair)) legs.push_back(std::move(pair));
     }
     if (legs.size() != 2 || !carry_a_trunk(legs[0], legs[1])) return std::nullopt;
     const int head = find_head(legs);
+    if (head < 0 && legs[0].node == legs[1].node) return std::nullopt;
     if (fore_of(legs, head) == 0) std::swap(legs[0], legs[1]);
     Body body;
     body.four_legged = true;
@@ -39,12 +40,22 @@ class FourLegs {
       body.legs[side] = leg(legs[0].chains[side]);
       body.arms[side] = leg(legs[1].chains[side]);
     }
-    put_left_first(at(legs[1].node) - at(legs[0].node), body);
+    put_left_first(begin(legs[1]) - begin(legs[0]), body);
     return body;
   }
 
  private:
   const Vector3& at(int bone) const { return shape_.rest()[bone]; }
+
+  // Between where a pair's limbs begin.
+  Vector3 begin(const LimbPair& pair) const { return 0.5 * (at(pair.chains[0].front()) + at(pair.chains[1].front())); }
+
+  // Whatever the height of the bone that it hangs on.
+  bool leads_down(const LimbPair& pair) const {
+    return std::all_of(pair.chains.begin(), pair.chains.end(), [&](const Chain& chain) {
+      return BodyShape::descent(shape_.resting(), chain.front(), chain.back()) > kUpright;
+    });
+  }
 
   double lowest(const LimbPair& pair) const {
     return std::min(at(pair.chains[0].back()).z(), at(pair.chains[1].back()).z());
@@ -53,7 +64,7 @@ class FourLegs {
   // Whether all their feet stand on the ground, and what is between hips and shoulders lies rather than stands.
   bool carry_a_trunk(const LimbPair& a, const LimbPair& b) const {
     const double leg = std::min(a.length, b.length);
-    const Vector3 trunk = at(b.node) - at(a.node);
+    const Vector3 trunk = begin(b) - begin(a);
     const double along = trunk.head<2>().norm();
     return std::abs(lowest(a) - lowest(b)) < kFeetLevel * leg && along > kTrunkLength * leg &&
            along > std::abs(trunk.z());
@@ -72,7 +83,7 @@ class FourLegs {
   // Which pair is the fore one: the one by the head, else the one that hangs on the other.
   int fore_of(const std::vector<LimbPair>& legs, int head) const {
     if (head < 0) return shape_.is_below(legs[0].node, legs[1].node) ? 0 : 1;
-    return (at(head) - at(legs[0].node)).norm() < (at(head) - at(legs[1].node)).norm() ? 0 : 1;
+    return (at(head) - begin(legs[0])).norm() < (at(head) - begin(legs[1])).norm() ? 0 : 1;
   }
 
   // What carries both pairs, from the hind one on.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "skeleton/body_shape.hpp"
@@ -40,6 +39,27 @@ bool may_be_limb(const BodyShape& shape, const Chain& chain) {
   return is_stretched(shape.rest().data()) || std::any_of(shape.poses().begin(), shape.poses().end(), is_stretched);
 }
 
+bool on_one_side(const BodyShape& shape, const Chain& a, const Chain& b) {
+  return shape.side(a[0]) != Side::kNone && shape.side(a[0]) == shape.side(b[0]);
+}
+
+// Which limbs that hang on one bone are alike, where each of the two is like no other.
+std::vector<std::pair<std::size_t, std::size_t>> only_pairs(const BodyShape& shape, const std::vector<Chain>& limbs) {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  std::vector<int> mates(limbs.size(), 0);
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    for (std::size_t j = i + 1; j < limbs.size(); ++j) {
+      if (on_one_side(shape, limbs[i], limbs[j]) || !alike(shape, limbs[i], limbs[j])) continue;
+      pairs.emplace_back(i, j);
+      ++mates[i];
+      ++mates[j];
+    }
+  }
+  const auto is_unsure = [&](const auto& pair) { return mates[pair.first] > 1 || mates[pair.second] > 1; };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_unsure), pairs.end());
+  return pairs;
+}
+
 }  // namespace
 
 std::vector<LimbPair> find_limb_pairs(const BodyShape& shape) {
@@ -50,16 +70,8 @@ std::vector<LimbPair> find_limb_pairs(const BodyShape& shape) {
       if (shape.branch(child) < kLimb * shape.size()) continue;
       if (Chain chain = shape.chain_from(child); may_be_limb(shape, chain)) limbs.push_back(std::move(chain));
     }
-    std::optional<LimbPair> pair;
-    int found = 0;
-    for (std::size_t i = 0; i < limbs.size(); ++i) {
-      for (std::size_t j = i + 1; j < limbs.size(); ++j) {
-        if (!alike(shape, limbs[i], limbs[j])) continue;
-        pair = LimbPair{node, {limbs[i], limbs[j]}, shape.branch(limbs[i][0])};
-        ++found;
-      }
-    }
-    if (found == 1) pairs.push_back(*pair);
+    for (const auto& [a, b] : only_pairs(shape, limbs))
+      pairs.push_back({node, {limbs[a], limbs[b]}, shape.branch(limbs[a][0])});
   }
   return pairs;
 }

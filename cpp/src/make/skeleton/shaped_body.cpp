@@ -20,7 +20,7 @@ class ShapeFinder {
   explicit ShapeFinder(const BodyShape& shape) : shape_(shape) {}
 
   Body find() {
-    const std::vector<LimbPair> pairs = find_limb_pairs(shape_);
+    const std::vector<LimbPair> pairs = one_a_bone(find_limb_pairs(shape_));
     if (pairs.size() < 2) return {};
     std::optional<std::pair<LimbPair, LimbPair>> body = legs_and_arms(pairs);
     if (!body) return {};
@@ -38,6 +38,16 @@ class ShapeFinder {
   }
 
  private:
+  // A man has no four limbs on one bone.
+  static std::vector<LimbPair> one_a_bone(const std::vector<LimbPair>& pairs) {
+    std::vector<LimbPair> alone;
+    for (const LimbPair& pair : pairs) {
+      const auto beside = [&](const LimbPair& other) { return other.node == pair.node; };
+      if (std::count_if(pairs.begin(), pairs.end(), beside) == 1) alone.push_back(pair);
+    }
+    return alone;
+  }
+
   // What carries both: a pelvis beside the spine carries legs alone. -1 where neither pelvis nor carrier is the hips.
   int carrier(int legs, int arms) const {
     if (shape_.is_below(legs, arms) || shape_.is_below(arms, legs)) return legs;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "control/command_limit.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace fragmotion {
 
 void CommandLimit::reset(double heading, const Vector2& velocity) {
@@ -9,6 +12,13 @@ void CommandLimit::reset(double heading, const Vector2& velocity) {
 }
 
 Vector2 CommandLimit::velocity(double heading) const { return Eigen::Rotation2Dd(heading_ - heading) * velocity_; }
+
+Control CommandLimit::round_turn(const Control& control, double turn_rate) const {
+  const double push = control.speed() * std::min(std::abs(control.turn), 1.0) * turn_rate;
+  if (!(push > acceleration_)) return control;
+  const double share = acceleration_ / push;
+  return {share * control.x, share * control.y, control.turn, control.jump};
+}
 
 Control CommandLimit::after(const Control& control, double heading, double seconds) const {
   return limited(control, velocity(heading), seconds);

@@ -19,6 +19,9 @@ class CommandLimit {
   void reset(double heading, const Vector2& velocity = Vector2::Zero());
   /// At which it goes, m/s in the character frame of a body that faces `heading`.
   Vector2 velocity(double heading) const;
+  /// The control, no faster than the acceleration leads round the turn that it holds at `turn_rate` rad/s: v = a / w.
+  /// What turns quicker than a full turn is over soon, and goes as fast as in one.
+  Control round_turn(const Control& control, double turn_rate) const;
   /// What the control becomes `seconds` from the last advance(), of a body that faces `heading` then.
   Control after(const Control& control, double heading, double seconds) const;
   /// Goes so far. Returns the acceleration of the command, m/s^2 in the character frame.

@@ -32,7 +32,7 @@ class RootGovernor {
 
   /// What a body that faces `heading` can do of a control in so many seconds from now.
   Control command(const Control& control, double heading, double seconds) const {
-    return limit_.after(control, heading, seconds);
+    return limit_.after(limit_.round_turn(control, space_->turn_rate()), heading, seconds);
   }
   /// What it is commanded now, m/s, as its body faces `heading`.
   Vector2 commanded(double heading) const { return limit_.velocity(heading); }

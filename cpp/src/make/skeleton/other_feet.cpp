@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "skeleton/other_feet.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "skeleton/body_shape.hpp"
+#include "skeleton/two_bone_ik.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kStands = 0.15;  // of a limb's length over the lowest end, at most
+
+double highest_end(const BodyShape& shape, const LimbPair& pair) {
+  return std::max(shape.rest()[pair.chains[0].back()].z(), shape.rest()[pair.chains[1].back()].z());
+}
+
+bool ends_in_a_foot(const Skeleton& skeleton, const Chain& chain) {
+  const std::vector<LegRoles> legs = legs_with_feet(skeleton.roles);
+  return std::any_of(legs.begin(), legs.end(), [&](const LegRoles& leg) {
+    return std::find(chain.begin(), chain.end(), leg.foot) != chain.end();
+  });
+}
+
+}  // namespace
+
+std::vector<int> other_feet(const Skeleton& skeleton) {
+  const BodyTree tree(skeleton);
+  const BodyShape shape(skeleton, tree, nullptr);
+  const std::vector<LimbPair> pairs = find_limb_pairs(shape);
+  double ground = std::numeric_limits<double>::infinity();
+  for (const LimbPair& pair : pairs) ground = std::min(ground, highest_end(shape, pair));
+  std::vector<int> feet;
+  for (const LimbPair& pair : pairs) {
+    if (highest_end(shape, pair) - ground > kStands * pair.length) continue;
+    for (const Chain& chain : pair.chains) {
+      if (!ends_in_a_foot(skeleton, chain)) feet.push_back(chain.back());
+    }
+  }
+  return feet;
+}
+
+}  // namespace fragmotion
