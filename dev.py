@@ -14,7 +14,8 @@ from tools import demo
 from tools.docs import pages
 from tools.docs.in_window import running as windows
 from tools.games import godot, web
-from tools.measuring import benchmarks, running
+from tools.measuring import running
+from tools.measuring.bench.running import run_benchmarks
 from tools.measuring.beside import inputs as beside_inputs
 from tools.measuring.directing import inputs as directing_inputs
 from tools.measuring.tuning import inputs as tuning_inputs
@@ -42,9 +43,12 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     fuzz = commands.add_parser("fuzz", help="feed the file readers with inputs made at random, and watch for crashes")
     fuzz.add_argument("--seconds", type=float, default=60.0, metavar="N", help="how long, all fuzzers together (60)")
     fuzz.add_argument("names", nargs="*", metavar="FUZZER", help=f"only these of {', '.join(fuzzing.names())}")
-    bench = commands.add_parser("bench", help="measure the core against NumPy and scikit-learn")
+    bench = commands.add_parser("bench", help="measure the core against NumPy and scikit-learn, each goal met or not")
     bench.add_argument(
-        "--takes", type=Path, nargs="+", default=[], metavar="MOCAP", help="of a policy file (the sample's)"
+        "--takes", type=Path, nargs="+", default=[], metavar="MOCAP", help="of the large character (the sample's)"
+    )
+    bench.add_argument(
+        "--peers", type=Path, metavar="DIR", help="compare with ozz-animation, in this folder or fetched into it by git"
     )
     bench.add_argument("--json", type=Path, metavar="FILE", help="save the figures there too")
     beside = commands.add_parser("beside", help="measure Fragmotion beside motion matching, on the same takes")
@@ -112,7 +116,7 @@ def main(arguments: list[str]) -> int:
             machine.set_up(machine.FUZZ)
             return 1 if fuzzing.fuzz_for(options.seconds, options.names or fuzzing.names()).findings else 0
         if options.command == "bench":
-            return benchmarks.run_benchmarks(options.takes, options.json)
+            return run_benchmarks(options.takes, options.peers, options.json)
         if options.command == "unstable":
             return run_in_unstable(options.words)
         if options.command == "web":

@@ -9,15 +9,10 @@
 #include "policy/optimal.hpp"
 #include "policy/quality_table.hpp"
 #include "policy/svm.hpp"
-#include "runtime/step_on_threads.hpp"
 #include "workload.hpp"
 
 namespace fragmotion::benchmarks {
 namespace {
-
-constexpr double kFrameRate = 60;
-constexpr int kCrowd = 10000;
-constexpr int kFramesPerControl = static_cast<int>(kFrameRate / kTraceRate);
 
 void measure_trajectories(benchmark::State& state) {
   const Workload& w = workload();
@@ -87,39 +82,6 @@ void measure_large(benchmark::State& state) {
   state.counters["peak_bytes"] = 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-// A frame of the run time: decide, sample, stitch, lock the feet or not, and the places and rotations of all bones.
-void measure_player_frame(benchmark::State& state, bool lock_feet) {
-  const Workload& w = workload();
-  PlayerOptions options;
-  options.lock_feet = lock_feet;
-  Player player(w.built, options);
-  const Kinematics kinematics(w.pool.skeleton);
-  PosedBones posed(kinematics.bones());
-  std::size_t frame = 0;
-  for (auto _ : state) {
-    player.step(w.trace[frame++ / kFramesPerControl % w.trace.size()], 1 / kFrameRate);
-    kinematics.world(player.root_position(), player.rotations().data(), posed.heads.data(), posed.rotations.data());
-    benchmark::DoNotOptimize(posed.heads.data());
-  }
-}
-
-// A step of a crowd that goes as many ways as there are controls.
-void measure_crowd(benchmark::State& state) {
-  const Workload& w = workload();
-  Crowd crowd(w.built, kCrowd, {}, static_cast<int>(state.range(0)));
-  std::vector<Control> controls(kCrowd);
-  std::vector<double> roots(std::size_t{3} * kCrowd), rotations(std::size_t{4} * kCrowd * crowd.bones());
-  std::size_t frame = 0;
-  for (auto _ : state) {
-    state.PauseTiming();
-    const std::size_t now = frame++ / kFramesPerControl;
-    for (int i = 0; i < kCrowd; ++i) controls[i] = w.trace[(now + 7 * i) % w.trace.size()];
-    state.ResumeTiming();
-    step_on_threads(crowd, controls.data(), 1 / kFrameRate, roots.data(), rotations.data());
-    benchmark::DoNotOptimize(rotations.data());
-  }
-}
-
 BENCHMARK(measure_trajectories)->Name("trajectories")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(measure_cluster)->Name("cluster")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(measure_quality)->Name("quality table")->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -128,13 +90,6 @@ BENCHMARK(measure_svm)->Name("svm")->Unit(benchmark::kMillisecond)->UseRealTime(
 BENCHMARK(measure_iterate)->Name("iterate")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(measure_whole)->Name("whole build")->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(measure_decision)->Name("decision")->Unit(benchmark::kNanosecond)->UseRealTime();
-BENCHMARK_CAPTURE(measure_player_frame, free, false)->Name("player frame")->Unit(benchmark::kNanosecond)->UseRealTime();
-BENCHMARK_CAPTURE(measure_player_frame, locked, true)
-    ->Name("player frame, feet locked")
-    ->Unit(benchmark::kNanosecond)
-    ->UseRealTime();
-BENCHMARK(measure_crowd)->Name("crowd step")->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(measure_crowd)->Name("crowd step, two threads")->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(measure_large)
     ->Name("large build")
     ->Arg(12500)

@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: MIT
-// Measures the core: `POLICY FOLDER` before Google Benchmark's own options. Frames are measured on the character in
-// POLICY, too, and what all else works on is written to FOLDER as NumPy arrays.
+// Measures the core: `POLICY FOLDER` before Google Benchmark's own options. Frames and crowds are measured on the
+// character in POLICY, too, and what all else works on is written to FOLDER as NumPy arrays.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
 #include <exception>
+#include <utility>
 
 #include "character/policy_file.hpp"
+#include "crowds.hpp"
 #include "frames.hpp"
+#include "peers/ozz.hpp"
 #include "workload.hpp"
 
 namespace fragmotion::benchmarks {
 namespace {
 
 void prepare(const char* policy, const char* folder) {
-  register_frames("small", workload().built);
-  register_frames("large", std::make_shared<const Character>(load_policy(policy)));
+  const std::pair<const char*, std::shared_ptr<const Character>> characters[] = {
+      {"small", workload().built}, {"large", std::make_shared<const Character>(load_policy(policy))}};
+  for (const auto& [name, character] : characters) {
+    register_frames(name, character);
+    register_ozz_frame(name, character);
+    register_crowds(name, character);
+  }
   dump(workload(), folder);
 }
 

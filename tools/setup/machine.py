@@ -86,7 +86,7 @@ SAME_BITS = BUILD_HOST | Needs(("qemu-user", "wine64"), {HOST: (*cross.REQUIREME
 WINDOWS_45 = Needs(windows.PACKAGES, {"3.11": ("numpy", "pytest")}, windows=("3.11",))
 WINDOWS_52 = Needs(windows.PACKAGES, {"3.13": ("pytest",)}, windows=("3.13",))
 ENGINES = DEMO | GAME_TESTS
-BENCH = CPP_TESTS | PYTHON_TESTS
+BENCH = CPP_TESTS | PYTHON_TESTS | DEMO
 
 
 def measuring_needs(python: str) -> Needs:

@@ -191,6 +191,34 @@ TEST(FragmentSelector, LeavesAFragmentOnlyWhereThatCostsLessThanWhatElseMayPlay)
   }
 }
 
+TEST(FragmentSelector, TellsWhetherToLeaveNowAsAWholePlanDoes) {
+  Choice choice(1);
+  const Character& c = *choice.character;
+  const Exit none{-1, 0, std::numeric_limits<double>::infinity()};
+  int now = 0, later = 0;
+  for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 29) {
+    choice.playback.reset(fragment, {});
+    choice.playback.advance(0.04);
+    for (int k = 0; k + 1 < c.classes.count; k += 5) {
+      const Control& control = c.pool.fragments[c.classes.representatives[k]].evident;
+      for (const double haste : {0.0, 2.0, 20.0}) {
+        const Exit stays{k, choice.playback.seconds() + choice.playback.left(), k % 2 == 0 ? 3 : none.cost};
+        const auto best = [&](bool only_now) {
+          return choice.selector.best_exit({Exit{k, 0, 0}, Exit{k + 1, 0, 0.2}}, control, choice.playback, haste, stays,
+                                           only_now);
+        };
+        const Exit whole = best(false), found = best(true);
+        const bool leaves = whole.seconds == choice.playback.seconds();
+        ASSERT_EQ(found.seconds == choice.playback.seconds(), leaves);
+        if (leaves) ASSERT_EQ(found.next_class, whole.next_class);
+        ++(leaves ? now : later);
+      }
+    }
+  }
+  EXPECT_GT(now, 50);
+  EXPECT_GT(later, 50);
+}
+
 // When a fragment is left for a class whose representative performs the control.
 double exit_for(Choice& choice, int fragment, int next_class) {
   constexpr double kSoon = 0.1, kHaste = 0.5 * kTunedReach;  // s, and m of Dis

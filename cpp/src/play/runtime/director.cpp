@@ -8,9 +8,10 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSame = 1e-6;     // ControlDis between controls that differ by rounding alone
-constexpr double kChange = 1;      // ControlDis between controls that is "a lot"
-constexpr double kWorthIt = 0.05;  // s that must be left of a fragment for leaving it early
+constexpr double kSame = 1e-6;      // ControlDis between controls that differ by rounding alone
+constexpr double kChange = 1;       // ControlDis between controls that is "a lot"
+constexpr double kWorthIt = 0.05;   // s that must be left of a fragment for leaving it early
+constexpr double kPart = 1 / 30.0;  // s of a fragment that a part of a step plays at most
 
 }  // namespace
 
@@ -104,21 +105,25 @@ bool Director::makes_way(const Playback& playback) const {
   return forced_ >= 0 && playback.seconds() > soonest(playback) - kInstant;
 }
 
-bool Director::leaves_early(const Control& wanted, const Playback& playback, const FragmentSelector& selector) {
+bool Director::leaves_early(const Control& wanted, bool changes, const Playback& playback,
+                            const FragmentSelector& selector) {
   const bool too_soon = playback.seconds() <= soonest(playback) - kInstant;
   if (too_soon || playback.left() <= kWorthIt || waiting_ >= 0 || plays_forced_) return false;
   if (playback.is_jumping() || !has_changed(wanted)) return false;
   if (!is_planned(wanted)) {
-    exit_ = plan_exit(wanted, playback, selector);
+    const bool only_now = changes && playback.left() > kWorthIt + kPart;  // it will be planned anew
+    const Exit found = plan_exit(wanted, playback, selector, only_now);
+    exit_ = only_now && found.seconds > playback.seconds() ? Exit{} : found;
     planned_for_ = wanted;
   }
-  return playback.seconds() > exit_.seconds - kInstant;
+  return exit_.next_class >= 0 && playback.seconds() > exit_.seconds - kInstant;
 }
 
 // Where what plays is left in the middle of a step, or at the end of its take, the class that the table gives may begin
 // with the wrong foot: then the one that follows it is entered. Or it is left at its end, where its take does what is
 // wanted by itself.
-Exit Director::plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector) const {
+Exit Director::plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector,
+                         bool only_now) const {
   const int next = look_up_class(class_, wanted), after = look_up_class(next, wanted);
   const bool may_skip =
       after != next && !wanted.jumps() && bridge_between(class_, next) < 0 && bridge_between(class_, after) < 0;
@@ -129,11 +134,13 @@ Exit Director::plan_exit(const Control& wanted, const Playback& playback, const 
   Exit stays{next, playback.seconds() + playback.left(), std::numeric_limits<double>::infinity()};
   if (found >= 0) stays.cost = haste * playback.left() + selector.cost_of_going_on(found, wanted);
   return selector.best_exit({Exit{next, 0, 0}, Exit{may_skip ? after : -1, 0, weights.skip}}, wanted, playback, haste,
-                            stays);
+                            stays, only_now);
 }
 
-bool Director::is_due(const Control& control, const Playback& playback, const FragmentSelector& selector) {
-  return makes_way(playback) || playback.left() < kInstant || leaves_early(wanted(control), playback, selector);
+bool Director::is_due(const Control& control, bool changes, const Playback& playback,
+                      const FragmentSelector& selector) {
+  return makes_way(playback) || playback.left() < kInstant ||
+         leaves_early(wanted(control), changes, playback, selector);
 }
 
 // What plays for the time of two fragments is compared: the take's next one and then the one after it, or what the end

@@ -29,7 +29,8 @@ class Director {
   Control wanted(const Control& control) const;
 
   /// Whether a decision is due: what plays ends, is left early, or makes way for a forced class.
-  bool is_due(const Control& control, const Playback& playback, const FragmentSelector& selector);
+  /// `changes`: the control is another one the next time, so that nothing is planned ahead for it.
+  bool is_due(const Control& control, bool changes, const Playback& playback, const FragmentSelector& selector);
   /// The fragment with which the take that plays goes on at its end, where that costs no more (transition_cost.hpp)
   /// than what the policy tells, and nothing must stand between it and what follows; otherwise -1.
   int continuation(const Control& control, const Playback& playback, const FragmentSelector& selector) const;
@@ -53,12 +54,13 @@ class Director {
 
   double soonest(const Playback& playback) const;
   bool makes_way(const Playback& playback) const;
-  bool leaves_early(const Control& wanted, const Playback& playback, const FragmentSelector& selector);
+  bool leaves_early(const Control& wanted, bool changes, const Playback& playback, const FragmentSelector& selector);
   bool has_changed(const Control& wanted) const;
   int look_up_class(int playing, const Control& wanted) const;
   int bridge_between(int previous, int next) const;
   bool is_planned(const Control& wanted) const;
-  Exit plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector) const;
+  Exit plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector,
+                 bool only_now = false) const;
   int next_class(const Control& control, const Playback& playback, const FragmentSelector& selector);
 
   const Character* character_;

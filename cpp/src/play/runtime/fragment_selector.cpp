@@ -209,7 +209,7 @@ double FragmentSelector::distance_to(int move, const Playback& playback) const {
 // No moment is looked at once waiting, and what of the costs is known, are too much. What is shown kEntry before a
 // moment is known from the last but one.
 Exit FragmentSelector::best_exit(const std::array<Exit, 2>& classes, const Control& control, const Playback& playback,
-                                 double haste, Exit best) const {
+                                 double haste, Exit best, bool only_now) const {
   const double seconds = playback.seconds(), rest = playback.left();
   const Left left{playback.fragment(), playback.contacts()};
   auto& [long_before, before, now] = workspace_->tips;
@@ -226,7 +226,6 @@ Exit FragmentSelector::best_exit(const std::array<Exit, 2>& classes, const Contr
   const auto may_gain = [&](double wait) { return known[0] < most(0, wait) || known[1] < most(1, wait); };
   if (!may_gain(0)) return best;
   pose_tips(playback, seconds - kEntry, long_before);
-  pose_tips(playback, seconds - kLook, before);
   StepSequence steps = playback.steps();
   for (double wait = 0; may_gain(wait); wait = std::min(wait + kLook, rest)) {
     if (wait == rest) pose_tips(playback, seconds + wait - kEntry, long_before);
@@ -238,7 +237,8 @@ Exit FragmentSelector::best_exit(const std::array<Exit, 2>& classes, const Contr
                                                            workspace_->candidates[i], limit);
       if (cost < limit) best = {classes[i].next_class, seconds + wait, cost + (classes[i].cost + haste * wait)};
     }
-    if (wait >= rest) break;
+    if (wait >= rest || (only_now && best.seconds > seconds)) break;
+    if (wait == 0) pose_tips(playback, seconds - kLook, before);
     std::swap(long_before, before);
     std::swap(before, now);
   }

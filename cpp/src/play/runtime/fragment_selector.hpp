@@ -61,9 +61,10 @@ class FragmentSelector {
   double distance_to(int move, const Playback& playback) const;
 
   /// When what plays is best left for one of two classes, of which each costs more by its `cost` (class -1: none),
-  /// where every second of waiting costs `haste`; `best` where no exit costs less than that.
+  /// where every second of waiting costs `haste`; `best` where no exit costs less than that. Where it is asked only
+  /// whether that is now, any later one that costs less than now's, which takes fewer moments to look at.
   Exit best_exit(const std::array<Exit, 2>& classes, const Control& control, const Playback& playback, double haste,
-                 Exit best) const;
+                 Exit best, bool only_now = false) const;
 
  private:
   friend struct PlayerState;

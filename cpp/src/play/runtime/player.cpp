@@ -249,7 +249,8 @@ double Player::advance(const Control& control, double most) {
 
 double Player::advance_by_policy(const Control& control, double most) {
   const Control soon = governor_.command(control, frame().heading, most + kMiddle);
-  if (director_.is_due(soon, playback_, selector_)) go_on(soon);
+  const bool changes = !(soon.x == control.x && soon.y == control.y) && !playback_.is_in_the_air();
+  if (director_.is_due(soon, changes, playback_, selector_)) go_on(soon);
   const double tempo = governor_.tempo(), played = director_.until_due(playback_, most * tempo), part = played / tempo;
   playback_.advance(played);
   governor_.steer(control, part, playback_);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A crowd by its level of detail, as a game has it.
+// A crowd near the camera, and one by its level of detail, as a game has it.
+#include "crowds.hpp"
+
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -8,14 +10,16 @@
 #include <vector>
 
 #include "character/policy_file.hpp"
+#include "control/simulated_players.hpp"
 #include "fragmotion/fragmotion.hpp"
-#include "workload.hpp"
+#include "runtime/step_on_threads.hpp"
 
 namespace fragmotion::benchmarks {
 namespace {
 
 constexpr double kFrame = 1.0 / 60;  // s
-constexpr int kFramesPerControl = 6, kManyPlayers = 50000;
+constexpr int kFramesPerControl = 6, kNearPlayers = 10000, kManyPlayers = 50000;
+constexpr double kTrace = 60;                 // s of it
 constexpr std::size_t kSetOff = 60;           // frames until they go
 constexpr int kMeasured = 24;                 // frames, in which each has stepped as often as it does
 constexpr double kNear = 20, kMiddle = 60;    // m from the camera: the limits of levels, with one player a square metre
@@ -35,8 +39,43 @@ void require(bool holds) {
   if (!holds) throw std::runtime_error(game::last_error());
 }
 
-game::Character loaded() {
-  const std::string bytes = to_bytes(*workload().built);
+// What all players of a crowd do, each at a time of its own: as many ways as there are controls.
+class Ways {
+ public:
+  explicit Ways(const ControlSpace& space) : trace_(simulate_trace("explorer", kTrace, 1, space)) {}
+
+  const Control& operator()(std::size_t frame, std::size_t player) const {
+    return trace_[(frame / kFramesPerControl + 7 * player) % trace_.size()];
+  }
+
+ private:
+  Trace trace_;
+};
+
+// All step in all frames, with feet locked.
+void measure_crowd(benchmark::State& state, const std::shared_ptr<const Character>& character, int threads) {
+  const Ways ways(character->space);
+  Crowd crowd(character, kNearPlayers, {}, threads);
+  std::vector<Control> controls(kNearPlayers);
+  std::vector<double> roots(std::size_t{3} * kNearPlayers), rotations(std::size_t{4} * kNearPlayers * crowd.bones());
+  std::size_t frame = 0;
+  const auto steer = [&] {
+    for (int i = 0; i < kNearPlayers; ++i) controls[i] = ways(frame, i);
+    ++frame;
+  };
+  const auto step = [&] { step_on_threads(crowd, controls.data(), kFrame, roots.data(), rotations.data()); };
+  while (frame < kSetOff) steer(), step();
+  for (auto _ : state) {
+    state.PauseTiming();
+    steer();
+    state.ResumeTiming();
+    step();
+    benchmark::DoNotOptimize(rotations.data());
+  }
+}
+
+game::Character loaded(const Character& built) {
+  const std::string bytes = to_bytes(built);
   FragmotionLoadOptions options = fragmotion_load_options();
   options.axes = FRAGMOTION_AXES_BLENDER;
   game::Character character = game::Character::load(bytes.data(), bytes.size(), options);
@@ -51,11 +90,9 @@ void set_level(game::PlayerRef player, const Level& level) {
   require(player.set_options(options));
 }
 
-// As many ways as there are controls.
-void steer(std::size_t frame, std::vector<FragmotionInput>& inputs) {
-  const Trace& trace = workload().trace;
+void steer(const Ways& ways, std::size_t frame, std::vector<FragmotionInput>& inputs) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const Control& control = trace[(frame / kFramesPerControl + 7 * i) % trace.size()];
+    const Control& control = ways(frame, i);
     inputs[i].move[0] = static_cast<float>(control.x);
     inputs[i].move[1] = static_cast<float>(control.y);
     inputs[i].turn = static_cast<float>(control.turn);
@@ -63,8 +100,9 @@ void steer(std::size_t frame, std::vector<FragmotionInput>& inputs) {
   }
 }
 
-void measure_far_crowd(benchmark::State& state) {
-  const game::Character character = loaded();
+void measure_far_crowd(benchmark::State& state, const std::shared_ptr<const Character>& built) {
+  const Ways ways(built->space);
+  const game::Character character = loaded(*built);
   FragmotionPlayerOptions far = fragmotion_player_options();
   far.step_interval = 4;  // so that they take turns
   game::Crowd crowd(character, kManyPlayers, 1, far);
@@ -72,18 +110,19 @@ void measure_far_crowd(benchmark::State& state) {
   std::vector<FragmotionInput> inputs(kManyPlayers, fragmotion_input());
   std::size_t frame = 0;
   const auto step = [&] { require(crowd.step(inputs.data(), kFrame)); };
-  for (; frame < kSetOff; ++frame) steer(frame, inputs), step();
+  for (; frame < kSetOff; ++frame) steer(ways, frame, inputs), step();
   for (auto _ : state) {
     state.PauseTiming();
-    steer(frame++, inputs);
+    steer(ways, frame++, inputs);
     state.ResumeTiming();
     step();
   }
 }
 
 // How far bones are from where they are without a level of detail, m: the median of all, of players and of steps.
-void measure_far_error(benchmark::State& state) {
-  const game::Character character = loaded();
+void measure_far_error(benchmark::State& state, const std::shared_ptr<const Character>& built) {
+  const Ways ways(built->space);
+  const game::Character character = loaded(*built);
   game::Crowd whole(character, kCompared), coarse(character, kCompared);
   for (int i = 0; i < kCompared; ++i) set_level(coarse[i], {static_cast<int>(state.range(0)), false});
   const int bones = character.info().bones;
@@ -92,7 +131,7 @@ void measure_far_error(benchmark::State& state) {
   std::vector<float> off;
   for (auto _ : state) {
     for (std::size_t frame = 0; frame < kSteps; ++frame) {
-      steer(frame, inputs);
+      steer(ways, frame, inputs);
       require(whole.step(inputs.data(), kFrame) && coarse.step(inputs.data(), kFrame));
       for (int i = 0; i < kCompared; ++i) {
         require(whole[i].pose(FRAGMOTION_SPACE_WORLD, right.data(), bones) &&
@@ -109,12 +148,18 @@ void measure_far_error(benchmark::State& state) {
   state.counters["off"] = *middle;
 }
 
-BENCHMARK(measure_far_crowd)
-    ->Name("far crowd step")
-    ->Iterations(kMeasured)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
-BENCHMARK(measure_far_error)->Name("far crowd's error")->Arg(2)->Arg(4)->Iterations(1)->UseRealTime();
-
 }  // namespace
+
+void register_crowds(const std::string& name, const std::shared_ptr<const Character>& character) {
+  const auto add = [&](const std::string& what, auto... measured) {
+    return benchmark::RegisterBenchmark((name + " " + what).c_str(), measured...)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+  };
+  add("crowd step", measure_crowd, character, 1)->Iterations(kMeasured);
+  add("crowd step, two threads", measure_crowd, character, 2)->Iterations(kMeasured);
+  add("far crowd step", measure_far_crowd, character)->Iterations(kMeasured);
+  add("far crowd's error", measure_far_error, character)->Arg(2)->Arg(4)->Iterations(1);
+}
+
 }  // namespace fragmotion::benchmarks
