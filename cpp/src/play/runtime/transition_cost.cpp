@@ -34,7 +34,7 @@ TransitionCost::TransitionCost(const Character& character, const TransitionWeigh
 }
 
 bool TransitionCost::comes_to_rest(int fragment) const {
-  return ends_[fragment].last.norm() * character_->space.scale() <= kMoving;
+  return ends_[fragment].last.norm() <= std::max(kMoving / character_->space.scale(), ends_[fragment].first.norm() / 2);
 }
 
 double TransitionCost::strays(int fragment, const Control& control) const {

@@ -29,7 +29,7 @@ class TransitionCost {
   /// The character, in one of its styles, must outlive it.
   TransitionCost(const Character& character, const TransitionWeights& weights);
 
-  /// Whether a fragment ends standing.
+  /// Whether a fragment ends standing, or at half the speed at which it begins.
   bool comes_to_rest(int fragment) const;
   /// Of going on with a fragment as the successor under a control.
   float of_going_on(int fragment, const Control& control) const;
