@@ -102,6 +102,16 @@ def stopped_import(before: dict[str, Any]) -> Iterator[None]:
     assert seen() == before and len(bpy.data.actions) < 3, "an import that was stopped has changed something"
 
 
+def new_in_sight() -> Iterator[None]:
+    """What comes in on a new armature is in sight."""
+    shown = window.view()["area"].spaces[0].region_3d
+    shown.view_location = (50, 50, 0)
+    import_file("walk.fbx", onto="NEW")
+    yield from window.until(lambda: window.module("operators.base.background").current is None, "the import's end")
+    yield from window.seconds(0.5)  # in which the view moves there
+    assert shown.view_location.length < 3, tuple(shown.view_location)
+
+
 def steps() -> Iterator[None]:
     """The whole session."""
     bpy.data.objects.remove(bpy.data.objects["Cube"])
@@ -149,6 +159,8 @@ def steps() -> Iterator[None]:
     yield from window.drawn()
     assert "walk" not in bpy.data.actions, "an import is more than one step"
     assert bpy.data.objects["Hero"].mode == "POSE"
+    yield from new_in_sight()
+    window.show_all()  # all that the add-on has registered
 
 
 window.run(steps())

@@ -143,3 +143,15 @@ def test_the_dialogs_fields_stay_within_the_recording(
     dialog._show_joins = lambda context: shown.append((dialog.start, dialog.end))
     assert operators.FRAGMOTION_OT_cut_recording.check(dialog, bpy.context)
     assert shown == [pytest.approx(kept)]
+
+
+@pytest.mark.parametrize("ranged", [True, False])
+def test_a_preview_range_that_is_cut_out_is_over(
+    addon: ModuleType, obj: bpy.types.Object, recording: Any, ranged: bool
+) -> None:
+    operators, scene = import_module(f"{addon.__name__}.operators.directing.edit_recordings"), bpy.context.scene
+    scene.use_preview_range, scene.frame_preview_start, scene.frame_preview_end = True, 97, 145
+    operator = operators.FRAGMOTION_OT_cut_recording
+    dialog = SimpleNamespace(start=4.0, end=6.0, report=lambda *told: None, _is_range=ranged)
+    assert operator.execute(dialog, bpy.context) == {"FINISHED"}
+    assert scene.use_preview_range != ranged and recording.seconds < 10.1

@@ -100,9 +100,11 @@ class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
     bl_label = "Cut Out"
     bl_description = (
         "Cut a stretch out of the middle of the selected recording, and up to half a second more, so that the "
-        "poses fit. At first it is the timeline's preview range, or the second after the playhead. What "
-        "follows goes on from where the character is then, and moves as it did"
+        "poses fit. At first it is the timeline's preview range, which is then over, or the second after the "
+        "playhead. What follows goes on from where the character is then, and moves as it did"
     )
+
+    _is_range = False
 
     start: _moment("From", "Where the stretch begins, in seconds from the recording's beginning", 1.0)  # type: ignore[valid-type]
     end: _moment("To", "Where the stretch ends, in seconds from the recording's beginning", 2.0)  # type: ignore[valid-type]
@@ -112,7 +114,8 @@ class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
         recording, scene = selected(context), context.scene
         self.start = max(playhead(context, recording), 0.0)
         self.end = self.start + 1.0
-        if scene.use_preview_range:
+        self._is_range = scene.use_preview_range
+        if self._is_range:
             begin, rate = first_frame(active_armature(context), recording), frame_rate(context, recording)
             self.start = max((scene.frame_preview_start - begin) / rate, 0.0)
             self.end = max((scene.frame_preview_end - begin) / rate, self.start)
@@ -161,6 +164,8 @@ class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
         timeline.unmark()
         recording = selected(context)
         seam = cutting.cut_out(active_armature(context), recording, self.start, self.end)
+        if self._is_range:  # of what is gone
+            context.scene.use_preview_range = False
         self.report(
             {"INFO"},
             f"Cut {seam.end / TRACE_RATE:.1f} s to {seam.beginning / TRACE_RATE:.1f} s out of '{recording.name}'"

@@ -20,6 +20,7 @@ from ...words import counted
 from ..base import background
 from ..base.background import Exclusive
 from ..base.context import active_armature, advise_on_foreign, can_change, check_plain, poll_idle
+from ..base.framing import frame_selected
 
 _UNITS = (
     ("AUTO", "By the Body", "What makes the body as tall as people are"),
@@ -124,7 +125,9 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
     def _owner(self) -> None:
         """There may be none yet."""
 
-    def _keep(self, _context: bpy.types.Context, _obj: None, result: Imported) -> None:
+    def _keep(self, context: bpy.types.Context, _obj: None, result: Imported) -> None:
+        if self.onto == "NEW":
+            frame_selected(context)
         if self.style == "FOLDER":
             for action, file in zip(result.actions, result.files):
                 action.fragmotion.style = file.parent.name
