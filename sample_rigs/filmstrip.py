@@ -120,7 +120,7 @@ def freeze(armature: bpy.types.Object, scene: bpy.types.Scene, frame: int) -> Mo
     bpy.context.scene.frame_set(frame)
     depsgraph = bpy.context.evaluated_depsgraph_get()
     ghosts = []
-    for skin in _skins(armature):
+    for skin in skins(armature):
         evaluated = skin.evaluated_get(depsgraph)
         mesh = bpy.data.meshes.new_from_object(evaluated, depsgraph=depsgraph)
         ghosts.append(_ghost(scene, mesh, evaluated.matrix_world))
@@ -131,7 +131,7 @@ def freeze(armature: bpy.types.Object, scene: bpy.types.Scene, frame: int) -> Mo
     return Moment(frame, ghosts, Vector((middle.x, middle.y, 0)), _facing(armature))
 
 
-def _skins(armature: bpy.types.Object) -> list[bpy.types.Object]:
+def skins(armature: bpy.types.Object) -> list[bpy.types.Object]:
     """Visible meshes that the armature deforms or carries."""
 
     def moved(thing: bpy.types.Object) -> bool:

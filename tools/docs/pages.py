@@ -34,6 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="a folder with bandai-namco, to measure the evaluation anew, and cmu, for retargeting's pictures",
     )
+    parser.add_argument("--packs", type=Path, metavar="DIR", help="the downloaded characters of docs/characters.md")
     parser.add_argument("--fbx", type=Path, metavar="FILE", help="Mixamo's X Bot, for retargeting's second picture")
 
 
@@ -113,6 +114,13 @@ def _retargeting(options: argparse.Namespace) -> None:
         run(command, f"docs-{name}", blender.debian_environment("docs"), echo=True)
 
 
+def _characters(options: argparse.Namespace) -> None:
+    if options.packs:
+        _run_python("tools.docs.characters", str(options.packs.resolve()))
+    else:
+        say("left out: its pictures take downloaded characters; --packs DIR says where they are")
+
+
 def _takes(options: argparse.Namespace, name: str) -> Path:
     folder: Path = options.mocap.resolve() / name
     if not folder.is_dir():
@@ -139,6 +147,7 @@ PAGES: dict[str, Callable[[argparse.Namespace], None]] = {
     "ground": _ground,
     "evaluation": _evaluation,
     "retargeting": _retargeting,
+    "characters": _characters,
     "icon": _icon,
     "film": _film,
 }

@@ -148,6 +148,33 @@ TEST(Discontinuities, AreWhereNoBodyGetsFromOneFrameToTheNext) {
             (std::vector<int>{1}));  // a giant's step
 }
 
+// A stand in which one thigh turns by these angles, degrees, from frame to frame.
+Clip turned_clip(const std::vector<double>& steps) {
+  const Skeleton skeleton = humanoid();
+  Clip clip{"turned", 24, static_cast<int>(steps.size()) + 1, {}, {}, {}};
+  const int thigh = skeleton.roles.left_thigh;
+  double angle = 0;
+  for (int f = 0; f < clip.frames; ++f) {
+    angle += f > 0 ? steps[f - 1] * kPi / 180 : 0;
+    clip.root_positions.insert(clip.root_positions.end(), {0, 0, 1});
+    for (int b = 0; b < skeleton.size(); ++b) {
+      const double half = b == thigh ? angle / 2 : 0;
+      clip.rotations.insert(clip.rotations.end(), {std::cos(half), std::sin(half), 0, 0});
+    }
+  }
+  return make_clip(skeleton, clip);
+}
+
+TEST(Discontinuities, AreNoFastSwings) {
+  const auto torn = [](const std::vector<double>& steps) { return discontinuities(humanoid(), turned_clip(steps)); };
+  EXPECT_TRUE(torn({0, 10, 42, 81, 45, 5, -30, -81, -40, 0}).empty()) << "a fox' fore leg in a gallop";
+  EXPECT_TRUE(torn({5, 20, 70, 115, 60, 5}).empty());
+  EXPECT_EQ(torn({0, 3, 81, 5, 0}), (std::vector<int>{3})) << "a cut";
+  EXPECT_EQ(torn({81, 3, 2, 0}), (std::vector<int>{1})) << "a calibration pose";
+  EXPECT_EQ(torn({0, 70, -70, 3}), (std::vector<int>{2, 3})) << "markers that are mixed up for a frame";
+  EXPECT_EQ(torn({0, 2, 70}), (std::vector<int>{3}));
+}
+
 TEST(CutFragments, NeverGoOverATear) {
   for (const bool gait : {true, false}) {
     CutOptions options;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "motion/discontinuities.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fragmotion {
@@ -9,20 +10,46 @@ namespace {
 constexpr double kTurn = kPi / 3;  // rad, from one frame to the next
 constexpr double kSpeed = 20;      // m/s
 
+// A clip's bones, as they turn from frame to frame.
+class Turns {
+ public:
+  Turns(const Skeleton& skeleton, const Clip& clip) : clip_(clip), width_(std::size_t{4} * skeleton.size()) {}
+
+  // By more than kTurn, and by so much otherwise than in the frames before and after: a limb that is swung fast is in
+  // line with one of them.
+  bool tear(int bone, int f) const {
+    if (std::abs(at(bone, f).dot(at(bone, f - 1))) >= std::cos(kTurn / 2)) return false;
+    const Vector3 turn = to(bone, f);
+    const bool goes_on = f > 1 && (turn - to(bone, f - 1)).norm() <= kTurn,
+               goes_on_after = f + 1 < clip_.frames && (turn - to(bone, f + 1)).norm() <= kTurn;
+    return !goes_on && !goes_on_after;
+  }
+
+ private:
+  Quaternion at(int bone, int f) const { return load_quaternion(&clip_.rotations[width_ * f + std::size_t{4} * bone]); }
+
+  // Rotation vector from the frame before, as the bone sees it, rad.
+  Vector3 to(int bone, int f) const {
+    Quaternion turn = at(bone, f - 1).conjugate() * at(bone, f);
+    if (turn.w() < 0) turn.coeffs() *= -1;
+    const Eigen::AngleAxisd way(turn);
+    return way.angle() * way.axis();
+  }
+
+  const Clip& clip_;
+  std::size_t width_;
+};
+
 }  // namespace
 
 std::vector<int> discontinuities(const Skeleton& skeleton, const Clip& clip) {
   const std::vector<int> bones = measured_bones(skeleton);
-  const double least = std::cos(kTurn / 2), farthest = kSpeed / (clip.rate * standard_scale(skeleton));
-  const std::size_t width = std::size_t{4} * skeleton.size();
+  const double farthest = kSpeed / (clip.rate * standard_scale(skeleton));
+  const Turns turns(skeleton, clip);
   const auto torn = [&](int f) {
-    const double *root = &clip.root_positions[std::size_t{3} * f], *pose = &clip.rotations[width * f];
+    const double* root = &clip.root_positions[std::size_t{3} * f];
     if ((load_vector(root) - load_vector(root - 3)).norm() > farthest) return true;
-    for (const int b : bones) {
-      const double* q = pose + std::ptrdiff_t{4} * b;
-      if (std::abs(load_quaternion(q).dot(load_quaternion(q - width))) < least) return true;
-    }
-    return false;
+    return std::any_of(bones.begin(), bones.end(), [&](int bone) { return turns.tear(bone, f); });
   };
   std::vector<int> frames;
   for (int f = 1; f < clip.frames; ++f) {

@@ -8,8 +8,10 @@
 namespace fragmotion {
 
 /// The frames of a clip that no body gets to from the frame before, in order: the second frame of many files follows a
-/// calibration pose, and markers get mixed up. There a bone turns by 60 degrees at once, or the hips go faster than
-/// 20 m/s (of a character of 1.8 m). Bones that Dis leaves out, as fingers, do not count.
+/// calibration pose, and markers get mixed up. There a bone turns by more than 60 degrees at once, and by so much
+/// otherwise than in the frame before and in the one after, as no limb does that is swung fast (a gallop at 24 frames a
+/// second), or the hips go faster than 20 m/s (of a character of 1.8 m). Bones that Dis leaves out, as fingers, do not
+/// count.
 std::vector<int> discontinuities(const Skeleton& skeleton, const Clip& clip);
 
 }  // namespace fragmotion
