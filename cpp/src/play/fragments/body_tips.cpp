@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kPoses = TipWriter::kPoses;
 
-// A point in the world as Dis sees it.
+// A point as BodyTips::write() sees it, whose loop is a few percent of a crowd faster without this.
 class Seen {
  public:
   Seen(const CharacterFrame& frame, double scale)
@@ -120,8 +120,15 @@ void BodyTips::pose(const Vector3& root, const double* rotations) {
 }
 
 void BodyTips::write(const CharacterFrame& frame, float* rows, int stride, int offset) const {
-  const Seen seen(frame, scale_);
-  for (int i = 0; i < points(); ++i) seen.write(tips_[i].x(), tips_[i].y(), tips_[i].z(), rows + offset + i, stride);
+  const double c = scale_ * std::cos(frame.heading), s = scale_ * std::sin(frame.heading);
+  float *to_x = rows + offset, *to_y = to_x + stride, *to_z = to_y + stride;
+  for (int i = 0; i < points(); ++i) {
+    const Vector3& tip = tips_[i];
+    const double x = tip.x() - frame.position.x(), y = tip.y() - frame.position.y();
+    to_x[i] = static_cast<float>(c * x + s * y);
+    to_y[i] = static_cast<float>(c * y - s * x);
+    to_z[i] = static_cast<float>(scale_ * tip.z());
+  }
 }
 
 TipWriter::TipWriter(const Skeleton& skeleton)
