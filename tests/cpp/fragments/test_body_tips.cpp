@@ -88,5 +88,30 @@ TEST(TipReach, IsTheWayFromTheHipsToEachTipOfACharacterOfOneEighty) {
   EXPECT_EQ(BodyTips(skeleton).reach(), tip_reach(skeleton));
 }
 
+TEST(TipWriter, WritesWhatBodyTipsWritesToTheBitOfAnyNumberOfPoses) {
+  const Skeleton skeleton = small_skeleton();
+  BodyTips tips(skeleton);
+  TipWriter writer(skeleton);
+  ASSERT_EQ(writer.points(), tips.points());
+  Random random(5);
+  const auto number = [&] { return 2 * random.uniform() - 1; };
+  const int stride = padded(tips.points() + 1);
+  for (const int poses : {1, TipWriter::kPoses - 1, TipWriter::kPoses, 3 * TipWriter::kPoses + 2}) {
+    std::vector<Rows> expected(poses, Rows(std::size_t{3} * stride, 0)), written = expected;
+    for (int pose = 0; pose < poses; ++pose) {
+      double* rotations = writer.rotations();
+      for (int b = 0; b < skeleton.size(); ++b)
+        store_quaternion(Quaternion{number(), number(), number(), number()}.normalized(), rotations + 4 * b);
+      const Vector3 root{number(), number(), number()};
+      const CharacterFrame frame{{number(), number()}, 4 * number()};
+      tips.pose(root, rotations);
+      tips.write(frame, expected[pose].data(), stride, pose % 2);
+      writer.add(root, frame, written[pose].data(), stride, pose % 2);
+    }
+    writer.flush();
+    EXPECT_EQ(written, expected) << poses;
+  }
+}
+
 }  // namespace
 }  // namespace fragmotion

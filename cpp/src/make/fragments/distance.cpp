@@ -26,29 +26,24 @@ Trajectories trajectories(const Pool<AnyClip>& pool, int poses, int threads) {
   t.first.assign(static_cast<std::size_t>(t.count) * 3 * t.pose_stride, 0);
   t.last = t.first;
   parallel_for(t.count, thread_count(threads), [&](int begin, int end) {
-    BodyTips tips(pool.skeleton);
-    std::vector<double> rotations(std::size_t{4} * pool.skeleton.size());
-    const auto sample = [&](const AnyClip& clip, double frame) {
-      tips.pose(sample_pose(clip, frame, rotations.data()), rotations.data());
-      return frame_at(clip, frame);
-    };
+    TipWriter tips(pool.skeleton);
     for (int i = begin; i < end; ++i) {
       const Fragment& f = pool.fragments[i];
       const AnyClip& clip = pool.clips[f.clip];
-      CharacterFrame start;
+      const CharacterFrame start = frame_at(clip, f.begin);
+      float* whole = &t.whole[static_cast<std::size_t>(i) * 3 * t.stride];
       for (int pose = 0; pose < poses; ++pose) {
         const double at = f.begin + (f.end - f.begin) * static_cast<double>(pose) / (poses - 1);
-        const CharacterFrame frame = sample(clip, at);
-        if (pose == 0) start = frame;
-        tips.write(start, &t.whole[static_cast<std::size_t>(i) * 3 * t.stride], t.stride, pose * points);
+        tips.add(sample_pose(clip, at, tips.rotations()), start, whole, t.stride, pose * points);
       }
       const auto end_pose = [&](int at, std::vector<float>& poses_at) {
-        const CharacterFrame frame = sample(clip, at);
-        tips.write(frame, &poses_at[static_cast<std::size_t>(i) * 3 * t.pose_stride], t.pose_stride, 0);
+        float* rows = &poses_at[static_cast<std::size_t>(i) * 3 * t.pose_stride];
+        tips.add(sample_pose(clip, at, tips.rotations()), frame_at(clip, at), rows, t.pose_stride, 0);
       };
       end_pose(f.first_played(), t.first);
       end_pose(f.last_played(), t.last);
     }
+    tips.flush();
   });
   return t;
 }

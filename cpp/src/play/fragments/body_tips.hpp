@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "skeleton/two_bone_ik.hpp"
@@ -45,6 +46,48 @@ class BodyTips {
   std::vector<int> chains_;  // the bones_ and those between them and the hips
   PosedBones posed_;
   std::vector<Vector3> tips_;  // of the bones_, in the world
+};
+
+/// Writes the bone tips of many poses to the bit as BodyTips does, and poses several at once, by vector instructions.
+/// Allocates nothing once it is made.
+class TipWriter {
+ public:
+  explicit TipWriter(const Skeleton& skeleton);
+
+  int points() const { return static_cast<int>(measured_.size()); }
+  /// Where the rotations [bones, 4] of the pose that is added next are put.
+  double* rotations() { return rotations_[count_].data(); }
+  /// Adds the pose with these and with its hips there: its tips as seen from `frame` are written as points offset .. of
+  /// three rows of `stride` floats, at the latest by flush().
+  void add(const Vector3& root, const CharacterFrame& frame, float* rows, int stride, int offset);
+  void flush();
+
+  static constexpr int kPoses = 8;  ///< At once.
+  using Lanes = std::array<double, kPoses>;
+
+  /// Where a bone is in the world in all poses, how it is turned (w, x, y, z), and its tip.
+  struct Posed {
+    std::array<Lanes, 3> head;
+    std::array<Lanes, 4> turn;
+    std::array<Lanes, 3> tip;
+  };
+
+ private:
+  // Where the tips of a pose go.
+  struct Rows {
+    CharacterFrame frame;
+    float* rows;  // from the offset on
+    int stride;
+  };
+
+  Kinematics kinematics_;
+  std::vector<int> measured_;  // the bones whose tips are seen
+  std::vector<int> chains_;    // and those between them and the hips, but for these
+  double scale_;
+  std::vector<Posed> posed_;
+  std::array<std::vector<double>, kPoses> rotations_;
+  std::array<Rows, kPoses> to_{};
+  int count_ = 0;
 };
 
 }  // namespace fragmotion
