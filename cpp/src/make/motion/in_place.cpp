@@ -19,7 +19,6 @@ constexpr double kTurns = kPi / 12;                  // rad/s: feet that stand t
 constexpr double kLow = 0.02;                        // m over its lowest: a sole on the ground
 constexpr double kHalfLow = 0.025;                   // m: a point so high counts for nothing in the first guess
 constexpr double kWindow = 1.0 / 30;                 // s over which velocities are told: keys and markers tremble
-constexpr double kGrip = kGravity;                   // m/s^2: friction seldom gives more than the weight
 constexpr double kAsFast = 0.95;                     // of what grip tells: slower is a foot that lands or leaves
 constexpr double kSmooth[] = {0.5, 0.2, 0.1, 0.03};  // s, of the guesses, one after the other
 constexpr double kReturn = 0.5;                      // of the way: feet of one that treads come back,
@@ -177,9 +176,10 @@ class Treading {
     return told;
   }
 
-  // The least speeds that are as great as these and change no faster than kGrip.
+  // The least speeds that are as great as these and change no faster than by gravity: friction seldom gives more than
+  // the weight.
   std::vector<double> gripped(std::vector<double> speeds) const {
-    const double step = kGrip / scale_ / rate_;
+    const double step = kGravity / scale_ / rate_;
     for (int f = 1; f < windows_; ++f) speeds[f] = std::max(speeds[f], speeds[f - 1] - step);
     for (int f = windows_ - 2; f >= 0; --f) speeds[f] = std::max(speeds[f], speeds[f + 1] - step);
     return speeds;

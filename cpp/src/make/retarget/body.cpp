@@ -14,7 +14,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr Side kSides[] = {Side::kLeft, Side::kRight};
 constexpr double kShort = 1e-3;       // of a 1.8 m character: m that a bone of a leg must be longer than
 constexpr double kNoDirection = 0.3;  // of a foot's length: one that points up or down further has no direction
 constexpr double kInstep = 0.4;       // rad: how far most feet point down from the ankle to the ball

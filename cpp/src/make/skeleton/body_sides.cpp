@@ -8,7 +8,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kNoLeg = 1e-12;
 constexpr double kLifted = 2e-3;   // of a leg's length that a foot is above the other
 constexpr double kBent = 0.05;     // of a leg's length that a knee is off the line from hip to foot
 constexpr double kForward = 0.3;   // of a foot's length that it points level
@@ -27,7 +26,7 @@ Vector3 down(const Limb& leg, const Vector3* heads) {
 bool stands(const Body& body, const Vector3* heads) {
   return std::all_of(body.legs.begin(), body.legs.end(), [&](const Limb& leg) {
     const Vector3 way = down(leg, heads);
-    return -way.z() >= kUpright * way.norm();
+    return -way.z() > kUpright * way.norm();
   });
 }
 
@@ -51,7 +50,7 @@ Vector3 knees_forward(const Body& body, const PosedFeet& pose) {
   for (const Limb& leg : body.legs) {
     const Vector3 knee = pose.heads[leg.bones[Limb::kLower]] - pose.heads[leg.bones[Limb::kUpper]];
     const Vector3 leg_way = down(leg, pose.heads);
-    const Vector3 bent = knee - leg_way * (knee.dot(leg_way) / std::max(leg_way.squaredNorm(), kNoLeg));
+    const Vector3 bent = knee - leg_way * (knee.dot(leg_way) / leg_way.squaredNorm());
     if (bent.norm() > kBent * leg_way.norm()) forward += bent;
   }
   return level(forward);

@@ -117,9 +117,7 @@ void BodyTree::swap_sides() {
 
 /// "leg_joint_L_1", "leg_joint_L_2", "leg_joint_L_3" say of which limb they are, not which of its bones.
 void BodyTree::silence_numbered_limbs() {
-  constexpr std::array<Role, 5> kArm{Role::kShoulder, Role::kUpperArm, Role::kLowerArm, Role::kHand, Role::kFinger};
-  constexpr std::array<Role, 4> kLeg{Role::kThigh, Role::kShin, Role::kFoot, Role::kToe};
-  const auto silence = [&](int bone, const auto& roles) {
+  const auto silence = [&](int bone, const LimbRoles& roles) {
     for (const Role role : roles) said[bone][static_cast<int>(role)] = 0;
   };
   for (int b = 0; b < size(); ++b) {
@@ -129,8 +127,8 @@ void BodyTree::silence_numbered_limbs() {
     const bool arm = says(b, Role::kUpperArm) > 0 && says(b, Role::kLowerArm) > 0;
     const bool leg = says(b, Role::kThigh) > 0 && says(b, Role::kShin) > 0;
     for (const int bone : chain) {
-      if (arm) silence(bone, kArm);
-      if (leg) silence(bone, kLeg);
+      if (arm) silence(bone, kArmRoles);
+      if (leg) silence(bone, kLegRoles);
     }
   }
 }

@@ -51,6 +51,11 @@ struct Limb {
   bool whole() const { return bones[kUpper] >= 0 && bones[kLower] >= 0 && bones[kEnd] >= 0; }
 };
 
+/// By the bones of a limb what they are: a leg begins with its thigh.
+using LimbRoles = std::array<Role, 5>;
+constexpr LimbRoles kArmRoles = {Role::kShoulder, Role::kUpperArm, Role::kLowerArm, Role::kHand, Role::kFinger};
+constexpr LimbRoles kLegRoles = {Role::kThigh, Role::kThigh, Role::kShin, Role::kFoot, Role::kToe};
+
 /// A body's joints as one way of looking tells them.
 struct Body {
   int hips = -1, head = -1;

@@ -67,8 +67,8 @@ class HeadFinder {
     int told = 0;
     for (const Vector3* heads : poses) {
       const Vector3 shoulders = between(body.arms, heads), trunk = shoulders - between(body.legs, heads);
-      if (across(body.arms, heads).norm() < kBroad * trunk.norm()) continue;
-      above += (heads[bone] - shoulders).dot(trunk) / std::max(trunk.squaredNorm(), kNoWay);
+      if (trunk.isZero(0) || across(body.arms, heads).norm() < kBroad * trunk.norm()) continue;
+      above += (heads[bone] - shoulders).dot(trunk) / trunk.squaredNorm();
       ++told;
     }
     return above / std::max(told, 1);
