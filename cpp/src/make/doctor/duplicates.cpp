@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kRate = 30;        // frames/s at which takes are compared
 constexpr int kAnchors = 8;         // poses of the shorter take that are looked for in the longer
-constexpr int kFewestFrames = 10;   // frames
 constexpr double kSame = 0.015;     // m: root mean square of the points, of a character of 1.8 m
 constexpr double kOfMotion = 0.15;  // of how far the points move in the take
 constexpr double kSpeeds = 0.1;     // share by which one copy may be faster
@@ -110,7 +109,7 @@ double shared_along(const Outline& shorter, const Outline& longer, const Match& 
 }
 
 double shared_motion(const Outline& shorter, const Outline& longer) {
-  if (static_cast<int>(shorter.shapes.size()) < kFewestFrames) return 0;
+  if (static_cast<double>(shorter.shapes.size()) < kShortestStep * kRate) return 0;
   const std::vector<Match> matches = matches_of(shorter, longer);
   if (static_cast<int>(matches.size()) < kOverlap * kAnchors) return 0;
   const Match &first = matches.front(), &last = matches.back();

@@ -16,8 +16,7 @@ namespace fragmotion {
 namespace {
 
 // Of a character of 1.8 m. The lowest joint of a foot is inside it, and not every file has the toes' ends.
-constexpr double kUnder = -0.02, kOver = 0.08;  // m: where it may be on the ground
-constexpr double kRise = 0.08;                  // m: of the ground from one place of the take to another
+constexpr double kUnder = -0.02, kOver = 0.08;  // m: where it may be on the ground, which rises by no more
 constexpr double kExplained = 0.7;              // of the heights' variance, by a slope
 constexpr int kFewestStands = 10;               // places where feet stand
 
@@ -77,7 +76,7 @@ double rise_of(const Patient& patient) {
   const Eigen::VectorXd fitted = places * places.colPivHouseholderQr().solve(heights).eval();
   const double all = (heights.array() - heights.mean()).square().sum(), left = (heights - fitted).squaredNorm();
   const double rise = fitted.maxCoeff() - fitted.minCoeff();
-  return left < (1 - kExplained) * all && rise * patient.scale() >= kRise ? rise : 0;
+  return left < (1 - kExplained) * all && rise * patient.scale() >= kOver ? rise : 0;
 }
 
 }  // namespace

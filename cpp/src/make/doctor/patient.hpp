@@ -18,6 +18,12 @@ namespace fragmotion {
 
 using Findings = std::vector<Finding>;
 
+/// Whether that may be a person's stature: a child's, or a hero's, m.
+inline bool is_person(double stature) { return stature >= 0.9 && stature <= 2.6; }
+
+/// s: what is shorter is no step, and no pose that somebody holds.
+constexpr double kShortestStep = 0.3;
+
 /// A leg or an arm by its joints, from the body on; -1 where there is none.
 struct Limb3 {
   int top = -1, middle = -1, end = -1;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/max_accumulate.hpp"
+#include "base/ranges.hpp"
 #include "base/transposed.hpp"
 #include "control/command_limit.hpp"
 #include "fragments/able_trace.hpp"
@@ -14,9 +15,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSpeedWindow = 0.5;       // s over which speeds are measured
-constexpr double kSpan = 2;                // s over which the root drifts
-constexpr double kLongestShortest = 3600;  // s: the longest step of a player, too
+constexpr double kSpeedWindow = 0.5;  // s over which speeds are measured
+constexpr double kSpan = 2;           // s over which the root drifts
 
 // The slope a frame of the least-squares line through frames first .. last of a path.
 Vector3 slope(const std::vector<double>& path, int first, int last) {
@@ -306,7 +306,7 @@ Performance judge_clip(const Character& character, const Trace& trace, const Cli
 
 double optimal_performance(const Character& character, const Trace& trace, double rate, double shortest) {
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
-  if (!(shortest >= 0 && shortest <= kLongestShortest)) {
+  if (!(shortest >= 0 && shortest <= kLongestCall)) {
     throw std::invalid_argument("the shortest time that a class plays must be 0 s to an hour");
   }
   const int frames = frame_count(trace.size(), rate) - 1;

@@ -8,9 +8,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLifted = 2e-3;   // of a leg's length that a foot is above the other
 constexpr double kBent = 0.05;     // of a leg's length that a knee is off the line from hip to foot
-constexpr double kForward = 0.3;   // of a foot's length that it points level
 constexpr double kSided = 0.5;     // mean cosine to the left
 constexpr double kTelling = 0.05;  // of the poses that tell the sides at least
 
@@ -30,18 +28,10 @@ bool stands(const Body& body, const Vector3* heads) {
   });
 }
 
-/// Where the lower foot points, level; zero where it does not.
-Vector3 feet_forward(const Body& body, const PosedFeet& pose) {
-  const auto height = [&](int side) { return pose.heads[body.legs[side].bones[Limb::kEnd]].z(); };
-  Vector3 forward = Vector3::Zero();
-  double length = 0;
-  for (int side = 0; side < 2; ++side) {
-    if (height(side) - height(1 - side) > kLifted * down(body.legs[side], pose.heads).norm()) continue;
-    forward += pose.feet[side];
-    length += pose.feet[side].norm();
-  }
-  forward = level(forward);
-  return forward.norm() < kForward * length ? Vector3::Zero() : forward;
+/// Where the feet point, level; zero where they do not.
+Vector3 feet_forward(const Body&, const PosedFeet& pose) {
+  const Vector3 forward = level(pose.feet[0] + pose.feet[1]);
+  return forward.norm() < kNoDirection * (pose.feet[0].norm() + pose.feet[1].norm()) ? Vector3::Zero() : forward;
 }
 
 /// To where the knees are bent, level; zero where they are straight.

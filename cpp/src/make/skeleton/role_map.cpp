@@ -18,7 +18,6 @@ namespace {
 constexpr int kLooks = 200;
 constexpr double kTold = 0.5;   // the least confidence of a role
 constexpr int kMostJoints = 4;  // of a finger
-constexpr double kNamed = 0.95, kBetween = 0.75;
 
 constexpr LimbRoles kForeLegRoles = {Role::kForeLeg, Role::kForeLeg, Role::kForeLeg, Role::kForeFoot, Role::kForeToe};
 constexpr std::string_view kFingerNames[] = {"thumb", "index", "middle", "ring", "pinky"};
@@ -149,7 +148,7 @@ class MapMaker {
       const bool beyond_arms = chest && b != arms && tree_.is_below(b, arms);
       neck = neck || neck_said > 0 || (beyond_arms && (spine_said <= 0 || !head_named));
       const bool said = (neck ? neck_said : spine_said) > 0;
-      const double confidence = said ? kNamed : chest ? kBetween : 0;
+      const double confidence = said ? kNamed : chest ? kByPlace : 0;
       add(neck ? Role::kNeck : Role::kSpine, Side::kNone, b, confidence, neck ? necks++ : spines++);
     }
     add(Role::kHead, Side::kNone, body_.head, body_.head_confidence);
