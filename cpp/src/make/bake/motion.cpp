@@ -6,11 +6,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/ranges.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr double kFarthest = 1e9;  // m, and rad
-constexpr double kUnit = 1e-3;     // by which a unit quaternion's length is off at most
+constexpr double kUnit = 1e-3;  // by which a unit quaternion's length is off at most
 
 bool are_rotations(const std::vector<double>& rotations) {
   for (std::size_t i = 0; i < rotations.size(); i += 4) {
@@ -30,7 +31,7 @@ void check_motion(const Skeleton& skeleton, const Motion& motion, const char* na
       motion.rotations.size() != 4 * frames * skeleton.size()) {
     fail("has not a place, a character frame and a rotation of every bone for each frame");
   }
-  const auto is_near = [](double value) { return std::abs(value) <= kFarthest; };
+  const auto is_near = [](double value) { return std::abs(value) <= kFarthestPlace; };
   for (const auto* values : {&motion.root_positions, &motion.path, &motion.rotations}) {
     if (!std::all_of(values->begin(), values->end(), is_near)) fail("holds what is not a number or too far away");
   }

@@ -9,15 +9,10 @@
 #include "control/trace.hpp"
 
 namespace fragmotion {
-namespace {
-
-constexpr double kRounding = 1e-9;  // frames
-
-}  // namespace
 
 std::size_t control_at(int frame, double rate, std::size_t controls) {
   const double seconds = std::max(0.0, (frame - 1) / rate);
-  return std::min(static_cast<std::size_t>(seconds * kTraceRate + kRounding), controls - 1);
+  return std::min(static_cast<std::size_t>(seconds * kTraceRate + kFrameRounding), controls - 1);
 }
 
 int frame_count(std::size_t controls, double rate) {

@@ -176,7 +176,7 @@ void keep_off(const std::vector<std::vector<Vector2>>& obstacles, const Walker& 
 
 void check(const std::vector<CrowdMember>& members, const CrowdOptions& options) {
   require_range("the radius of a crowd's members", options.radius, 1e-9, 1e6);
-  require_range("the time of a crowd, in s,", options.seconds, kControl, 3600);
+  require_range("the time of a crowd, in s,", options.seconds, kControl, kLongestCall);
   for (const CrowdMember& member : members) {
     if (member.player == nullptr) throw std::invalid_argument("a member of a crowd has no player");
     require_range("the scale of a crowd's member", member.scale, 1 / kMostScale, kMostScale);

@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/ranges.hpp"
+#include "control/trace_frames.hpp"
 
 namespace fragmotion {
 namespace {
@@ -23,7 +24,6 @@ constexpr double kWide = 0.4;            // of kMost: the spread of a first roun
 constexpr double kNear = 0.12;           // and of one about the best so far
 constexpr double kSettledSpread = 0.01;  // of kMost: the spread at which a search has settled
 constexpr int kMostRounds = 24;          // rounds until it begins anew
-constexpr double kRounding = 1e-9;
 
 using Change = std::array<double, kBumps * kParts>;
 
@@ -81,9 +81,9 @@ class PinSearch {
         start_(start),
         trace_(trace),
         goal_(goal.frame),
-        first_(static_cast<int>(std::ceil(options.begin * kTraceRate - kRounding))),
+        first_(static_cast<int>(std::ceil(options.begin * kTraceRate - kFrameRounding))),
         frames_(static_cast<int>(std::lround(goal.seconds * kPinRate))),
-        end_(static_cast<int>(std::ceil(frames_ / (kPinRate / kTraceRate) - kRounding))),
+        end_(static_cast<int>(std::ceil(frames_ / (kPinRate / kTraceRate) - kFrameRounding))),
         walk_(character->space.walk()) {
     for (int i = 0; i < thread_count(options.threads); ++i) {
       players_.emplace_back(character, player);
@@ -161,8 +161,8 @@ class PinSearch {
       player.step(changed(f / kFramesAControl, trial.change), 1 / kPinRate);
     }
     trial.reached = player.frame();
-    trial.cost = std::hypot(distance(trial) / std::max(options_.distance, kRounding),
-                            angle(trial) / std::max(options_.angle, kRounding));
+    trial.cost = std::hypot(distance(trial) / std::max(options_.distance, kFrameRounding),
+                            angle(trial) / std::max(options_.angle, kFrameRounding));
   }
 
   // A control of the trace, changed: who stands does not begin to go or to turn.

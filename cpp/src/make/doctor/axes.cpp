@@ -13,10 +13,8 @@ namespace {
 const Eigen::Matrix3d kAsItIs = Eigen::Matrix3d::Identity();
 const Eigen::Matrix3d kMirror = Vector3{-1, 1, 1}.asDiagonal();
 
-constexpr double kLeastBody = 1.3, kMostBody = 2.2;            // m: what a unit must make of a grown person
-constexpr double kLeastUsual = 0.9, kMostUsual = 2.6;          // m: what is taken as it is: children, heroes
-constexpr double kInch = 0.0254, kFoot = 0.3048, kCmu = 0.45;  // m, m, file units an inch
-constexpr double kBends = 0.03;   // of a leg's length: that a knee points to a side for certain
+constexpr double kLeastBody = 1.3, kMostBody = 2.2;  // m: what a unit must make of a grown person
+constexpr double kBends = 0.03;                      // of a leg's length: that a knee points to a side for certain
 constexpr double kUnsure = 0.3;   // cosine: feet that do not point to the front for certain, as a runner's
 constexpr double kPoints = -0.5;  // cosine: feet that point to the back for certain
 
@@ -30,8 +28,8 @@ constexpr std::array<Unit, 7> kUnits = {{{"metres", 1},
                                          {"centimetres", 0.01},
                                          {"millimetres", 0.001},
                                          {"inches", kInch},
-                                         {"feet", kFoot},
-                                         {"CMU's units of 1/0.45 inch", kInch / kCmu}}};
+                                         {"feet", 12 * kInch},
+                                         {"CMU's units of 1/0.45 inch", kInch / 0.45}}};
 
 /// Exactly.
 Eigen::Matrix3d quarter_turns(const Vector3& axis, int count) {
@@ -54,8 +52,6 @@ std::optional<Unit> told_unit(const Patient& patient) {
   }
   return std::nullopt;
 }
-
-bool is_usual(double stature) { return stature >= kLeastUsual && stature <= kMostUsual; }
 
 /// Whether the body goes its own length and more where the ground would be: who lies does not.
 bool walks_across(const Patient& patient, const Vector3& up) {
@@ -100,7 +96,7 @@ bool points_back(const Front& front) {
 }  // namespace
 
 Findings find_unit(const Patient& patient) {
-  if (!patient.has_legs() || patient.skull < 0 || is_usual(patient.stature())) return {};
+  if (!patient.has_legs() || patient.skull < 0 || is_person(patient.stature())) return {};
   const std::optional<Unit> unit = told_unit(patient);
   if (!unit) return {};
   const std::string told = unit->name ? std::string("its file is in ") + unit->name : "its lengths are off";

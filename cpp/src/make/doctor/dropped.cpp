@@ -8,11 +8,10 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kDropped = 1.75;      // times the steps beside: a frame has been left out
-constexpr double kUnlike = 0.4;        // of the step: how far it may be from so many steps beside
-constexpr double kAlike = 0.75;        // cosine of the steps beside
-constexpr double kLeastSpeed = 0.5;    // m/s, the bones' root mean square, of a character of 1.8 m
-constexpr double kMostSeconds = 0.25;  // that are filled in
+constexpr double kDropped = 1.75;    // times the steps beside: a frame has been left out
+constexpr double kUnlike = 0.4;      // of the step: how far it may be from so many steps beside
+constexpr double kAlike = 0.75;      // cosine of the steps beside
+constexpr double kLeastSpeed = 0.5;  // m/s, the bones' root mean square, of a character of 1.8 m
 
 using Step = Eigen::VectorXd;
 
@@ -31,7 +30,7 @@ int dropped_between(const Patient& patient, const Step& before, const Step& step
   const double times = step.dot(usual) / usual.squaredNorm();
   if (times < kDropped || (step - times * usual).norm() > kUnlike * step.norm()) return 0;
   const int count = static_cast<int>(std::lround(times)) - 1;
-  return count <= kMostSeconds * patient.rate() ? count : 0;
+  return count <= brief(patient.rate()) ? count : 0;
 }
 
 /// For each frame how many are missing before it.

@@ -13,14 +13,11 @@ namespace {
 
 constexpr double kRate = 30;        // frames/s at which takes are compared
 constexpr int kAnchors = 8;         // poses of the shorter take that are looked for in the longer
-constexpr int kFewestAnchors = 5;   // that must be found
-constexpr int kFewestFrames = 10;   // frames
 constexpr double kSame = 0.015;     // m: root mean square of the points, of a character of 1.8 m
 constexpr double kOfMotion = 0.15;  // of how far the points move in the take
 constexpr double kSpeeds = 0.1;     // share by which one copy may be faster
 constexpr int kSlack = 2;           // frames
-constexpr double kWhole = 0.97;     // of the shorter take: all of it
-constexpr double kOverlap = 0.6;    // of the shorter take
+constexpr double kOverlap = 0.6;    // of the shorter take, and of its anchors
 
 constexpr int kNumbers = std::tuple_size_v<Shape>;
 
@@ -84,7 +81,7 @@ std::vector<Match> matches_of(const Outline& shorter, const Outline& longer) {
   std::vector<Match> matches;
   const int frames = static_cast<int>(shorter.shapes.size());
   for (int i = 0; i < kAnchors; ++i) {
-    if (static_cast<int>(matches.size()) + kAnchors - i < kFewestAnchors) return {};
+    if (static_cast<int>(matches.size()) + kAnchors - i < kOverlap * kAnchors) return {};
     const int a = static_cast<int>((i + 0.5) * frames / kAnchors);
     if (const auto b = nearest(shorter.shapes[a], longer.shapes, shorter.near)) matches.push_back({a, *b});
   }
@@ -112,9 +109,9 @@ double shared_along(const Outline& shorter, const Outline& longer, const Match& 
 }
 
 double shared_motion(const Outline& shorter, const Outline& longer) {
-  if (static_cast<int>(shorter.shapes.size()) < kFewestFrames) return 0;
+  if (static_cast<double>(shorter.shapes.size()) < kShortestStep * kRate) return 0;
   const std::vector<Match> matches = matches_of(shorter, longer);
-  if (static_cast<int>(matches.size()) < kFewestAnchors) return 0;
+  if (static_cast<int>(matches.size()) < kOverlap * kAnchors) return 0;
   const Match &first = matches.front(), &last = matches.back();
   double share = shared_along(shorter, longer, first, static_cast<double>(last.b - first.b) / (last.a - first.a));
   // Where steps are all alike, the poses of one may be found in another.
@@ -130,7 +127,8 @@ double shared_with(const std::vector<Outline>& outlines, int take, int other) {
 }
 
 Finding duplicate(const std::vector<const Take*>& takes, int take, int other, double share) {
-  const std::string part = share > kWhole ? "its motion" : short_number(100 * share) + " % of its motion";
+  const std::string percent = std::to_string(std::lround(100 * share));
+  const std::string part = percent == "100" ? "its motion" : percent + " % of its motion";
   Finding finding = mendable(found("duplicate", Severity::kWarning, 0, takes[take]->frames - 1,
                                    part + " is in take '" + takes[other]->name +
                                        "', too: it counts twice in what is learned; leave one of them out"),

@@ -5,9 +5,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLeastRate = 15, kMostRate = 500;         // frames/s
-constexpr double kLeastSeconds = 0.3;                      // s: less holds no fragment with what is beside it
-constexpr double kLeastStature = 0.9, kMostStature = 2.6;  // m
+constexpr double kLeastRate = 15, kMostRate = 500;  // frames/s
 
 void add_rate(const Patient& patient, Findings& findings) {
   if (patient.rate() >= kLeastRate && patient.rate() <= kMostRate) return;
@@ -21,7 +19,7 @@ void add_size(const Patient& patient, Findings& findings) {
   if (patient.stature() == 0)
     findings.push_back(
         found(patient, "size", Severity::kError, "the bones have no length: there is no body to learn from"));
-  else if (patient.has_legs() && (patient.stature() < kLeastStature || patient.stature() > kMostStature))
+  else if (patient.has_legs() && !is_person(patient.stature()))
     findings.push_back(found(patient, "size", Severity::kWarning,
                              "the body is " + short_number(patient.stature()) +
                                  " m tall, and no usual unit makes it a person; scale it where it is meant to be one"));
@@ -42,7 +40,7 @@ void add_length(const Patient& patient, Findings& findings) {
   const double seconds = patient.frames() / patient.rate();
   if (patient.frames() < 2)
     findings.push_back(found(patient, "short", Severity::kError, "there is one frame only: a pose, not a motion"));
-  else if (seconds < kLeastSeconds)
+  else if (seconds < kShortestStep)
     findings.push_back(found(patient, "short", Severity::kWarning,
                              "the take lasts " + short_number(seconds) + " s: too short for a step"));
 }

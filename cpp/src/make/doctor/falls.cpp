@@ -8,13 +8,13 @@
 #include "doctor/check.hpp"
 #include "doctor/lengths.hpp"
 #include "doctor/runs.hpp"
+#include "motion/contacts.hpp"
 
 namespace fragmotion {
 namespace {
 
 // Of a character of 1.8 m. The 24 flights of two actors that are so long and even fall at 9.2 to 11.1 m/s^2.
 constexpr double kAloft = 0.05;     // m: of all joints of the feet over where they stand
-constexpr double kGrounded = 0.02;  // of the time a joint of a foot is lower than where it stands
 constexpr int kShortestFlight = 5;  // of a flight
 constexpr double kBow = 0.02;       // m: how high it is at least
 constexpr double kEven = 0.1;       // of what a straight way leaves unexplained: what a fall does at most
@@ -24,14 +24,14 @@ constexpr double kOtherRate = 1.8;  // times the rate: animators let bodies fall
 std::vector<double> clearance(const Patient& patient) {
   std::vector<int> joints = patient.feet[0];
   joints.insert(joints.end(), patient.feet[1].begin(), patient.feet[1].end());
-  std::vector<std::vector<double>> heights(joints.size());
+  std::vector<std::vector<Vector3>> paths(joints.size());
   for (int f = 0; f < patient.frames(); ++f) {
-    for (std::size_t i = 0; i < joints.size(); ++i) heights[i].push_back(patient.head(f, joints[i]).z());
+    for (std::size_t i = 0; i < joints.size(); ++i) paths[i].push_back(patient.head(f, joints[i]));
   }
   std::vector<double> lowest(patient.frames(), std::numeric_limits<double>::infinity());
-  for (const std::vector<double>& joint : heights) {
-    const double ground = quantile(joint, kGrounded);
-    for (std::size_t f = 0; f < joint.size(); ++f) lowest[f] = std::min(lowest[f], joint[f] - ground);
+  for (const std::vector<Vector3>& path : paths) {
+    const double ground = floor_of(path);
+    for (std::size_t f = 0; f < path.size(); ++f) lowest[f] = std::min(lowest[f], path[f].z() - ground);
   }
   return lowest;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -15,11 +16,9 @@ namespace fragmotion {
 namespace {
 
 // Of a character of 1.8 m. The lowest joint of a foot is inside it, and not every file has the toes' ends.
-constexpr double kUnder = -0.02, kOver = 0.08;  // m: where it may be on the ground
-constexpr double kRise = 0.08;                  // m: of the ground from one place of the take to another
+constexpr double kUnder = -0.02, kOver = 0.08;  // m: where it may be on the ground, which rises by no more
 constexpr double kExplained = 0.7;              // of the heights' variance, by a slope
 constexpr int kFewestStands = 10;               // places where feet stand
-constexpr double kAnyHeight = 1e9;              // m
 
 /// The lowest joint of a foot, or its end, and where. Ends of what is below the toes' are nobody's: files invent them.
 Vector3 sole(const Patient& patient, int frame, int side) {
@@ -40,7 +39,8 @@ using Stands = std::vector<Eigen::Vector4d>;
 Stands stands_of(const Patient& patient, bool level) {
   if (!patient.has_legs() || patient.scale() == 0 || !patient.tracks()) return {};
   const Tracks& tracks = *patient.tracks();
-  const FootHeights anywhere{kAnyHeight, kAnyHeight};
+  constexpr double any = std::numeric_limits<double>::infinity();
+  const FootHeights anywhere{any, any};
   const Floors floors = {anywhere, anywhere};
   const Contacts contacts =
       find_contacts(patient.skeleton(), tracks.feet, tracks.hips, patient.rate(), level ? nullptr : &floors);
@@ -76,7 +76,7 @@ double rise_of(const Patient& patient) {
   const Eigen::VectorXd fitted = places * places.colPivHouseholderQr().solve(heights).eval();
   const double all = (heights.array() - heights.mean()).square().sum(), left = (heights - fitted).squaredNorm();
   const double rise = fitted.maxCoeff() - fitted.minCoeff();
-  return left < (1 - kExplained) * all && rise * patient.scale() >= kRise ? rise : 0;
+  return left < (1 - kExplained) * all && rise * patient.scale() >= kOver ? rise : 0;
 }
 
 }  // namespace

@@ -8,19 +8,14 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kOutOfLine = 5;     // times the steps beside
-constexpr double kLeastJump = 0.05;  // m, a mean of the bones of a character of 1.8 m
-constexpr double kAtEnd = 3;         // s: where a calibration is looked for
-constexpr double kStill = 0.15;      // m/s: the bones' mean, of somebody who holds a pose
-constexpr int kFrameOrTwo = 2;       // of another pose at an end: no motion whatever they are
-constexpr double kArmsOut = 0.85;    // cosine
-constexpr double kStands = 0.25;     // m/s: hips of somebody who stands
-constexpr double kTogether = 0.25;   // s: jumps that are told as one
-constexpr double kHeldPose = 0.3;    // s
+constexpr double kOutOfLine = 5;   // times the steps beside
+constexpr double kAtEnd = 3;       // s: where a calibration is looked for
+constexpr int kFrameOrTwo = 2;     // of another pose at an end: no motion whatever they are
+constexpr double kArmsOut = 0.85;  // cosine
+constexpr double kStill = 0.15;    // m/s: the bones' mean, of somebody who holds a pose
 
 bool is_torn(const Patient& patient, int frame) {
   const double step = patient.step(frame) * patient.scale();
-  if (step < kLeastJump) return false;
   double beside = 0;
   for (const int f : {frame - 1, frame + 1}) {
     if (f > 0 && f < patient.frames()) beside = std::max(beside, patient.step(f));
@@ -65,7 +60,7 @@ bool has_arms_out(const Patient& patient, int frame) {
 bool hips_stand(const Patient& patient, const Run& run) {
   if (patient.hips < 0) return false;
   const Vector3 way = patient.head(run.end, patient.hips) - patient.head(run.begin, patient.hips);
-  return way.norm() * patient.scale() < kStands * run.length() / patient.rate();
+  return way.norm() * patient.scale() < kStill * run.length() / patient.rate();
 }
 
 /// The frames at the start, or from the end on, in which the arms are held out.
@@ -94,7 +89,7 @@ void add_arms_out(const Patient& patient, Findings& findings) {
   for (const bool at_start : {true, false}) {
     const Run run = arms_out(patient, at_start);
     const bool told = covers(findings, at_start ? Run{0, 0} : Run{patient.frames() - 1, patient.frames() - 1});
-    if (!told && run.length() >= kHeldPose * patient.rate() && run.length() < patient.frames() / 2 &&
+    if (!told && run.length() >= kShortestStep * patient.rate() && run.length() < patient.frames() / 2 &&
         hips_stand(patient, run))
       findings.push_back(calibration(run, "a T pose"));
   }
@@ -113,7 +108,7 @@ Findings find_jumps(const Patient& patient) {
   std::vector<Run> together;
   for (const int f : jumps_of(patient)) {
     if (f > 1 && patient.step(f - 1) == 0) continue;  // after a standstill that is told
-    if (together.empty() || f - together.back().end > kTogether * patient.rate()) together.push_back({f - 1, f});
+    if (together.empty() || f - together.back().end > kShortestStep * patient.rate()) together.push_back({f - 1, f});
     together.back().end = f;
   }
   Findings findings;

@@ -13,9 +13,8 @@ namespace {
 // thirds; those of bodies in motion go on as they were.
 constexpr double kOfDifferences = 6;
 constexpr double kOpposed = -0.3;
-constexpr double kNoisy = 1, kMoves = 0.3;  // degrees
-constexpr int kFewestShaken = 30;           // animators key a blow or a jump in less
-constexpr int kOfBones = 2;                 // noise shakes one of so many, and more
+constexpr double kNoisy = 1;       // degrees
+constexpr int kFewestShaken = 30;  // animators key a blow or a jump in less
 
 /// How much a bone is off from what is beside it from frame to frame.
 struct Jitter {
@@ -53,11 +52,9 @@ Findings find_noise(const Patient& patient) {
   std::vector<double> off, opposed;
   for (int b = 0; b < patient.bones(); ++b) {
     const Jitter jitter = jitter_of(patient, b);
-    if (jitter.degrees() < kMoves) continue;
     off.push_back(jitter.degrees());
-    opposed.push_back(jitter.products / jitter.squares);
+    if (jitter.squares > 0) opposed.push_back(jitter.products / jitter.squares);
   }
-  if (off.size() * kOfBones < static_cast<std::size_t>(patient.bones())) return {};
   const double degrees = median(std::move(off));
   if (degrees < kNoisy || median(std::move(opposed)) > kOpposed) return {};
   return {found(patient, "noise", Severity::kWarning,

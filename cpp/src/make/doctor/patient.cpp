@@ -56,7 +56,6 @@ Patient::Patient(std::shared_ptr<const Take> file, Tick tick)
       skeleton_(file_->skeleton),
       rate_(file_->rate),
       unit_(file_->unit),
-      stature_(fragmotion::stature(skeleton_)),
       finite_(are_finite(file_->translations) && are_finite(file_->rotations)),
       shown_(file_->frames),
       is_bridged_(file_->frames),
@@ -64,10 +63,15 @@ Patient::Patient(std::shared_ptr<const Take> file, Tick tick)
   for (int f = 0; f < frames(); ++f) shown_[f].frame = f;
   roles_ = find_role_map(skeleton_, nullptr, Sides::of_the_names);
   find_parts();
+  find_size();
+}
+
+void Patient::find_size() {
+  stature_ = fragmotion::stature(skeleton_);
+  scale_ = stature_ > 0 ? standard_scale(skeleton_) : 0;
 }
 
 void Patient::find_parts() {
-  constexpr Side kSides[] = {Side::kLeft, Side::kRight};
   for (int side = 0; side < 2; ++side) {
     const auto bone = [&](Role role) { return roles_.bone(role, kSides[side]); };
     legs[side] = {bone(Role::kThigh), bone(Role::kShin), bone(Role::kFoot)};
@@ -146,7 +150,7 @@ void Patient::change_basis(const Eigen::Matrix3d& basis, double scale) {
   matrix_ = matrix * matrix_;
   turned_ = true;
   unit_ *= scale;
-  stature_ = fragmotion::stature(skeleton_);
+  find_size();
   forget();
 }
 

@@ -18,7 +18,11 @@ namespace fragmotion {
 
 using Findings = std::vector<Finding>;
 
-constexpr double kStature = 1.8;  // m: what thresholds of length are for
+/// Whether that may be a person's stature: a child's, or a hero's, m.
+inline bool is_person(double stature) { return stature >= 0.9 && stature <= 2.6; }
+
+/// s: what is shorter is no step, and no pose that somebody holds.
+constexpr double kShortestStep = 0.3;
 
 /// A leg or an arm by its joints, from the body on; -1 where there is none.
 struct Limb3 {
@@ -61,7 +65,7 @@ class Patient {
   double unit() const { return unit_; }
   double stature() const { return stature_; }
   /// What makes lengths those of a character of 1.8 m; 0 where the bones have no length.
-  double scale() const { return stature_ > 0 ? kStature / stature_ : 0; }
+  double scale() const { return scale_; }
   /// Whether every number is there.
   bool is_finite() const;
 
@@ -122,6 +126,7 @@ class Patient {
 
   Patient(std::shared_ptr<const Take> file, Tick tick);
   void find_parts();
+  void find_size();
   void forget();
   const Pose& pose(int frame) const;
   const Pose& posed(int frame) const;
@@ -133,7 +138,7 @@ class Patient {
   Tick tick_;
   Skeleton skeleton_;
   RoleMap roles_;
-  double rate_ = 0, unit_ = 1, stature_ = 0;
+  double rate_ = 0, unit_ = 1, stature_ = 0, scale_ = 0;
   mutable std::optional<bool> finite_;
 
   std::vector<Shown> shown_;

@@ -7,10 +7,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr int kMostCopies = 8;      // of each frame
-constexpr double kMoving = 0.6;     // of the frames that should move, that do
-constexpr int kFewestOwn = 4;       // frames of their own, to tell that each stands several times
-constexpr double kHeldAtEnd = 0.1;  // s
+constexpr int kMostCopies = 8;   // of each frame
+constexpr double kMoving = 0.6;  // of the frames that should move, that do
+constexpr int kFewestOwn = 4;    // frames of their own, to tell that each stands several times
 
 /// Whether a frame is the one before, to the bit.
 class Repeats {
@@ -108,7 +107,7 @@ Findings find_frozen_ends(const Patient& patient) {
   if (patient.frames() < 2 || Repeats(patient).all()) return {};
   Findings findings;
   for (const Run& run : held(patient)) {
-    if (is_inside(patient, run) || run.length() < kHeldAtEnd * patient.rate()) continue;
+    if (is_inside(patient, run) || run.length() < brief(patient.rate())) continue;
     const Run cut = run.begin == 1 ? Run{0, run.end - 1} : run;
     findings.push_back(mendable(found("frozen", Severity::kWarning, cut.begin, cut.end,
                                       frames_text(cut) + ": nothing moves at this end of the take; cut it off")));

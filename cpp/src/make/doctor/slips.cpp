@@ -14,8 +14,7 @@ namespace {
 // Of a character of 1.8 m. Of 165 clean takes of two actors no other axes make feet slip less than the take's own, and
 // in walks feet slip by 0.08 m/s at most.
 constexpr double kSlips = 0.15;   // m/s: a foot that stands does not
-constexpr double kLess = 0.4;     // of the slip: what it is at most by other axes
-constexpr double kSteady = 0.3;   // of a drift: what feet go beside it
+constexpr double kLeft = 0.4;     // of the slip: what other axes or a drift leave of it at most
 constexpr double kBeside = 0.03;  // s: over which velocities are taken, to each side
 
 // At moments of the take: how the hips go, and how the lower foot goes as seen from them, m/s.
@@ -100,13 +99,13 @@ Findings find_slips(const Patient& patient) {
   const auto best = std::min_element(all.begin(), all.end(), [&](const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
     return slip(footing, a) < slip(footing, b);
   });
-  if (slip(footing, *best) < kLess * now)
+  if (slip(footing, *best) < kLeft * now)
     return {found(patient, "axes", Severity::kWarning,
                   "feet that stand slide at " + short_number(now) +
                       " m/s: the root goes along other axes than the body (" + axes_text(*best) +
                       "); put its location right where the file was made")};
   const Vector3 drift = drift_of(footing);
-  if (drift.norm() * patient.scale() < kSlips || slip(footing, as_it_is, drift) > kSteady * now) return {};
+  if (drift.norm() * patient.scale() < kSlips || slip(footing, as_it_is, drift) > kLeft * now) return {};
   return {found(patient, "drift", Severity::kWarning,
                 "feet that stand slide all the same way, at " + short_number(drift.norm()) + " m/s" +
                     ": the root drifts; take that off its location, or leave the take out")};

@@ -16,10 +16,10 @@ constexpr double kFaces = 15 * kPi / 180;    // and from which on it faces there
 double about_face(Runner& runner, const ControlSpace& space, double side) {
   const double begun = runner.heading(), walk = space.walk();
   const Vector2 back{std::sin(begun), -std::cos(begun)};
-  for (int f = 1; f <= kNoAboutFace * Runner::kRate; ++f) {
+  for (int f = 1; f <= kNoAboutFace * kTrackRate; ++f) {
     const double off = kPi - side * (runner.heading() - begun);
     runner.frame({0, off < kGoesOn ? walk : 0, side * space.turn_towards(off), 0});
-    if (std::abs(off) < kFaces && runner.world_velocity().dot(back) >= kOfWalk * walk) return f / Runner::kRate;
+    if (std::abs(off) < kFaces && runner.world_velocity().dot(back) >= kOfWalk * walk) return f / kTrackRate;
   }
   return kNoAboutFace;
 }

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kReversed = 100 * kPi / 180, kSameWay = 20 * kPi / 180;  // rad
 constexpr double kAfter = 1.5, kBefore = 0.2;                             // s
-constexpr double kStill = 1e-9;                                           // m/s
 
 struct Step {
   Control from, to;
@@ -65,8 +64,7 @@ class CenterPath {
 
 // Of the frames from the change until kAfter later; a push is of the 0.2 s to each side of a frame.
 std::vector<double> pushes_after(Runner& runner, CenterPath& path, const Step& step) {
-  const int before = static_cast<int>(kBefore * Runner::kRate),
-            after = static_cast<int>((kAfter + kBefore) * Runner::kRate);
+  const int before = static_cast<int>(kBefore * kTrackRate), after = static_cast<int>((kAfter + kBefore) * kTrackRate);
   for (int f = 0; f < before; ++f) {
     runner.frame(step.from);
     path.add(runner.player());
@@ -75,15 +73,15 @@ std::vector<double> pushes_after(Runner& runner, CenterPath& path, const Step& s
     runner.frame(step.to);
     path.add(runner.player());
   }
-  return ground_accelerations(path.take(), Runner::kRate);
+  return ground_accelerations(path.take(), kTrackRate);
 }
 
 }  // namespace
 
 Change kind_of(const Control& from, const Control& to) {
   const Vector2 before{from.x, from.y}, after{to.x, to.y};
-  if (from.speed() < kStill) return to.speed() < kStill ? Change::turn : Change::start;
-  if (to.speed() < kStill) return Change::stop;
+  if (from.speed() == 0) return to.speed() == 0 ? Change::turn : Change::start;
+  if (to.speed() == 0) return Change::stop;
   const double angle = std::acos(std::clamp(before.dot(after) / (from.speed() * to.speed()), -1.0, 1.0));
   if (angle > kReversed) return Change::reverse;
   return angle > kSameWay || from.turn != to.turn ? Change::turn : Change::gait;

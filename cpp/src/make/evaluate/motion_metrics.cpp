@@ -8,12 +8,13 @@
 #include <utility>
 
 #include "evaluate/tracks.hpp"
+#include "motion/skate.hpp"
 #include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kHeight = 0.025, kSliding = 0.1, kStitched = 0.25;
+constexpr double kSliding = 0.1, kStitched = 0.25;
 
 // The places of a motion's joints, of a character of 1.8 m.
 struct Joints {
@@ -95,11 +96,11 @@ class Measurement {
     for (std::size_t f = 1; f < path.size(); ++f) {
       const double height = path[f].z() - floor;
       const double speed = (path[f] - path[f - 1]).head<2>().norm() * rate;
-      skate_ += speed * std::clamp(2 - std::exp2(height / kHeight), 0.0, 1.0);
+      skate_ += speed * skate_weight(height);
       ++count_;
       depth_ = std::max(depth_, -height);
-      if (height < kHeight) ++low_;
-      if (height < kHeight && speed > kSliding) ++sliding_;
+      if (height < kSkateHeight) ++low_;
+      if (height < kSkateHeight && speed > kSliding) ++sliding_;
     }
   }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/max_accumulate.hpp"
+#include "base/ranges.hpp"
 #include "base/transposed.hpp"
 #include "control/command_limit.hpp"
 #include "fragments/able_trace.hpp"
@@ -14,10 +15,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRounding = 1e-9;         // frames
-constexpr double kSpeedWindow = 0.5;       // s over which speeds are measured
-constexpr double kSpan = 2;                // s over which the root drifts
-constexpr double kLongestShortest = 3600;  // s: the longest step of a player, too
+constexpr double kSpeedWindow = 0.5;  // s over which speeds are measured
+constexpr double kSpan = 2;           // s over which the root drifts
 
 // The slope a frame of the least-squares line through frames first .. last of a path.
 Vector3 slope(const std::vector<double>& path, int first, int last) {
@@ -86,7 +85,7 @@ class Hindsight {
   Hindsight(const Character& c, const std::vector<int>& controls, double rate, double shortest)
       : n_(c.classes.count),
         frames_(static_cast<int>(controls.size())),
-        shortest_(n_, static_cast<int>(shortest * rate + kRounding)),
+        shortest_(n_, static_cast<int>(shortest * rate + kFrameRounding)),
         longest_(n_, 0),
         smoothness_(transposed(c.quality.smoothness, n_, n_)),
         match_(static_cast<std::size_t>(frames_ + 1) * n_, 0),
@@ -94,8 +93,8 @@ class Hindsight {
     for (std::size_t f = 0; f < c.pool.fragments.size(); ++f) {
       const int label = c.classes.labels[f];
       const double frames = c.pool.seconds(c.pool.fragments[f]) * rate;
-      shortest_[label] = std::clamp(static_cast<int>(frames + kRounding), 1, std::max(1, shortest_[label]));
-      longest_[label] = std::max(longest_[label], static_cast<int>(std::ceil(frames - kRounding)));
+      shortest_[label] = std::clamp(static_cast<int>(frames + kFrameRounding), 1, std::max(1, shortest_[label]));
+      longest_[label] = std::max(longest_[label], static_cast<int>(std::ceil(frames - kFrameRounding)));
     }
     for (int f = 0; f < frames_; ++f) {
       for (int q = 0; q < n_; ++q) {
@@ -309,7 +308,7 @@ Performance judge_clip(const Character& character, const Trace& trace, const Cli
 
 double optimal_performance(const Character& character, const Trace& trace, double rate, double shortest) {
   if (trace.empty()) throw std::invalid_argument("the trace has no controls");
-  if (!(shortest >= 0 && shortest <= kLongestShortest)) {
+  if (!(shortest >= 0 && shortest <= kLongestCall)) {
     throw std::invalid_argument("the shortest time that a class plays must be 0 s to an hour");
   }
   const int frames = frame_count(trace.size(), rate) - 1;

@@ -12,9 +12,9 @@ double response(Runner& runner, const Character& character, const Control& from,
   const Control before = character.admitted(from), after = character.admitted(to);
   const Vector2 begin{before.x, before.y}, step = Vector2{after.x, after.y} - begin;
   if (step.isZero()) return 0;
-  for (int f = 1; f <= kNoResponse * Runner::kRate; ++f) {
+  for (int f = 1; f <= kNoResponse * kTrackRate; ++f) {
     runner.frame(to);
-    if ((runner.velocity() - begin).dot(step) >= kOfStep * step.squaredNorm()) return f / Runner::kRate;
+    if ((runner.velocity() - begin).dot(step) >= kOfStep * step.squaredNorm()) return f / kTrackRate;
   }
   return kNoResponse;
 }

@@ -8,7 +8,7 @@
 
 namespace fragmotion {
 
-/// Frames a second of the clips that are measured here.
+/// Frames a second of what is measured here.
 constexpr double kTrackRate = 60;
 
 /// Height over the floor under which a ball or a heel may touch it, m.

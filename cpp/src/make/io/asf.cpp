@@ -16,8 +16,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kMetresPerInch = 0.0254;
-
 /// The words of AsfBone::dofs.
 constexpr std::array<std::string_view, 6> kDofNames = {"tx", "ty", "tz", "rx", "ry", "rz"};
 
@@ -79,7 +77,7 @@ class AsfReader {
 
   void read_length_unit() {
     const double length = reader_.number("a length");
-    unit_ = kMetresPerInch / length;
+    unit_ = kInch / length;
     if (length <= 0) reader_.fail("a length above 0 expected");
     if (length < 1 / kLargestNumber) reader_.fail("a length from 1e-12 on expected");
   }
@@ -271,7 +269,7 @@ class AsfReader {
   TextReader reader_;
   std::vector<AsfBone> bones_;
   std::unordered_map<std::string, int> indices_;
-  double unit_ = kMetresPerInch;
+  double unit_ = kInch;
   double radians_ = radians_from_degrees(1);
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/quantile.hpp"
+#include "base/take_limits.hpp"
 #include "io/hanging.hpp"
 #include "io/rigid_matrix.hpp"
 #include "skeleton/role_names.hpp"
@@ -127,7 +128,7 @@ Vector3 checked_location(const double* xyz, const std::string& clip, int frame, 
 
 void check_pose(const Skeleton& skeleton, const double* root_position, const double* rotations, int frame) {
   const std::string label = "pose " + std::to_string(frame);
-  if (!(load_vector(root_position).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kFarthestHips))
+  if (!(load_vector(root_position).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kFarthestBody))
     fail(label, "the root position is not finite, or more than 1000 km from the origin");
   for (int b = skeleton.roles.hips; b < skeleton.size(); ++b) {
     if (skeleton.is_below(b, skeleton.roles.hips) &&

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "motion/cycle.hpp"
+#include "motion/skate.hpp"
 #include "motion/soles.hpp"
 
 namespace fragmotion {
@@ -17,13 +18,10 @@ constexpr double kStays = 0.4;                       // m that hips on the spot 
 constexpr double kGoes = 0.5;                        // m/s: what is slower stands
 constexpr double kTurns = kPi / 12;                  // rad/s: feet that stand turn by less in a gait that goes straight
 constexpr double kLow = 0.02;                        // m over its lowest: a sole on the ground
-constexpr double kHalfLow = 0.025;                   // m: a point so high counts for nothing in the first guess
 constexpr double kWindow = 1.0 / 30;                 // s over which velocities are told: keys and markers tremble
-constexpr double kGrip = kGravity;                   // m/s^2: friction seldom gives more than the weight
 constexpr double kAsFast = 0.95;                     // of what grip tells: slower is a foot that lands or leaves
 constexpr double kSmooth[] = {0.5, 0.2, 0.1, 0.03};  // s, of the guesses, one after the other
-constexpr double kReturn = 0.5;                      // of the way: feet of one that treads come back,
-constexpr double kSlides = 0.5;                      // of the speed: and none of them stays where it stands
+constexpr double kTreads = 0.5;                      // of the way: feet that tread come back, and none of them stands
 
 using Velocities = std::vector<Vector2>;
 
@@ -140,7 +138,7 @@ class Treading {
     for (const Sole& sole : soles_) {
       for (const SolePoint& point : sole.points) {
         for (int f = 0; f < windows_; ++f) {
-          const double weight = std::clamp(2 - std::exp2(height(point, f) / kHalfLow), 0.0, 1.0);
+          const double weight = skate_weight(height(point, f));
           means[f] += weight * velocity(point, f, turn, center);
           weights[f] += weight;
         }
@@ -177,9 +175,10 @@ class Treading {
     return told;
   }
 
-  // The least speeds that are as great as these and change no faster than kGrip.
+  // The least speeds that are as great as these and change no faster than by gravity: friction seldom gives more than
+  // the weight.
   std::vector<double> gripped(std::vector<double> speeds) const {
-    const double step = kGrip / scale_ / rate_;
+    const double step = kGravity / scale_ / rate_;
     for (int f = 1; f < windows_; ++f) speeds[f] = std::max(speeds[f], speeds[f - 1] - step);
     for (int f = windows_ - 2; f >= 0; --f) speeds[f] = std::max(speeds[f], speeds[f + 1] - step);
     return speeds;
@@ -230,7 +229,7 @@ bool tread(const std::vector<Sole>& soles, double way) {
     const std::vector<Vector3>& path = sole.heel().path;
     gone += 0.5 * (path.back() - path.front()).head<2>().norm();
   }
-  return gone < kReturn * way;
+  return gone < kTreads * way;
 }
 
 // Whether the body is seen to turn: its feet may then turn with it as they stand.
@@ -257,7 +256,7 @@ std::optional<FeetWay> way_of(const std::vector<Sole>& soles, const Clip& clip, 
   way.velocities = treading.steps(windows);
   way.mean = mean_of(way.velocities, clip);
   const double speed = way.mean.norm();
-  const bool treads = treading.slowest() > kSlides * speed && tread(soles, speed * (clip.frames - 1) / clip.rate);
+  const bool treads = treading.slowest() > kTreads * speed && tread(soles, speed * (clip.frames - 1) / clip.rate);
   if (speed * scale < kGoes || !treads) return std::nullopt;
   return way;
 }

@@ -4,8 +4,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr int kApart = 5;         // frames of the clips that are looked at: each fifth
-constexpr double kNoAxis = 1e-9;  // length of an axis that is hardly one
+constexpr int kApart = 5;  // frames of the clips that are looked at: each fifth
 
 // What bends the leg's knee in a pose, as the thigh sees it; the longer the more it is bent.
 Vector3 bend(const Leg& leg, const PosedBones& posed) {
@@ -27,7 +26,7 @@ Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips) {
       for (Leg& leg : legs) leg.hinge += bend(leg, posed);
     }
   }
-  for (Leg& leg : legs) leg.hinge = leg.hinge.norm() > kNoAxis ? leg.hinge.normalized() : Vector3::UnitX();
+  for (Leg& leg : legs) leg.hinge = leg.hinge.norm() > kDegenerate ? leg.hinge.normalized() : Vector3::UnitX();
   return legs;
 }
 

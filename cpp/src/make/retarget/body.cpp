@@ -14,10 +14,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr Side kSides[] = {Side::kLeft, Side::kRight};
-constexpr double kShort = 1e-3;       // of a 1.8 m character: m that a bone of a leg must be longer than
-constexpr double kNoDirection = 0.3;  // of a foot's length: one that points up or down further has no direction
-constexpr double kInstep = 0.4;       // rad: how far most feet point down from the ankle to the ball
+constexpr double kShort = 1e-3;                  // of a 1.8 m character: m that a bone of a leg must be longer than
+constexpr double kInstep = 0.4;                  // rad: how far most feet point down from the ankle to the ball
 constexpr double kFoot = 0.33, kLongFoot = 0.6;  // of a shin's length, from the ankle to the ball: usual, and unlikely
 constexpr double kBackUp = 0.5;                  // cosine of a foot to the way from it up the shin
 constexpr double kGround = 0.08;                 // m of a 1.8 m character: joints of feet are no higher over the ground

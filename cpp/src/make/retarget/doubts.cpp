@@ -13,7 +13,6 @@ namespace {
 constexpr double kByPlace = 0.7;  // confidence of a bone whose name says nothing of what it is, at most
 constexpr double kAloft = 0.5;    // of a leg's length over the lowest bone: a foot does not end on the ground
 constexpr double kLowHips = 0.5;  // of the way from the feet up to the thighs: hips are higher
-constexpr Side kBothSides[] = {Side::kLeft, Side::kRight};
 
 class Doubts {
  public:
@@ -21,9 +20,9 @@ class Doubts {
       : skeleton_(skeleton), map_(map), skin_(skin), rest_(rest_posture(skeleton)) {}
 
   std::vector<RoleDoubt> find() {
-    for (const Side side : kBothSides) look_at_leg(side);
+    for (const Side side : kSides) look_at_leg(side);
     if (has_legs() && stands(map_, facing_forward())) look_at_ground();
-    for (const Side side : kBothSides) look_at_hand(side);
+    for (const Side side : kSides) look_at_hand(side);
     for (const RoleBone& bone : map_.bones) {
       if (bone.confidence < kByPlace && bone.role != Role::kRoot)
         add(bone.role, bone.side, bone.bone, "is told by its place alone, not by its name: see whether it is right");
@@ -56,7 +55,7 @@ class Doubts {
   void look_at_ground() {
     double lowest = std::numeric_limits<double>::infinity();
     for (const Vector3& head : rest_.heads) lowest = std::min(lowest, head.z());
-    for (const Side side : kBothSides) {
+    for (const Side side : kSides) {
       const double foot = height(Role::kFoot, side), thigh = height(Role::kThigh, side);
       if (foot - lowest > kAloft * (thigh - foot))
         add(Role::kFoot, side, bone(Role::kFoot, side),

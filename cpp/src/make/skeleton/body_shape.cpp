@@ -90,8 +90,7 @@ bool BodyShape::has_fingers(int bone) const {
 double BodyShape::descent(const Poses& poses, int from, int to) {
   double down = 0;
   for (const Vector3* heads : poses) {
-    const Vector3 way = heads[to] - heads[from];
-    down -= way.z() / std::max(way.norm(), kNoWay);
+    down -= (heads[to] - heads[from]).normalized().z();
   }
   return down / static_cast<double>(poses.size());
 }

@@ -14,9 +14,6 @@ using Chain = std::vector<int>;
 /// Of each pose the places of all bones' heads.
 using Poses = std::vector<const Vector3*>;
 
-/// m: a way that is none.
-constexpr double kNoWay = 1e-12;
-
 /// Of a body's size: a bone that ends where it begins, a marker.
 constexpr double kStub = 1e-3;
 

@@ -8,10 +8,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kNoLeg = 1e-12;
-constexpr double kLifted = 2e-3;   // of a leg's length that a foot is above the other
 constexpr double kBent = 0.05;     // of a leg's length that a knee is off the line from hip to foot
-constexpr double kForward = 0.3;   // of a foot's length that it points level
 constexpr double kSided = 0.5;     // mean cosine to the left
 constexpr double kTelling = 0.05;  // of the poses that tell the sides at least
 
@@ -27,22 +24,14 @@ Vector3 down(const Limb& leg, const Vector3* heads) {
 bool stands(const Body& body, const Vector3* heads) {
   return std::all_of(body.legs.begin(), body.legs.end(), [&](const Limb& leg) {
     const Vector3 way = down(leg, heads);
-    return -way.z() >= kUpright * way.norm();
+    return -way.z() > kUpright * way.norm();
   });
 }
 
-/// Where the lower foot points, level; zero where it does not.
-Vector3 feet_forward(const Body& body, const PosedFeet& pose) {
-  const auto height = [&](int side) { return pose.heads[body.legs[side].bones[Limb::kEnd]].z(); };
-  Vector3 forward = Vector3::Zero();
-  double length = 0;
-  for (int side = 0; side < 2; ++side) {
-    if (height(side) - height(1 - side) > kLifted * down(body.legs[side], pose.heads).norm()) continue;
-    forward += pose.feet[side];
-    length += pose.feet[side].norm();
-  }
-  forward = level(forward);
-  return forward.norm() < kForward * length ? Vector3::Zero() : forward;
+/// Where the feet point, level; zero where they do not.
+Vector3 feet_forward(const Body&, const PosedFeet& pose) {
+  const Vector3 forward = level(pose.feet[0] + pose.feet[1]);
+  return forward.norm() < kNoDirection * (pose.feet[0].norm() + pose.feet[1].norm()) ? Vector3::Zero() : forward;
 }
 
 /// To where the knees are bent, level; zero where they are straight.
@@ -51,7 +40,7 @@ Vector3 knees_forward(const Body& body, const PosedFeet& pose) {
   for (const Limb& leg : body.legs) {
     const Vector3 knee = pose.heads[leg.bones[Limb::kLower]] - pose.heads[leg.bones[Limb::kUpper]];
     const Vector3 leg_way = down(leg, pose.heads);
-    const Vector3 bent = knee - leg_way * (knee.dot(leg_way) / std::max(leg_way.squaredNorm(), kNoLeg));
+    const Vector3 bent = knee - leg_way * (knee.dot(leg_way) / leg_way.squaredNorm());
     if (bent.norm() > kBent * leg_way.norm()) forward += bent;
   }
   return level(forward);

@@ -11,12 +11,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr int kFewest = 8;  // bones of a layer
-
 enum class Layer { kControl, kDeform, kOriginal, kMechanism };
-
-constexpr double kNumbered = 0.9;  // of the bones, whose numbers an exporter has added
-constexpr int kAlikeJoints = 3;    // of a limb that differ in their numbers alone
 
 using Names = std::vector<std::string>;
 
@@ -35,7 +30,7 @@ Names without_node_numbers(const Names& names) {
     if (end < name.size()) numbers.insert(name.substr(end));
     shorter.push_back(name.substr(0, end));
   }
-  return static_cast<double>(numbers.size()) >= kNumbered * static_cast<double>(names.size()) ? shorter : names;
+  return 2 * numbers.size() > names.size() ? shorter : names;  // of most
 }
 
 Layer layer_of(const std::string& name) {
@@ -53,7 +48,7 @@ std::vector<bool> body_layer(const Names& names) {
   for (const std::string& name : names) ++count[layer_of(name)];
   std::vector<bool> in(names.size(), true);
   for (const Layer layer : {Layer::kDeform, Layer::kOriginal}) {
-    if (count[layer] < kFewest) continue;
+    if (count[layer] <= static_cast<int>(2 * kLimbJoints)) continue;  // no two legs, and what carries them
     for (std::size_t b = 0; b < names.size(); ++b) in[b] = layer_of(names[b]) == layer;
     break;
   }
@@ -119,20 +114,18 @@ void BodyTree::swap_sides() {
 
 /// "leg_joint_L_1", "leg_joint_L_2", "leg_joint_L_3" say of which limb they are, not which of its bones.
 void BodyTree::silence_numbered_limbs() {
-  constexpr std::array<Role, 5> kArm{Role::kShoulder, Role::kUpperArm, Role::kLowerArm, Role::kHand, Role::kFinger};
-  constexpr std::array<Role, 4> kLeg{Role::kThigh, Role::kShin, Role::kFoot, Role::kToe};
-  const auto silence = [&](int bone, const auto& roles) {
+  const auto silence = [&](int bone, const LimbRoles& roles) {
     for (const Role role : roles) said[bone][static_cast<int>(role)] = 0;
   };
   for (int b = 0; b < size(); ++b) {
     std::vector<int> chain{b};
     for (int p = parents[b]; p >= 0 && names[p].words == names[b].words; p = parents[p]) chain.push_back(p);
-    if (static_cast<int>(chain.size()) < kAlikeJoints) continue;
+    if (chain.size() < kLimbJoints) continue;
     const bool arm = says(b, Role::kUpperArm) > 0 && says(b, Role::kLowerArm) > 0;
     const bool leg = says(b, Role::kThigh) > 0 && says(b, Role::kShin) > 0;
     for (const int bone : chain) {
-      if (arm) silence(bone, kArm);
-      if (leg) silence(bone, kLeg);
+      if (arm) silence(bone, kArmRoles);
+      if (leg) silence(bone, kLegRoles);
     }
   }
 }

@@ -43,6 +43,9 @@ struct BodyTree {
   void contradict_fore_legs();
 };
 
+/// Confidence of a bone by its name, and by its place among others.
+constexpr double kNamed = 0.95, kByPlace = 0.75;
+
 /// A limb from the trunk outward; -1 where a bone is not told.
 struct Limb {
   static constexpr int kFirst = 0, kUpper = 1, kLower = 2, kEnd = 3, kTip = 4;  ///< kFirst: the shoulder; kTip: the toe
@@ -51,6 +54,14 @@ struct Limb {
 
   bool whole() const { return bones[kUpper] >= 0 && bones[kLower] >= 0 && bones[kEnd] >= 0; }
 };
+
+/// Of a limb at least: where its upper and lower bone and its end begin.
+constexpr std::size_t kLimbJoints = 3;
+
+/// By the bones of a limb what they are: a leg begins with its thigh.
+using LimbRoles = std::array<Role, 5>;
+constexpr LimbRoles kArmRoles = {Role::kShoulder, Role::kUpperArm, Role::kLowerArm, Role::kHand, Role::kFinger};
+constexpr LimbRoles kLegRoles = {Role::kThigh, Role::kThigh, Role::kShin, Role::kFoot, Role::kToe};
 
 /// A body's joints as one way of looking tells them.
 struct Body {

@@ -14,7 +14,7 @@ constexpr double kFeetLevel = 0.2;    // between the heights of the hind and the
 constexpr double kTrunkLength = 0.3;  // between hips and shoulders along the ground, at least
 constexpr double kNoLegBone = 0.1;    // a bone that a leg begins with and that is shorter is a part of the trunk
 constexpr double kPawHeight = 0.15;   // over the ground, at most: where a paw begins
-constexpr double kByShape = 0.85, kHeadNamed = 0.95;
+constexpr double kByShape = 0.85;
 
 class FourLegs {
  public:
@@ -35,7 +35,7 @@ class FourLegs {
     body.hips_confidence = kByShape;
     body.chest = legs[1].node;
     body.head = head;
-    body.head_confidence = head >= 0 && tree_.says(head, Role::kHead) > 0 ? kHeadNamed : kByShape;
+    body.head_confidence = head >= 0 && tree_.says(head, Role::kHead) > 0 ? kNamed : kByShape;
     for (int side = 0; side < 2; ++side) {
       body.legs[side] = leg(legs[0].chains[side]);
       body.arms[side] = leg(legs[1].chains[side]);

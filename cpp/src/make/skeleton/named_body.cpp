@@ -15,13 +15,6 @@ constexpr double kJointNamed = 1.5;  // where elbows and knees are named, wrists
 constexpr double kClaims = 2.4, kCoherent = 0.7;
 constexpr double kDeeper = 1e-3;  // of equals the bone nearest to the trunk
 
-struct LimbRoles {
-  Role first, upper, lower, end, tip;
-};
-
-constexpr LimbRoles kArm{Role::kShoulder, Role::kUpperArm, Role::kLowerArm, Role::kHand, Role::kFinger};
-constexpr LimbRoles kLeg{Role::kThigh, Role::kThigh, Role::kShin, Role::kFoot, Role::kToe};
-
 double confidence_of(double score) { return score >= 2.4 ? 0.95 : score >= 1.5 ? 0.9 : score > 0.3 ? 0.8 : 0.6; }
 
 /// Finds a limb of one side: the chain of bones below each other that the names fit best.
@@ -32,12 +25,12 @@ class LimbFinder {
 
   Limb find() {
     for (int end = 0; end < tree_.size(); ++end) {
-      const double score = fits(end, roles_.end);
+      const double score = fits(end, roles_[Limb::kEnd]);
       if (score > 0) try_end(end, score);
       try_without_end(end);
     }
-    drop_claimed_by_others(Limb::kUpper, roles_.upper);
-    drop_claimed_by_others(Limb::kLower, roles_.lower);
+    drop_claimed_by_others(Limb::kUpper, roles_[Limb::kUpper]);
+    drop_claimed_by_others(Limb::kLower, roles_[Limb::kLower]);
     find_first();
     find_tip();
     return best_;
@@ -53,7 +46,7 @@ class LimbFinder {
     const bool sided = tree_.names[bone].side != Side::kNone;
     if (score > 0 && !sided) return kContradicts;
     const bool is_joint = has_any_word(tree_.names[bone], {"wrist", "ankle"});
-    return score > 0 && joint_named_ && is_joint && role == roles_.end ? score + kJointNamed : score;
+    return score > 0 && joint_named_ && is_joint && role == roles_[Limb::kEnd] ? score + kJointNamed : score;
   }
 
   bool names_joints() const {
@@ -89,16 +82,16 @@ class LimbFinder {
     const std::vector<int> bones = above(end);
     for (std::size_t i = 0; i < bones.size(); ++i) {
       const int lower = bones[i];
-      const double upper_alone = fits(lower, roles_.upper);
+      const double upper_alone = fits(lower, roles_[Limb::kUpper]);
       const double cost = skipped(lower, end);
       if (upper_alone >= 0 && cost <= kSkipped) {
         take(end_score + cost_of_silence(upper_alone) - kMissing - cost, {-1, lower, -1, end, -1},
              {0, upper_alone, 0, end_score, 0});
       }
-      const double lower_score = fits(lower, roles_.lower);
+      const double lower_score = fits(lower, roles_[Limb::kLower]);
       if (lower_score < 0) continue;
       for (std::size_t j = i + 1; j < bones.size(); ++j) {
-        const double upper_score = fits(bones[j], roles_.upper);
+        const double upper_score = fits(bones[j], roles_[Limb::kUpper]);
         if (upper_score < 0) continue;
         const double score =
             end_score + cost_of_silence(lower_score) + cost_of_silence(upper_score) - cost - skipped(bones[j], lower);
@@ -109,10 +102,10 @@ class LimbFinder {
 
   /// Hands and feet that controls carry hang elsewhere.
   void try_without_end(int lower) {
-    const double lower_score = fits(lower, roles_.lower);
+    const double lower_score = fits(lower, roles_[Limb::kLower]);
     if (lower_score <= 0) return;
     for (const int upper : above(lower)) {
-      const double upper_score = fits(upper, roles_.upper);
+      const double upper_score = fits(upper, roles_[Limb::kUpper]);
       if (upper_score <= 0) continue;
       take(lower_score + upper_score - kMissing - skipped(upper, lower), {-1, upper, lower, -1, -1},
            {0, upper_score, lower_score, 0, 0});
@@ -143,10 +136,10 @@ class LimbFinder {
 
   /// The bone between the trunk and the arm, if its name does not say that it is something else.
   void find_first() {
-    if (roles_.first == roles_.upper || best_.bones[Limb::kUpper] < 0) return;
+    if (roles_[Limb::kFirst] == roles_[Limb::kUpper] || best_.bones[Limb::kUpper] < 0) return;
     double most = -1;
     for (const int b : above(best_.bones[Limb::kUpper])) {
-      const double score = fits(b, roles_.first);
+      const double score = fits(b, roles_[Limb::kFirst]);
       if (score <= most) continue;
       most = score;
       best_.bones[Limb::kFirst] = b;
@@ -155,10 +148,10 @@ class LimbFinder {
   }
 
   void find_tip() {
-    if (roles_.tip == Role::kFinger || best_.bones[Limb::kEnd] < 0) return;
+    if (roles_[Limb::kTip] == Role::kFinger || best_.bones[Limb::kEnd] < 0) return;
     double most = 0;
     for (int b = best_.bones[Limb::kEnd] + 1; b < tree_.size(); ++b) {
-      const double score = fits(b, roles_.tip);
+      const double score = fits(b, roles_[Limb::kTip]);
       if (score <= most || !tree_.is_below(b, best_.bones[Limb::kEnd])) continue;
       most = score;
       best_.bones[Limb::kTip] = b;
@@ -260,10 +253,9 @@ double coherence(const BodyTree& tree, const Body& body) {
     if (limb.bones[part] >= 0 && tree.says(limb.bones[part], role) > 0) ++kept;
   };
   for (int side = 0; side < 2; ++side) {
-    for (const auto& [limb, roles] : {std::pair{&body.arms[side], &kArm}, std::pair{&body.legs[side], &kLeg}}) {
-      count(side, *limb, Limb::kUpper, roles->upper);
-      count(side, *limb, Limb::kLower, roles->lower);
-      count(side, *limb, Limb::kEnd, roles->end);
+    for (const auto& [limb, roles] :
+         {std::pair{&body.arms[side], &kArmRoles}, std::pair{&body.legs[side], &kLegRoles}}) {
+      for (const int part : {Limb::kUpper, Limb::kLower, Limb::kEnd}) count(side, *limb, part, (*roles)[part]);
     }
   }
   return claimed == 0 ? 1 : static_cast<double>(kept) / claimed;
@@ -286,8 +278,8 @@ bool contradicts(const BodyTree& tree, const Body& body) {
 std::optional<Body> named_body(const BodyTree& tree) {
   Body body;
   for (int side = 0; side < 2; ++side) {
-    body.arms[side] = LimbFinder(tree, side, kArm).find();
-    body.legs[side] = LimbFinder(tree, side, kLeg).find();
+    body.arms[side] = LimbFinder(tree, side, kArmRoles).find();
+    body.legs[side] = LimbFinder(tree, side, kLegRoles).find();
   }
   find_head(tree, body);
   find_hips(tree, body);

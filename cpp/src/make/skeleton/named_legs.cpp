@@ -9,7 +9,6 @@ namespace {
 constexpr double kJointApart = 0.15, kJointBent = 0.4;  // of the bones' lengths; sine
 constexpr double kBeside = 0.25;  // of a shin's length: the real ankle is no further from a foot that is none
 constexpr double kGoesOn = 0.1;   // of a shin's length, that a foot has at least
-constexpr double kToldByShape = 0.75;
 
 std::vector<Vector3> rest_heads(const Skeleton& skeleton) {
   std::vector<Vector3> heads;
@@ -52,7 +51,7 @@ void leave_dead_end(const std::vector<Vector3>& heads, const BodyTree& tree, Lim
     const int toe = next_bone(heads, tree, b, kGoesOn * length);
     if (toe < 0 && !bare) continue;
     leg.bones[Limb::kEnd] = b, leg.bones[Limb::kTip] = toe;
-    leg.confidence[Limb::kEnd] = leg.confidence[Limb::kTip] = kToldByShape;
+    leg.confidence[Limb::kEnd] = leg.confidence[Limb::kTip] = kByPlace;
     return;
   }
 }

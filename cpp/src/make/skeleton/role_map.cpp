@@ -18,14 +18,8 @@ namespace {
 constexpr int kLooks = 200;
 constexpr double kTold = 0.5;   // the least confidence of a role
 constexpr int kMostJoints = 4;  // of a finger
-constexpr double kNamed = 0.95, kBetween = 0.75;
 
-constexpr std::array<Role, 5> kArmRoles = {Role::kShoulder, Role::kUpperArm, Role::kLowerArm, Role::kHand,
-                                           Role::kFinger};
-constexpr std::array<Role, 5> kLegRoles = {Role::kThigh, Role::kThigh, Role::kShin, Role::kFoot, Role::kToe};
-constexpr std::array<Role, 5> kForeLegRoles = {Role::kForeLeg, Role::kForeLeg, Role::kForeLeg, Role::kForeFoot,
-                                               Role::kForeToe};
-constexpr Side kSides[] = {Side::kLeft, Side::kRight};
+constexpr LimbRoles kForeLegRoles = {Role::kForeLeg, Role::kForeLeg, Role::kForeLeg, Role::kForeFoot, Role::kForeToe};
 constexpr std::string_view kFingerNames[] = {"thumb", "index", "middle", "ring", "pinky"};
 
 double agreed(double confidence) { return 1 - (1 - confidence) / 2; }
@@ -55,7 +49,7 @@ void merge_bone(int shaped, double shaped_confidence, int& bone, double& confide
 }
 
 /// What the shape tells of a limb and names do not contradict: nothing where they say the other side.
-Limb uncontradicted(const BodyTree& tree, Limb limb, const std::array<Role, 5>& roles, Side side) {
+Limb uncontradicted(const BodyTree& tree, Limb limb, const LimbRoles& roles, Side side) {
   for (std::size_t i = 0; i < limb.bones.size(); ++i) {
     int& bone = limb.bones[i];
     if (bone < 0) continue;
@@ -122,7 +116,7 @@ class MapMaker {
     map_.bones.push_back({role, side, finger, order, bone, confidence});
   }
 
-  void add_limb(const Limb& limb, const std::array<Role, 5>& roles, Side side) {
+  void add_limb(const Limb& limb, const LimbRoles& roles, Side side) {
     for (int i = 0; i < 5; ++i) {
       if (roles[i] != Role::kFinger) add(roles[i], side, limb.bones[i], limb.confidence[i]);
     }
@@ -154,7 +148,7 @@ class MapMaker {
       const bool beyond_arms = chest && b != arms && tree_.is_below(b, arms);
       neck = neck || neck_said > 0 || (beyond_arms && (spine_said <= 0 || !head_named));
       const bool said = (neck ? neck_said : spine_said) > 0;
-      const double confidence = said ? kNamed : chest ? kBetween : 0;
+      const double confidence = said ? kNamed : chest ? kByPlace : 0;
       add(neck ? Role::kNeck : Role::kSpine, Side::kNone, b, confidence, neck ? necks++ : spines++);
     }
     add(Role::kHead, Side::kNone, body_.head, body_.head_confidence);

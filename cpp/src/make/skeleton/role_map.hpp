@@ -11,6 +11,9 @@
 
 namespace fragmotion {
 
+/// Of a foot's length: one that points less far ahead than that, and up or down, has no direction.
+constexpr double kNoDirection = 0.3;
+
 /// What a bone is to a body. Of spine, neck, fingers and toes there may be any number.
 enum class Role {
   kRoot,  ///< The bone above the hips that nothing is above, where there is one.

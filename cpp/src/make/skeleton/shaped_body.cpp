@@ -11,9 +11,8 @@ namespace fragmotion {
 namespace {
 
 // Lengths are shares of BodyShape::size().
-constexpr double kHead = 0.03;    // neck and head at least
-constexpr double kPelvis = 0.02;  // between the hips and a pelvis at most
-constexpr double kSure = 1.5;     // votes more for one way to take the pairs than for the other
+constexpr double kHead = 0.03;  // neck and head at least
+constexpr double kSure = 1.5;   // votes more for one way to take the pairs than for the other
 
 class ShapeFinder {
  public:
@@ -53,7 +52,7 @@ class ShapeFinder {
     if (shape_.is_below(legs, arms) || shape_.is_below(arms, legs)) return legs;
     int both = legs;
     while (both >= 0 && !shape_.is_below(arms, both)) both = shape_.parent(both);
-    return both >= 0 && (shape_.rest()[both] - shape_.rest()[legs]).norm() < kPelvis * shape_.size() ? both : -1;
+    return both >= 0 && (shape_.rest()[both] - shape_.rest()[legs]).norm() < kStub * shape_.size() ? both : -1;
   }
 
   // The longest chain at a node that is neither of the pair's nor leads to the other pair.

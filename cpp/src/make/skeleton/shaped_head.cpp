@@ -10,10 +10,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kBroad = 0.25;     // of the trunk's length that shoulders are apart at least
-constexpr double kSame = 1.05;      // times as long: no longer
-constexpr double kStandsOut = 1.5;  // times as long as the neck
-constexpr double kDoubtful = 0.15;  // of the head's length, that a bone beyond it has: which is the head?
+constexpr double kBroad = 0.25;                        // of the trunk's length that shoulders are apart at least
 constexpr double kHeadAbove = 0.16, kHeadUnder = 0.5;  // of the trunk's length that a head begins above the shoulders
 constexpr double kCopied = 1e-3;                       // of a bone's length that a copy of it differs by
 
@@ -32,26 +29,19 @@ class HeadFinder {
       if (shape_.children(chain[i]).size() > 1) chain.resize(i + 1);  // what carries a face
     }
     const Chain possible = possible_heads(body, chain);
-    const int head = possible.empty() ? -1 : longest_of(possible);
-    if (head < 0) return;
-    body.head = possible[head];
+    if (possible.empty()) return;
+    body.head = longest_of(possible);
     body.head_confidence = body.head != chain[0] ? sure - 0.1 : 0.5;
   }
 
  private:
   // Which bone of a neck and what is beyond is the head: the longest, for faces hang on it, and its end may be marked
-  // by a last bone that an importer made as long. -1 where another one beyond it may be the head.
+  // by a last bone that an importer made as long.
   int longest_of(const Chain& chain) const {
-    const auto length_of = [&](int i) { return shape_.skeleton().tips[chain[i]].norm(); };
-    const int last = static_cast<int>(chain.size()) - 1;
-    int head = 0;
-    for (int i = 1; i <= last; ++i) {
-      if (length_of(i) > kSame * length_of(head)) head = i;
-    }
-    for (int i = head + 1; i <= last; ++i) {
-      const bool is_mark = i == last && i == head + 1 && head > 0 &&
-                           length_of(head) > kStandsOut * length_of(head - 1) && length_of(i) > length_of(head) / kSame;
-      if (!is_mark && length_of(i) > kDoubtful * length_of(head)) return -1;
+    const auto length_of = [&](int bone) { return shape_.skeleton().tips[bone].norm(); };
+    int head = chain[0];
+    for (const int bone : chain) {
+      if (length_of(bone) > (1 + kCopied) * length_of(head)) head = bone;
     }
     return head;
   }
@@ -67,8 +57,8 @@ class HeadFinder {
     int told = 0;
     for (const Vector3* heads : poses) {
       const Vector3 shoulders = between(body.arms, heads), trunk = shoulders - between(body.legs, heads);
-      if (across(body.arms, heads).norm() < kBroad * trunk.norm()) continue;
-      above += (heads[bone] - shoulders).dot(trunk) / std::max(trunk.squaredNorm(), kNoWay);
+      if (trunk.isZero(0) || across(body.arms, heads).norm() < kBroad * trunk.norm()) continue;
+      above += (heads[bone] - shoulders).dot(trunk) / trunk.squaredNorm();
       ++told;
     }
     return above / std::max(told, 1);

@@ -7,15 +7,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kStiff = 0.05;     // rad that a joint bends by at least in a motion, if it is one
-constexpr double kSplit = 0.8;      // a third bone of a limb that is as long as that of the shorter two: no telling
-constexpr double kPart = 0.75;      // times as long at least a bone becomes by a part
-constexpr double kNarrow = 0.25;    // of the way from arm to arm over the collars, that collars are apart at most
-constexpr double kBroadest = 0.36;  // the same, where they also lead apart and the arms do less
-constexpr double kApart = 0.5, kLessApart = 0.3;  // cosines
-constexpr double kShortArm = 0.75;                // of an upper arm's length, that a lower arm has at least
-constexpr double kLonger = 1.3;  // times as long as a collar an upper arm is, where only the rest pose tells
-constexpr double kSteep = 0.85, kSlanting = 0.8;  // of a bone's length that it leads down
+constexpr double kStiff = 0.05;   // rad that a joint bends by at least in a motion, if it is one
+constexpr double kAsLong = 0.75;  // of a bone's length, that another one of its limb has which is about as long
+constexpr double kNarrow = 0.25;  // of the way from arm to arm over the collars, that collars are apart at most
 
 using Joints = std::array<int, 3>;  // of a limb's chain: where its upper and lower bone and its end begin
 
@@ -56,27 +50,12 @@ class LimbShaper {
     return parts;
   }
 
-  // Collar bones begin beside each other and lead apart; upper arms begin at both sides, and hang.
+  // Collar bones begin beside each other; upper arms begin at both sides.
   bool begins_with_collars(const LimbPair& pair) const {
     const auto& [left, right] = pair.chains;
     const double between = (shape_.rest()[left[0]] - shape_.rest()[right[0]]).norm();
     const double across = between + shape_.length(left[1]) + shape_.length(right[1]);
-    if (between < kNarrow * across) return true;
-    if (between > kBroadest * across || (!shape_.moves() && shape_.length(left[2]) < kLonger * shape_.length(left[1])))
-      return false;
-    const double first = same_way(pair, 0);
-    return first < -kApart && same_way(pair, 1) > first + kLessApart;
-  }
-
-  // The cosine between the left and the right bone of a pair, the mean over all poses.
-  double same_way(const LimbPair& pair, std::size_t i) const {
-    const auto& [left, right] = pair.chains;
-    double cosines = 0;
-    for (const Vector3* heads : shape_.poses()) {
-      const Vector3 a = heads[left[i + 1]] - heads[left[i]], b = heads[right[i + 1]] - heads[right[i]];
-      cosines += a.normalized().dot(b.normalized());
-    }
-    return cosines / static_cast<double>(shape_.poses().size());
+    return between < kNarrow * across;
   }
 
   // Where the two longest bones that follow each other begin and end. Such a bone may have parts; but a wrist that is
@@ -90,7 +69,8 @@ class LimbShaper {
         if (shape_.has_fingers(chain[lower])) break;
         for (int end = lower + 1; end < bones && !part[lower]; ++end) {
           const int skipped = end - upper - 2;
-          const double shorter = std::min(way(chain, upper, lower), way(chain, lower, end)) * std::pow(kPart, skipped);
+          const double shorter =
+              std::min(way(chain, upper, lower), way(chain, lower, end)) * std::pow(kAsLong, skipped);
           if (shorter > most) most = shorter, best = {upper, lower, end};
           if (!part[end] || shape_.has_fingers(chain[end])) break;
         }
@@ -100,10 +80,10 @@ class LimbShaper {
     return best;
   }
 
-  // Whether a bone leads ahead that a steep one leads down to.
+  // Whether a bone leads ahead that a steeper one leads down to.
   static bool is_foot(const Poses& poses, const Chain& chain, int shin, int foot) {
-    return BodyShape::descent(poses, chain[shin], chain[foot]) > kSteep &&
-           BodyShape::descent(poses, chain[foot], chain[foot + 1]) < kSlanting;
+    return BodyShape::descent(poses, chain[shin], chain[foot]) >
+           BodyShape::descent(poses, chain[foot], chain[foot + 1]);
   }
 
   Limb limb(const Chain& chain, const Joints& joints, bool arm, bool collared) const {
@@ -111,11 +91,11 @@ class LimbShaper {
     if (upper < 0) return {};
     if (arm && upper == 0 && lower > 1) return {};  // a shoulder against which the arm is held still looks like a part
     const int bones = static_cast<int>(chain.size());
-    const double most = kSplit * std::min(way(chain, upper, lower), way(chain, lower, end));
+    const double most = kAsLong * std::min(way(chain, upper, lower), way(chain, lower, end));
     const bool hand =
         shape_.has_fingers(chain[end]);  // whose lower arm and elbow are told, so what is before is a shoulder
     const bool in_parts =
-        arm && !shape_.moves() && !hand && way(chain, lower, end) < kShortArm * way(chain, upper, lower);
+        arm && !shape_.moves() && !hand && way(chain, lower, end) < kAsLong * way(chain, upper, lower);
     if (in_parts) return {};  // or so it may be: motion would tell
     const bool shoulder = (hand && shape_.moves()) || (collared && upper == 1);
     const bool foot = !arm && end + 1 < bones &&
@@ -141,7 +121,7 @@ class LimbShaper {
     if (foot + 1 >= bones) return false;
     const int toe = chain[foot + 1];
     const auto is_as_long = [&](int other) {
-      return other != toe && shape_.branch(other) > kSplit * shape_.branch(toe);
+      return other != toe && shape_.branch(other) > kAsLong * shape_.branch(toe);
     };
     const std::vector<int>& beside = shape_.children(chain[foot]);
     if (std::any_of(beside.begin(), beside.end(), is_as_long)) return false;

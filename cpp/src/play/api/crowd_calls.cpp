@@ -2,12 +2,12 @@
 #include <algorithm>
 
 #include "api/handles.hpp"
+#include "base/take_limits.hpp"
 #include "runtime/crowd.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr float kFarthestBody = 1e6;
 constexpr double kShortestParting = 0.1;  // s in which those that touch part: sooner than that nobody can
 
 void make_crowd(const std::shared_ptr<const Hero>& hero, const FragmotionPlayerOptions& options, int count,

@@ -11,6 +11,7 @@
 #include "api/axes.hpp"
 #include "api/calls.hpp"
 #include "api/shift.hpp"
+#include "base/ranges.hpp"
 #include "direct/make_way.hpp"
 #include "direct/path_follower.hpp"
 #include "direct/steering.hpp"
@@ -18,8 +19,7 @@
 
 namespace fragmotion {
 
-constexpr double kLongestCall = 3600;  // s that a step may last, and plays
-constexpr double kMostSteps = 64;      // that a level of detail puts together
+constexpr double kMostSteps = 64;  // that a level of detail puts together
 
 /// What is made of a policy file's bytes, and shared by all handles that need it.
 struct Hero {

@@ -3,17 +3,17 @@
 
 #include "api/handles.hpp"
 #include "api/player_state.hpp"
+#include "base/ranges.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kFarthestGame = 1e9;  // m of a place, and rad of a heading
-constexpr double kMostForeseen = 60;   // s
+constexpr double kMostForeseen = 60;  // s
 constexpr int kMostPlaces = 100000;
 
 void check_place(const FragmotionPlayer& player, const FragmotionPlace& place) {
   const Vector3 at = player.hero->axes.place(place.position);
-  demand(at.cwiseAbs().maxCoeff() <= kFarthestGame && std::abs(static_cast<double>(place.heading)) <= kFarthestGame,
+  demand(at.cwiseAbs().maxCoeff() <= kFarthestPlace && std::abs(static_cast<double>(place.heading)) <= kFarthestPlace,
          FRAGMOTION_ERROR_ARGUMENT, "the place holds what is not a number, or is farther away than a million km");
 }
 
@@ -204,7 +204,7 @@ FragmotionResult fragmotion_player_look(FragmotionPlayer* player, FragmotionLook
     if (look != FRAGMOTION_LOOK_AT) return p.player.look(static_cast<Look>(look));
     demand_given(place, "the place to look at");
     const Vector3 there = p.hero->axes.place(place);
-    demand(there.cwiseAbs().maxCoeff() <= kFarthestGame, FRAGMOTION_ERROR_ARGUMENT,
+    demand(there.cwiseAbs().maxCoeff() <= kFarthestPlace, FRAGMOTION_ERROR_ARGUMENT,
            "the place to look at holds what is not a number, or is farther away than a million km");
     p.player.look(Look::at, p.shift.place_inside(there));
   });
@@ -223,7 +223,7 @@ FragmotionResult fragmotion_player_reach(FragmotionPlayer* player, FragmotionHan
     const bool carried = reach->carried == 1;
     const Vector3 seen = Eigen::Vector3f::Map(reach->place).cast<double>() / p.hero->axes.unit(),
                   there = carried ? seen : p.hero->axes.place(reach->place);
-    demand(there.allFinite() && there.cwiseAbs().maxCoeff() <= kFarthestGame, FRAGMOTION_ERROR_ARGUMENT,
+    demand(there.allFinite() && there.cwiseAbs().maxCoeff() <= kFarthestPlace, FRAGMOTION_ERROR_ARGUMENT,
            "the place to reach for holds what is not a number, or is farther away than a million km");
     demand(reach->weight >= 0 && reach->weight <= 1, FRAGMOTION_ERROR_ARGUMENT, "the weight of a hand must be 0 to 1");
     demand(reach->carried == 0 || reach->carried == 1, FRAGMOTION_ERROR_ARGUMENT, "carried must be 0 or 1");

@@ -10,6 +10,9 @@ namespace fragmotion {
 /// The largest coordinate, m, and angle, rad, of a place, at which steps are still told apart.
 constexpr double kFarthestPlace = 1e9;
 
+/// s that a step, a call or what plays without one may last.
+constexpr double kLongestCall = 3600;
+
 /// A number as short as people write it.
 inline std::string text_of(double value) {
   std::ostringstream text;

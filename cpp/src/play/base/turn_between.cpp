@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace fragmotion {
-namespace {
-
-constexpr double kOpposite = 1e-6;  // 1 + cosine of an angle, below which half of it is not to be had from that
-
-}  // namespace
 
 Quaternion turn_between(const Vector3& from, const Vector3& to) {
   const double product = std::sqrt(from.squaredNorm() * to.squaredNorm()), w = product + dot(from, to);

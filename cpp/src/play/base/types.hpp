@@ -16,6 +16,9 @@ inline double wrapped(double angle) { return std::abs(angle) <= kPi ? angle : st
 /// What pulls everything down, m/s^2.
 constexpr double kGravity = 9.81;
 
+/// An inch, m.
+constexpr double kInch = 0.0254;
+
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
 using Matrix2 = Eigen::Matrix2d;

@@ -12,8 +12,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRounding = 1e-6;
-constexpr double kShortest = (1 - kRounding) * kShortestFragment, kLongest = 3600;  // s that a fragment may last
+constexpr double kShortest = (1 - kFileRounding) * kShortestFragment, kLongest = 3600;  // s that a fragment may last
 constexpr double kMost = 1e9;  // of what is in m/s, rad/s or a ratio: its square is a number, and no body is so fast
 constexpr double kHighest = 1e10;  // m of a floor: above any chain of bones at any place
 

@@ -6,10 +6,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/take_limits.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr double kFarthestPoint = 1e6;  // m
 constexpr double kShortestPath = 1e-3;  // m that a path is long at least
 constexpr double kSame = 1e-9;          // m between points that are one
 
@@ -20,7 +21,7 @@ void check(const std::vector<Vector2>& points, const std::vector<double>& speeds
     throw std::invalid_argument("a path may have a million points, and has " + std::to_string(points.size()));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!(points[i].cwiseAbs().maxCoeff() <= kFarthestPoint))
+    if (!(points[i].cwiseAbs().maxCoeff() <= kFarthestBody))
       throw std::invalid_argument("point " + std::to_string(i) + " of the path is not within 1e6 m");
   }
   if (!speeds.empty() && speeds.size() != points.size()) {

@@ -12,7 +12,6 @@ namespace fragmotion {
 namespace {
 
 constexpr double kLatest = 24 * 3600.0;  // s
-constexpr double kLongestCall = 3600;    // s between two calls
 
 constexpr double kShowsAfter = 0.08;            // s after which a control shows
 constexpr double kTurning = 0.3;                // s by which a turn begins before the path does

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/ranges.hpp"
+#include "base/take_limits.hpp"
 #include "motion/facing.hpp"
 #include "skeleton/same_skeleton.hpp"
 
@@ -39,7 +40,7 @@ void check_shape(const Clip& clip, int bones) {
 void check_positions(const Skeleton& skeleton, const Clip& clip) {
   for (std::size_t i = 0; i < clip.root_positions.size(); ++i) {
     const double value = clip.root_positions[i];
-    if (std::abs(value) <= kFarthestHips) continue;
+    if (std::abs(value) <= kFarthestBody) continue;
     const std::string cause = std::isfinite(value) ? "position is more than 1000 km from the origin: check the units"
                                                    : "position is not finite";
     fail(clip.name, place(static_cast<int>(i / 3), skeleton.names[skeleton.roles.hips]) + cause);

@@ -13,9 +13,6 @@ namespace fragmotion {
 /// Frames a second that a clip may have: motion capture is made at up to some 2,000.
 constexpr double kLowestRate = 0.1, kHighestRate = 10000;
 
-/// How far from the origin a clip's hips may be, m: no stage is larger, and coordinates are told apart to 1e-10 m.
-constexpr double kFarthestHips = 1e6;
-
 /// One take on a skeleton at a fixed rate. Only the hips translate; the bones above them follow the character frame.
 struct Clip {
   std::string name;

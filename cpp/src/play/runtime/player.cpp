@@ -14,7 +14,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLongest = 3600;   // s that a step may last
 constexpr double kRounding = 1e-9;  // of a step: less that is left of it is what sums of its parts are off
 constexpr double kMiddle = 0.2;     // s from now to that of a fragment that begins soon
 
@@ -87,7 +86,7 @@ void Player::check_step(const Control& control, double seconds) {
     if (!std::isfinite(value)) throw std::invalid_argument("the control holds what is not a number");
     if (std::abs(value) > kMostControl) throw std::invalid_argument("the control holds a number beyond a million");
   }
-  if (!(seconds >= 0 && seconds <= kLongest)) throw std::invalid_argument("a step must last 0 s to an hour");
+  if (!(seconds >= 0 && seconds <= kLongestCall)) throw std::invalid_argument("a step must last 0 s to an hour");
 }
 
 void Player::reset(const CharacterFrame& frame, int style) {

@@ -9,6 +9,7 @@
 namespace fragmotion {
 
 enum class Side { kNone, kLeft, kRight };
+constexpr Side kSides[] = {Side::kLeft, Side::kRight};
 
 /// A number in a bone's name.
 struct NameNumber {

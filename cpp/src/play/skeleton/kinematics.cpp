@@ -9,8 +9,6 @@ namespace fragmotion {
 
 namespace {
 
-constexpr double kDegenerate = 1e-9;
-
 /// Unit vector to the character's right in the hips' frame.
 Vector3 right_of_hips(const Skeleton& skeleton, const std::vector<Vector3>& heads, const Quaternion& hips) {
   const Roles& roles = skeleton.roles;

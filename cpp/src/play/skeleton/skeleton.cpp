@@ -15,7 +15,6 @@ namespace fragmotion {
 namespace {
 
 constexpr double kUnitTolerance = 1e-3;  // Blender's rotations are floats; anything worse is a caller's mistake.
-constexpr double kFarthest = 1e6;        // m: a giant in millimetres that are taken for metres stays far below.
 
 void check_sizes(const Skeleton& skeleton) {
   const std::size_t bones = skeleton.names.size();
@@ -58,7 +57,7 @@ void check_numbers(const Skeleton& skeleton, int bone) {
   const std::string label = "bone '" + skeleton.names[bone] + "'";
   const auto check = [&](const Vector3& place, const char* what) {
     if (!place.allFinite()) throw std::invalid_argument(label + " has " + what + " that is not finite");
-    if (place.cwiseAbs().maxCoeff() > kFarthest)
+    if (place.cwiseAbs().maxCoeff() > kFarthestBody)
       throw std::invalid_argument(label + " has " + what + " of more than 1000 km");
   };
   check(skeleton.offsets[bone], "an offset");

@@ -14,7 +14,6 @@ constexpr double kSoft = 0.03;        // of a leg's length, below that: where it
 constexpr double kStraight = 0.1;     // rad: a knee that is bent less than that resists being bent backward
 constexpr double kFolded = 2.5;       // rad: a knee that is bent more resists being folded up
 constexpr double kNear = 0.02;      // of a leg's length: wanted so near to where it is, a foot may go as the knee does
-constexpr double kOpposite = 1e-6;  // 1 + cosine of an angle, below which half of it is not to be had from that
 constexpr double kTiny = 1e-12;     // m^2
 constexpr double kShortest = 1e-3;  // m of a 1.8 m character: a bone of a leg that is shorter has no direction
 
