@@ -22,8 +22,10 @@ def path() -> core.Path:
 
 def distances(path: core.Path, places: Array) -> Array:
     """Of places [N,2] from the path, by brute force."""
-    points = path.places(np.linspace(0, path.length, 5000))
-    found: Array = np.linalg.norm(places[:, None] - points, axis=2).min(1)
+    points = path.places(np.linspace(0, path.length, 2000))
+    lines, off = np.diff(points, axis=0), places[:, None] - points[:-1]
+    shares = np.clip((off * lines).sum(2) / (lines**2).sum(1), 0, 1)
+    found: Array = np.linalg.norm(off - shares[..., None] * lines, axis=2).min(1)
     return found
 
 

@@ -21,9 +21,6 @@ struct PathWalk {
   double asked_speed = 0;      ///< m/s, PathFollower::asked_speed
 };
 
-/// How near to its end a path is done, m of a 1.8 m character.
-constexpr double kArrived = 0.2;
-
 /// Lets a player follow a path from `start`, where it is reset to in the style that it plays, a control every
 /// 1/kTraceRate s, shown at `rate` frames a second as perform() shows a trace. It lasts a second longer than until it
 /// stands at the end, and `seconds` at most. Where it does not stand or arrive just so, it is tried again, with the way

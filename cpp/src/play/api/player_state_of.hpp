@@ -308,8 +308,6 @@ void PlayerState::exchange(Archive& a, PathFollower& follower) {
   frame(a, follower.before_);
   for (bool* flag : {&follower.observed_, &follower.approaches_, &follower.set_off_, &follower.stands_})
     a.number(*flag, 0, 1);
-  a.number(follower.still_, 0, kMostPlace);
-  a.number(follower.corrections_, 0, kMostCount);
 }
 
 template <typename Archive>

@@ -73,7 +73,6 @@ int least(int count, const Value& value) {
 
 constexpr double kLeap = 0.9;                  // evident jump of what is no run
 constexpr double kQuickest = 170 * kPi / 180;  // rad/s
-constexpr double kFacing = 0.25;               // s: time constant of the last of a turn
 
 void check_speeds(const std::vector<double>& speeds) {
   for (std::size_t i = 0; i < speeds.size(); ++i) {

@@ -12,6 +12,9 @@ namespace fragmotion {
 /// Slower than this a character of 1.8 m stands, m/s.
 constexpr double kMoving = 0.3;
 
+/// s: time constant of the last of a turn to where a character is to face.
+constexpr double kFacing = 0.25;
+
 /// Turn rates of a space that are asked for at most: what ControlSpace::quickest_turn() is at most.
 constexpr double kMostTurn = 6;
 
@@ -71,6 +74,8 @@ class ControlSpace {
   double quickest_turn() const;
   /// The turn of a control for a character to face where is `off` rad to the left of where it faces, soon and softly.
   double turn_towards(double off) const;
+  /// What is farther off than this to a side, rad, is behind: nearer to the next direction than to sideways.
+  double behind() const { return kPi / 2 + kPi / layout_.directions; }
   const ControlWeights& weights() const { return weights_; }
   const Control& point(int index) const { return points_[index]; }
 

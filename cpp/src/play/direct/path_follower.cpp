@@ -13,24 +13,6 @@ namespace {
 
 constexpr double kLatest = 24 * 3600.0;  // s
 
-constexpr double kShowsAfter = 0.08;            // s after which a control shows
-constexpr double kTurning = 0.3;                // s by which a turn begins before the path does
-constexpr double kReturning = 2.2;              // 1/s: how fast a body comes back to the path
-constexpr double kMeasured = 0.1;               // s over which its velocity is measured
-constexpr double kOnTheSpot = 100 * kPi / 180;  // rad: what faces farther away turns before it goes
-constexpr double kFaces = 0.03;                 // rad: error of the heading that a body which stands may have
-constexpr double kUnhurried = 0.6;              // of a walk: the pace for which it sets off where there is time,
-constexpr double kLeastPace = 0.5;              // and the slowest on the way
-constexpr double kStill = 0.4;                  // s after which what stands in the wrong place goes there
-constexpr int kCorrections = 3;                 // times that it does
-// Of a body of 1.8 m.
-constexpr double kTangent = 0.1, kView = 0.3;  // m of the path that tell its direction, and where to face
-constexpr double kReach = 0.5;                 // m that are near
-constexpr double kSlack = 0.3;                 // m by which the way goes on beyond what a body went
-constexpr double kOffEnd = 0.19;               // m from the end that will do
-constexpr double kDone = 0.02;                 // m
-constexpr double kStands = 0.1;                // m/s
-
 double heading_of(const Vector2& direction) { return std::atan2(-direction.x(), direction.y()); }
 
 Path followed(const Path& path, PathEnd end) { return end == PathEnd::loop ? path.closed() : path; }
@@ -49,7 +31,7 @@ void check(const FollowOptions& options) {
 }  // namespace
 
 CharacterFrame start_of(const Path& path) {
-  const double view = std::min(kView, path.length());
+  const double view = std::min(kArrived, path.length());
   return {path.place(0), heading_of(path.direction(view / 2, view))};
 }
 
@@ -63,11 +45,10 @@ PathFollower::PathFollower(const ControlSpace& space, const Path& path, const Fo
 }
 
 void PathFollower::reset() {
-  way_ = seconds_ = still_ = 0;
+  way_ = seconds_ = 0;
   velocity_ = Vector2::Zero();
   observed_ = set_off_ = stands_ = false;
   approaches_ = true;
-  corrections_ = 0;
   set_speed();
 }
 
@@ -85,12 +66,12 @@ Control PathFollower::steer(const CharacterFrame& frame, double seconds) {
   observe(frame, seconds);
   follow_way(frame, seconds);
   if (!stands_) set_speed();
-  const Aim aim = this->aim(frame);
+  const Aim aim = this->aim(frame, seconds);
   const double off = angle_to_face(frame, aim);
-  const bool on_the_spot = options_.facing == PathFacing::along && std::abs(off) > kOnTheSpot;
+  const bool on_the_spot = options_.facing == PathFacing::along && std::abs(off) > space_.behind();
   const Vector2 wanted = on_the_spot || waits() ? Vector2::Zero() : velocity(aim);
   const Vector2 going = stops(options_) ? stopped(wanted, aim, seconds) : wanted;
-  const double turn = stands_ && std::abs(off) < kFaces ? 0 : space_.turn_towards(off);
+  const double turn = space_.turn_towards(off);
   const double heading = frame.heading + turn * space_.turn_rate() * seconds / 2;
   const Vector2 local = Eigen::Rotation2Dd(-heading) * going;
   return {local.x(), local.y(), turn, 0};
@@ -104,7 +85,7 @@ void PathFollower::moved(const CharacterFrame& to) {
 void PathFollower::observe(const CharacterFrame& frame, double seconds) {
   if (observed_ && seconds > 0) {
     const Vector2 now = (frame.position - before_.position) / seconds;
-    velocity_ += std::min(1.0, seconds / kMeasured) * (now - velocity_);
+    velocity_ += std::min(1.0, seconds / kFacing) * (now - velocity_);
     seconds_ += seconds;
   }
   before_ = frame;
@@ -114,7 +95,7 @@ void PathFollower::observe(const CharacterFrame& frame, double seconds) {
 void PathFollower::follow_way(const CharacterFrame& frame, double seconds) {
   approaches_ = approaches_ && (path_.place(0) - frame.position).norm() > scaled(kReach);
   if (approaches_) return;
-  const double ahead = way_ + std::min(1.5 * velocity_.norm() * seconds + scaled(kSlack), path_.length());
+  const double ahead = way_ + std::min(1.5 * velocity_.norm() * seconds + scaled(kArrived), path_.length());
   way_ = path_.nearest(frame.position, way_, stops(options_) ? std::min(ahead, path_.length()) : ahead);
 }
 
@@ -126,7 +107,7 @@ void PathFollower::set_speed() {
     speed_ = std::min(asked_speed(), space_.run());
   } else if (way < path_.length()) {
     speed_ = pace_.speed_to_arrive(way, velocity_.norm(), (rounds + 1) * options_.arrive - seconds_,
-                                   kLeastPace * space_.walk(), kMostPace * space_.run());
+                                   kSlowest * space_.walk(), space_.run());
   }
   set_off_ = set_off_ || (!approaches_ && !waits());
 }
@@ -134,42 +115,36 @@ void PathFollower::set_speed() {
 // It sets off later where it would be there too soon.
 bool PathFollower::waits() const {
   return options_.arrive > 0 && !set_off_ && !approaches_ &&
-         seconds_ + pace_.seconds_left(way_, 0, kUnhurried * space_.walk()) < options_.arrive;
+         seconds_ + pace_.seconds_left(way_, 0, kSlowest * space_.walk()) < options_.arrive;
 }
 
-PathFollower::Aim PathFollower::aim(const CharacterFrame& frame) const {
+PathFollower::Aim PathFollower::aim(const CharacterFrame& frame, double seconds) const {
   Aim aim;
+  aim.soon = seconds / 2;
   aim.off = path_.place(way_) - frame.position;
-  aim.speed = std::min(speed_, pace_.limit(way_ + kShowsAfter * velocity_.norm()));
+  aim.speed = std::min(speed_, pace_.limit(way_ + aim.soon * velocity_.norm()));
   aim.left = stops(options_) ? path_.length() - way_ : std::numeric_limits<double>::infinity();
   return aim;
 }
 
 // Along the path where it will be when the control shows, and back to it.
 Vector2 PathFollower::velocity(const Aim& aim) const {
-  const Vector2 back = kReturning * aim.off;
+  const Vector2 back = aim.off / kFacing;
   if (approaches_) return clamp_length(back, aim.speed);
-  const double seen = way_ + kShowsAfter * std::max(aim.speed, velocity_.norm());
+  const double seen = way_ + aim.soon * std::max(aim.speed, velocity_.norm());
   const double most = std::max(aim.speed, std::min(space_.walk(), back.norm()));
-  return clamp_length(aim.speed * direction(seen, scaled(kTangent)) + back, most);
+  return clamp_length(aim.speed * direction(seen, scaled(kArrived)) + back, most);
 }
 
-// Stands where it will come to the end by itself, for good unless that was in the wrong place.
+// Stands where it will come to the end by itself: a body that gets slower over part of a control goes as much less far.
 Vector2 PathFollower::stopped(const Vector2& velocity, const Aim& aim, double seconds) {
-  const double speed = velocity_.norm(), rest = aim.left - pace_.stopping_distance(speed) - options_.stop_early;
-  if (approaches_) return velocity;
-  if (!stands_) {
-    stands_ = rest < scaled(kDone) && aim.left < scaled(kReach);
-    if (!stands_ && rest < speed * seconds) return velocity * std::max(rest / (speed * seconds), 0.0);
-  } else if (speed < scaled(kStands)) {
-    still_ += seconds;
-    const bool misplaced = aim.off.norm() + aim.left > scaled(kOffEnd) && corrections_ < kCorrections;
-    if (still_ < kStill || !misplaced) return Vector2::Zero();
-    stands_ = false;
-    still_ = 0;
-    ++corrections_;
-  }
-  return stands_ ? Vector2::Zero() : velocity;
+  if (stands_) return Vector2::Zero();
+  const double speed = std::min(velocity.norm(), velocity_.norm()), goes = speed * seconds,
+               rest = aim.left - pace_.stopping_distance(speed) - options_.stop_early;
+  stands_ = !approaches_ && aim.left < scaled(kReach) && rest < goes;
+  if (!stands_ || goes == 0) return velocity;
+  const double slower = (1 - std::clamp(rest / goes, 0.0, 1.0)) * pace_.acceleration() * seconds;
+  return velocity * std::max(1 - slower / speed, 0.0);
 }
 
 Vector2 PathFollower::direction(double way, double span) const {
@@ -180,10 +155,10 @@ double PathFollower::angle_to_face(const CharacterFrame& frame, const Aim& aim) 
   double heading = options_.heading;
   if (options_.facing == PathFacing::place) {
     const Vector2 towards = options_.place - frame.position;
-    heading = towards.norm() > scaled(kTangent) ? heading_of(towards) : frame.heading;
+    heading = towards.norm() > scaled(kArrived) ? heading_of(towards) : frame.heading;
   } else if (options_.facing == PathFacing::along) {
-    const bool away = aim.off.norm() > scaled(kReach);
-    heading = heading_of(away ? aim.off : direction(way_ + kTurning * velocity_.norm(), scaled(kView)));
+    const bool away = !stands_ && aim.off.norm() > scaled(kReach);
+    heading = heading_of(away ? aim.off : direction(way_ + (aim.soon + kFacing) * velocity_.norm(), scaled(kArrived)));
   }
   return wrapped(heading - frame.heading);
 }

@@ -72,13 +72,14 @@ class PathFollower {
     Vector2 off;       // m, from where it is to its place on the path
     double left = 0;   // m to the end, infinity where it does not stand there
     double speed = 0;  // m/s now
+    double soon = 0;   // s until the control shows, which holds for twice as long
   };
 
   void observe(const CharacterFrame& frame, double seconds);
   void follow_way(const CharacterFrame& frame, double seconds);
   void set_speed();
   bool waits() const;
-  Aim aim(const CharacterFrame& frame) const;
+  Aim aim(const CharacterFrame& frame, double seconds) const;
   Vector2 velocity(const Aim& aim) const;
   Vector2 stopped(const Vector2& velocity, const Aim& aim, double seconds);
   double angle_to_face(const CharacterFrame& frame, const Aim& aim) const;
@@ -94,8 +95,6 @@ class PathFollower {
   Vector2 velocity_ = Vector2::Zero();  // m/s, as it was lately
   CharacterFrame before_;
   bool observed_ = false, approaches_ = true, set_off_ = false, stands_ = false;
-  double still_ = 0;  // s for which it has stood at the end
-  int corrections_ = 0;
 };
 
 }  // namespace fragmotion

@@ -10,12 +10,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRuns = 0.75;                 // of the stick's way; the speed beyond is nearer to a run
-constexpr double kStopsFor = 100 * kPi / 180;  // rad: off by more, a character that turns well stops for it
-constexpr double kBehind = 160 * kPi / 180;    // rad: off by more, a turn goes on to the side on which it began
-constexpr double kTurnsWell = 0.75;            // of the turn rate that is asked for
-constexpr double kSetsOff = 1, kTrial = 2;     // s of going straight, and of turning then
-constexpr double kTrialStep = 1.0 / 60;        // s
+constexpr double kTurnsWell = 0.75;      // of the turn rate that is asked for
+constexpr double kTrial = 2;             // s of going straight, and of turning then
+constexpr double kTrialStep = 1.0 / 60;  // s
 
 void go(Player& player, const Control& control, double seconds) {
   for (long step = std::lround(seconds / kTrialStep); step > 0; --step) player.step(control, kTrialStep);
@@ -23,7 +20,7 @@ void go(Player& player, const Control& control, double seconds) {
 
 // How far a player turns to the asked side in a trial, rad.
 double turned(Player& player, double pace, double turn) {
-  go(player, {0, pace, 0, 0}, kSetsOff);
+  go(player, {0, pace, 0, 0}, kTrial);
   const double before = player.frame().heading;
   go(player, {0, pace, turn, 0}, kTrial);
   return turn * (player.frame().heading - before);
@@ -73,15 +70,17 @@ Control Steering::control(const StickIntent& intent, double heading, std::option
   if (turn == 0 && view) {
     const double off = std::atan2(-way.x(), way.y());
     turn = turn_to(off);
-    if (push > kRuns ? turns_well_.running : turns_well_.walking) way = {0, std::abs(off) < kStopsFor ? 1 : 0};
+    if (2 * push > kHalfPush + 1 ? turns_well_.running : turns_well_.walking)
+      way = {0, std::abs(off) < space_->behind() ? 1 : 0};
   }
   way *= stick_speed(*space_, push);
   return {way.x(), way.y(), turn, jump};
 }
 
-// The turn that brings round what is off by an angle, positive to the left.
+// The turn that brings round what is off by an angle, positive to the left. Straight behind, it goes on to the side on
+// which it began.
 double Steering::turn_to(double off) {
-  if (std::abs(off) < kBehind) side_ = std::copysign(1.0, off);
+  if (std::abs(off) < kPi - kPi / space_->layout().directions) side_ = std::copysign(1.0, off);
   return side_ * space_->turn_towards(std::abs(off));
 }
 
