@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "feet/foot_lock.hpp"
+#include "feet/standing_leg.hpp"
 #include "motion/legs.hpp"
 #include "walker.hpp"
 
@@ -259,6 +260,12 @@ TEST(FootLock, LeavesASkeletonWithoutLegsAsItIs) {
   const std::vector<double> before = pose.rotations;
   lock.apply(pose, standing(true), 0, kFrame);
   EXPECT_EQ(pose.rotations, before);
+}
+
+TEST(TooHigh, IsAllOfTheHipsHeightWhereAnAnkleIsOutOfReachSideways) {
+  EXPECT_DOUBLE_EQ(too_high(1, {0, 0, 0.9}, {0.6, 0, 0}), 0.9 - 0.8);
+  EXPECT_DOUBLE_EQ(too_high(1, {0, 0, 0.3}, {0, 0.6, 0}), 0.3 - 0.8);
+  EXPECT_DOUBLE_EQ(too_high(1, {0, 0, 0.3}, {1.2, 0, 0}), 0.3);
 }
 
 }  // namespace

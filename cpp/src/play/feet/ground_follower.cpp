@@ -22,9 +22,7 @@ constexpr double kStretched = 0.998;  // and that it is stretched to
 constexpr double kSoft = 0.02;        // m: by how much what a leg lacks is rounded off
 constexpr double kLookAhead = 0.4;    // s before a foot lands, from which on the hips sink for it
 constexpr double kDeepest = 0.45;     // m that they sink
-constexpr double kMostRaised = 1;     // rad of a heel
-constexpr double kToesUp = 0.05;      // m that a heel is lower than the ball, where it is not raised
-constexpr double kMostUpright = 1.3;  // rad from the level, of a foot whose heel is raised
+constexpr double kMostRaised = 0.6;   // rad of a heel
 constexpr int kAsked = 8;             // times that a step asks for the ground,
 constexpr int kAskedAtFirst = 80;     // and a reset
 constexpr double kHips = 0.15;        // s: time constant of hips without legs
@@ -94,7 +92,7 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
   sink(feet, ankles, since);
   lower_hips(hips_.sunk(), pose.root, posed);
   for (int side = 0; side < 2; ++side) {
-    raise_heel(side, feet[side], ankles[side]);
+    raise_heel(side, ankles[side]);
     turn_foot(kinematics.skeleton(), legs[side], heels_[side] * turns_[side], turns_[side], posed,
               pose.rotations.data());
     const double length = leg_length(legs[side], posed);
@@ -176,18 +174,14 @@ void GroundFollower::sink(const FeetAhead& feet, const std::array<Vector3, 2>& a
 }
 
 // Raises the heel, and the ankle with it, about the ball where the leg is too short still.
-void GroundFollower::raise_heel(int side, const FootAhead& foot, Vector3& ankle) {
+void GroundFollower::raise_heel(int side, Vector3& ankle) {
   const Leg& leg = body_->legs[side];
   const PosedBones& posed = body_->posed;
   heels_[side] = Quaternion::Identity();
-  const double flat = std::clamp((foot.now.heel.z() - foot.now.ball.z()) * body_->scale / kToesUp + 1, 0.0, 1.0),
-               reached = kReached * leg_length(leg, posed);
   const Vector3 from_ball = turns_[side] * (posed.heads[leg.foot] - ball(body_->kinematics.skeleton(), leg, posed)),
                 ball = ankle - from_ball;
-  const double upright = kMostUpright - std::atan2(from_ball.z(), from_ball.head<2>().norm()),
-               most = std::min(kMostRaised, upright) * exact_ * feet_[side].contact_weight() * flat;
-  if (most <= 0) return;
-  const double lacks = rise_to_reach(posed.heads[leg.thigh] - ball, from_ball, reached);
+  const double most = kMostRaised * exact_ * feet_[side].contact_weight(),
+               lacks = rise_to_reach(posed.heads[leg.thigh] - ball, from_ball, kReached * leg_length(leg, posed));
   heels_[side] = Eigen::AngleAxisd(std::min(lacks, most), heel_axis(from_ball));
   ankle = ball + heels_[side] * from_ball;
 }

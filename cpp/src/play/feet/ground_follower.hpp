@@ -42,7 +42,7 @@ class GroundFollower {
   bool is_flat() const;
   Vector3 place_foot(int side, const FootAhead& foot);
   void sink(const FeetAhead& feet, const std::array<Vector3, 2>& ankles, double seconds);
-  void raise_heel(int side, const FootAhead& foot, Vector3& ankle);
+  void raise_heel(int side, Vector3& ankle);
 
   std::shared_ptr<FootLock::Body> body_;
   Ground ground_;

@@ -8,8 +8,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kFollowing = 8;   // 1/s: how quickly hips get to their level, critically damped
-constexpr double kSinking = 0.08;  // s in which they get as low as they must,
-constexpr double kSoonest = 0.06;  // or as they must soon, at least,
+constexpr double kSinking = 0.08;  // s in which they get as low as they must, or must soon, at least,
 constexpr double kRising = 0.3;    // and come up again
 
 // How much of the way from one place to another a place is.
@@ -54,7 +53,7 @@ void HipsOnGround::advance(const Vector2& place, const FeetOnGround& feet, doubl
 }
 
 void HipsOnGround::sink(double now, double soon, double due, double seconds) {
-  due = std::max(due, kSoonest);
+  due = std::max(due, kSinking);
   const double at_once = (now - sunk_.value) / kSinking, later = (soon - sunk_.value) / due;
   if (at_once <= 0 && later <= 0) {
     sunk_.advance(std::max(now, soon), kRising, seconds);

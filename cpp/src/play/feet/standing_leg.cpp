@@ -5,16 +5,9 @@
 #include <cmath>
 
 namespace fragmotion {
-namespace {
-
-constexpr double kAside = 0.985;  // of a leg's length that an ankle is aside at most
-
-}  // namespace
-
 double too_high(double length, const Vector3& hip, const Vector3& ankle) {
   const Vector3 way = ankle - hip;
-  const double most = kAside * length, aside = std::min(way.head<2>().squaredNorm(), most * most);
-  return -way.z() - std::sqrt(length * length - aside);
+  return -way.z() - std::sqrt(std::max(0.0, length * length - way.head<2>().squaredNorm()));
 }
 
 Vector3 heel_axis(const Vector3& from_ball) { return from_ball.cross(Vector3::UnitZ()).normalized(); }

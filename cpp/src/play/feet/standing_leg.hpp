@@ -6,7 +6,7 @@
 namespace fragmotion {
 
 /// How much higher the upper end of a leg of this length is than it reaches its ankle from, m; less than 0 where it
-/// might be higher. An ankle further aside than the leg is long counts as one just within its reach.
+/// might be higher. One further aside than the leg is long is reached from no height: that of the ankle counts.
 double too_high(double length, const Vector3& hip, const Vector3& ankle);
 
 /// The axis about which a heel rises whose ankle is `from_ball`.
