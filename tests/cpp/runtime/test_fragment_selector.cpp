@@ -295,10 +295,8 @@ TEST(FragmentSelector, GoesOnInTheTakeWhereThatJumpsGoesAndStopsAsAsked) {
       const Control& control = c.space.point(point);
       const int found = choice.selector.successor(fragment, control);
       const int after = next[fragment];
-      const auto is_still = [&](double speed) { return speed * c.space.scale() <= kMoving; };
-      const bool stands =
-          after >= 0 && (is_still(c.pool.fragments[after].evident.speed()) || is_still(ends[after].last.norm()) ||
-                         ends[after].last.norm() <= ends[after].first.norm() / 2);
+      const bool stands = after >= 0 && (c.pool.fragments[after].evident.speed() * c.space.scale() <= kMoving ||
+                                         ends[after].last.norm() <= ends[after].first.norm() / 2);
       const bool may = after >= 0 && matches_jump(c.pool.fragments[after].evident, control) &&
                        (control.speed() == 0 ? stands : answers(c.pool.fragments[after].evident, control));
       EXPECT_EQ(found, may ? after : -1);

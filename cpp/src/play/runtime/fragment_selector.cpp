@@ -132,7 +132,7 @@ int FragmentSelector::successor(int fragment, const Control& control) const {
   const Control& evident = c.pool.fragments[next].evident;
   const bool is_excluded =
       quality.match[static_cast<std::size_t>(class_of(next)) * quality.controls + c.space.nearest(control)] == 0;
-  const bool stands = !is_moving(evident) || style_->cost.comes_to_rest(next),
+  const bool stands = !is_moving(evident) || style_->cost.slows_down(next),
              as_asked = is_moving(control) ? answers(evident, control) : stands;
   return !is_excluded && as_asked && matches_jump(evident, control) ? next : -1;
 }

@@ -35,7 +35,7 @@ class FragmentSelector {
   /// What is chosen from now on is of this style.
   void change_style(int style);
   /// The fragment with which the take of a fragment goes on, where the policy may play it, and it jumps or does not,
-  /// and goes, or comes to rest, as asked; otherwise -1.
+  /// and goes, or stands or brakes, as asked; otherwise -1.
   int successor(int fragment, const Control& control) const;
   const TransitionWeights& weights() const { return workspace_->constants.transition; }
   /// What it costs that the take goes on with a fragment under a control.

@@ -33,8 +33,8 @@ TransitionCost::TransitionCost(const Character& character, const TransitionWeigh
   }
 }
 
-bool TransitionCost::comes_to_rest(int fragment) const {
-  return ends_[fragment].last.norm() <= std::max(kMoving / character_->space.scale(), ends_[fragment].first.norm() / 2);
+bool TransitionCost::slows_down(int fragment) const {
+  return ends_[fragment].last.norm() <= ends_[fragment].first.norm() / 2;
 }
 
 double TransitionCost::strays(int fragment, const Control& control) const {

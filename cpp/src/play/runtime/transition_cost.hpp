@@ -29,8 +29,8 @@ class TransitionCost {
   /// The character, in one of its styles, must outlive it.
   TransitionCost(const Character& character, const TransitionWeights& weights);
 
-  /// Whether a fragment ends standing, or at half the speed at which it begins.
-  bool comes_to_rest(int fragment) const;
+  /// Whether a fragment ends at half the speed at which it begins, or less.
+  bool slows_down(int fragment) const;
   /// Of going on with a fragment as the successor under a control.
   float of_going_on(int fragment, const Control& control) const;
   /// perform() + enter() of one after another, which is of the clip with these contacts.
