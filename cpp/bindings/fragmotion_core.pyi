@@ -850,7 +850,7 @@ class PathFollower:
         character that would be there too soon sets off later. `facing`: "along" the path, to a "heading" (radians), or
         towards a "place" [2] m. `end`: it is to "stand" there (of a closed path after one round), "loop" (round and
         round; an open path is closed by a straight line) or "go_on" straight ahead. In bends it goes as slowly as a
-        body must, and never much faster than the character runs."""
+        body must, and never faster than the character runs."""
     def reset(self) -> None:
         """Begin again."""
     def steer(self, frame: tuple[float, float, float], seconds: float) -> Doubles:
