@@ -71,7 +71,7 @@ Control Steering::control(const StickIntent& intent, double heading, std::option
     const double off = std::atan2(-way.x(), way.y());
     turn = turn_to(off);
     if (2 * push > kHalfPush + 1 ? turns_well_.running : turns_well_.walking)
-      way = {0, std::abs(off) < space_->behind() ? 1 : 0};
+      way = {0, std::abs(off) < kPi / 2 ? 1 : 0};
   }
   way *= stick_speed(*space_, push);
   return {way.x(), way.y(), turn, jump};
