@@ -27,10 +27,14 @@ MANY = 1500
 
 
 def write_files() -> None:
-    """Motion as FBX, and half of the file."""
+    """Motion in which a bone is torn aside for a frame as FBX, and half of the file."""
     FILES.mkdir()
     bpy.context.scene.frame_end = FRAMES
-    making.add_action(making.add_armature(name="Actor"), FRAMES)
+    actor = making.add_armature(name="Actor")
+    making.add_action(actor, FRAMES)
+    torn = actor.pose.bones["shin.L"]
+    torn.rotation_quaternion = (0, 0, 0, 1)
+    torn.keyframe_insert("rotation_quaternion", frame=FRAMES // 2)
     with bpy.context.temp_override(**window.view()):
         bpy.ops.export_scene.fbx(
             filepath=str(FILES / "walk.fbx"),
@@ -148,7 +152,7 @@ def steps() -> Iterator[None]:
     bpy.context.window_manager.fragmotion.active_action = bpy.data.actions.find("walk")
     yield from picture("2 imported")
     findings = [row.code for row in bpy.data.actions["walk"].fragmotion.findings if row.mendable]
-    assert findings, "the doctor finds nothing to mend in noise"
+    assert findings, "the doctor finds nothing to mend in what is torn"
     yield from click_button("fragmotion.mend_finding")
     yield from window.drawn()
     assert next(row.mended for row in bpy.data.actions["walk"].fragmotion.findings if row.mendable)
