@@ -39,7 +39,7 @@ using Stands = std::vector<Eigen::Vector4d>;
 Stands stands_of(const Patient& patient, bool level) {
   if (!patient.has_legs() || patient.scale() == 0 || !patient.tracks()) return {};
   const Tracks& tracks = *patient.tracks();
-  constexpr double any = std::numeric_limits<double>::infinity();
+  const double any = std::numeric_limits<double>::infinity();
   const FootHeights anywhere{any, any};
   const Floors floors = {anywhere, anywhere};
   const Contacts contacts =
