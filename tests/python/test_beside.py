@@ -115,7 +115,7 @@ def test_an_answer_is_timed_from_the_step() -> None:
     frames[:, 1] = np.cumsum(np.where(np.arange(100) > 40, 1.0, 0.0)) / RATE
     before, after = np.zeros(2), np.array([0.0, 1.0])
     assert response._time(frames, before, after, 20) == pytest.approx(25 / 60)  # 5 of 5 ways of the window at 1 m/s
-    assert response._time(frames, before, 2 * after, 20) == response.NO_RESPONSE
+    assert response._time(frames, before, 2 * after, 20) == core.NO_RESPONSE
 
 
 # --- measures --------------------------------------------------------------------------------------------------------

@@ -5,6 +5,7 @@
 #include <cmath>
 
 namespace fragmotion {
+
 double too_high(double length, const Vector3& hip, const Vector3& ankle) {
   const Vector3 way = ankle - hip;
   return -way.z() - std::sqrt(std::max(0.0, length * length - way.head<2>().squaredNorm()));

@@ -115,13 +115,9 @@ float FragmentSelector::least_cost(int next_class, const Control& evident, const
   return most;
 }
 
-bool FragmentSelector::goes_as_asked(const Control& evident, const Control& control) const {
-  return !is_moving(control) || answers(evident, control);
-}
-
 bool FragmentSelector::goes_as_asked(int of_class, const Control& control) const {
   const Character& c = *style_->character;
-  return goes_as_asked(c.pool.fragments[c.classes.representatives[of_class]].evident, control);
+  return !is_moving(control) || answers(c.pool.fragments[c.classes.representatives[of_class]].evident, control);
 }
 
 int FragmentSelector::successor(int fragment, const Control& control) const {

@@ -80,7 +80,6 @@ class FragmentSelector {
   void extrapolate(const Playback& playback) const;
   void extrapolate_end(const Fragment& fragment) const;
   bool is_moving(const Control& control) const;
-  bool goes_as_asked(const Control& evident, const Control& control) const;
   void find_candidates(int next_class, const Control& control, const Left& left, Candidates& candidates) const;
   float distance(int fragment) const;
   int out_of_turn(int fragment, bool went, const StepSequence& steps) const;

@@ -13,7 +13,6 @@ from tools.measuring.beside.setting import Setting
 from tools.measuring.beside.systems import System
 from tools.measuring.peers.kinematics.bodies import RATE
 
-NO_RESPONSE = 3.0  # s
 _DONE = 0.9  # of a step of the command
 _WINDOW = 6  # frames over which a velocity is measured
 _FRAMES_A_ROW = 6  # of a trace
@@ -68,9 +67,9 @@ def response_times(setting: Setting, system: System, seed: int) -> Array:
 def _time(frames: Array, before: Array, after: Array, at: int) -> float:
     """From frame `at`, the last under the old command, whose velocity was `before`."""
     step = after - before
-    for frame in range(at + 1, min(at + round(NO_RESPONSE * RATE) + 1, len(frames))):
+    for frame in range(at + 1, min(at + round(core.NO_RESPONSE * RATE) + 1, len(frames))):
         way = frames[frame, :2] - frames[frame - _WINDOW + 1, :2]
         velocity = turned(way, -frames[frame - _WINDOW // 2 + 1, 2]) * RATE / (_WINDOW - 1)
         if (velocity - before) @ step >= _DONE * (step @ step):
             return (frame - at) / RATE
-    return NO_RESPONSE
+    return core.NO_RESPONSE
