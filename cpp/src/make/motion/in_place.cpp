@@ -46,7 +46,7 @@ Velocities smoothed(const Velocities& values, const std::vector<double>& weights
 // How the ground goes back under a clip's soles, over windows of `span` frames.
 class Treading {
  public:
-  Treading(const std::vector<Sole>& soles, double rate, double scale)
+  Treading(const std::vector<SolePath>& soles, double rate, double scale)
       : soles_(soles), rate_(rate), scale_(scale), span_(std::max(1, static_cast<int>(std::lround(kWindow * rate)))) {
     windows_ = static_cast<int>(soles[0].heel().path.size()) - span_;
   }
@@ -57,7 +57,7 @@ class Treading {
   double turn() const {
     double sum = 0;
     int count = 0;
-    for (const Sole& sole : soles_) {
+    for (const SolePath& sole : soles_) {
       for (int f = 0; f < windows_; ++f) {
         if (std::max(height(sole.heel(), f), height(sole.ball(), f)) > kLow) continue;
         sum -= wrapped(direction(sole, f + span_) - direction(sole, f)) * rate_ / span_;
@@ -84,7 +84,7 @@ class Treading {
     int count = 0;
     for (int f = 0; f < windows_; ++f) {
       double slowest = std::numeric_limits<double>::infinity();
-      for (const Sole& sole : soles_) {
+      for (const SolePath& sole : soles_) {
         const double foot = fastest_low(sole, f);
         if (foot >= 0) slowest = std::min(slowest, foot);
       }
@@ -113,7 +113,7 @@ class Treading {
   }
 
   // m/s, of a foot's points that are low; -1 where none is.
-  double fastest_low(const Sole& sole, int f) const {
+  double fastest_low(const SolePath& sole, int f) const {
     double fastest = -1;
     for (const SolePoint& point : sole.points) {
       if (height(point, f) <= kLow) fastest = std::max(fastest, velocity(point, f, 0, Vector2::Zero()).norm());
@@ -121,7 +121,7 @@ class Treading {
     return fastest;
   }
 
-  static double direction(const Sole& sole, int f) {
+  static double direction(const SolePath& sole, int f) {
     const Vector3 foot = sole.ball().path[f] - sole.heel().path[f];
     return std::atan2(foot.y(), foot.x());
   }
@@ -135,7 +135,7 @@ class Treading {
   Velocities guess(double turn, const Vector2& center) const {
     Velocities means(windows_, Vector2::Zero());
     std::vector<double> weights(windows_, 0);
-    for (const Sole& sole : soles_) {
+    for (const SolePath& sole : soles_) {
       for (const SolePoint& point : sole.points) {
         for (int f = 0; f < windows_; ++f) {
           const double weight = skate_weight(height(point, f));
@@ -155,7 +155,7 @@ class Treading {
   Told fastest(const Velocities& way, double turn, const Vector2& center) const {
     Velocities best(windows_, Vector2::Zero());
     std::vector<double> along(windows_, -std::numeric_limits<double>::infinity());
-    for (const Sole& sole : soles_) {
+    for (const SolePath& sole : soles_) {
       for (const SolePoint& point : sole.points) {
         for (int f = 0; f < windows_; ++f) {
           if (height(point, f) > kLow) continue;
@@ -201,7 +201,7 @@ class Treading {
     return joined;
   }
 
-  const std::vector<Sole>& soles_;
+  const std::vector<SolePath>& soles_;
   double rate_, scale_;
   int span_, windows_ = 0;
 };
@@ -223,9 +223,9 @@ bool stays(const Clip& clip, double scale) {
 }
 
 // Whether the feet, which go back as they stand, come back.
-bool tread(const std::vector<Sole>& soles, double way) {
+bool tread(const std::vector<SolePath>& soles, double way) {
   double gone = 0;
-  for (const Sole& sole : soles) {
+  for (const SolePath& sole : soles) {
     const std::vector<Vector3>& path = sole.heel().path;
     gone += 0.5 * (path.back() - path.front()).head<2>().norm();
   }
@@ -245,7 +245,7 @@ Vector2 mean_of(const Velocities& velocities, const Clip& clip) {
 }
 
 // As a pair of feet tells it.
-std::optional<FeetWay> way_of(const std::vector<Sole>& soles, const Clip& clip, double scale) {
+std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& clip, double scale) {
   const Treading treading(soles, clip.rate, scale);
   if (!treading.is_long_enough()) return std::nullopt;
   FeetWay way;
@@ -270,7 +270,7 @@ FeetWay mean_of(FeetWay a, const FeetWay& b) {
 // Of a four-legged body the mean of what the hind feet and the fore feet tell, if both do.
 std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
   const double scale = standard_scale(kinematics.skeleton());
-  const std::vector<Sole> soles = find_soles(kinematics, clip);
+  const std::vector<SolePath> soles = find_soles(kinematics, clip);
   const std::optional<FeetWay> way = way_of({soles.begin(), soles.begin() + 2}, clip, scale);
   if (!way || soles.size() == 2) return way;
   const std::optional<FeetWay> fore = way_of({soles.begin() + 2, soles.end()}, clip, scale);
