@@ -70,11 +70,12 @@ void cut(FragmentPool& pool, std::vector<Clip> clips, const std::vector<Contacts
   for (std::size_t i = before; i < pool.fragments.size(); ++i) pool.fragments[i].origin = origin;
 }
 
-// The clip, again and again where it is a short cycle: so that it goes on where it ends.
+// The clip, whole rounds of it where it is a short cycle: so that it goes on where it ends.
 Clip in_rounds(const Kinematics& kinematics, Clip clip) {
   const int period = cycle_of(kinematics, clip), enough = static_cast<int>(std::ceil(kRoundSeconds * clip.rate));
   if (period == 0 || period >= enough) return clip;
-  return unrolled(kinematics, clip, period, std::max(2 * period, enough) + 1);
+  const int rounds = std::max(2, (enough + period - 1) / period);
+  return unrolled(kinematics, clip, period, rounds * period + 1);
 }
 
 // Of so many clips, after which their images come.
