@@ -11,7 +11,7 @@ namespace {
 
 // Of a leg's length.
 constexpr double kFeetLevel = 0.2;    // between the heights of the hind and the fore feet, at most
-constexpr double kTrunkLength = 0.3;  // between hips and shoulders along the ground, at least
+constexpr double kTrunkLength = 0.3;  // between the hind and the fore feet along the ground, at least
 constexpr double kNoLegBone = 0.1;    // a bone that a leg begins with and that is shorter is a part of the trunk
 constexpr double kPawHeight = 0.15;   // over the ground, at most: where a paw begins
 constexpr double kByShape = 0.85;
@@ -20,7 +20,7 @@ class FourLegs {
  public:
   FourLegs(const BodyShape& shape, const BodyTree& tree) : shape_(shape), tree_(tree) {}
 
-  std::optional<Body> find() const {
+  std::optional<BodyJoints> find() const {
     std::vector<LimbPair> legs;
     for (LimbPair& pair : find_limb_pairs(shape_)) {
       if (leads_down(pair)) legs.push_back(std::move(pair));
@@ -29,7 +29,7 @@ class FourLegs {
     const int head = find_head(legs);
     if (head < 0 && legs[0].node == legs[1].node) return std::nullopt;
     if (fore_of(legs, head) == 0) std::swap(legs[0], legs[1]);
-    Body body;
+    BodyJoints body;
     body.four_legged = true;
     body.hips = hips_of(legs);
     body.hips_confidence = kByShape;
@@ -61,13 +61,15 @@ class FourLegs {
     return std::min(at(pair.chains[0].back()).z(), at(pair.chains[1].back()).z());
   }
 
-  // Whether all their feet stand on the ground, and what is between hips and shoulders lies rather than stands.
+  // Between where a pair's limbs end.
+  Vector3 end(const LimbPair& pair) const { return 0.5 * (at(pair.chains[0].back()) + at(pair.chains[1].back())); }
+
+  // Whether all their feet stand on the ground, and what is between hips and shoulders lies rather than stands. Limbs
+  // may begin with bones of the trunk, so how long it is is told by the feet.
   bool carry_a_trunk(const LimbPair& a, const LimbPair& b) const {
-    const double leg = std::min(a.length, b.length);
-    const Vector3 trunk = begin(b) - begin(a);
-    const double along = trunk.head<2>().norm();
+    const double leg = std::min(a.length, b.length), along = (end(b) - end(a)).head<2>().norm();
     return std::abs(lowest(a) - lowest(b)) < kFeetLevel * leg && along > kTrunkLength * leg &&
-           along > std::abs(trunk.z());
+           along > std::abs((begin(b) - begin(a)).z());
   }
 
   int find_head(const std::vector<LimbPair>& legs) const {
@@ -109,7 +111,7 @@ class FourLegs {
     return limb;
   }
 
-  void put_left_first(const Vector3& forward, Body& body) const {
+  void put_left_first(const Vector3& forward, BodyJoints& body) const {
     const Vector3 left = Vector3::UnitZ().cross(forward);
     for (auto* legs : {&body.legs, &body.arms}) {
       if (across(*legs, shape_.rest().data()).dot(left) < 0) std::swap((*legs)[0], (*legs)[1]);
@@ -122,7 +124,7 @@ class FourLegs {
 
 }  // namespace
 
-std::optional<Body> four_legged_body(const Skeleton& skeleton, const BodyTree& tree) {
+std::optional<BodyJoints> four_legged_body(const Skeleton& skeleton, const BodyTree& tree) {
   const BodyShape shape(skeleton, tree, nullptr);
   return FourLegs(shape, tree).find();
 }
