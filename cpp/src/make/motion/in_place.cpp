@@ -137,10 +137,10 @@ class Treading {
     }
   }
 
-  // How far it rises or falls, of how far it goes over the ground.
+  // How far it rises or falls, of how far it goes over the ground, or would if it just went.
   double steepness(const SolePoint& point, int f) const {
     const Vector3 way = point.path[f + span_] - point.path[f];
-    return std::abs(way.z()) / std::max(way.head<2>().norm(), 1e-9);
+    return std::abs(way.z()) / std::max(way.head<2>().norm(), kGoes / scale_ * span_ / rate_);
   }
 
   bool is_low(std::size_t side, const SolePoint& point, int f) const { return height(point, f) <= stands_[side].low; }
