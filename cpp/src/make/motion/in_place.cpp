@@ -15,7 +15,7 @@ namespace {
 
 // Of a character of 1.8 m.
 constexpr double kStays = 0.4;        // m that hips on the spot go at most
-constexpr double kGoes = 0.5;         // m/s: what is slower stands
+constexpr double kGoes = 0.3;         // m/s: what is slower stands
 constexpr double kTurns = kPi / 12;   // rad/s: feet that stand turn by less in a gait that goes straight
 constexpr double kLow = 0.02;         // m over its lowest: a sole on the ground
 constexpr double kWindow = 1.0 / 30;  // s over which velocities are told: keys and markers tremble
