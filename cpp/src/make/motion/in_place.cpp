@@ -47,10 +47,10 @@ Velocities smoothed(const Velocities& values, const std::vector<double>& weights
 // How the ground goes back under a clip's soles, over windows of `span` frames.
 class Treading {
  public:
-  Treading(const std::vector<Sole>& soles, double rate, double scale)
+  Treading(const std::vector<SolePath>& soles, double rate, double scale)
       : soles_(soles), rate_(rate), scale_(scale), span_(std::max(1, static_cast<int>(std::lround(kWindow * rate)))) {
     windows_ = static_cast<int>(soles[0].heel().path.size()) - span_;
-    for (const Sole& sole : soles) stands_.push_back(stand_of(sole));
+    for (const SolePath& sole : soles) stands_.push_back(stand_of(sole));
   }
 
   bool is_long_enough() const { return windows_ > 0; }
@@ -59,7 +59,7 @@ class Treading {
   double turn() const {
     double sum = 0;
     int count = 0;
-    for (const Sole& sole : soles_) {
+    for (const SolePath& sole : soles_) {
       for (int f = 0; f < windows_; ++f) {
         if (std::max(height(sole.heel(), f), height(sole.ball(), f)) > kLow) continue;
         sum -= wrapped(direction(sole, f + span_) - direction(sole, f)) * rate_ / span_;
@@ -120,7 +120,7 @@ class Treading {
   };
 
   // That of a foot which is nowhere low or level, as fast as it goes, is where it is lowest.
-  Stand stand_of(const Sole& sole) const {
+  Stand stand_of(const SolePath& sole) const {
     double lowest = std::numeric_limits<double>::infinity(), flattest = lowest;
     each_window(sole, [&](const SolePoint& point, int f) { lowest = std::min(lowest, height(point, f)); });
     const double low = std::max(kLow, lowest);
@@ -131,7 +131,7 @@ class Treading {
   }
 
   template <typename Visitor>
-  void each_window(const Sole& sole, Visitor visitor) const {
+  void each_window(const SolePath& sole, Visitor visitor) const {
     for (const SolePoint& point : sole.points) {
       for (int f = 0; f < windows_; ++f) visitor(point, f);
     }
@@ -157,7 +157,7 @@ class Treading {
     return fastest;
   }
 
-  static double direction(const Sole& sole, int f) {
+  static double direction(const SolePath& sole, int f) {
     const Vector3 foot = sole.ball().path[f] - sole.heel().path[f];
     return std::atan2(foot.y(), foot.x());
   }
@@ -233,7 +233,7 @@ class Treading {
     return joined;
   }
 
-  const std::vector<Sole>& soles_;
+  const std::vector<SolePath>& soles_;
   double rate_, scale_;
   int span_, windows_ = 0;
   std::vector<Stand> stands_;  // by foot
@@ -256,9 +256,9 @@ bool stays(const Clip& clip, double scale) {
 }
 
 // Whether the feet, which go back as they stand, come back.
-bool tread(const std::vector<Sole>& soles, double way) {
+bool tread(const std::vector<SolePath>& soles, double way) {
   double gone = 0;
-  for (const Sole& sole : soles) {
+  for (const SolePath& sole : soles) {
     const std::vector<Vector3>& path = sole.heel().path;
     gone += 0.5 * (path.back() - path.front()).head<2>().norm();
   }
@@ -278,7 +278,7 @@ Vector2 mean_of(const Velocities& velocities, const Clip& clip) {
 }
 
 // As a pair of feet tells it.
-std::optional<FeetWay> way_of(const std::vector<Sole>& soles, const Clip& clip, double scale) {
+std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& clip, double scale) {
   const Treading treading(soles, clip.rate, scale);
   if (!treading.is_long_enough()) return std::nullopt;
   FeetWay way;
@@ -303,7 +303,7 @@ FeetWay mean_of(FeetWay a, const FeetWay& b) {
 // Of a four-legged body the mean of what the hind feet and the fore feet tell, if both do.
 std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
   const double scale = standard_scale(kinematics.skeleton());
-  const std::vector<Sole> soles = find_soles(kinematics, clip);
+  const std::vector<SolePath> soles = find_soles(kinematics, clip);
   const std::optional<FeetWay> way = way_of({soles.begin(), soles.begin() + 2}, clip, scale);
   if (!way || soles.size() == 2) return way;
   const std::optional<FeetWay> fore = way_of({soles.begin() + 2, soles.end()}, clip, scale);

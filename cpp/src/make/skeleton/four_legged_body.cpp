@@ -20,7 +20,7 @@ class FourLegs {
  public:
   FourLegs(const BodyShape& shape, const BodyTree& tree) : shape_(shape), tree_(tree) {}
 
-  std::optional<Body> find() const {
+  std::optional<BodyJoints> find() const {
     std::vector<LimbPair> legs;
     for (LimbPair& pair : find_limb_pairs(shape_)) {
       if (leads_down(pair)) legs.push_back(std::move(pair));
@@ -29,7 +29,7 @@ class FourLegs {
     const int head = find_head(legs);
     if (head < 0 && legs[0].node == legs[1].node) return std::nullopt;
     if (fore_of(legs, head) == 0) std::swap(legs[0], legs[1]);
-    Body body;
+    BodyJoints body;
     body.four_legged = true;
     body.hips = hips_of(legs);
     body.hips_confidence = kByShape;
@@ -111,7 +111,7 @@ class FourLegs {
     return limb;
   }
 
-  void put_left_first(const Vector3& forward, Body& body) const {
+  void put_left_first(const Vector3& forward, BodyJoints& body) const {
     const Vector3 left = Vector3::UnitZ().cross(forward);
     for (auto* legs : {&body.legs, &body.arms}) {
       if (across(*legs, shape_.rest().data()).dot(left) < 0) std::swap((*legs)[0], (*legs)[1]);
@@ -124,7 +124,7 @@ class FourLegs {
 
 }  // namespace
 
-std::optional<Body> four_legged_body(const Skeleton& skeleton, const BodyTree& tree) {
+std::optional<BodyJoints> four_legged_body(const Skeleton& skeleton, const BodyTree& tree) {
   const BodyShape shape(skeleton, tree, nullptr);
   return FourLegs(shape, tree).find();
 }
