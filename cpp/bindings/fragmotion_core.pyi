@@ -31,6 +31,9 @@ not."""
 class Cancelled(RuntimeError):
     """A progress callback returned False."""
 
+ROLES: list[str]
+"""The roles of a Skeleton's bones."""
+
 class Skeleton:
     """Bones in parent-before-child order; only the first has no parent (-1)."""
 
