@@ -14,6 +14,19 @@ from ..errors import UserError, core_errors
 if TYPE_CHECKING:
     from fragmotion_core import Rig
 
+FORE_FOOT = "left_fore_foot"
+"""A role that bodies on four legs alone have;"""
+FOUR_LEGS = (
+    "hips",
+    "head",
+    *(
+        f"{side}_{part}"
+        for part in ("thigh", "foot", "toe", "fore_leg", "fore_foot", "fore_toe")
+        for side in ("left", "right")
+    ),
+)
+"""and all that the core asks of them."""
+
 FEWEST_BONES = 2
 """A character needs a bone that moves against another."""
 
@@ -33,9 +46,18 @@ def make_rig(obj: bpy.types.Object) -> Rig:
             world=np.array(obj.matrix_world),
             inherit_rotation=[bone.use_inherit_rotation for bone in bones],
             local_location=[bone.use_local_location for bone in bones],
+            roles=told_legs(obj),
             hangs={name: on for name, on in hanging_of(obj).items() if name in bones and on in bones},
         )
         return rig
+
+
+def told_legs(obj: bpy.types.Object) -> dict[str, str]:
+    """Role -> bone name of the four legs that are kept with the armature, and of what they carry: motion tells of them
+    what no rest pose may."""
+    kept = getattr(obj, "fragmotion", None)
+    bones = {row.name: row.bone for row in kept.roles if row.bone in obj.data.bones} if kept else {}
+    return {role: bones[role] for role in FOUR_LEGS if role in bones} if FORE_FOOT in bones else {}
 
 
 def hanging_of(obj: bpy.types.Object) -> dict[str, str]:
