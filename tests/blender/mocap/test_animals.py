@@ -10,6 +10,7 @@ from types import ModuleType
 
 import bpy
 import making
+import numpy as np
 
 
 def made_dog() -> ModuleType:
@@ -38,6 +39,22 @@ def test_a_dog_is_imported_learned_and_kept(addon: ModuleType, tmp_path: Path) -
     assert skeleton.roles["right_fore_foot"] == "RightHand" and skeleton.roles["right_foot"] == "RightFoot"
     assert "left_hand" not in skeleton.roles and skeleton.stature < 1
     assert addon.character.building.load(obj).skeleton.roles == skeleton.roles
+
+
+def test_more_takes_come_onto_it_and_are_mended(addon: ModuleType, tmp_path: Path) -> None:
+    for folder, name, speed in (("first", "walk", 0.6), ("more", "amble", 0.5)):
+        (tmp_path / folder).mkdir()
+        made_dog().write_dog(tmp_path / folder / f"{name}.bvh", speed)
+    assert bpy.ops.fragmotion.import_mocap("EXEC_DEFAULT", directory=str(tmp_path / "first"), onto="NEW") == {
+        "FINISHED"
+    }
+    obj = bpy.context.view_layer.objects.active
+    more = str(tmp_path / "more")
+    assert bpy.ops.fragmotion.import_mocap("EXEC_DEFAULT", directory=more, onto="ACTIVE") == {"FINISHED"}
+    rig = addon.rig.rigs.make_rig(obj)
+    clip = addon.mocap.sampling.sample(bpy.context, obj, bpy.data.actions["amble"], rig)
+    take = addon.compat.core.core.read_bvh(tmp_path / "more" / "amble.bvh", 1.0)
+    np.testing.assert_allclose(clip.world_transforms(rig.skeleton)[0], take.world_transforms()[0], atol=1e-4)
 
 
 def test_a_person_keeps_no_roles_unasked(addon: ModuleType, tmp_path: Path) -> None:

@@ -52,7 +52,7 @@ TEST(FourLeggedPatient, OfNoAnimalsSizeIsToldSo) {
 
 TEST(FourLeggedPatient, IsTurnedUp) {
   const Eigen::Matrix3d on_its_nose = Eigen::AngleAxisd(kPi / 2, Vector3::UnitX()).toRotationMatrix().array().round();
-  const Take fallen = with_basis(lying_walk(), on_its_nose);
+  const Take fallen = told(with_basis(lying_dog_take(dog_clip({}, false, "walk")), on_its_nose));
   const std::vector<Finding> findings = findings_of(fallen);
   ASSERT_EQ(codes_of(fallen), std::vector<std::string>{"up"});
   EXPECT_TRUE(findings[0].safe);

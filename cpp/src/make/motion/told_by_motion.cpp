@@ -34,12 +34,24 @@ ObservedPoses observed(const std::vector<Take*>& takes) {
   return poses;
 }
 
+ObservedPoses turned(ObservedPoses poses, const Quaternion& turn) {
+  for (Vector3& head : poses.heads) head = turn * head;
+  return poses;
+}
+
+// Whichever axis is up in the file.
 void tell(const std::vector<Take*>& takes) {
+  if (takes.front()->skeleton.roles.left_fore_foot >= 0) return;
   const ObservedPoses poses = observed(takes);
   if (poses.poses == 0) return;
-  const RoleMap map = find_role_map(takes.front()->skeleton, &poses);
-  if (map.bone(Role::kForeFoot, Side::kLeft) < 0) return;
-  for (Take* take : takes) take->skeleton.roles = roles_of(map);
+  for (const Vector3& up : {Vector3{0, 0, 1}, Vector3{0, 1, 0}, Vector3{0, -1, 0}, Vector3{1, 0, 0}, Vector3{-1, 0, 0},
+                            Vector3{0, 0, -1}}) {
+    const ObservedPoses upright = turned(poses, Quaternion::FromTwoVectors(up, Vector3::UnitZ()));
+    const RoleMap map = find_role_map(takes.front()->skeleton, &upright);
+    if (map.bone(Role::kForeFoot, Side::kLeft) < 0) continue;
+    for (Take* take : takes) take->skeleton.roles = roles_of(map);
+    return;
+  }
 }
 
 }  // namespace
