@@ -43,6 +43,13 @@ TEST(FourLeggedPatient, HasTheUnitOfAnAnimal) {
   EXPECT_EQ(codes_of(mended), std::vector<std::string>{});
 }
 
+// Games' animals are of any size.
+TEST(FourLeggedPatient, MayBeLargerAndSmallerThanLife) {
+  for (const double times : {0.1, 0.3, 4.0, 8.0})
+    EXPECT_EQ(codes_of(with_basis(lying_walk(), Eigen::Matrix3d::Identity(), times)), std::vector<std::string>{})
+        << times;
+}
+
 TEST(FourLeggedPatient, OfNoAnimalsSizeIsToldSo) {
   const Take speck = with_basis(lying_walk(), Eigen::Matrix3d::Identity(), 1e-9);
   const std::vector<Finding> findings = findings_of(speck);

@@ -13,8 +13,9 @@ namespace {
 const Eigen::Matrix3d kAsItIs = Eigen::Matrix3d::Identity();
 const Eigen::Matrix3d kMirror = Vector3{-1, 1, 1}.asDiagonal();
 
-constexpr double kLeastBody = 1.3, kMostBody = 2.2;  // m: what a unit must make of a grown person
-constexpr double kBends = 0.03;                      // of a leg's length: that a knee points to a side for certain
+constexpr double kLeastBody = 1.3, kMostBody = 2.2;    // m: what a unit must make of a grown person
+constexpr double kLeastAnimal = 0.3, kMostAnimal = 5;  // m: of an animal on four legs, a cat to an elephant
+constexpr double kBends = 0.03;                        // of a leg's length: that a knee points to a side for certain
 constexpr double kUnsure = 0.3;   // cosine: feet that do not point to the front for certain, as a runner's
 constexpr double kPoints = -0.5;  // cosine: feet that point to the back for certain
 
@@ -37,7 +38,8 @@ Eigen::Matrix3d quarter_turns(const Vector3& axis, int count) {
 }
 
 bool is_body(const Patient& patient, double stature) {
-  return patient.is_four_legged() ? is_animal(stature) : stature >= kLeastBody && stature <= kMostBody;
+  return patient.is_four_legged() ? stature >= kLeastAnimal && stature <= kMostAnimal
+                                  : stature >= kLeastBody && stature <= kMostBody;
 }
 
 /// Of a body on four legs their length, which is all that tells its size.

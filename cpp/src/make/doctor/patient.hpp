@@ -21,8 +21,8 @@ using Findings = std::vector<Finding>;
 /// Whether that may be a person's stature: a child's, or a hero's, m.
 inline bool is_person(double stature) { return stature >= 0.9 && stature <= 2.6; }
 
-/// Whether legs on which four-legged animals of this stature go are a cat's, an elephant's or between, m.
-inline bool is_animal(double stature) { return stature >= 0.3 && stature <= 5; }
+/// Whether that may be the stature() of an animal on four legs: a rat's, or a game's that is larger than life, m.
+inline bool is_animal(double stature) { return stature >= 0.1 && stature <= 15; }
 
 /// s: what is shorter is no step, and no pose that somebody holds.
 constexpr double kShortestStep = 0.3;
