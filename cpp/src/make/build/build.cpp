@@ -16,6 +16,7 @@
 #include "fragments/coverage.hpp"
 #include "fragments/entry_poses.hpp"
 #include "fragments/evident.hpp"
+#include "fragments/lying.hpp"
 #include "fragments/packed_pool.hpp"
 #include "fragments/synthesis.hpp"
 #include "fragments/whole_jumps.hpp"
@@ -59,6 +60,7 @@ void cut(FragmentPool& pool, const Kinematics& kinematics, int first, Origin ori
                                      [&](int c) { return find_contacts(kinematics, pool.clips[first + c]); });
   const std::size_t before = pool.fragments.size();
   for (int c = 0; c < count; ++c) cut_fragments(pool, first + c, contacts[c], options.cut);
+  drop_lying(pool, kinematics, before);
   for (std::size_t i = before; i < pool.fragments.size(); ++i) pool.fragments[i].origin = origin;
 }
 
