@@ -99,10 +99,15 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
 
 
 def say_feet(skeleton: Skeleton) -> list[str]:
-    """Which feet are not held, where it has more of them than those that are."""
+    """Which feet are not held, where it has more of them than those that are; or that none is known."""
     others = skeleton.other_feet()
     held = [bone for role, bone in skeleton.roles.items() if role.endswith("foot")]
-    if not others or not held:
+    if not held:
+        return [
+            "No feet are known: none is held where it stands, and what is shown on the spot stays there. If it has "
+            "legs, choose a thigh and a foot on each side in Bones (Find Bones), then Build again"
+        ]
+    if not others:
         return []
     return [f"Held where they stand are {' and '.join(held)} alone; {', '.join(others)} go as in the takes"]
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
@@ -36,31 +37,46 @@ class Seam(NamedTuple):
 def cut_out(obj: bpy.types.Object, recording: Recording, start: float, end: float) -> Seam:
     """Take the seconds from `start` to `end` out of the middle, and up to half a second more, so that the poses fit.
     What follows is carried to where the character is then, and from 0.8 s on is as it was."""
-    trace, shown, (first, last), seams = _cut(obj, recording, start, end)
-    return _glue(obj, (recording, trace, shown), (recording, trace, shown), seams, (first, last))
+    trace, shown = trace_of(recording), shown_poses(obj, recording)
+    asked = _stretch(recording, len(trace), start, end)
+    return _glue(obj, (recording, trace, shown), (recording, trace, shown), _seams_near(*asked, len(trace)), asked)
 
 
-def find_cut(obj: bpy.types.Object, recording: Recording, start: float, end: float) -> Seam:
-    """Where `cut_out` would cut, and how well the poses fit there; nothing changes."""
-    _, shown, asked, seams = _cut(obj, recording, start, end)
-    return Seam(*asked, None) if shown is None else _find_seam(obj, shown, shown, seams)
+def cut_finder(obj: bpy.types.Object, recording: Recording) -> Callable[[float, float], Seam]:
+    """What tells where `cut_out` would cut the recording as it is now, and how well the poses fit there, of the same
+    seconds; nothing changes."""
+    length, shown = len(trace_of(recording)), shown_poses(obj, recording)
+
+    def find(start: float, end: float) -> Seam:
+        asked = _stretch(recording, length, start, end)
+        return Seam(*asked, None) if shown is None else _find_seam(obj, shown, shown, _seams_near(*asked, length))
+
+    return find
 
 
-def _cut(
-    obj: bpy.types.Object, recording: Recording, start: float, end: float
-) -> tuple[Doubles, Motion | None, tuple[int, int], tuple[list[int], list[int]]]:
-    """A recording's trace and what it showed, the controls between which it is to be cut, and those between which it
-    may be cut; UserError where that is no stretch of its middle."""
-    trace = trace_of(recording)
-    first, last = round(max(start, 0) * TRACE_RATE), min(round(end * TRACE_RATE), len(trace))
-    if not 0 < first < last < len(trace):
+def fit_in_words(seam: Seam) -> str:
+    """How well the poses fit, for the end of a sentence; empty where there are none."""
+    apart = seam.distance
+    return "" if apart is None else f"; there the poses are {100 * apart:.0f} cm apart, and are stitched"
+
+
+def _stretch(recording: Recording, length: int, start: float, end: float) -> tuple[int, int]:
+    """The controls, of `length`, between which a recording is to be cut; UserError where that is no stretch of its
+    middle."""
+    first, last = round(max(start, 0) * TRACE_RATE), min(round(end * TRACE_RATE), length)
+    if not 0 < first < last < length:
         raise UserError(
             f"Recording '{recording.name}' lasts {recording.seconds:.1f} s: from {start:.1f} s to {end:.1f} s is no "
             "stretch of its middle. Trim takes off its ends"
         )
+    return first, last
+
+
+def _seams_near(first: int, last: int, length: int) -> tuple[list[int], list[int]]:
+    """The controls, of `length`, between which it may be cut where `first` and `last` are asked for."""
     ends = range(max(first - _BEFORE, 1), first + 1)
-    beginnings = range(last, min(last + _AFTER, len(trace) - 1) + 1)
-    return trace, shown_poses(obj, recording), (first, last), (list(ends), list(beginnings))
+    beginnings = range(last, min(last + _AFTER, length - 1) + 1)
+    return list(ends), list(beginnings)
 
 
 def append(obj: bpy.types.Object, recording: Recording, other: Recording) -> Seam:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from importlib import import_module
-from types import ModuleType, SimpleNamespace
+from types import MethodType, ModuleType, SimpleNamespace
 from typing import Any
 
 import bpy
@@ -127,31 +127,37 @@ def test_recordings_without_a_character_are_cut_and_glued_as_controls(addon: Mod
 
 def test_where_it_would_be_cut_is_found_before(addon: ModuleType, obj: bpy.types.Object, recording: Any) -> None:
     controls, poses = recording.controls, recording.shown
-    seam = addon.edits.cutting.find_cut(obj, recording, 4.0, 6.0)
+    seam = addon.edits.cutting.cut_finder(obj, recording)(4.0, 6.0)
     assert (recording.controls, recording.shown) == (controls, poses)
     assert 38 <= seam.end <= 40 and 60 <= seam.beginning <= 63 and 0 <= seam.distance < 1
     assert addon.edits.cutting.cut_out(obj, recording, 4.0, 6.0) == seam
 
 
-@pytest.mark.parametrize(("fields", "kept"), [((40, 6), (5.9, 6)), ((4, 60), (4, 11.9)), ((0, 0), (0.1, 0.2))])
-def test_the_dialogs_fields_stay_within_the_recording(
-    addon: ModuleType, recording: Any, fields: tuple[float, float], kept: tuple[float, float]
-) -> None:
-    operators = import_module(f"{addon.__name__}.operators.directing.edit_recordings")
-    shown: list[tuple[float, float]] = []
-    dialog = SimpleNamespace(start=fields[0], end=fields[1])
-    dialog._show_joins = lambda context: shown.append((dialog.start, dialog.end))
-    assert operators.FRAGMOTION_OT_cut_recording.check(dialog, bpy.context)
-    assert shown == [pytest.approx(kept)]
+@pytest.fixture
+def pressed(addon: ModuleType, obj: bpy.types.Object, recording: Any) -> Any:
+    """The operator as it is begun in a window that shows no time."""
+    operators = import_module(f"{addon.__name__}.operators.directing.cut_recording")
+    tool = SimpleNamespace(_length=recording.seconds, _first=1.0, _rate=24.0, told=[])
+    tool.report = lambda kind, text: tool.told.append(text)
+    for name in ("_ask", "_seconds_at", "execute"):
+        setattr(tool, name, MethodType(getattr(operators.FRAGMOTION_OT_cut_recording, name), tool))
+    return tool
+
+
+@pytest.mark.parametrize(("now", "kept"), [(40, (11.8, 11.9)), (4, (4, 5)), (-3, (0.1, 0.2)), (11.5, (11.5, 11.9))])
+def test_what_is_first_offered_is_within_the_recording(pressed: Any, now: float, kept: tuple[float, float]) -> None:
+    pressed._ask(bpy.context.scene, now)
+    assert (pressed.start, pressed.end) == pytest.approx(kept)
 
 
 @pytest.mark.parametrize("ranged", [True, False])
-def test_a_preview_range_that_is_cut_out_is_over(
-    addon: ModuleType, obj: bpy.types.Object, recording: Any, ranged: bool
-) -> None:
-    operators, scene = import_module(f"{addon.__name__}.operators.directing.edit_recordings"), bpy.context.scene
+def test_a_preview_range_that_is_cut_out_is_over(pressed: Any, recording: Any, ranged: bool) -> None:
+    scene = bpy.context.scene
     scene.use_preview_range, scene.frame_preview_start, scene.frame_preview_end = True, 97, 145
-    operator = operators.FRAGMOTION_OT_cut_recording
-    dialog = SimpleNamespace(start=4.0, end=6.0, report=lambda *told: None, _is_range=ranged)
-    assert operator.execute(dialog, bpy.context) == {"FINISHED"}
-    assert scene.use_preview_range != ranged and recording.seconds < 10.1
+    scene.use_preview_range = ranged
+    pressed._ask(scene, 5.0)
+    assert (pressed.start, pressed.end) == pytest.approx((4.0, 6.0) if ranged else (5.0, 6.0))
+    scene.use_preview_range = True
+    assert pressed.execute(bpy.context) == {"FINISHED"}
+    assert scene.use_preview_range != ranged and recording.seconds < 11.1
+    assert "the poses are" in pressed.told[0]

@@ -90,3 +90,13 @@ def test_build_says_which_feet_are_not_held(addon: ModuleType) -> None:
                 above = bone
     told = addon.character.building.say_feet(addon.rig.rigs.make_rig(obj).skeleton)
     assert told == ["Held where they stand are foot.L and foot.R alone; more2.L, more2.R go as in the takes"]
+
+
+def test_build_says_that_no_feet_are_known(addon: ModuleType) -> None:
+    obj = making.open_sample()
+    with making.editing(obj) as bones:
+        for bone in [bone for bone in bones if bone.name.startswith(("thigh", "shin", "foot", "toe"))]:
+            bones.remove(bone)
+    (told,) = addon.character.building.say_feet(addon.rig.rigs.make_rig(obj).skeleton)
+    assert told.startswith("No feet are known")
+    assert "Find Bones" in told

@@ -125,6 +125,16 @@ TEST(Build, IsTheSameCharacterTenTimesAsLarge) {
   }
 }
 
+TEST(Build, IsTheSameCharacterOfATakeThatWasCapturedHigher) {
+  std::vector<Clip> takes = some_takes();
+  const Character level = build(humanoid(), takes, some_traces(), few_classes());
+  for (std::size_t z = 2; z < takes[1].root_positions.size(); z += 3) takes[1].root_positions[z] += 0.03;
+  const Character high = build(humanoid(), takes, some_traces(), few_classes());
+  ASSERT_EQ(high.entry_poses.size(), level.entry_poses.size());
+  for (std::size_t i = 0; i < level.entry_poses.size(); ++i)
+    EXPECT_NEAR(high.entry_poses[i], level.entry_poses[i], 0.01);
+}
+
 TEST(Build, HasClassesForHopsOnTheSpotAndAhead) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     BuildOptions options;

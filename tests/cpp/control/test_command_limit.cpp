@@ -9,10 +9,13 @@
 namespace fragmotion {
 namespace {
 
+constexpr double kTurnRate = 1.25;  // rad/s
+constexpr double kLong = 100;       // s: enough for getting to any control
+
 Vector2 velocity(const Control& control) { return {control.x, control.y}; }
 
 TEST(CommandLimit, GetsToTheCommandWithTheAccelerationAndStaysThere) {
-  CommandLimit limit(5);
+  CommandLimit limit(5, kTurnRate);
   limit.reset(0.7);
   const Control run{0, 3, -1, 1};
   for (int f = 1; f <= 90; ++f) {
@@ -30,7 +33,7 @@ TEST(CommandLimit, GetsToTheCommandWithTheAccelerationAndStaysThere) {
 
 TEST(CommandLimit, NeverChangesTheVelocityInTheWorldFaster) {
   Random random(3);
-  CommandLimit limit(5);
+  CommandLimit limit(5, kTurnRate);
   limit.reset(0);
   Vector2 before = Vector2::Zero();
   double heading = 0;
@@ -46,7 +49,7 @@ TEST(CommandLimit, NeverChangesTheVelocityInTheWorldFaster) {
 }
 
 TEST(CommandLimit, WithoutALimitIsTheCommand) {
-  CommandLimit limit(std::numeric_limits<double>::infinity());
+  CommandLimit limit(std::numeric_limits<double>::infinity(), kTurnRate);
   limit.reset(0);
   const Control control{1, -2, 0.5, 0};
   for (const double seconds : {0.01, 10.0}) {
@@ -56,25 +59,24 @@ TEST(CommandLimit, WithoutALimitIsTheCommand) {
 }
 
 TEST(CommandLimit, GoesRoundATurnAheadAndNoFasterThanTheAccelerationLeads) {
-  const double rate = 1.25;
   for (const Control& asked :
        {Control{0, 3, 1, 1}, Control{3, -4, 1, 0}, Control{0, 9, -0.5, 0}, Control{8, 0, 3, 0}}) {
-    CommandLimit limit(5);
-    const Control held = limit.round_turn(asked, rate);
+    CommandLimit limit(5, kTurnRate);
+    const Control held = limit.after(asked, 0, kLong);
     const double turn = std::clamp(asked.turn, -1.0, 1.0);
-    EXPECT_NEAR(held.speed(), std::min(asked.speed(), 5 / (std::abs(turn) * rate)), 1e-12);
+    EXPECT_NEAR(held.speed(), std::min(asked.speed(), 5 / (std::abs(turn) * kTurnRate)), 1e-12);
     EXPECT_NEAR(held.x * asked.y, held.y * asked.x, 1e-12);
     EXPECT_EQ(held.turn, asked.turn);
     EXPECT_EQ(held.jump, asked.jump);
     limit.reset(0, velocity(held));
     for (int f = 1; f < 600; ++f) {
-      const double heading = turn * rate * f / 60;
+      const double heading = turn * kTurnRate * f / 60;
       limit.advance(held, heading, 1.0 / 60);
       EXPECT_NEAR((limit.velocity(heading) - velocity(held)).norm(), 0, 1e-9);
     }
   }
   const Control straight{0, 99, 0, 0};
-  EXPECT_EQ(CommandLimit(5).round_turn(straight, rate).y, 99);
+  EXPECT_EQ(CommandLimit(5, kTurnRate).after(straight, 0, kLong).y, 99);
 }
 
 }  // namespace

@@ -173,6 +173,8 @@ TEST(Discontinuities, AreNoFastSwings) {
   EXPECT_EQ(torn({81, 3, 2, 0}), (std::vector<int>{1})) << "a calibration pose";
   EXPECT_EQ(torn({0, 70, -70, 3}), (std::vector<int>{2, 3})) << "markers that are mixed up for a frame";
   EXPECT_EQ(torn({0, 2, 70}), (std::vector<int>{3}));
+  EXPECT_TRUE(torn({5, 10, -81, 30, 31, 5}).empty()) << "a drawn cycle, which ends where it begins";
+  EXPECT_EQ(torn({5, 10, -81, 30, 31, 9}), (std::vector<int>{3}));
 }
 
 TEST(CutFragments, NeverGoOverATear) {

@@ -30,7 +30,7 @@ TEST(Lying, ADogsFragmentsAreLeftOut) {
   FragmentPool pool = cut_with_a_sunk_one(skeleton, dog_clip({}, false, "walk"), 0.5);
   const std::vector<int> before = fragments_by_clip(pool);
   ASSERT_GT(before[2], 0);
-  drop_lying(pool, Kinematics(skeleton), 0);
+  drop_lying(pool, 0);
   EXPECT_EQ(fragments_by_clip(pool), (std::vector<int>{before[0], before[1], 0}));
 }
 
@@ -38,7 +38,7 @@ TEST(Lying, WhatStandsALittleLowerIsKept) {
   const Skeleton skeleton = dog();
   FragmentPool pool = cut_with_a_sunk_one(skeleton, dog_clip({}, false, "walk"), 0.1);
   const std::vector<int> before = fragments_by_clip(pool);
-  drop_lying(pool, Kinematics(skeleton), 0);
+  drop_lying(pool, 0);
   EXPECT_EQ(fragments_by_clip(pool), before);
 }
 
@@ -46,7 +46,7 @@ TEST(Lying, EarlierFragmentsStay) {
   const Skeleton skeleton = dog();
   FragmentPool pool = cut_with_a_sunk_one(skeleton, dog_clip({}, false, "walk"), 0.5);
   const std::size_t all = pool.fragments.size();
-  drop_lying(pool, Kinematics(skeleton), all - 1);
+  drop_lying(pool, all - 1);
   EXPECT_EQ(pool.fragments.size(), all - 1);
 }
 
@@ -54,7 +54,7 @@ TEST(Lying, PeopleKeepAll) {
   const Skeleton skeleton = humanoid();
   FragmentPool pool = cut_with_a_sunk_one(skeleton, gait_clip({}, "walk"), 0.5);
   const std::size_t all = pool.fragments.size();
-  drop_lying(pool, Kinematics(skeleton), 0);
+  drop_lying(pool, 0);
   EXPECT_EQ(pool.fragments.size(), all);
 }
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <utility>
 
 #include "io/asf_amc.hpp"
 #include "io/bvh.hpp"
@@ -68,6 +70,20 @@ TEST(FeetWay, KeepsItsVelocityInAFlight) {
   for (const Vector2& velocity : way->velocities) EXPECT_NEAR(velocity.norm(), 3, 0.3);
 }
 
+// A foot that strikes the ground for less than a frame, as in drawn runs: the body bounces over each step.
+TEST(FeetWay, IsToldByFeetThatAreNowhereLowForLong) {
+  const Gait gait{0, 3, 0, 2, 24, 0.5};
+  const Kinematics kinematics(humanoid());
+  Clip clip = on_the_spot(kinematics.skeleton(), gait_clip(gait));
+  for (int f = 0; f < clip.frames; ++f) {
+    const double steps = 2 * f / gait.rate / gait.cycle - 0.6;  // whole in the middle of a stance
+    clip.root_positions[std::size_t{3} * f + 2] += 0.2 * std::abs(std::sin(kPi * steps));
+  }
+  const auto way = find_feet_way(kinematics, clip);
+  ASSERT_TRUE(way);
+  EXPECT_NEAR(way->mean.y(), 3, 0.15);
+}
+
 TEST(FeetWay, IsNoneOfWhatGoesOrStands) {
   const Kinematics kinematics(humanoid());
   EXPECT_FALSE(find_feet_way(kinematics, gait_clip({0, 1.2})));
@@ -101,6 +117,38 @@ TEST(FeetWay, IsThatOfRealTakesThatWereTakenAwayTheirs) {
   if (files.empty()) GTEST_SKIP() << "no motion capture beside the project";
   for (std::size_t i = 0; i < files.size(); i += 3) expect_found_again(read_bvh(files[i]));
   expect_found_again(read_asf_amc(cmu / "02.asf", cmu / "02_01.amc"));
+}
+
+// So many frames from the middle of a clip, on a treadmill: without their mean velocity, which is left in `speed`.
+Clip on_a_treadmill(const Skeleton& skeleton, const Clip& clip, int frames, double& speed) {
+  const std::ptrdiff_t begin = (clip.frames - frames) / 2, end = begin + frames, size = 4 * skeleton.size();
+  Clip part{clip.name, clip.rate, frames, {}, {}, {}};
+  part.root_positions.assign(clip.root_positions.begin() + 3 * begin, clip.root_positions.begin() + 3 * end);
+  part.rotations.assign(clip.rotations.begin() + size * begin, clip.rotations.begin() + size * end);
+  const Vector3 first = load_vector(part.root_positions.data());
+  const Vector3 step = (load_vector(&part.root_positions[std::size_t{3} * (frames - 1)]) - first) / (frames - 1);
+  speed = step.head<2>().norm() * clip.rate;
+  for (int f = 0; f < frames; ++f) {
+    for (int axis = 0; axis < 2; ++axis) part.root_positions[std::size_t{3} * f + axis] -= f * step[axis];
+  }
+  return make_clip(skeleton, std::move(part));
+}
+
+// A foot that leaves the ground rolls over its tip and slows down: it must not slow the body down.
+TEST(FeetWay, IsNoSlowerThanRealRuns) {
+  double found = 0, real = 0;
+  for (const auto& file : files_in(shared_mocap() / "bandai-namco", ".bvh")) {
+    if (file.filename().string().find("2_run") == std::string::npos) continue;
+    const Take take = read_bvh(file);
+    const Clip clip = clip_from_take(take.skeleton, take);
+    double speed = 0;
+    const Clip still = on_a_treadmill(take.skeleton, clip, static_cast<int>(std::lround(clip.rate)), speed);
+    const auto way = find_feet_way(Kinematics(take.skeleton), still);
+    if (!way || std::abs(clip.headings.back() - clip.headings.front()) > 0.3) continue;
+    found += way->mean.norm(), real += speed;
+  }
+  if (real == 0) GTEST_SKIP() << "no motion capture beside the project";
+  EXPECT_NEAR(found / real, 1, 0.015);
 }
 
 TEST(FeetWay, TurnsAsTheFeetOfRealTakesTell) {

@@ -2,6 +2,10 @@
 // What the bones of a body on four legs are.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "dog.hpp"
 #include "skeleton/role_map.hpp"
 
@@ -58,6 +62,35 @@ TEST(FourLeggedBody, MayHaveAllItsLegsOnOneBone) {
   EXPECT_EQ(found.names[roles.right_fore_leg], "f1.R");
   skeleton.names[2] = "c";
   EXPECT_EQ(make_skeleton(skeleton).roles.left_fore_foot, -1) << "nothing tells which end is the head's";
+}
+
+// The bones of the legs may begin near each other in the middle of the trunk, as Mesh2Motion's fox has them.
+TEST(FourLeggedBody, MayHaveHipBonesAndShoulderBladesThatMeet) {
+  const Skeleton given = dog();
+  Skeleton skeleton;
+  std::vector<int> now;  // where its bones are
+  const auto add = [&](const std::string& name, int parent, const Vector3& offset, int as) {
+    skeleton.names.push_back(name);
+    skeleton.parents.push_back(parent);
+    skeleton.rest_rotations.push_back(Quaternion::Identity());
+    skeleton.offsets.push_back(offset);
+    skeleton.tips.push_back(given.tips[as]);
+  };
+  for (int b = 0; b < given.size(); ++b) {
+    int parent = b == 0 ? -1 : now[given.parents[b]];
+    Vector3 offset = given.offsets[b];
+    if (given.names[b][1] == '1') {
+      const Vector3 blade(0.5 * offset.x(), (given.names[b][0] == 'f' ? 0.4 : -0.4) * kDogTrunk, 0);
+      add("p" + given.names[b], parent, blade, b);
+      parent = skeleton.size() - 1, offset -= blade;
+    }
+    add(given.names[b], parent, offset, b);
+    now.push_back(skeleton.size() - 1);
+  }
+  const Skeleton found = make_skeleton(std::move(skeleton));
+  EXPECT_EQ(resting_legs(found).count(), 4);
+  EXPECT_EQ(found.names[found.roles.left_foot], "h3.L");
+  EXPECT_EQ(found.names[found.roles.right_fore_foot], "f3.R");
 }
 
 TEST(FourLeggedBody, IsNoManWhoseArmsHang) {

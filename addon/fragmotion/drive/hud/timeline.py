@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import bpy
 
-from . import paint
+from . import paint, views
 
 _EDITORS = {"DOPESHEET_EDITOR": bpy.types.SpaceDopeSheetEditor, "GRAPH_EDITOR": bpy.types.SpaceGraphEditor}
 _handlers: list[tuple[Any, Any]] = []
@@ -41,9 +41,30 @@ def unmark() -> None:
 def tag_redraw() -> None:
     """Have these editors drawn."""
     for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type in _EDITORS:
-                area.tag_redraw()
+        for area in areas_of(window):
+            area.tag_redraw()
+
+
+def areas_of(window: bpy.types.Window | None) -> list[bpy.types.Area]:
+    """These editors of a window."""
+    return [area for area in window.screen.areas if area.type in _EDITORS] if window else []
+
+
+def tell(window: bpy.types.Window, text: str | None) -> None:
+    """Write this in place of their headers, as Blender's modal tools do; None gives these back."""
+    for area in areas_of(window):
+        area.header_text_set(text)
+
+
+def part_under(window: bpy.types.Window, event: bpy.types.Event) -> bpy.types.Region | None:
+    """The part of one of them that shows time, where the mouse is in it."""
+    parts = (part for area in areas_of(window) for part in area.regions if part.type == "WINDOW")
+    return next((part for part in parts if views.is_inside(part, event)), None)
+
+
+def frame_at(part: bpy.types.Region, event: bpy.types.Event) -> float:
+    """The scene frame at which the mouse is, seen in such a part."""
+    return float(part.view2d.region_to_view(event.mouse_x - part.x, 0)[0])
 
 
 def _draw(spans: Callable[[], Sequence[Span]]) -> None:

@@ -88,7 +88,7 @@ class Previewing(Woken):
                 self.report({"WARNING"}, f"{self.bl_label} has ended: {trouble}")
                 return self._end(context)
         clicked = event.type in {"LEFTMOUSE", "RIGHTMOUSE"}
-        if event.type.startswith(_NAVIGATION) or (clicked and _is_over_sidebar(context, event)):
+        if is_navigation(event) or (clicked and _is_over_sidebar(context, event)):
             return {"PASS_THROUGH"}
         if event.value == "PRESS" and (clicked or event.type == "ESC"):
             return self._end(context)
@@ -133,6 +133,11 @@ class Previewing(Woken):
         views.tag_redraw()
         views.tag_redraw("UI")
         return {"FINISHED"}
+
+
+def is_navigation(event: bpy.types.Event) -> bool:
+    """Whether it is a modal operator's to let through: what moves a view, or only tells."""
+    return bool(event.type.startswith(_NAVIGATION))
 
 
 def _is_over_sidebar(context: bpy.types.Context, event: bpy.types.Event) -> bool:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from . import edit_recordings, recordings, storyboard
+from . import cut_recording, edit_recordings, recordings, storyboard
 from .bake import FRAGMOTION_OT_bake
 from .change_style import FRAGMOTION_OT_change_style
 from .draw_path import FRAGMOTION_OT_draw_path
@@ -29,6 +29,7 @@ CLASSES = (
     FRAGMOTION_OT_change_style,
     FRAGMOTION_OT_play_trace,
     FRAGMOTION_OT_find_pads,
+    *cut_recording.CLASSES,
     *edit_recordings.CLASSES,
     FRAGMOTION_OT_follow_path,
     FRAGMOTION_OT_ground_cursor,

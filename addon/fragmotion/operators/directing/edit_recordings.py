@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Change what was recorded: as curves, by a cut, by another recording behind it, and by a pin."""
+"""Change what was recorded: as curves, by another recording behind it, by looks and holds, and by a pin."""
 
 from __future__ import annotations
 
-import textwrap
 from typing import Any, ClassVar
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty
+from bpy.props import EnumProperty
 
-from ...drive.hud import timeline
 from ...edits import cutting, pinning
 from ...edits.replaying import play_again
 from ...errors import UserError, reported
@@ -20,7 +18,6 @@ from ...recordings.looks import aim_of, look_in_words, looks_from
 from ...recordings.reaches import EMPTY, reaches_from
 from ...recordings.recordings import TRACE_RATE, Recording, active_recording, asked_of, trace_of
 from ...rig.selection import select
-from ...settings.drawing import aligned
 from ...settings.pin_fields import PinFields
 from ..base.background import Background, poll_idle
 from ..base.context import active_armature, first_frame, frame_rate, playhead
@@ -82,98 +79,6 @@ class FRAGMOTION_OT_play_again(OnRecording, bpy.types.Operator):
         return {"FINISHED"}
 
 
-_CUT = (1.0, 0.1, 0.1, 0.35)
-_LETTERS = 44  # of a line of the dialog
-_SPAN = 10.0  # s that a field's whole slide is: more is typed
-
-
-def _moment(name: str, description: str, default: float) -> Any:
-    return FloatProperty(
-        name=f"{name} (s)", description=description, default=default, min=0.0, soft_max=_SPAN, step=10, precision=1
-    )
-
-
-class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
-    """Cut a stretch out of the middle of the selected recording; what follows goes on from where the character is."""
-
-    bl_idname = "fragmotion.cut_recording"
-    bl_label = "Cut Out"
-    bl_description = (
-        "Cut a stretch out of the middle of the selected recording, and up to half a second more, so that the "
-        "poses fit. At first it is the timeline's preview range, which is then over, or the second after the "
-        "playhead. What follows goes on from where the character is then, and moves as it did"
-    )
-
-    _is_range = False
-
-    start: _moment("From", "Where the stretch begins, in seconds from the recording's beginning", 1.0)  # type: ignore[valid-type]
-    end: _moment("To", "Where the stretch ends, in seconds from the recording's beginning", 2.0)  # type: ignore[valid-type]
-
-    @reported
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        recording, scene = selected(context), context.scene
-        self.start = max(playhead(context, recording), 0.0)
-        self.end = self.start + 1.0
-        self._is_range = scene.use_preview_range
-        if self._is_range:
-            begin, rate = first_frame(active_armature(context), recording), frame_rate(context, recording)
-            self.start = max((scene.frame_preview_start - begin) / rate, 0.0)
-            self.end = max((scene.frame_preview_end - begin) / rate, self.start)
-        self._show_joins(context)
-        result: set[str] = context.window_manager.invoke_props_dialog(self)
-        return result
-
-    def check(self, context: bpy.types.Context) -> bool:
-        """Keep the stretch within the recording, and show the joins anew, where the dialog's fields have changed."""
-        least, length = 1 / TRACE_RATE, selected(context).seconds
-        self.end = max(min(self.end, length - least), 2 * least)
-        self.start = max(min(self.start, self.end - least), least)
-        self._show_joins(context)
-        return True
-
-    def draw(self, _context: bpy.types.Context) -> None:
-        column = aligned(self.layout)
-        column.prop(self, "start")
-        column.prop(self, "end")
-        for line in self._told.split("\n"):
-            self.layout.label(text=line, translate=False)
-
-    def cancel(self, _context: bpy.types.Context) -> None:
-        """The dialog is left."""
-        timeline.unmark()
-
-    def _show_joins(self, context: bpy.types.Context) -> None:
-        """Say and mark on the timeline where it would be cut, and how well the poses fit there."""
-        obj, recording = active_armature(context), selected(context)
-        try:
-            seam = cutting.find_cut(obj, recording, self.start, self.end)
-        except UserError as error:
-            self._told = "\n".join(textwrap.wrap(str(error), _LETTERS))
-            timeline.unmark()
-            return
-        begin, rate = first_frame(obj, recording), frame_rate(context, recording)
-        first, last = (begin + rate * control / TRACE_RATE for control in (seam.end, seam.beginning))
-        timeline.mark(lambda: [timeline.Span(first, last, _CUT)])
-        fit = "" if seam.distance is None else f"\nThe poses there are {100 * seam.distance:.0f} cm apart"
-        self._told = (
-            f"Cuts {seam.end / TRACE_RATE:.1f} s to {seam.beginning / TRACE_RATE:.1f} s, red on the timeline{fit}"
-        )
-
-    @reported
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        timeline.unmark()
-        recording = selected(context)
-        seam = cutting.cut_out(active_armature(context), recording, self.start, self.end)
-        if self._is_range:  # of what is gone
-            context.scene.use_preview_range = False
-        self.report(
-            {"INFO"},
-            f"Cut {seam.end / TRACE_RATE:.1f} s to {seam.beginning / TRACE_RATE:.1f} s out of '{recording.name}'"
-            f"{_fit(seam)}",
-        )
-        return {"FINISHED"}
-
-
 class FRAGMOTION_OT_glue_recording(OnRecording, bpy.types.Operator):
     """Let the recording that is next in the list follow the selected one, from where the character is then"""
 
@@ -196,7 +101,9 @@ class FRAGMOTION_OT_glue_recording(OnRecording, bpy.types.Operator):
         other = obj.fragmotion.recordings[obj.fragmotion.active_recording + 1]
         seam = cutting.append(obj, recording, other)
         self.report(
-            {"INFO"}, f"'{other.name}' follows in '{recording.name}' from {seam.end / TRACE_RATE:.1f} s on{_fit(seam)}"
+            {"INFO"},
+            f"'{other.name}' follows in '{recording.name}' from {seam.end / TRACE_RATE:.1f} s on"
+            f"{cutting.fit_in_words(seam)}",
         )
         return {"FINISHED"}
 
@@ -327,16 +234,9 @@ class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.
             )
 
 
-def _fit(seam: cutting.Seam) -> str:
-    return (
-        "" if seam.distance is None else f"; there the poses are {100 * seam.distance:.0f} cm apart, and are stitched"
-    )
-
-
 CLASSES = (
     FRAGMOTION_OT_edit_curves,
     FRAGMOTION_OT_play_again,
-    FRAGMOTION_OT_cut_recording,
     FRAGMOTION_OT_glue_recording,
     FRAGMOTION_OT_look_recording,
     FRAGMOTION_OT_reach_recording,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "base/listed.hpp"
 #include "base/parallel.hpp"
@@ -23,6 +24,7 @@
 #include "motion/cycle.hpp"
 #include "motion/legs.hpp"
 #include "motion/mirror.hpp"
+#include "motion/one_floor.hpp"
 #include "policy/anticipate.hpp"
 #include "policy/bridge.hpp"
 #include "policy/greedy.hpp"
@@ -53,22 +55,29 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Cuts the clips from `first` on and marks their fragments.
-void cut(FragmentPool& pool, const Kinematics& kinematics, int first, Origin origin, const BuildOptions& options) {
-  const int count = static_cast<int>(pool.clips.size()) - first;
-  const auto contacts = parallel_map(count, thread_count(options.threads),
-                                     [&](int c) { return find_contacts(kinematics, pool.clips[first + c]); });
+std::vector<Contacts> all_contacts(const Kinematics& kinematics, const std::vector<Clip>& clips, int threads) {
+  return parallel_map(static_cast<int>(clips.size()), threads,
+                      [&](int c) { return find_contacts(kinematics, clips[c]); });
+}
+
+// Adds clips with these contacts, cuts them and marks their fragments.
+void cut(FragmentPool& pool, std::vector<Clip> clips, const std::vector<Contacts>& contacts, Origin origin,
+         const BuildOptions& options) {
   const std::size_t before = pool.fragments.size();
-  for (int c = 0; c < count; ++c) cut_fragments(pool, first + c, contacts[c], options.cut);
-  drop_lying(pool, kinematics, before);
+  for (std::size_t c = 0; c < clips.size(); ++c) {
+    pool.clips.push_back(std::move(clips[c]));
+    cut_fragments(pool, static_cast<int>(pool.clips.size()) - 1, contacts[c], options.cut);
+  }
+  drop_lying(pool, before);
   for (std::size_t i = before; i < pool.fragments.size(); ++i) pool.fragments[i].origin = origin;
 }
 
-// The clip, again and again where it is a short cycle: so that it goes on where it ends.
+// The clip, whole rounds of it where it is a short cycle: so that it goes on where it ends.
 Clip in_rounds(const Kinematics& kinematics, Clip clip) {
   const int period = cycle_of(kinematics, clip), enough = static_cast<int>(std::ceil(kRoundSeconds * clip.rate));
   if (period == 0 || period >= enough) return clip;
-  return unrolled(kinematics, clip, period, std::max(2 * period, enough) + 1);
+  const int rounds = std::max(2, (enough + period - 1) / period);
+  return unrolled(kinematics, clip, period, rounds * period + 1);
 }
 
 // Of so many clips, after which their images come.
@@ -85,19 +94,21 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
   const Skeleton& skeleton = kinematics.skeleton();
   FragmentPool pool{skeleton, {}, {}};
   const int takes = static_cast<int>(clips.size()), threads = thread_count(options.threads);
-  pool.clips =
+  std::vector<Clip> captured =
       parallel_map(takes, threads, [&](int c) { return in_rounds(kinematics, make_clip(skeleton, clips[c])); });
-  cut(pool, kinematics, 0, Origin::captured, options);
+  std::vector<Contacts> contacts = all_contacts(kinematics, captured, threads);
+  put_on_one_floor(captured, contacts);
+  cut(pool, std::move(captured), contacts, Origin::captured, options);
   if (pool.fragments.empty()) {
     throw std::invalid_argument("the takes are too short: none holds a fragment of " +
                                 std::to_string(options.cut.shortest) + " s");
   }
   if (options.mirror) {
     const Mirror mirror(kinematics, pool.clips);
-    for (Clip& image : parallel_map(takes, threads, [&](int c) { return mirror(pool.clips[c]); }))
-      pool.clips.push_back(std::move(image));
+    std::vector<Clip> mirrored = parallel_map(takes, threads, [&](int c) { return mirror(pool.clips[c]); });
+    contacts = all_contacts(kinematics, mirrored, threads);
     images = mirror_images(mirror.turns(), takes);
-    cut(pool, kinematics, takes, Origin::mirrored, options);
+    cut(pool, std::move(mirrored), contacts, Origin::mirrored, options);
   }
   return pool;
 }

@@ -8,11 +8,11 @@
 
 #include "base/quantile.hpp"
 #include "evaluate/tracks.hpp"
+#include "fragments/evident.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kRise = 0.2;        // m
 constexpr double kAroundJump = 0.5;  // s
 constexpr double kShortest = 0.05;   // s
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -29,7 +29,7 @@ bool in_the_air(const BodyTrack& track, int f) {
   for (int side = 0; side < track.feet.count(); ++side) {
     const FootPath& foot = track.feet[side];
     const FootHeights& floor = track.floors[side];
-    if (foot.ball[f].z() - floor.ball < kLow || foot.heel[f].z() - floor.heel < kLow) return false;
+    if (foot.ball[f].z() - floor.ball < kContactHeight || foot.heel[f].z() - floor.heel < kContactHeight) return false;
   }
   return true;
 }
@@ -69,7 +69,7 @@ std::vector<Jump> find_jumps(const BodyTrack& track, const UsualHeights& usual) 
     const int take_off = f - 1;
     while (f < track.frames() && in_the_air(track, f)) ++f;
     const bool began_before = take_off == 0 && in_the_air(track, 0);
-    if (f == track.frames() || began_before || highest(track, take_off, f) < usual.center + kRise) continue;
+    if (f == track.frames() || began_before || highest(track, take_off, f) < usual.center + kJumpRise) continue;
     jumps.push_back({take_off, f, dip(track, take_off - around, take_off, usual.hips),
                      dip(track, f, f + around, usual.hips), flight_ratio(track, take_off, f)});
   }

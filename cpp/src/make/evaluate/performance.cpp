@@ -36,9 +36,9 @@ const Character& in_style(const Character& character, const Performance& p, int 
 }
 
 // What a control becomes within a limit, which goes on.
-Control advanced(CommandLimit& limit, const Control& control, double turn_rate, double heading, double seconds) {
-  const Control held = limit.round_turn(control, turn_rate), able = limit.after(held, heading, seconds);
-  limit.advance(held, heading, seconds);
+Control advanced(CommandLimit& limit, const Control& control, double heading, double seconds) {
+  const Control able = limit.after(control, heading, seconds);
+  limit.advance(control, heading, seconds);
   return able;
 }
 
@@ -50,8 +50,8 @@ std::vector<CharacterFrame> exact_path(const Performance& p, const Trace& trace,
     CharacterFrame next = path.back();
     const Character& styled = in_style(character, p, f);
     const Control& asked = trace[control_at(f, p.rate, trace.size())];
-    const Control control =
-        advanced(limit, as_able ? styled.admitted(asked) : asked, styled.space.turn_rate(), next.heading, 1 / p.rate);
+    limit.set_turn_rate(styled.space.turn_rate());
+    const Control control = advanced(limit, as_able ? styled.admitted(asked) : asked, next.heading, 1 / p.rate);
     const double angle = control.turn * styled.space.turn_rate() / p.rate;
     next.position += Eigen::Rotation2Dd(next.heading + angle / 2) * Vector2{control.x, control.y} / p.rate;
     next.heading += angle;
@@ -261,8 +261,8 @@ Performance perform(Player& player, const Trace& trace, double rate, const Progr
 void judge(Performance& p, const Character& character, const Trace& trace) {
   const int half = std::max(1, static_cast<int>(std::lround(kSpeedWindow / 2 * p.rate)));
   const double weight = 1.0 / (p.frames - 1);
-  const CommandLimit unlimited(std::numeric_limits<double>::infinity());
-  const CommandLimit body(kBodyAcceleration / character.space.scale());
+  const CommandLimit unlimited(std::numeric_limits<double>::infinity(), character.space.turn_rate());
+  const CommandLimit body(kBodyAcceleration / character.space.scale(), character.space.turn_rate());
   CommandLimit limit = body;
   limit.reset(p.path[2]);
   p.velocity_error = p.velocity_error_limited = p.turn_error = p.jump_error = p.commanded_speed = 0;
@@ -273,8 +273,8 @@ void judge(Performance& p, const Character& character, const Trace& trace) {
     const Character& styled = in_style(character, p, f);
     const bool jumps = !p.fragments.empty() && styled.pool.fragments[p.fragments[f]].evident.jumps();
     p.velocity_error += weight * (velocity - Vector2{control.x, control.y}).norm();
-    const Control able =
-        advanced(limit, styled.admitted(control), styled.space.turn_rate(), p.path[std::size_t{3} * f + 2], 1 / p.rate);
+    limit.set_turn_rate(styled.space.turn_rate());
+    const Control able = advanced(limit, styled.admitted(control), p.path[std::size_t{3} * f + 2], 1 / p.rate);
     p.velocity_error_limited += weight * (velocity - Vector2{able.x, able.y}).norm();
     p.turn_error += weight * std::abs(speed.z() - control.turn * styled.space.turn_rate());
     p.jump_error += jumps != control.jumps() ? weight : 0;

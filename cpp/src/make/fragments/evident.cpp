@@ -11,10 +11,10 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kNoRise = 0.08, kRise = 0.2;  // m of a 1.8 m character
-constexpr double kTakesOff = 0.4;              // evident jump of what only leads into a jump, or out of it
+constexpr double kNoRise = 0.08;   // m of a 1.8 m character
+constexpr double kTakesOff = 0.4;  // evident jump of what only leads into a jump, or out of it
 
-double evident_jump(double rise) { return std::clamp((rise - kNoRise) / (kRise - kNoRise), 0.0, 1.0); }
+double evident_jump(double rise) { return std::clamp((rise - kNoRise) / (kJumpRise - kNoRise), 0.0, 1.0); }
 
 }  // namespace
 

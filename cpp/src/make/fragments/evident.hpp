@@ -6,6 +6,9 @@
 
 namespace fragmotion {
 
+/// m of a 1.8 m character that the centre of mass rises over its usual height in a jump.
+constexpr double kJumpRise = 0.2;
+
 /// What Ev needs to know of a clip.
 struct BodyMotion {
   std::vector<Vector3> center;  ///< [frames] m: the centre of mass

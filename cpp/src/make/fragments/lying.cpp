@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/quantile.hpp"
+#include "skeleton/kinematics.hpp"
 #include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
@@ -39,8 +40,9 @@ double standing_height(const std::vector<std::vector<Heights>>& clips, int pair)
 
 }  // namespace
 
-void drop_lying(FragmentPool& pool, const Kinematics& kinematics, std::size_t first) {
-  const Legs legs = resting_legs(kinematics.skeleton());
+void drop_lying(FragmentPool& pool, std::size_t first) {
+  const Kinematics kinematics(pool.skeleton);
+  const Legs legs = resting_legs(pool.skeleton);
   if (legs.count() != kMostLegs || pool.fragments.size() == first) return;
   std::vector<std::vector<Heights>> clips;
   for (const Clip& clip : pool.clips) clips.push_back(heights_of(kinematics, legs, clip));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/cycle.hpp"
+
 namespace fragmotion {
 namespace {
 
@@ -40,6 +42,11 @@ class Turns {
   std::size_t width_;
 };
 
+// Whether it ends in the pose in which it begins: a cycle that somebody drew, or closed by hand.
+bool is_closed(const Skeleton& skeleton, const Clip& clip) {
+  return cycle_of(Kinematics(skeleton), clip) == clip.frames - 1;
+}
+
 }  // namespace
 
 std::vector<int> discontinuities(const Skeleton& skeleton, const Clip& clip) {
@@ -55,6 +62,7 @@ std::vector<int> discontinuities(const Skeleton& skeleton, const Clip& clip) {
   for (int f = 1; f < clip.frames; ++f) {
     if (torn(f)) frames.push_back(f);
   }
+  if (!frames.empty() && is_closed(skeleton, clip)) return {};
   return frames;
 }
 

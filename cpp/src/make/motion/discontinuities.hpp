@@ -11,7 +11,8 @@ namespace fragmotion {
 /// calibration pose, and markers get mixed up. There a bone turns by more than 60 degrees at once, and by so much
 /// otherwise than in the frame before and in the one after, as no limb does that is swung fast (a gallop at 24 frames a
 /// second), or the hips go faster than 20 m/s (of a character of 1.8 m). Bones that Dis leaves out, as fingers, do not
-/// count.
+/// count. None in a closed cycle (cycle_of()): drawn limbs snap from pose to pose, and no captured motion ends where it
+/// began.
 std::vector<int> discontinuities(const Skeleton& skeleton, const Clip& clip);
 
 }  // namespace fragmotion

@@ -14,12 +14,13 @@ namespace fragmotion {
 namespace {
 
 // Of a character of 1.8 m.
-constexpr double kStays = 0.4;                       // m that hips on the spot go at most
-constexpr double kGoes = 0.5;                        // m/s: what is slower stands
-constexpr double kTurns = kPi / 12;                  // rad/s: feet that stand turn by less in a gait that goes straight
-constexpr double kLow = 0.02;                        // m over its lowest: a sole on the ground
-constexpr double kWindow = 1.0 / 30;                 // s over which velocities are told: keys and markers tremble
-constexpr double kAsFast = 0.95;                     // of what grip tells: slower is a foot that lands or leaves
+constexpr double kStays = 0.4;        // m that hips on the spot go at most
+constexpr double kGoes = 0.5;         // m/s: what is slower stands
+constexpr double kTurns = kPi / 12;   // rad/s: feet that stand turn by less in a gait that goes straight
+constexpr double kLow = 0.02;         // m over its lowest: a sole on the ground
+constexpr double kWindow = 1.0 / 30;  // s over which velocities are told: keys and markers tremble
+constexpr double kLevel = 0.05;       // m it rises or falls for a m back: steeper is a foot that lands or leaves
+constexpr double kAsFast = 0.95;      // of what grip tells: slower is a foot that lands or leaves
 constexpr double kSmooth[] = {0.5, 0.2, 0.1, 0.03};  // s, of the guesses, one after the other
 constexpr double kTreads = 0.5;                      // of the way: feet that tread come back, and none of them stands
 
@@ -46,9 +47,10 @@ Velocities smoothed(const Velocities& values, const std::vector<double>& weights
 // How the ground goes back under a clip's soles, over windows of `span` frames.
 class Treading {
  public:
-  Treading(const std::vector<Sole>& soles, double rate, double scale)
+  Treading(const std::vector<SolePath>& soles, double rate, double scale)
       : soles_(soles), rate_(rate), scale_(scale), span_(std::max(1, static_cast<int>(std::lround(kWindow * rate)))) {
     windows_ = static_cast<int>(soles[0].heel().path.size()) - span_;
+    for (const SolePath& sole : soles) stands_.push_back(stand_of(sole));
   }
 
   bool is_long_enough() const { return windows_ > 0; }
@@ -57,7 +59,7 @@ class Treading {
   double turn() const {
     double sum = 0;
     int count = 0;
-    for (const Sole& sole : soles_) {
+    for (const SolePath& sole : soles_) {
       for (int f = 0; f < windows_; ++f) {
         if (std::max(height(sole.heel(), f), height(sole.ball(), f)) > kLow) continue;
         sum -= wrapped(direction(sole, f + span_) - direction(sole, f)) * rate_ / span_;
@@ -84,8 +86,8 @@ class Treading {
     int count = 0;
     for (int f = 0; f < windows_; ++f) {
       double slowest = std::numeric_limits<double>::infinity();
-      for (const Sole& sole : soles_) {
-        const double foot = fastest_low(sole, f);
+      for (std::size_t side = 0; side < soles_.size(); ++side) {
+        const double foot = fastest_low(side, f);
         if (foot >= 0) slowest = std::min(slowest, foot);
       }
       if (std::isfinite(slowest)) sum += slowest, ++count;
@@ -112,16 +114,50 @@ class Treading {
     return (std::max(point.path[f].z(), point.path[f + span_].z()) - point.lowest) * scale_;
   }
 
-  // m/s, of a foot's points that are low; -1 where none is.
-  double fastest_low(const Sole& sole, int f) const {
-    double fastest = -1;
+  // How a foot is on the ground: how high at most, m, and how steeply its sole goes there.
+  struct Stand {
+    double low = kLow, level = kLevel;
+  };
+
+  // That of a foot which is nowhere low or level, as fast as it goes, is where it is lowest.
+  Stand stand_of(const SolePath& sole) const {
+    double lowest = std::numeric_limits<double>::infinity(), flattest = lowest;
+    each_window(sole, [&](const SolePoint& point, int f) { lowest = std::min(lowest, height(point, f)); });
+    const double low = std::max(kLow, lowest);
+    each_window(sole, [&](const SolePoint& point, int f) {
+      if (height(point, f) <= low) flattest = std::min(flattest, steepness(point, f));
+    });
+    return {low, std::max(kLevel, flattest)};
+  }
+
+  template <typename Visitor>
+  void each_window(const SolePath& sole, Visitor visitor) const {
     for (const SolePoint& point : sole.points) {
-      if (height(point, f) <= kLow) fastest = std::max(fastest, velocity(point, f, 0, Vector2::Zero()).norm());
+      for (int f = 0; f < windows_; ++f) visitor(point, f);
+    }
+  }
+
+  // How far it rises or falls, of how far it goes over the ground.
+  double steepness(const SolePoint& point, int f) const {
+    const Vector3 way = point.path[f + span_] - point.path[f];
+    return std::abs(way.z()) / std::max(way.head<2>().norm(), 1e-9);
+  }
+
+  bool is_low(std::size_t side, const SolePoint& point, int f) const { return height(point, f) <= stands_[side].low; }
+  bool stands(std::size_t side, const SolePoint& point, int f) const {
+    return is_low(side, point, f) && steepness(point, f) <= stands_[side].level;
+  }
+
+  // m/s, of a foot's points that are low; -1 where none is.
+  double fastest_low(std::size_t side, int f) const {
+    double fastest = -1;
+    for (const SolePoint& point : soles_[side].points) {
+      if (is_low(side, point, f)) fastest = std::max(fastest, velocity(point, f, 0, Vector2::Zero()).norm());
     }
     return fastest;
   }
 
-  static double direction(const Sole& sole, int f) {
+  static double direction(const SolePath& sole, int f) {
     const Vector3 foot = sole.ball().path[f] - sole.heel().path[f];
     return std::atan2(foot.y(), foot.x());
   }
@@ -135,14 +171,12 @@ class Treading {
   Velocities guess(double turn, const Vector2& center) const {
     Velocities means(windows_, Vector2::Zero());
     std::vector<double> weights(windows_, 0);
-    for (const Sole& sole : soles_) {
-      for (const SolePoint& point : sole.points) {
-        for (int f = 0; f < windows_; ++f) {
-          const double weight = skate_weight(height(point, f));
-          means[f] += weight * velocity(point, f, turn, center);
-          weights[f] += weight;
-        }
-      }
+    for (std::size_t side = 0; side < soles_.size(); ++side) {
+      each_window(soles_[side], [&](const SolePoint& point, int f) {
+        const double weight = skate_weight(height(point, f) - (stands_[side].low - kLow));
+        means[f] += weight * velocity(point, f, turn, center);
+        weights[f] += weight;
+      });
     }
     for (int f = 0; f < windows_; ++f) {
       if (weights[f] > 0) means[f] /= weights[f];
@@ -155,15 +189,13 @@ class Treading {
   Told fastest(const Velocities& way, double turn, const Vector2& center) const {
     Velocities best(windows_, Vector2::Zero());
     std::vector<double> along(windows_, -std::numeric_limits<double>::infinity());
-    for (const Sole& sole : soles_) {
-      for (const SolePoint& point : sole.points) {
-        for (int f = 0; f < windows_; ++f) {
-          if (height(point, f) > kLow) continue;
-          const Vector2 told = velocity(point, f, turn, center);
-          const double speed = told.dot(way[f].normalized());
-          if (speed > along[f]) along[f] = speed, best[f] = told;
-        }
-      }
+    for (std::size_t side = 0; side < soles_.size(); ++side) {
+      each_window(soles_[side], [&](const SolePoint& point, int f) {
+        if (!stands(side, point, f)) return;
+        const Vector2 told = velocity(point, f, turn, center);
+        const double speed = told.dot(way[f].normalized());
+        if (speed > along[f]) along[f] = speed, best[f] = told;
+      });
     }
     const std::vector<double> least = gripped(along);
     Told told;
@@ -201,9 +233,10 @@ class Treading {
     return joined;
   }
 
-  const std::vector<Sole>& soles_;
+  const std::vector<SolePath>& soles_;
   double rate_, scale_;
   int span_, windows_ = 0;
+  std::vector<Stand> stands_;  // by foot
 };
 
 Vector2 root_at(const Clip& clip, int f) { return load_vector(&clip.root_positions[std::size_t{3} * f]).head<2>(); }
@@ -223,9 +256,9 @@ bool stays(const Clip& clip, double scale) {
 }
 
 // Whether the feet, which go back as they stand, come back.
-bool tread(const std::vector<Sole>& soles, double way) {
+bool tread(const std::vector<SolePath>& soles, double way) {
   double gone = 0;
-  for (const Sole& sole : soles) {
+  for (const SolePath& sole : soles) {
     const std::vector<Vector3>& path = sole.heel().path;
     gone += 0.5 * (path.back() - path.front()).head<2>().norm();
   }
@@ -245,7 +278,7 @@ Vector2 mean_of(const Velocities& velocities, const Clip& clip) {
 }
 
 // As a pair of feet tells it.
-std::optional<FeetWay> way_of(const std::vector<Sole>& soles, const Clip& clip, double scale) {
+std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& clip, double scale) {
   const Treading treading(soles, clip.rate, scale);
   if (!treading.is_long_enough()) return std::nullopt;
   FeetWay way;
@@ -270,7 +303,7 @@ FeetWay mean_of(FeetWay a, const FeetWay& b) {
 // Of a four-legged body the mean of what the hind feet and the fore feet tell, if both do.
 std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
   const double scale = standard_scale(kinematics.skeleton());
-  const std::vector<Sole> soles = find_soles(kinematics, clip);
+  const std::vector<SolePath> soles = find_soles(kinematics, clip);
   const std::optional<FeetWay> way = way_of({soles.begin(), soles.begin() + 2}, clip, scale);
   if (!way || soles.size() == 2) return way;
   const std::optional<FeetWay> fore = way_of({soles.begin() + 2, soles.end()}, clip, scale);

@@ -17,9 +17,10 @@ struct FeetWay {
 
 /// The way of a clip on the spot; nothing where the hips travel or the feet do not tread, and where the skeleton has
 /// not two feet. A foot that stands is still, so the body goes as the sole on the ground goes back; of what is low
-/// enough the fastest tells, as nothing of a foot goes back over the ground. Out of line is what would ask for more
-/// grip than the body's weight gives (a change of velocity of 9.81 m/s^2): a foot that lands or leaves. In a flight the
-/// velocity goes from what it was to what it will be. Of a cycle (cycle_of()) the ends are each other's neighbours.
+/// enough and goes back level the fastest tells, as nothing of a foot goes back over the ground. What rises or falls
+/// is a foot that lands or leaves, as is what would ask for more grip than the body's weight gives (a change of
+/// velocity of 9.81 m/s^2). In a flight the velocity goes from what it was to what it will be. Of a cycle (cycle_of())
+/// the ends are each other's neighbours.
 std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& clip);
 
 /// [frames] where the way takes the clip's place: what was at x and y is at frame.position + R(frame.heading) (x, y).

@@ -35,7 +35,7 @@ class Soles {
     bones_ = kinematics.chains(ends);
   }
 
-  std::vector<Sole> find() {
+  std::vector<SolePath> find() {
     std::vector<int> flattest(feet_.size(), 0);
     std::vector<double> lowest(feet_.size(), std::numeric_limits<double>::infinity());
     visit([&](int f, const PosedBones& posed) {
@@ -78,8 +78,8 @@ class Soles {
     }
   }
 
-  std::vector<Sole> follow() const {
-    std::vector<Sole> soles(feet_.size());
+  std::vector<SolePath> follow() const {
+    std::vector<SolePath> soles(feet_.size());
     for (std::size_t side = 0; side < feet_.size(); ++side) soles[side].points.resize(feet_[side].size());
     visit([&](int, const PosedBones& posed) {
       for (std::size_t side = 0; side < feet_.size(); ++side) {
@@ -87,7 +87,7 @@ class Soles {
           soles[side].points[i].path.push_back(at(posed, feet_[side][i]));
       }
     });
-    for (Sole& sole : soles) {
+    for (SolePath& sole : soles) {
       for (SolePoint& point : sole.points) point.lowest = floor_of(point.path);
     }
     return soles;
@@ -101,6 +101,8 @@ class Soles {
 
 }  // namespace
 
-std::vector<Sole> find_soles(const Kinematics& kinematics, const Clip& clip) { return Soles(kinematics, clip).find(); }
+std::vector<SolePath> find_soles(const Kinematics& kinematics, const Clip& clip) {
+  return Soles(kinematics, clip).find();
+}
 
 }  // namespace fragmotion

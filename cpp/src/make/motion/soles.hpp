@@ -14,7 +14,7 @@ struct SolePoint {
 };
 
 /// A foot's sole under its heel, ball and the toe's end, where the foot has these.
-struct Sole {
+struct SolePath {
   std::vector<SolePoint> points;
 
   const SolePoint& heel() const { return points[0]; }
@@ -24,6 +24,6 @@ struct Sole {
 /// The soles of the feet, of a skeleton that has them: what is under the feet's joints, on the
 /// ground, when each foot stands flattest. The ground is at height 0, or, where that is not under the joints or more
 /// than 10 cm (of a character of 1.8 m), as high as the lowest of them.
-std::vector<Sole> find_soles(const Kinematics& kinematics, const Clip& clip);
+std::vector<SolePath> find_soles(const Kinematics& kinematics, const Clip& clip);
 
 }  // namespace fragmotion

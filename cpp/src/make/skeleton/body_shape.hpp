@@ -91,6 +91,6 @@ std::array<Limb, 2> shaped_limbs(const BodyShape& shape, const LimbPair& pair, b
 
 /// The head among the bones from the shoulders up (and their confidence, of a look that is so sure) of a body whose
 /// limbs are told; none where they are not.
-void find_shaped_head(const BodyShape& shape, Chain neck, double sure, Body& body);
+void find_shaped_head(const BodyShape& shape, Chain neck, double sure, BodyJoints& body);
 
 }  // namespace fragmotion

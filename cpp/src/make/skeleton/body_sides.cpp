@@ -21,7 +21,7 @@ Vector3 down(const Limb& leg, const Vector3* heads) {
   return heads[leg.bones[Limb::kEnd]] - heads[leg.bones[Limb::kUpper]];
 }
 
-bool stands(const Body& body, const Vector3* heads) {
+bool stands(const BodyJoints& body, const Vector3* heads) {
   return std::all_of(body.legs.begin(), body.legs.end(), [&](const Limb& leg) {
     const Vector3 way = down(leg, heads);
     return -way.z() > kUpright * way.norm();
@@ -29,13 +29,13 @@ bool stands(const Body& body, const Vector3* heads) {
 }
 
 /// Where the feet point, level; zero where they do not.
-Vector3 feet_forward(const Body&, const PosedFeet& pose) {
+Vector3 feet_forward(const BodyJoints&, const PosedFeet& pose) {
   const Vector3 forward = level(pose.feet[0] + pose.feet[1]);
   return forward.norm() < kNoDirection * (pose.feet[0].norm() + pose.feet[1].norm()) ? Vector3::Zero() : forward;
 }
 
 /// To where the knees are bent, level; zero where they are straight.
-Vector3 knees_forward(const Body& body, const PosedFeet& pose) {
+Vector3 knees_forward(const BodyJoints& body, const PosedFeet& pose) {
   Vector3 forward = Vector3::Zero();
   for (const Limb& leg : body.legs) {
     const Vector3 knee = pose.heads[leg.bones[Limb::kLower]] - pose.heads[leg.bones[Limb::kUpper]];
@@ -52,7 +52,7 @@ struct Sided {
 };
 
 template <typename Forward>
-Sided sided(const std::vector<PosedFeet>& poses, const Body& body, Forward&& forward) {
+Sided sided(const std::vector<PosedFeet>& poses, const BodyJoints& body, Forward&& forward) {
   Sided sided;
   int telling = 0;  // poses; a runner's feet hardly point forward in most
   const bool has_arms = body.arms[0].whole() && body.arms[1].whole();
@@ -73,7 +73,7 @@ Vector3 across(const std::array<Limb, 2>& limbs, const Vector3* heads) {
   return heads[limbs[0].bones[Limb::kUpper]] - heads[limbs[1].bones[Limb::kUpper]];
 }
 
-bool put_left_first(const std::vector<PosedFeet>& poses, Body& body) {
+bool put_left_first(const std::vector<PosedFeet>& poses, BodyJoints& body) {
   const Sided feet = sided(poses, body, feet_forward), knees = sided(poses, body, knees_forward);
   if (feet.legs * knees.legs < 0) return false;
   const Sided& told = std::abs(feet.legs) > std::abs(knees.legs) ? feet : knees;

@@ -24,6 +24,6 @@ Vector3 across(const std::array<Limb, 2>& limbs, const Vector3* heads);
 /// Puts the left limbs of a body with whole legs before the right ones, as its feet point and its knees bend in the
 /// poses in which it stands, and drops the arms where that does not tell theirs. False where it is not told, or feet
 /// and knees tell it otherwise.
-bool put_left_first(const std::vector<PosedFeet>& poses, Body& body);
+bool put_left_first(const std::vector<PosedFeet>& poses, BodyJoints& body);
 
 }  // namespace fragmotion

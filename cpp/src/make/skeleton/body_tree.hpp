@@ -64,7 +64,7 @@ constexpr LimbRoles kArmRoles = {Role::kShoulder, Role::kUpperArm, Role::kLowerA
 constexpr LimbRoles kLegRoles = {Role::kThigh, Role::kThigh, Role::kShin, Role::kFoot, Role::kToe};
 
 /// A body's joints as one way of looking tells them.
-struct Body {
+struct BodyJoints {
   int hips = -1, head = -1;
   int chest = -1;  ///< What the arms hang on, where that is told without them.
   double hips_confidence = 0, head_confidence = 0;
@@ -73,13 +73,13 @@ struct Body {
 };
 
 /// As the names tell; none where they do not agree with each other and the hierarchy.
-std::optional<Body> named_body(const BodyTree& tree);
+std::optional<BodyJoints> named_body(const BodyTree& tree);
 
 /// The body of an animal that the skeleton's roles tell, or that stands on four legs: at rest, or where it stands on
 /// none at rest, in the mean over its motion. None of another one.
-std::optional<Body> four_legged_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion);
+std::optional<BodyJoints> four_legged_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion);
 
 /// As the shape tells; see find_role_map().
-Body shaped_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion);
+BodyJoints shaped_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion);
 
 }  // namespace fragmotion

@@ -11,7 +11,7 @@ namespace {
 
 // Of a leg's length.
 constexpr double kFeetLevel = 0.2;    // between the heights of the hind and the fore feet, at most
-constexpr double kTrunkLength = 0.3;  // between hips and shoulders along the ground, at least
+constexpr double kTrunkLength = 0.3;  // between the hind and the fore feet along the ground, at least
 constexpr double kNoLegBone = 0.1;    // a bone that a leg begins with and that is shorter is a part of the trunk
 constexpr double kPawHeight = 0.15;   // over the ground, at most: where a paw begins
 constexpr double kByShape = 0.85;
@@ -30,12 +30,12 @@ class FourLegs {
     return legs;
   }
 
-  std::optional<Body> find(std::vector<LimbPair> legs) const {
+  std::optional<BodyJoints> find(std::vector<LimbPair> legs) const {
     if (legs.size() != 2 || !carry_a_trunk(legs[0], legs[1])) return std::nullopt;
     const int head = find_head(legs);
     if (head < 0 && legs[0].node == legs[1].node) return std::nullopt;
     if (fore_of(legs, head) == 0) std::swap(legs[0], legs[1]);
-    Body body;
+    BodyJoints body;
     body.four_legged = true;
     body.hips = hips_of(legs);
     body.hips_confidence = kByShape;
@@ -79,14 +79,19 @@ class FourLegs {
     return std::min(heads[pair.chains[0].back()].z(), heads[pair.chains[1].back()].z());
   }
 
-  // Whether all their feet stand on the ground, and what is between hips and shoulders lies rather than stands.
+  // Between where a pair's limbs end.
+  static Vector3 end(const LimbPair& pair, const Vector3* heads) {
+    return 0.5 * (heads[pair.chains[0].back()] + heads[pair.chains[1].back()]);
+  }
+
+  // Whether all their feet stand on the ground, and what is between hips and shoulders lies rather than stands. Limbs
+  // may begin with bones of the trunk, so how long it is is told by the feet.
   bool carry_a_trunk(const LimbPair& a, const LimbPair& b) const {
     const double leg = std::min(a.length, b.length);
-    const auto trunk = [&](const Vector3* heads) -> Vector3 { return begin(b, heads) - begin(a, heads); };
-    const double along = mean([&](const Vector3* heads) { return trunk(heads).head<2>().norm(); });
+    const double along = mean([&](const Vector3* heads) { return (end(b, heads) - end(a, heads)).head<2>().norm(); });
     const double feet = mean([&](const Vector3* heads) { return lowest(a, heads) - lowest(b, heads); });
-    return std::abs(feet) < kFeetLevel * leg && along > kTrunkLength * leg &&
-           along > mean([&](const Vector3* heads) { return std::abs(trunk(heads).z()); });
+    const double rise = mean([&](const Vector3* heads) { return std::abs((begin(b, heads) - begin(a, heads)).z()); });
+    return std::abs(feet) < kFeetLevel * leg && along > kTrunkLength * leg && along > rise;
   }
 
   int find_head(const std::vector<LimbPair>& legs) const {
@@ -134,7 +139,7 @@ class FourLegs {
     return limb;
   }
 
-  void put_left_first(const std::vector<LimbPair>& legs, Body& body) const {
+  void put_left_first(const std::vector<LimbPair>& legs, BodyJoints& body) const {
     for (auto* limbs : {&body.legs, &body.arms}) {
       const double left = mean([&](const Vector3* heads) {
         const Vector3 forward = begin(legs[1], heads) - begin(legs[0], heads);
@@ -158,9 +163,9 @@ Limb told_leg(const LegRoles& leg) {
 bool is_told(const Limb& limb) { return limb.bones[Limb::kUpper] >= 0 && limb.bones[Limb::kEnd] >= 0; }
 
 // Of a skeleton that has them from somebody.
-std::optional<Body> told_body(const Skeleton& skeleton) {
+std::optional<BodyJoints> told_body(const Skeleton& skeleton) {
   const std::array<LegRoles, kMostLegs> legs = leg_roles(skeleton.roles);
-  Body body;
+  BodyJoints body;
   body.four_legged = true;
   body.hips = skeleton.roles.hips;
   body.head = skeleton.roles.head;
@@ -175,8 +180,9 @@ std::optional<Body> told_body(const Skeleton& skeleton) {
 
 }  // namespace
 
-std::optional<Body> four_legged_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion) {
-  if (std::optional<Body> told = told_body(skeleton)) return told;
+std::optional<BodyJoints> four_legged_body(const Skeleton& skeleton, const BodyTree& tree,
+                                           const ObservedPoses* motion) {
+  if (std::optional<BodyJoints> told = told_body(skeleton)) return told;
   const BodyShape resting(skeleton, tree, nullptr);
   const FourLegs at_rest(resting, tree);
   if (std::vector<LimbPair> legs = at_rest.legs(); !legs.empty() || !motion) return at_rest.find(std::move(legs));

@@ -179,7 +179,7 @@ int best_unsided(const BodyTree& tree, Role role, double& score) {
 }
 
 /// A bone of each leg and the topmost one told of the trunk hang on it.
-int carrier_of_legs(const BodyTree& tree, const Body& body) {
+int carrier_of_legs(const BodyTree& tree, const BodyJoints& body) {
   int carrier = -1;
   for (const Limb& leg : body.legs) {
     const int top = leg.bones[Limb::kUpper] >= 0 ? leg.bones[Limb::kUpper] : leg.bones[Limb::kEnd];
@@ -192,7 +192,7 @@ int carrier_of_legs(const BodyTree& tree, const Body& body) {
   return carrier;
 }
 
-void find_hips(const BodyTree& tree, Body& body) {
+void find_hips(const BodyTree& tree, BodyJoints& body) {
   const int carrier = carrier_of_legs(tree, body);
   double score = 0;
   const int named = best_unsided(tree, Role::kHips, score);
@@ -225,7 +225,7 @@ int end_of_column(const BodyTree& tree, int from) {
   return end;
 }
 
-void find_head(const BodyTree& tree, Body& body) {
+void find_head(const BodyTree& tree, BodyJoints& body) {
   double score = 0;
   body.head = best_unsided(tree, Role::kHead, score);
   body.head_confidence = body.head < 0 ? 0 : confidence_of(score);
@@ -239,7 +239,7 @@ void find_head(const BodyTree& tree, Body& body) {
 }
 
 /// The share of the limbs' roles told by some bone's name whose bones fit into a limb: few where names were mixed up.
-double coherence(const BodyTree& tree, const Body& body) {
+double coherence(const BodyTree& tree, const BodyJoints& body) {
   int claimed = 0, kept = 0;
   const auto count = [&](int side, const Limb& limb, int part, Role role) {
     const auto claims = [&](int b) {
@@ -262,7 +262,7 @@ double coherence(const BodyTree& tree, const Body& body) {
 }
 
 /// A limb that carries the hips.
-bool contradicts(const BodyTree& tree, const Body& body) {
+bool contradicts(const BodyTree& tree, const BodyJoints& body) {
   for (const auto* limbs : {&body.arms, &body.legs}) {
     for (const Limb& limb : *limbs) {
       if (std::any_of(limb.bones.begin(), limb.bones.end(), [&](int b) { return tree.is_below(body.hips, b); })) {
@@ -275,8 +275,8 @@ bool contradicts(const BodyTree& tree, const Body& body) {
 
 }  // namespace
 
-std::optional<Body> named_body(const BodyTree& tree) {
-  Body body;
+std::optional<BodyJoints> named_body(const BodyTree& tree) {
+  BodyJoints body;
   for (int side = 0; side < 2; ++side) {
     body.arms[side] = LimbFinder(tree, side, kArmRoles).find();
     body.legs[side] = LimbFinder(tree, side, kLegRoles).find();

@@ -58,13 +58,13 @@ void leave_dead_end(const std::vector<Vector3>& heads, const BodyTree& tree, Lim
 
 }  // namespace
 
-void mend_named_legs(const Skeleton& skeleton, const BodyTree& tree, Body& body) {
+void mend_named_legs(const Skeleton& skeleton, const BodyTree& tree, BodyJoints& body) {
   const std::vector<Vector3> heads = rest_heads(skeleton);
   for (Limb& leg : body.legs) leave_dead_end(heads, tree, leg);
   forget_shins_of_beasts(skeleton, tree, body);
 }
 
-void forget_shins_of_beasts(const Skeleton& skeleton, const BodyTree& tree, Body& body) {
+void forget_shins_of_beasts(const Skeleton& skeleton, const BodyTree& tree, BodyJoints& body) {
   const std::vector<Vector3> heads = rest_heads(skeleton);
   for (Limb& leg : body.legs) {
     int& shin = leg.bones[Limb::kLower];

@@ -60,7 +60,7 @@ Limb uncontradicted(const BodyTree& tree, Limb limb, const LimbRoles& roles, Sid
   return limb;
 }
 
-Body uncontradicted(const BodyTree& tree, Body shaped) {
+BodyJoints uncontradicted(const BodyTree& tree, BodyJoints shaped) {
   for (int side = 0; side < 2; ++side) {
     shaped.arms[side] = uncontradicted(tree, shaped.arms[side], kArmRoles, kSides[side]);
     shaped.legs[side] = uncontradicted(tree, shaped.legs[side], kLegRoles, kSides[side]);
@@ -69,7 +69,7 @@ Body uncontradicted(const BodyTree& tree, Body shaped) {
 }
 
 /// Whether the names say left where feet and knees say right, of both arms and both legs of a man.
-bool is_mirrored(const Body& named, const Body& shaped) {
+bool is_mirrored(const BodyJoints& named, const BodyJoints& shaped) {
   const auto crossed = [](const std::array<Limb, 2>& names, const std::array<Limb, 2>& shapes, int side) {
     const int end = names[side].bones[Limb::kEnd];
     return end >= 0 && end == shapes[1 - side].bones[Limb::kEnd] && names[side].bones[Limb::kLower] >= 0;
@@ -80,8 +80,8 @@ bool is_mirrored(const Body& named, const Body& shaped) {
   return true;
 }
 
-Body merged(const Body& named, const Body& shaped) {
-  Body body = named;
+BodyJoints merged(const BodyJoints& named, const BodyJoints& shaped) {
+  BodyJoints body = named;
   merge_bone(shaped.hips, shaped.hips_confidence, body.hips, body.hips_confidence);
   body.chest = shaped.chest;
   merge_bone(shaped.head, shaped.head_confidence, body.head, body.head_confidence);
@@ -95,7 +95,7 @@ Body merged(const Body& named, const Body& shaped) {
 /// Writes the roles of a body into a map.
 class MapMaker {
  public:
-  MapMaker(const BodyTree& tree, const Body& body) : tree_(tree), body_(body) {}
+  MapMaker(const BodyTree& tree, const BodyJoints& body) : tree_(tree), body_(body) {}
 
   RoleMap make() {
     if (body_.hips > 0) add(Role::kRoot, Side::kNone, 0, 0.9);
@@ -198,7 +198,7 @@ class MapMaker {
   }
 
   const BodyTree& tree_;
-  const Body& body_;
+  const BodyJoints& body_;
   RoleMap map_;
   std::set<int> used_;
 };
@@ -306,17 +306,18 @@ double RoleMap::confidence(Role role, Side side) const {
 
 RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion, Sides sides, const Skin* skin) {
   BodyTree tree(skeleton, skin);
-  if (const std::optional<Body> beast = four_legged_body(skeleton, tree, motion)) return MapMaker(tree, *beast).make();
-  std::optional<Body> named = named_body(tree);
+  if (const std::optional<BodyJoints> beast = four_legged_body(skeleton, tree, motion))
+    return MapMaker(tree, *beast).make();
+  std::optional<BodyJoints> named = named_body(tree);
   if (!named) tree.forget_names();
-  const Body shaped = shaped_body(skeleton, tree, motion);
+  const BodyJoints shaped = shaped_body(skeleton, tree, motion);
   if (named) mend_named_legs(skeleton, tree, *named);
   if (named && sides == Sides::of_the_body && is_mirrored(*named, shaped)) {
     tree.swap_sides();
     named = named_body(tree);
     if (named) mend_named_legs(skeleton, tree, *named);
   }
-  Body body = merged(named.value_or(Body{}), uncontradicted(tree, shaped));
+  BodyJoints body = merged(named.value_or(BodyJoints{}), uncontradicted(tree, shaped));
   forget_shins_of_beasts(skeleton, tree, body);
   RoleMap map = MapMaker(tree, body).make();
   find_twists(skeleton, tree, map);

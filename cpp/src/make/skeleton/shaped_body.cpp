@@ -18,13 +18,13 @@ class ShapeFinder {
  public:
   explicit ShapeFinder(const BodyShape& shape) : shape_(shape) {}
 
-  Body find() {
+  BodyJoints find() {
     const std::vector<LimbPair> pairs = one_a_bone(find_limb_pairs(shape_));
     if (pairs.size() < 2) return {};
     std::optional<std::pair<LimbPair, LimbPair>> body = legs_and_arms(pairs);
     if (!body) return {};
     auto& [legs, arms] = *body;
-    Body result;
+    BodyJoints result;
     result.hips = carrier(legs.node, arms.node);
     result.hips_confidence = sure_;
     result.chest = arms.node;
@@ -121,7 +121,7 @@ class ShapeFinder {
                                          : Vector3::Zero();
   }
 
-  bool tell_sides(Body& body) const {
+  bool tell_sides(BodyJoints& body) const {
     if (!body.legs[0].whole() || !body.legs[1].whole()) return false;
     std::vector<PosedFeet> poses;
     for (const Vector3* heads : shape_.poses()) {
@@ -136,7 +136,7 @@ class ShapeFinder {
 
 }  // namespace
 
-Body shaped_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion) {
+BodyJoints shaped_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion) {
   return ShapeFinder(BodyShape(skeleton, tree, motion)).find();
 }
 

@@ -19,7 +19,7 @@ class HeadFinder {
   explicit HeadFinder(const BodyShape& shape) : shape_(shape) {}
 
   /// Tells the head of the body, and how sure that is of a look that is `sure`.
-  void find(Chain chain, double sure, Body& body) const {
+  void find(Chain chain, double sure, BodyJoints& body) const {
     const auto whole = [](const std::array<Limb, 2>& limbs) { return limbs[0].whole() && limbs[1].whole(); };
     if (!whole(body.arms) || !whole(body.legs)) return;
     for (std::size_t i = 1; i < chain.size(); ++i) {
@@ -52,7 +52,7 @@ class HeadFinder {
 
   // How far a bone begins above the shoulders, in lengths of the trunk: the mean over all poses but those that are none
   // of a body, as rest poses of files may be; 0 where there is no other.
-  double above_shoulders(const Body& body, const Poses& poses, int bone) const {
+  double above_shoulders(const BodyJoints& body, const Poses& poses, int bone) const {
     double above = 0;
     int told = 0;
     for (const Vector3* heads : poses) {
@@ -72,7 +72,7 @@ class HeadFinder {
   }
 
   // The bones of a neck and beyond that begin where a head does: at rest and in the motion, where both tell.
-  Chain possible_heads(const Body& body, const Chain& chain) const {
+  Chain possible_heads(const BodyJoints& body, const Chain& chain) const {
     const Chain rest = possible_heads(body, shape_.resting(), chain);
     const Chain motion = possible_heads(body, shape_.poses(), chain);
     if (rest.empty() || motion.empty()) return rest.empty() ? motion : rest;
@@ -82,7 +82,7 @@ class HeadFinder {
     return both;
   }
 
-  Chain possible_heads(const Body& body, const Poses& poses, const Chain& chain) const {
+  Chain possible_heads(const BodyJoints& body, const Poses& poses, const Chain& chain) const {
     Chain possible;
     for (std::size_t i = 0; i < chain.size(); ++i) {
       const double above = above_shoulders(body, poses, chain[i]);
@@ -98,7 +98,7 @@ class HeadFinder {
 
 }  // namespace
 
-void find_shaped_head(const BodyShape& shape, Chain neck, double sure, Body& body) {
+void find_shaped_head(const BodyShape& shape, Chain neck, double sure, BodyJoints& body) {
   HeadFinder(shape).find(std::move(neck), sure, body);
 }
 

@@ -7,12 +7,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/ranges.hpp"
 #include "motion/trunk.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kShortest = (1 - kFileRounding) * kShortestFragment, kLongest = 3600;  // s that a fragment may last
+constexpr double kShortest = (1 - kFileRounding) * kShortestFragment;  // s that a fragment may last
 constexpr double kMost = 1e9;  // of what is in m/s, rad/s or a ratio: its square is a number, and no body is so fast
 constexpr double kHighest = 1e10;  // m of a floor: above any chain of bones at any place
 
@@ -49,7 +50,7 @@ void check_pool(const PackedPool& pool) {
     require(f.clip >= 0 && f.clip < static_cast<int>(pool.clips.size()) && f.begin >= 0 && f.begin < f.end &&
                 f.end < pool.clips[f.clip].frames && f.origin <= Origin::transformed,
             "fragments and clips");
-    require(pool.seconds(f) >= kShortest && pool.seconds(f) <= kLongest, "fragments and rates");
+    require(pool.seconds(f) >= kShortest && pool.seconds(f) <= kLongestCall, "fragments and rates");
   }
 }
 

@@ -13,8 +13,8 @@ void CommandLimit::reset(double heading, const Vector2& velocity) {
 
 Vector2 CommandLimit::velocity(double heading) const { return Eigen::Rotation2Dd(heading_ - heading) * velocity_; }
 
-Control CommandLimit::round_turn(const Control& control, double turn_rate) const {
-  const double push = control.speed() * std::min(std::abs(control.turn), 1.0) * turn_rate;
+Control CommandLimit::round_turn(const Control& control) const {
+  const double push = control.speed() * std::min(std::abs(control.turn), 1.0) * turn_rate_;
   if (!(push > acceleration_)) return control;
   const double share = acceleration_ / push;
   return {share * control.x, share * control.y, control.turn, control.jump};
@@ -24,7 +24,8 @@ Control CommandLimit::after(const Control& control, double heading, double secon
   return limited(control, velocity(heading), seconds);
 }
 
-Control CommandLimit::limited(const Control& control, const Vector2& going, double seconds) const {
+Control CommandLimit::limited(const Control& given, const Vector2& going, double seconds) const {
+  const Control control = round_turn(given);
   const Vector2 asked{control.x, control.y};
   const double most = acceleration_ * seconds;
   if (!((asked - going).norm() > most)) return control;

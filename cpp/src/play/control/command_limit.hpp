@@ -6,22 +6,22 @@
 namespace fragmotion {
 
 /// The command as a body can follow it: its velocity goes towards the stick's by so much a second at most, seen from
-/// the world, so that a body that turns as it goes has less left for going faster.
+/// the world, so that a body that turns as it goes has less left for going faster; and it is no faster than the
+/// acceleration leads round the turn that is asked for: v = a / w. What turns quicker than a full turn is over soon,
+/// and goes as fast as in one.
 class CommandLimit {
  public:
-  /// `acceleration`: m/s^2 at most; infinity: none.
-  explicit CommandLimit(double acceleration) : acceleration_(acceleration) {}
+  /// `acceleration`: m/s^2 at most; infinity: none. `turn_rate`: rad/s at a control's turn of 1.
+  CommandLimit(double acceleration, double turn_rate) : acceleration_(acceleration), turn_rate_(turn_rate) {}
 
   double acceleration() const { return acceleration_; }
   void set_acceleration(double acceleration) { acceleration_ = acceleration; }
+  void set_turn_rate(double turn_rate) { turn_rate_ = turn_rate; }
 
   /// Goes at `velocity`, m/s in the character frame, facing `heading`.
   void reset(double heading, const Vector2& velocity = Vector2::Zero());
   /// At which it goes, m/s in the character frame of a body that faces `heading`.
   Vector2 velocity(double heading) const;
-  /// The control, no faster than the acceleration leads round the turn that it holds at `turn_rate` rad/s: v = a / w.
-  /// What turns quicker than a full turn is over soon, and goes as fast as in one.
-  Control round_turn(const Control& control, double turn_rate) const;
   /// What the control becomes `seconds` from the last advance(), of a body that faces `heading` then.
   Control after(const Control& control, double heading, double seconds) const;
   /// Goes so far. Returns the acceleration of the command, m/s^2 in the character frame.
@@ -30,9 +30,10 @@ class CommandLimit {
  private:
   friend struct PlayerState;
 
-  Control limited(const Control& control, const Vector2& going, double seconds) const;
+  Control round_turn(const Control& control) const;
+  Control limited(const Control& given, const Vector2& going, double seconds) const;
 
-  double acceleration_;
+  double acceleration_, turn_rate_;
   Vector2 velocity_ = Vector2::Zero();  // m/s, in the character frame
   double heading_ = 0;                  // of that frame, rad
 };

@@ -9,6 +9,9 @@
 
 namespace fragmotion {
 
+/// m over its floor, of a 1.8 m character, under which a ball or a heel may stand on it.
+constexpr double kContactHeight = 0.045;
+
 /// The path of a foot's ball, its lower end, and of its heel, the foot's head: [frames] m.
 struct FootPath {
   std::vector<Vector3> ball, heel;

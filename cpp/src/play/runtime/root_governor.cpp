@@ -21,7 +21,7 @@ RootGovernor::RootGovernor(const Character& character, const RootLimits& limits,
     : limits_(&limits),
       space_(&character.space),
       root_adjustment_(root_adjustment),
-      limit_(acceleration_of(limits, responsiveness, character.space)) {}
+      limit_(acceleration_of(limits, responsiveness, character.space), character.space.turn_rate()) {}
 
 void RootGovernor::set(double root_adjustment, double responsiveness) {
   root_adjustment_ = root_adjustment;
@@ -40,9 +40,8 @@ void RootGovernor::reset(double heading) {
 void RootGovernor::steer(const Control& control, double seconds, Playback& playback) {
   const bool in_the_air = playback.is_in_the_air();
   const double heading = playback.frame().heading;
-  const Control held = limit_.round_turn(control, space_->turn_rate());
-  acceleration_ = in_the_air ? Vector2::Zero() : limit_.advance(held, heading, seconds);
-  const Control command = limit_.after(held, heading, limits_->settles);  // by which what is added lags behind
+  acceleration_ = in_the_air ? Vector2::Zero() : limit_.advance(control, heading, seconds);
+  const Control command = limit_.after(control, heading, limits_->settles);  // by which what is added lags behind
   const Travel mean = playback.mean_travel();
   steer_tempo(command, playback, seconds);
   steer_velocity(command, mean.velocity, in_the_air, seconds);

@@ -21,7 +21,10 @@ class RootGovernor {
   /// Stands.
   void reset(double heading);
   /// Controls are asked of this style from now on.
-  void change_style(const Character& style) { space_ = &style.space; }
+  void change_style(const Character& style) {
+    space_ = &style.space;
+    limit_.set_turn_rate(space_->turn_rate());
+  }
   /// What is asked of a body that goes so, m/s in the character frame, begins anew.
   void resume(double heading, const Vector2& velocity) { limit_.reset(heading, velocity); }
   /// Lets the root keep the velocity by which what played was faster than what begins to, m/s in the character frame.
@@ -32,7 +35,7 @@ class RootGovernor {
 
   /// What a body that faces `heading` can do of a control in so many seconds from now.
   Control command(const Control& control, double heading, double seconds) const {
-    return limit_.after(limit_.round_turn(control, space_->turn_rate()), heading, seconds);
+    return limit_.after(control, heading, seconds);
   }
   /// What it is commanded now, m/s, as its body faces `heading`.
   Vector2 commanded(double heading) const { return limit_.velocity(heading); }
