@@ -7,6 +7,7 @@
 #include "motion/fingers.hpp"
 #include "motion/in_place.hpp"
 #include "motion/mirror.hpp"
+#include "motion/told_by_motion.hpp"
 #include "skeleton/kinematics.hpp"
 
 namespace fragmotion::bindings {
@@ -154,6 +155,20 @@ void bind_take(py::module_& m) {
       });
 }
 
+void bind_four_legs(py::module_& m) {
+  m.def(
+      "tell_four_legs",
+      [](const std::vector<std::shared_ptr<Take>>& takes) {
+        std::vector<Take*> each;
+        for (const std::shared_ptr<Take>& take : takes) {
+          if (take == nullptr) throw py::type_error("a take is None");
+          each.push_back(take.get());
+        }
+        without_gil([&] { tell_four_legs(each); });
+      },
+      py::arg("takes"));
+}
+
 void bind_clip(py::module_& m) {
   py::class_<Clip>(m, "Clip", py::module_local())
       .def(py::init(&new_clip), py::arg("skeleton"), py::arg("name"), py::arg("rate"), py::arg("root_positions"),
@@ -214,6 +229,7 @@ void bind_clip(py::module_& m) {
 
 void bind_motion(py::module_& m) {
   bind_take(m);
+  bind_four_legs(m);
   bind_clip(m);
   m.def("mirrored", &mirrored, py::arg("skeleton"), py::arg("clips"), py::call_guard<GilRelease>());
 }

@@ -176,6 +176,10 @@ class Examination:
     """Role -> bone name, as of Skeleton.role_map."""
     findings: list[Finding]
 
+def tell_four_legs(takes: Sequence[Take]) -> None:
+    """Give takes the roles of a body on four legs where their skeleton stands on no legs at rest, and on four in the
+    mean over all takes that have it; others stay as they are."""
+
 def examine(takes: list[Take], threads: int = 0, progress: Progress | None = None) -> list[Examination]:
     """Examine takes as they were read, each by itself and for motion that several have. 0 threads: the machine's."""
 

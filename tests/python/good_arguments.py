@@ -133,6 +133,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         },
         "Take.from_clip": {"clip": walk, "skeleton": skeleton},
         "Take.world_transforms": {"self": take},
+        "tell_four_legs": {"takes": [walked, take]},
         "examine": {"takes": [walked, take], "threads": 1, "progress": quiet},
         "mend": {"take": walked, "findings": core.examine([walked])[0].findings, "progress": quiet},
         "read_bvh": {"path": folder / "take.bvh", "unit": 0.01},

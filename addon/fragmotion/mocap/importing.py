@@ -17,6 +17,7 @@ from ..compat import versions
 from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..files import check_regular
+from ..rig.bodies import keep_four_legs
 from ..rig.rigs import carriers, make_rig
 from ..rig.selection import select
 from ..rig.writing import write_poses
@@ -78,12 +79,15 @@ def import_takes(
     where it is closed before its end, nothing stays in the file."""
     read, without, broken = yield from _read_all(context, files, unit, character)
     takes = [take for each in read for take in each.takes]
+    core.tell_four_legs(takes)
     kept = [each.is_kept for each in read for _ in each.takes]
     paths = [each.path for each in read for _ in each.takes]
     examined = yield from examine(takes, mends, kept, _STAGE, 2 * _STAGE)
     takes = [each.take for each in examined]
     with _undone_on_error(context):
         obj = onto or make_armature(context, name, takes[0].skeleton)
+        if onto is None:
+            keep_four_legs(obj, takes[0].skeleton)
         rig = make_rig(obj)
         brought = _brought(obj, rig, takes, is_new=onto is None)
         moving = set(carriers(obj, rig)) | (set() if onto else _moving_bones(obj, [each.channels for each in brought]))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Sequence
+from math import isclose
 from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
@@ -12,7 +13,7 @@ import numpy as np
 from ..compat.core import core
 from ..errors import core_errors
 from ..rig.bodies import make_body
-from ..rig.rigs import carriers, make_rig
+from ..rig.rigs import FORE_FOOT, carriers, make_rig
 from ..rig.writing import write_poses
 from .actions import RATE, SCENE_RATE
 from .comparing import keep_source
@@ -38,6 +39,7 @@ class Brought(NamedTuple):
 
 
 FIRST_FRAME = 1
+_SAME_SIZE = 1e-3  # of the stature
 _SAMPLING = 0.5  # share of the progress that reading Actions takes
 
 
@@ -46,10 +48,19 @@ def has_names_of(rig: Rig, skeleton: Skeleton) -> bool:
     return set(skeleton.names) <= set(rig.skeleton.names)
 
 
+def is_its_own(rig: Rig, skeleton: Skeleton) -> bool:
+    """Whether takes of the skeleton are of the animal on four legs that the rig is: nothing has to be brought onto it,
+    nor can be."""
+    legs = FORE_FOOT in rig.skeleton.roles and FORE_FOOT in skeleton.roles
+    return legs and has_names_of(rig, skeleton) and isclose(rig.skeleton.stature, skeleton.stature, rel_tol=_SAME_SIZE)
+
+
 def retargeted_takes(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take]) -> list[Brought]:
-    """Takes, of whatever skeletons, brought onto the armature's body."""
-    brought: dict[int, Brought] = {}
-    for members in core.group_skeletons([take.skeleton for take in takes]):
+    """Takes, of whatever skeletons, brought onto the armature's body; those of an animal on itself as they are."""
+    brought = {i: Brought(rig.take_channels(t), []) for i, t in enumerate(takes) if is_its_own(rig, t.skeleton)}
+    others = [index for index in range(len(takes)) if index not in brought]
+    for group in core.group_skeletons([takes[index].skeleton for index in others]):
+        members = [others[index] for index in group]
         skeleton = takes[members[0]].skeleton
         with core_errors(f"Take '{takes[members[0]].name}'"):
             clips = [core.Clip.from_take(takes[index], skeleton) for index in members]

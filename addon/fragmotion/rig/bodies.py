@@ -14,12 +14,12 @@ from bpy.props import BoolProperty, StringProperty
 from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..files import check_regular
-from .rigs import make_rig, roles_in_bones
+from .rigs import FORE_FOOT, FOUR_LEGS, make_rig, roles_in_bones
 from .selection import highlight
 from .skins import make_skin
 
 if TYPE_CHECKING:
-    from fragmotion_core import Body, Clip, Rig, Skin
+    from fragmotion_core import Body, Clip, Rig, Skeleton, Skin
 
 NEEDED = (
     "hips",
@@ -33,11 +33,7 @@ NEEDED = (
     ),
 )
 """The roles that are asked for even where no bone is found for them,"""
-_NEEDED_ON_FOUR_LEGS = (
-    "hips",
-    "head",
-    *(f"{side}_{part}" for part in ("thigh", "foot", "fore_leg", "fore_foot") for side in ("left", "right")),
-)
+_NEEDED_ON_FOUR_LEGS = tuple(role for role in FOUR_LEGS if not role.endswith("toe"))
 """and those of a body that stands on four legs."""
 
 
@@ -77,10 +73,17 @@ def set_roles(obj: bpy.types.Object, found: Mapping[str, str]) -> None:
     """Keep role -> bone name with the armature, the needed roles first."""
     roles = obj.fragmotion.roles
     roles.clear()
-    needed = _NEEDED_ON_FOUR_LEGS if "left_fore_foot" in found else NEEDED
+    needed = _NEEDED_ON_FOUR_LEGS if FORE_FOOT in found else NEEDED
     for name in (*needed, *(role for role in found if role not in needed)):
         role = roles.add()
         role.name, role.bone = name, found.get(name, "")
+
+
+def keep_four_legs(obj: bpy.types.Object, skeleton: Skeleton) -> None:
+    """Keep with an armature that was made from takes on four legs what their motion tells of its bones, where its rest
+    pose does not."""
+    if FORE_FOOT in skeleton.roles and FORE_FOOT not in make_rig(obj).skeleton.roles:
+        set_roles(obj, {role: bone for role, (bone, _) in skeleton.role_map().items()})
 
 
 def open_doubts(obj: bpy.types.Object) -> list[DoubtfulBone]:

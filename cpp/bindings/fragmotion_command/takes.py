@@ -36,9 +36,11 @@ def read_take(path: Path, unit: float = UNIT) -> core.Take:
 
 
 def read_each(paths: Sequence[Path], unit: float = UNIT) -> list[core.Take | str]:
-    """The take of each file, or why it cannot be read."""
+    """The take of each file, or why it cannot be read; together they tell whether a body goes on four legs."""
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        return list(pool.map(partial(_read_or_cause, unit=unit), paths))
+        read = list(pool.map(partial(_read_or_cause, unit=unit), paths))
+    core.tell_four_legs([take for take in read if not isinstance(take, str)])
+    return read
 
 
 def _read_or_cause(path: Path, unit: float) -> core.Take | str:
@@ -81,6 +83,7 @@ def _read_by_blender(paths: Sequence[Path]) -> tuple[list[FileTake], list[str]]:
             takes += [FileTake(path, take) for take in by_blender.read_takes(path)]
         except ValueError as error:
             causes.append(str(error))
+    core.tell_four_legs([each.take for each in takes])
     return takes, causes
 
 

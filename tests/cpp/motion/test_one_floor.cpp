@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "dog.hpp"
 #include "motion/one_floor.hpp"
 #include "walker.hpp"
 
@@ -50,6 +51,19 @@ TEST(OneFloor, LeavesTakesThatShareItsFloor) {
   std::vector<Contacts> contacts = contacts_of(clips);
   put_on_one_floor(clips, contacts);
   for (const Clip& clip : clips) EXPECT_EQ(clip.root_positions, gait_takes()[0].root_positions);
+}
+
+// Where a dog sits its hocks are down.
+TEST(OneFloor, LiftsNoAnimalByItsHeels) {
+  const Clip walk = dog_clip({}, false, "walk");
+  std::vector<Clip> clips(3, walk);
+  std::vector<Contacts> contacts(3, find_contacts(Kinematics(dog()), walk));
+  for (FootHeights& floor : contacts[2].floors) floor.heel -= 0.1;
+  put_on_one_floor(clips, contacts);
+  EXPECT_EQ(clips[2].root_positions, walk.root_positions);
+  for (FootHeights& floor : contacts[2].floors) floor.ball -= 0.1;
+  put_on_one_floor(clips, contacts);
+  EXPECT_NEAR(clips[2].root_positions[2], walk.root_positions[2] + 0.1, kSame);
 }
 
 TEST(OneFloor, PushesNobodyDownWhoStandsOnTheBalls) {

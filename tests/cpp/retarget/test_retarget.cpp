@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dog.hpp"
 #include "humanoids.hpp"
 #include "mocap_files.hpp"
 #include "retarget/retarget.hpp"
@@ -338,6 +339,15 @@ TEST(Body, OfNoStandingRestPoseIsToldByItsClips) {
 TEST(Retarget, RefusesAClipOfAnotherSkeleton) {
   const Retarget retarget(body_of(with_spines(3)), body_of(humanoid()));
   EXPECT_NE(error_of([&] { retarget.apply(gait_clip({})); }).find("has not the source's"), std::string::npos);
+}
+
+TEST(Retarget, AnimalsAreRefusedByWhatTheyAre) {
+  try {
+    body_of(dog());
+    FAIL() << "a dog is no body with two legs";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("four legs"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ def _facts(file: File) -> str:
             f"facing {file['facing'] or 'not told'}",
             f"{file['rate']:.6g} frames/s{' (taken: AMC files hold none)' if file['format'] == 'ASF/AMC' else ''}",
             "root motion" if file["root_motion"] else "in place",
-            _POSES[file["rest_pose"]],
+            "on four legs" if "left_fore_foot" in file["roles"] else _POSES[file["rest_pose"]],
         )
     )
 

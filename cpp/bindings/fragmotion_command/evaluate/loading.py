@@ -54,10 +54,11 @@ def core_failures(place: str = "") -> Iterator[None]:
 def read_recordings(paths: Sequence[Path], unit: float) -> Recordings:
     """All takes on the first one's skeleton; ValueError where one has other bones."""
     files = find_takes(paths)
-    first = read_take(files[0], unit).skeleton
+    takes = [read_take(file, unit) for file in files]
+    core.tell_four_legs(takes)
+    first = takes[0].skeleton
     clips = []
-    for file in files:
-        take = read_take(file, unit)
+    for file, take in zip(files, takes):
         _check_bones(file, take.skeleton, files[0], first)
         with core_failures(str(file)):
             clips.append(core.Clip.from_take(take, first))

@@ -17,6 +17,7 @@
 #include "fragments/coverage.hpp"
 #include "fragments/entry_poses.hpp"
 #include "fragments/evident.hpp"
+#include "fragments/lying.hpp"
 #include "fragments/packed_pool.hpp"
 #include "fragments/synthesis.hpp"
 #include "fragments/whole_jumps.hpp"
@@ -67,6 +68,7 @@ void cut(FragmentPool& pool, std::vector<Clip> clips, const std::vector<Contacts
     pool.clips.push_back(std::move(clips[c]));
     cut_fragments(pool, static_cast<int>(pool.clips.size()) - 1, contacts[c], options.cut);
   }
+  drop_lying(pool, before);
   for (std::size_t i = before; i < pool.fragments.size(); ++i) pool.fragments[i].origin = origin;
 }
 

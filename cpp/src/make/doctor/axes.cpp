@@ -13,8 +13,9 @@ namespace {
 const Eigen::Matrix3d kAsItIs = Eigen::Matrix3d::Identity();
 const Eigen::Matrix3d kMirror = Vector3{-1, 1, 1}.asDiagonal();
 
-constexpr double kLeastBody = 1.3, kMostBody = 2.2;  // m: what a unit must make of a grown person
-constexpr double kBends = 0.03;                      // of a leg's length: that a knee points to a side for certain
+constexpr double kLeastBody = 1.3, kMostBody = 2.2;    // m: what a unit must make of a grown person
+constexpr double kLeastAnimal = 0.3, kMostAnimal = 5;  // m: of an animal on four legs, a cat to an elephant
+constexpr double kBends = 0.03;                        // of a leg's length: that a knee points to a side for certain
 constexpr double kUnsure = 0.3;   // cosine: feet that do not point to the front for certain, as a runner's
 constexpr double kPoints = -0.5;  // cosine: feet that point to the back for certain
 
@@ -36,27 +37,41 @@ Eigen::Matrix3d quarter_turns(const Vector3& axis, int count) {
   return Eigen::AngleAxisd(count * kPi / 2, axis).toRotationMatrix().array().round();
 }
 
-bool is_body(double stature) { return stature >= kLeastBody && stature <= kMostBody; }
+bool is_body(const Patient& patient, double stature) {
+  return patient.is_four_legged() ? stature >= kLeastAnimal && stature <= kMostAnimal
+                                  : stature >= kLeastBody && stature <= kMostBody;
+}
 
-std::string body_text(double stature) { return "the body is " + short_number(stature) + " m tall"; }
+/// Of a body on four legs their length, which is all that tells its size.
+std::string size_text(const Patient& patient, double stature) {
+  return short_number(patient.is_four_legged() ? kLegOfStature * stature : stature) + " m";
+}
 
-/// The unit of the file in which the body has a person's stature, told from what was taken for it.
+std::string body_text(const Patient& patient) {
+  const std::string size = size_text(patient, patient.stature());
+  return patient.is_four_legged() ? "the body goes on four legs that are " + size + " long"
+                                  : "the body is " + size + " tall";
+}
+
+/// The unit of the file in which the body has the stature of a person, or of an animal on four legs, told from what was
+/// taken for it.
 std::optional<Unit> told_unit(const Patient& patient) {
   const double in_file = patient.stature() / patient.unit();
   for (const Unit& unit : kUnits) {
-    if (is_body(in_file * unit.metres)) return Unit{unit.name, unit.metres / patient.unit()};
+    if (is_body(patient, in_file * unit.metres)) return Unit{unit.name, unit.metres / patient.unit()};
   }
   for (int power = -6; power <= 6; ++power) {
     const double scale = std::pow(10.0, power);
-    if (is_body(patient.stature() * scale)) return Unit{nullptr, scale};
+    if (is_body(patient, patient.stature() * scale)) return Unit{nullptr, scale};
   }
   return std::nullopt;
 }
 
 /// Whether the body goes its own length and more where the ground would be: who lies does not.
 bool walks_across(const Patient& patient, const Vector3& up) {
+  const int seen = patient.skull >= 0 ? patient.skull : patient.legs[0].top;
   for (int f = 1; f < patient.frames(); ++f) {
-    const Vector3 way = patient.head(f, patient.skull) - patient.head(0, patient.skull);
+    const Vector3 way = patient.head(f, seen) - patient.head(0, seen);
     if ((way - way.dot(up) * up).norm() > patient.stature()) return true;
   }
   return false;
@@ -96,13 +111,16 @@ bool points_back(const Front& front) {
 }  // namespace
 
 Findings find_unit(const Patient& patient) {
-  if (!patient.has_legs() || patient.skull < 0 || is_person(patient.stature())) return {};
+  if (!patient.has_legs() || (patient.skull < 0 && !patient.is_four_legged()) || patient.is_life_size()) return {};
   const std::optional<Unit> unit = told_unit(patient);
   if (!unit) return {};
-  const std::string told = unit->name ? std::string("its file is in ") + unit->name : "its lengths are off";
+  const std::string told = unit->name ? std::string("its file is in ") + unit->name + " (a unit of " +
+                                            short_number(unit->metres * patient.unit()) + " m)"
+                                      : "its lengths are off";
   return {mendable(found(patient, "unit", Severity::kWarning,
-                         body_text(patient.stature()) + ": " + told + "; lengths times " + short_number(unit->metres) +
-                             " make it " + short_number(patient.stature() * unit->metres) + " m"))};
+                         body_text(patient) + ": " + told + "; lengths times " + short_number(unit->metres) + " make " +
+                             (patient.is_four_legged() ? "them " : "it ") +
+                             size_text(patient, patient.stature() * unit->metres)))};
 }
 
 void change_unit(Patient& patient, const Findings&) { patient.change_basis(kAsItIs, told_unit(patient)->metres); }
@@ -126,7 +144,7 @@ void turn_up(Patient& patient, const Findings&) {
 }
 
 Findings find_mirrored(const Patient& patient) {
-  if (!patient.has_legs() || up_axis(patient).z() != 1) return {};
+  if (!patient.has_legs() || patient.is_four_legged() || up_axis(patient).z() != 1) return {};
   if (!points_back(front_of(patient))) return {};
   return {mendable(found(patient, "mirrored", Severity::kWarning,
                          "the left leg is on the body's right: feet and knees point backward; the file is mirrored (a "

@@ -14,6 +14,14 @@ Vector3 middle_of_feet(const Patient& patient, int frame) {
   return 0.5 * (patient.head(frame, patient.legs[0].end) + patient.head(frame, patient.legs[1].end));
 }
 
+// From the feet to the head, or on four legs to where they begin: head and tail may be held anywhere.
+Vector3 from_the_feet(const Patient& patient, int frame) {
+  if (!patient.is_four_legged()) return patient.head(frame, patient.skull) - middle_of_feet(patient, frame);
+  Vector3 up = Vector3::Zero();
+  for (const Limb3& leg : patient.legs) up += patient.head(frame, leg.top) - patient.head(frame, leg.end);
+  return up;
+}
+
 Vector3 across(const Patient& patient, int frame, const Vector3& up) {
   const Vector3 right = patient.head(frame, patient.legs[1].top) - patient.head(frame, patient.legs[0].top);
   return right - right.dot(up) * up;
@@ -44,12 +52,12 @@ std::string axis_name(const Vector3& axis) {
 }
 
 Vector3 up_axis(const Patient& patient) {
-  if (!patient.has_legs() || patient.skull < 0) return Vector3::Zero();
+  if (!patient.has_legs() || (patient.skull < 0 && !patient.is_four_legged())) return Vector3::Zero();
   Vector3 sum = Vector3::Zero();
   const int apart = frames_between_looks(patient.frames());
   int poses = 0;
   for (int f = 0; f < patient.frames(); f += apart, ++poses) {
-    const Vector3 up = patient.head(f, patient.skull) - middle_of_feet(patient, f);
+    const Vector3 up = from_the_feet(patient, f);
     if (up.norm() > 0) sum += up.normalized();
   }
   return sum.norm() > kNearAxis * poses ? nearest_axis(sum) : Vector3::Zero();

@@ -34,8 +34,8 @@ Shape shape_of(const Patient& patient, int frame) {
   const Vector3 ahead = Vector3::UnitZ().cross(right);
   Shape shape = {};
   int at = 0;
-  for (const int bone :
-       {patient.legs[0].end, patient.legs[1].end, patient.arms[0].end, patient.arms[1].end, patient.skull}) {
+  const Limb3* fore = patient.is_four_legged() ? &patient.legs[2] : patient.arms.data();
+  for (const int bone : {patient.legs[0].end, patient.legs[1].end, fore[0].end, fore[1].end, patient.skull}) {
     const Vector3 way =
         patient.scale() * (bone < 0 ? Vector3::Zero().eval() : Vector3{patient.head(frame, bone) - hips});
     for (const double value : {way.dot(right), way.dot(ahead), way.z()}) shape[at++] = static_cast<float>(value);

@@ -19,7 +19,11 @@ void add_size(const Patient& patient, Findings& findings) {
   if (patient.stature() == 0)
     findings.push_back(
         found(patient, "size", Severity::kError, "the bones have no length: there is no body to learn from"));
-  else if (patient.has_legs() && !is_person(patient.stature()))
+  else if (patient.is_four_legged() && !patient.is_life_size())
+    findings.push_back(found(patient, "size", Severity::kWarning,
+                             "the body goes on four legs that are " + short_number(kLegOfStature * patient.stature()) +
+                                 " m long, and no usual unit makes them an animal's; scale it to its true size"));
+  else if (patient.has_legs() && !patient.is_life_size())
     findings.push_back(found(patient, "size", Severity::kWarning,
                              "the body is " + short_number(patient.stature()) +
                                  " m tall, and no usual unit makes it a person; scale it where it is meant to be one"));
@@ -32,7 +36,7 @@ void add_body(const Patient& patient, Findings& findings) {
     findings.push_back(found(patient, "body", Severity::kWarning,
                              "no two legs are told from the bones' names and shape: steps and the ground cannot be "
                              "found; say which bones they are"));
-  else if (!patient.has_arms())
+  else if (!patient.has_arms() && !patient.is_four_legged())
     findings.push_back(found(patient, "body", Severity::kInfo, "no two arms are told from the bones' names and shape"));
 }
 

@@ -22,8 +22,8 @@ constexpr double kOtherRate = 1.8;  // times the rate: animators let bodies fall
 
 // How high over its ground the lowest joint of the feet is, by frame, m.
 std::vector<double> clearance(const Patient& patient) {
-  std::vector<int> joints = patient.feet[0];
-  joints.insert(joints.end(), patient.feet[1].begin(), patient.feet[1].end());
+  std::vector<int> joints;
+  for (const std::vector<int>& foot : patient.feet) joints.insert(joints.end(), foot.begin(), foot.end());
   std::vector<std::vector<Vector3>> paths(joints.size());
   for (int f = 0; f < patient.frames(); ++f) {
     for (std::size_t i = 0; i < joints.size(); ++i) paths[i].push_back(patient.head(f, joints[i]));

@@ -21,14 +21,14 @@ constexpr double kExplained = 0.7;              // of the heights' variance, by 
 constexpr int kFewestStands = 10;               // places where feet stand
 
 /// The lowest joint of a foot, or its end, and where. Ends of what is below the toes' are nobody's: files invent them.
-Vector3 sole(const Patient& patient, int frame, int side) {
-  const int end = patient.toes[side] >= 0 ? patient.toes[side] : patient.legs[side].end;
+Vector3 sole(const Patient& patient, int frame, int leg) {
+  const int end = patient.toes[leg] >= 0 ? patient.toes[leg] : patient.legs[leg].end;
   Vector3 lowest = patient.tip(frame, end);
   const auto look_at = [&](const Vector3& point) {
     if (point.z() < lowest.z()) lowest = point;
   };
-  look_at(patient.tip(frame, patient.legs[side].end));
-  for (const int joint : patient.feet[side]) look_at(patient.head(frame, joint));
+  look_at(patient.tip(frame, patient.legs[leg].end));
+  for (const int joint : patient.feet[leg]) look_at(patient.head(frame, joint));
   return lowest;
 }
 
@@ -46,11 +46,14 @@ Stands stands_of(const Patient& patient, bool level) {
       find_contacts(patient.skeleton(), tracks.feet, tracks.hips, patient.rate(), level ? nullptr : &floors);
   Stands stands;
   for (int f = 0; f < static_cast<int>(contacts.feet[0].size()); ++f) {
-    if (!contacts.feet[0][f] && !contacts.feet[1][f]) continue;
-    const Vector3 left = sole(patient, f, 0), right = sole(patient, f, 1);
-    const int side = left.z() < right.z() ? 0 : 1;
-    const Vector3& place = side == 0 ? left : right;
-    if (contacts.feet[side][f]) stands.emplace_back(place.x(), place.y(), place.z(), f);
+    if (!contacts.any_stands(f)) continue;
+    int lowest = 0;
+    Vector3 place = sole(patient, f, 0);
+    for (int leg = 1; leg < static_cast<int>(patient.legs.size()); ++leg) {
+      const Vector3 other = sole(patient, f, leg);
+      if (!(place.z() < other.z())) place = other, lowest = leg;
+    }
+    if (contacts.feet[lowest][f]) stands.emplace_back(place.x(), place.y(), place.z(), f);
   }
   return stands;
 }

@@ -72,17 +72,23 @@ void Patient::find_size() {
 }
 
 void Patient::find_parts() {
+  for (const Side side : kSides) add_leg(side, Role::kThigh, Role::kShin, Role::kFoot, Role::kToe);
   for (int side = 0; side < 2; ++side) {
     const auto bone = [&](Role role) { return roles_.bone(role, kSides[side]); };
-    legs[side] = {bone(Role::kThigh), bone(Role::kShin), bone(Role::kFoot)};
     arms[side] = {bone(Role::kUpperArm), bone(Role::kLowerArm), bone(Role::kHand)};
-    toes[side] = bone(Role::kToe);
-    for (int joint = 0; joint < bones(); ++joint) {
-      if (skeleton_.is_below(joint, legs[side].end)) feet[side].push_back(joint);
-    }
+    if (bone(Role::kForeFoot) >= 0) add_leg(kSides[side], Role::kForeLeg, Role::kRoot, Role::kForeFoot, Role::kForeToe);
   }
   hips = roles_.bone(Role::kHips);
   skull = roles_.bone(Role::kHead);
+}
+
+void Patient::add_leg(Side side, Role top, Role middle, Role end, Role toe) {
+  legs.push_back({roles_.bone(top, side), roles_.bone(middle, side), roles_.bone(end, side)});
+  toes.push_back(roles_.bone(toe, side));
+  feet.emplace_back();
+  for (int joint = 0; joint < bones(); ++joint) {
+    if (skeleton_.is_below(joint, legs.back().end)) feet.back().push_back(joint);
+  }
 }
 
 bool Patient::is_finite() const {
@@ -110,9 +116,9 @@ bool Patient::repeats(int frame) const {
   return before.places == now.places && before.rotations == now.rotations;
 }
 
-Vector3 Patient::toe_direction(int frame, int side) const {
-  const int foot = legs[side].end;
-  return (toes[side] >= 0 ? head(frame, toes[side]) : tip(frame, foot)) - head(frame, foot);
+Vector3 Patient::toe_direction(int frame, int leg) const {
+  const int foot = legs[leg].end;
+  return (toes[leg] >= 0 ? head(frame, toes[leg]) : tip(frame, foot)) - head(frame, foot);
 }
 
 double Patient::step(int frame) const {

@@ -21,6 +21,9 @@ using Findings = std::vector<Finding>;
 /// Whether that may be a person's stature: a child's, or a hero's, m.
 inline bool is_person(double stature) { return stature >= 0.9 && stature <= 2.6; }
 
+/// Whether that may be the stature() of an animal on four legs: a rat's, or a game's that is larger than life, m.
+inline bool is_animal(double stature) { return stature >= 0.1 && stature <= 15; }
+
 /// s: what is shorter is no step, and no pose that somebody holds.
 constexpr double kShortestStep = 0.3;
 
@@ -75,16 +78,21 @@ class Patient {
   /// Whether a frame is the one before, to the bit.
   bool repeats(int frame) const;
 
-  /// The ends of each leg and arm, left and right.
-  std::array<Limb3, 2> legs, arms;
+  /// The ends of each leg and arm, left and right; a four-legged body has the fore legs after the hind ones, and no
+  /// arms.
+  std::vector<Limb3> legs;
+  std::array<Limb3, 2> arms;
   int hips = -1, skull = -1;
-  std::array<int, 2> toes = {-1, -1};
-  std::array<std::vector<int>, 2> feet;  ///< Each leg's foot and all joints below, toes that no role tells among them.
+  std::vector<int> toes;               ///< Of each leg; -1 where it has none.
+  std::vector<std::vector<int>> feet;  ///< Each leg's foot and all joints below, toes that no role tells among them.
 
+  bool is_four_legged() const { return legs.size() == kMostLegs; }
+  /// Whether it has the size of what it is.
+  bool is_life_size() const { return is_four_legged() ? is_animal(stature_) : is_person(stature_); }
   bool has_legs() const { return legs[0].whole() && legs[1].whole(); }
   bool has_arms() const { return arms[0].whole() && arms[1].whole(); }
   /// Where a foot points: from its head to the toe's, or to its tip.
-  Vector3 toe_direction(int frame, int side) const;
+  Vector3 toe_direction(int frame, int leg) const;
   /// The bones' lengths moved from the frame before, a mean of all bones, m.
   double step(int frame) const;
   /// As tracks_of(), which is asked once.
@@ -126,6 +134,7 @@ class Patient {
 
   Patient(std::shared_ptr<const Take> file, Tick tick);
   void find_parts();
+  void add_leg(Side side, Role top, Role middle, Role end, Role toe);
   void find_size();
   void forget();
   const Pose& pose(int frame) const;

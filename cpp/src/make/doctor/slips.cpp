@@ -22,13 +22,21 @@ struct Footing {
   std::vector<Vector3> hips, feet;
 };
 
+int lowest_foot(const Patient& patient, int frame) {
+  int lowest = -1;
+  for (std::size_t leg = 0; leg < patient.legs.size(); ++leg) {
+    const int foot = patient.toes[leg] >= 0 ? patient.toes[leg] : patient.legs[leg].end;
+    if (lowest < 0 || patient.head(frame, foot).z() < patient.head(frame, lowest).z()) lowest = foot;
+  }
+  return lowest;
+}
+
 Footing footing_of(const Patient& patient) {
   const int beside = std::max(1, static_cast<int>(std::lround(kBeside * patient.rate())));
   const double rate = patient.rate() / (2 * beside);
   Footing footing;
   for (int f = beside; f + beside < patient.frames(); f += frames_between_looks(patient.frames())) {
-    const auto foot = [&](int side) { return patient.toes[side] >= 0 ? patient.toes[side] : patient.legs[side].end; };
-    const int lower = patient.head(f, foot(0)).z() < patient.head(f, foot(1)).z() ? foot(0) : foot(1);
+    const int lower = lowest_foot(patient, f);
     const Vector3 hips = patient.head(f + beside, patient.hips) - patient.head(f - beside, patient.hips);
     footing.hips.emplace_back(rate * hips);
     footing.feet.emplace_back(rate * (patient.head(f + beside, lower) - patient.head(f - beside, lower) - hips));

@@ -10,11 +10,13 @@ namespace {
 
 // How far feet stand over the usual floors, m; not finite where a clip has no feet.
 double height_over(const Floors& usual, const Contacts& contacts) {
+  const bool on_toes = !contacts.feet[2].empty();  // an animal's heels are on the ground where it sits alone
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t foot = 0; foot < usual.size(); ++foot) {
     if (contacts.feet[foot].empty()) continue;
     const FootHeights& floor = contacts.floors[foot];
-    least = std::min({least, floor.ball - usual[foot].ball, floor.heel - usual[foot].heel});
+    least = std::min(least, floor.ball - usual[foot].ball);
+    if (!on_toes) least = std::min(least, floor.heel - usual[foot].heel);
   }
   return least;
 }

@@ -21,6 +21,10 @@ constexpr double kBackUp = 0.5;                  // cosine of a foot to the way 
 constexpr double kGround = 0.08;                 // m of a 1.8 m character: joints of feet are no higher over the ground
 
 void check_complete(const RoleMap& map) {
+  if (map.bone(Role::kForeFoot, Side::kLeft) >= 0)
+    throw std::invalid_argument(
+        "a body on four legs: motion is brought onto bodies with two legs, and from such; an animal learns from takes "
+        "of its own bones");
   std::vector<std::string> missing;
   const auto require = [&](Role role, Side side) {
     if (map.bone(role, side) < 0) missing.push_back(role_label(role, side));

@@ -75,8 +75,9 @@ struct BodyJoints {
 /// As the names tell; none where they do not agree with each other and the hierarchy.
 std::optional<BodyJoints> named_body(const BodyTree& tree);
 
-/// The body of an animal that stands on four legs at rest; none of another one.
-std::optional<BodyJoints> four_legged_body(const Skeleton& skeleton, const BodyTree& tree);
+/// The body of an animal that the skeleton's roles tell, or that stands on four legs: at rest, or where it stands on
+/// none at rest, in the mean over its motion. None of another one.
+std::optional<BodyJoints> four_legged_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion);
 
 /// As the shape tells; see find_role_map().
 BodyJoints shaped_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion);

@@ -17,15 +17,21 @@ constexpr double kMeet = 2.0 / 3;    // of how far the ends of hip bones and sho
 constexpr double kPawHeight = 0.15;  // over the ground, at most: where a paw begins
 constexpr double kByShape = 0.85;
 
+constexpr double kLowerLeg = 0.4;  // of a leg, at least: what is below its knee or elbow
+
 class FourLegs {
  public:
   FourLegs(const BodyShape& shape, const BodyTree& tree) : shape_(shape), tree_(tree) {}
 
-  std::optional<BodyJoints> find() const {
+  std::vector<LimbPair> legs() const {
     std::vector<LimbPair> legs;
     for (LimbPair& pair : find_limb_pairs(shape_)) {
-      if (leads_down(pair)) legs.push_back(std::move(pair));
+      if (leads_down(pair.chains[0]) && leads_down(pair.chains[1])) legs.push_back(std::move(pair));
     }
+    return legs;
+  }
+
+  std::optional<BodyJoints> find(std::vector<LimbPair> legs) const {
     if (legs.size() != 2 || !carry_a_trunk(legs[0], legs[1])) return std::nullopt;
     const int head = find_head(legs);
     if (head < 0 && legs[0].node == legs[1].node) return std::nullopt;
@@ -41,36 +47,52 @@ class FourLegs {
       body.legs[side] = leg(legs[0], side);
       body.arms[side] = leg(legs[1], side);
     }
-    put_left_first(begin(legs[1]) - begin(legs[0]), body);
+    put_left_first(legs, body);
     return body;
   }
 
  private:
-  const Vector3& at(int bone) const { return shape_.rest()[bone]; }
-
-  // Between where a pair's limbs begin.
-  Vector3 begin(const LimbPair& pair) const { return 0.5 * (at(pair.chains[0].front()) + at(pair.chains[1].front())); }
-
-  // Whatever the height of the bone that it hangs on.
-  bool leads_down(const LimbPair& pair) const {
-    return std::all_of(pair.chains.begin(), pair.chains.end(), [&](const Chain& chain) {
-      return BodyShape::descent(shape_.resting(), chain.front(), chain.back()) > kUpright;
-    });
+  // The mean over the poses.
+  template <typename Of>
+  double mean(const Of& of) const {
+    double sum = 0;
+    for (const Vector3* heads : shape_.poses()) sum += of(heads);
+    return sum / static_cast<double>(shape_.poses().size());
   }
 
-  double lowest(const LimbPair& pair) const {
-    return std::min(at(pair.chains[0].back()).z(), at(pair.chains[1].back()).z());
+  // Whatever the height of the bone that it hangs on; and whoever goes on hands and knees has shins that lie.
+  bool leads_down(const Chain& chain) const {
+    return BodyShape::descent(shape_.poses(), chain.front(), chain.back()) > kUpright &&
+           (!shape_.moves() || BodyShape::descent(shape_.poses(), knee(chain), chain.back()) > kUpright);
+  }
+
+  int knee(const Chain& chain) const {
+    const auto is_lower = [&](int bone) { return shape_.reach(bone) < kLowerLeg * shape_.reach(chain.front()); };
+    return *(std::find_if(chain.begin() + 1, chain.end(), is_lower) - 1);
+  }
+
+  // Between where a pair's limbs begin.
+  static Vector3 begin(const LimbPair& pair, const Vector3* heads) {
+    return 0.5 * (heads[pair.chains[0].front()] + heads[pair.chains[1].front()]);
+  }
+
+  static double lowest(const LimbPair& pair, const Vector3* heads) {
+    return std::min(heads[pair.chains[0].back()].z(), heads[pair.chains[1].back()].z());
   }
 
   // Between where a pair's limbs end.
-  Vector3 end(const LimbPair& pair) const { return 0.5 * (at(pair.chains[0].back()) + at(pair.chains[1].back())); }
+  static Vector3 end(const LimbPair& pair, const Vector3* heads) {
+    return 0.5 * (heads[pair.chains[0].back()] + heads[pair.chains[1].back()]);
+  }
 
   // Whether all their feet stand on the ground, and what is between hips and shoulders lies rather than stands. Limbs
   // may begin with bones of the trunk, so how long it is is told by the feet.
   bool carry_a_trunk(const LimbPair& a, const LimbPair& b) const {
-    const double leg = std::min(a.length, b.length), along = (end(b) - end(a)).head<2>().norm();
-    return std::abs(lowest(a) - lowest(b)) < kFeetLevel * leg && along > kTrunkLength * leg &&
-           along > std::abs((begin(b) - begin(a)).z());
+    const double leg = std::min(a.length, b.length);
+    const double along = mean([&](const Vector3* heads) { return (end(b, heads) - end(a, heads)).head<2>().norm(); });
+    const double feet = mean([&](const Vector3* heads) { return lowest(a, heads) - lowest(b, heads); });
+    const double rise = mean([&](const Vector3* heads) { return std::abs((begin(b, heads) - begin(a, heads)).z()); });
+    return std::abs(feet) < kFeetLevel * leg && along > kTrunkLength * leg && along > rise;
   }
 
   int find_head(const std::vector<LimbPair>& legs) const {
@@ -86,7 +108,10 @@ class FourLegs {
   // Which pair is the fore one: the one by the head, else the one that hangs on the other.
   int fore_of(const std::vector<LimbPair>& legs, int head) const {
     if (head < 0) return shape_.is_below(legs[0].node, legs[1].node) ? 0 : 1;
-    return (at(head) - begin(legs[0])).norm() < (at(head) - begin(legs[1])).norm() ? 0 : 1;
+    const auto way = [&](const LimbPair& pair) {
+      return mean([&](const Vector3* heads) { return (heads[head] - begin(pair, heads)).norm(); });
+    };
+    return way(legs[0]) < way(legs[1]) ? 0 : 1;
   }
 
   // What carries both pairs, from the hind one on.
@@ -97,24 +122,28 @@ class FourLegs {
   }
 
   // Between a joint of a pair and its fellow, m.
-  double across(const LimbPair& pair, std::size_t joint) const {
-    return (at(pair.chains[0][joint]) - at(pair.chains[1][joint])).norm();
+  double width(const LimbPair& pair, std::size_t joint) const {
+    return mean(
+        [&](const Vector3* heads) { return (heads[pair.chains[0][joint]] - heads[pair.chains[1][joint]]).norm(); });
   }
 
   // Whether a bone that limbs begin with is one of the trunk: a stub, or a hip bone or shoulder blade, which leads out.
   bool is_of_trunk(const LimbPair& pair, int side, std::size_t joint) const {
     const Chain& chain = pair.chains[side];
     return shape_.length(chain[joint + 1]) < kNoLegBone * shape_.branch(chain[0]) ||
-           across(pair, joint) < kMeet * across(pair, joint + 1);
+           width(pair, joint) < kMeet * width(pair, joint + 1);
   }
 
   Limb leg(const LimbPair& pair, int side) const {
     const Chain& chain = pair.chains[side];
-    const double length = shape_.branch(chain[0]), ground = at(chain.back()).z();
+    const double length = shape_.branch(chain[0]);
+    const auto height = [&](int bone) {
+      return mean([&](const Vector3* heads) { return heads[bone].z() - heads[chain.back()].z(); });
+    };
     std::size_t upper = 0, foot = chain.size() - 1;
     const std::size_t bones = std::min(pair.chains[0].size(), pair.chains[1].size());
     while (upper + 3 < bones && is_of_trunk(pair, side, upper)) ++upper;
-    while (foot > upper + 2 && at(chain[foot - 1]).z() - ground < kPawHeight * length) --foot;
+    while (foot > upper + 2 && height(chain[foot - 1]) < kPawHeight * length) --foot;
     Limb limb;
     const auto set = [&](int part, std::size_t i) {
       limb.bones[part] = chain[i];
@@ -126,10 +155,13 @@ class FourLegs {
     return limb;
   }
 
-  void put_left_first(const Vector3& forward, BodyJoints& body) const {
-    const Vector3 left = Vector3::UnitZ().cross(forward);
-    for (auto* legs : {&body.legs, &body.arms}) {
-      if (fragmotion::across(*legs, shape_.rest().data()).dot(left) < 0) std::swap((*legs)[0], (*legs)[1]);
+  void put_left_first(const std::vector<LimbPair>& legs, BodyJoints& body) const {
+    for (auto* limbs : {&body.legs, &body.arms}) {
+      const double left = mean([&](const Vector3* heads) {
+        const Vector3 forward = begin(legs[1], heads) - begin(legs[0], heads);
+        return across(*limbs, heads).dot(Vector3::UnitZ().cross(forward));
+      });
+      if (left < 0) std::swap((*limbs)[0], (*limbs)[1]);
     }
   }
 
@@ -137,11 +169,42 @@ class FourLegs {
   const BodyTree& tree_;
 };
 
+Limb told_leg(const LegRoles& leg) {
+  Limb limb;
+  limb.bones = {-1, leg.thigh, -1, leg.foot, leg.toe};
+  limb.confidence.fill(kByShape);
+  return limb;
+}
+
+bool is_told(const Limb& limb) { return limb.bones[Limb::kUpper] >= 0 && limb.bones[Limb::kEnd] >= 0; }
+
+// Of a skeleton that has them from somebody.
+std::optional<BodyJoints> told_body(const Skeleton& skeleton) {
+  const std::array<LegRoles, kMostLegs> legs = leg_roles(skeleton.roles);
+  BodyJoints body;
+  body.four_legged = true;
+  body.hips = skeleton.roles.hips;
+  body.head = skeleton.roles.head;
+  body.hips_confidence = body.head_confidence = kByShape;
+  for (int side = 0; side < 2; ++side) {
+    body.legs[side] = told_leg(legs[side]);
+    body.arms[side] = told_leg(legs[2 + side]);
+    if (body.hips < 0 || !is_told(body.legs[side]) || !is_told(body.arms[side])) return std::nullopt;
+  }
+  return body;
+}
+
 }  // namespace
 
-std::optional<BodyJoints> four_legged_body(const Skeleton& skeleton, const BodyTree& tree) {
-  const BodyShape shape(skeleton, tree, nullptr);
-  return FourLegs(shape, tree).find();
+std::optional<BodyJoints> four_legged_body(const Skeleton& skeleton, const BodyTree& tree,
+                                           const ObservedPoses* motion) {
+  if (std::optional<BodyJoints> told = told_body(skeleton)) return told;
+  const BodyShape resting(skeleton, tree, nullptr);
+  const FourLegs at_rest(resting, tree);
+  if (std::vector<LimbPair> legs = at_rest.legs(); !legs.empty() || !motion) return at_rest.find(std::move(legs));
+  const BodyShape moving(skeleton, tree, motion);
+  const FourLegs in_motion(moving, tree);
+  return in_motion.find(in_motion.legs());
 }
 
 }  // namespace fragmotion

@@ -306,7 +306,8 @@ double RoleMap::confidence(Role role, Side side) const {
 
 RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion, Sides sides, const Skin* skin) {
   BodyTree tree(skeleton, skin);
-  if (const std::optional<BodyJoints> beast = four_legged_body(skeleton, tree)) return MapMaker(tree, *beast).make();
+  if (const std::optional<BodyJoints> beast = four_legged_body(skeleton, tree, motion))
+    return MapMaker(tree, *beast).make();
   std::optional<BodyJoints> named = named_body(tree);
   if (!named) tree.forget_names();
   const BodyJoints shaped = shaped_body(skeleton, tree, motion);

@@ -67,6 +67,10 @@ Skeleton checked_skeleton(Skeleton skeleton);
 /// where it has none.
 std::vector<int> mirror_bones(const Skeleton& skeleton);
 
+/// From the hip joint to the ankle, of the stature: thigh 0.245 and shank 0.246, Drillis and Contini, "Body Segment
+/// Parameters" (1966), as in Winter, "Biomechanics and Motor Control of Human Movement", Fig. 4.1.
+constexpr double kLegOfStature = 0.491;
+
 /// Height in metres of a person with these legs, whatever the rest pose and however head and toes end: a leg from hip
 /// joint to ankle is 0.491 of it. Where no leg has its roles, the longest chain of bones.
 double stature(const Skeleton& skeleton);

@@ -11,12 +11,9 @@
 namespace fragmotion {
 namespace {
 
-// From the hip joint to the ankle, of the stature: thigh 0.245 and shank 0.246, Drillis and Contini, "Body Segment
-// Parameters" (1966), as in Winter, "Biomechanics and Motor Control of Human Movement", Fig. 4.1. Legs end at joints
-// that every rig has, and are the length by which gaits of bodies of all sizes are alike (Alexander, "Optimization and
-// Gaits in the Locomotion of Vertebrates", 1989). Necks do not: rigs begin them anywhere from between the collar bones
-// to C7.
-constexpr double kLegOfStature = 0.491;
+// Legs end at joints that every rig has, and are the length by which gaits of bodies of all sizes are alike (Alexander,
+// "Optimization and Gaits in the Locomotion of Vertebrates", 1989). Necks do not: rigs begin them anywhere from between
+// the collar bones to C7.
 constexpr double kLeastStature = 1e-3, kMostStature = 1e7;  // m
 
 /// From a leaf's tip to another leaf's tip, the longest way through `root` or below: each bone joins its two longest
