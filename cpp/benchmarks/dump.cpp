@@ -104,9 +104,10 @@ void dump_controls(const ControlSpace& space, const std::vector<int>& trace, con
 }
 
 void dump_results(const Workload& w, const Writer& write) {
-  const auto n = static_cast<std::size_t>(w.classes.count), stride = static_cast<std::size_t>(w.trajectories.stride);
+  const auto n = static_cast<std::size_t>(w.classes.count),
+             stride = static_cast<std::size_t>(w.trajectories.whole.stride());
   const SvmPolicy svm = svm_policy(w.quality, {w.controls}, w.features, w.built->space);
-  write("trajectories", w.trajectories.whole, {kFragments, 3, stride});
+  write("trajectories", w.trajectories.whole.values(), {kFragments, 3, stride});
   write("labels", w.classes.labels);
   write("representatives", w.classes.representatives);
   write("restarts", std::vector<int>{clustering().restarts});

@@ -29,11 +29,10 @@ class Variation {
     return {stretch_ * (cosine_ * c.x - sine_ * c.y), stretch_ * (sine_ * c.x + cosine_ * c.y), c.turn, c.jump};
   }
 
-  // Appends the rows [3, stride] of `poses` poses.
-  void append(const float* from, int poses, int stride, std::vector<float>& rows) const {
-    const std::size_t start = rows.size(), tips = offsets_.size() / 3;
-    rows.resize(start + std::size_t{3} * stride, 0);
-    float *x = &rows[start], *y = x + stride, *z = y + stride;
+  // Writes the rows [3, stride] of `poses` poses, which may lie where they came from.
+  void write(const float* from, int poses, int stride, float* x) const {
+    const std::size_t tips = offsets_.size() / 3;
+    float *y = x + stride, *z = y + stride;
     for (std::size_t i = 0; i < tips * poses; ++i) {
       const float *offset = &offsets_[3 * (i % tips)], fx = from[i], fy = from[stride + i], fz = from[2 * stride + i];
       x[i] = static_cast<float>(stretch_ * (cosine_ * fx - sine_ * fy)) + offset[0];
@@ -53,18 +52,20 @@ LargePool::LargePool(const Workload& w, int count) {
   const Trajectories& from = w.trajectories;
   trajectories.count = count;
   trajectories.tips = from.tips;
-  trajectories.stride = from.stride;
+  trajectories.whole = TipRows(count, from.whole.stride());
   trajectories.pose_stride = from.pose_stride;
-  trajectories.whole.reserve(std::size_t{3} * count * from.stride);
-  trajectories.first.reserve(std::size_t{3} * count * from.pose_stride);
-  trajectories.last.reserve(std::size_t{3} * count * from.pose_stride);
+  trajectories.first.resize(std::size_t{3} * count * from.pose_stride);
+  trajectories.last.resize(std::size_t{3} * count * from.pose_stride);
   Random random(1);
   for (int i = 0; i < count; ++i) {
     const int base = random.below(from.count);
     const Variation varied(random, from.tips);
-    varied.append(from.trajectory(base), from.stride / from.tips, from.stride, trajectories.whole);
-    varied.append(from.first_pose(base), 1, from.pose_stride, trajectories.first);
-    varied.append(from.last_pose(base), 1, from.pose_stride, trajectories.last);
+    std::vector<float> whole = from.whole.read(base);
+    varied.write(whole.data(), kPoses, from.whole.stride(), whole.data());
+    trajectories.whole.set(i, whole.data());
+    const std::size_t pose = std::size_t{3} * i * from.pose_stride;
+    varied.write(from.first_pose(base), 1, from.pose_stride, &trajectories.first[pose]);
+    varied.write(from.last_pose(base), 1, from.pose_stride, &trajectories.last[pose]);
     fragments.push_back(w.pool.fragments[base]);
     fragments.back().evident = varied(w.pool.fragments[base].evident);
   }

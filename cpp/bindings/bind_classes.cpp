@@ -15,19 +15,21 @@ Trajectories to_trajectories(const Floats& points) {
   check_shape(points, "points", {-1, -1, 3});
   const auto values = points.unchecked<3>();
   const int count = static_cast<int>(values.shape(0)), size = static_cast<int>(values.shape(1));
-  if (size > INT_MAX / 3 - kLanes) throw std::invalid_argument("a fragment of " + std::to_string(size) + " points");
+  if (size > INT_MAX / 3 - TipRows::kBlock)
+    throw std::invalid_argument("a fragment of " + std::to_string(size) + " points");
   Trajectories t;
   t.count = count;
-  t.stride = padded(size);
-  t.whole.assign(std::size_t{3} * count * t.stride, 0);
+  t.whole = TipRows(count, size);
+  std::vector<float> row(t.whole.width());
   for (int i = 0; i < count; ++i) {
     for (int k = 0; k < size; ++k) {
       for (int axis = 0; axis < 3; ++axis) {
         const float value = values(i, k, axis);
         if (!std::isfinite(value)) throw std::invalid_argument("point " + std::to_string(i) + " is not a number");
-        t.whole[(std::size_t{3} * i + axis) * t.stride + k] = value;
+        row[static_cast<std::size_t>(axis) * t.whole.stride() + k] = value;
       }
     }
+    t.whole.set(i, row.data());
   }
   return t;
 }

@@ -252,18 +252,6 @@ void bind_area(py::module_& m) {
   py::class_<PaintedArea>(m, "PaintedArea", py::module_local())
       .def(py::init(&make_area), py::arg("corners"), py::arg("paint"))
       .def(
-          "draw",
-          [](const PaintedArea& area, int count, std::uint64_t seed) {
-            check_count(count);
-            return to_rows(without_gil([&] {
-              Random random(seed);
-              std::vector<Vector3> places;
-              for (int i = 0; i < count; ++i) places.push_back(area.draw(random));
-              return places;
-            }));
-          },
-          py::arg("count"), py::arg("seed"))
-      .def(
           "draw_apart",
           [](const PaintedArea& area, int count, double spacing, std::uint64_t seed) {
             check_count(count);
@@ -272,7 +260,23 @@ void bind_area(py::module_& m) {
               return area.draw_apart(random, count, spacing);
             }));
           },
-          py::arg("count"), py::arg("spacing"), py::arg("seed"));
+          py::arg("count"), py::arg("spacing"), py::arg("seed"))
+      .def(
+          "draw_ways",
+          [](const PaintedArea& area, const Doubles& starts, int count, std::uint64_t seed) {
+            check_count(count);
+            check_shape(starts, "starts", {-1, 3});
+            check_count(static_cast<int>(std::min<py::ssize_t>(starts.shape(0) * count, kMostPlaces + 1)));
+            const std::vector<double> numbers = to_vector(starts, "starts", -kFarthest, kFarthest);
+            std::vector<Vector3> places;
+            for (std::size_t i = 0; i < numbers.size(); i += 3) places.emplace_back(&numbers[i]);
+            return to_rows(without_gil([&] {
+                     Random random(seed);
+                     return area.draw_ways(random, places, count);
+                   }))
+                .reshape({starts.shape(0), static_cast<py::ssize_t>(count), py::ssize_t{3}});
+          },
+          py::arg("starts"), py::arg("count"), py::arg("seed"));
 }
 
 void bind_steering(py::module_& m) {

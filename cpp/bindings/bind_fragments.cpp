@@ -26,7 +26,7 @@ void bind_fragments(py::module_& m) {
       [](const Character& c, int poses) {
         const Trajectories t = without_gil([&] { return trajectories(c.pool, poses); });
         const int tips = static_cast<int>(measured_bones(c.pool.skeleton).size());
-        return py::make_tuple(to_points(t.whole, t.count, t.stride, poses * tips),
+        return py::make_tuple(to_points(t.whole.values(), t.count, t.whole.stride(), poses * tips),
                               to_points(t.first, t.count, t.pose_stride, tips),
                               to_points(t.last, t.count, t.pose_stride, tips));
       },

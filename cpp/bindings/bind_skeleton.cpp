@@ -107,6 +107,9 @@ void bind_skeleton(py::module_& m) {
   py::class_<BoundSkin>(m, "Skin", py::module_local())
       .def(py::init<const Skeleton&>(), py::arg("skeleton"))
       .def("add", &BoundSkin::add, py::arg("world"), py::arg("points"), py::arg("groups"), py::arg("weights"));
+  std::vector<std::string> roles;
+  for (const auto& [name, member] : role_names()) roles.push_back(name);
+  m.attr("ROLES") = roles;
   m.def("group_skeletons", &group_skeletons, py::arg("skeletons"), py::call_guard<GilRelease>());
 }
 

@@ -31,6 +31,9 @@ not."""
 class Cancelled(RuntimeError):
     """A progress callback returned False."""
 
+ROLES: list[str]
+"""The roles of a Skeleton's bones."""
+
 class Skeleton:
     """Bones in parent-before-child order; only the first has no parent (-1)."""
 
@@ -956,12 +959,13 @@ class PaintedArea:
     """Triangles, corners [T,3,3] in m, each corner painted 0 to 1, [T,3]; ValueError where nothing is painted."""
 
     def __init__(self, corners: ArrayLike, paint: ArrayLike) -> None: ...
-    def draw(self, count: int, seed: int) -> Doubles:
-        """Places [count,3] on it: the more is painted there, the likelier, linear between the corners."""
-
     def draw_apart(self, count: int, spacing: float, seed: int) -> Doubles:
-        """Such places [N,3], seen from above no two of them nearer than `spacing`, m: N is `count`, or fewer where no
-        room is found for more."""
+        """Places [N,3] on it, the more is painted there, the likelier, linear between the corners; seen from above no
+        two of them are nearer than `spacing`, m. N is `count`, or fewer where no room is found for more."""
+
+    def draw_ways(self, starts: ArrayLike, count: int, seed: int) -> Doubles:
+        """From each start [S,3] such places one after another, [S,count,3]: the straight way to each from the one
+        before is painted all along, seen from above. Where none is found it is the one before."""
 
 class Performance:
     """What a player did."""

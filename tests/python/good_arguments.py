@@ -343,7 +343,12 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "progress": quiet,
         },
         "PaintedArea": {"corners": np.eye(3)[None], "paint": np.ones((1, 3))},
-        "PaintedArea.draw": {"self": core.PaintedArea(np.eye(3)[None], np.ones((1, 3))), "count": 2, "seed": 1},
+        "PaintedArea.draw_ways": {
+            "self": core.PaintedArea(np.eye(3)[None], np.ones((1, 3))),
+            "starts": np.ones((2, 3)) / 3,
+            "count": 2,
+            "seed": 1,
+        },
         "PaintedArea.draw_apart": {
             "self": core.PaintedArea(np.eye(3)[None], np.ones((1, 3))),
             "count": 2,

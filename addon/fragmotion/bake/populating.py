@@ -178,7 +178,7 @@ def _go_about(
     area, random = painted_area(context, mesh), Random(settings.seed)
     starts = places_apart(area, mesh.name, len(bakes), settings.spacing, settings.seed)
     goals = math.ceil(settings.seconds / _GOAL)
-    places = area.draw(goals * len(bakes), settings.seed + 1).reshape(-1, goals, 3)
+    places = area.draw_ways(starts, goals, settings.seed + 1)
     for each, start, wished in zip(bakes, starts, places):
         seen = each.moved.inverted()
         x, y, _ = seen @ Vector(start)

@@ -104,8 +104,9 @@ def say_feet(skeleton: Skeleton) -> list[str]:
     held = [bone for role, bone in skeleton.roles.items() if role.endswith("foot")]
     if not held:
         return [
-            "No feet are known: none is held where it stands, and what is shown on the spot stays there. If it has "
-            "legs, choose a thigh and a foot on each side in Bones (Find Bones), then Build again"
+            "No feet are known: none is held where it stands, and what is shown on the spot stays there. Choose a "
+            "thigh and a foot on each side in Bones (Find Bones) or, where legs are a single bone, key the root's way "
+            "in the takes; then Build again"
         ]
     if not others:
         return []

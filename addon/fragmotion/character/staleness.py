@@ -11,10 +11,12 @@ import numpy as np
 from bpy.app.handlers import persistent
 
 from ..compat import versions
+from ..compat.core import core
 from ..mocap.actions import RATE, SCENE_RATE, ticked
 from ..mocap.curve_points import points_of
 from ..mocap.markers import marks_of
 from ..mocap.styles import style_of
+from ..rig.rigs import roles_in_bones
 from ..rig.writing import LINEAR
 
 _PATIENCE = 0.03  # s that one look may take; what is not read by then waits for the next look
@@ -22,8 +24,8 @@ _digests: dict[tuple[object, ...], str] = {}
 
 
 def sources_of(obj: bpy.types.Object) -> str:
-    """A digest of all that Build reads of the ticked Actions; their names do not count."""
-    return _joined([_told_by(action) for action in ticked(obj)])
+    """A digest of all that Build reads of the ticked Actions, whose names do not count, and of *Bones*."""
+    return _joined([*(_told_by(action) for action in ticked(obj)), *_roles_of(obj)])
 
 
 def is_stale(obj: bpy.types.Object) -> bool:
@@ -40,7 +42,11 @@ def is_stale(obj: bpy.types.Object) -> bool:
         digests.append(_told_by(action))
         if time.perf_counter() > until and any(_key(other) not in _digests for other in actions):
             return False
-    return bool(_joined(digests) != built)
+    return bool(_joined([*digests, *_roles_of(obj)]) != built)
+
+
+def _roles_of(obj: bpy.types.Object) -> list[str]:
+    return [f"{role} {bone}" for role, bone in sorted(roles_in_bones(obj).items()) if role in core.ROLES]
 
 
 def register() -> None:

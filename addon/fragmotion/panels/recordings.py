@@ -115,9 +115,7 @@ class FRAGMOTION_PT_change(_RecordingPanel, bpy.types.Panel):
         row = _group(layout, context, "Edit what was asked for as curves; play it again").row(align=True)
         row.operator("fragmotion.edit_curves", icon="GRAPH")
         row.operator("fragmotion.play_again", icon="FILE_REFRESH")
-        row = _group(
-            layout, context, "Leave out a stretch: drag its ends on the timeline. Or let the next one follow"
-        ).row(align=True)
+        row = _group(layout, context, "Leave out a stretch, or let the next one follow").row(align=True)
         row.operator("fragmotion.cut_recording", icon="UNLINKED")
         row.operator("fragmotion.glue_recording", icon="LINKED")
         group = _group(layout, context, "Drive anew from the playhead on")

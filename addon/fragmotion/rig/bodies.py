@@ -14,7 +14,7 @@ from bpy.props import BoolProperty, StringProperty
 from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..files import check_regular
-from .rigs import FORE_FOOT, FOUR_LEGS, make_rig
+from .rigs import FORE_FOOT, FOUR_LEGS, make_rig, roles_in_bones
 from .selection import highlight
 from .skins import make_skin
 
@@ -61,8 +61,7 @@ class DoubtfulBone(bpy.types.PropertyGroup):
 
 def chosen_roles(obj: bpy.types.Object) -> dict[str, str] | None:
     """Role -> bone name as the user has them, or None where nobody has looked at them."""
-    roles = obj.fragmotion.roles
-    return {role.name: role.bone for role in roles if role.bone} if len(roles) else None
+    return roles_in_bones(obj) if len(obj.fragmotion.roles) else None
 
 
 def _find_roles(rig: Rig, skin: Skin) -> dict[str, str]:

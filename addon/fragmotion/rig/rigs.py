@@ -46,18 +46,17 @@ def make_rig(obj: bpy.types.Object) -> Rig:
             world=np.array(obj.matrix_world),
             inherit_rotation=[bone.use_inherit_rotation for bone in bones],
             local_location=[bone.use_local_location for bone in bones],
-            roles=told_legs(obj),
+            roles={role: bone for role, bone in roles_in_bones(obj).items() if role in core.ROLES and bone in bones},
             hangs={name: on for name, on in hanging_of(obj).items() if name in bones and on in bones},
         )
         return rig
 
 
-def told_legs(obj: bpy.types.Object) -> dict[str, str]:
-    """Role -> bone name of the four legs that are kept with the armature, and of what they carry: motion tells of them
-    what no rest pose may."""
+def roles_in_bones(obj: bpy.types.Object) -> dict[str, str]:
+    """Role -> bone name as *Bones* has them; none where nobody has looked at them, and without the add-on's
+    properties."""
     kept = getattr(obj, "fragmotion", None)
-    bones = {row.name: row.bone for row in kept.roles if row.bone in obj.data.bones} if kept else {}
-    return {role: bones[role] for role in FOUR_LEGS if role in bones} if FORE_FOOT in bones else {}
+    return {role.name: role.bone for role in kept.roles if role.bone} if kept else {}
 
 
 def hanging_of(obj: bpy.types.Object) -> dict[str, str]:

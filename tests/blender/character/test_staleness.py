@@ -138,3 +138,14 @@ def _time(task: Callable[[], None]) -> float:
     start = time.perf_counter()
     task()
     return time.perf_counter() - start
+
+
+def test_bones_that_are_chosen_are_what_build_learns_from(addon: ModuleType, obj: bpy.types.Object) -> None:
+    roles = addon.rig.rigs.make_rig(obj).skeleton.roles
+    other = next(name for name in [bone.name for bone in obj.data.bones] if name not in roles.values())
+    addon.rig.bodies.set_roles(obj, {**roles, "left_hand": other, "spine_1": other})
+    assert addon.rig.rigs.make_rig(obj).skeleton.roles == {**roles, "left_hand": other}
+    assert looked_at(addon, obj), "Build would find another body"
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    assert addon.character.building.load(obj).skeleton.roles["left_hand"] == other
+    assert not looked_at(addon, obj)

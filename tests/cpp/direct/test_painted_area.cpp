@@ -90,6 +90,45 @@ TEST(PaintedArea, IsSoonFullForAMillionWideApart) {
   EXPECT_LT(drawn, 100000) << "numbers were drawn";
 }
 
+// Eight squares of 2 m around a bare one, each of two triangles.
+std::vector<PaintedTriangle> ring() {
+  std::vector<PaintedTriangle> triangles;
+  for (int cell = 0; cell < 9; ++cell) {
+    const double x = 2.0 * (cell % 3), y = 2.0 * (cell / 3), paint = cell == 4 ? 0 : 1;
+    const Vector3 a{x, y, 0}, b{x + 2, y, 0}, c{x + 2, y + 2, 0}, d{x, y + 2, 0};
+    triangles.push_back({{a, b, c}, {paint, paint, paint}});
+    triangles.push_back({{a, d, c}, {paint, paint, paint}});  // which turns the other way round
+  }
+  return triangles;
+}
+
+TEST(PaintedArea, WaysAreOnThePaint) {
+  const PaintedArea area(ring());
+  Random random(11), same(11);
+  const std::vector<Vector3> starts{{1, 1, 0}, {5, 3, 0}, {2.5, 5, 0}};
+  constexpr int kCount = 40;
+  const std::vector<Vector3> places = area.draw_ways(random, starts, kCount);
+  ASSERT_EQ(places.size(), starts.size() * kCount);
+  std::size_t rounded = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vector3& from = i % kCount == 0 ? starts[i / kCount] : places[i - 1];
+    for (int step = 0; step <= 100; ++step) {
+      const Vector3 place = from + step / 100.0 * (places[i] - from);
+      EXPECT_FALSE(place.x() > 2 && place.x() < 4 && place.y() > 2 && place.y() < 4) << "the middle is bare";
+      EXPECT_TRUE(place.x() >= 0 && place.x() <= 6 && place.y() >= 0 && place.y() <= 6);
+    }
+    rounded += (places[i].x() > 4) != (from.x() > 4);
+  }
+  EXPECT_GT(rounded, kCount / 4U) << "they go from side to side";
+  EXPECT_EQ(area.draw_ways(same, starts, kCount), places);
+}
+
+TEST(PaintedArea, WhoStandsBesideThePaintStays) {
+  Random random(1);
+  const Vector3 beside{50, 0, 0};
+  EXPECT_EQ(PaintedArea({kFar}).draw_ways(random, {beside}, 3), std::vector<Vector3>(3, beside));
+}
+
 TEST(PaintedArea, RefusesWhatIsNoPaintedSurface) {
   PaintedTriangle wrong = kFar;
   wrong.paint[1] = 1.5;

@@ -32,17 +32,15 @@ class NaiveTips {
     return tips;
   }
 
-  double fragments(int f, int g, int poses) const {
-    double sum = 0;
+  std::vector<Vector3> trajectory(int f, int poses) const {
+    const Fragment& fragment = pool_.fragments[f];
+    std::vector<Vector3> all;
     for (int i = 0; i < poses; ++i) {
-      const auto at = [&](int k) {
-        const Fragment& fragment = pool_.fragments[k];
-        const double frame = fragment.begin + (fragment.end - fragment.begin) * double(i) / (poses - 1);
-        return tips(fragment, frame, frame_at(pool_.clips[fragment.clip], fragment.begin));
-      };
-      sum += difference(at(f), at(g));
+      const double frame = fragment.begin + (fragment.end - fragment.begin) * double(i) / (poses - 1);
+      const auto pose = tips(fragment, frame, frame_at(pool_.clips[fragment.clip], fragment.begin));
+      all.insert(all.end(), pose.begin(), pose.end());
     }
-    return sum;
+    return all;
   }
 
   double transition(int f, int g) const {
@@ -51,13 +49,13 @@ class NaiveTips {
                       tips(to, to.begin, frame_at(pool_.clips[to.clip], to.begin)));
   }
 
- private:
   static double difference(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]).norm();
     return sum;
   }
 
+ private:
   const FragmentPool& pool_;
   Kinematics kinematics_;
 };
@@ -71,6 +69,15 @@ FragmentPool small_pool(double size = 1) {
   return gait_pool({gait_clip(walk), gait_clip(run), gait_clip(curve)}, size);
 }
 
+// As they are kept.
+std::vector<Vector3> trajectory(const Trajectories& t, int f, int poses) {
+  const std::vector<float> rows = t.whole.read(f);
+  const int stride = t.whole.stride();
+  std::vector<Vector3> points;
+  for (int i = 0; i < t.tips * poses; ++i) points.emplace_back(rows[i], rows[stride + i], rows[2 * stride + i]);
+  return points;
+}
+
 TEST(Trajectories, MeasureWhatTheNaiveFormulaSays) {
   const FragmentPool pool = small_pool();
   const NaiveTips naive(pool);
@@ -80,7 +87,11 @@ TEST(Trajectories, MeasureWhatTheNaiveFormulaSays) {
     Random random(poses);
     for (int n = 0; n < 30; ++n) {
       const int f = random.below(t.count), g = random.below(t.count);
-      EXPECT_NEAR(fragment_distance(t, f, g), naive.fragments(f, g, poses), 1e-4);
+      const std::vector<Vector3> kept = trajectory(t, f, poses), exact = naive.trajectory(f, poses);
+      for (std::size_t i = 0; i < exact.size(); ++i) {
+        EXPECT_LT((kept[i] - exact[i]).cwiseAbs().maxCoeff(), 0.5 * t.whole.unit(f) + 1e-6);
+      }
+      EXPECT_NEAR(fragment_distance(t, f, g), NaiveTips::difference(kept, trajectory(t, g, poses)), 1e-4);
       EXPECT_NEAR(transition_distance(t, f, g), naive.transition(f, g), 1e-4);
     }
   }
@@ -91,7 +102,7 @@ TEST(Trajectories, RefuseNumbersOfPosesThatAreNone) {
   for (const int poses : {std::numeric_limits<int>::min(), -1, 0, 1, kMostPoses + 1, 477218589}) {
     EXPECT_THROW(trajectories(pool, poses), std::invalid_argument) << poses;
   }
-  EXPECT_EQ(trajectories(pool, 2).stride, padded(2 * trajectories(pool, 2).tips));
+  EXPECT_EQ(trajectories(pool, 2).whole.stride(), TipRows(0, 2 * trajectories(pool, 2).tips).stride());
 }
 
 TEST(Trajectories, GoesOnWithoutADistanceInTheClip) {
@@ -146,7 +157,7 @@ TEST(FragmentDistance, IsThatOfACharacterOfOneEightyWhateverItsSize) {
 TEST(Trajectories, AreTheSameBitsForAnyNumberOfThreads) {
   const FragmentPool pool = small_pool();
   const Trajectories one = trajectories(pool, 16, 1), three = trajectories(pool, 16, 3);
-  EXPECT_EQ(one.whole, three.whole);
+  EXPECT_TRUE(one.whole == three.whole);
   EXPECT_EQ(one.first, three.first);
   EXPECT_EQ(one.last, three.last);
 }

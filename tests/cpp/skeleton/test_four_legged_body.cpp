@@ -91,6 +91,8 @@ TEST(FourLeggedBody, MayHaveHipBonesAndShoulderBladesThatMeet) {
   EXPECT_EQ(resting_legs(found).count(), 4);
   EXPECT_EQ(found.names[found.roles.left_foot], "h3.L");
   EXPECT_EQ(found.names[found.roles.right_fore_foot], "f3.R");
+  EXPECT_EQ(found.names[found.roles.left_thigh], "h1.L") << "a hip bone is none of the leg";
+  EXPECT_EQ(found.names[found.roles.right_fore_leg], "f1.R");
 }
 
 TEST(FourLeggedBody, IsNoManWhoseArmsHang) {

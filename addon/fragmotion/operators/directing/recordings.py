@@ -25,6 +25,7 @@ from ...recordings.recordings import (
     trim_recording,
 )
 from ...recordings.traces import read_trace_file, write_trace_file
+from ...words import counted
 from ..base.context import active_armature, poll_armature
 from ..base.saving import Saving
 
@@ -177,7 +178,7 @@ class FRAGMOTION_OT_import_recordings(ImportHelper, bpy.types.Operator):
             set_asked(recording, asked)
             recording.quality = measure_quality(obj, recording)
         seconds = sum(len(trace) for trace, _ in traces.values()) / TRACE_RATE
-        self.report({"INFO"}, f"Imported {len(traces)} recordings ({seconds:.1f} s)")
+        self.report({"INFO"}, f"Imported {counted(len(traces), 'recording')} ({seconds:.1f} s)")
         return {"FINISHED"}
 
     def _paths(self) -> list[Path]:

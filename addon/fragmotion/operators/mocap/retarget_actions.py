@@ -13,6 +13,7 @@ from ...jobs import Job, SteppedJob
 from ...mocap.actions import ticked
 from ...mocap.retargeting import retarget_actions
 from ...rig.bodies import doubts_at_import
+from ...words import counted
 from ..base import background
 from ..base.background import Exclusive
 from ..base.context import active_armature, check_plain, poll_armature
@@ -47,9 +48,11 @@ class FRAGMOTION_OT_retarget_actions(Exclusive, bpy.types.Operator):
             raise UserError(f"No Action of armature '{source.name}' is ticked: click it, and tick them")
         self._armature = obj.name
         steps = retarget_actions(context, source, obj, actions)
-        return SteppedJob(f"Retargeting onto '{obj.name}'", f"{len(actions)} Actions", steps)
+        return SteppedJob(f"Retargeting onto '{obj.name}'", counted(len(actions), "Action"), steps)
 
     def _keep(self, _context: bpy.types.Context, obj: bpy.types.Object, made: list[bpy.types.Action]) -> None:
         for doubt in doubts_at_import(obj):
             self.report({"WARNING"}, doubt)
-        self.report({"INFO"}, f"Armature '{obj.name}' has {len(made)} Actions of '{obj.fragmotion.source.name}'")
+        self.report(
+            {"INFO"}, f"Armature '{obj.name}' has {counted(len(made), 'Action')} of '{obj.fragmotion.source.name}'"
+        )

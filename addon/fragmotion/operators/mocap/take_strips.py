@@ -9,6 +9,7 @@ import bpy
 
 from ...errors import reported
 from ...mocap.strips import actions_of_strips, strips_of
+from ...words import counted
 from ..base.context import active_armature, check_plain, poll_armature
 
 
@@ -34,5 +35,5 @@ class FRAGMOTION_OT_take_strips(bpy.types.Operator):
         obj = active_armature(context)
         check_plain(obj)
         made = actions_of_strips(context, obj)
-        self.report({"INFO"}, f"Armature '{obj.name}' has {len(made)} Actions of its NLA strips")
+        self.report({"INFO"}, f"Armature '{obj.name}' has {counted(len(made), 'Action')} of its NLA strips")
         return {"FINISHED"}

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -19,7 +18,6 @@ namespace {
 constexpr int kPosesSummed = 8;
 constexpr int kSampled = 100;     // fragments for each class
 constexpr int kHardlyAny = 1000;  // one fragment in so many
-constexpr float kLargest = 1e9F;  // m
 constexpr int kMostIterations = 1000000;
 const char* const kStage = "Clustering";
 
@@ -41,29 +39,27 @@ Classes ordered(const KMeans& run, int count) {
 }
 
 // Sums of every few poses of each bone tip. Their Dis is at most that of the poses, and hardly less: neighbouring poses
-// differ alike. Returns [count, 3, stride].
-std::vector<float> summed_poses(const Trajectories& t, int threads, int& stride) {
-  const int tips = t.tips > 0 ? t.tips : t.stride, group = t.tips > 0 ? kPosesSummed * tips : tips;
-  stride = padded((t.stride + group - 1) / group * tips);
-  std::vector<float> sums(static_cast<std::size_t>(t.count) * 3 * stride, 0);
-  parallel_for(3 * t.count, threads, [&](int begin, int end) {
-    for (int row = begin; row < end; ++row) {
-      const float* from = &t.whole[static_cast<std::size_t>(row) * t.stride];
-      float* to = &sums[static_cast<std::size_t>(row) * stride];
-      for (int pose = 0; pose < t.stride; pose += tips) {
-        float* sum = to + pose / group * tips;
-        for (int i = 0; i < std::min(tips, t.stride - pose); ++i) sum[i] += from[pose + i];
+// differ alike.
+TipRows summed_poses(const Trajectories& t, int threads) {
+  const int stride = t.whole.stride(), tips = t.tips > 0 ? t.tips : stride,
+            group = t.tips > 0 ? kPosesSummed * tips : tips;
+  TipRows sums(t.count, (stride + group - 1) / group * tips);
+  parallel_for(t.count, threads, [&](int begin, int end) {
+    std::vector<float> summed(sums.width());
+    for (int fragment = begin; fragment < end; ++fragment) {
+      std::fill(summed.begin(), summed.end(), 0.0F);
+      const std::int16_t* from = t.whole.row(fragment);
+      for (int axis = 0; axis < 3; ++axis, from += stride) {
+        for (int pose = 0; pose < stride; pose += tips) {
+          float* sum = &summed[axis * sums.stride() + pose / group * tips];
+          for (int i = 0; i < std::min(tips, stride - pose); ++i) sum[i] += from[pose + i];
+        }
       }
+      for (float& sum : summed) sum *= t.whole.unit(fragment);
+      sums.set(fragment, summed.data());
     }
   });
   return sums;
-}
-
-// What the rounding of coordinates may add to a distance of sums of poses.
-float rounding(const Trajectories& t) {
-  float largest = 0;
-  for (const float x : t.whole) largest = std::max(largest, std::abs(x));
-  return 8 * std::numeric_limits<float>::epsilon() * static_cast<float>(t.stride) * largest;
 }
 
 // Every few of the fragments, with one at least of each kind.
@@ -91,12 +87,7 @@ Trajectories some(const Trajectories& t, const std::vector<int>& fragments) {
   Trajectories chosen;
   chosen.count = static_cast<int>(fragments.size());
   chosen.tips = t.tips;
-  chosen.stride = t.stride;
-  const std::size_t width = std::size_t{3} * t.stride;
-  chosen.whole.reserve(fragments.size() * width);
-  for (const int i : fragments) {
-    chosen.whole.insert(chosen.whole.end(), t.trajectory(i), t.trajectory(i) + width);
-  }
+  chosen.whole = t.whole.some(fragments);
   return chosen;
 }
 
@@ -108,12 +99,10 @@ class Clustering {
       : classes_(options.classes),
         iterations_(options.iterations),
         few_(t.count / kHardlyAny),
-        fine_{t.count, t.stride, t.whole.data(), weights.data(), kinds.data()},
-        coarse_{t.count, 0, nullptr, weights.data(), kinds.data()},
-        sums_(summed_poses(t, thread_count(options.threads), coarse_.stride)),
-        rounding_(rounding(t)) {
-    coarse_.rows = sums_.data();
-  }
+        sums_(summed_poses(t, thread_count(options.threads))),
+        fine_{&t.whole, weights.data(), kinds.data()},
+        coarse_{&sums_, weights.data(), kinds.data()},
+        rounding_(t.whole.rounding() + sums_.rounding()) {}
   Clustering(const Clustering&) = delete;
   Clustering& operator=(const Clustering&) = delete;
 
@@ -144,9 +133,9 @@ class Clustering {
 
   int classes_, iterations_;
   int few_;  // fragments of which it does not matter that they still move
+  TipRows sums_;
   Points fine_, coarse_;
-  std::vector<float> sums_;
-  float rounding_;
+  float rounding_;  // by which a distance of sums of poses may exceed that of the poses
 };
 
 // Finds classes among an even sample first where the pool is large.
@@ -200,10 +189,8 @@ Classes best_run(const Find& find, const ClusterOptions& options, const ClassSco
 }
 
 void check(const Trajectories& t, const std::vector<float>& weights, const std::vector<char>& kinds) {
-  if (t.stride < 1) throw std::invalid_argument("a fragment needs at least one point");
-  if (t.whole.size() != std::size_t{3} * t.count * t.stride || t.stride % kLanes != 0) {
-    throw std::invalid_argument("every fragment needs as many points");
-  }
+  if (t.whole.stride() < 1) throw std::invalid_argument("a fragment needs at least one point");
+  if (t.whole.count() != t.count) throw std::invalid_argument("every fragment needs a trajectory");
   if (static_cast<int>(weights.size()) != t.count) throw std::invalid_argument("every fragment needs a weight");
   if (static_cast<int>(kinds.size()) != t.count ||
       std::any_of(kinds.begin(), kinds.end(), [](char kind) { return kind != 0 && kind != 1; })) {
@@ -212,11 +199,6 @@ void check(const Trajectories& t, const std::vector<float>& weights, const std::
   for (int i = 0; i < t.count; ++i) {
     if (!(weights[i] > 0 && std::isfinite(weights[i]))) {
       throw std::invalid_argument("fragment " + std::to_string(i) + ": its weight must be a number over 0");
-    }
-    const float* row = t.trajectory(i);
-    if (!std::all_of(row, row + std::size_t{3} * t.stride, [](float x) { return std::abs(x) <= kLargest; })) {
-      throw std::invalid_argument("fragment " + std::to_string(i) +
-                                  ": a coordinate is not a number, or more than a million kilometres");
     }
   }
 }
@@ -235,10 +217,11 @@ void check_count(const Trajectories& t, int classes) {
 }  // namespace
 
 int distinct_fragments(const Trajectories& t, int most) {
-  const std::size_t width = std::size_t{3} * t.stride;
+  const TipRows& rows = t.whole;
   const auto before = [&](int a, int b) {
-    return std::lexicographical_compare(t.trajectory(a), t.trajectory(a) + width, t.trajectory(b),
-                                        t.trajectory(b) + width);
+    if (rows.unit(a) != rows.unit(b)) return rows.unit(a) < rows.unit(b);
+    return std::lexicographical_compare(rows.row(a), rows.row(a) + rows.width(), rows.row(b),
+                                        rows.row(b) + rows.width());
   };
   std::set<int, decltype(before)> different(before);
   for (int i = 0; i < t.count && static_cast<int>(different.size()) < most; ++i) different.insert(i);

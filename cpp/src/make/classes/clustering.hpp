@@ -37,7 +37,7 @@ using ClassScore = std::function<double(const Classes&)>;
 /// restart first looks at as many, evenly spaced: time is linear in the number of fragments.
 /// `weights` (> 0, one a fragment) say how much each counts. Classes are numbered by their representatives' order in
 /// the pool. Throws std::invalid_argument on an option out of its range, on fewer distinct fragments than classes, on a
-/// weight or coordinate that is no number, or out of all proportion, and on kinds that are not one a fragment.
+/// weight that is no number or not over 0, and on kinds that are not one a fragment.
 Classes cluster(const Trajectories& t, const std::vector<float>& weights, const ClusterOptions& options,
                 const ClassScore& score = {}, const Progress& progress = {});
 

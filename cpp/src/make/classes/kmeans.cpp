@@ -30,35 +30,39 @@ KMeans::KMeans(const Points& points, int classes, int threads)
     : points_(points),
       n_(classes),
       threads_(threads),
-      width_(std::size_t{3} * points.stride),
+      width_(points.rows->width()),
       means_(n_ * width_),
       sums_(n_ * width_, 0),
       masses_(n_, 0),
       masses_of_ones_(n_, 0),
       kinds_(n_, 0),
-      labels_(points.count, 0),
-      averaged_(points.count, -1),
-      upper_(points.count, kInfinite) {}
+      labels_(points.count(), 0),
+      averaged_(points.count(), -1),
+      upper_(points.count(), kInfinite) {}
 
 // A point that may become a mean: how far each point is from it, or at least is where that is further than the nearest
 // mean so far.
 struct KMeans::Candidate {
   int point = 0;
+  std::vector<float> row;
   std::vector<float> distances;
 };
 
 void KMeans::seed(Random& random) {
   const int trials = 2 + static_cast<int>(std::log(n_));
   std::vector<Candidate> candidates(trials);
-  for (Candidate& candidate : candidates) candidate.distances.resize(points_.count);
+  for (Candidate& candidate : candidates) candidate.distances.resize(points_.count());
   std::fill(upper_.begin(), upper_.end(), 1.0F);
-  lower_.assign(static_cast<std::size_t>(points_.count) * n_, 0);
+  lower_.assign(static_cast<std::size_t>(points_.count()) * n_, 0);
   for (int k = 0; k < n_; ++k) {
     const std::vector<double> squares = cumulated_squares();
     const int tried = k == 0 ? 1 : trials;
-    for (int c = 0; c < tried; ++c) candidates[c].point = draw(squares, random.uniform());
+    for (int c = 0; c < tried; ++c) {
+      candidates[c].point = draw(squares, random.uniform());
+      candidates[c].row = points_.rows->read(candidates[c].point);
+    }
     if (k == 0) std::fill(upper_.begin(), upper_.end(), kInfinite);
-    parallel_for(points_.count, threads_, [&](int begin, int end) {
+    parallel_for(points_.count(), threads_, [&](int begin, int end) {
       for (int c = 0; c < tried; ++c) measure(candidates[c], begin, end);
     });
     std::vector<double> inertias;
@@ -68,9 +72,9 @@ void KMeans::seed(Random& random) {
 }
 
 std::vector<double> KMeans::cumulated_squares() const {
-  std::vector<double> squares(points_.count);
+  std::vector<double> squares(points_.count());
   double sum = 0;
-  for (int i = 0; i < points_.count; ++i) {
+  for (int i = 0; i < points_.count(); ++i) {
     sum += static_cast<double>(points_.weights[i]) * upper_[i] * upper_[i];
     squares[i] = sum;
   }
@@ -81,8 +85,7 @@ std::vector<double> KMeans::cumulated_squares() const {
 void KMeans::measure(Candidate& candidate, int begin, int end) const {
   const float* to_means = &lower_[static_cast<std::size_t>(candidate.point) * n_];
   const auto distance = [&](int i) {
-    return tip_distance(points_.row(i), points_.row(candidate.point), points_.stride) +
-           apart(points_.kinds[i], points_.kinds[candidate.point]);
+    return points_.rows->distance(i, candidate.row.data()) + apart(points_.kinds[i], points_.kinds[candidate.point]);
   };
   for (int i = begin; i < end; ++i) {
     const float least = to_means[labels_[i]] * (1 - kSlack) - upper_[i] * (1 + kSlack);
@@ -92,7 +95,7 @@ void KMeans::measure(Candidate& candidate, int begin, int end) const {
 
 double KMeans::inertia_with(const Candidate& candidate) const {
   double sum = 0;
-  for (int i = 0; i < points_.count; ++i) {
+  for (int i = 0; i < points_.count(); ++i) {
     const double d = std::min(upper_[i], candidate.distances[i]);
     sum += points_.weights[i] * d * d;
   }
@@ -100,9 +103,9 @@ double KMeans::inertia_with(const Candidate& candidate) const {
 }
 
 void KMeans::add_mean(const Candidate& candidate, int k) {
-  std::copy_n(points_.row(candidate.point), width_, mean(k));
+  std::copy(candidate.row.begin(), candidate.row.end(), mean(k));
   kinds_[k] = points_.kinds[candidate.point];
-  for (int i = 0; i < points_.count; ++i) {
+  for (int i = 0; i < points_.count(); ++i) {
     const float d = lower(i, k) = candidate.distances[i];
     if (d < upper_[i]) upper_[i] = d, labels_[i] = k;
   }
@@ -129,7 +132,7 @@ void KMeans::settle(int iterations, int few) {
 
 double KMeans::inertia() const {
   double sum = 0;
-  for (int i = 0; i < points_.count; ++i) {
+  for (int i = 0; i < points_.count(); ++i) {
     const double d = distance(i, labels_[i]);
     sum += points_.weights[i] * d * d;
   }
@@ -139,7 +142,7 @@ double KMeans::inertia() const {
 std::vector<int> KMeans::medoids() const {
   std::vector<int> medoids(n_, -1);
   std::vector<float> best(n_, kInfinite);
-  for (int i = 0; i < points_.count; ++i) {
+  for (int i = 0; i < points_.count(); ++i) {
     const float d = distance(i, labels_[i]);
     if (d < best[labels_[i]]) best[labels_[i]] = d, medoids[labels_[i]] = i;
   }
@@ -154,7 +157,7 @@ bool KMeans::refill_empty_classes() {
   for (int k = 0; k < n_; ++k) {
     if (count[k] > 0) continue;
     int furthest = -1;
-    for (int i = 0; i < points_.count; ++i) {
+    for (int i = 0; i < points_.count(); ++i) {
       if (count[labels_[i]] > 1 && (furthest < 0 || upper_[i] > upper_[furthest])) furthest = i;
     }
     --count[labels_[furthest]];
@@ -174,10 +177,11 @@ bool KMeans::move_means() {
   average();
   std::vector<float> shift(n_);
   for (int k = 0; k < n_; ++k) {
-    const float far = tip_distance(&before[k * width_], mean(k), points_.stride) + apart(kinds_before[k], kinds_[k]);
+    const float far =
+        tip_distance(&before[k * width_], mean(k), points_.rows->stride()) + apart(kinds_before[k], kinds_[k]);
     shift[k] = far * (1 + kSlack);
   }
-  parallel_for(points_.count, threads_, [&](int begin, int end) {
+  parallel_for(points_.count(), threads_, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       upper_[i] = upper_[i] * (1 + kSlack) + shift[labels_[i]];
       for (int k = 0; k < n_; ++k) lower(i, k) = std::max(0.0F, lower(i, k) * (1 - kSlack) - shift[k]);
@@ -196,7 +200,7 @@ void KMeans::average() {
     masses_[label] += weight;
     masses_of_ones_[label] += weight * kind;
   };
-  for (int i = 0; i < points_.count; ++i) {
+  for (int i = 0; i < points_.count(); ++i) {
     if (labels_[i] == averaged_[i]) continue;
     moved.push_back(i);
     count(averaged_[i], -points_.weights[i], points_.kinds[i]);
@@ -205,8 +209,8 @@ void KMeans::average() {
   for (int k = 0; k < n_; ++k) kinds_[k] = masses_of_ones_[k] > masses_[k] / 2 ? 1 : 0;
   parallel_for(static_cast<int>(width_), threads_, [&](int begin, int end) {
     for (const int i : moved) {
-      add(averaged_[i], -points_.weights[i], points_.row(i), begin, end);
-      add(labels_[i], points_.weights[i], points_.row(i), begin, end);
+      add(averaged_[i], -points_.weights[i], i, begin, end);
+      add(labels_[i], points_.weights[i], i, begin, end);
     }
     for (int k = 0; k < n_; ++k) {
       if (changed[k] == 0) continue;
@@ -216,16 +220,18 @@ void KMeans::average() {
   averaged_ = labels_;
 }
 
-void KMeans::add(int label, double weight, const float* values, int begin, int end) {
+void KMeans::add(int label, double weight, int point, int begin, int end) {
   if (label < 0) return;
+  const std::int16_t* row = points_.rows->row(point);
+  const double unit = weight * points_.rows->unit(point);
   double* sums = &sums_[label * width_];
-  for (int j = begin; j < end; ++j) sums[j] += weight * values[j];
+  for (int j = begin; j < end; ++j) sums[j] += unit * row[j];
 }
 
 // Moves each point to its nearest mean. Returns how many moved.
 int KMeans::assign() {
-  std::vector<char> changed(points_.count, 0);
-  parallel_for(points_.count, threads_, [&](int begin, int end) {
+  std::vector<char> changed(points_.count(), 0);
+  parallel_for(points_.count(), threads_, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) changed[i] = assign(i) ? 1 : 0;
   });
   return static_cast<int>(std::count(changed.begin(), changed.end(), 1));

@@ -5,20 +5,18 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "fragments/distance.hpp"
+#include "fragments/tip_rows.hpp"
 
 namespace fragmotion {
 
 /// Fragments as points of a space in which tip_distance is a norm, each with what it counts (> 0). Points of two kinds
 /// are a thousand kilometres further apart.
 struct Points {
-  int count = 0;
-  int stride = 0;
-  const float* rows = nullptr;     ///< [count, 3, stride]
+  const TipRows* rows = nullptr;   ///< [count]
   const float* weights = nullptr;  ///< [count]
   const char* kinds = nullptr;     ///< [count]: 0 or 1
 
-  const float* row(int i) const { return rows + static_cast<std::size_t>(i) * 3 * stride; }
+  int count() const { return rows->count(); }
 };
 
 /// k-means with the lower bounds of Elkan ("Using the triangle inequality to accelerate k-means", ICML 2003).
@@ -55,9 +53,7 @@ class KMeans {
   float* mean(int k) { return &means_[k * width_]; }
   const float* mean(int k) const { return &means_[k * width_]; }
   float& lower(int i, int k) { return lower_[static_cast<std::size_t>(i) * n_ + k]; }
-  float distance(int i, int k) const {
-    return tip_distance(points_.row(i), mean(k), points_.stride) + apart(points_.kinds[i], kinds_[k]);
-  }
+  float distance(int i, int k) const { return points_.rows->distance(i, mean(k)) + apart(points_.kinds[i], kinds_[k]); }
   static float apart(char kind, char other) { return kind == other ? 0 : kKindsApart; }
 
   std::vector<double> cumulated_squares() const;
@@ -67,7 +63,7 @@ class KMeans {
 
   bool refill_empty_classes();
   void average();
-  void add(int label, double weight, const float* values, int begin, int end);
+  void add(int label, double weight, int point, int begin, int end);
   bool move_means();
   int assign();
   bool assign(int i);

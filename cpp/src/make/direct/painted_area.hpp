@@ -28,7 +28,13 @@ class PaintedArea {
   /// place that is there find no room for another.
   std::vector<Vector3> draw_apart(Random& random, int count, double spacing) const;
 
+  /// For each start so many places one after another, [starts x count]: the straight way to each from the one before is
+  /// painted all along, seen from above. Where 400 draws find none it is the one before.
+  std::vector<Vector3> draw_ways(Random& random, const std::vector<Vector3>& starts, int count) const;
+
  private:
+  bool is_painted_between(const Vector3& from, const Vector3& to) const;
+
   std::vector<PaintedTriangle> triangles_;
   std::vector<double> sums_;  // of sizes, were all of a triangle painted as its most painted corner, up to each
 };

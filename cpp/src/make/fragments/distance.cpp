@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fragments/distance.hpp"
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 
@@ -20,30 +22,35 @@ Trajectories trajectories(const Pool<AnyClip>& pool, int poses, int threads) {
   t.count = static_cast<int>(pool.fragments.size());
   t.tips = points;
   t.reach = tip_reach(pool.skeleton);
-  t.stride = padded(points * poses);
+  t.whole = TipRows(t.count, points * poses);
   t.pose_stride = padded(points);
-  t.whole.assign(static_cast<std::size_t>(t.count) * 3 * t.stride, 0);
   t.first.assign(static_cast<std::size_t>(t.count) * 3 * t.pose_stride, 0);
   t.last = t.first;
   parallel_for(t.count, thread_count(threads), [&](int begin, int end) {
     TipWriter tips(pool.skeleton);
-    for (int i = begin; i < end; ++i) {
+    std::array<std::vector<float>, TipWriter::kPoses> rows;  // of as many fragments, whose poses are whole batches
+    for (std::vector<float>& each : rows) each.resize(t.whole.width());
+    const auto add = [&](int i, float* whole) {
       const Fragment& f = pool.fragments[i];
       const AnyClip& clip = pool.clips[f.clip];
       const CharacterFrame start = frame_at(clip, f.begin);
-      float* whole = &t.whole[static_cast<std::size_t>(i) * 3 * t.stride];
       for (int pose = 0; pose < poses; ++pose) {
         const double at = f.begin + (f.end - f.begin) * static_cast<double>(pose) / (poses - 1);
-        tips.add(sample_pose(clip, at, tips.rotations()), start, whole, t.stride, pose * points);
+        tips.add(sample_pose(clip, at, tips.rotations()), start, whole, t.whole.stride(), pose * points);
       }
       const auto end_pose = [&](int at, std::vector<float>& poses_at) {
-        float* rows = &poses_at[static_cast<std::size_t>(i) * 3 * t.pose_stride];
-        tips.add(sample_pose(clip, at, tips.rotations()), frame_at(clip, at), rows, t.pose_stride, 0);
+        float* pose = &poses_at[static_cast<std::size_t>(i) * 3 * t.pose_stride];
+        tips.add(sample_pose(clip, at, tips.rotations()), frame_at(clip, at), pose, t.pose_stride, 0);
       };
       end_pose(f.first_played(), t.first);
       end_pose(f.last_played(), t.last);
+    };
+    for (int from = begin; from < end; from += TipWriter::kPoses) {
+      const int to = std::min(from + TipWriter::kPoses, end);
+      for (int i = from; i < to; ++i) add(i, rows[i - from].data());
+      tips.flush();
+      for (int i = from; i < to; ++i) t.whole.set(i, rows[i - from].data());
     }
-    tips.flush();
   });
   return t;
 }
@@ -51,9 +58,7 @@ Trajectories trajectories(const Pool<AnyClip>& pool, int poses, int threads) {
 template Trajectories trajectories(const FragmentPool& pool, int poses, int threads);
 template Trajectories trajectories(const PackedPool& pool, int poses, int threads);
 
-float fragment_distance(const Trajectories& t, int f, int g) {
-  return tip_distance(t.trajectory(f), t.trajectory(g), t.stride);
-}
+float fragment_distance(const Trajectories& t, int f, int g) { return t.whole.distance(f, t.whole.read(g).data()); }
 
 float transition_distance(const Trajectories& t, int f, int g) {
   return tip_distance(t.last_pose(f), t.first_pose(g), t.pose_stride);

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "fragments/body_tips.hpp"
 #include "fragments/fragment.hpp"
+#include "fragments/tip_rows.hpp"
 
 namespace fragmotion {
 
@@ -16,15 +16,13 @@ constexpr int kPoses = 16;
 /// poses with which the fragment's playing begins and ends, each in its own character frame.
 struct Trajectories {
   int count = 0;
-  int tips = 0;              ///< Points of each pose, one behind another in a row; 0 where there is but one pose.
-  double reach = 0;          ///< tip_reach() of the skeleton; as tips.
-  int stride = 0;            ///< Floats in a row of a trajectory.
+  int tips = 0;      ///< Points of each pose, one behind another in a row; 0 where there is but one pose.
+  double reach = 0;  ///< tip_reach() of the skeleton; as tips.
+  TipRows whole;
   int pose_stride = 0;       ///< Floats in a row of an end pose.
-  std::vector<float> whole;  ///< [count, 3, stride]
   std::vector<float> first;  ///< [count, 3, pose_stride]
   std::vector<float> last;   ///< [count, 3, pose_stride]
 
-  const float* trajectory(int i) const { return &whole[static_cast<std::size_t>(i) * 3 * stride]; }
   const float* first_pose(int i) const { return &first[static_cast<std::size_t>(i) * 3 * pose_stride]; }
   const float* last_pose(int i) const { return &last[static_cast<std::size_t>(i) * 3 * pose_stride]; }
 };

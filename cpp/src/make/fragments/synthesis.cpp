@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "fragments/speed_range.hpp"
 #include "fragments/standing.hpp"
 #include "fragments/successors.hpp"
+#include "fragments/usual_heights.hpp"
 #include "motion/contacts.hpp"
 #include "motion/legs.hpp"
 
@@ -43,7 +43,7 @@ constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
 constexpr double kBackward = 1;                              // of effort: to be played backward
 constexpr double kAlike = 1e-6;                              // of effort
 constexpr double kClosed = 3 / kTunedReach;                  // m a metre of reach between the ends of a cycle
-constexpr double kOpen = kTunedReach;                        // of effort, for each such between them
+constexpr double kFlawed = kTunedReach;                      // of effort, for each such of a flaw
 
 double angle_between(const Control& a, const Control& b) {
   return wrapped(std::atan2(b.y, b.x) - std::atan2(a.y, a.x));
@@ -224,17 +224,18 @@ class Synthesizer {
   struct Cycle {
     int clip = 0, begin = 0, end = 0;  // frames
     Control evident;
-    double gap = 0;  // m a metre of reach from its last pose to its first
+    double flaw = 0;  // m a metre of reach from its last pose to its first, and from the usual heights
 
     bool backward() const { return end < begin; }
   };
 
   static Cycle backward(const Cycle& cycle) {
     const Control& ev = cycle.evident;
-    return {cycle.clip, cycle.end, cycle.begin, {-ev.x, -ev.y, -ev.turn, ev.jump}, cycle.gap};
+    return {cycle.clip, cycle.end, cycle.begin, {-ev.x, -ev.y, -ev.turn, ev.jump}, cycle.flaw};
   }
 
   void find_cycles() {
+    const UsualHeights usual(trajectories_, pool_.fragments, space_);
     for (int first = 0; first < originals_; ++first) {
       Cycle cycle;
       double seconds = 0;
@@ -246,8 +247,9 @@ class Synthesizer {
         cycle.end = f.end;
         cycle.evident = mix(cycle.evident, f.evident, share);
         if (seconds > kLongestCycle) break;
-        cycle.gap = double{transition_distance(trajectories_, last, first)} / trajectories_.reach;
-        if (seconds < kShortestCycle || cycle.gap > kClosed) continue;
+        const double gap = double{transition_distance(trajectories_, last, first)} / trajectories_.reach;
+        if (seconds < kShortestCycle || gap > kClosed) continue;
+        cycle.flaw = gap + usual.excess(first, last, cycle.evident.speed());
         cycles_.push_back(cycle);
         cycles_.push_back(backward(cycle));
       }
@@ -279,7 +281,7 @@ class Synthesizer {
     const double moving = kMoving / space_.scale();
     const bool moves = ev.speed() > moving, wants = control.speed() > moving, steps = wants || control.turn != 0;
     if (moves != steps) return std::numeric_limits<double>::infinity();
-    double effort = kOpen * cycle.gap + 0.5 * std::abs(control.turn - ev.turn) + 2 * ev.jump;
+    double effort = kFlawed * cycle.flaw + 0.5 * std::abs(control.turn - ev.turn) + 2 * ev.jump;
     if (cycle.backward()) effort += kBackward;
     if (steps && !wants) effort += ev.speed() / space_.walk();  // it steps in place
     if (wants && effort < most) {

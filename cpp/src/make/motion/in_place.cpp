@@ -15,7 +15,7 @@ namespace {
 
 // Of a character of 1.8 m.
 constexpr double kStays = 0.4;        // m that hips on the spot go at most
-constexpr double kGoes = 0.5;         // m/s: what is slower stands
+constexpr double kGoes = 0.3;         // m/s: what is slower stands
 constexpr double kTurns = kPi / 12;   // rad/s: feet that stand turn by less in a gait that goes straight
 constexpr double kLow = 0.02;         // m over its lowest: a sole on the ground
 constexpr double kWindow = 1.0 / 30;  // s over which velocities are told: keys and markers tremble
@@ -137,10 +137,10 @@ class Treading {
     }
   }
 
-  // How far it rises or falls, of how far it goes over the ground.
+  // How far it rises or falls, of how far it goes over the ground, or would if it just went.
   double steepness(const SolePoint& point, int f) const {
     const Vector3 way = point.path[f + span_] - point.path[f];
-    return std::abs(way.z()) / std::max(way.head<2>().norm(), 1e-9);
+    return std::abs(way.z()) / std::max(way.head<2>().norm(), kGoes / scale_ * span_ / rate_);
   }
 
   bool is_low(std::size_t side, const SolePoint& point, int f) const { return height(point, f) <= stands_[side].low; }

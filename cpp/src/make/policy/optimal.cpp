@@ -29,80 +29,52 @@ FRAGMOTION_VECTORISED void max_accumulate(double* best, const double* row, int c
 
 namespace {
 
-constexpr int kTogether =
-    20;  // classes whose sums are found at a time, in registers; 100, the usual number, are whole blocks
 constexpr double kNone = -std::numeric_limits<double>::infinity();
-
-// The greatest sum of each row of [count, kTogether], whose number is told as well.
-FRAGMOTION_VECTORISED void greatest_sums(const double* rows, int count, const double* match, const double* value,
-                                         double* best, double* next) {
-  double most[kTogether], at[kTogether] = {};
-  std::fill_n(most, kTogether, kNone);
-  for (int to = 0; to < count; ++to, rows += kTogether) {
-    const double m = match[to], v = value[to], number = to;
-    for (int i = 0; i < kTogether; ++i) {
-      const double candidate = rows[i] * m + v;
-      at[i] = candidate > most[i] ? number : at[i];
-      most[i] = candidate > most[i] ? candidate : most[i];
-    }
-  }
-  std::copy_n(most, kTogether, best);
-  std::copy_n(at, kTogether, next);
-}
-
-FRAGMOTION_VECTORISED void greatest_sums(const double* rows, int count, const double* match, const double* value,
-                                         double* best) {
-  double most[kTogether];
-  std::fill_n(most, kTogether, kNone);
-  for (int to = 0; to < count; ++to, rows += kTogether) {
-    const double m = match[to], v = value[to];
-    for (int i = 0; i < kTogether; ++i) {
-      const double candidate = rows[i] * m + v;
-      most[i] = candidate > most[i] ? candidate : most[i];
-    }
-  }
-  std::copy_n(most, kTogether, best);
-}
 
 }  // namespace
 
-NextClass::NextClass(const Quality& quality) : classes_(quality.classes) {
-  for (int first = 0; first < classes_; first += kTogether) {
-    for (int to = 0; to < classes_; ++to) {
-      for (int from = first; from < first + kTogether; ++from) {
-        const std::size_t at = static_cast<std::size_t>(std::min(from, classes_ - 1)) * classes_ + to;
-        smoothness_.push_back(quality.smoothness[at]);
-      }
-    }
+NextClass::NextClass(const Quality& quality)
+    : classes_(quality.classes), smoothness_(transposed(quality.smoothness, classes_, classes_)) {
+  for (auto row = smoothness_.begin(); row != smoothness_.end(); row += classes_) {
+    const auto [least, most] = std::minmax_element(row, row + classes_);
+    roughest_.push_back(*least);
+    smoothest_.push_back(*most);
+  }
+}
+
+// Calls take(Q') in order, but for classes whose sum is under that of another one after any class: few are left.
+template <typename Take>
+void NextClass::contenders(const double* match, const double* value, const Take& take) const {
+  double least = kNone;
+  for (int to = 0; to < classes_; ++to) least = std::max(least, roughest_[to] * match[to] + value[to]);
+  for (int to = 0; to < classes_; ++to) {
+    if (smoothest_[to] * match[to] + value[to] >= least) take(to);
   }
 }
 
 void NextClass::values(const double* match, const double* value, double* best) const {
-  double sums[kTogether];
-  for (int first = 0; first < classes_; first += kTogether) {
-    greatest_sums(&smoothness_[static_cast<std::size_t>(first) * classes_], classes_, match, value, sums);
-    std::copy_n(sums, std::min(kTogether, classes_ - first), best + first);
-  }
+  std::fill_n(best, classes_, kNone);
+  contenders(match, value, [&](int to) { max_accumulate(best, after_all(to), classes_, match[to], value[to]); });
 }
 
 void NextClass::values(const double* match, const double* value, double* best, int* next) const {
-  double sums[kTogether], numbers[kTogether];
-  for (int first = 0; first < classes_; first += kTogether) {
-    greatest_sums(&smoothness_[static_cast<std::size_t>(first) * classes_], classes_, match, value, sums, numbers);
-    std::copy_n(sums, std::min(kTogether, classes_ - first), best + first);
-    std::copy_n(numbers, std::min(kTogether, classes_ - first), next + first);
-  }
+  std::fill_n(best, classes_, kNone);
+  contenders(match, value, [&](int to) {
+    const double *row = after_all(to), m = match[to], v = value[to];
+    for (int from = 0; from < classes_; ++from) {
+      const double candidate = row[from] * m + v;
+      if (candidate > best[from]) best[from] = candidate, next[from] = to;
+    }
+  });
 }
 
 int NextClass::after(int from, const double* match, const double* value) const {
-  const double* row =
-      &smoothness_[static_cast<std::size_t>(from / kTogether) * kTogether * classes_ + from % kTogether];
   int next = 0;
   double best = kNone;
-  for (int to = 0; to < classes_; ++to, row += kTogether) {
-    const double candidate = *row * match[to] + value[to];
+  contenders(match, value, [&](int to) {
+    const double candidate = after_all(to)[from] * match[to] + value[to];
     if (candidate > best) best = candidate, next = to;
-  }
+  });
   return next;
 }
 

@@ -10,7 +10,7 @@ namespace fragmotion {
 void check_controls(const std::vector<int>& trace, int controls);
 
 /// The choice of the next class Q' by Quality(Q, Q', c) + value(Q') (Eqs. 1 and 4), for one table of qualities. `match`
-/// is the second factor of Eq. 2 for c, `value` what each class is worth afterwards, both [classes].
+/// is the second factor of Eq. 2 for c, 0 or more, `value` what each class is worth afterwards, both [classes].
 /// The same bits on every x86-64, with AVX2 or without.
 class NextClass {
  public:
@@ -26,8 +26,13 @@ class NextClass {
   int after(int from, const double* match, const double* value) const;
 
  private:
+  template <typename Take>
+  void contenders(const double* match, const double* value, const Take& take) const;
+  const double* after_all(int to) const { return &smoothness_[static_cast<std::size_t>(to) * classes_]; }
+
   int classes_;
-  std::vector<double> smoothness_;  // [blocks, Q', the Qs of the block]
+  std::vector<double> smoothness_;            // [Q', Q],
+  std::vector<double> roughest_, smoothest_;  // [Q'] the least and the greatest of a row
 };
 
 /// The best path in hindsight: Q_0 and the class after each of the trace's controls, and the sum of Eq. 2 along it.

@@ -13,7 +13,8 @@ namespace {
 constexpr double kFeetLevel = 0.2;    // between the heights of the hind and the fore feet, at most
 constexpr double kTrunkLength = 0.3;  // between the hind and the fore feet along the ground, at least
 constexpr double kNoLegBone = 0.1;    // a bone that a leg begins with and that is shorter is a part of the trunk
-constexpr double kPawHeight = 0.15;   // over the ground, at most: where a paw begins
+constexpr double kMeet = 2.0 / 3;    // of how far the ends of hip bones and shoulder blades are apart: their beginnings
+constexpr double kPawHeight = 0.15;  // over the ground, at most: where a paw begins
 constexpr double kByShape = 0.85;
 
 constexpr double kLowerLeg = 0.4;  // of a leg, at least: what is below its knee or elbow
@@ -43,8 +44,8 @@ class FourLegs {
     body.head = head;
     body.head_confidence = head >= 0 && tree_.says(head, Role::kHead) > 0 ? kNamed : kByShape;
     for (int side = 0; side < 2; ++side) {
-      body.legs[side] = leg(legs[0].chains[side]);
-      body.arms[side] = leg(legs[1].chains[side]);
+      body.legs[side] = leg(legs[0], side);
+      body.arms[side] = leg(legs[1], side);
     }
     put_left_first(legs, body);
     return body;
@@ -120,13 +121,28 @@ class FourLegs {
     return hips;
   }
 
-  Limb leg(const Chain& chain) const {
+  // Between a joint of a pair and its fellow, m.
+  double across(const LimbPair& pair, std::size_t joint) const {
+    return mean(
+        [&](const Vector3* heads) { return (heads[pair.chains[0][joint]] - heads[pair.chains[1][joint]]).norm(); });
+  }
+
+  // Whether a bone that limbs begin with is one of the trunk: a stub, or a hip bone or shoulder blade, which leads out.
+  bool is_of_trunk(const LimbPair& pair, int side, std::size_t joint) const {
+    const Chain& chain = pair.chains[side];
+    return shape_.length(chain[joint + 1]) < kNoLegBone * shape_.branch(chain[0]) ||
+           across(pair, joint) < kMeet * across(pair, joint + 1);
+  }
+
+  Limb leg(const LimbPair& pair, int side) const {
+    const Chain& chain = pair.chains[side];
     const double length = shape_.branch(chain[0]);
     const auto height = [&](int bone) {
       return mean([&](const Vector3* heads) { return heads[bone].z() - heads[chain.back()].z(); });
     };
     std::size_t upper = 0, foot = chain.size() - 1;
-    while (upper + 3 < chain.size() && shape_.length(chain[upper + 1]) < kNoLegBone * length) ++upper;
+    const std::size_t bones = std::min(pair.chains[0].size(), pair.chains[1].size());
+    while (upper + 3 < bones && is_of_trunk(pair, side, upper)) ++upper;
     while (foot > upper + 2 && height(chain[foot - 1]) < kPawHeight * length) --foot;
     Limb limb;
     const auto set = [&](int part, std::size_t i) {
@@ -143,7 +159,7 @@ class FourLegs {
     for (auto* limbs : {&body.legs, &body.arms}) {
       const double left = mean([&](const Vector3* heads) {
         const Vector3 forward = begin(legs[1], heads) - begin(legs[0], heads);
-        return across(*limbs, heads).dot(Vector3::UnitZ().cross(forward));
+        return fragmotion::across(*limbs, heads).dot(Vector3::UnitZ().cross(forward));
       });
       if (left < 0) std::swap((*limbs)[0], (*limbs)[1]);
     }
