@@ -108,7 +108,7 @@ TEST(StandBridges, AreTheSameWhereTheSameLimbsAreOfMoreBones) {
   options.classes = 6;
   options.synthesize = false;
   options.policies = {"greedy"};
-  const std::vector<Clip> takes{gait_clip({}), fallen(0), fallen(1.2), fallen(-1.2)};
+  const std::vector<Clip> takes{gait_clip({}), fallen(0), fallen(1.5), fallen(-1.5)};
   const Character character = build(humanoid(), takes, {{{}, {}}}, options);
   const std::vector<int> none(character.bridges.size(), -1);
   EXPECT_NE(character.bridges, none);  // from the one fall to the other
