@@ -29,7 +29,7 @@ Vector3 across(const Patient& patient, int frame, const Vector3& up) {
 
 /// Whether it goes along `up` from one bone to the other.
 bool points(const Patient& resting, int from, int to, const Vector3& up) {
-  if (from < 0) return false;
+  if (from < 0 || to < 0) return false;
   const Vector3 way = resting.head(0, to) - resting.head(0, from);
   return way.dot(up) > kNearAxis * way.norm();
 }
