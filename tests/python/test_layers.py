@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -80,3 +81,11 @@ def test_no_header_of_what_makes_is_named_as_one_of_what_plays() -> None:
     assert not {f"{path.parent.name}/{path.name}" for path in MAKE.glob("*/*.hpp")} & {
         f"{path.parent.name}/{path.name}" for path in PLAY.glob("*/*.hpp")
     }
+
+
+def test_no_two_types_have_one_name() -> None:
+    defined = re.compile(r"^(?:class|struct|enum class|enum) (\w+)(?: final)?(?: :[^;{]*)? \{", re.MULTILINE)
+    headers = sorted(SOURCES.glob("*/*/*.hpp"))
+    names = Counter(name for path in headers for name in defined.findall(path.read_text(encoding="utf-8")))
+    assert len(names) > 100
+    assert [name for name, count in names.items() if count > 1] == []

@@ -14,7 +14,7 @@ from bpy.props import BoolProperty, StringProperty
 from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..files import check_regular
-from .rigs import FORE_FOOT, FOUR_LEGS, make_rig, roles_in_bones
+from .rigs import FORE_FOOT, make_rig, roles_in_bones
 from .selection import highlight
 from .skins import make_skin
 
@@ -33,7 +33,11 @@ NEEDED = (
     ),
 )
 """The roles that are asked for even where no bone is found for them,"""
-_NEEDED_ON_FOUR_LEGS = tuple(role for role in FOUR_LEGS if not role.endswith("toe"))
+_NEEDED_ON_FOUR_LEGS = (
+    "hips",
+    "head",
+    *(f"{side}_{part}" for part in ("thigh", "foot", "fore_leg", "fore_foot") for side in ("left", "right")),
+)
 """and those of a body that stands on four legs."""
 
 

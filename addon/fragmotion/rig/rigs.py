@@ -15,18 +15,7 @@ if TYPE_CHECKING:
     from fragmotion_core import Rig
 
 FORE_FOOT = "left_fore_foot"
-"""A role that bodies on four legs alone have;"""
-FOUR_LEGS = (
-    "hips",
-    "head",
-    *(
-        f"{side}_{part}"
-        for part in ("thigh", "foot", "toe", "fore_leg", "fore_foot", "fore_toe")
-        for side in ("left", "right")
-    ),
-)
-"""and all that the core asks of them."""
-
+"""A role that bodies on four legs alone have."""
 FEWEST_BONES = 2
 """A character needs a bone that moves against another."""
 

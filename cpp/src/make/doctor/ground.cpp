@@ -22,8 +22,7 @@ constexpr int kFewestStands = 10;               // places where feet stand
 
 /// The lowest joint of a foot, or its end, and where. Ends of what is below the toes' are nobody's: files invent them.
 Vector3 sole(const Patient& patient, int frame, int leg) {
-  const int end = patient.toes[leg] >= 0 ? patient.toes[leg] : patient.legs[leg].end;
-  Vector3 lowest = patient.tip(frame, end);
+  Vector3 lowest = patient.tip(frame, patient.last_bone(leg));
   const auto look_at = [&](const Vector3& point) {
     if (point.z() < lowest.z()) lowest = point;
   };

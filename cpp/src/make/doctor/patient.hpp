@@ -91,6 +91,8 @@ class Patient {
   bool is_life_size() const { return is_four_legged() ? is_animal(stature_) : is_person(stature_); }
   bool has_legs() const { return legs[0].whole() && legs[1].whole(); }
   bool has_arms() const { return arms[0].whole() && arms[1].whole(); }
+  /// The last bone of a leg that has a role: its toe, or its foot.
+  int last_bone(int leg) const { return toes[leg] >= 0 ? toes[leg] : legs[leg].end; }
   /// Where a foot points: from its head to the toe's, or to its tip.
   Vector3 toe_direction(int frame, int leg) const;
   /// The bones' lengths moved from the frame before, a mean of all bones, m.

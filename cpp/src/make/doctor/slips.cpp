@@ -23,10 +23,10 @@ struct Footing {
 };
 
 int lowest_foot(const Patient& patient, int frame) {
-  int lowest = -1;
-  for (std::size_t leg = 0; leg < patient.legs.size(); ++leg) {
-    const int foot = patient.toes[leg] >= 0 ? patient.toes[leg] : patient.legs[leg].end;
-    if (lowest < 0 || patient.head(frame, foot).z() < patient.head(frame, lowest).z()) lowest = foot;
+  int lowest = patient.last_bone(0);
+  for (int leg = 1; leg < static_cast<int>(patient.legs.size()); ++leg) {
+    const int foot = patient.last_bone(leg);
+    if (patient.head(frame, foot).z() < patient.head(frame, lowest).z()) lowest = foot;
   }
   return lowest;
 }

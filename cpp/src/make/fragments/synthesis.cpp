@@ -13,11 +13,11 @@
 #include "fragments/coverage.hpp"
 #include "fragments/distance.hpp"
 #include "fragments/gait_edit.hpp"
+#include "fragments/gait_heights.hpp"
 #include "fragments/hip_turns.hpp"
 #include "fragments/speed_range.hpp"
 #include "fragments/standing.hpp"
 #include "fragments/successors.hpp"
-#include "fragments/usual_heights.hpp"
 #include "motion/contacts.hpp"
 #include "motion/legs.hpp"
 
@@ -235,7 +235,7 @@ class Synthesizer {
   }
 
   void find_cycles() {
-    const UsualHeights usual(trajectories_, pool_.fragments, space_);
+    const GaitHeights usual(trajectories_, pool_.fragments, space_);
     for (int first = 0; first < originals_; ++first) {
       Cycle cycle;
       double seconds = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fragments/usual_heights.hpp"
+#include "fragments/gait_heights.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace fragmotion {
 
-UsualHeights::UsualHeights(const Trajectories& t, const std::vector<Fragment>& fragments, const ControlSpace& space)
+GaitHeights::GaitHeights(const Trajectories& t, const std::vector<Fragment>& fragments, const ControlSpace& space)
     : trajectories_(&t), faster_((space.walk() + space.run()) / 2) {
   std::array<std::vector<int>, 2> going;
   for (std::size_t f = 0; f < fragments.size(); ++f) {
@@ -28,12 +28,12 @@ UsualHeights::UsualHeights(const Trajectories& t, const std::vector<Fragment>& f
   }
 }
 
-double UsualHeights::excess(int first, int last, double speed) const {
+double GaitHeights::excess(int first, int last, double speed) const {
   const std::size_t gait = gait_at(speed);
   return std::max(0.0, distance(first, last, gait) - distances_[gait]);
 }
 
-double UsualHeights::distance(int first, int last, std::size_t gait) const {
+double GaitHeights::distance(int first, int last, std::size_t gait) const {
   const std::vector<double>& usual = usual_[gait];
   double sum = 0;
   for (std::size_t tip = 0; tip < usual.size(); ++tip) {

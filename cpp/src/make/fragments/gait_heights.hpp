@@ -11,10 +11,10 @@ namespace fragmotion {
 
 /// How high a character bears its head, hands and hips for most of the time: the medians over what goes at about the
 /// speed of its walk, and of its run.
-class UsualHeights {
+class GaitHeights {
  public:
   /// Of all fragments, of which these are the trajectories, which must outlive it.
-  UsualHeights(const Trajectories& t, const std::vector<Fragment>& fragments, const ControlSpace& space);
+  GaitHeights(const Trajectories& t, const std::vector<Fragment>& fragments, const ControlSpace& space);
 
   /// How much further from them fragments `first` to `last` are on the mean, which go at such a speed, than half of all
   /// that go so: the sum over the tips, m a metre of reach. Much where a body crouches, hops or dances.

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "fragments/gait_heights.hpp"
 #include "fragments/synthesis.hpp"
-#include "fragments/usual_heights.hpp"
 #include "measured_clips.hpp"
 
 namespace fragmotion {
@@ -32,10 +32,10 @@ double mean_height(const FragmentPool& pool, const Fragment& f) {
   return sum / (f.end - f.begin);
 }
 
-TEST(UsualHeights, TellWhatIsCrouchedAmongWalks) {
+TEST(GaitHeights, TellWhatIsCrouchedAmongWalks) {
   const FragmentPool pool = walks_and_a_crouch();
   const Trajectories t = trajectories(pool);
-  const UsualHeights usual(t, pool.fragments, ControlSpace(1.2, 3.3));
+  const GaitHeights usual(t, pool.fragments, ControlSpace(1.2, 3.3));
   for (int f = 0; f < t.count; ++f) {
     const double excess = usual.excess(f, f, pool.fragments[f].evident.speed());
     if (pool.fragments[f].clip == 2) {
@@ -46,7 +46,7 @@ TEST(UsualHeights, TellWhatIsCrouchedAmongWalks) {
   }
 }
 
-TEST(UsualHeights, AreThoseOfWhatIsMade) {
+TEST(GaitHeights, AreThoseOfWhatIsMade) {
   FragmentPool pool = walks_and_a_crouch();
   const std::size_t captured = pool.fragments.size();
   const double upright = mean_height(pool, pool.fragments[0]);
