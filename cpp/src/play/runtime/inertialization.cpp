@@ -17,14 +17,12 @@ Vector3 turn_of(const Quaternion& q) { return q.vec() / (1 + q.w()); }
 // Rounding errors are no offset: their squares are denormal numbers, with which processors are slow.
 float rounded(double value) { return std::abs(value) < 1e-12 ? 0.0F : static_cast<float>(value); }
 
-// Turns the rotations [kCount, 4] of some bones of a block, whose offsets are in rows of `stride`.
-template <int kCount>
-[[gnu::always_inline]] inline void turn_some(const float* offsets, int stride, float offset, float speed,
-                                             double* rotations) {
-  const float *x = offsets, *y = x + stride, *z = y + stride;
-  const float *to_x = z + stride, *to_y = to_x + stride, *to_z = to_y + stride;
-  float turn[4][kCount];
-  for (int i = 0; i < kCount; ++i) {
+// Turns the rotations of a block of bones.
+[[gnu::always_inline]] inline void turn_block(const float* offsets, float offset, float speed, double* rotations) {
+  const float *x = offsets, *y = x + kBoneBlock, *z = y + kBoneBlock;
+  const float *to_x = z + kBoneBlock, *to_y = to_x + kBoneBlock, *to_z = to_y + kBoneBlock;
+  float turn[4][kBoneBlock];
+  for (int i = 0; i < kBoneBlock; ++i) {
     const float a = offset * x[i] + speed * to_x[i], b = offset * y[i] + speed * to_y[i],
                 c = offset * z[i] + speed * to_z[i], square = a * a + b * b + c * c, scale = 1 / (1 + square);
     turn[0][i] = (1 - square) * scale;
@@ -32,42 +30,41 @@ template <int kCount>
     turn[2][i] = 2 * scale * b;
     turn[3][i] = 2 * scale * c;
   }
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < kBoneBlock; ++i) {
     double* q = rotations + std::ptrdiff_t{4} * i;
     const auto a = static_cast<float>(q[0]), b = static_cast<float>(q[1]), c = static_cast<float>(q[2]),
                d = static_cast<float>(q[3]);
-    const float p = turn[0][i], r = turn[1][i], s = turn[2][i], t = turn[3][i];
-    q[0] = p * a - r * b - s * c - t * d;
-    q[1] = p * b + r * a + s * d - t * c;
-    q[2] = p * c - r * d + s * a + t * b;
-    q[3] = p * d + r * c - s * b + t * a;
+    const float w = turn[0][i], r = turn[1][i], s = turn[2][i], t = turn[3][i];
+    q[0] = w * a - r * b - s * c - t * d;
+    q[1] = w * b + r * a + s * d - t * c;
+    q[2] = w * c - r * d + s * a + t * b;
+    q[3] = w * d + r * c - s * b + t * a;
   }
 }
 
-constexpr int kHalf = kBoneBlock / 2;
+// Bones that are no whole block, as one: the last of them stands for what it lacks.
+struct FilledBlock {
+  float offsets[6][kBoneBlock];
+  double rotations[kBoneBlock][4];
 
-// The same of fewer than half of a block. By as many of which some are none: of a loop of its own GCC 12 makes fused
-// multiply-adds, whatever it is told (PR 107647).
-[[gnu::always_inline]] inline void turn_few(const float* offsets, int stride, int count, float offset, float speed,
-                                            double* rotations) {
-  float few[6][kHalf] = {};
-  double turned[kHalf][4] = {};
-  for (int i = 0; i < count; ++i) {
-    for (int value = 0; value < 6; ++value) few[value][i] = offsets[value * stride + i];
-    for (int part = 0; part < 4; ++part) turned[i][part] = rotations[4 * i + part];
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): the loop fills them
+  [[gnu::always_inline]] FilledBlock(const float* few, int count, const double* turned) {
+    for (int i = 0; i < kBoneBlock; ++i) {
+      const int bone = std::min(i, count - 1);
+      for (int value = 0; value < 6; ++value) offsets[value][i] = few[value * count + bone];
+      for (int part = 0; part < 4; ++part) rotations[i][part] = turned[4 * bone + part];
+    }
   }
-  turn_some<kHalf>(few[0], kHalf, offset, speed, turned[0]);
-  std::copy_n(turned[0], 4 * count, rotations);
-}
+};
 
-// Turns the rotations [bones, 4] further by what is left of the offsets and the speeds: by whole blocks, and by parts
-// of the last one whose sizes are known when this is compiled.
+// Turns the rotations [bones, 4] further by what is left of the offsets and the speeds.
 FRAGMOTION_VECTORISED void add_turns(const float* offsets, int bones, float offset, float speed, double* rotations) {
   for (; bones >= kBoneBlock; bones -= kBoneBlock, offsets += 6 * kBoneBlock, rotations += 4 * kBoneBlock)
-    turn_some<kBoneBlock>(offsets, kBoneBlock, offset, speed, rotations);
-  const int first = bones < kHalf ? 0 : kHalf;
-  if (first > 0) turn_some<kHalf>(offsets, bones, offset, speed, rotations);
-  if (first < bones) turn_few(offsets + first, bones, bones - first, offset, speed, rotations + 4 * first);
+    turn_block(offsets, offset, speed, rotations);
+  if (bones == 0) return;
+  FilledBlock last(offsets, bones, rotations);
+  turn_block(last.offsets[0], offset, speed, last.rotations[0]);
+  std::copy_n(last.rotations[0], 4 * bones, rotations);
 }
 
 }  // namespace

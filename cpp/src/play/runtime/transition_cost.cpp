@@ -46,8 +46,8 @@ double TransitionCost::strays(int fragment, const Control& control) const {
 float TransitionCost::of_going_on(int fragment, const Control& control) const {
   const Control& evident = character_->pool.fragments[fragment].evident;
   const double turned = std::abs(evident.turn - control.turn);
-  return of_performing(evident, made_[fragment], control) +
-         unsteady_ * static_cast<float>(strays(fragment, control)) + bent_ * static_cast<float>(turned);
+  return of_performing(evident, made_[fragment], control) + unsteady_ * static_cast<float>(strays(fragment, control)) +
+         bent_ * static_cast<float>(turned);
 }
 
 std::vector<std::vector<Entrant>> TransitionCost::entrants() const {
@@ -58,7 +58,8 @@ std::vector<std::vector<Entrant>> TransitionCost::entrants() const {
   for (std::size_t i = 0; i < c.pool.fragments.size(); ++i) {
     const int fragment = static_cast<int>(i), label = c.classes.labels[i];
     const Fragment& f = c.pool.fragments[i];
-    const float beside = tip_distance(entry(fragment), entry(c.classes.representatives[label]), static_cast<int>(row) / 3);
+    const float beside =
+        tip_distance(entry(fragment), entry(c.classes.representatives[label]), static_cast<int>(row) / 3);
     all[label].push_back({fragment, f.clip, f.origin == Origin::mirrored, made_[i], entered_[i], beside, f.evident});
   }
   return all;

@@ -12,8 +12,8 @@ namespace fragmotion {
 struct Entrant {
   int fragment, clip;
   bool is_mirrored;
-  float made, entered;   ///< Of perform() and of enter() what no control tells.
-  float beside_usual;    ///< tip_distance() of its beginning to the representative's.
+  float made, entered;  ///< Of perform() and of enter() what no control tells.
+  float beside_usual;   ///< tip_distance() of its beginning to the representative's.
   Control evident;
 };
 

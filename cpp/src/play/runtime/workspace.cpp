@@ -26,7 +26,8 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
     const Character& c = character.in_style(style);
     TransitionCost cost(c, constants.transition);
     std::vector<std::vector<Entrant>> members = cost.entrants();
-    lists.push_back({&c, std::move(members), entry_steps(c), std::move(cost), step_seconds(c), successors(c.pool.fragments)});
+    lists.push_back(
+        {&c, std::move(members), entry_steps(c), std::move(cost), step_seconds(c), successors(c.pool.fragments)});
     most = std::max(most, c.pool.fragments.size());
     pools.push_back(&c.pool);
   }

@@ -18,12 +18,12 @@ namespace fragmotion {
 
 /// What is looked up of the fragments of one style.
 struct FragmentLists {
-  const Character* character;             ///< In that style.
+  const Character* character;                 ///< In that style.
   std::vector<std::vector<Entrant>> members;  ///< Of each class.
-  std::vector<EntrySteps> entry_steps;    ///< entry_steps()
-  TransitionCost cost;                    ///< Of playing each.
-  std::vector<double> step_seconds;       ///< step_seconds()
-  std::vector<int> successors;            ///< successors()
+  std::vector<EntrySteps> entry_steps;        ///< entry_steps()
+  TransitionCost cost;                        ///< Of playing each.
+  std::vector<double> step_seconds;           ///< step_seconds()
+  std::vector<int> successors;                ///< successors()
 };
 
 /// Members of a class, and what each costs.

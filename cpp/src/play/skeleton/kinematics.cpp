@@ -30,17 +30,17 @@ Quaternion rotation_towards(const Vector2& direction) {
   return {w, 0, 0, std::copysign(z, sine)};
 }
 
-/// From head and orientation of a bone to those of one that hangs on it. Number by number: what a vector instruction would load has
-/// just been written in other parts, and would have to be waited for.
+/// From head and orientation of a bone to those of one that hangs on it. Number by number: what a vector instruction
+/// would load has just been written in other parts, and would have to be waited for.
 inline void attach(const Vector3& offset, const double* wxyz, Vector3& head, Quaternion& turn) {
   const double w = turn.w(), x = turn.x(), y = turn.y(), z = turn.z();
   const double u = 2 * (y * offset.z() - z * offset.y()), v = 2 * (z * offset.x() - x * offset.z()),
                t = 2 * (x * offset.y() - y * offset.x());
   head = {head.x() + offset.x() + w * u + y * t - z * v, head.y() + offset.y() + w * v + z * u - x * t,
-             head.z() + offset.z() + w * t + x * v - y * u};
+          head.z() + offset.z() + w * t + x * v - y * u};
   const double a = wxyz[0], b = wxyz[1], c = wxyz[2], d = wxyz[3];
   turn = {w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c, w * c - x * d + y * a + z * b,
-        w * d + x * c - y * b + z * a};
+          w * d + x * c - y * b + z * a};
 }
 
 }  // namespace
