@@ -146,7 +146,8 @@ void Player::correct(const Control& control, double seconds) {
   correction_.correct(playback_, governor_, seconds);
   if (follower_ != nullptr) follower_->apply(workspace_->shown, feet_ahead(), seconds);
   root_ = workspace_->shown.root;
-  gaze_.apply(governor_.command(control, frame().heading, seconds), styled_character().space.turn_rate(), seconds);
+  if (!gaze_.rests())
+    gaze_.apply(governor_.command(control, frame().heading, seconds), styled_character().space.turn_rate(), seconds);
   if (reaching_ != nullptr) reaching_->apply(ground_level(), seconds);
 }
 
