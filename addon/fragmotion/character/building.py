@@ -105,8 +105,8 @@ def say_feet(skeleton: Skeleton) -> list[str]:
     if not held:
         return [
             "No feet are known: none is held where it stands, and what is shown on the spot stays there. Choose a "
-            "thigh and a foot on each side in Bones (Find Bones) or, where legs are a single bone, key the root's way "
-            "in the takes; then Build again"
+            "thigh and a foot on each side in Bones (Find Bones), of a leg without a foot its last bone, or key the "
+            "root's way in the takes; then Build again"
         ]
     if not others:
         return []

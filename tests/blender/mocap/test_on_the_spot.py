@@ -9,6 +9,7 @@ import bpy
 import making
 import numpy as np
 import pytest
+from mathutils import Matrix
 
 GAITS = ("walk forward", "run forward")
 
@@ -86,3 +87,47 @@ def test_a_bake_that_hardly_moves_is_a_warning(addon: ModuleType, speeds: dict[s
     obj.fragmotion.bake.trace_source = "PLAYER"
     prepared = addon.bake.baking.prepare(bpy.context, obj, obj.fragmotion.bake)
     assert "hardly moves" in prepared.task(lambda *_: None).warning
+
+
+LEGS = {"leg-left": 1, "leg-right": -1}
+
+
+@pytest.fixture
+def figure() -> bpy.types.Object:
+    """A figure whose legs are one bone each, which an importer lets point upward; a stand, a walk and a run tick."""
+    obj = making.add_armature(
+        [
+            ("root", None, (0, 0, 0), (0, 0, 0.2)),
+            *((name, "root", (0.1 * side, 0, 0.4), (0.1 * side, 0, 0.6)) for name, side in LEGS.items()),
+            ("torso", "root", (0, 0, 0.4), (0, 0, 0.6)),
+            ("head", "torso", (0, 0, 0.7), (0, 0, 0.9)),
+        ]
+    )
+    for name, swing, frames in (("stand", 0.01, 30), ("walk", 0.4, 24), ("run", 0.7, 18)):
+        obj.animation_data_clear()
+        rest = {bone: obj.data.bones[bone].matrix_local.copy() for bone in LEGS}
+        for frame in range(frames + 1):
+            angle = swing * np.sin(2 * np.pi * frame / frames)
+            obj.pose.bones["root"].matrix = Matrix.Translation((0, 0, 0.1 * abs(angle))) @ (
+                obj.data.bones["root"].matrix_local
+            )
+            obj.pose.bones["root"].keyframe_insert("location", frame=frame + 1)
+            bpy.context.view_layer.update()
+            for bone, side in LEGS.items():
+                obj.pose.bones[bone].rotation_quaternion = (
+                    rest[bone].to_3x3().inverted() @ Matrix.Rotation(side * angle, 3, "X") @ rest[bone].to_3x3()
+                ).to_quaternion()
+                obj.pose.bones[bone].keyframe_insert("rotation_quaternion", frame=frame + 1)
+        obj.animation_data.action.name = name
+        obj.animation_data.action.use_fake_user = True
+        obj.animation_data.action.fragmotion.use = True
+    return obj
+
+
+def test_legs_of_a_single_bone_lead_a_character_everywhere(addon: ModuleType, figure: bpy.types.Object) -> None:
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    figures, character = figure.fragmotion.figures, addon.character.building.load(figure)
+    assert figures.abilities.startswith("Walks in all directions and runs forward")
+    assert character.skeleton.roles["left_foot"] == "leg-left"
+    steps = 2 * bpy.context.scene.render.fps / np.array([24, 18])  # a second
+    assert character.space.speeds == pytest.approx(steps * 2 * 0.4 * np.sin([0.4, 0.7]), rel=0.1)

@@ -46,6 +46,28 @@ TEST(Rig, ShortensBonesThatAnImporterMadeFarTooLong) {
   }
 }
 
+// Importers of glTF have them point anywhere, as long as another bone.
+TEST(Rig, LegsOfASingleBoneReachTheGround) {
+  Armature armature;
+  armature.names = {"root", "leg-left", "leg-right", "torso", "head"};
+  armature.parents = {-1, 0, 0, 0, 3};
+  const Quaternion up(Eigen::AngleAxisd(kPi / 2, Vector3::UnitX()));  // y along the bone
+  for (const Vector3& head :
+       {Vector3{0, 0, 0.1}, Vector3{0.1, 0, 0.3}, Vector3{-0.1, 0, 0.3}, Vector3{0, 0, 0.3}, Vector3{0, 0, 0.6}})
+    append(compose(head, up), armature.rest);
+  armature.lengths.assign(5, 0.2);
+  append(compose({1, 2, 5}, Quaternion(Eigen::AngleAxisd(1, Vector3::UnitZ())), 2), armature.world);
+  const Skeleton skeleton = Rig(armature).skeleton();
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> rotations;
+  rest_pose(skeleton, heads, rotations);
+  for (const int foot : {skeleton.roles.left_foot, skeleton.roles.right_foot}) {
+    const Vector3 tip = heads[foot] + rotations[foot] * skeleton.tips[foot];
+    EXPECT_LT((tip - Vector3(heads[foot].x(), heads[foot].y(), 5)).norm(), 1e-9);
+  }
+  EXPECT_EQ(skeleton.tips[4], Vector3(0, 0.4, 0)) << "the head is no leg";
+}
+
 TEST(Rig, TakesGivenRolesBeforeNames) {
   Armature armature = random_armature(3);
   armature.roles = {{"hips", "body"}, {"head", "spine"}};

@@ -3,6 +3,8 @@
 
 #include "motion/contacts.hpp"
 #include "motion/foot_paths.hpp"
+#include "motion/in_place.hpp"
+#include "stilts.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
@@ -31,6 +33,25 @@ TEST(Contacts, OfHeldFeetEndAsSoonAsTheBallRisesAndGoesAway) {
     }
   }
   EXPECT_GT(sooner, 10);
+}
+
+// The hip joint, which is where such a foot begins, is always as low as it gets.
+TEST(Contacts, OfLegsOfASingleBoneAreThoseOfTheirEnds) {
+  const Kinematics kinematics(stilts());
+  const Clip still = stilts_on_the_spot(0.1, 60);
+  const FeetWay way = find_feet_way(kinematics, still).value();
+  const Clip clip = led(kinematics, still, way, kStiltsPass / way.mean.y());
+  const Contacts contacts = find_contacts(kinematics, clip);
+  const FootPaths paths = foot_paths(kinematics, clip);
+  for (int side = 0; side < 2; ++side) {
+    int stands = 0;
+    for (int f = 0; f < clip.frames; ++f) {
+      stands += contacts.feet[side][f];
+      if (contacts.feet[side][f]) EXPECT_LT(paths[side].ball[f].z(), 0.1) << f;
+    }
+    EXPECT_GT(stands, 0.05 * clip.frames);
+    EXPECT_LT(stands, 0.5 * clip.frames);
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "motion/center_of_mass.hpp"
 #include "motion/gait_bounces.hpp"
+#include "stilts.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
@@ -42,6 +43,12 @@ TEST(GaitBounces, AreInEveryFrameOfARunThatBouncesAsHighAsAJump) {
     const Clip clip = bouncing(running(), [=](int) { return rise; });
     EXPECT_EQ(count(bounces_of(clip)), clip.frames) << rise;
   }
+}
+
+TEST(GaitBounces, AreInAGaitOfRigidLegsThatPassEachOtherWhereItIsLowest) {
+  const Kinematics kinematics(stilts());
+  const Clip clip = stilts_on_the_spot(0.4);
+  EXPECT_GT(count(gait_bounces(kinematics, clip, center_of_mass(kinematics, clip))), 0.8 * clip.frames);
 }
 
 TEST(GaitBounces, AreInNoneOfHopsThatLandAsTheyTookOff) {

@@ -11,6 +11,7 @@
 #include "io/bvh.hpp"
 #include "mocap_files.hpp"
 #include "motion/in_place.hpp"
+#include "stilts.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
@@ -99,6 +100,15 @@ TEST(FeetWay, LeadsACycleIntoItself) {
   const Clip moved = led(kinematics, clip, *way), faster = led(kinematics, clip, *way, 1.5);
   EXPECT_NEAR(way_of_hips(moved), 1.2 * 24 / 30, 0.03);
   EXPECT_NEAR(way_of_hips(faster), 1.5 * way_of_hips(moved), 1e-9);
+}
+
+// Nothing but where the body faces tells forth from back.
+TEST(FeetWay, OfLegsOfASingleBoneLeadsAheadAsFarAsTheyOpen) {
+  const Kinematics kinematics(stilts());
+  const auto way = find_feet_way(kinematics, stilts_on_the_spot(0.1));
+  ASSERT_TRUE(way);
+  EXPECT_NEAR(way->mean.x(), 0, 0.01);
+  EXPECT_NEAR(way->mean.y(), kStiltsGo, 0.05 * kStiltsGo);
 }
 
 void expect_found_again(const Take& take) {

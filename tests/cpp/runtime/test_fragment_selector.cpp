@@ -61,11 +61,14 @@ double stated_cost(const Choice& choice, const std::vector<EndVelocities>& ends,
   return cost + distance * kTunedReach / tip_reach(c.pool.skeleton);
 }
 
+constexpr int kDraws = 200;  // so that each of some members is drawn
+
 TEST(FragmentSelector, ChoosesMembersThatCostNearlyAsLittleAsAnyByTheStatedEquation) {
   Choice choice(3);
   const Character& c = *choice.character;
   const std::vector<EndVelocities> ends = end_velocities(c.pool);
   choice.playback.advance(0.1);
+  const auto members = c.classes.members();
   for (int k = 0; k < c.classes.count; k += 2) {
     for (int point = 0; point < kPaperPoints; point += 14) {
       const Control control = c.space.point(point);
@@ -79,12 +82,20 @@ TEST(FragmentSelector, ChoosesMembersThatCostNearlyAsLittleAsAnyByTheStatedEquat
       };
       EXPECT_TRUE(may_play(c.pool.fragments[chosen].evident));
       double least = std::numeric_limits<double>::infinity();
-      for (const int member : choice.workspace.styles->front().members[k]) {
+      std::vector<std::pair<double, int>> costs;
+      for (const int member : members[k]) {
         if (may_play(c.pool.fragments[member].evident))
-          least = std::min(least, stated_cost(choice, ends, member, control));
+          costs.emplace_back(stated_cost(choice, ends, member, control), member);
       }
+      for (const auto& [cost, member] : costs) least = std::min(least, cost);
       EXPECT_LE(stated_cost(choice, ends, chosen, control), least + TransitionWeights{}.variety + 1e-4);
       EXPECT_NEAR(choice.selector.cost_of_leaving(k, control, choice.playback).whole, least, 1e-4);
+      std::set<int> drawn;
+      for (int draw = 0; draw < kDraws; ++draw) drawn.insert(choice.selector.choose(k, control, choice.playback));
+      for (const auto& [cost, member] : costs) {
+        const double over = cost - least - TransitionWeights{}.variety;
+        if (std::abs(over) > 1e-4) EXPECT_EQ(drawn.count(member), over < 0 ? 1 : 0) << k << " " << point;
+      }
     }
   }
 }

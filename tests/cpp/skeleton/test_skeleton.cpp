@@ -373,6 +373,23 @@ TEST(Roles, TakeTheLegForTheThighWhereThereIsNoKnee) {
   }
 }
 
+TEST(Roles, OfALegWithoutAFootItsLastBoneIsTheFoot) {
+  const Skeleton one = make_skeleton(plain_skeleton(
+      {{"root", ""}, {"leg-left", "root"}, {"leg-right", "root"}, {"torso", "root"}, {"head", "torso"}}));
+  EXPECT_EQ(one.roles.left_thigh, one.find("leg-left"));
+  EXPECT_EQ(one.roles.left_foot, one.find("leg-left"));
+  EXPECT_EQ(one.roles.right_foot, one.find("leg-right"));
+  const Skeleton two = make_skeleton(plain_skeleton({{"hips", ""},
+                                                     {"leg_upper.L", "hips"},
+                                                     {"leg_lower.L", "leg_upper.L"},
+                                                     {"leg_upper.R", "hips"},
+                                                     {"leg_lower.R", "leg_upper.R"},
+                                                     {"head", "hips"}}));
+  EXPECT_EQ(two.roles.left_thigh, two.find("leg_upper.L"));
+  EXPECT_EQ(two.roles.left_foot, two.find("leg_lower.L"));
+  EXPECT_EQ(two.roles.right_foot, two.find("leg_lower.R"));
+}
+
 TEST(Roles, TakeNoBoneThatCarriesBothLegsForAThigh) {
   Skeleton s = chain(6);  // hips > carrier > leg.L > foot.L, leg.R > foot.R
   s.names = {"hips", "carrier", "leg.L", "foot.L", "leg.R", "foot.R"};

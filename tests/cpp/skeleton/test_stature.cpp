@@ -17,6 +17,7 @@
 #include "mocap_files.hpp"
 #include "skeleton/roles.hpp"
 #include "skeleton/skeleton.hpp"
+#include "stilts.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
@@ -115,6 +116,8 @@ TEST(Stature, IsThatOfThePersonWhateverTheRig) {
     EXPECT_LT(std::abs(measured - tall), std::abs(before - tall)) << what;
   }
 }
+
+TEST(Stature, OfLegsWithoutFeetIsToldByTheWayToTheGround) { EXPECT_NEAR(stature(stilts()), 0.9 / 0.53, 1e-9); }
 
 TEST(Stature, OfOneActorIsTheSameInTwoFormats) {
   const auto cmu = shared_mocap() / "cmu";

@@ -32,8 +32,9 @@ struct Channels {
 
 /// Turns an armature's channels into clips, and poses back into channels. Its skeleton is the tree of bones that holds
 /// the hips, in world metres; bones of other trees rest. A bone that hangs on another than its parent is there in the
-/// skeleton, at its place at rest, and its channels are such that it keeps that. A bone that Blender connects to its
-/// parent ignores its location: the hips and the first bone must not be connected, for take_channels no bone.
+/// skeleton, at its place at rest, and its channels are such that it keeps that. Legs without feet reach to the height
+/// of the object's origin. A bone that Blender connects to its parent ignores its location: the hips and the first bone
+/// must not be connected, for take_channels no bone.
 class Rig {
  public:
   /// Throws std::invalid_argument on wrong sizes or order, on rest matrices that are not rigid, on a world matrix whose

@@ -16,8 +16,8 @@ constexpr double kLongestStep = 0.7;   // s: no step of a gait takes longer
 
 // The centre of mass between two of its lowest moments, or between one and the clip's end.
 struct Bounce {
-  int begin = 0, end = 0;  // frames
-  double rise = 0;         // m over the higher end
+  int begin = 0, top = 0, end = 0;  // frames
+  double rise = 0;                  // m over the higher end
   bool alternates = false;
 };
 
@@ -50,9 +50,11 @@ Vector2 apart(const FootPaths& feet, const Clip& clip, int f) {
   return frame.to_local(feet[1].heel[f] - feet[0].heel[f]).tail<2>();
 }
 
-double highest(const std::vector<Vector3>& path, int begin, int end) {
-  double highest = height(path, begin);
-  for (int f = begin; f <= end; ++f) highest = std::max(highest, height(path, f));
+int highest(const std::vector<Vector3>& path, int begin, int end) {
+  int highest = begin;
+  for (int f = begin; f <= end; ++f) {
+    if (height(path, f) > height(path, highest)) highest = f;
+  }
   return highest;
 }
 
@@ -63,12 +65,18 @@ std::vector<Bounce> bounces_of(const std::vector<Vector3>& center, const FootPat
   if (ends.back() + 1 < clip.frames) ends.push_back(clip.frames - 1);
   std::vector<Bounce> bounces;
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    const int begin = ends[i], end = ends[i + 1];
-    const bool whole = end - begin <= kLongestStep * clip.rate;
-    const double rise = highest(center, begin, end) - std::max(height(center, begin), height(center, end));
-    const double change = apart(feet, clip, begin).dot(apart(feet, clip, end)) * scale * scale;
-    const bool gallops = !feet[2].heel.empty();  // hind legs may swing together
-    bounces.push_back({begin, end, rise, whole && (gallops || change < -kFeetApart * kFeetApart)});
+    const int begin = ends[i], end = ends[i + 1], top = highest(center, begin, end);
+    bounces.push_back({begin, top, end, height(center, top) - std::max(height(center, begin), height(center, end))});
+  }
+  const auto change_places = [&](int from, int to) {
+    return apart(feet, clip, from).dot(apart(feet, clip, to)) * scale * scale < -kFeetApart * kFeetApart;
+  };
+  const bool gallops = !feet[2].heel.empty();  // hind legs may swing together
+  for (std::size_t i = 0; i < bounces.size(); ++i) {
+    Bounce& bounce = bounces[i];
+    const int top = bounces[i + 1 < bounces.size() ? i + 1 : std::max<std::size_t>(i, 1) - 1].top;
+    const bool changes = change_places(bounce.begin, bounce.end) || change_places(bounce.top, top);
+    bounce.alternates = bounce.end - bounce.begin <= kLongestStep * clip.rate && (gallops || changes);
   }
   return bounces;
 }

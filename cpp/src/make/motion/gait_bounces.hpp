@@ -7,9 +7,10 @@ namespace fragmotion {
 
 /// The frames in which a body goes up and down as in every step of a gait, however high: [frames], all false where the
 /// skeleton has no feet. `center`: the path of its centre of mass. In a gait the feet change places from each lowest
-/// moment to the next, but not those of four-legged bodies, which may gallop; and each step rises as high as the one
-/// beside it (the spring-mass model of bouncing gaits: Cavagna, Heglund, Taylor 1977). A jump lands as it took off, or
-/// rises higher than the steps beside it.
+/// moment to the next, or, where legs are rigid and pass each other there, from each highest one, but not those of
+/// four-legged bodies, which may gallop; and each step rises as high as the one beside it (the spring-mass model of
+/// bouncing gaits: Cavagna, Heglund, Taylor 1977). A jump lands as it took off, or rises higher than the steps beside
+/// it.
 std::vector<bool> gait_bounces(const Kinematics& kinematics, const Clip& clip, const std::vector<Vector3>& center);
 
 }  // namespace fragmotion

@@ -26,6 +26,12 @@ constexpr double kTreads = 0.5;                      // of the way: feet that tr
 
 using Velocities = std::vector<Vector2>;
 
+Vector2 mean_of(const Velocities& velocities) {
+  Vector2 sum = Vector2::Zero();
+  for (const Vector2& velocity : velocities) sum += velocity;
+  return velocities.empty() ? sum : Vector2(sum / static_cast<double>(velocities.size()));
+}
+
 double gaussian(double x, double sigma) { return std::exp(-0.5 * x * x / (sigma * sigma)); }
 
 // Weighted by Gaussians and weights; 0 where there is no weight.
@@ -70,8 +76,9 @@ class Treading {
   }
 
   // The body's velocity in each window, m/s, as it turns at `turn` about `center`; empty where no sole is low.
-  Velocities velocities(double turn, const Vector2& center) const {
+  Velocities velocities(double turn, const Vector2& center, const std::vector<double>& headings) const {
     Velocities way = guess(turn, center);
+    if (is_stiff() && mean_of(way).norm() < kTreads * slowest()) return striding(turn, center, headings);
     for (std::size_t round = 1; round < std::size(kSmooth); ++round) {
       const Told told = fastest(way, turn, center);
       if (told.windows.empty()) return {};
@@ -109,6 +116,26 @@ class Treading {
     std::vector<int> windows;
     Velocities velocities;
   };
+
+  bool is_stiff() const {
+    return std::all_of(soles_.begin(), soles_.end(), [](const SolePath& sole) { return sole.points.size() == 1; });
+  }
+
+  // Rigid legs that pass each other are as low, and go forth as fast as back, where they are on the ground for a frame
+  // alone: then the body goes where it faces, in each step as far as its legs open.
+  Velocities striding(double turn, const Vector2& center, const std::vector<double>& headings) const {
+    Velocities ahead;
+    double gone = 0;
+    for (int f = 0; f < windows_; ++f) {
+      ahead.emplace_back(Eigen::Rotation2Dd(headings[f]) * Vector2::UnitY());
+      double fastest = 0;
+      for (const SolePath& sole : soles_)
+        fastest = std::max(fastest, velocity(sole.heel(), f, turn, center).dot(ahead[f]));
+      gone += fastest;
+    }
+    for (Vector2& velocity : ahead) velocity *= gone / windows_;
+    return ahead;
+  }
 
   double height(const SolePoint& point, int f) const {
     return (std::max(point.path[f].z(), point.path[f + span_].z()) - point.lowest) * scale_;
@@ -272,9 +299,10 @@ bool turns(const Clip& clip) {
 
 // The mean, as the body sees it.
 Vector2 mean_of(const Velocities& velocities, const Clip& clip) {
-  Vector2 sum = Vector2::Zero();
-  for (std::size_t f = 0; f < velocities.size(); ++f) sum += Eigen::Rotation2Dd(-clip.headings[f]) * velocities[f];
-  return velocities.empty() ? sum : Vector2(sum / static_cast<double>(velocities.size()));
+  Velocities seen;
+  for (std::size_t f = 0; f < velocities.size(); ++f)
+    seen.emplace_back(Eigen::Rotation2Dd(-clip.headings[f]) * velocities[f]);
+  return mean_of(seen);
 }
 
 // As a pair of feet tells it.
@@ -284,7 +312,7 @@ std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& cl
   FeetWay way;
   if (!turns(clip)) way.turn = treading.turn();
   if (std::abs(way.turn) < kTurns) way.turn = 0;
-  const Velocities windows = treading.velocities(way.turn, middle(clip));
+  const Velocities windows = treading.velocities(way.turn, middle(clip), clip.headings);
   if (windows.empty()) return std::nullopt;
   way.velocities = treading.steps(windows);
   way.mean = mean_of(way.velocities, clip);

@@ -20,7 +20,8 @@ struct FeetWay {
 /// enough and goes back level the fastest tells, as nothing of a foot goes back over the ground. What rises or falls
 /// is a foot that lands or leaves, as is what would ask for more grip than the body's weight gives (a change of
 /// velocity of 9.81 m/s^2). In a flight the velocity goes from what it was to what it will be. Of a cycle (cycle_of())
-/// the ends are each other's neighbours.
+/// the ends are each other's neighbours. Where rigid legs pass each other, as low the one as the other, the body goes
+/// where it faces, in each step as far as they open.
 std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& clip);
 
 /// [frames] where the way takes the clip's place: what was at x and y is at frame.position + R(frame.heading) (x, y).

@@ -18,7 +18,9 @@ struct Joint {
   Vector3 place = Vector3::Zero();
 };
 
-std::vector<Joint> joints_of(const Skeleton& skeleton, int foot, int toe) {
+std::vector<Joint> joints_of(const Skeleton& skeleton, const LegRoles& leg) {
+  const auto [thigh, foot, toe] = leg;
+  if (ends_without_foot(skeleton, leg)) return {{foot, skeleton.tips[foot]}};
   if (toe < 0) return {{foot, Vector3::Zero()}, {foot, skeleton.tips[foot]}};
   return {{foot, Vector3::Zero()}, {toe, Vector3::Zero()}, {toe, skeleton.tips[toe]}};
 }
@@ -29,7 +31,7 @@ class Soles {
   Soles(const Kinematics& kinematics, const Clip& clip) : kinematics_(kinematics), clip_(clip) {
     std::vector<int> ends;
     for (const LegRoles& leg : legs_with_feet(kinematics.skeleton().roles)) {
-      feet_.push_back(joints_of(kinematics.skeleton(), leg.foot, leg.toe));
+      feet_.push_back(joints_of(kinematics.skeleton(), leg));
       ends.insert(ends.end(), {leg.foot, leg.toe});
     }
     bones_ = kinematics.chains(ends);
@@ -40,7 +42,7 @@ class Soles {
     std::vector<double> lowest(feet_.size(), std::numeric_limits<double>::infinity());
     visit([&](int f, const PosedBones& posed) {
       for (std::size_t side = 0; side < feet_.size(); ++side) {
-        const double height = at(posed, feet_[side][0]).z() + at(posed, feet_[side][1]).z();
+        const double height = at(posed, feet_[side].front()).z() + at(posed, feet_[side][feet_[side].size() > 1]).z();
         if (height < lowest[side]) lowest[side] = height, flattest[side] = f;
       }
     });

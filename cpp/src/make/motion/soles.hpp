@@ -13,12 +13,13 @@ struct SolePoint {
   double lowest = 0;
 };
 
-/// A foot's sole under its heel, ball and the toe's end, where the foot has these.
+/// A foot's sole under its heel, ball and the toe's end, where the foot has these; of a leg without a foot its end
+/// alone.
 struct SolePath {
   std::vector<SolePoint> points;
 
   const SolePoint& heel() const { return points[0]; }
-  const SolePoint& ball() const { return points[1]; }
+  const SolePoint& ball() const { return points[points.size() > 1]; }
 };
 
 /// The soles of the feet, of a skeleton that has them: what is under the feet's joints, on the

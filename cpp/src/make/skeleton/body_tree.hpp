@@ -52,6 +52,8 @@ struct Limb {
   std::array<int, 5> bones{-1, -1, -1, -1, -1};
   std::array<double, 5> confidence{};
 
+  bool alone() const { return bones[kLower] < 0 && bones[kEnd] < 0; }
+  bool empty() const { return alone() && bones[kUpper] < 0; }
   bool whole() const { return bones[kUpper] >= 0 && bones[kLower] >= 0 && bones[kEnd] >= 0; }
 };
 

@@ -29,6 +29,7 @@ class LimbFinder {
       if (score > 0) try_end(end, score);
       try_without_end(end);
     }
+    for (int bone = 0; bone < tree_.size() && best_.empty(); ++bone) try_alone(bone);
     drop_claimed_by_others(Limb::kUpper, roles_[Limb::kUpper]);
     drop_claimed_by_others(Limb::kLower, roles_[Limb::kLower]);
     find_first();
@@ -110,6 +111,15 @@ class LimbFinder {
       take(lower_score + upper_score - kMissing - skipped(upper, lower), {-1, upper, lower, -1, -1},
            {0, upper_score, lower_score, 0, 0});
     }
+  }
+
+  /// A limb of a single bone.
+  void try_alone(int upper) {
+    const double score = fits(upper, roles_[Limb::kUpper]);
+    for (int b = upper + 1; b < tree_.size(); ++b) {
+      if (tree_.in_body[b] && tree_.parents[b] == upper) return;
+    }
+    if (score > 0) take(score - 2 * kMissing, {-1, upper, -1, -1, -1}, {0, score, 0, 0, 0});
   }
 
   void take(double score, const std::array<int, 5>& bones, const std::array<double, 5>& scores) {

@@ -26,7 +26,7 @@ double agreed(double confidence) { return 1 - (1 - confidence) / 2; }
 
 /// What names tell, made surer by the shape where it agrees; else what the shape tells.
 Limb merged(const Limb& named, const Limb& shaped, const Limb& shaped_other) {
-  if (named.bones[Limb::kUpper] < 0 && named.bones[Limb::kEnd] < 0) return shaped;
+  if (named.empty() || (named.alone() && shaped.whole())) return shaped;
   Limb limb = named;
   if (limb.bones[Limb::kEnd] < 0 && limb.bones[Limb::kLower] == shaped.bones[Limb::kLower]) {
     for (const int part : {Limb::kEnd, Limb::kTip}) {

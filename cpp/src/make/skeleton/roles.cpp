@@ -19,6 +19,14 @@ int first_branching(const Skeleton& skeleton) {
   return branching == children.end() ? 0 : static_cast<int>(branching - children.begin());
 }
 
+/// The foot, or what a leg ends in that has none.
+int end_of_leg(const RoleMap& map, Side side) {
+  for (const Role role : {Role::kFoot, Role::kShin, Role::kThigh}) {
+    if (map.bone(role, side) >= 0) return map.bone(role, side);
+  }
+  return -1;
+}
+
 }  // namespace
 
 Roles roles_of(const RoleMap& map) {
@@ -27,8 +35,8 @@ Roles roles_of(const RoleMap& map) {
   roles.head = map.bone(Role::kHead);
   roles.left_hand = map.bone(Role::kHand, Side::kLeft);
   roles.right_hand = map.bone(Role::kHand, Side::kRight);
-  roles.left_foot = map.bone(Role::kFoot, Side::kLeft);
-  roles.right_foot = map.bone(Role::kFoot, Side::kRight);
+  roles.left_foot = end_of_leg(map, Side::kLeft);
+  roles.right_foot = end_of_leg(map, Side::kRight);
   roles.left_toe = map.bone(Role::kToe, Side::kLeft);
   roles.right_toe = map.bone(Role::kToe, Side::kRight);
   roles.left_thigh = map.bone(Role::kThigh, Side::kLeft);

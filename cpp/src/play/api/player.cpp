@@ -201,14 +201,10 @@ void FragmotionPlayer::take_pose(Shown& pose) const {
 }
 
 Vector3 FragmotionPlayer::sole(int side) const {
-  const Roles& roles = hero->skeleton().roles;
-  const int foot = side == 0 ? roles.left_foot : roles.right_foot, toe = side == 0 ? roles.left_toe : roles.right_toe;
-  if (foot < 0) return now.root;
+  const LegRoles leg = leg_roles(hero->skeleton().roles)[side];
+  if (leg.foot < 0) return now.root;
   world(now);
-  const PosedBones& posed = scratch->posed;
-  const Vector3 heel = posed.heads[foot], front = ball(hero->skeleton(), foot, toe, posed);
-  const Vector3 middle = (heel + front) / 2;
-  return {middle.x(), middle.y(), std::min(heel.z(), front.z())};
+  return fragmotion::sole(hero->skeleton(), leg, scratch->posed);
 }
 
 void FragmotionPlayer::tell(FragmotionEventType type, int index, const Vector3& inside, double ago) {

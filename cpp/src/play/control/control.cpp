@@ -71,7 +71,6 @@ int least(int count, const Value& value) {
   return best;
 }
 
-constexpr double kLeap = 0.9;                  // evident jump of what is no run
 constexpr double kQuickest = 170 * kPi / 180;  // rad/s
 
 void check_speeds(const std::vector<double>& speeds) {
@@ -95,10 +94,6 @@ std::size_t nearest_to_walk(const std::vector<int>& gaits) {
 }
 
 }  // namespace
-
-bool matches_jump(const Control& evident, const Control& wanted) {
-  return wanted.jumps() ? evident.jumps() : evident.jump < kLeap;
-}
 
 void check(const ControlLayout& layout) {
   require(layout.speeds >= 1 && layout.speeds <= kMostSpeeds, "number of speeds", layout.speeds, "1 to 4");
@@ -155,11 +150,6 @@ double ControlSpace::quickest_turn() const { return std::clamp(kQuickest / turn_
 
 double ControlSpace::turn_towards(double off) const {
   return std::clamp(off / kFacing / turn_rate_, -quickest_turn(), quickest_turn());
-}
-
-double ControlSpace::distance(const Control& a, const Control& b) const {
-  return std::sqrt(square(weights_.velocity * scale_) * (square(a.x - b.x) + square(a.y - b.y)) +
-                   square(weights_.turn * (a.turn - b.turn)) + square(weights_.jump * (a.jump - b.jump)));
 }
 
 }  // namespace fragmotion

@@ -35,7 +35,10 @@ struct Control {
 };
 
 /// Whether what is evident jumps as is wanted, or does not. A bouncy run, which is in the air too, will do for a run.
-bool matches_jump(const Control& evident, const Control& wanted);
+inline bool matches_jump(const Control& evident, const Control& wanted) {
+  constexpr double kLeap = 0.9;  // evident jump of what is no run
+  return wanted.jumps() ? evident.jumps() : evident.jump < kLeap;
+}
 
 /// The weights of ControlDis (Eq. 2). Defaults: going 0.5 m/s too fast (at 1.8 m stature) weighs as much as the whole
 /// turn rate, and 3/8 of a jump, so that no jump is made to please a velocity. A weight of 0 ignores its part of a
@@ -93,7 +96,11 @@ class ControlSpace {
   /// ControlDis (Eq. 2): weighted Euclidean, a weight multiplying its difference before it is squared:
   /// sqrt((velocity scale)^2 (dx^2 + dy^2) + (turn dturn)^2 + (jump djump)^2), turn and jump standing for their
   /// weights.
-  double distance(const Control& a, const Control& b) const;
+  double distance(const Control& a, const Control& b) const {
+    const auto square = [](double value) { return value * value; };
+    return std::sqrt(square(weights_.velocity * scale_) * (square(a.x - b.x) + square(a.y - b.y)) +
+                     square(weights_.turn * (a.turn - b.turn)) + square(weights_.jump * (a.jump - b.jump)));
+  }
 
  private:
   static constexpr double kStep = 1e-3;

@@ -20,8 +20,7 @@ constexpr double kForgets = 4;         // times kRelease, until nothing is seen 
 constexpr double kComesToRest = 0.02;  // s: time constant of a foot that comes to rest
 constexpr double kSoftGround = 0.006;  // m: a foot sinks in at most half of that
 constexpr double kHovers = 0.015;      // m over the floor from where a planted foot is lowered,
-constexpr double kLowering = 0.05;     // s: time constant of that
-constexpr double kRaising = 0.05;      // s: time constant of a heel that rises,
+constexpr double kFollows = 0.05;      // s: time constant of that, and of a heel that rises
 constexpr double kLevel = 1e-4;        // rad, below which nothing is seen of it
 constexpr double kPatience = 0.3;      // s that both feet stand before one steps to where its motion has it
 constexpr double kAstray = 0.07;       // m from its motion at least, for a foot to step there rather than slide
@@ -112,20 +111,20 @@ double FootLock::step_height(const Foot& foot) const {
 }
 
 // How far a foot is lowered: where the hips are too high for what plays, its motion would let a planted one hover.
-double FootLock::lowered(Foot& foot, double over, double seconds) const {
+double FootLock::lowered(Foot& foot, double over, double follows) const {
   const double hovers = foot.locked ? std::max(0.0, over - kHovers / body_->scale) : 0;
-  foot.lowered += filtered(seconds, kLowering) * (hovers - foot.lowered);
+  foot.lowered += follows * (hovers - foot.lowered);
   return std::min(foot.lowered, std::max(0.0, over));
 }
 
 // Of a planted foot that is left behind further than the leg is long the heel rises about the ball.
-void FootLock::raise_heel(int side, const Vector3& ball, double seconds, Vector3& ankle, double* rotations) {
+void FootLock::raise_heel(int side, const Vector3& ball, double follows, Vector3& ankle, double* rotations) {
   Foot& foot = feet_[side];
   const Leg& leg = body_->legs[side];
   PosedBones& posed = body_->posed;
   const Vector3 from_ball = ankle - ball, hip = posed.heads[leg.thigh] - ball;
   const double lacks = foot.locked ? rise_to_reach(hip, from_ball, longest(leg, posed)) : 0;
-  foot.raised += filtered(seconds, kRaising) * (std::min(lacks, kHighestHeel) - foot.raised);
+  foot.raised += follows * (std::min(lacks, kHighestHeel) - foot.raised);
   if (foot.raised < kLevel) return;
   const Quaternion turn{Eigen::AngleAxisd(foot.raised, heel_axis(from_ball))};
   ankle = ball + turn * from_ball;
@@ -189,6 +188,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
                 longer = heading * edit.stride * heading.transpose();
   const Vector2 shift = heading * edit.shift;
   std::array<Vector3, kMostLegs> ankles;
+  const double follows = filtered(seconds, kFollows);
   double strained = 0;
   settle(seconds);
   for (int side = 0; side < count; ++side) {
@@ -199,10 +199,10 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     const Vector3 place = ball(skeleton, legs[side], posed);
     const Vector2 edited = longer * (place - under(side, pose)).head<2>() + shift;
     const Vector2 held = away(side, place.head<2>() + edited, stands, seconds), by = edited + held;
-    const double lift = lifted(-over * scale) / scale + step_height(feet_[side]) - lowered(feet_[side], over, seconds);
+    const double lift = lifted(-over * scale) / scale + step_height(feet_[side]) - lowered(feet_[side], over, follows);
     const Vector3 moved{by.x(), by.y(), lift};
     ankles[side] = posed.heads[legs[side].foot] + moved;
-    raise_heel(side, place + moved, seconds, ankles[side], pose.rotations.data());
+    raise_heel(side, place + moved, follows, ankles[side], pose.rotations.data());
     if (by.isZero(1e-9) && lift == 0) continue;
     const double strain =
         std::max(0.0, too_high(longest(legs[side], posed), posed.heads[legs[side].thigh], ankles[side]));

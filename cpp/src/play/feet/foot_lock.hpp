@@ -88,8 +88,8 @@ class FootLock {
   void lock(Foot& foot, const Vector2& shown, double seconds) const;
   void settle(double seconds);
   double step_height(const Foot& foot) const;
-  double lowered(Foot& foot, double over, double seconds) const;
-  void raise_heel(int side, const Vector3& ball, double seconds, Vector3& ankle, double* rotations);
+  double lowered(Foot& foot, double over, double follows) const;
+  void raise_heel(int side, const Vector3& ball, double follows, Vector3& ankle, double* rotations);
   void release(Foot& foot, const Vector2& held) const;
 
   std::shared_ptr<Body> body_;

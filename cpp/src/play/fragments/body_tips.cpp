@@ -115,7 +115,7 @@ void BodyTips::pose(const Vector3& root, const double* rotations) {
   const std::vector<Vector3>& tips = kinematics_.skeleton().tips;
   for (std::size_t i = 0; i < tips_.size(); ++i) {
     const int b = bones_[i];
-    tips_[i] = posed_.heads[b] + posed_.rotations[b] * tips[b];
+    tips_[i] = posed_.heads[b] + turned(posed_.rotations[b], tips[b]);
   }
 }
 

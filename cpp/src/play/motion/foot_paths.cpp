@@ -35,7 +35,11 @@ FootPaths foot_paths(const Kinematics& kinematics, const Clip& clip) {
   const Skeleton& skeleton = kinematics.skeleton();
   const std::vector<LegRoles> feet = legs_with_feet(skeleton.roles);
   std::vector<int> ends;
-  for (const LegRoles& leg : feet) ends.insert(ends.end(), {leg.foot, leg.toe});
+  std::vector<bool> stilts;
+  for (const LegRoles& leg : feet) {
+    ends.insert(ends.end(), {leg.foot, leg.toe});
+    stilts.push_back(ends_without_foot(skeleton, leg));
+  }
   const std::vector<int> bones = kinematics.chains(ends);
   PosedBones posed(kinematics.bones());
   FootPaths paths;
@@ -43,7 +47,7 @@ FootPaths foot_paths(const Kinematics& kinematics, const Clip& clip) {
     world(kinematics, clip, f, bones, posed.heads.data(), posed.rotations.data());
     for (std::size_t i = 0; i < feet.size(); ++i) {
       paths[i].ball.push_back(ball(skeleton, feet[i].foot, feet[i].toe, posed));
-      paths[i].heel.push_back(posed.heads[feet[i].foot]);
+      paths[i].heel.push_back(stilts[i] ? paths[i].ball.back() : posed.heads[feet[i].foot]);
     }
   }
   return paths;

@@ -12,7 +12,8 @@ namespace fragmotion {
 /// m over its floor, of a 1.8 m character, under which a ball or a heel may stand on it.
 constexpr double kContactHeight = 0.045;
 
-/// The path of a foot's ball, its lower end, and of its heel, the foot's head: [frames] m.
+/// The path of a foot's ball, its lower end, and of its heel, the foot's head: [frames] m. Both are the end of a leg
+/// without a foot.
 struct FootPath {
   std::vector<Vector3> ball, heel;
 };

@@ -7,15 +7,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSlowest = 0.5;  // of the speed that is asked for
-
 bool asks_for_motion(const Control& control) { return control.speed() > 0 && !control.jumps(); }
-
-bool goes_along(const Vector2& velocity, const Control& wanted) {
-  const double along = velocity.x() * wanted.x + velocity.y() * wanted.y,
-               across = velocity.x() * wanted.y - velocity.y() * wanted.x;
-  return along >= kSlowest * wanted.speed() * wanted.speed() && along >= std::abs(across);
-}
 
 // The classes that may play and answer a control.
 std::vector<int> answering_classes(const Quality& quality, const Control& wanted, int control,
@@ -119,10 +111,6 @@ class HeldControl {
 };
 
 }  // namespace
-
-bool answers(const Control& evident, const Control& wanted) {
-  return matches_jump(evident, wanted) && goes_along({evident.x, evident.y}, wanted);
-}
 
 std::vector<int> answered_controls(const Quality& quality, const ControlSpace& space,
                                    const std::vector<Control>& evident) {

@@ -64,14 +64,18 @@ void FragmentSelector::extrapolate_end(const Fragment& fragment) const {
 void FragmentSelector::find_candidates(int next_class, const Control& control, const Left& left,
                                        Candidates& candidates) const {
   const Character& c = *style_->character;
-  const Fragment* fragments = c.pool.fragments.data();
-  const Control& usually = fragments[c.classes.representatives[next_class]].evident;
-  const bool matches = matches_jump(usually, control), goes = is_moving(control) && answers(usually, control);
+  const Control& usually = c.pool.fragments[c.classes.representatives[next_class]].evident;
+  const Control wanted = control;  // whatever is written, this stays
+  const bool matches = matches_jump(usually, wanted), goes = is_moving(wanted) && answers(usually, wanted),
+             is_mirrored = left.fragment.origin == Origin::mirrored;
+  const auto of_left = static_cast<std::size_t>(left.fragment.clip);
+  const bool is_here = of_left < c.contacts.size() && &left.contacts == &c.contacts[of_left];  // not of another style
+  const int clip = is_here ? left.fragment.clip : -1;
   candidates.clear();
-  for (const int fragment : style_->members[next_class]) {
-    const Control& evident = fragments[fragment].evident;
-    if ((matches && !matches_jump(evident, control)) || (goes && !answers(evident, control))) continue;
-    candidates.emplace_back(style_->cost.of_entering(fragment, control, left.fragment, left.contacts), fragment);
+  for (const Entrant& entrant : style_->members[next_class]) {
+    if (matches && !matches_jump(entrant.evident, wanted)) continue;
+    if (goes && !answers(entrant.evident, wanted)) continue;
+    candidates.emplace_back(style_->cost.of_entering(entrant, wanted, is_mirrored, clip), &entrant);
     if (candidates.back().first < candidates.front().first) std::swap(candidates.front(), candidates.back());
   }
 }
@@ -88,9 +92,9 @@ float FragmentSelector::distance(int fragment) const {
 }
 
 // How many feet come down out of turn where a fragment follows what goes, or does not, after these steps.
-int FragmentSelector::out_of_turn(int fragment, bool went, const StepSequence& steps) const {
-  const bool goes_on = went && is_moving(style_->character->pool.fragments[fragment].evident);
-  return goes_on ? steps_out_of_turn(steps, style_->entry_steps[fragment]) : 0;
+int FragmentSelector::out_of_turn(const Entrant& entrant, bool went, const StepSequence& steps) const {
+  const bool goes_on = went && is_moving(entrant.evident);
+  return goes_on ? steps_out_of_turn(steps, style_->entry_steps[entrant.fragment]) : 0;
 }
 
 // The candidate that costs least, if that is less than `most`, which comes first from now on. By the triangle
@@ -102,12 +106,12 @@ float FragmentSelector::least_cost(int next_class, const Control& evident, const
   const bool went = is_moving(evident);
   const float usual = distance(style_->character->classes.representatives[next_class]);
   for (auto& candidate : candidates) {
-    const auto [known, fragment] = candidate;
-    const float nearest = std::max(0.0F, usual - style_->beside_usual[fragment]);
+    const auto [known, entrant] = candidate;
+    const float nearest = std::max(0.0F, usual - entrant->beside_usual);
     if (known + cost.of_joining(nearest, 0) >= most) continue;
-    const int feet = out_of_turn(fragment, went, steps);
+    const int feet = out_of_turn(*entrant, went, steps);
     if (known + cost.of_joining(nearest, feet) >= most) continue;
-    const float whole = known + cost.of_joining(distance(fragment), feet);
+    const float whole = known + cost.of_joining(distance(entrant->fragment), feet);
     if (whole >= most) continue;
     most = whole;
     std::swap(candidate, candidates.front());
@@ -156,7 +160,7 @@ Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, c
   find_candidates(next_class, control, left, candidates);
   constexpr float kAny = std::numeric_limits<float>::infinity();
   const float whole = least_cost(next_class, left.fragment.evident, steps, candidates, kAny);
-  return {whole, style_->cost.of_going_on(candidates.front().second, control)};
+  return {whole, style_->cost.of_going_on(candidates.front().second->fragment, control)};
 }
 
 int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback) {
@@ -165,20 +169,23 @@ int FragmentSelector::choose(int next_class, const Control& control, const Playb
   extrapolate(playback);
   const auto variety = static_cast<float>(weights().variety);
   const bool went = is_moving(playback.evident());
+  const float usual = distance(style_->character->classes.representatives[next_class]);
   float least = std::numeric_limits<float>::infinity();
-  for (auto& [cost, fragment] : candidates) {
-    cost += style_->cost.of_joining(distance(fragment), out_of_turn(fragment, went, playback.steps()));
+  for (auto& [cost, entrant] : candidates) {
+    const int feet = out_of_turn(*entrant, went, playback.steps());
+    const float at_least = cost + style_->cost.of_joining(std::max(0.0F, usual - entrant->beside_usual), feet);
+    cost = at_least > least + variety ? at_least : cost + style_->cost.of_joining(distance(entrant->fragment), feet);
     least = std::min(least, cost);
   }
   const auto end = std::partition(candidates.begin(), candidates.end(),
                                   [&](const auto& candidate) { return candidate.first <= least + variety; });
   const int drawn = std::max(1, static_cast<int>(end - candidates.begin()));  // none costs a number in a forged state
-  return candidates[random_.below(drawn)].second;
+  return candidates[random_.below(drawn)].second->fragment;
 }
 
 int FragmentSelector::choose_any(int next_class) {
-  const std::vector<int>& members = style_->members[next_class];
-  return members[random_.below(static_cast<int>(members.size()))];
+  const std::vector<Entrant>& members = style_->members[next_class];
+  return members[random_.below(static_cast<int>(members.size()))].fragment;
 }
 
 int FragmentSelector::best_class(const Control& control, const Playback& playback) const {

@@ -82,7 +82,7 @@ class FragmentSelector {
   bool is_moving(const Control& control) const;
   void find_candidates(int next_class, const Control& control, const Left& left, Candidates& candidates) const;
   float distance(int fragment) const;
-  int out_of_turn(int fragment, bool went, const StepSequence& steps) const;
+  int out_of_turn(const Entrant& entrant, bool went, const StepSequence& steps) const;
   float least_cost(int next_class, const Control& evident, const StepSequence& steps, Candidates& candidates,
                    float most) const;
   Cost cost_of_leaving(int next_class, const Control& control, const Left& left, const StepSequence& steps) const;

@@ -131,7 +131,6 @@ bool Gaze::hold_back(double seconds) {
 }
 
 void Gaze::apply(const Control& command, double turn_rate, double seconds) {
-  if (workspace_->look.empty() || (look_ == Look::as_captured && !turned_)) return;
   const Seen captured = see();
   if (!turned_) head_ = captured.rotation;
   const std::optional<Angles> elsewhere = wanted(captured, command, turn_rate);

@@ -32,8 +32,10 @@ class Gaze {
   Look looks() const { return look_; }
   const Vector3& place() const { return place_; }
 
-  /// Turns Workspace::shown, `seconds` after the pose that was shown last, of a character that goes by a command and
-  /// turns at `turn_rate` rad/s at a turn of 1.
+  /// Whether the head goes with what plays.
+  bool rests() const { return workspace_->look.empty() || (look_ == Look::as_captured && !turned_); }
+  /// Otherwise turns Workspace::shown, `seconds` after the pose that was shown last, of a character that goes by a
+  /// command and turns at `turn_rate` rad/s at a turn of 1.
   void apply(const Control& command, double turn_rate, double seconds);
 
  private:

@@ -17,43 +17,54 @@ Vector3 turn_of(const Quaternion& q) { return q.vec() / (1 + q.w()); }
 // Rounding errors are no offset: their squares are denormal numbers, with which processors are slow.
 float rounded(double value) { return std::abs(value) < 1e-12 ? 0.0F : static_cast<float>(value); }
 
-using Lanes = float[kBoneBlock];
-
-// Turns the rotations of a block of bones, of which there are `count`.
-[[gnu::always_inline]] inline void turn_block(const float* offsets, int count, float offset, float speed,
-                                              double* rotations) {
-  float q[kBoneBlock][4] = {};
-  std::copy_n(rotations, 4 * count, &q[0][0]);
-  Lanes turn[3] = {}, turning[3] = {};
-  for (Lanes* lanes : {turn, turning}) {
-    for (int axis = 0; axis < 3; ++axis, offsets += count) std::copy_n(offsets, count, lanes[axis]);
-  }
-  Lanes w, x, y, z;
+// Turns the rotations of a block of bones.
+[[gnu::always_inline]] inline void turn_block(const float* offsets, float offset, float speed, double* rotations) {
+  const float *x = offsets, *y = x + kBoneBlock, *z = y + kBoneBlock;
+  const float *to_x = z + kBoneBlock, *to_y = to_x + kBoneBlock, *to_z = to_y + kBoneBlock;
+  float turn[4][kBoneBlock];
   for (int i = 0; i < kBoneBlock; ++i) {
-    const float a = offset * turn[0][i] + speed * turning[0][i], b = offset * turn[1][i] + speed * turning[1][i],
-                c = offset * turn[2][i] + speed * turning[2][i], square = a * a + b * b + c * c,
-                scale = 1 / (1 + square);
-    w[i] = (1 - square) * scale;
-    x[i] = 2 * scale * a;
-    y[i] = 2 * scale * b;
-    z[i] = 2 * scale * c;
+    const float a = offset * x[i] + speed * to_x[i], b = offset * y[i] + speed * to_y[i],
+                c = offset * z[i] + speed * to_z[i], square = a * a + b * b + c * c, scale = 1 / (1 + square);
+    turn[0][i] = (1 - square) * scale;
+    turn[1][i] = 2 * scale * a;
+    turn[2][i] = 2 * scale * b;
+    turn[3][i] = 2 * scale * c;
   }
   for (int i = 0; i < kBoneBlock; ++i) {
-    const float a = q[i][0], b = q[i][1], c = q[i][2], d = q[i][3];
-    q[i][0] = w[i] * a - x[i] * b - y[i] * c - z[i] * d;
-    q[i][1] = w[i] * b + x[i] * a + y[i] * d - z[i] * c;
-    q[i][2] = w[i] * c - x[i] * d + y[i] * a + z[i] * b;
-    q[i][3] = w[i] * d + x[i] * c - y[i] * b + z[i] * a;
+    double* q = rotations + std::ptrdiff_t{4} * i;
+    const auto a = static_cast<float>(q[0]), b = static_cast<float>(q[1]), c = static_cast<float>(q[2]),
+               d = static_cast<float>(q[3]);
+    const float w = turn[0][i], r = turn[1][i], s = turn[2][i], t = turn[3][i];
+    q[0] = w * a - r * b - s * c - t * d;
+    q[1] = w * b + r * a + s * d - t * c;
+    q[2] = w * c - r * d + s * a + t * b;
+    q[3] = w * d + r * c - s * b + t * a;
   }
-  std::copy_n(&q[0][0], 4 * count, rotations);
 }
 
-// Turns the rotations [bones, 4] further by what is left of the offsets and the speeds. A whole block's size is known
-// when this is compiled.
+// Bones that are no whole block, as one: the last of them stands for what it lacks.
+struct FilledBlock {
+  float offsets[6][kBoneBlock];
+  double rotations[kBoneBlock][4];
+
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): the loop fills them
+  [[gnu::always_inline]] FilledBlock(const float* few, int count, const double* turned) {
+    for (int i = 0; i < kBoneBlock; ++i) {
+      const int bone = std::min(i, count - 1);
+      for (int value = 0; value < 6; ++value) offsets[value][i] = few[value * count + bone];
+      for (int part = 0; part < 4; ++part) rotations[i][part] = turned[4 * bone + part];
+    }
+  }
+};
+
+// Turns the rotations [bones, 4] further by what is left of the offsets and the speeds.
 FRAGMOTION_VECTORISED void add_turns(const float* offsets, int bones, float offset, float speed, double* rotations) {
   for (; bones >= kBoneBlock; bones -= kBoneBlock, offsets += 6 * kBoneBlock, rotations += 4 * kBoneBlock)
-    turn_block(offsets, kBoneBlock, offset, speed, rotations);
-  if (bones > 0) turn_block(offsets, bones, offset, speed, rotations);
+    turn_block(offsets, offset, speed, rotations);
+  if (bones == 0) return;
+  FilledBlock last(offsets, bones, rotations);
+  turn_block(last.offsets[0], offset, speed, last.rotations[0]);
+  std::copy_n(last.rotations[0], 4 * bones, rotations);
 }
 
 }  // namespace

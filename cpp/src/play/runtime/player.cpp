@@ -146,7 +146,8 @@ void Player::correct(const Control& control, double seconds) {
   correction_.correct(playback_, governor_, seconds);
   if (follower_ != nullptr) follower_->apply(workspace_->shown, feet_ahead(), seconds);
   root_ = workspace_->shown.root;
-  gaze_.apply(governor_.command(control, frame().heading, seconds), styled_character().space.turn_rate(), seconds);
+  if (!gaze_.rests())
+    gaze_.apply(governor_.command(control, frame().heading, seconds), styled_character().space.turn_rate(), seconds);
   if (reaching_ != nullptr) reaching_->apply(ground_level(), seconds);
 }
 
@@ -200,17 +201,13 @@ double Player::quality(int control) const {
 
 std::array<std::optional<Vector3>, 2> Player::standing_feet() const {
   const Kinematics& kinematics = workspace_->kinematics;
-  const Roles& roles = kinematics.skeleton().roles;
-  const std::array feet{roles.left_foot, roles.right_foot}, toes{roles.left_toe, roles.right_toe};
+  const std::array<LegRoles, kMostLegs> legs = leg_roles(kinematics.skeleton().roles);
   const std::array<bool, 2> stands = playback_.standing_feet(playback_.seconds());
   PosedBones posed(kinematics.bones());
   kinematics.world(root_, rotations().data(), posed.heads.data(), posed.rotations.data());
   std::array<std::optional<Vector3>, 2> soles;
   for (int side = 0; side < 2; ++side) {
-    if (!stands[side] || feet[side] < 0) continue;
-    const Vector3 heel = posed.heads[feet[side]], front = ball(kinematics.skeleton(), feet[side], toes[side], posed),
-                  middle = (heel + front) / 2;
-    soles[side] = Vector3{middle.x(), middle.y(), std::min(heel.z(), front.z())};
+    if (stands[side] && legs[side].foot >= 0) soles[side] = sole(kinematics.skeleton(), legs[side], posed);
   }
   return soles;
 }

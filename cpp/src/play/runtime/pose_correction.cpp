@@ -50,9 +50,10 @@ void PoseCorrection::edit_steps(const Control& evident, const RootGovernor& gove
       goes ? Matrix2{governor.velocity() * velocity.transpose() / (governor.tempo() * velocity.squaredNorm())}
            : Matrix2{Matrix2::Zero()};
   const double most = std::min(1.0, kLonger / std::max(kLonger, wanted.norm()));
-  steps_.stride += filtered(seconds, kStriding) * (most * wanted - steps_.stride);
+  const double strode = filtered(seconds, kStriding);
+  steps_.stride += strode * (most * wanted - steps_.stride);
   const Vector2 behind = -kSetOff * workspace_->shown.root.z() / kGravity * lean_.acceleration();
-  steps_.shift += filtered(seconds, kStriding) * (behind - steps_.shift);
+  steps_.shift += strode * (behind - steps_.shift);
 }
 
 void PoseCorrection::lock_feet(const Playback& playback, double seconds) {

@@ -44,8 +44,9 @@ void RootGovernor::steer(const Control& control, double seconds, Playback& playb
   const Control command = limit_.after(control, heading, limits_->settles);  // by which what is added lags behind
   const Travel mean = playback.mean_travel();
   steer_tempo(command, playback, seconds);
-  steer_velocity(command, mean.velocity, in_the_air, seconds);
-  steer_turn(command.turn * space_->turn_rate(), mean.turn_rate, playback, seconds);
+  const double settled = filtered(seconds, limits_->settles);
+  steer_velocity(command, mean.velocity, in_the_air, settled, seconds);
+  steer_turn(command.turn * space_->turn_rate(), mean.turn_rate, playback, settled, seconds);
   playback.move(velocity_, turn_rate_, seconds);
 }
 
@@ -66,25 +67,26 @@ Vector2 RootGovernor::velocity_to_add(const Control& command, const Vector2& mea
 }
 
 // What plays and what is added to it together get no faster from their velocity than a body can.
-void RootGovernor::steer_velocity(const Control& command, const Vector2& mean, bool in_the_air, double seconds) {
+void RootGovernor::steer_velocity(const Control& command, const Vector2& mean, bool in_the_air, double settled,
+                                  double seconds) {
   const Vector2 played = tempo_ * mean, faster = (begins_ ? 0 : root_adjustment_) * (played - played_);
   played_ = played;
   begins_ = false;
   if (in_the_air) return;
-  const Vector2 change = filtered(seconds, limits_->settles) * (velocity_to_add(command, mean) - velocity_);
+  const Vector2 change = settled * (velocity_to_add(command, mean) - velocity_);
   velocity_ += clamp_length(change + faster, limit_.acceleration() * seconds) - faster;
 }
 
 // Draws the heading to that which is asked for, and turns little faster than is asked or than a control
 // of these takes asks.
-void RootGovernor::steer_turn(double asked, double mean, const Playback& playback, double seconds) {
+void RootGovernor::steer_turn(double asked, double mean, const Playback& playback, double settled, double seconds) {
   const double time = playback.step_seconds() / 2, most = kTurnsAtMost * std::max(std::abs(asked), space_->turn_rate()),
                heading = playback.frame().heading;
   target_heading_ += seconds * asked;
   const double behind = std::clamp(wrapped(target_heading_ - heading), -most * time, most * time);
   target_heading_ = heading + behind;
   const double wanted = root_adjustment_ * (std::clamp(asked + behind / time, -most, most) - tempo_ * mean);
-  turn_rate_ += filtered(seconds, limits_->settles) * (wanted - turn_rate_);
+  turn_rate_ += settled * (wanted - turn_rate_);
 }
 
 void RootGovernor::leave(double seconds, Playback& playback) {

@@ -57,8 +57,8 @@ class RootGovernor {
   friend struct PlayerState;
 
   void steer_tempo(const Control& command, const Playback& playback, double seconds);
-  void steer_velocity(const Control& command, const Vector2& mean, bool in_the_air, double seconds);
-  void steer_turn(double asked, double mean, const Playback& playback, double seconds);
+  void steer_velocity(const Control& command, const Vector2& mean, bool in_the_air, double settled, double seconds);
+  void steer_turn(double asked, double mean, const Playback& playback, double settled, double seconds);
   Vector2 velocity_to_add(const Control& command, const Vector2& mean) const;
 
   const RootLimits* limits_;

@@ -43,23 +43,26 @@ double TransitionCost::strays(int fragment, const Control& control) const {
   return std::max(0.0, (ends.last - asked).norm() - (ends.first - asked).norm());
 }
 
-float TransitionCost::of_performing(int fragment, const Control& control) const {
-  const Control& evident = character_->pool.fragments[fragment].evident;
-  return match_ * static_cast<float>(character_->space.distance(evident, control)) + made_[fragment];
-}
-
 float TransitionCost::of_going_on(int fragment, const Control& control) const {
-  const double turned = std::abs(character_->pool.fragments[fragment].evident.turn - control.turn);
-  return of_performing(fragment, control) + unsteady_ * static_cast<float>(strays(fragment, control)) +
+  const Control& evident = character_->pool.fragments[fragment].evident;
+  const double turned = std::abs(evident.turn - control.turn);
+  return of_performing(evident, made_[fragment], control) + unsteady_ * static_cast<float>(strays(fragment, control)) +
          bent_ * static_cast<float>(turned);
 }
 
-float TransitionCost::of_entering(int fragment, const Control& control, const Fragment& left,
-                                  const Contacts& of_left) const {
-  const Fragment& f = character_->pool.fragments[fragment];
-  const bool flips = (f.origin == Origin::mirrored) != (left.origin == Origin::mirrored);
-  const bool stays = &character_->contacts[f.clip] == &of_left;
-  return of_performing(fragment, control) + entered_[fragment] + (flips ? mirrored_ : 0) + (stays ? 0 : other_take_);
+std::vector<std::vector<Entrant>> TransitionCost::entrants() const {
+  const Character& c = *character_;
+  const std::size_t row = c.entry_poses.size() / c.pool.fragments.size();
+  const auto entry = [&](int fragment) { return c.entry_poses.data() + row * fragment; };
+  std::vector<std::vector<Entrant>> all(c.classes.count);
+  for (std::size_t i = 0; i < c.pool.fragments.size(); ++i) {
+    const int fragment = static_cast<int>(i), label = c.classes.labels[i];
+    const Fragment& f = c.pool.fragments[i];
+    const float beside =
+        tip_distance(entry(fragment), entry(c.classes.representatives[label]), static_cast<int>(row) / 3);
+    all[label].push_back({fragment, f.clip, f.origin == Origin::mirrored, made_[i], entered_[i], beside, f.evident});
+  }
+  return all;
 }
 
 }  // namespace fragmotion

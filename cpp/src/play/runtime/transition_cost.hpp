@@ -8,6 +8,15 @@
 
 namespace fragmotion {
 
+/// A member of a class, and what its costs are told by, all in one place of the memory.
+struct Entrant {
+  int fragment, clip;
+  bool is_mirrored;
+  float made, entered;  ///< Of perform() and of enter() what no control tells.
+  float beside_usual;   ///< tip_distance() of its beginning to the representative's.
+  Control evident;
+};
+
 /// What it costs to play fragment g next, t seconds from now, in metres of Dis of a body whose tip_reach() is
 /// kTunedReach:
 ///
@@ -33,15 +42,22 @@ class TransitionCost {
   bool slows_down(int fragment) const;
   /// Of going on with a fragment as the successor under a control.
   float of_going_on(int fragment, const Control& control) const;
-  /// perform() + enter() of one after another, which is of the clip with these contacts.
-  float of_entering(int fragment, const Control& control, const Fragment& left, const Contacts& of_left) const;
+  /// The members of each class.
+  std::vector<std::vector<Entrant>> entrants() const;
+  /// perform() + enter() of one after another, mirrored or not, that is of a clip of this number.
+  float of_entering(const Entrant& entrant, const Control& control, bool is_mirrored, int clip) const {
+    return of_performing(entrant.evident, entrant.made, control) + entrant.entered +
+           (entrant.is_mirrored != is_mirrored ? mirrored_ : 0) + (entrant.clip == clip ? 0 : other_take_);
+  }
   /// join() by a tip_distance() of places and of speeds, both of which it sums, for so many feet out of turn.
   float of_joining(float distance, int out_of_turn) const {
     return distance * per_distance_ + out_of_turn_ * out_of_turn;
   }
 
  private:
-  float of_performing(int fragment, const Control& control) const;
+  float of_performing(const Control& evident, float made, const Control& control) const {
+    return match_ * static_cast<float>(character_->space.distance(evident, control)) + made;
+  }
   double strays(int fragment, const Control& control) const;
 
   const Character* character_;

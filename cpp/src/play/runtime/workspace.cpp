@@ -9,21 +9,6 @@
 #include "fragments/successors.hpp"
 
 namespace fragmotion {
-namespace {
-
-std::vector<float> beside_usual(const Character& character) {
-  const std::size_t row = character.entry_poses.size() / character.pool.fragments.size();
-  const auto entry = [&](int fragment) { return character.entry_poses.data() + row * fragment; };
-  std::vector<float> distances;
-  for (const int label : character.classes.labels) {
-    const int fragment = static_cast<int>(distances.size()), usual = character.classes.representatives[label];
-    distances.push_back(tip_distance(entry(fragment), entry(usual), static_cast<int>(row) / 3));
-  }
-  return distances;
-}
-
-}  // namespace
-
 Workspace::Workspace(const Character& character, const PlayerConstants& constants)
     : constants(constants),
       kinematics(character.pool.skeleton),
@@ -39,8 +24,10 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
   std::vector<FragmentLists> lists;
   for (int style = 0; style < character.style_count(); ++style) {
     const Character& c = character.in_style(style);
-    lists.push_back({&c, c.classes.members(), entry_steps(c), TransitionCost(c, constants.transition), step_seconds(c),
-                     successors(c.pool.fragments), beside_usual(c)});
+    TransitionCost cost(c, constants.transition);
+    std::vector<std::vector<Entrant>> members = cost.entrants();
+    lists.push_back(
+        {&c, std::move(members), entry_steps(c), std::move(cost), step_seconds(c), successors(c.pool.fragments)});
     most = std::max(most, c.pool.fragments.size());
     pools.push_back(&c.pool);
   }

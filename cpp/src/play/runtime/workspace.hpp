@@ -18,17 +18,16 @@ namespace fragmotion {
 
 /// What is looked up of the fragments of one style.
 struct FragmentLists {
-  const Character* character;             ///< In that style.
-  std::vector<std::vector<int>> members;  ///< Classes::members()
-  std::vector<EntrySteps> entry_steps;    ///< entry_steps()
-  TransitionCost cost;                    ///< Of playing each.
-  std::vector<double> step_seconds;       ///< step_seconds()
-  std::vector<int> successors;            ///< successors()
-  std::vector<float> beside_usual;        ///< tip_distance() of each one's beginning to its representative's
+  const Character* character;                 ///< In that style.
+  std::vector<std::vector<Entrant>> members;  ///< Of each class.
+  std::vector<EntrySteps> entry_steps;        ///< entry_steps()
+  TransitionCost cost;                        ///< Of playing each.
+  std::vector<double> step_seconds;           ///< step_seconds()
+  std::vector<int> successors;                ///< successors()
 };
 
 /// Members of a class, and what each costs.
-using Candidates = std::vector<std::pair<float, int>>;
+using Candidates = std::vector<std::pair<float, const Entrant*>>;
 
 /// What players of one character that step in turn share: what never changes, and room to work in.
 struct Workspace {

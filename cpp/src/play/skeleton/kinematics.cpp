@@ -30,18 +30,17 @@ Quaternion rotation_towards(const Vector2& direction) {
   return {w, 0, 0, std::copysign(z, sine)};
 }
 
-/// Head and orientation of a bone that hangs on its parent. Number by number: what a vector instruction would load has
-/// just been written in other parts, and would have to be waited for.
-inline void attach(const Vector3& head, const Quaternion& parent, const Vector3& offset, const double* wxyz,
-                   Vector3& to_head, Quaternion& to) {
-  const double w = parent.w(), x = parent.x(), y = parent.y(), z = parent.z();
+/// From head and orientation of a bone to those of one that hangs on it. Number by number: what a vector instruction
+/// would load has just been written in other parts, and would have to be waited for.
+inline void attach(const Vector3& offset, const double* wxyz, Vector3& head, Quaternion& turn) {
+  const double w = turn.w(), x = turn.x(), y = turn.y(), z = turn.z();
   const double u = 2 * (y * offset.z() - z * offset.y()), v = 2 * (z * offset.x() - x * offset.z()),
                t = 2 * (x * offset.y() - y * offset.x());
-  to_head = {head.x() + offset.x() + w * u + y * t - z * v, head.y() + offset.y() + w * v + z * u - x * t,
-             head.z() + offset.z() + w * t + x * v - y * u};
+  head = {head.x() + offset.x() + w * u + y * t - z * v, head.y() + offset.y() + w * v + z * u - x * t,
+          head.z() + offset.z() + w * t + x * v - y * u};
   const double a = wxyz[0], b = wxyz[1], c = wxyz[2], d = wxyz[3];
-  to = {w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c, w * c - x * d + y * a + z * b,
-        w * d + x * c - y * b + z * a};
+  turn = {w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c, w * c - x * d + y * a + z * b,
+          w * d + x * c - y * b + z * a};
 }
 
 }  // namespace
@@ -114,12 +113,16 @@ void Kinematics::world_below(const Vector3& root_position, const double* rotatio
                              Vector3* heads, Quaternion* orientations) const {
   const Skeleton& skeleton = parts_->skeleton;
   const int hips = skeleton.roles.hips;
-  heads[hips] = root_position;
-  orientations[hips] = load_quaternion(rotations + std::ptrdiff_t{4} * hips);
+  Vector3 head = heads[hips] = root_position;
+  Quaternion turn = orientations[hips] = load_quaternion(rotations + std::ptrdiff_t{4} * hips);
+  int last = hips;
   for (const int b : bones) {
     const int parent = skeleton.parents[b];
-    attach(heads[parent], orientations[parent], skeleton.offsets[b], rotations + std::ptrdiff_t{4} * b, heads[b],
-           orientations[b]);
+    if (parent != last) head = heads[parent], turn = orientations[parent];
+    attach(skeleton.offsets[b], rotations + std::ptrdiff_t{4} * b, head, turn);
+    heads[b] = head;
+    orientations[b] = turn;
+    last = b;
   }
 }
 

@@ -95,6 +95,17 @@ std::vector<LegRoles> legs_with_feet(const Roles& roles) {
   return legs;
 }
 
+bool has_knee(const Skeleton& skeleton, const LegRoles& leg) {
+  return leg.thigh < 0 || leg.foot < 0 || (leg.foot != leg.thigh && skeleton.parents[leg.foot] != leg.thigh);
+}
+
+bool ends_without_foot(const Skeleton& skeleton, const LegRoles& leg) {
+  if (has_knee(skeleton, leg) || (leg.toe >= 0 && leg.toe != leg.foot)) return false;
+  Vector3 way = skeleton.tips[leg.foot];
+  for (int bone = leg.foot; bone >= 0; bone = skeleton.parents[bone]) way = skeleton.rest_rotations[bone] * way;
+  return leads_down(way);
+}
+
 int Skeleton::find(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());

@@ -58,6 +58,14 @@ struct Skeleton {
   bool is_below(int bone, int ancestor) const;
 };
 
+/// Whether a bone lies between thigh and foot; so it is taken to be where one of them is not known.
+bool has_knee(const Skeleton& skeleton, const LegRoles& leg);
+inline bool leads_down(const Vector3& way) { return -way.z() > way.head<2>().norm(); }
+
+/// Whether a leg ends in its thigh or its shin, which is its foot then: that leads down at rest, and no knee lies
+/// above. It stands on its tip alone.
+bool ends_without_foot(const Skeleton& skeleton, const LegRoles& leg);
+
 /// Checks sizes, order, unique names, roles and finite numbers, and returns the skeleton, its rest rotations of unit
 /// length. Throws std::invalid_argument that names the bone; also over 4,096 bones, on a name of more than 255 bytes
 /// and on an offset or tip of more than 1,000 km.
@@ -70,9 +78,12 @@ std::vector<int> mirror_bones(const Skeleton& skeleton);
 /// From the hip joint to the ankle, of the stature: thigh 0.245 and shank 0.246, Drillis and Contini, "Body Segment
 /// Parameters" (1966), as in Winter, "Biomechanics and Motor Control of Human Movement", Fig. 4.1.
 constexpr double kLegOfStature = 0.491;
+/// The same to the ground: the foot's height is 0.039.
+constexpr double kHipHeightOfStature = 0.53;
 
 /// Height in metres of a person with these legs, whatever the rest pose and however head and toes end: a leg from hip
-/// joint to ankle is 0.491 of it. Where no leg has its roles, the longest chain of bones.
+/// joint to ankle is 0.491 of it, to the end of one without a foot 0.53. Where no leg has its roles, the longest chain
+/// of bones.
 double stature(const Skeleton& skeleton);
 
 /// Throws std::invalid_argument unless the stature is 1 mm to 10,000 km, so that distances are numbers.

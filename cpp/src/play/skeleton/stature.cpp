@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -36,23 +37,23 @@ double longest_chain(const Skeleton& skeleton, int root) {
   return chain;
 }
 
-/// Along the bones from hip joint to ankle; 0 where there is no such leg.
-double leg_length(const Skeleton& skeleton, int thigh, int foot) {
-  if (!skeleton.is_below(foot, thigh)) return 0;
-  double length = 0;
-  for (int bone = foot; bone != thigh; bone = skeleton.parents[bone]) length += skeleton.offsets[bone].norm();
-  return length;
+/// By the way along the bones from hip joint to ankle; 0 where there is no such leg.
+double stature_of(const Skeleton& skeleton, const LegRoles& leg) {
+  if (!skeleton.is_below(leg.foot, leg.thigh)) return 0;
+  const bool whole = ends_without_foot(skeleton, leg);
+  double length = whole ? skeleton.tips[leg.foot].norm() : 0;
+  for (int bone = leg.foot; bone != leg.thigh; bone = skeleton.parents[bone]) length += skeleton.offsets[bone].norm();
+  return length / (whole ? kHipHeightOfStature : kLegOfStature);
 }
 
 }  // namespace
 
 double stature(const Skeleton& skeleton) {
-  const Roles& roles = skeleton.roles;
-  const double left = leg_length(skeleton, roles.left_thigh, roles.left_foot),
-               right = leg_length(skeleton, roles.right_thigh, roles.right_foot);
-  if (left > 0 && right > 0) return (left + right) / (2 * kLegOfStature);
-  if (left > 0 || right > 0) return std::max(left, right) / kLegOfStature;
-  return longest_chain(skeleton, std::max(roles.hips, 0));
+  const std::array<LegRoles, kMostLegs> legs = leg_roles(skeleton.roles);
+  const double left = stature_of(skeleton, legs[0]), right = stature_of(skeleton, legs[1]);
+  if (left > 0 && right > 0) return (left + right) / 2;
+  if (left > 0 || right > 0) return std::max(left, right);
+  return longest_chain(skeleton, std::max(skeleton.roles.hips, 0));
 }
 
 void check_stature(const Skeleton& skeleton) {

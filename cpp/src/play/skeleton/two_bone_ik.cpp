@@ -236,6 +236,13 @@ Vector3 ball(const Skeleton& skeleton, int foot, int toe, const PosedBones& pose
   return posed.heads[foot] + posed.rotations[foot] * skeleton.tips[foot];
 }
 
+Vector3 sole(const Skeleton& skeleton, const LegRoles& leg, const PosedBones& posed) {
+  const Vector3 front = ball(skeleton, leg.foot, leg.toe, posed);
+  if (ends_without_foot(skeleton, leg)) return front;
+  const Vector3 &heel = posed.heads[leg.foot], middle = (heel + front) / 2;
+  return {middle.x(), middle.y(), std::min(heel.z(), front.z())};
+}
+
 double leg_length(const Leg& leg, const PosedBones& posed) {
   const Vector3& knee = posed.heads[leg.knee];
   return (knee - posed.heads[leg.thigh]).norm() + (posed.heads[leg.foot] - knee).norm();

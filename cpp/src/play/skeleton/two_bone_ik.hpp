@@ -50,6 +50,9 @@ inline Vector3 ball(const Skeleton& skeleton, const Leg& leg, const PosedBones& 
   return ball(skeleton, leg.foot, leg.toe, posed);
 }
 
+/// Where a foot treads, standing or not: under the middle of heel and ball, as low as the lower one.
+Vector3 sole(const Skeleton& skeleton, const LegRoles& leg, const PosedBones& posed);
+
 /// From the thigh's head over the knee to the foot's, m; and as much of it as the leg reaches.
 double leg_length(const Leg& leg, const PosedBones& posed);
 double longest(const Leg& leg, const PosedBones& posed);
