@@ -134,5 +134,44 @@ TEST(HeldControls, CountsWhatThereIsEnoughOf) {
   EXPECT_EQ(held_controls({}, space).speeds, 0);
 }
 
+TEST(ControlSpaceOf, FindsTwoGaits) {
+  Random random(1);
+  std::vector<Control> evident;
+  for (int i = 0; i < 200; ++i) {
+    const double angle = 2 * kPi * random.uniform(), speed = i % 2 == 0 ? 1.4 : 4.2;
+    evident.push_back({speed * std::cos(angle), speed * std::sin(angle), 0, 0});
+  }
+  for (const double size : {1.0, 10.0}) {
+    std::vector<Control> sized = evident;
+    for (Control& c : sized) c.x *= size, c.y *= size;
+    const ControlSpace space = control_space_of(sized, 1 / size);
+    EXPECT_NEAR(space.walk(), 1.4 * size, 1e-9 * size);
+    EXPECT_NEAR(space.run(), 4.2 * size, 1e-9 * size);
+    EXPECT_NEAR(space.scale(), 1 / size, 1e-12);
+  }
+}
+
+TEST(ControlSpaceOf, KeepsTheDefaultsWhereNothingMoves) {
+  const ControlSpace standard, space = control_space_of(std::vector<Control>(20), 1);
+  EXPECT_NEAR(space.walk(), standard.walk(), 1e-12);
+  EXPECT_NEAR(space.run(), standard.run(), 1e-12);
+  EXPECT_NEAR(space.turn_rate(), standard.turn_rate(), 1e-12);
+}
+
+TEST(ControlSpaceOf, IsASpaceForAnyFragments) {
+  Random random(2);
+  for (int n = 0; n < 300; ++n) {
+    std::vector<Control> evident(1 + random.below(30));
+    const double size = 10 * random.uniform() * random.uniform();
+    for (Control& c : evident)
+      c = {size * (random.uniform() - 0.5), size * (random.uniform() - 0.5), 3 * random.uniform() - 1.5,
+           random.uniform()};
+    const ControlSpace space = control_space_of(evident, 1);
+    EXPECT_GT(space.walk(), 0);
+    EXPECT_GT(space.run(), space.walk());
+    EXPECT_GT(space.turn_rate(), 0);
+  }
+}
+
 }  // namespace
 }  // namespace fragmotion

@@ -380,5 +380,13 @@ TEST(SimulateTrace, RefusesUnknownPlayersAndLengths) {
   EXPECT_EQ(simulate_trace("walker", 0.2, 1, space).size(), 2u);
 }
 
+TEST(Snap, FindsTheNearestPointOfEveryControl) {
+  const ControlSpace space;
+  const Trace trace = simulate_trace("twitcher", 5, 3, space);
+  const std::vector<int> indices = snap(space, trace);
+  ASSERT_EQ(indices.size(), trace.size());
+  for (std::size_t i = 0; i < trace.size(); ++i) EXPECT_EQ(indices[i], space.nearest(trace[i]));
+}
+
 }  // namespace
 }  // namespace fragmotion

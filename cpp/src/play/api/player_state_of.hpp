@@ -241,7 +241,6 @@ void PlayerState::exchange(Archive& a, FootOnGround& foot) {
   a.number(foot.found_, 0, 1);
   for (Footing* plane : {&foot.last_, &foot.next_, &foot.plane_}) footing(a, *plane);
   approach(a, foot.error_);
-  for (Approach& turn : foot.turn_) approach(a, turn);
   exchange(a, foot.known_);
   vector(a, foot.beside_, kMostPlace);
   for (Approach& shift : foot.shift_) approach(a, shift);
@@ -249,8 +248,7 @@ void PlayerState::exchange(Archive& a, FootOnGround& foot) {
   a.number(foot.swing_time_, 0, kMostPlace);
   a.number(foot.due_, 0, kMostPlace);
   a.number(foot.lift_, -kMostPlace, kMostPlace);
-  a.number(foot.contact_weight_, 0, 1);
-  a.number(foot.sole_weight_, 0, 1);
+  a.number(foot.weight_, 0, 1);
 }
 
 template <typename Archive>

@@ -11,6 +11,8 @@ namespace fragmotion {
 
 /// m over its floor, of a 1.8 m character, within which a foot comes down to it.
 constexpr double kLanding = 0.06;
+/// s that are looked ahead at most.
+constexpr double kLookedAhead = 0.8;
 
 /// Points of a sole on level ground at height 0, under heel, ball and tip of a foot; z is how high each is, m.
 struct Sole {

@@ -13,21 +13,19 @@ namespace fragmotion {
 namespace {
 
 // Lengths are those of a character of 1.8 m.
-constexpr double kTooFar = 0.3;          // m from its motion at which a foot is let go,
-constexpr double kTooFarAlone = 0.5;     // and at which the only one that stands is
-constexpr double kStrained = 0.1;        // m that the hips would have to sink for a foot: from there it steps on
-constexpr double kForgets = 4;           // times kRelease, until nothing is seen of a foot that was let go
-constexpr double kComesToRest = 0.02;    // s: time constant of a foot that comes to rest
-constexpr double kSoftGround = 0.006;    // m: a foot sinks in at most half of that
-constexpr double kHovers = 0.015;        // m over the floor from where a planted foot is lowered,
-constexpr double kFollows = 0.05;        // s: time constant of that, and of a heel that rises,
-constexpr double kHighest = 0.6;         // rad, by so much at most
-constexpr double kLevel = 1e-4;          // rad, below which nothing is seen of it
-constexpr double kPatience = 0.3;        // s that both feet stand before one steps to where its motion has it
-constexpr double kAstray = 0.07;         // m from its motion at least, for a foot to step there rather than slide
-constexpr double kStepHeight = 0.04;     // m
-constexpr double kDeepestAtOnce = 0.08;  // m that the hips may sink
-constexpr double kSinksIn = 0.1;         // s: time constant of the hips
+constexpr double kTooFar = 0.3;        // m from its motion at which a foot is let go,
+constexpr double kTooFarAlone = 0.5;   // and at which the only one that stands is
+constexpr double kStrained = 0.1;      // m that the hips would have to sink for a foot: from there it steps on
+constexpr double kForgets = 4;         // times kRelease, until nothing is seen of a foot that was let go
+constexpr double kComesToRest = 0.02;  // s: time constant of a foot that comes to rest
+constexpr double kSoftGround = 0.006;  // m: a foot sinks in at most half of that
+constexpr double kHovers = 0.015;      // m over the floor from where a planted foot is lowered,
+constexpr double kFollows = 0.05;      // s: time constant of that, and of a heel that rises
+constexpr double kLevel = 1e-4;        // rad, below which nothing is seen of it
+constexpr double kPatience = 0.3;      // s that both feet stand before one steps to where its motion has it
+constexpr double kAstray = 0.07;       // m from its motion at least, for a foot to step there rather than slide
+constexpr double kStepHeight = 0.04;   // m
+constexpr double kSinksIn = 0.1;       // s: time constant of the hips
 
 // The other foot of a pair.
 int other(int side) { return side ^ 1; }
@@ -126,7 +124,7 @@ void FootLock::raise_heel(int side, const Vector3& ball, double follows, Vector3
   PosedBones& posed = body_->posed;
   const Vector3 from_ball = ankle - ball, hip = posed.heads[leg.thigh] - ball;
   const double lacks = foot.locked ? rise_to_reach(hip, from_ball, longest(leg, posed)) : 0;
-  foot.raised += follows * (std::min(lacks, kHighest) - foot.raised);
+  foot.raised += follows * (std::min(lacks, kHighestHeel) - foot.raised);
   if (foot.raised < kLevel) return;
   const Quaternion turn{Eigen::AngleAxisd(foot.raised, heel_axis(from_ball))};
   ankle = ball + turn * from_ball;
@@ -209,7 +207,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     const double strain =
         std::max(0.0, too_high(longest(legs[side], posed), posed.heads[legs[side].thigh], ankles[side]));
     if (feet_[side].locked && strain * scale > kStrained) release(feet_[side], held);
-    strained = std::max(strained, std::min(kDeepestAtOnce / scale, strain));
+    strained = std::max(strained, std::min(kStrained / scale, strain));
   }
   fresh_ = false;
   sunk_ += (strained - sunk_) * filtered(seconds, kSinksIn);

@@ -12,25 +12,18 @@ constexpr double kSettle = 0.03;     // s in which a foot that stands gets onto 
 constexpr double kFastestError = 3;  // m/s at which it does so
 constexpr double kSlid = 0.005;      // m that a foot may slide on the same footing
 constexpr double kPace = 0.1;        // m/s with which a foot that steps on the spot is on its way
-constexpr double kLoading = 0.12;    // s before it stands, and
-constexpr double kUnloading = 0.15;  // s after it, in which a foot bears more and more, and less and less
-constexpr double kQuickest = 0.06;   // s in which it does so at least
-constexpr double kSole = 0.08;  // s before it stands, and after it, in which its sole is more and less on its footing
+constexpr double kLoading = 0.08;    // s before it stands, and after it, in which a foot bears more and more, and less
 
-constexpr double kMargin = 0.03;        // m by which it clears what is in its way
-constexpr double kClearing = 0.1;       // s in which its clearance gets as high as it must
-constexpr double kLeast = 0.2;          // of the arch's height, below which it is not told from that what it is to be
-constexpr double kMostClearance = 0.5;  // m
+constexpr double kMargin = 0.03;   // m by which it clears what is in its way
+constexpr double kClearing = 0.1;  // s in which its clearance gets as high as it must
+constexpr double kLeast = 0.2;     // of the arch's height, below which it is not told from that what it is to be
 
 constexpr double kTried = 0.02;      // m by which a sole is moved off an edge,
 constexpr int kTrials = 8;           // times that, to the front and to the back
-constexpr double kSameTread = 0.05;  // m between heights of one tread
 constexpr double kHysteresis = 0.1;  // s: the sooner it lands, the more it keeps to the tread that was foreseen
 
 constexpr double kLandingBeside = 0.01;  // m beside a place where a foot is to stand, that counts as there,
-constexpr double kNowBeside = 0.02;      // where it is now,
 constexpr double kWayBeside = 0.09;      // and where it is on its way
-constexpr double kFootPart = 0.1;  // of its length along it that a foot's way is taken to go: it has a direction then
 
 // The height of a foot's clearance at a part of its way.
 double arch(double part) { return 1 - std::pow(2 * part - 1, 4); }
@@ -41,21 +34,16 @@ bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, 
   due_ = foot.stands ? 0 : foot.due;
   swing_time_ = foot.stands ? 0 : swing_time_ + seconds;
   const Vector2 place = foot.now.place() + shift();
-  Footing before = on_way(place, 0);
-  if (foot.stands) before.height += lift_;
+  const double before = on_way(place, 0).height + (foot.stands ? lift_ : 0);
   if (foot.stands) {
     stand(foot, probe, spared);
   } else {
     swing(foot, probe, spared);
   }
   advance_shift(foot, fresh_ ? kSettle : seconds);
-  if (!fresh_) {
-    const Footing now = on_way(place, 0);
-    error_.value += before.height - now.height;
-    for (int axis = 0; axis < 2; ++axis) turn_[axis].value += before.slope[axis] - now.slope[axis];
-  }
+  if (!fresh_) error_.value += before - on_way(place, 0).height;
   plane_ = on_way(foot.now.place() + shift(), 0);
-  advance_errors(seconds);
+  error_.advance(0, std::max({due_, kSettle, std::abs(error_.value) / kFastestError}), seconds);
   clear(foot, lower, seconds, probe);
   bear(foot, seconds);
   stood_ = foot.stands;
@@ -76,7 +64,7 @@ void FootOnGround::stand(const FootAhead& foot, GroundProbe& probe, int spared) 
     found_ = under.has_value();
   }
   probe.spare(spared);
-  const double edges = known_.edges(sole, false, 0, probe);
+  const double edges = known_.edges(sole, 0, probe);
   if (edges >= KnownGround::kInTheWay || (lands && edges > 0)) beside_ = beside_edges(foot, probe);
 }
 
@@ -104,7 +92,6 @@ Vector2 FootOnGround::beside_edges(const FootAhead& foot, GroundProbe& probe) {
   const Vector2 along = (sole.tip - sole.heel).head<2>().normalized();
   const bool planned = !fresh_ && !stood_;
   const double keeps = kHysteresis / std::max(due_, kTried);
-  const bool descends = !fresh_ && next_.height < last_.height;
   double least = std::numeric_limits<double>::infinity();
   Vector2 best = Vector2::Zero();
   for (int i = 0; i <= 2 * kTrials; ++i) {
@@ -114,8 +101,8 @@ Vector2 FootOnGround::beside_edges(const FootAhead& foot, GroundProbe& probe) {
     const Sole there = sole.moved(moved);
     const std::optional<Footing> ground =
         planned ? known_.at(there.place(), {along, kLandingBeside}, probe) : std::nullopt;
-    const double off = ground ? std::max(0.0, std::abs(ground->height - next_.height) - kSameTread) : 0;
-    const double cost = moved.norm() + keeps * off + known_.edges(there, descends, kLandingBeside, probe);
+    const double off = ground ? std::abs(ground->height - next_.height) : 0;
+    const double cost = moved.norm() + keeps * off + known_.edges(there, kLandingBeside, probe);
     if (cost < least) least = cost, best = moved;
   }
   return best;
@@ -138,12 +125,6 @@ Footing FootOnGround::on_way(const Vector2& place, double later) const {
   return {place, (1 - part) * last_.at(place) + part * next_.at(place), (1 - part) * last_.slope + part * next_.slope};
 }
 
-void FootOnGround::advance_errors(double seconds) {
-  const double due = std::max({due_, kSettle, std::abs(error_.value) / kFastestError});
-  error_.advance(0, due, seconds);
-  for (Approach& turn : turn_) turn.advance(0, due, seconds);
-}
-
 // Steps over what is in its way, in one arch.
 void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, GroundProbe& probe) {
   if (foot.stands) {
@@ -151,12 +132,8 @@ void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, Gr
     lift_ = 0;
     return;
   }
-  const Sole now = foot.now.moved(shift());
-  const Vector2 way = foot.landing().place() + beside_ - now.place() + kFootPart * (now.tip - now.heel).head<2>();
-  const KnownGround::Along along{way.normalized(), kWayBeside};
-  Footing shown = plane_;
-  shown.height += error_.value;
-  const double reaches = known_.over(now, lower, shown, {along.way, kNowBeside}, probe);
+  const Vector2 now = foot.now.place() + shift();
+  const KnownGround::Along along{(foot.landing().place() + beside_ - now).normalized(), kWayBeside};
   double wanted = 0;
   for (std::size_t i = 0; i < FootAhead::kPoints; ++i) {
     const double u = static_cast<double>(i + 1) / FootAhead::kPoints, later = u * due_;
@@ -165,18 +142,14 @@ void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, Gr
     const double height = arch(part_of_way(at.place(), later));
     if (over > 0 && height > kLeast) wanted = std::max(wanted, (over + std::min(over, kMargin)) / height);
   }
-  clearance_.advance(std::min(wanted, kMostClearance), fresh_ ? 0 : kClearing, seconds);
-  lift_ = std::max(std::max(clearance_.value, 0.0) * arch(part_of_way(now.place(), 0)), reaches);
+  clearance_.advance(wanted, fresh_ ? 0 : kClearing, seconds);
+  lift_ = std::max(clearance_.value, 0.0) * arch(part_of_way(now, 0));
 }
 
 void FootOnGround::bear(const FootAhead& foot, double seconds) {
-  const auto ramp = [](double time, double over) { return std::clamp(1 - time / over, 0.0, 1.0); };
-  const double wanted = foot.stands ? 1 : std::max(ramp(due_, kLoading), ramp(swing_time_, kUnloading)),
-               most = fresh_ ? 1 : seconds / kQuickest;
-  contact_weight_ += std::clamp(wanted - contact_weight_, -most, most);
-  const double sole_weight = foot.stands ? 1 : std::max(ramp(due_, kSole), ramp(swing_time_, kSole)),
-               step = fresh_ ? 1 : seconds / kSole;
-  sole_weight_ += std::clamp(sole_weight - sole_weight_, -step, step);
+  const double wanted = foot.stands ? 1 : std::max(0.0, 1 - std::min(due_, swing_time_) / kLoading),
+               most = fresh_ ? 1 : seconds / kLoading;
+  weight_ += std::clamp(wanted - weight_, -most, most);
 }
 
 }  // namespace fragmotion

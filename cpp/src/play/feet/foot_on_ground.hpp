@@ -20,13 +20,12 @@ class FootOnGround {
 
   /// Of what would be level ground under it, with what it clears; m.
   double height() const { return plane_.height + error_.value + lift_; }
-  Vector2 slope() const { return plane_.slope + Vector2{turn_[0].value, turn_[1].value}; }
+  const Vector2& slope() const { return plane_.slope; }
   /// How far it is moved along itself: where it would stand on an edge, it stands beside it. m.
   Vector2 shift() const { return {shift_[0].value, shift_[1].value}; }
-  /// How much its leg must reach it, 0 .. 1: it stands, or did just now, or is about to.
-  double contact_weight() const { return contact_weight_; }
-  /// How much its sole is on its footing rather than as high as it was captured, likewise.
-  double sole_weight() const { return sole_weight_; }
+  /// How much its leg must reach it, and its sole is on its footing rather than as high as it was captured, 0 .. 1: it
+  /// stands, or did just now, or is about to.
+  double weight() const { return weight_; }
 
   /// What it knows of the ground beside its footings is of another place.
   void forget_ground() { known_.forget(); }
@@ -45,7 +44,6 @@ class FootOnGround {
   Vector2 beside_edges(const FootAhead& foot, GroundProbe& probe);
   std::optional<Footing> ask_under(const Sole& sole, GroundProbe& probe);
   void advance_shift(const FootAhead& foot, double seconds);
-  void advance_errors(double seconds);
   void clear(const FootAhead& foot, double lower, double seconds, GroundProbe& probe);
   void bear(const FootAhead& foot, double seconds);
   double part_of_way(const Vector2& place, double later) const;
@@ -57,12 +55,11 @@ class FootOnGround {
   KnownGround known_;
   Footing plane_;                     // under it now, from the one to the other
   Approach error_;                    // of the height that is shown
-  std::array<Approach, 2> turn_;      // likewise of the slope
   Vector2 beside_ = Vector2::Zero();  // how far it is to be moved
   std::array<Approach, 2> shift_;
-  Approach clearance_;                                      // how high it steps over what is in its way, m
-  double swing_time_ = 0, due_ = 0;                         // s since it stood, and until it stands
-  double lift_ = 0, contact_weight_ = 1, sole_weight_ = 1;  // m; 0 .. 1
+  Approach clearance_;               // how high it steps over what is in its way, m
+  double swing_time_ = 0, due_ = 0;  // s since it stood, and until it stands
+  double lift_ = 0, weight_ = 1;     // m; 0 .. 1
 };
 
 }  // namespace fragmotion

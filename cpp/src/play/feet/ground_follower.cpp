@@ -14,15 +14,9 @@ namespace {
 // Lengths are those of a character of 1.8 m.
 constexpr double kHighestStep = 0.7;  // m over the level under the body, of ground that it may step on
 constexpr double kSky = 1e5;          // m: over all ground
-constexpr double kUneven = 0.03;      // m by which ground differs where feet stand on it exactly
-constexpr double kFootLength = 0.25;  // m over which a slope counts
-constexpr double kGetsExact = 0.15;   // s in which they come to
+constexpr double kGetsExact = 0.15;   // s in which feet come to stand exactly on ground that is not level
 constexpr double kReached = 0.985;    // of a leg's length, that the hips leave it at most
-constexpr double kStretched = 0.998;  // and that it is stretched to
-constexpr double kSoft = 0.02;        // m: by how much what a leg lacks is rounded off
-constexpr double kLookAhead = 0.4;    // s before a foot lands, from which on the hips sink for it
 constexpr double kDeepest = 0.45;     // m that they sink
-constexpr double kMostRaised = 0.6;   // rad of a heel
 constexpr int kAsked = 8;             // times that a step asks for the ground,
 constexpr int kAskedAtFirst = 80;     // and a reset
 constexpr double kHips = 0.15;        // s: time constant of hips without legs
@@ -30,11 +24,6 @@ constexpr double kHips = 0.15;        // s: time constant of hips without legs
 Quaternion turned_by(const Vector2& slope) {
   if (slope.isZero(0)) return Quaternion::Identity();
   return turn_between(Vector3::UnitZ(), Vector3{-slope.x(), -slope.y(), 1});
-}
-
-// At least 0, without a kink.
-double softly_positive(double value, double soft) {
-  return value > 30 * soft ? value : soft * std::log1p(std::exp(value / soft));
 }
 
 }  // namespace
@@ -84,7 +73,7 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
   hips_.advance(pose.root.head<2>(), feet_, seconds);
   level_ = hips_.level();
   pose.root.z() += level_;
-  const double since = fresh_ ? kLookAhead : seconds;
+  const double since = fresh_ ? kLookedAhead : seconds;
   fresh_ = false;
   if (is_flat()) return;
   kinematics.world_below(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
@@ -96,31 +85,28 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
     turn_foot(kinematics.skeleton(), legs[side], heels_[side] * turns_[side], turns_[side], posed,
               pose.rotations.data());
     const double length = leg_length(legs[side], posed);
-    reach(kinematics.skeleton(), legs[side], posed, ankles[side], Reach{0.2 * length, kStretched * length},
+    reach(kinematics.skeleton(), legs[side], posed, ankles[side], Reach{0.2 * length, longest(legs[side], posed)},
           pose.rotations.data());
   }
 }
 
 // Feet stand exactly on ground that is not level.
 void GroundFollower::get_exact(double seconds) {
-  double lowest = feet_[0].last().height, highest = lowest, steepest = 0;
+  const double level = feet_[0].last().height;
+  bool even = true;
   for (const FootOnGround& foot : feet_) {
-    for (const Footing* footing : {&foot.last(), &foot.next()}) {
-      lowest = std::min(lowest, footing->height);
-      highest = std::max(highest, footing->height);
-      steepest = std::max(steepest, footing->slope.norm());
-    }
+    for (const Footing* footing : {&foot.last(), &foot.next()})
+      even = even && footing->height == level && footing->slope.isZero(0);
   }
-  const double uneven = highest - lowest + steepest * kFootLength / body_->scale;
-  const double wanted = std::clamp(uneven * body_->scale / kUneven, 0.0, 1.0), most = fresh_ ? 1 : seconds / kGetsExact;
-  exact_ += std::clamp(wanted - exact_, -most, most);
+  const double most = fresh_ ? 1 : seconds / kGetsExact;
+  exact_ += std::clamp((even ? 0 : 1) - exact_, -most, most);
 }
 
 // How much lower than captured a foot is shown, m: one that is low comes down to its floor, softly.
 double GroundFollower::lower(int side, const FootAhead& foot) const {
   const double contact = kLanding / body_->scale, height = foot.now.height();
   const double lowered = height <= 0 ? 0 : height < contact ? height * height / (2 * contact) : height - contact / 2;
-  return exact_ * feet_[side].sole_weight() * (height - lowered);
+  return exact_ * feet_[side].weight() * (height - lowered);
 }
 
 // Whether the body stands as on level ground.
@@ -154,20 +140,20 @@ Vector3 GroundFollower::place_foot(int side, const FootAhead& foot) {
 
 // Lowers the hips for legs that bear the body, and for those that are about to.
 void GroundFollower::sink(const FeetAhead& feet, const std::array<Vector3, 2>& ankles, double seconds) {
-  const double soft = kSoft / body_->scale, deepest = kDeepest / body_->scale;
-  double now = 0, soon = 0, due = kLookAhead;
+  const double deepest = kDeepest / body_->scale;
+  double now = 0, soon = 0, due = kLookedAhead;
   for (int side = 0; side < 2; ++side) {
     const Leg& leg = body_->legs[side];
     const double length = kReached * leg_length(leg, body_->posed),
                  lacks = too_high(length, body_->posed.heads[leg.thigh], ankles[side]);
-    now = std::max(now, feet_[side].contact_weight() * softly_positive(lacks, soft));
+    now = std::max(now, feet_[side].weight() * lacks);
     if (feet[side].stands || feet[side].due > due) continue;
     const FootAhead& foot = feet[side];
     const Footing& next = feet_[side].next();
     const Vector2 shifted = foot.ankle.head<2>() + next.place - foot.landing().place();
     const Vector3 hip = foot.hip + Vector3{0, 0, level_between(feet_, foot.hips.head<2>())},
                   ankle{shifted.x(), shifted.y(), foot.ankle.z() + next.at(shifted)};
-    soon = softly_positive(too_high(length, hip, ankle), soft);
+    soon = std::max(0.0, too_high(length, hip, ankle));
     due = foot.due;
   }
   hips_.sink(std::min(exact_ * now, deepest), std::min(exact_ * soon, deepest), due, seconds);
@@ -180,7 +166,7 @@ void GroundFollower::raise_heel(int side, Vector3& ankle) {
   heels_[side] = Quaternion::Identity();
   const Vector3 from_ball = turns_[side] * (posed.heads[leg.foot] - ball(body_->kinematics.skeleton(), leg, posed)),
                 ball = ankle - from_ball;
-  const double most = kMostRaised * exact_ * feet_[side].contact_weight(),
+  const double most = kHighestHeel * exact_ * feet_[side].weight(),
                lacks = rise_to_reach(posed.heads[leg.thigh] - ball, from_ball, kReached * leg_length(leg, posed));
   heels_[side] = Eigen::AngleAxisd(std::min(lacks, most), heel_axis(from_ball));
   ankle = ball + heels_[side] * from_ball;

@@ -13,9 +13,9 @@ constexpr double kApart = 0.13;      // m between places that may be on one plan
 constexpr double kBeyondEnd = 0.03;  // m beyond the last place that is known, where the ground goes on
 constexpr double kOnePlane = 0.015;  // m by which two planes differ that are one
 
-constexpr double kEdge = 0.05;                                   // m that ground is beside a plane, at an edge
-constexpr double kBeyond = 0.04;                                 // m beyond the ends of a sole that are to be free
-constexpr double kOver = 0.15, kRatherOver = 0.1, kNear = 0.05;  // m that a sole is better moved
+constexpr double kEdge = 0.05;               // m that ground is beside a plane, at an edge
+constexpr double kBeyond = 0.04;             // m beyond the ends of a sole that are to be free
+constexpr double kOver = 0.1, kNear = 0.05;  // m that a sole is better moved
 
 }  // namespace
 
@@ -49,21 +49,16 @@ std::optional<Footing> KnownGround::at(const Vector2& place, const Along& along,
   }
   const Near& nearest = behind.square < before.square ? behind : before;
   const bool between = behind.known && before.known && behind.ahead + before.ahead <= kApart,
-             one = between && agree(*behind.known, *before.known), same = nearest.square < kThere * kThere;
+             same = nearest.square < kThere * kThere;
   const auto level_with = [&](const Near& near) { return near.aside <= along.beside; };
-  const bool sure = same || (between ? one && level_with(behind) && level_with(before)
+  const bool sure = same || (between ? agree(*behind.known, *before.known) && level_with(behind) && level_with(before)
                                      : nearest.known && nearest.ahead < kBeyondEnd && level_with(nearest));
   if (!sure && probe.may_ask()) return ask(place, probe);
   if (nearest.known == nullptr || !nearest.known->exists) return std::nullopt;
-  Footing found{place, nearest.known->plane.at(place), nearest.known->plane.slope};
-  if (one && !same) {
-    const double part = behind.ahead / (behind.ahead + before.ahead);
-    found.height = (1 - part) * behind.known->plane.at(place) + part * before.known->plane.at(place);
-  }
-  return found;
+  return Footing{place, nearest.known->plane.at(place), nearest.known->plane.slope};
 }
 
-double KnownGround::edges(const Sole& sole, bool descends, double beside, GroundProbe& probe) {
+double KnownGround::edges(const Sole& sole, double beside, GroundProbe& probe) {
   const Vector2 heel = sole.heel.head<2>(), tip = sole.tip.head<2>(), along = (tip - heel).normalized();
   const std::optional<Footing> ground = at(sole.place(), {along, beside}, probe);
   if (count_ == 0) return 0;
@@ -73,9 +68,8 @@ double KnownGround::edges(const Sole& sole, bool descends, double beside, Ground
     const double higher = there ? there->height - ground->at(place) : 0;
     return higher > kEdge ? kInTheWay : higher < -kEdge ? overhanging : 0;
   };
-  return edge(heel, descends ? kOver : kRatherOver) + edge(heel - kBeyond * along, kNear) +
-         edge(sole.place() + kBeyond * along, kInTheWay) + edge(tip + kBeyond * along, kNear) +
-         edge(tip, descends ? kRatherOver : kOver);
+  return edge(heel, kOver) + edge(heel - kBeyond * along, kNear) + edge(tip + kBeyond * along, kNear) +
+         edge(tip, kOver);
 }
 
 double KnownGround::over(const Sole& sole, double lower, const Footing& plane, const Along& along, GroundProbe& probe) {

@@ -25,8 +25,8 @@ class KnownGround {
   std::optional<Footing> ask(const Vector2& place, GroundProbe& probe);
   std::optional<Footing> at(const Vector2& place, const Along& along, GroundProbe& probe);
   /// How far a sole is better moved than set where it is, m: 0 unless ground of another height than that under its ball
-  /// is under its ends or just beyond them. On the way up rather the heel is over an edge, on the way down the tip.
-  double edges(const Sole& sole, bool descends, double beside, GroundProbe& probe);
+  /// is under its ends or just beyond them.
+  double edges(const Sole& sole, double beside, GroundProbe& probe);
   /// How far the ground reaches over a plane into a sole that is so much lower than captured, m; 0 where it does not.
   double over(const Sole& sole, double lower, const Footing& plane, const Along& along, GroundProbe& probe);
 

@@ -8,7 +8,6 @@ namespace fragmotion {
 namespace {
 
 constexpr double kSoonestDown = 0.02;  // s in which a foot that is higher comes down at least
-constexpr double kLatest = 0.8;        // s that are looked ahead
 
 // What a body's feet do next.
 class LookAhead {
@@ -46,7 +45,7 @@ class LookAhead {
 
   void look(int side, FootAhead& foot) const {
     const double stepping = lock_ != nullptr ? lock_->stepping(side) : 0;
-    foot.due = std::clamp(course_.until_standing[side], std::max(stepping, kSoonestDown), kLatest);
+    foot.due = std::clamp(course_.until_standing[side], std::max(stepping, kSoonestDown), kLookedAhead);
     const Vector2 held = (foot.now.ball - later(side, 0).ball).head<2>();
     for (std::size_t i = 0; i < FootAhead::kPoints; ++i) {
       const double seconds = foot.due * static_cast<double>(i + 1) / FootAhead::kPoints;

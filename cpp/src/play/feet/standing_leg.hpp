@@ -5,6 +5,9 @@
 
 namespace fragmotion {
 
+/// rad by which a heel rises at most.
+constexpr double kHighestHeel = 0.6;
+
 /// How much higher the upper end of a leg of this length is than it reaches its ankle from, m; less than 0 where it
 /// might be higher. One further aside than the leg is long is reached from no height: that of the ankle counts.
 double too_high(double length, const Vector3& hip, const Vector3& ankle);
