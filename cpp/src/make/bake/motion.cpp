@@ -11,11 +11,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kUnit = 1e-3;  // by which a unit quaternion's length is off at most
-
 bool are_rotations(const std::vector<double>& rotations) {
   for (std::size_t i = 0; i < rotations.size(); i += 4) {
-    if (!(std::abs(load_quaternion(&rotations[i]).norm() - 1) <= kUnit)) return false;
+    if (!(std::abs(load_quaternion(&rotations[i]).norm() - 1) <= kUnitTolerance)) return false;
   }
   return true;
 }

@@ -3,13 +3,13 @@
 
 #include <cmath>
 
+#include "evaluate/response.hpp"
 #include "evaluate/runner.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr int kTrials = 16;
-constexpr double kOfWalk = 0.9;              // of the walk
 constexpr double kGoesOn = 100 * kPi / 180;  // rad off where it shall face, from which on it walks
 constexpr double kFaces = 15 * kPi / 180;    // and from which on it faces there
 
@@ -19,7 +19,7 @@ double about_face(Runner& runner, const ControlSpace& space, double side) {
   for (int f = 1; f <= kNoAboutFace * kTrackRate; ++f) {
     const double off = kPi - side * (runner.heading() - begun);
     runner.frame({0, off < kGoesOn ? walk : 0, side * space.turn_towards(off), 0});
-    if (std::abs(off) < kFaces && runner.world_velocity().dot(back) >= kOfWalk * walk) return f / kTrackRate;
+    if (std::abs(off) < kFaces && runner.world_velocity().dot(back) >= kAnswered * walk) return f / kTrackRate;
   }
   return kNoAboutFace;
 }

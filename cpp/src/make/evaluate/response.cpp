@@ -6,15 +6,13 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kOfStep = 0.9;  // of the step
-
 double response(Runner& runner, const Character& character, const Control& from, const Control& to) {
   const Control before = character.admitted(from), after = character.admitted(to);
   const Vector2 begin{before.x, before.y}, step = Vector2{after.x, after.y} - begin;
   if (step.isZero()) return 0;
   for (int f = 1; f <= kNoResponse * kTrackRate; ++f) {
     runner.frame(to);
-    if ((runner.velocity() - begin).dot(step) >= kOfStep * step.squaredNorm()) return f / kTrackRate;
+    if ((runner.velocity() - begin).dot(step) >= kAnswered * step.squaredNorm()) return f / kTrackRate;
   }
   return kNoResponse;
 }

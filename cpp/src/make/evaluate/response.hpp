@@ -15,5 +15,7 @@ std::vector<double> response_times(const std::shared_ptr<const Character>& chara
 
 /// s
 constexpr double kNoResponse = 3;
+/// Of what was asked for: who does so much of it has answered.
+constexpr double kAnswered = 0.9;
 
 }  // namespace fragmotion

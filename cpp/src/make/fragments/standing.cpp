@@ -14,7 +14,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kAsHigh = 0.985;           // of a leg's length: how far the hip joints stand over the ankles
 constexpr double kOutward = 8 * kPi / 180;  // rad that each foot points outward
 // Root mean squares of how a body moves that stands for long; m of a 1.8 m character.
 constexpr double kAcross = 0.015, kAlong = 0.008;
@@ -117,7 +116,7 @@ class Stance {
     double lift = std::numeric_limits<double>::infinity();
     for (int side = 0; side < 2; ++side) {
       const Leg& leg = legs_[side];
-      lift = std::min(lift, feet_[side].ankle + kAsHigh * length(leg) - posed_.heads[leg.thigh].z());
+      lift = std::min(lift, feet_[side].ankle + kHipsReach * length(leg) - posed_.heads[leg.thigh].z());
     }
     mean_.height += lift;
     pose(mean_);

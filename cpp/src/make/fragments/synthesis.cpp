@@ -27,22 +27,18 @@ namespace {
 constexpr int kWanted = 4;                       // fragments that should perform each control
 constexpr double kTail = 0.3;                    // s kept beyond a fragment's end, for stitching
 constexpr double kJumpHeight = 0.22;             // m, of a 1.8 m character
-constexpr double kLeastDip = 0.16;               // m that it crouches for a jump on the spot where no take jumps,
-constexpr double kMostDip = 0.3;                 // and at most where takes do
+constexpr double kLeastDip = 0.16;               // m that it crouches at least for a jump on the spot
 constexpr double kCrouching = 0.5;               // s before a jump in which takes crouch
 constexpr double kRunningDip = 0.6;              // of that dip, as it runs
 constexpr double kSinking = 0.2;                 // s into a crouch; half of that as it runs
 constexpr double kSimilar = 2.52 / kTunedReach;  // m a metre of reach: fragments this near may be interpolated
 constexpr int kCandidates = 24;                  // neighbours of a control that interpolation tries in pairs
-constexpr double kMostTempo = 1.2;               // the most by which steps ahead are hurried, or slowed down
-constexpr double kSideways = 1.2;                // how much more often feet step sideways, where strides are short
+constexpr double kMostTempo = 1.2;  // the most by which steps are hurried, as those sideways are, or slowed
 constexpr double kStandSeconds = 0.5;
 constexpr double kStandsLong = 3;  // s that a take stands, so that one does not see it begin again
 constexpr int kStands = 48;        // fragments that stand, one after the other, until they begin again
 constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
 constexpr double kBackward = 1;                              // of effort: to be played backward
-constexpr double kAlike = 1e-6;                              // of effort
-constexpr double kClosed = 3 / kTunedReach;                  // m a metre of reach between the ends of a cycle
 constexpr double kFlawed = kTunedReach;                      // of effort, for each such of a flaw
 
 double angle_between(const Control& a, const Control& b) {
@@ -248,7 +244,7 @@ class Synthesizer {
         cycle.evident = mix(cycle.evident, f.evident, share);
         if (seconds > kLongestCycle) break;
         const double gap = double{transition_distance(trajectories_, last, first)} / trajectories_.reach;
-        if (seconds < kShortestCycle || gap > kClosed) continue;
+        if (seconds < kShortestCycle) continue;
         cycle.flaw = gap + usual.excess(first, last, cycle.evident.speed());
         cycles_.push_back(cycle);
         cycles_.push_back(backward(cycle));
@@ -271,7 +267,7 @@ class Synthesizer {
         lowest = std::min(lowest, clip.root_positions[std::size_t{3} * at + 2]);
       dips.push_back((usual - lowest) * space_.scale());
     }
-    if (!dips.empty()) dip_ = std::clamp(median(std::move(dips)), kLeastDip, kMostDip);
+    if (!dips.empty()) dip_ = std::max(kLeastDip, median(std::move(dips)));
   }
 
   // What it costs a cycle's looks to be made to perform a control, if that is less than `most`. Whether it jumps makes
@@ -298,7 +294,7 @@ class Synthesizer {
     double least = std::numeric_limits<double>::infinity();
     for (const Cycle& cycle : cycles_) {
       const double cost = effort(cycle, control, least);
-      if (cost < least - kAlike) least = cost, best = &cycle;
+      if (cost < least - kSameButRounding) least = cost, best = &cycle;
     }
     return best;
   }
@@ -322,7 +318,7 @@ class Synthesizer {
     const int length = std::abs(best->end - best->begin);
     const double usual = length / (longest_ * clip.rate);  // pieces, each as long as may be
     const int pieces = std::max(1, static_cast<int>(std::ceil(usual / kMostTempo - 1e-6)));
-    const double sideways = std::abs(std::sin(change.direction)), cadence = 1 + sideways * (kSideways - 1);
+    const double sideways = std::abs(std::sin(change.direction)), cadence = 1 + sideways * (kMostTempo - 1);
     change.tempo = std::max(usual / pieces, cadence * std::clamp(std::sqrt(faster), 1 / kMostTempo, kMostTempo));
     change.speed = faster / change.tempo;
     change.hips = hip_turns_.of(best->clip, best->begin, best->end, change);

@@ -21,7 +21,6 @@ namespace fragmotion {
 namespace {
 
 constexpr double kOverlong = 3;  // times as long as the way to the next bone: no lengths of this body
-constexpr double kRigid = 1e-3;  // Blender's matrices are floats; anything worse is no rigid transform
 
 std::size_t offset_of(int frame, int bones, int bone) { return static_cast<std::size_t>(frame) * bones + bone; }
 
@@ -133,7 +132,7 @@ void check_pose(const Skeleton& skeleton, const double* root_position, const dou
     fail(label, "the root position is not finite, or more than 1000 km from the origin");
   for (int b = skeleton.roles.hips; b < skeleton.size(); ++b) {
     if (skeleton.is_below(b, skeleton.roles.hips) &&
-        !(std::abs(load_quaternion(rotations + 4 * b).norm() - 1) < kRigid))
+        !(std::abs(load_quaternion(rotations + 4 * b).norm() - 1) < kUnitTolerance))
       fail(label + ", bone '" + skeleton.names[b] + "'", "the rotation is not a unit quaternion");
   }
 }
@@ -185,7 +184,7 @@ std::vector<Rig::Rigid> Rig::parse_rest(const Armature& armature) {
     const RowMajor matrix(&armature.rest[16 * static_cast<std::size_t>(b)]);
     const std::string label = bone_label(armature, b) + " at rest";
     rest[b] = {matrix.topRightCorner<3, 1>(), extract_rotation(matrix, label)};
-    if ((column_lengths(matrix).array() - 1).abs().maxCoeff() > kRigid || !is_square(matrix, kRigid))
+    if ((column_lengths(matrix).array() - 1).abs().maxCoeff() > kUnitTolerance || !is_square(matrix, kUnitTolerance))
       fail(label, "the matrix scales by " + print_scale(column_lengths(matrix)) + " or shears, expected a rotation");
   }
   return rest;
@@ -252,7 +251,7 @@ Rig::Object Rig::object_at(const std::string& clip, const double* worlds, int fr
   if (worlds == nullptr) return object_;
   const std::string label = frame_label(clip, frame);
   Object object = parse_object(worlds + 16 * static_cast<std::size_t>(frame), label);
-  if (std::abs(object.scale - object_.scale) > kRigid * object_.scale)
+  if (std::abs(object.scale - object_.scale) > kUnitTolerance * object_.scale)
     fail(label, "the object's scale is " + std::to_string(object.scale) + ", at rest it is " +
                     std::to_string(object_.scale) + ": remove the keys on the object's scale");
   return object;

@@ -14,7 +14,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kShort = 1e-3;                  // of a 1.8 m character: m that a bone of a leg must be longer than
 constexpr double kInstep = 0.4;                  // rad: how far most feet point down from the ankle to the ball
 constexpr double kFoot = 0.33, kLongFoot = 0.6;  // of a shin's length, from the ankle to the ball: usual, and unlikely
 constexpr double kBackUp = 0.5;                  // cosine of a foot to the way from it up the shin
@@ -146,7 +145,7 @@ class Directions {
   static Vector3 outward(Side side) { return (side == Side::kLeft ? -1 : 1) * Vector3::UnitX(); }
 
   void set(int bone, const Vector3& from, const Vector3& to) {
-    if (bone < 0 || from.norm() < kShort / standard_scale(skeleton_)) return;
+    if (bone < 0 || from.norm() < kShortestLegBone / standard_scale(skeleton_)) return;
     from_[bone] = from.normalized();
     to_[bone] = to;
   }
@@ -274,7 +273,7 @@ double shortest_of(const Leg& leg, const PosedBones& posture) {
 void measure(const PosedBones& rest, Body& body) {
   body.leg = (length_of(body.legs[0], rest) + length_of(body.legs[1], rest)) / 2;
   body.hip_width = (rest.heads[body.legs[0].thigh] - rest.heads[body.legs[1].thigh]).norm();
-  const double least = kShort / standard_scale(body.skeleton());
+  const double least = kShortestLegBone / standard_scale(body.skeleton());
   for (int side = 0; side < 2; ++side) {
     if (std::min(shortest_of(body.legs[side], rest), body.hip_width) > least) continue;
     throw std::invalid_argument("the " + std::string(side == 0 ? "left" : "right") +

@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "motion/pose.hpp"
+#include "motion/skate.hpp"
 #include "retarget/drives.hpp"
 #include "retarget/feet.hpp"
 #include "retarget/limb_angles.hpp"
@@ -18,10 +19,10 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRolls = 0.14;  // rad: a foot that is tipped further stands on its ball or heel alone
-constexpr double kThere = 1e-9;  // of a leg's length: a foot that is so near to its place is there
-constexpr double kStandHeight = 0.025, kSlowest = 1e-3;  // of a 1.8 m character, m and m/s
-constexpr double kToeDepth = 0.005;                      // m of a 1.8 m character
+constexpr double kRolls = 0.14;      // rad: a foot that is tipped further stands on its ball or heel alone
+constexpr double kThere = 1e-9;      // of a leg's length: a foot that is so near to its place is there
+constexpr double kSlowest = 1e-3;    // m/s of a 1.8 m character
+constexpr double kToeDepth = 0.005;  // m of a 1.8 m character
 constexpr double kFree = std::numeric_limits<double>::infinity();
 
 // Makes the target's compared pose and its feet the source's, of which it is the same body.
@@ -317,8 +318,7 @@ class Transfer {
     double sum = 0;
     for (std::size_t f = 1; f < path.size(); ++f) {
       const double height = (path[f].z() - floor) * size;
-      sum += (path[f] - path[f - 1]).head<2>().norm() * clip_.rate *
-             std::clamp(2 - std::exp2(height / kStandHeight), 0.0, 1.0);
+      sum += (path[f] - path[f - 1]).head<2>().norm() * clip_.rate * skate_weight(height);
     }
     return sum / static_cast<double>(path.size() - 1);
   }

@@ -8,7 +8,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kAlmost = 1e-6;     // of a fixed step: less that it lacks is what sums of seconds are off
 constexpr double kDirection = 1e-6;  // length of what says where to face, at least
 
 double heading_of_way(const Vector3& way) { return std::atan2(-way.x(), way.y()); }
@@ -283,7 +282,7 @@ void FragmotionPlayer::step(const FragmotionInput& input, double seconds) {
   if (has_fixed_step()) {
     const double step = options.fixed_step;
     banked += played;
-    while (banked > step * (1 - kAlmost)) {
+    while (banked > step * (1 - kSameButRounding)) {
       std::swap(before, now);
       banked = std::max(0.0, banked - step);
       play(input, step);

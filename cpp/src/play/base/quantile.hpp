@@ -6,6 +6,9 @@
 
 namespace fragmotion {
 
+/// Of what bodies are seen to do: within it is what they do without acrobatics.
+constexpr double kUsualShare = 0.99;
+
 /// Under which a share (0 .. 1) of at least one value is: numpy.quantile(values, share), which goes linearly from each
 /// value to the next. Takes linear time.
 double quantile(std::vector<double> values, double share);

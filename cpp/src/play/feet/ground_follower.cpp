@@ -15,7 +15,6 @@ namespace {
 constexpr double kHighestStep = 0.7;  // m over the level under the body, of ground that it may step on
 constexpr double kSky = 1e5;          // m: over all ground
 constexpr double kGetsExact = 0.15;   // s in which feet come to stand exactly on ground that is not level
-constexpr double kReached = 0.985;    // of a leg's length, that the hips leave it at most
 constexpr double kDeepest = 0.45;     // m that they sink
 constexpr int kAsked = 8;             // times that a step asks for the ground,
 constexpr int kAskedAtFirst = 80;     // and a reset
@@ -144,7 +143,7 @@ void GroundFollower::sink(const FeetAhead& feet, const std::array<Vector3, 2>& a
   double now = 0, soon = 0, due = kLookedAhead;
   for (int side = 0; side < 2; ++side) {
     const Leg& leg = body_->legs[side];
-    const double length = kReached * leg_length(leg, body_->posed),
+    const double length = kHipsReach * leg_length(leg, body_->posed),
                  lacks = too_high(length, body_->posed.heads[leg.thigh], ankles[side]);
     now = std::max(now, feet_[side].weight() * lacks);
     if (feet[side].stands || feet[side].due > due) continue;
@@ -167,7 +166,7 @@ void GroundFollower::raise_heel(int side, Vector3& ankle) {
   const Vector3 from_ball = turns_[side] * (posed.heads[leg.foot] - ball(body_->kinematics.skeleton(), leg, posed)),
                 ball = ankle - from_ball;
   const double most = kHighestHeel * exact_ * feet_[side].weight(),
-               lacks = rise_to_reach(posed.heads[leg.thigh] - ball, from_ball, kReached * leg_length(leg, posed));
+               lacks = rise_to_reach(posed.heads[leg.thigh] - ball, from_ball, kHipsReach * leg_length(leg, posed));
   heels_[side] = Eigen::AngleAxisd(std::min(lacks, most), heel_axis(from_ball));
   ankle = ball + heels_[side] * from_ball;
 }

@@ -5,6 +5,8 @@
 
 namespace fragmotion {
 
+/// Of a leg's length: how far hips are from the ankle of a foot that stands at most.
+constexpr double kHipsReach = 0.985;
 /// rad by which a heel rises at most.
 constexpr double kHighestHeel = 0.6;
 

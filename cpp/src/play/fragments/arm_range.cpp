@@ -10,8 +10,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kUsualArms = 0.99;  // of all: within it are directions without acrobatics
-
 // rad from forward_aside(): what shoulders do easily, arms that hang back, up, and a third past the middle included
 // (of 180 degrees of flexion and abduction, 60 of extension and 45 past the middle: American Academy of Orthopaedic
 // Surgeons, Joint Motion, 1965).
@@ -57,7 +55,7 @@ class ArmReader {
       const Vector3 hinge = hinges_[side] / static_cast<double>(angles_[side].size());
       ranges[side].arm.hinge =
           hinge.norm() > kBends ? hinge.normalized() : forward_hinge(kinematics_, ranges[side].arm);
-      ranges[side].widest = std::max(kEasyArms, quantile(angles_[side], kUsualArms));
+      ranges[side].widest = std::max(kEasyArms, quantile(angles_[side], kUsualShare));
     }
   }
 

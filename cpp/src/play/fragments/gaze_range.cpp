@@ -10,8 +10,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kUsualShare = 0.99;  // of the time: within it are angles that a body has without acrobatics
-
 // rad that a head looks aside, down and up without effort: half of what necks turn actively (J. Youdas et al., Physical
 // Therapy 72, 1992: 70, 55 and 75 degrees at 20 to 30 years). Takes in which nobody looks about tell no more.
 constexpr double kAside = 35 * kPi / 180, kDown = 27.5 * kPi / 180, kUp = 37.5 * kPi / 180;

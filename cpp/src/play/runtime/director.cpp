@@ -5,10 +5,11 @@
 #include <limits>
 #include <utility>
 
+#include "base/ranges.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr double kSame = 1e-6;      // ControlDis between controls that differ by rounding alone
 constexpr double kChange = 1;       // ControlDis between controls that is "a lot"
 constexpr double kWorthIt = 0.05;   // s that must be left of a fragment for leaving it early
 constexpr double kPart = 1 / 30.0;  // s of a fragment that a part of a step plays at most
@@ -82,7 +83,7 @@ int Director::bridge_between(int previous, int next) const {
 }
 
 bool Director::is_planned(const Control& wanted) const {
-  return exit_.next_class >= 0 && character_->space.distance(wanted, planned_for_) < kSame;
+  return exit_.next_class >= 0 && character_->space.distance(wanted, planned_for_) < kSameButRounding;
 }
 
 int Director::next_class(const Control& control, const Playback& playback, const FragmentSelector& selector) {

@@ -14,8 +14,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;  // Blender's rotations are floats; anything worse is a caller's mistake.
-
 void check_sizes(const Skeleton& skeleton) {
   const std::size_t bones = skeleton.names.size();
   if (bones == 0) throw std::invalid_argument("a skeleton needs at least one bone");

@@ -13,9 +13,8 @@ constexpr double kStretched = 0.995;  // of a leg's length: what it reaches at m
 constexpr double kSoft = 0.03;        // of a leg's length, below that: where it follows less
 constexpr double kStraight = 0.1;     // rad: a knee that is bent less than that resists being bent backward
 constexpr double kFolded = 2.5;       // rad: a knee that is bent more resists being folded up
-constexpr double kNear = 0.02;      // of a leg's length: wanted so near to where it is, a foot may go as the knee does
-constexpr double kTiny = 1e-12;     // m^2
-constexpr double kShortest = 1e-3;  // m of a 1.8 m character: a bone of a leg that is shorter has no direction
+constexpr double kNear = 0.02;   // of a leg's length: wanted so near to where it is, a foot may go as the knee does
+constexpr double kTiny = 1e-12;  // m^2
 
 const double kBendsWell = std::cos(kStraight), kFoldsWell = std::cos(kFolded);
 
@@ -135,7 +134,7 @@ Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe, int other_foo
   rest_pose(skeleton, heads, rotations);
   const bool has_toe = toe != foot && skeleton.is_below(toe, foot);
   Leg leg{thigh, -1, foot, has_toe ? toe : -1, skeleton.parents[foot]};
-  double most = kShortest / standard_scale(skeleton);
+  double most = kShortestLegBone / standard_scale(skeleton);
   for (int b = leg.above_foot; b != thigh; b = skeleton.parents[b]) {
     const double shorter = std::min((heads[b] - heads[thigh]).norm(), (heads[foot] - heads[b]).norm());
     if (shorter > most) most = shorter, leg.knee = b;
@@ -155,7 +154,7 @@ void hinge_at_rest(const Skeleton& skeleton, Leg& of_left, Leg& of_right) {
 // How well two joints serve as shoulder and elbow of a hand.
 double evenness(const Vector3& shoulder, const Vector3& elbow, const Vector3& hand) {
   const double upper = (elbow - shoulder).norm(), lower = (hand - elbow).norm();
-  return square(std::min(upper, lower)) / std::max({upper, lower, kShortest});
+  return square(std::min(upper, lower)) / std::max({upper, lower, kShortestLegBone});
 }
 
 // The arm to a hand from below the bone `trunk`, which carries both.
@@ -165,7 +164,7 @@ Arm arm_of(const Skeleton& skeleton, int trunk, int hand, int other_hand) {
   std::vector<Quaternion> rotations;
   rest_pose(skeleton, heads, rotations);
   Arm arm{-1, -1, hand};
-  double best = kShortest / standard_scale(skeleton);
+  double best = kShortestLegBone / standard_scale(skeleton);
   for (int elbow = skeleton.parents[hand]; elbow != trunk; elbow = skeleton.parents[elbow]) {
     for (int upper = skeleton.parents[elbow]; upper != trunk; upper = skeleton.parents[upper]) {
       const double found = evenness(heads[upper], heads[elbow], heads[hand]);

@@ -9,6 +9,9 @@
 
 namespace fragmotion {
 
+/// m of a 1.8 m character: a bone of a leg that is shorter has no direction.
+constexpr double kShortestLegBone = 1e-3;
+
 /// A leg by its roles: any chain of bones below the hips, from a thigh of its own to a foot, with a joint between them.
 /// `knee` is -1 where there is none, `toe` where none hangs from the foot.
 struct Leg {
