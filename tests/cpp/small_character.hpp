@@ -25,10 +25,10 @@ inline std::shared_ptr<const Character> gait_character() {
   return character;
 }
 
-/// Hips, a spine and two legs, and no feet.
+/// Hips, a spine and two limbs that nothing tells to be legs.
 inline Skeleton tiny_skeleton() {
   Skeleton skeleton;
-  skeleton.names = {"hips", "spine", "leg.L", "leg.R"};
+  skeleton.names = {"hips", "spine", "limb.L", "limb.R"};
   skeleton.parents = {-1, 0, 0, 0};
   skeleton.rest_rotations.assign(4, Quaternion::Identity());
   skeleton.offsets = {{0, 0, 1}, {0, 0, 0.1}, {0.1, 0, 0}, {-0.1, 0, 0}};

@@ -94,7 +94,9 @@ TEST(FragmentSelector, ChoosesMembersThatCostNearlyAsLittleAsAnyByTheStatedEquat
       for (int draw = 0; draw < kDraws; ++draw) drawn.insert(choice.selector.choose(k, control, choice.playback));
       for (const auto& [cost, member] : costs) {
         const double over = cost - least - TransitionWeights{}.variety;
-        if (std::abs(over) > 1e-4) EXPECT_EQ(drawn.count(member), over < 0 ? 1 : 0) << k << " " << point;
+        if (std::abs(over) > 1e-4) {
+          EXPECT_EQ(drawn.count(member), over < 0 ? 1 : 0) << k << " " << point;
+        }
       }
     }
   }

@@ -162,8 +162,11 @@ TEST(Gaze, IsToTheBitAsCapturedBeforeAndAfter) {
     one.step(kWalks);
     other.step(kWalks);
     EXPECT_EQ(one.player.root_position(), other.player.root_position());
-    if (i < 100) EXPECT_TRUE(same()) << i;
-    if (i > 110 && i < 200) EXPECT_FALSE(same()) << i;
+    if (i < 100) {
+      EXPECT_TRUE(same()) << i;
+    } else if (i > 110 && i < 200) {
+      EXPECT_FALSE(same()) << i;
+    }
   }
   EXPECT_TRUE(same());
   one.player.look(Look::at, {1, 1, 1});
