@@ -113,6 +113,18 @@ def install(package: str) -> str:
     return "fragmotion"
 
 
+def window() -> bpy.types.Window:
+    """The window, by what owns it: up to Blender 4.3 the context's may be owned by a scene that is gone, into which it
+    then writes (compat.versions.own_by_shown_scene)."""
+    return bpy.context.window_manager.windows[0]
+
+
+def export_gltf(path: Path | str, **options: object) -> None:
+    """Write by Blender's exporter, which shows scenes in the context's window; the one that is shown owns that."""
+    _ = bpy.context.layer_collection
+    assert bpy.ops.export_scene.gltf(filepath=str(path), **options) == {"FINISHED"}
+
+
 def open_sample() -> bpy.types.Object:
     """The sample file's armature, active."""
     return open_armature(SAMPLE)

@@ -292,7 +292,7 @@ def test_what_the_core_reads_in_another_unit_is_built_in_it(
 
 
 def _write_vrm(path: str) -> None:
-    bpy.ops.export_scene.gltf(filepath=f"{path}.glb")
+    making.export_gltf(f"{path}.glb")
     Path(f"{path}.glb").rename(path)  # a VRM is a GLB of another name
 
 
@@ -344,7 +344,7 @@ def as_fbx(path: Path) -> None:
 
 
 def as_glb(path: Path) -> None:
-    bpy.ops.export_scene.gltf(filepath=str(path), export_animation_mode="ACTIVE_ACTIONS")
+    making.export_gltf(path, export_animation_mode="ACTIVE_ACTIONS")
 
 
 ONE_ACTION = {"bake_anim_use_nla_strips": False, "bake_anim_use_all_actions": False, "bake_anim_simplify_factor": 0}

@@ -132,6 +132,13 @@ def set_bone_selection(obj: bpy.types.Object, selection: dict[str, tuple[bool, b
             bones[name].select_head, bones[name].select_tail = head, tail
 
 
+def own_by_shown_scene() -> None:
+    """Let the scene that is shown own what Blender's context gives. Up to 4.3 its owner is the one that was shown when
+    anybody last asked the context for its layer collection, as Rigify does, even where that is gone: to show another
+    scene in the context's window, as Blender's glTF does, then writes there, and Blender crashes in the end."""
+    _ = bpy.context.layer_collection
+
+
 @contextmanager
 def old_numpy() -> Iterator[None]:
     """Inside, NumPy has the alias that 3.4's importer of glTF uses for meshes, and that NumPy dropped in 1.24."""

@@ -12,6 +12,7 @@ from pathlib import Path
 import bpy
 
 from ..character.building import save_policy
+from ..compat import versions
 from ..errors import UserError
 
 POLICY, MESH = ".policy", ".glb"
@@ -44,6 +45,7 @@ def export(context: bpy.types.Context, obj: bpy.types.Object, path: Path) -> tup
 def export_mesh(context: bpy.types.Context, obj: bpy.types.Object, path: Path) -> None:
     """Write the armature and its meshes at rest by Blender's own exporter; UserError where that fails."""
     options = {"use_selection": True, "export_animations": False, "export_format": "GLB"}
+    versions.own_by_shown_scene()
     with _selected(context, [obj, *meshes_of(context, obj)]), _at_rest(obj):
         try:
             bpy.ops.export_scene.gltf(filepath=str(path), **options)

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 
 import bpy
 
+from ..compat import versions
 from ..rig.posing import pose_of, set_pose
 
 # Blender's own, what goes with its owner, and all at once.
@@ -18,6 +19,7 @@ _NOT_REMOVED = {"screens", "window_managers", "workspaces", "shape_keys", "all_i
 def scratch_scene(context: bpy.types.Context) -> Iterator[None]:
     """A new scene in the window, for importers that change selection, mode, frames and rate of the scene they meet.
     Afterwards the window shows what it showed, also poses without keys."""
+    versions.own_by_shown_scene()
     window = context.window or context.window_manager.windows[0]
     scene, view_layer = window.scene, window.view_layer
     poses = {obj: pose_of(obj) for obj in scene.objects if obj.pose and obj.animation_data}

@@ -31,7 +31,7 @@ def remove_scene() -> None:
 
 
 def show_another_scene() -> None:
-    bpy.context.window.scene = bpy.data.scenes.new("Other")
+    making.window().scene = bpy.data.scenes.new("Other")
 
 
 def exclude_collection() -> None:

@@ -176,15 +176,15 @@ class User:
     def do_switch_layer(self) -> None:
         scene = bpy.context.scene
         former, layer = bpy.context.view_layer, scene.view_layers.new("Layer")
-        bpy.context.window.view_layer = layer
+        making.window().view_layer = layer
         if self.random.random() < 0.5:
             scene.view_layers.remove(former)
 
     def do_switch_scene(self) -> None:
         former = bpy.context.scene
-        bpy.context.window.scene = bpy.data.scenes.new("Scene")
+        making.window().scene = bpy.data.scenes.new("Scene")
         self.look()
-        bpy.context.window.scene = former
+        making.window().scene = former
 
     def do_switch_off(self) -> None:
         self.addon.unregister()

@@ -41,7 +41,7 @@ def export(path: Path) -> Path:
     else:
         written = path.with_suffix(".glb") if kind == ".vrm" else path
         form = "GLTF_SEPARATE" if kind == ".gltf" else "GLB"
-        bpy.ops.export_scene.gltf(filepath=str(written), export_format=form)
+        making.export_gltf(written, export_format=form)
         written.rename(path)
     return path
 
@@ -118,6 +118,16 @@ def test_either_importer_of_fbx_reads(
     monkeypatch.setitem(importers, ".fbx", importers[".fbx"][which : which + 1])
     obj = import_new(path)
     np.testing.assert_allclose(heads_of(obj, body, 1 + np.arange(FRAMES) * 24 / RATE), heads, atol=1e-4)
+
+
+def test_what_the_context_gives_is_of_the_shown_scene(addon: ModuleType) -> None:
+    """Else importers write into the scene that somebody last had a layer collection of, even where it is gone."""
+    window, shown, other = making.window(), bpy.context.scene, bpy.data.scenes.new("Other")
+    window.scene = other
+    assert bpy.context.layer_collection is not None
+    window.scene = shown
+    with addon.mocap.scratch.scratch_scene(bpy.context):
+        assert bpy.context.id_data in (None, shown)
 
 
 @pytest.mark.parametrize("ending", ENDINGS)
@@ -199,7 +209,7 @@ def test_nothing_but_the_actions_stays(dancer: bpy.types.Object, tmp_path: Path,
     scene.render.fps, scene.frame_start, scene.frame_end = 25, 7, 77
     scene.frame_set(9)
     scene.view_layers.new("Second")
-    bpy.context.window.view_layer = scene.view_layers["Second"]
+    making.window().view_layer = scene.view_layers["Second"]
     making.add_mesh().select_set(True)
     obj = making.add_armature(name="Dancer")
     bpy.ops.object.mode_set(mode=mode)
@@ -289,14 +299,14 @@ def write_still(folder: Path, name: str) -> None:
     """A GLB of a thing that does not move."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     bpy.ops.mesh.primitive_cube_add()
-    bpy.ops.export_scene.gltf(filepath=str(folder / name))
+    making.export_gltf(folder / name)
 
 
 def write_resting(folder: Path, name: str) -> None:
     """A GLB of a character without animation."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     making.add_armature(name="Idle")
-    bpy.ops.export_scene.gltf(filepath=str(folder / name))
+    making.export_gltf(folder / name)
 
 
 @pytest.mark.parametrize("write", [write_still, write_resting])
