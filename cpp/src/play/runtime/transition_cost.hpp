@@ -10,10 +10,10 @@ namespace fragmotion {
 
 /// A member of a class, and what its costs are told by, all in one place of the memory.
 struct Entrant {
-  int fragment, clip;
-  bool is_mirrored;
-  float made, entered;  ///< Of perform() and of enter() what no control tells.
-  float beside_usual;   ///< tip_distance() of its beginning to the representative's.
+  int fragment = 0, clip = 0;
+  bool is_mirrored = false;
+  float made = 0, entered = 0;  ///< Of perform() and of enter() what no control tells.
+  float beside_usual = 0;       ///< tip_distance() of its beginning to the representative's.
   Control evident;
 };
 
