@@ -6,6 +6,7 @@
 
 #include "base/quantile.hpp"
 #include "motion/trunk.hpp"
+#include "skeleton/kinematics.hpp"
 
 namespace fragmotion {
 namespace {
