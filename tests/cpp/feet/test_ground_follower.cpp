@@ -62,6 +62,14 @@ TEST(GroundFollower, IsLiftedOnAHigherLevelAndOtherwiseTheSame) {
     EXPECT_LT((on.roots[f] - without.roots[f] - Vector3{0, 0, 1}).norm(), 1e-12);
 }
 
+TEST(GroundFollower, GoesOnGroundThatIsLevelButForRoundingAsWithoutGround) {
+  const Ground rounded = [](const Vector3& from) {
+    return GroundPoint{1e-6 * std::sin(50 * from.x() + 70 * from.y()), Vector3::UnitZ()};
+  };
+  const Shown without = play({}), on = play(rounded);
+  for (std::size_t f = 0; f < on.roots.size(); ++f) EXPECT_LT((on.roots[f] - without.roots[f]).norm(), 1e-4) << f;
+}
+
 TEST(GroundFollower, GoesTheSameWayOnTheSlopeAndIsTheSameEveryTime) {
   const Shown without = play({}), on = play(up_along_y), again = play(up_along_y);
   EXPECT_EQ(on.rotations, again.rotations);
@@ -219,6 +227,8 @@ TEST(KnownGround, FindsEdgesUnderASoleAndNoneOnASlope) {
   const Sole up{{0, 0.24, 0}, {0, 0.36, 0}, {0, 0.42, 0}};
   const double over = edges(steps, up);
   EXPECT_TRUE(over > 0 && over < KnownGround::kInTheWay) << "a heel over the edge";
+  const Sole down{{0, 0.54, 0}, {0, 0.42, 0}, {0, 0.36, 0}};
+  EXPECT_EQ(edges(steps, down), 0);
 }
 
 TEST(KnownGround, AsksForNoPlaceBetweenTwoOnOnePlane) {

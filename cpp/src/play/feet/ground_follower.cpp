@@ -14,7 +14,9 @@ namespace {
 // Lengths are those of a character of 1.8 m.
 constexpr double kHighestStep = 0.7;  // m over the level under the body, of ground that it may step on
 constexpr double kSky = 1e5;          // m: over all ground
-constexpr double kGetsExact = 0.15;   // s in which feet come to stand exactly on ground that is not level
+constexpr double kUneven = 0.03;      // m by which ground differs where feet stand on it exactly
+constexpr double kFootLength = 0.25;  // m over which a slope counts
+constexpr double kGetsExact = 0.15;   // s in which they come to
 constexpr double kDeepest = 0.45;     // m that they sink
 constexpr int kAsked = 8;             // times that a step asks for the ground,
 constexpr int kAskedAtFirst = 80;     // and a reset
@@ -89,16 +91,19 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
   }
 }
 
-// Feet stand exactly on ground that is not level.
+// Feet stand exactly on ground that is not level: the less level, the more, so that rounding of its faces is not seen.
 void GroundFollower::get_exact(double seconds) {
-  const double level = feet_[0].last().height;
-  bool even = true;
+  double lowest = feet_[0].last().height, highest = lowest, steepest = 0;
   for (const FootOnGround& foot : feet_) {
-    for (const Footing* footing : {&foot.last(), &foot.next()})
-      even = even && footing->height == level && footing->slope.isZero(0);
+    for (const Footing* footing : {&foot.last(), &foot.next()}) {
+      lowest = std::min(lowest, footing->height);
+      highest = std::max(highest, footing->height);
+      steepest = std::max(steepest, footing->slope.norm());
+    }
   }
-  const double most = fresh_ ? 1 : seconds / kGetsExact;
-  exact_ += std::clamp((even ? 0 : 1) - exact_, -most, most);
+  const double uneven = highest - lowest + steepest * kFootLength / body_->scale;
+  const double wanted = std::clamp(uneven * body_->scale / kUneven, 0.0, 1.0), most = fresh_ ? 1 : seconds / kGetsExact;
+  exact_ += std::clamp(wanted - exact_, -most, most);
 }
 
 // How much lower than captured a foot is shown, m: one that is low comes down to its floor, softly.
