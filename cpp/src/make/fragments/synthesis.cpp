@@ -27,7 +27,8 @@ namespace {
 constexpr int kWanted = 4;                       // fragments that should perform each control
 constexpr double kTail = 0.3;                    // s kept beyond a fragment's end, for stitching
 constexpr double kJumpHeight = 0.22;             // m, of a 1.8 m character
-constexpr double kLeastDip = 0.16;               // m that it crouches at least for a jump on the spot
+constexpr double kLeastDip = 0.16;               // m that it crouches for a jump on the spot where no take jumps,
+constexpr double kMostDip = 0.3;                 // and at most where takes do
 constexpr double kCrouching = 0.5;               // s before a jump in which takes crouch
 constexpr double kRunningDip = 0.6;              // of that dip, as it runs
 constexpr double kSinking = 0.2;                 // s into a crouch; half of that as it runs
@@ -39,6 +40,7 @@ constexpr double kStandsLong = 3;  // s that a take stands, so that one does not
 constexpr int kStands = 48;        // fragments that stand, one after the other, until they begin again
 constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
 constexpr double kBackward = 1;                              // of effort: to be played backward
+constexpr double kClosed = 3 / kTunedReach;                  // m a metre of reach between the ends of a cycle
 constexpr double kFlawed = kTunedReach;                      // of effort, for each such of a flaw
 
 double angle_between(const Control& a, const Control& b) {
@@ -244,7 +246,7 @@ class Synthesizer {
         cycle.evident = mix(cycle.evident, f.evident, share);
         if (seconds > kLongestCycle) break;
         const double gap = double{transition_distance(trajectories_, last, first)} / trajectories_.reach;
-        if (seconds < kShortestCycle) continue;
+        if (seconds < kShortestCycle || gap > kClosed) continue;
         cycle.flaw = gap + usual.excess(first, last, cycle.evident.speed());
         cycles_.push_back(cycle);
         cycles_.push_back(backward(cycle));
@@ -267,7 +269,7 @@ class Synthesizer {
         lowest = std::min(lowest, clip.root_positions[std::size_t{3} * at + 2]);
       dips.push_back((usual - lowest) * space_.scale());
     }
-    if (!dips.empty()) dip_ = std::max(kLeastDip, median(std::move(dips)));
+    if (!dips.empty()) dip_ = std::clamp(median(std::move(dips)), kLeastDip, kMostDip);
   }
 
   // What it costs a cycle's looks to be made to perform a control, if that is less than `most`. Whether it jumps makes
