@@ -107,6 +107,22 @@ TEST(GroundFollower, StaysWithinABodysReachOfTheGroundItIsOver) {
   }
 }
 
+TEST(GroundFollower, LiftsNoFootOverTheHipsForAWallThatReachesToTheKnees) {
+  const Ground walls = [](const Vector3& from) {
+    const double along = from.y() - 1.5 * std::floor(from.y() / 1.5);
+    return GroundPoint{along > 1 && along < 1.1 ? 0.4 : 0, Vector3::UnitZ()};
+  };
+  const Skeleton& skeleton = gait_character()->pool.skeleton;
+  const Kinematics kinematics(skeleton);
+  PosedBones posed(kinematics.bones());
+  const Shown shown = play(walls);
+  for (std::size_t f = 0; f < shown.roots.size(); ++f) {
+    kinematics.world(shown.roots[f], shown.rotations[f].data(), posed.heads.data(), posed.rotations.data());
+    for (const int foot : {skeleton.roles.left_foot, skeleton.roles.right_foot})
+      ASSERT_LT(posed.heads[foot].z(), shown.roots[f].z()) << f;
+  }
+}
+
 // The most times that a step asks for the ground, in half a minute; `restless`: an explorer, and not straight on.
 int most_asked(const Ground& ground, double heading, double seconds, bool restless) {
   int asked = 0, most = 0, all = 0;

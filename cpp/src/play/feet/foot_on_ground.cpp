@@ -14,9 +14,10 @@ constexpr double kSlid = 0.005;      // m that a foot may slide on the same foot
 constexpr double kPace = 0.1;        // m/s with which a foot that steps on the spot is on its way
 constexpr double kLoading = 0.08;    // s before it stands, and after it, in which a foot bears more and more, and less
 
-constexpr double kMargin = 0.03;   // m by which it clears what is in its way
-constexpr double kClearing = 0.1;  // s in which its clearance gets as high as it must
-constexpr double kLeast = 0.2;     // of the arch's height, below which it is not told from that what it is to be
+constexpr double kMargin = 0.03;        // m by which it clears what is in its way
+constexpr double kClearing = 0.1;       // s in which its clearance gets as high as it must
+constexpr double kLeast = 0.2;          // of the arch's height, below which it is not told from that what it is to be
+constexpr double kMostClearance = 0.5;  // m
 
 constexpr double kTried = 0.02;      // m by which a sole is moved off an edge,
 constexpr int kTrials = 8;           // times that, to the front and to the back
@@ -142,7 +143,7 @@ void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, Gr
     const double height = arch(part_of_way(at.place(), later));
     if (over > 0 && height > kLeast) wanted = std::max(wanted, (over + std::min(over, kMargin)) / height);
   }
-  clearance_.advance(wanted, fresh_ ? 0 : kClearing, seconds);
+  clearance_.advance(std::min(wanted, kMostClearance), fresh_ ? 0 : kClearing, seconds);
   lift_ = std::max(clearance_.value, 0.0) * arch(part_of_way(now, 0));
 }
 
