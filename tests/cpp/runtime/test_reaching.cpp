@@ -149,6 +149,25 @@ TEST(Reaching, IsSmoothHoweverItIsTold) {
   for (const int told : {1, 2, 3}) EXPECT_LT(roughest(told), captured + 0.3) << told;  // one that is there at once: 40
 }
 
+TEST(Reaching, WhipsNoArmForWhatGoesRoundIt) {
+  for (const double height : {0.9, 1.2, 1.4, 1.6, 2.0}) {
+    for (const double radius : {0.2, 0.35, 0.7}) {
+      Handed one;
+      one.play(0.5, kWalksBy);
+      PosedBones before = one.posed;
+      double furthest = 0;
+      for (int i = 0; i < 400; ++i, before = one.posed) {
+        const double angle = 0.1 * i;
+        one.player.reach(1, {{radius * std::sin(angle), radius * std::cos(angle), height}, 1, true});
+        one.step(kWalksBy);
+        for (const int bone : {one.ranges[1].arm.upper, one.ranges[1].arm.hand})
+          furthest = std::max(furthest, one.posed.rotations[bone].angularDistance(before.rotations[bone]));
+      }
+      EXPECT_LT(furthest, 0.6) << height << " " << radius;  // rad in a frame; one that is there at once: 3
+    }
+  }
+}
+
 TEST(Reaching, FollowsAWeightThatIsKeyed) {
   Handed one, other;
   const Vector3 place{0.25, 0.4, 1.25};

@@ -8,7 +8,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kForeseen = 1.0 / 60;      // s of a step that is foreseen
-constexpr std::uint32_t kStateVersion = 6;  // of what exchange() and PlayerState hold
+constexpr std::uint32_t kStateVersion = 7;  // of what exchange() and PlayerState hold
 constexpr char kStateMagic[9] = "FRAGSTAT";
 constexpr std::size_t kStateHeader = 16, kStateEnd = 8;  // bytes: magic, version and size; hash
 

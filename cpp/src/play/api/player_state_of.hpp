@@ -173,7 +173,13 @@ void PlayerState::exchange(Archive& a, Reaching& reaching) {
     approach(a, hand.weight);
     for (double* due : {&hand.place_due, &hand.weight_due}) a.number(*due, 0, kMostPlace);
     a.number(hand.since, 0, kMostPlace);
+    for (Reaching::Turn& turn : hand.turns) {
+      for (double& part : turn.wanted.coeffs()) a.number(part, -1.001, 1.001);
+      for (Approach& offset : turn.offset) approach(a, offset);
+      a.number(turn.due, 0, kMostPlace);
+    }
   }
+  vector(a, reaching.lean_, kPi);
   frame(a, reaching.frame_);
   a.number(reaching.level_, -kMostPlace, kMostPlace);
   vector(a, reaching.speed_, kMostPlace);

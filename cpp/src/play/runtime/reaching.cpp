@@ -17,6 +17,9 @@ constexpr double kSoftly = 0.1;               // of an arm's length, within whic
 constexpr double kMostLean = 20 * kPi / 180;  // a quarter of what trunks bend (AAOS, Joint Motion, 1965)
 constexpr double kBehind = 30 * kPi / 180;    // beyond what a shoulder lets reach: within it a hand gives up
 constexpr double kNoWay = 1e-6;               // m
+// rad/s: twice as fast as a whole reach at its fastest, from beside the body to over the head, and as fast as a lean.
+constexpr double kArmSpeed = 2 * Approach::kPeak * kPi / kReachesIn,
+                 kLeanSpeed = Approach::kPeak * kMostLean / kReachesIn;
 
 // 1 up to `begin`, 0 from `end` on.
 double fading(double value, double begin, double end) { return 1 - ease_in_ease_out((value - begin) / (end - begin)); }
@@ -27,6 +30,26 @@ Vector3 upright(double turning, const Vector3& from) { return {-turning * from.y
 
 void Reaching::Hand::set(const Vector3& value, const Vector3& speed) {
   for (int i = 0; i < 3; ++i) place[i] = {value[i], speed[i]};
+}
+
+Quaternion Reaching::Turn::shown() const {
+  const Vector3 off{offset[0].value, offset[1].value, offset[2].value};
+  const double angle = off.norm();
+  return angle > 0 ? Quaternion{Eigen::AngleAxisd{angle, off / angle}} * wanted : wanted;
+}
+
+// What goes on faster than an arm turns is caught up with.
+void Reaching::Turn::follow(const Quaternion& next, double seconds) {
+  const Eigen::AngleAxisd way{next * wanted.conjugate()};
+  const double most = kArmSpeed * seconds;
+  if (way.angle() > most) {
+    const Eigen::AngleAxisd off{Eigen::AngleAxisd{most, way.axis()} * shown() * next.conjugate()};
+    for (int i = 0; i < 3; ++i) offset[i].value = off.angle() * off.axis()[i];
+    due = kReachesIn;
+  }
+  wanted = next;
+  for (Approach& part : offset) part.advance(0, due, seconds);
+  due = std::max(0.0, due - seconds);
 }
 
 void Reaching::reach(int side, const HandAim& aim) {
@@ -98,11 +121,10 @@ std::optional<Reaching::Goal> Reaching::goal(int side) const {
   return Goal{captured + weight * (place - captured), weight};
 }
 
-// Leans the trunk to what arms are too short for; whether it did.
-bool Reaching::lean(const Goals& goals) const {
+// By what the trunk leans to what arms are too short for: an axis, as long as the angle is, rad.
+Vector3 Reaching::wanted_lean(const Goals& goals) const {
   const Skeleton& skeleton = workspace_->kinematics.skeleton();
   const PosedBones& posed = workspace_->body->posed;
-  if (workspace_->trunk.base < 0) return false;
   Vector3 turn = Vector3::Zero();
   for (int side = 0; side < 2; ++side) {
     if (!goals[side]) continue;
@@ -117,9 +139,39 @@ bool Reaching::lean(const Goals& goals) const {
     turn += goals[side]->weight * angle * from.normalized().cross(way.normalized());
   }
   const double angle = turn.norm();
+  return angle > kMostLean ? Vector3(kMostLean / angle * turn) : turn;
+}
+
+// Leans the trunk; whether it did.
+bool Reaching::lean(const Goals& goals, double seconds) {
+  if (workspace_->trunk.base < 0) return false;
+  const Vector3 wanted = frame_.rotation().conjugate() * wanted_lean(goals), way = wanted - lean_;
+  const double most = kLeanSpeed * seconds;
+  lean_ = way.norm() > most ? Vector3(lean_ + most / way.norm() * way) : wanted;
+  const double angle = lean_.norm();
   if (angle <= 0) return false;
-  turn_spine(skeleton, workspace_->trunk, turn / angle, std::min(angle, kMostLean), workspace_->shown.rotations.data());
+  turn_spine(workspace_->kinematics.skeleton(), workspace_->trunk, frame_.rotation() * lean_ / angle, angle,
+             workspace_->shown.rotations.data());
   return true;
+}
+
+// Brings an arm to its goal, or back to how it is captured.
+void Reaching::bend(int side, const std::optional<Goal>& goal, double seconds) {
+  const Arm& arm = workspace_->arms[side].arm;
+  Hand& hand = hands_[side];
+  if (!goal && hand.hangs()) return;
+  const std::array<int, 2> bones{arm.upper, arm.elbow};
+  const auto rotation = [&](int i) { return workspace_->shown.rotations.data() + std::ptrdiff_t{4} * bones[i]; };
+  const std::array<Quaternion, 2> captured{load_quaternion(rotation(0)), load_quaternion(rotation(1))};
+  if (goal) {
+    fragmotion::reach(workspace_->kinematics.skeleton(), arm, workspace_->body->posed, goal->place, goal->weight,
+                      frame_.rotation() * Vector3{0, 1, -1}, workspace_->shown.rotations.data());
+  }
+  for (int i = 0; i < 2; ++i) {
+    const Quaternion wanted = goal ? load_quaternion(rotation(i)) * captured[i].conjugate() : Quaternion::Identity();
+    hand.turns[i].follow(wanted, seconds);
+    if (hand.turns[i].is_off()) store_quaternion((hand.turns[i].shown() * captured[i]).normalized(), rotation(i));
+  }
 }
 
 void Reaching::apply(double level, double seconds) {
@@ -132,16 +184,12 @@ void Reaching::apply(double level, double seconds) {
     hand.place_due = std::max(0.0, hand.place_due - seconds);
     hand.weight_due = std::max(0.0, hand.weight_due - seconds);
   }
-  if (hands_[0].rests() && hands_[1].rests()) return;
+  const auto idles = [](const Hand& hand) { return hand.rests() && hand.hangs(); };
+  if (idles(hands_[0]) && idles(hands_[1]) && lean_.isZero(0)) return;
   see();
   const Goals goals{goal(0), goal(1)};
-  if (lean(goals)) see();
-  const Vector3 halfway = frame_.rotation() * Vector3{0, 1, -1};
-  for (int side = 0; side < 2; ++side) {
-    if (!goals[side]) continue;
-    fragmotion::reach(workspace_->kinematics.skeleton(), workspace_->arms[side].arm, workspace_->body->posed,
-                      goals[side]->place, goals[side]->weight, halfway, workspace_->shown.rotations.data());
-  }
+  if (lean(goals, seconds)) see();
+  for (int side = 0; side < 2; ++side) bend(side, goals[side], seconds);
 }
 
 }  // namespace fragmotion

@@ -20,7 +20,9 @@ struct HandAim {
 /// Lets hands hold things or reach for them, over whatever plays: two-bone inverse kinematics of the arm, and beyond
 /// nine tenths of its length a lean of the trunk. A hand goes to another place or weight smoothly: in half a second or
 /// so, or, where it is told little by little, until it is told the next time. It reaches for nothing that is far out of
-/// its reach, or behind it. Does nothing to a skeleton without arms. Allocates nothing once it is made.
+/// its reach, or behind it. Arms and trunk turn from how they are captured hardly faster than in a quick reach: what
+/// the character runs by it lets go in a swing. Does nothing to a skeleton without arms. Allocates nothing once it is
+/// made.
 class Reaching {
  public:
   explicit Reaching(Workspace& workspace) : workspace_(&workspace) {}
@@ -38,14 +40,27 @@ class Reaching {
  private:
   friend struct PlayerState;
 
+  // How a bone is turned from how it is captured, seen from its parent: as is wanted, but for an offset that goes.
+  struct Turn {
+    Quaternion wanted = Quaternion::Identity();
+    std::array<Approach, 3> offset;  // rad, an axis as long as the angle is
+    double due = 0;                  // s in which there is to be none
+
+    bool is_off() const { return !(offset[0].rests() && offset[1].rests() && offset[2].rests()); }
+    bool rests() const { return wanted.w() == 1 && !is_off(); }
+    Quaternion shown() const;
+    void follow(const Quaternion& next, double seconds);
+  };
   struct Hand {
     HandAim aim;
     std::array<Approach, 3> place;  // as it is followed, in the aim's space
     Approach weight;                // likewise
     double place_due = 0, weight_due = 0;
-    double since = 0;  // s since it was told
+    double since = 0;           // s since it was told
+    std::array<Turn, 2> turns;  // of the upper and the lower arm
 
     bool rests() const { return weight.rests() && aim.weight == 0; }
+    bool hangs() const { return turns[0].rests() && turns[1].rests(); }
     Vector3 at() const { return {place[0].value, place[1].value, place[2].value}; }
     Vector3 speed() const { return {place[0].speed, place[1].speed, place[2].speed}; }
     void set(const Vector3& value, const Vector3& speed);
@@ -61,7 +76,9 @@ class Reaching {
   void see() const;
   Vector3 world_place(const Hand& hand) const;
   std::optional<Goal> goal(int side) const;
-  bool lean(const Goals& goals) const;
+  Vector3 wanted_lean(const Goals& goals) const;
+  bool lean(const Goals& goals, double seconds);
+  void bend(int side, const std::optional<Goal>& goal, double seconds);
 
   Workspace* workspace_;
   std::array<Hand, 2> hands_;
@@ -69,6 +86,7 @@ class Reaching {
   double level_ = 0;                 // likewise
   Vector2 speed_ = Vector2::Zero();  // of the frame, m/s
   double turning_ = 0;               // likewise, rad/s
+  Vector3 lean_ = Vector3::Zero();   // of the trunk, seen from the frame: an axis, as long as the angle is, rad
 };
 
 }  // namespace fragmotion
