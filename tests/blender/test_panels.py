@@ -103,6 +103,15 @@ def test_a_new_user_has_few_fields_in_sight(addon: ModuleType) -> None:
         assert f"fragmotion.{needed}" in stages[stage]["buttons"]
 
 
+def test_build_says_that_nothing_is_ticked(addon: ModuleType) -> None:
+    panel = addon.panels.panel.FRAGMOTION_PT_build
+    assert not drawn(panel)["texts"]
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    assert not drawn(panel)["texts"]
+    assert bpy.ops.fragmotion.tick_actions(use=False) == {"FINISHED"}
+    assert " ".join(drawn(panel)["texts"]) == "Tick what it is to learn from, under Mocap"
+
+
 def test_who_is_new_sees_three_clicks_until_he_waves_them_away(addon: ModuleType, session: ModuleType) -> None:
     preferences, panel = addon.settings.preferences, addon.panels.first_steps.FRAGMOTION_PT_first_steps
     assert in_sight(addon)["panels"][0] == "First Steps"

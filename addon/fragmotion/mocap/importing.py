@@ -203,11 +203,13 @@ def _check_names(file: TakeFile, takes: Sequence[Take]) -> None:
 
 
 def make_armature(context: bpy.types.Context, name: str, skeleton: Skeleton) -> bpy.types.Object:
-    """An armature with the skeleton's bones at rest, active and alone selected."""
+    """An armature with the skeleton's bones at rest, active and alone selected, and in front: it has no mesh that would
+    be seen in what it stands in."""
     if context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     obj = bpy.data.objects.new(name, bpy.data.armatures.new(name))
     context.collection.objects.link(obj)
+    obj.show_in_front = True
     select(context, [obj], obj)
     bpy.ops.object.mode_set(mode="EDIT")
     try:

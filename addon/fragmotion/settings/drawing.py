@@ -21,7 +21,6 @@ from .common import POLICY_NAMES
 from .look_fields import LookSettings
 from .reach_fields import ReachSettings
 
-_ON_GROUND = 0.05  # m: a cursor that is no further from it
 # pixels of a sidebar at the scale 1: what no text can use, an icon with the room around it, and a letter on average
 _FRAME, _ICON, _LETTER = 30, 30, 6.3
 
@@ -188,13 +187,13 @@ def draw_populated(layout: bpy.types.UILayout, settings: PopulateSettings, crowd
         layout.prop(crowd, "obstacles")
 
 
-def draw_summary(layout: bpy.types.UILayout, context: bpy.types.Context, figures: BuildFigures) -> None:
-    """How good the last build is: what it can do, the quality of Optimal's, and how many of the controls it
-    does."""
+def draw_summary(layout: bpy.types.UILayout, context: bpy.types.Context, figures: BuildFigures, in_short: bool) -> None:
+    """How good the last build is: what it can do, the quality of Optimal's, and, where there is room, how many of the
+    controls it does."""
     if figures.abilities:
         draw_wrapped(layout, context, figures.abilities, "ERROR" if figures.abilities == NOTHING else "CHECKMARK")
     layout.label(text=f"{figures.quality:.0f} % of the possible", icon="CHECKMARK")
-    if figures.coverage:
+    if figures.coverage and not in_short:
         icon = "CHECKMARK" if figures.performed == figures.controls else "INFO"
         layout.label(text=f"{figures.performed} of {figures.controls} controls", icon=icon)
 
@@ -304,16 +303,6 @@ def draw_trace(layout: bpy.types.UILayout, settings: BuildFields | BakeFields | 
 def _draw_player(layout: bpy.types.UILayout, settings: BuildFields | BakeFields | DriveSettings) -> None:
     layout.prop(settings, "player")
     layout.prop(settings, "seconds")
-
-
-def draw_cursor(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:
-    """Where the 3D cursor is off the plane that the armature stands on: by how much, and what puts it there."""
-    height = context.scene.cursor.location.z
-    if obj.fragmotion.ground.kind != "PLANE" or abs(height) < _ON_GROUND:
-        return
-    side = "above" if height > 0 else "below"
-    draw_wrapped(layout.column(align=True), context, f"3D cursor {abs(height):.1f} m {side} the ground", "ERROR")
-    layout.operator("fragmotion.ground_cursor", icon="CURSOR")
 
 
 def draw_wrapped(

@@ -103,6 +103,12 @@ def test_takes_key_the_same_channels_so_that_none_marks_the_next(addon: ModuleTy
     assert paths[0] == paths[1] and 'pose.bones["LeftUpLeg"].location' in paths[0]
 
 
+def test_a_new_armature_is_seen_through_what_it_stands_in(tmp_path: Path) -> None:
+    making.write_bvh(tmp_path / "a.bvh")
+    import_folder(tmp_path)
+    assert bpy.context.object.show_in_front
+
+
 def test_only_the_selected_files_are_imported(tmp_path: Path) -> None:
     for name in ("a", "b", "c"):
         making.write_bvh(tmp_path / f"{name}.bvh")

@@ -16,6 +16,7 @@ from ...mocap.doctor import worst
 from ...mocap.importing import METRES, Imported, import_takes
 from ...mocap.take_files import ENDINGS, find_takes
 from ...rig.bodies import doubts_at_import
+from ...settings.drawing import aligned, draw_wrapped
 from ...words import counted
 from ..base import background
 from ..base.background import Exclusive
@@ -106,6 +107,14 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
         self._is_asking = True
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        if context.space_data is not None and context.space_data.type == "FILE_BROWSER":
+            words = "All of this folder and of those in it, or the files that you select"
+            draw_wrapped(self.layout.column(align=True), context, words, "INFO")
+        column = aligned(self.layout)
+        for name in ("onto", "mend", "unit", "style", "character"):
+            column.prop(self, name)
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
