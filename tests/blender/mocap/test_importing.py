@@ -227,9 +227,11 @@ def test_a_take_that_is_of_no_body_cannot_go_onto_another_skeleton(tmp_path: Pat
     making.write_bvh(tmp_path / "a.bvh")
     other = making.write_bvh(tmp_path / "b.bvh")
     other.write_text(other.read_text().replace("RightUpLeg", "Tail"))
+    import_folder(tmp_path)
+    assert [action.name for action in bpy.data.actions] == ["a"], "the rest comes in"
     before = making.contents()
     with pytest.raises(RuntimeError, match=r"Take 'b'.*"):
-        import_folder(tmp_path)
+        import_folder(tmp_path, files=[{"name": "b.bvh"}], onto="ACTIVE")
     assert making.contents() == before
 
 

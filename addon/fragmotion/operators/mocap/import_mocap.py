@@ -144,7 +144,7 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
             self.report({"WARNING"}, f"Left out: {cause}")
         more = len(result.broken) - _MOST_TOLD
         if more > 0:
-            self.report({"WARNING"}, f"Left out: {counted(more, 'more file')} that cannot be read")
+            self.report({"WARNING"}, f"Left out: {counted(more, 'more file')} that cannot be used")
         for doubt in doubts_at_import(result.obj) if self.onto == "ACTIVE" else ():
             self.report({"WARNING"}, doubt)
         self.report({"INFO"}, _told(result))
@@ -170,7 +170,7 @@ def _told(imported: Imported) -> str:
         f"{counted(mended, 'fault')} mended" if mended else "",
         f"{counted(left, 'take')} to look at in Doctor" if left else "",
         f"{counted(len(without), 'file')} left out in which no armature is animated" if without else "",
-        f"{counted(len(broken), 'file')} left out that cannot be read" if broken else "",
+        f"{counted(len(broken), 'file')} left out that cannot be used" if broken else "",
     )
     return "; ".join([told, *filter(None, parts)])
 
