@@ -18,7 +18,7 @@ from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..files import check_regular
 from ..rig.bodies import keep_four_legs
-from ..rig.rigs import carriers, make_rig
+from ..rig.rigs import carriers, make_rig, over_origin
 from ..rig.selection import select
 from ..rig.writing import write_poses
 from . import by_blender
@@ -183,7 +183,8 @@ def _brought(
         i: Brought(rig.take_channels(t), []) for i, t in enumerate(takes) if is_new and has_names_of(rig, t.skeleton)
     }
     others = [index for index in range(len(takes)) if index not in own]
-    brought, refused = retargeted_takes(obj, rig, [takes[index] for index in others])
+    placed = make_rig(obj, over_origin(obj))
+    brought, refused = retargeted_takes(obj, rig, [takes[index] for index in others], placed)
     fitting = own | {others[number]: each for number, each in brought.items()}
     return dict(sorted(fitting.items())), refused
 

@@ -56,28 +56,32 @@ def is_its_own(rig: Rig, skeleton: Skeleton) -> bool:
     return legs and has_names_of(rig, skeleton) and isclose(rig.skeleton.stature, skeleton.stature, rel_tol=_SAME_SIZE)
 
 
-def retargeted_takes(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take]) -> tuple[dict[int, Brought], list[str]]:
+def retargeted_takes(
+    obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], placed: Rig | None = None
+) -> tuple[dict[int, Brought], list[str]]:
     """By its number, each take, of whatever skeleton, that can be brought onto the armature's body, those of an animal
-    on itself as they are; and why the others cannot be, one cause for those of a skeleton."""
+    on itself as they are; and why the others cannot be, one cause for those of a skeleton. `placed`: the armature where
+    it shows the takes as they are in the world, in place of where it is."""
     brought = {i: Brought(rig.take_channels(t), []) for i, t in enumerate(takes) if is_its_own(rig, t.skeleton)}
     others, refused = [index for index in range(len(takes)) if index not in brought], list[str]()
     for group in core.group_skeletons([takes[index].skeleton for index in others]):
         members = [others[index] for index in group]
         try:
-            brought.update(zip(members, _of_one_skeleton(obj, rig, [takes[index] for index in members])))
+            done = _of_one_skeleton(obj, rig, [takes[index] for index in members], placed or rig)
+            brought.update(zip(members, done))
         except UserError as error:
             more = len(members) - 1
             refused.append(f"{error}" + (f"; so it is with {counted(more, 'more take')}" if more else ""))
     return brought, refused
 
 
-def _of_one_skeleton(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take]) -> list[Brought]:
+def _of_one_skeleton(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], placed: Rig) -> list[Brought]:
     skeleton = takes[0].skeleton
     with core_errors(f"Take '{takes[0].name}'"):
         clips = [core.Clip.from_take(take, skeleton) for take in takes]
         source = core.Body(skeleton, clips)
     done = _retargeted(source, obj, rig, clips)
-    return [_brought(rig, each)._replace(clip=clip, skeleton=skeleton) for clip, each in zip(clips, done)]
+    return [_brought(placed, each)._replace(clip=clip, skeleton=skeleton) for clip, each in zip(clips, done)]
 
 
 def _brought(rig: Rig, done: RetargetedClip) -> Brought:
