@@ -17,7 +17,6 @@ from ..settings.drawing import (
     draw_hands,
     draw_look,
     draw_populate,
-    draw_populated,
     draw_wrapped,
     plays_anew,
 )
@@ -182,8 +181,7 @@ class FRAGMOTION_PT_populate(SubPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = active_armature(context).fragmotion
-        draw_populate(self.layout, settings.populate)
-        draw_populated(self.layout, settings.populate, settings.crowd)
+        draw_populate(self.layout, settings.populate, settings.crowd, bool(len(settings.figures.styles)))
         self.layout.operator("fragmotion.populate", icon="COMMUNITY")
 
 

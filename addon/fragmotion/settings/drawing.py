@@ -14,7 +14,7 @@ from ..character.coverage import COLUMNS
 from ..character.storing import BESIDE, troubles
 from ..compat import versions
 from ..recordings.recordings import active_recording, baked_source, is_bake_stale
-from .armature import BuildFigures, CrowdSettings, DriveSettings, PopulateSettings
+from .armature import BuildFigures, CrowdSettings, DriveSettings
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import POLICY_NAMES
@@ -156,11 +156,16 @@ def draw_bake_options(layout: bpy.types.UILayout, settings: BakeFields) -> None:
     layout.prop(settings, "markers")
 
 
-def draw_populate(layout: bpy.types.UILayout, settings: PopulateFields) -> None:
-    """The fields of a crowd."""
+def draw_populate(
+    layout: bpy.types.UILayout, settings: PopulateFields, crowd: CrowdSettings | None = None, has_styles: bool = True
+) -> None:
+    """The fields of a crowd, those of the objects that it needs among them where they can be chosen."""
     layout = aligned(layout)
-    for name in ("count", "layout", "spacing"):
-        layout.prop(settings, name)
+    layout.prop(settings, "count")
+    layout.prop(settings, "layout")
+    if crowd is not None and settings.layout in {"AREA", "PATH"}:
+        layout.prop(crowd, "area" if settings.layout == "AREA" else "paths")
+    layout.prop(settings, "spacing")
     is_driven = settings.layout in {"SQUARE", "RING"}
     if is_driven:
         layout.prop(settings, "traces")
@@ -170,21 +175,13 @@ def draw_populate(layout: bpy.types.UILayout, settings: PopulateFields) -> None:
     if simulated or settings.layout == "AREA":
         layout.prop(settings, "seconds")
     if simulated or not is_driven:
-        layout.prop(settings, "mix_styles")
+        if has_styles:
+            layout.prop(settings, "mix_styles")
         layout.prop(settings, "clear")
+        if crowd is not None and settings.clear:
+            layout.prop(crowd, "obstacles")
     layout.prop(settings, "sizes")
     layout.prop(settings, "seed")
-
-
-def draw_populated(layout: bpy.types.UILayout, settings: PopulateSettings, crowd: CrowdSettings) -> None:
-    """The objects that a crowd needs."""
-    layout = aligned(layout)
-    if settings.layout == "AREA":
-        layout.prop(crowd, "area")
-    if settings.layout == "PATH":
-        layout.prop(crowd, "paths")
-    if settings.clear and (settings.layout in {"AREA", "PATH"} or settings.traces == "PLAYERS"):
-        layout.prop(crowd, "obstacles")
 
 
 def draw_summary(layout: bpy.types.UILayout, context: bpy.types.Context, figures: BuildFigures, in_short: bool) -> None:
