@@ -10,6 +10,7 @@ from ..control_rig import binding
 from ..control_rig.detecting import is_control_rig
 from ..operators.base import background
 from ..operators.base.context import active_rig
+from ..settings.drawing import aligned
 from .sidebar import Sidebar
 
 
@@ -49,7 +50,7 @@ class FRAGMOTION_PT_bound_rig(Sidebar, bpy.types.Panel):
         row.operator("fragmotion.unbind_rig", icon="X")
         motion = binding.motion_of(rig)
         if motion is not None and motion.animation_data is not None:
-            layout.template_ID(motion.animation_data, "action", text="Plays")
+            aligned(layout).prop(motion.animation_data, "action", text="Plays")
         layout.operator("fragmotion.bake_to_controls", icon="ACTION_TWEAK")
 
 
