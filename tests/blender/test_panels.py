@@ -103,6 +103,29 @@ def test_a_new_user_has_few_fields_in_sight(addon: ModuleType) -> None:
         assert f"fragmotion.{needed}" in stages[stage]["buttons"]
 
 
+def test_build_says_that_nothing_is_ticked(addon: ModuleType) -> None:
+    panel = addon.panels.panel.FRAGMOTION_PT_build
+    assert not drawn(panel)["texts"]
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    assert not drawn(panel)["texts"]
+    assert bpy.ops.fragmotion.tick_actions(use=False) == {"FINISHED"}
+    assert " ".join(drawn(panel)["texts"]) == "Tick what it is to learn from, under Mocap"
+
+
+def test_a_built_panel_is_short_and_a_crowds_asks_for_what_it_needs(addon: ModuleType) -> None:
+    panels, manager = addon.panels, bpy.context.window_manager.fragmotion
+    assert bpy.ops.fragmotion.add_sample() == {"FINISHED"}
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT", classes=20, synthesize=False) == {"FINISHED"}
+    build, settings = panels.panel.FRAGMOTION_PT_build, bpy.context.object.fragmotion
+    for is_shown in (False, True):
+        manager.show_build = is_shown
+        assert any("controls" in text for text in drawn(build)["texts"]) is is_shown
+    manager.show_build = False
+    settings.populate.layout = "AREA"
+    fields = drawn(panels.recordings.FRAGMOTION_PT_populate)["fields"]
+    assert fields[:3] == ["count", "layout", "area"] and "mix_styles" not in fields
+
+
 def test_who_is_new_sees_three_clicks_until_he_waves_them_away(addon: ModuleType, session: ModuleType) -> None:
     preferences, panel = addon.settings.preferences, addon.panels.first_steps.FRAGMOTION_PT_first_steps
     assert in_sight(addon)["panels"][0] == "First Steps"

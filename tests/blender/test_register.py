@@ -84,7 +84,7 @@ def test_the_tab_holds_the_panels_in_the_order_of_the_work(addon: ModuleType) ->
         *("Advanced", "Training", "Figures", "Inspector", "Policy File"),
         *("Drive", "Drive Options", "Feel", "Ground", "Gamepads", "Overlays", "Trace"),
         *("Moves", "Path", "Storyboard", "Recordings", "Change", "Replay Options"),
-        *("Bake", "Bake Options", "Advanced", "Populate", "Game"),
+        *("Bake", "Bake Options", "Advanced", "Populate", "Control Rig", "Game"),
     ]
     assert {panel.bl_category for panel in panels} == {"Fragmotion"}
     assert {(panel.bl_space_type, panel.bl_region_type) for panel in panels} == {("VIEW_3D", "UI")}

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Run in a Blender with a window by test_windows.py: draw a path on the ground by mouse, and follow it.
+"""Run in a Blender with a window by test_windows.py: draw a path on the ground by mouse, and follow it; click the
+places of a storyboard, and of a pin.
 
 Arguments after `--`: the add-on's zip, the folder for pictures.
 """
@@ -12,7 +13,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
-from mathutils import Euler
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from mathutils import Euler, Vector
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blender"))
@@ -22,6 +24,7 @@ import window
 
 VIEW = Euler((math.radians(55), 0, math.radians(20)))
 CLICKED = (500, 480)  # pixels
+PLAYHEAD, ASIDE = 121, (0.15, 0.1)  # frame, m: when a pin is, and where beside the path
 STROKE = [(250 + 12 * step, 380 + round(110 * math.sin(step / 8))) for step in range(50)]  # pixels
 
 
@@ -62,6 +65,53 @@ def walk_to_a_click() -> Iterator[None]:
     yield from window.send("ESC", "PRESS", x, y)
     yield from window.until(lambda: session.current is None, "the end of the drive", 50)
     yield from window.until(lambda: not preferences.get(bpy.context).first_steps, "the end of the first steps", 50)
+
+
+def click_places(obj: bpy.types.Object) -> Iterator[None]:
+    """Each press of + waits for a click on the ground, whatever the 3D cursor's height, which Esc and a click elsewhere
+    take back."""
+    window.show_only("Storyboard")
+    region, (x, y), story = window.view()["region"], CLICKED, obj.fragmotion.story
+    ground = window.module("paths.drawing").ground_under
+    bpy.context.scene.cursor.location = (1, 2, 3)
+    yield from window.drawn()
+    place = ground(window.view()["area"], x - region.x, y - region.y, None)
+    window.press(bpy.ops.fragmotion.add_beat)
+    assert window.says_keys(), "the status bar does not say what to click"
+    yield from window.send("ESC", "PRESS", x, y)
+    assert not len(story) and not window.says_keys()
+    window.press(bpy.ops.fragmotion.add_beat)
+    sidebar = window.sidebar()["region"]
+    yield from window.click(sidebar.x + sidebar.width // 2, sidebar.y + 20)
+    assert not len(story) and not window.says_keys(), "a click beside the view is a place"
+    window.press(bpy.ops.fragmotion.add_beat)
+    yield from window.click(x, y)
+    yield from window.picture("3 placed")
+    (beat,) = story
+    assert (beat.place.location - place).length < 1e-4 and not window.says_keys()
+    assert (bpy.context.scene.cursor.location - place).length < 1e-4
+    with bpy.context.temp_override(**window.view()):
+        bpy.ops.ed.undo()
+    yield from window.drawn()
+    assert not len(bpy.context.view_layer.objects.active.fragmotion.story), "one undo step"
+
+
+def pin_by_click(obj: bpy.types.Object) -> Iterator[None]:
+    """Pin Here asks for the place, and then works as ever."""
+    (recording,), scene = obj.fragmotion.recordings, bpy.context.scene
+    pose = round(60 * (PLAYHEAD - obj.fragmotion.bake.frame_start) / scene.render.fps)
+    shown_of, controls = window.module("recordings.recordings").shown_of, recording.controls
+    scene.frame_set(PLAYHEAD)
+    wanted = shown_of(recording)[1].path[pose][:2] + ASIDE
+    part = window.view()["region"]
+    pixel = location_3d_to_region_2d(part, window.view()["area"].spaces[0].region_3d, Vector((*wanted, 0)))
+    window.press(bpy.ops.fragmotion.pin_recording)
+    assert recording.controls == controls and window.says_keys(), "it does not wait for the click"
+    yield from window.click(round(part.x + pixel.x), round(part.y + pixel.y))
+    yield from window.until(lambda: recording.controls != controls, "the pin", 400)
+    yield from window.drawn()
+    assert math.dist(shown_of(recording)[1].path[pose][:2], wanted) < 0.05
+    assert not window.says_keys()
 
 
 def edit_curves() -> Iterator[None]:
@@ -107,7 +157,9 @@ def session_of_tests() -> Iterator[None]:
     window.press(bpy.ops.fragmotion.bake, "EXEC_DEFAULT", trace_source="RECORDING", recording=0)
     bpy.context.scene.frame_set(70)
     yield from window.picture("2 followed")
+    yield from pin_by_click(obj)
     yield from walk_to_a_click()
+    yield from click_places(obj)
     yield from edit_curves()
     window.show_all()
 

@@ -26,7 +26,7 @@ PICTURES = {
     "import": ("1 importing", "2 imported", "3 mended"),
     "over": ("1 what was there", "2 yours"),
     "cut": ("1 offered", "2 dragged", "3 cut"),
-    "path": ("1 drawn", "2 followed"),
+    "path": ("1 drawn", "2 followed", "3 placed"),
     "moves": ("1 moves", "2 jumping"),
     "styles": ("1 takes", "2 coverage", "2 classes", "3 tired", "3 inspector", "4 neutral"),
     "ground": ("1 chosen", "2 on the stairs"),

@@ -96,6 +96,8 @@ def populate(
             copy = _copy(obj, moved, number, collection)
             target = Target("NEW", None, copy.name, bake.frame_start)
             write(context, copy, target, baked.tracks, baked.classes, bake)
+        for copied in collection.objects:
+            copied.select_set(False)  # as the original may be
     return collection
 
 

@@ -97,7 +97,7 @@ def beats_of(context: bpy.types.Context, obj: bpy.types.Object, character: Chara
     and moves that the character does not have."""
     rows, first = obj.fragmotion.story, obj.fragmotion.bake.frame_start
     if not len(rows):
-        raise UserError("The storyboard is empty: put the 3D cursor where the character is to go, and press + there")
+        raise UserError("The storyboard is empty: press + there, and click where the character is to go")
     beats: list[Beat] = []
     for row in rows:
         former = beats[-1].seconds if beats else 0.0

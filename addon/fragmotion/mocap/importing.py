@@ -18,7 +18,7 @@ from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..files import check_regular
 from ..rig.bodies import keep_four_legs
-from ..rig.rigs import carriers, make_rig
+from ..rig.rigs import carriers, make_rig, over_origin
 from ..rig.selection import select
 from ..rig.writing import write_poses
 from . import by_blender
@@ -47,7 +47,7 @@ _STAGE = 1 / 3  # of the progress: reading, examining, writing
 
 class Imported(NamedTuple):
     """The armature that takes came onto, their Actions with the file of each, the files of a folder that hold none, and
-    what is wrong with each that cannot be read."""
+    what is wrong with each that cannot be read, or brought onto it."""
 
     obj: bpy.types.Object
     actions: list[bpy.types.Action]
@@ -89,7 +89,11 @@ def import_takes(
         if onto is None:
             keep_four_legs(obj, takes[0].skeleton)
         rig = make_rig(obj)
-        brought = _brought(obj, rig, takes, is_new=onto is None)
+        fitting, refused = _brought(obj, rig, takes, is_new=onto is None)
+        if not fitting:
+            raise UserError(refused[0])
+        brought = list(fitting.values())
+        examined, paths = [examined[index] for index in fitting], [paths[index] for index in fitting]
         moving = set(carriers(obj, rig)) | (set() if onto else _moving_bones(obj, [each.channels for each in brought]))
         actions = []
         for index, (each, (channels, remarks, clip, skeleton)) in enumerate(zip(examined, brought)):
@@ -103,7 +107,7 @@ def import_takes(
             yield _STAGE * (2 + index / len(examined))
         versions.assign(obj, actions[0])
         context.view_layer.update()
-    return Imported(obj, actions, paths, without, broken)
+    return Imported(obj, actions, paths, without, [*broken, *refused])
 
 
 def _read_all(
@@ -170,11 +174,19 @@ def _read_by_core(file: TakeFile, unit: float) -> list[Take]:
         return [core.read_asf_amc(asf, file.path) if asf else core.read_bvh(file.path, unit)]
 
 
-def _brought(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], is_new: bool) -> list[Brought]:
-    """Each take's channels: as they are on the armature that was made from them, else brought onto its body."""
-    own = [is_new and has_names_of(rig, take.skeleton) for take in takes]
-    others = iter(retargeted_takes(obj, rig, [take for take, is_own in zip(takes, own) if not is_own]))
-    return [Brought(rig.take_channels(take), []) if is_own else next(others) for take, is_own in zip(takes, own)]
+def _brought(
+    obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], is_new: bool
+) -> tuple[dict[int, Brought], list[str]]:
+    """By its number, each take's channels: as they are on the armature that was made from them, else brought onto its
+    body; and why others cannot be."""
+    own = {
+        i: Brought(rig.take_channels(t), []) for i, t in enumerate(takes) if is_new and has_names_of(rig, t.skeleton)
+    }
+    others = [index for index in range(len(takes)) if index not in own]
+    placed = make_rig(obj, over_origin(obj))
+    brought, refused = retargeted_takes(obj, rig, [takes[index] for index in others], placed)
+    fitting = own | {others[number]: each for number, each in brought.items()}
+    return dict(sorted(fitting.items())), refused
 
 
 @contextmanager
@@ -203,11 +215,13 @@ def _check_names(file: TakeFile, takes: Sequence[Take]) -> None:
 
 
 def make_armature(context: bpy.types.Context, name: str, skeleton: Skeleton) -> bpy.types.Object:
-    """An armature with the skeleton's bones at rest, active and alone selected."""
+    """An armature with the skeleton's bones at rest, active and alone selected, and in front: it has no mesh that would
+    be seen in what it stands in."""
     if context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     obj = bpy.data.objects.new(name, bpy.data.armatures.new(name))
     context.collection.objects.link(obj)
+    obj.show_in_front = True
     select(context, [obj], obj)
     bpy.ops.object.mode_set(mode="EDIT")
     try:

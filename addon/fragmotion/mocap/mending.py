@@ -44,7 +44,10 @@ def _write(
     """Write a take over what the Action holds, from where that begins."""
     if len(action.fragmotion.left_out) and len(take.rotations) != len(before.rotations):
         raise UserError(f"Action '{action.name}' gets other frames, and some are left out: take these in first")
-    locations, rotations = retargeted_takes(obj, rig, [take])[0].channels
+    brought, refused = retargeted_takes(obj, rig, [take])
+    if refused:
+        raise UserError(refused[0])
+    locations, rotations = brought[0].channels
     start = action.frame_range[0] - FIRST_FRAME
     action[SCENE_RATE] = rate_of(action, SCENE_RATE, scene_rate(context.scene))
     action[RATE] = take.rate

@@ -11,10 +11,11 @@ import bpy
 import numpy as np
 
 from ..compat.core import core
-from ..errors import core_errors
+from ..errors import UserError, core_errors
 from ..rig.bodies import make_body
 from ..rig.rigs import FORE_FOOT, carriers, make_rig
 from ..rig.writing import write_poses
+from ..words import counted
 from .actions import RATE, SCENE_RATE
 from .comparing import keep_source
 from .doctor import keep_remarks
@@ -55,19 +56,32 @@ def is_its_own(rig: Rig, skeleton: Skeleton) -> bool:
     return legs and has_names_of(rig, skeleton) and isclose(rig.skeleton.stature, skeleton.stature, rel_tol=_SAME_SIZE)
 
 
-def retargeted_takes(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take]) -> list[Brought]:
-    """Takes, of whatever skeletons, brought onto the armature's body; those of an animal on itself as they are."""
+def retargeted_takes(
+    obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], placed: Rig | None = None
+) -> tuple[dict[int, Brought], list[str]]:
+    """By its number, each take, of whatever skeleton, that can be brought onto the armature's body, those of an animal
+    on itself as they are; and why the others cannot be, one cause for those of a skeleton. `placed`: the armature where
+    it shows the takes as they are in the world, in place of where it is."""
     brought = {i: Brought(rig.take_channels(t), []) for i, t in enumerate(takes) if is_its_own(rig, t.skeleton)}
-    others = [index for index in range(len(takes)) if index not in brought]
+    others, refused = [index for index in range(len(takes)) if index not in brought], list[str]()
     for group in core.group_skeletons([takes[index].skeleton for index in others]):
         members = [others[index] for index in group]
-        skeleton = takes[members[0]].skeleton
-        with core_errors(f"Take '{takes[members[0]].name}'"):
-            clips = [core.Clip.from_take(takes[index], skeleton) for index in members]
-            source = core.Body(skeleton, clips)
-        for index, clip, done in zip(members, clips, _retargeted(source, obj, rig, clips)):
-            brought[index] = _brought(rig, done)._replace(clip=clip, skeleton=skeleton)
-    return [brought[index] for index in range(len(takes))]
+        try:
+            done = _of_one_skeleton(obj, rig, [takes[index] for index in members], placed or rig)
+            brought.update(zip(members, done))
+        except UserError as error:
+            more = len(members) - 1
+            refused.append(f"{error}" + (f"; so it is with {counted(more, 'more take')}" if more else ""))
+    return brought, refused
+
+
+def _of_one_skeleton(obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], placed: Rig) -> list[Brought]:
+    skeleton = takes[0].skeleton
+    with core_errors(f"Take '{takes[0].name}'"):
+        clips = [core.Clip.from_take(take, skeleton) for take in takes]
+        source = core.Body(skeleton, clips)
+    done = _retargeted(source, obj, rig, clips)
+    return [_brought(placed, each)._replace(clip=clip, skeleton=skeleton) for clip, each in zip(clips, done)]
 
 
 def _brought(rig: Rig, done: RetargetedClip) -> Brought:

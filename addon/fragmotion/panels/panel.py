@@ -185,7 +185,7 @@ def _draw_takes(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy
         tick.use, tick.search = use, settings.take_search
     beginning = FRAGMOTION_UL_actions.beginning
     if beginning:
-        layout.label(text=f"All begin with '{beginning}'", icon="INFO", translate=False)
+        draw_wrapped(layout.column(align=True), context, f"All begin with '{beginning}'", "INFO")
 
 
 class FRAGMOTION_PT_take_style(TakePanel, bpy.types.Panel):
@@ -222,11 +222,14 @@ class FRAGMOTION_PT_build(Sidebar, bpy.types.Panel):
         if obj is not None and building.has_character(obj):
             column = layout.column(align=True)
             draw_fold(column, context, "build", "Build Again")
-            draw_summary(column, context, obj.fragmotion.figures)
+            draw_summary(column, context, obj.fragmotion.figures, is_folded(context, "build"))
             if is_stale(obj):
                 layout.label(text="Stale: Actions changed", icon="ERROR")
         if is_folded(context, "build"):
             return
+        takes = fitting(obj) if obj is not None else []
+        if takes and not any(action.fragmotion.use for action in takes):
+            draw_wrapped(layout.column(align=True), context, "Tick what it is to learn from, under Mocap", "INFO")
         layout.operator("fragmotion.build", icon="SHADERFX")
 
 
@@ -365,5 +368,6 @@ CLASSES = (
     *recordings.CLASSES,
     FRAGMOTION_PT_bake,
     *recordings.BAKE_CLASSES,
+    *control_rig.BOUND_CLASSES,
     *game.CLASSES,
 )

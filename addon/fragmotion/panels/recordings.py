@@ -14,11 +14,9 @@ from ..settings.drawing import (
     draw_bake,
     draw_bake_advanced,
     draw_bake_options,
-    draw_cursor,
     draw_hands,
     draw_look,
     draw_populate,
-    draw_populated,
     draw_wrapped,
     plays_anew,
 )
@@ -128,13 +126,11 @@ class FRAGMOTION_PT_change(_RecordingPanel, bpy.types.Panel):
         group = _group(layout, context, "Hold something from the playhead on")
         draw_hands(aligned(group), active_armature(context))
         group.operator("fragmotion.reach_recording", icon="VIEW_PAN")
-        group = _group(layout, context, "Be at a place at the playhead: the 3D cursor, or an object")
+        group = _group(layout, context, "Be at a place at the playhead: where you click, or at an object")
         column = aligned(group)
         column.prop(settings, "pin_at", text="Object")
         column.prop(settings.pin, "any_heading")
         column.prop(settings.pin, "stretch", text="Over")
-        if settings.pin_at is None:
-            draw_cursor(group, context, active_armature(context))
         group.operator("fragmotion.pin_recording", icon="PINNED")
         if len(settings.story):
             group.operator("fragmotion.pin_recording", text="Pin to Storyboard", icon="PINNED").place = "STORY"
@@ -185,8 +181,7 @@ class FRAGMOTION_PT_populate(SubPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = active_armature(context).fragmotion
-        draw_populate(self.layout, settings.populate)
-        draw_populated(self.layout, settings.populate, settings.crowd)
+        draw_populate(self.layout, settings.populate, settings.crowd, bool(len(settings.figures.styles)))
         self.layout.operator("fragmotion.populate", icon="COMMUNITY")
 
 

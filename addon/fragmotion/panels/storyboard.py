@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 
 from ..operators.base.context import active_armature
-from ..settings.drawing import aligned, draw_cursor, draw_look, draw_wrapped
+from ..settings.drawing import aligned, draw_look, draw_wrapped
 from .sidebar import SubPanel
 
 _ROWS = 4
@@ -33,7 +33,9 @@ class FRAGMOTION_UL_story(bpy.types.UIList):
         split.prop(item, "name", text="", emboss=False)
         rest = split.split(factor=0.5)
         rest.label(text=item.move, translate=False)
-        rest.prop(item, "frame", text="", emboss=False)
+        frame = rest.row()
+        frame.alignment = "RIGHT"
+        frame.label(text=str(item.frame), translate=False)  # a field would show its first digit alone
 
 
 class FRAGMOTION_PT_storyboard(SubPanel, bpy.types.Panel):
@@ -50,8 +52,7 @@ class FRAGMOTION_PT_storyboard(SubPanel, bpy.types.Panel):
         buttons.operator("fragmotion.add_beat", text="", icon="ADD")
         buttons.operator("fragmotion.remove_beat", text="", icon="REMOVE")
         if not len(settings.story):
-            draw_wrapped(layout.column(align=True), context, "Put the 3D cursor at a place, and press +", "INFO")
-        draw_cursor(layout, context, active_armature(context))
+            draw_wrapped(layout.column(align=True), context, "Press + and click on the ground", "INFO")
         if 0 <= settings.active_beat < len(settings.story):
             beat, column = settings.story[settings.active_beat], aligned(layout)
             column.prop(beat, "frame")

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import bpy
-from bpy_extras.view3d_utils import location_3d_to_region_2d, region_2d_to_origin_3d, region_2d_to_vector_3d
+from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
 from mathutils import Vector
 from mathutils.geometry import intersect_line_plane
 
@@ -23,15 +23,6 @@ def ground_under(area: bpy.types.Area, x: float, y: float, ground: Ground | None
         return ground.seen_along(eye, along)
     place = intersect_line_plane(eye, eye + along, Vector(), Vector((0, 0, 1)))
     return place if place is not None and (place - eye).dot(along) > 0 else None
-
-
-def ground_behind_cursor(context: bpy.types.Context, ground: Ground | None) -> Vector | None:
-    """The place on the ground that the context's 3D view shows where it shows the 3D cursor; None where there is
-    none."""
-    region = next(part for part in context.area.regions if part.type == "WINDOW")
-    view = context.area.spaces.active.region_3d
-    pixel = location_3d_to_region_2d(region, view, context.scene.cursor.location)
-    return None if pixel is None else ground_under(context.area, pixel.x, pixel.y, ground)
 
 
 def add_curve(context: bpy.types.Context, points: Sequence[Vector]) -> bpy.types.Object:

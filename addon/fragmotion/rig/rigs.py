@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 from ..compat.core import core
 from ..errors import UserError, core_errors
@@ -20,8 +21,8 @@ FEWEST_BONES = 2
 """A character needs a bone that moves against another."""
 
 
-def make_rig(obj: bpy.types.Object) -> Rig:
-    """The armature at its place in the world now; UserError on what no character can have."""
+def make_rig(obj: bpy.types.Object, place: Matrix | None = None) -> Rig:
+    """The armature at its place in the world now, or at another; UserError on what no character can have."""
     bones = obj.data.bones
     if len(bones) < FEWEST_BONES:
         count = {0: "no bones", 1: f"only one bone, '{bones[0].name}'" if bones else ""}[len(bones)]
@@ -32,13 +33,20 @@ def make_rig(obj: bpy.types.Object) -> Rig:
             parents=[bones.find(bone.parent.name) if bone.parent else -1 for bone in bones],
             rest=np.array([bone.matrix_local for bone in bones]),
             lengths=[bone.length for bone in bones],
-            world=np.array(obj.matrix_world),
+            world=np.array(obj.matrix_world if place is None else place),
             inherit_rotation=[bone.use_inherit_rotation for bone in bones],
             local_location=[bone.use_local_location for bone in bones],
             roles={role: bone for role, bone in roles_in_bones(obj).items() if role in core.ROLES and bone in bones},
             hangs={name: on for name, on in hanging_of(obj).items() if name in bones and on in bones},
         )
         return rig
+
+
+def over_origin(obj: bpy.types.Object) -> Matrix:
+    """The armature's place, were it over the world's origin: what comes from files is written as there, and so plays
+    where the armature is."""
+    place = obj.matrix_world
+    return Matrix.Translation((-place.translation.x, -place.translation.y, 0)) @ place
 
 
 def roles_in_bones(obj: bpy.types.Object) -> dict[str, str]:

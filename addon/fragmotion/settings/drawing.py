@@ -14,14 +14,13 @@ from ..character.coverage import COLUMNS
 from ..character.storing import BESIDE, troubles
 from ..compat import versions
 from ..recordings.recordings import active_recording, baked_source, is_bake_stale
-from .armature import BuildFigures, CrowdSettings, DriveSettings, PopulateSettings
+from .armature import BuildFigures, CrowdSettings, DriveSettings
 from .bake_fields import BakeFields, PopulateFields
 from .build_fields import BuildFields
 from .common import POLICY_NAMES
 from .look_fields import LookSettings
 from .reach_fields import ReachSettings
 
-_ON_GROUND = 0.05  # m: a cursor that is no further from it
 # pixels of a sidebar at the scale 1: what no text can use, an icon with the room around it, and a letter on average
 _FRAME, _ICON, _LETTER = 30, 30, 6.3
 
@@ -157,11 +156,16 @@ def draw_bake_options(layout: bpy.types.UILayout, settings: BakeFields) -> None:
     layout.prop(settings, "markers")
 
 
-def draw_populate(layout: bpy.types.UILayout, settings: PopulateFields) -> None:
-    """The fields of a crowd."""
+def draw_populate(
+    layout: bpy.types.UILayout, settings: PopulateFields, crowd: CrowdSettings | None = None, has_styles: bool = True
+) -> None:
+    """The fields of a crowd, those of the objects that it needs among them where they can be chosen."""
     layout = aligned(layout)
-    for name in ("count", "layout", "spacing"):
-        layout.prop(settings, name)
+    layout.prop(settings, "count")
+    layout.prop(settings, "layout")
+    if crowd is not None and settings.layout in {"AREA", "PATH"}:
+        layout.prop(crowd, "area" if settings.layout == "AREA" else "paths")
+    layout.prop(settings, "spacing")
     is_driven = settings.layout in {"SQUARE", "RING"}
     if is_driven:
         layout.prop(settings, "traces")
@@ -171,30 +175,22 @@ def draw_populate(layout: bpy.types.UILayout, settings: PopulateFields) -> None:
     if simulated or settings.layout == "AREA":
         layout.prop(settings, "seconds")
     if simulated or not is_driven:
-        layout.prop(settings, "mix_styles")
+        if has_styles:
+            layout.prop(settings, "mix_styles")
         layout.prop(settings, "clear")
+        if crowd is not None and settings.clear:
+            layout.prop(crowd, "obstacles")
     layout.prop(settings, "sizes")
     layout.prop(settings, "seed")
 
 
-def draw_populated(layout: bpy.types.UILayout, settings: PopulateSettings, crowd: CrowdSettings) -> None:
-    """The objects that a crowd needs."""
-    layout = aligned(layout)
-    if settings.layout == "AREA":
-        layout.prop(crowd, "area")
-    if settings.layout == "PATH":
-        layout.prop(crowd, "paths")
-    if settings.clear and (settings.layout in {"AREA", "PATH"} or settings.traces == "PLAYERS"):
-        layout.prop(crowd, "obstacles")
-
-
-def draw_summary(layout: bpy.types.UILayout, context: bpy.types.Context, figures: BuildFigures) -> None:
-    """How good the last build is: what it can do, the quality of Optimal's, and how many of the controls it
-    does."""
+def draw_summary(layout: bpy.types.UILayout, context: bpy.types.Context, figures: BuildFigures, in_short: bool) -> None:
+    """How good the last build is: what it can do, the quality of Optimal's, and, where there is room, how many of the
+    controls it does."""
     if figures.abilities:
         draw_wrapped(layout, context, figures.abilities, "ERROR" if figures.abilities == NOTHING else "CHECKMARK")
     layout.label(text=f"{figures.quality:.0f} % of the possible", icon="CHECKMARK")
-    if figures.coverage:
+    if figures.coverage and not in_short:
         icon = "CHECKMARK" if figures.performed == figures.controls else "INFO"
         layout.label(text=f"{figures.performed} of {figures.controls} controls", icon=icon)
 
@@ -304,16 +300,6 @@ def draw_trace(layout: bpy.types.UILayout, settings: BuildFields | BakeFields | 
 def _draw_player(layout: bpy.types.UILayout, settings: BuildFields | BakeFields | DriveSettings) -> None:
     layout.prop(settings, "player")
     layout.prop(settings, "seconds")
-
-
-def draw_cursor(layout: bpy.types.UILayout, context: bpy.types.Context, obj: bpy.types.Object) -> None:
-    """Where the 3D cursor is off the plane that the armature stands on: by how much, and what puts it there."""
-    height = context.scene.cursor.location.z
-    if obj.fragmotion.ground.kind != "PLANE" or abs(height) < _ON_GROUND:
-        return
-    side = "above" if height > 0 else "below"
-    draw_wrapped(layout.column(align=True), context, f"3D cursor {abs(height):.1f} m {side} the ground", "ERROR")
-    layout.operator("fragmotion.ground_cursor", icon="CURSOR")
 
 
 def draw_wrapped(

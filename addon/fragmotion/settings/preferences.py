@@ -13,7 +13,7 @@ from ..compat.event_keys import KEYS
 from ..input.keyboard import DEFAULT_KEYS
 from . import keymaps
 
-_LABELS = {name: name.replace("_", " ").title() for name in DEFAULT_KEYS}
+_LABELS = {name: name.replace("_", " ").title() for name in DEFAULT_KEYS} | {"previous_style": "Prev. Style"}
 _TIPS = {
     "forward": "Away from you, or forward",
     "back": "Towards you, or back",

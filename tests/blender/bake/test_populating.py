@@ -239,6 +239,12 @@ def nearest(places: np.ndarray) -> float:
     return float(off.min())
 
 
+def test_what_was_selected_stays_so_alone(addon: ModuleType, obj: bpy.types.Object) -> None:
+    obj.select_set(True)
+    populate(count=2)
+    assert bpy.context.selected_objects == [obj]
+
+
 def make_area(size: float, painted: bool = False) -> bpy.types.Object:
     """A square in the world, of which the half on the positive side is painted."""
     data = bpy.data.meshes.new("Area")

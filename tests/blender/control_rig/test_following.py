@@ -109,6 +109,21 @@ def test_the_rig_follows_any_pose_and_its_keys_show_the_same(addon: ModuleType, 
     assert bpy.ops.fragmotion.follow_motion() == {"FINISHED"} and addon.control_rig.binding.follows(rig)
 
 
+def test_the_panel_of_a_rig_that_follows_leaves_bake_where_it_was(addon: ModuleType) -> None:
+    layouts.add_layout()
+    classes = addon.panels.panel.CLASSES
+
+    def panels() -> list[str]:
+        tops = [each for each in classes if issubclass(each, bpy.types.Panel) and not hasattr(each, "bl_parent_id")]
+        return [each.bl_label for each in tops if getattr(each, "poll", bool)(bpy.context)]
+
+    before = panels()
+    assert before.index("Control Rig") < before.index("Mocap") and before.count("Control Rig") == 1
+    bind(addon, bpy.context.object)
+    after = panels()
+    assert after.index("Control Rig") == after.index("Bake") + 1 and after.count("Control Rig") == 1
+
+
 @pytest.mark.parametrize("size", [0.01, 100])
 def test_a_rig_of_another_unit_follows(addon: ModuleType, size: float) -> None:
     rig = layouts.add_layout()

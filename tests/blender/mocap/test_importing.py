@@ -103,6 +103,12 @@ def test_takes_key_the_same_channels_so_that_none_marks_the_next(addon: ModuleTy
     assert paths[0] == paths[1] and 'pose.bones["LeftUpLeg"].location' in paths[0]
 
 
+def test_a_new_armature_is_seen_through_what_it_stands_in(tmp_path: Path) -> None:
+    making.write_bvh(tmp_path / "a.bvh")
+    import_folder(tmp_path)
+    assert bpy.context.object.show_in_front
+
+
 def test_only_the_selected_files_are_imported(tmp_path: Path) -> None:
     for name in ("a", "b", "c"):
         making.write_bvh(tmp_path / f"{name}.bvh")
@@ -221,9 +227,11 @@ def test_a_take_that_is_of_no_body_cannot_go_onto_another_skeleton(tmp_path: Pat
     making.write_bvh(tmp_path / "a.bvh")
     other = making.write_bvh(tmp_path / "b.bvh")
     other.write_text(other.read_text().replace("RightUpLeg", "Tail"))
+    import_folder(tmp_path)
+    assert [action.name for action in bpy.data.actions] == ["a"], "the rest comes in"
     before = making.contents()
     with pytest.raises(RuntimeError, match=r"Take 'b'.*"):
-        import_folder(tmp_path)
+        import_folder(tmp_path, files=[{"name": "b.bvh"}], onto="ACTIVE")
     assert making.contents() == before
 
 

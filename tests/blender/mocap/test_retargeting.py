@@ -64,6 +64,19 @@ def test_actions_of_another_armature_move_this_one_likewise() -> None:
 
 
 @pytest.mark.skipif(not WALK.exists(), reason="no motion capture beside the project")
+def test_takes_play_where_the_armature_is(tmp_path: Path) -> None:
+    (tmp_path / WALK.name).write_bytes(WALK.read_bytes())
+    obj, ways = add_character(), []
+    for place in ((0, 0, 0), (3, -2, 0)):
+        obj.location = place
+        bpy.context.view_layer.update()
+        assert bpy.ops.fragmotion.import_mocap(directory=str(tmp_path), onto="ACTIVE") == {"FINISHED"}
+        heads = making.blender_poses(obj, obj.animation_data.action, np.arange(2, 100, 20), ["foot.L", "hips"])
+        ways.append(heads[..., :3, 3])
+    np.testing.assert_allclose(ways[1], ways[0] + np.array((3, -2, 0)), atol=1e-3)
+
+
+@pytest.mark.skipif(not WALK.exists(), reason="no motion capture beside the project")
 def test_takes_of_another_skeleton_move_the_active_character_and_are_learned(tmp_path: Path) -> None:
     for path in WALK.parent.glob("dataset-1_walk_normal_00[12].bvh"):
         (tmp_path / path.name).write_bytes(path.read_bytes())

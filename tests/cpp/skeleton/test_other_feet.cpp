@@ -42,5 +42,11 @@ TEST(OtherFeet, AreNoneOfADogAndOfAMan) {
   EXPECT_TRUE(other_feet(humanoid()).empty());
 }
 
+TEST(OtherFeet, AreNoHandsThatARestPosePutsOnTheGround) {
+  Skeleton skeleton = humanoid();
+  for (const char* arm : {"upper_arm.L", "upper_arm.R"}) skeleton.offsets[skeleton.find(arm)].z() -= 0.81;
+  EXPECT_TRUE(other_feet(checked_skeleton(skeleton)).empty());
+}
+
 }  // namespace
 }  // namespace fragmotion

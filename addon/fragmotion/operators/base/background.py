@@ -46,14 +46,20 @@ class Background:
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         if bpy.app.background:
             return self.execute(context)
+        outcome = self._start(context)
+        if outcome == {"RUNNING_MODAL"}:
+            context.window_manager.modal_handler_add(self)
+        return outcome
+
+    def _start(self, context: bpy.types.Context) -> set[str]:
+        """Start the job; what the operator returns, with its modal handler if it goes on."""
         job = self._make_job(context)
         _watch(context, job)
         job.wait(self.patience)
-        if not job.running:
-            self._end(context)
-            return self._finish(context, job)
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+        if job.running:
+            return {"RUNNING_MODAL"}
+        self._end(context)
+        return self._finish(context, job)
 
     @ends_on_error
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

@@ -15,7 +15,6 @@ from .drive import (
     FRAGMOTION_OT_record,
 )
 from .follow_path import FRAGMOTION_OT_follow_path
-from .ground_cursor import FRAGMOTION_OT_ground_cursor
 from .populate import FRAGMOTION_OT_populate
 
 __all__ = ["CLASSES"]
@@ -32,7 +31,6 @@ CLASSES = (
     *cut_recording.CLASSES,
     *edit_recordings.CLASSES,
     FRAGMOTION_OT_follow_path,
-    FRAGMOTION_OT_ground_cursor,
     FRAGMOTION_OT_populate,
     *recordings.CLASSES,
     *storyboard.CLASSES,

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import bpy
 from bpy.props import BoolProperty, FloatProperty
 
-from ...drive.hud import timeline
+from ...drive.hud import timeline, views
 from ...edits import cutting
 from ...errors import ends_on_error, reported
 from ...recordings.recordings import TRACE_RATE
@@ -94,6 +94,7 @@ class FRAGMOTION_OT_cut_recording(OnRecording, bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         recording = selected(context)
         seam = cutting.cut_out(active_armature(context), recording, self.start, self.end)
+        views.tag_redraw("UI")  # which says how long the recording is; the mouse is on the timeline
         if self.of_range:  # which is gone
             context.scene.use_preview_range = False
         self.report(

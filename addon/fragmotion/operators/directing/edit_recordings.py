@@ -10,7 +10,7 @@ from bpy.props import EnumProperty
 
 from ...edits import cutting, pinning
 from ...edits.replaying import play_again
-from ...errors import UserError, reported
+from ...errors import UserError, ends_on_error, reported
 from ...jobs import Job
 from ...recordings.curves import curves_of, read_curves, show_curves
 from ...recordings.holding import holds_over_time
@@ -22,6 +22,7 @@ from ...settings.pin_fields import PinFields
 from ..base.background import Background, poll_idle
 from ..base.context import active_armature, first_frame, frame_rate, playhead
 from ..base.editors import ensure_editor
+from ..base.placing import Placing, is_in_view
 from .recordings import OnRecording, selected
 
 
@@ -167,15 +168,15 @@ def _control_at_playhead(context: bpy.types.Context, recording: Recording) -> in
     return control
 
 
-class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.Operator):
+class FRAGMOTION_OT_pin_recording(PinFields, Placing, OnRecording, Background, bpy.types.Operator):
     """Bend the recording before the playhead, so that the character is at a place at that frame."""
 
     bl_idname = "fragmotion.pin_recording"
     bl_label = "Pin Here"
     bl_description = (
-        "At the playhead's frame the character is to be at the 3D cursor, or at the object above, facing anywhere or "
-        "its -Y. The stretch before is played with small changes of its controls until it gets there. What comes "
-        "before that stays"
+        "At the playhead's frame the character is to be where you click on the ground (Enter: at the 3D cursor), or at "
+        "the object above, facing anywhere or its -Y. The stretch before is played with small changes of its controls "
+        "until it gets there. What comes before that stays"
     )
     bl_options: ClassVar[set[str]] = {"UNDO"}
     verb = "Pin"
@@ -186,7 +187,7 @@ class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.
         name="At",
         description="Where the character is to be",
         items=(
-            ("PANEL", "Panel", "At the object that the panel names, or the 3D cursor"),
+            ("PANEL", "Panel", "At the object that the panel names, or where you click on the ground"),
             ("CURSOR", "3D Cursor", "At the 3D cursor"),
             ("STORY", "Storyboard", "At each place of the storyboard, by its frame"),
         ),
@@ -196,6 +197,27 @@ class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.
     @classmethod
     def poll(cls: Any, context: bpy.types.Context) -> bool:
         return super().poll(context) and poll_idle(cls)
+
+    @ends_on_error
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        asks = self.place == "PANEL" and active_armature(context).fragmotion.pin_at is None
+        return self._begin_asking(context) if asks and is_in_view(context) else super().invoke(context, event)
+
+    @ends_on_error
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if self._asks_in is None:
+            return super().modal(context, event)
+        asked = self._go_on_asking(context, event)
+        return self._start(context) if asked is None else asked
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Blender ends the operator."""
+        self.abandon(context)
+
+    def abandon(self, context: bpy.types.Context) -> None:
+        """Ask no more, and give up the job."""
+        self._end_asking(context, None)
+        super().abandon(context)
 
     def _prepare(self, context: bpy.types.Context, obj: bpy.types.Object) -> Job:
         recording = selected(context)
@@ -218,7 +240,7 @@ class FRAGMOTION_OT_pin_recording(PinFields, OnRecording, Background, bpy.types.
             begin = max(goals[-1].seconds if goals else 0.0, seconds - self.stretch)
             goals.append(pinning.Goal(seconds, begin, pinning.frame_of(beat.place), self.any_heading))
         if not goals:
-            raise UserError("No entry of the storyboard has a place: put the 3D cursor somewhere, and press + there")
+            raise UserError("No entry of the storyboard has a place: press + there, and click on the ground")
         return goals
 
     def _keep(self, _context: bpy.types.Context, obj: bpy.types.Object, pinned: pinning.Pinned) -> None:

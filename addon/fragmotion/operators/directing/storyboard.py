@@ -9,11 +9,12 @@ from typing import Any, ClassVar
 import bpy
 
 from ...edits.storyboard import record, seconds_to
-from ...errors import UserError, reported
+from ...errors import UserError, ends_on_error, reported
 from ...recordings.recordings import NEXT
 from ...rig.selection import select
 from ..base.background import poll_character
 from ..base.context import active_armature, poll_armature
+from ..base.placing import Placing, is_in_view
 
 _APART = 2.0  # s between an entry and the next at first, at least
 _SIZE = 0.15  # m, of the empty that an entry is at
@@ -27,11 +28,33 @@ class _OnStory:
         return poll_armature(cls, context)
 
 
-class FRAGMOTION_OT_add_beat(_OnStory, bpy.types.Operator):
-    """Add an entry to the storyboard, at a new empty where the 3D cursor is, by when the character can walk there"""
+class FRAGMOTION_OT_add_beat(Placing, _OnStory, bpy.types.Operator):
+    """Add an entry to the storyboard, at a new empty where you click on the ground, by when the character can walk
+    there"""
 
     bl_idname = "fragmotion.add_beat"
     bl_label = "Add Entry"
+    bl_description = (
+        "Click on the ground: an entry is added to the storyboard, at a new empty there, by when the character can "
+        "walk there. Enter puts it at the 3D cursor"
+    )
+
+    @ends_on_error
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        return self._begin_asking(context) if is_in_view(context) else self.execute(context)
+
+    @ends_on_error
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        asked = self._go_on_asking(context, event)
+        return self.execute(context) if asked is None else asked
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Blender ends the operator."""
+        self.abandon(context)
+
+    def abandon(self, context: bpy.types.Context) -> None:
+        """Add nothing."""
+        self._end_asking(context, None)
 
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -49,8 +72,8 @@ class FRAGMOTION_OT_add_beat(_OnStory, bpy.types.Operator):
         selected = context.mode == "OBJECT"
         if selected:
             select(context, [empty], context.view_layer.objects.active)
-        how = "it is selected, so G moves it" if selected else "select and move it"
-        self.report({"INFO"}, f"'{beat.name}' is at the 3D cursor: {how} to where it is to be")
+        how = "G moves it" if selected else "select and move it as you like"
+        self.report({"INFO"}, f"Added '{beat.name}', by frame {beat.frame}: {how}")
         return {"FINISHED"}
 
 

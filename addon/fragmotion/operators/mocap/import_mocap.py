@@ -16,6 +16,7 @@ from ...mocap.doctor import worst
 from ...mocap.importing import METRES, Imported, import_takes
 from ...mocap.take_files import ENDINGS, find_takes
 from ...rig.bodies import doubts_at_import
+from ...settings.drawing import aligned, draw_wrapped
 from ...words import counted
 from ..base import background
 from ..base.background import Exclusive
@@ -107,6 +108,14 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
+    def draw(self, context: bpy.types.Context) -> None:
+        if context.space_data is not None and context.space_data.type == "FILE_BROWSER":
+            words = "All of this folder and of those in it, or the files that you select"
+            draw_wrapped(self.layout.column(align=True), context, words, "INFO")
+        column = aligned(self.layout)
+        for name in ("onto", "mend", "unit", "style", "character"):
+            column.prop(self, name)
+
     @reported
     def execute(self, context: bpy.types.Context) -> set[str]:
         asked, self._is_asking = self._is_asking, False
@@ -135,7 +144,7 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
             self.report({"WARNING"}, f"Left out: {cause}")
         more = len(result.broken) - _MOST_TOLD
         if more > 0:
-            self.report({"WARNING"}, f"Left out: {counted(more, 'more file')} that cannot be read")
+            self.report({"WARNING"}, f"Left out: {counted(more, 'more file')} that cannot be used")
         for doubt in doubts_at_import(result.obj) if self.onto == "ACTIVE" else ():
             self.report({"WARNING"}, doubt)
         self.report({"INFO"}, _told(result))
@@ -161,7 +170,7 @@ def _told(imported: Imported) -> str:
         f"{counted(mended, 'fault')} mended" if mended else "",
         f"{counted(left, 'take')} to look at in Doctor" if left else "",
         f"{counted(len(without), 'file')} left out in which no armature is animated" if without else "",
-        f"{counted(len(broken), 'file')} left out that cannot be read" if broken else "",
+        f"{counted(len(broken), 'file')} left out that cannot be used" if broken else "",
     )
     return "; ".join([told, *filter(None, parts)])
 

@@ -16,11 +16,12 @@ double highest_end(const BodyShape& shape, const LimbPair& pair) {
   return std::max(shape.rest()[pair.chains[0].back()].z(), shape.rest()[pair.chains[1].back()].z());
 }
 
-bool ends_in_a_foot(const Skeleton& skeleton, const Chain& chain) {
-  const std::vector<LegRoles> legs = legs_with_feet(skeleton.roles);
-  return std::any_of(legs.begin(), legs.end(), [&](const LegRoles& leg) {
-    return std::find(chain.begin(), chain.end(), leg.foot) != chain.end();
-  });
+// A rest pose in which all bones lie along one axis, as that of many labs' BVH files, has hands on the ground.
+bool ends_in_a_foot_or_hand(const Skeleton& skeleton, const Chain& chain) {
+  std::vector<int> ends = {skeleton.roles.left_hand, skeleton.roles.right_hand};
+  for (const LegRoles& leg : legs_with_feet(skeleton.roles)) ends.push_back(leg.foot);
+  return std::any_of(ends.begin(), ends.end(),
+                     [&](int end) { return std::find(chain.begin(), chain.end(), end) != chain.end(); });
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ std::vector<int> other_feet(const Skeleton& skeleton) {
   for (const LimbPair& pair : pairs) {
     if (highest_end(shape, pair) - ground > kStands * pair.length) continue;
     for (const Chain& chain : pair.chains) {
-      if (!ends_in_a_foot(skeleton, chain)) feet.push_back(chain.back());
+      if (!ends_in_a_foot_or_hand(skeleton, chain)) feet.push_back(chain.back());
     }
   }
   return feet;
