@@ -128,7 +128,9 @@ TEST(GaitOfStep, StandsOnOneFootAsItStoodOnTheOther) {
 
 TEST(GaitOfStep, BackwardIsTheSameFromItsEnd) {
   const FragmentPool pool = walk_and_run(0.5);
-  const GaitSource forward = gait_of(pool, step_of(pool, false)), backward = gait_of(pool, step_of(pool, true));
+  const ClosedCycle onward = step_of(pool, false), back = step_of(pool, true);
+  ASSERT_TRUE(onward.is_step() && back.is_step());
+  const GaitSource forward = gait_of(pool, onward), backward = gait_of(pool, back);
   EXPECT_EQ(backward.begin, forward.end);
   EXPECT_EQ(backward.end, forward.begin);
   EXPECT_EQ(backward.clip.rotations, forward.clip.rotations);
