@@ -44,7 +44,7 @@ GaitEdit towards(double degrees, double speed = 1) {
 
 double hips(const FragmentPool& pool, const GaitEdit& edit) {
   const Legs legs = find_legs(kKinematics, pool.clips);
-  return HipTurns(kKinematics, legs, pool, pool.clips.size()).of(0, kBegin, kEnd, edit);
+  return HipTurns(kKinematics, legs, pool, pool.clips.size()).of(pool.clips[0], 0, kBegin, kEnd, edit);
 }
 
 // How far thighs and knees are beyond the walks at most in the gait that this edit makes of the first, degrees.

@@ -14,18 +14,22 @@ int frame_of(int f, int begin, int end) {
 }
 
 GaitCycle gait_cycle_of(const Kinematics& kinematics, const Clip& clip, int begin, int end) {
+  return gait_cycle_of(kinematics, clip, begin, end, body_pose(kinematics, clip, begin));
+}
+
+GaitCycle gait_cycle_of(const Kinematics& kinematics, const Clip& clip, int begin, int end, const BodyPose& next) {
   GaitCycle cycle;
   for (int f = 0; f < std::abs(end - begin); ++f) {
     cycle.poses.push_back(body_pose(kinematics, clip, frame_of(f, begin, end)));
   }
-  const BodyPose first = cycle.poses.front(), last = body_pose(kinematics, clip, end);
+  const BodyPose last = body_pose(kinematics, clip, end);
   cycle.end = last.frame;
   for (int f = 0; f < cycle.frames(); ++f) {
     const double weight = ease_in_ease_out(2.0 * f / cycle.frames() - 1);
     BodyPose& pose = cycle.poses[f];
-    pose.height += weight * (first.height - last.height);
+    pose.height += weight * (next.height - last.height);
     for (std::size_t b = 0; b < pose.rotations.size(); b += 4) {
-      const Quaternion missing = load_quaternion(&first.rotations[b]) * load_quaternion(&last.rotations[b]).conjugate();
+      const Quaternion missing = load_quaternion(&next.rotations[b]) * load_quaternion(&last.rotations[b]).conjugate();
       const Quaternion by = Quaternion::Identity().slerp(weight, missing);
       store_quaternion((by * load_quaternion(&pose.rotations[b])).normalized(), &pose.rotations[b]);
     }

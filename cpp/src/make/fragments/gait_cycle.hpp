@@ -20,7 +20,10 @@ struct GaitCycle {
   }
 };
 
-/// Frames begin .. end of a clip. Where the last is not as the first, the second half leads to that.
+/// Frames begin .. end of a clip, after which the pose `next` comes: where the last is not as that, the second half
+/// leads to it.
+GaitCycle gait_cycle_of(const Kinematics& kinematics, const Clip& clip, int begin, int end, const BodyPose& next);
+/// The same, after which the first pose comes.
 GaitCycle gait_cycle_of(const Kinematics& kinematics, const Clip& clip, int begin, int end);
 
 /// The bones from the head, or the chest where there is none, down to what is above the legs; none without a spine.

@@ -20,8 +20,10 @@ class GaitHeights {
   /// that go so: the sum over the tips, m a metre of reach. Much where a body crouches, hops or dances.
   double excess(int first, int last, double speed) const;
 
- private:
+  /// What goes so fast: 0 is the walk, 1 the run.
   std::size_t gait_at(double speed) const { return speed < faster_ ? 0 : 1; }
+
+ private:
   const float* heights(int fragment) const {
     return trajectories_->first_pose(fragment) + std::size_t{2} * trajectories_->pose_stride;
   }

@@ -65,10 +65,10 @@ HipTurns::HipTurns(const Kinematics& kinematics, const Legs& legs, const Fragmen
       leg_ranges_(thighs_and_knees(legs), pool.clips, takes),
       spine_ranges_(spine_bones(pool.skeleton), pool.clips, takes) {}
 
-double HipTurns::of(int clip, int begin, int end, GaitEdit edit) {
+double HipTurns::of(const Clip& clip, int number, int begin, int end, GaitEdit edit) {
   edit.turn = edit.hips = 0;
-  const auto [found, fresh] = found_.try_emplace({clip, begin, end, edit.direction, edit.speed}, 0.0);
-  if (fresh) found->second = find(pool_.clips[clip], begin, end, edit);
+  const auto [found, fresh] = found_.try_emplace({number, begin, end, edit.direction, edit.speed}, 0.0);
+  if (fresh) found->second = find(clip, begin, end, edit);
   return found->second;
 }
 

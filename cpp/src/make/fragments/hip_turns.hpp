@@ -18,11 +18,12 @@ class HipTurns {
   /// order.
   HipTurns(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool, std::size_t takes);
 
-  /// How far the hips are to be turned, rad, in an edit of the cycle that goes from a frame to another of a clip. Where
-  /// the thighs or knees would leave their ranges, those of a body on two legs turn towards the path as far as is
-  /// needed, or as the spine bears. A range is left no further than a take leaves that of the others, in the mean, and
-  /// than in the cycle itself, or as it steps in place or straight on. Whether it turns makes no difference.
-  double of(int clip, int begin, int end, GaitEdit edit);
+  /// How far the hips are to be turned, rad, in an edit of the cycle that goes from a frame to another of a clip, of
+  /// which `number` tells it from others. Where the thighs or knees would leave their ranges, those of a body on two
+  /// legs turn towards the path as far as is needed, or as the spine bears. A range is left no further than a take
+  /// leaves that of the others, in the mean, and than in the cycle itself, or as it steps in place or straight on.
+  /// Whether it turns makes no difference.
+  double of(const Clip& clip, int number, int begin, int end, GaitEdit edit);
 
  private:
   double find(const Clip& clip, int begin, int end, const GaitEdit& edit) const;

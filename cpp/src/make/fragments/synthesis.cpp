@@ -10,10 +10,10 @@
 #include "base/quantile.hpp"
 #include "base/ranges.hpp"
 #include "fragments/blend.hpp"
+#include "fragments/closed_cycles.hpp"
 #include "fragments/coverage.hpp"
 #include "fragments/distance.hpp"
 #include "fragments/gait_edit.hpp"
-#include "fragments/gait_heights.hpp"
 #include "fragments/hip_turns.hpp"
 #include "fragments/speed_range.hpp"
 #include "fragments/standing.hpp"
@@ -38,10 +38,7 @@ constexpr double kMostTempo = 1.2;  // the most by which steps are hurried, as t
 constexpr double kStandSeconds = 0.5;
 constexpr double kStandsLong = 3;  // s that a take stands, so that one does not see it begin again
 constexpr int kStands = 48;        // fragments that stand, one after the other, until they begin again
-constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
-constexpr double kBackward = 1;                              // of effort: to be played backward
-constexpr double kClosed = 3 / kTunedReach;                  // m a metre of reach between the ends of a cycle
-constexpr double kFlawed = kTunedReach;                      // of effort, for each such of a flaw
+constexpr double kBackward = 1;    // of effort: to be played backward
 
 double angle_between(const Control& a, const Control& b) {
   return wrapped(std::atan2(b.y, b.x) - std::atan2(a.y, a.x));
@@ -112,8 +109,8 @@ class Synthesizer {
         legs_(find_legs(kinematics_, pool.clips)),
         trajectories_(trajectories(pool)),
         hip_turns_(kinematics_, legs_, pool, takes),
-        originals_(static_cast<int>(pool.fragments.size())) {
-    find_cycles();
+        originals_(static_cast<int>(pool.fragments.size())),
+        cycles_(closed_cycles(pool, trajectories_, space, takes)) {
     find_dip();
   }
 
@@ -217,43 +214,6 @@ class Synthesizer {
     }
   }
 
-  // Fragments that follow each other in a take and end nearly as they began: played again and again, they are a gait.
-  // Played backward, they go where they came from.
-  struct Cycle {
-    int clip = 0, begin = 0, end = 0;  // frames
-    Control evident;
-    double flaw = 0;  // m a metre of reach from its last pose to its first, and from the usual heights
-
-    bool backward() const { return end < begin; }
-  };
-
-  static Cycle backward(const Cycle& cycle) {
-    const Control& ev = cycle.evident;
-    return {cycle.clip, cycle.end, cycle.begin, {-ev.x, -ev.y, -ev.turn, ev.jump}, cycle.flaw};
-  }
-
-  void find_cycles() {
-    const GaitHeights usual(trajectories_, pool_.fragments, space_);
-    for (int first = 0; first < originals_; ++first) {
-      Cycle cycle;
-      double seconds = 0;
-      for (int last = first; last < originals_; ++last) {
-        const Fragment& f = pool_.fragments[last];
-        if (last > first && (f.clip != cycle.clip || f.begin != cycle.end)) break;
-        const double length = pool_.seconds(f), share = length / (seconds += length);
-        if (last == first) cycle.clip = f.clip, cycle.begin = f.begin;
-        cycle.end = f.end;
-        cycle.evident = mix(cycle.evident, f.evident, share);
-        if (seconds > kLongestCycle) break;
-        const double gap = double{transition_distance(trajectories_, last, first)} / trajectories_.reach;
-        if (seconds < kShortestCycle || gap > kClosed) continue;
-        cycle.flaw = gap + usual.excess(first, last, cycle.evident.speed());
-        cycles_.push_back(cycle);
-        cycles_.push_back(backward(cycle));
-      }
-    }
-  }
-
   // The median dip of the takes' hips, under their usual height, before a jump.
   void find_dip() {
     std::vector<double> heights, dips;
@@ -274,16 +234,16 @@ class Synthesizer {
 
   // What it costs a cycle's looks to be made to perform a control, if that is less than `most`. Whether it jumps makes
   // no difference: what hops is made of what goes, so that the one follows the other.
-  double effort(const Cycle& cycle, const Control& control, double most) const {
+  double effort(const ClosedCycle& cycle, const Control& control, double most) const {
     const Control& ev = cycle.evident;
     const double moving = kMoving / space_.scale();
     const bool moves = ev.speed() > moving, wants = control.speed() > moving, steps = wants || control.turn != 0;
     if (moves != steps) return std::numeric_limits<double>::infinity();
-    double effort = kFlawed * cycle.flaw + 0.5 * std::abs(control.turn - ev.turn) + 2 * ev.jump;
+    double effort = kFlawed * cycle.flaw + effort_of_turn(ev, control) + 2 * ev.jump;
     if (cycle.backward()) effort += kBackward;
     if (steps && !wants) effort += ev.speed() / space_.walk();  // it steps in place
     if (wants && effort < most) {
-      effort += std::abs(angle_between(ev, control)) / (kPi / 4);
+      effort += effort_of_direction(ev, control);
       const double faster = std::log(control.speed() / ev.speed()) / std::log(1.5);
       effort += faster > 0 ? faster * faster : -faster;
     }
@@ -291,10 +251,10 @@ class Synthesizer {
   }
 
   // The cycle that performs the control with the least effort, the first of those that are alike but for rounding.
-  const Cycle* cheapest(const Control& control) const {
-    const Cycle* best = nullptr;
+  const ClosedCycle* cheapest(const Control& control) const {
+    const ClosedCycle* best = nullptr;
     double least = std::numeric_limits<double>::infinity();
-    for (const Cycle& cycle : cycles_) {
+    for (const ClosedCycle& cycle : cycles_) {
       const double cost = effort(cycle, control, least);
       if (cost < least - kSameButRounding) least = cost, best = &cycle;
     }
@@ -307,42 +267,60 @@ class Synthesizer {
     return found->second;
   }
 
+  // What goes round and round as a cycle; `number` tells its clip from others.
+  struct Gait {
+    const Clip& clip;
+    const Contacts& contacts;
+    int number, begin, end;
+  };
+
+  Gait gait_of(const ClosedCycle& cycle) {
+    if (!cycle.is_step()) return {pool_.clips[cycle.clip], contacts(cycle.clip), cycle.clip, cycle.begin, cycle.end};
+    const auto [found, fresh] = steps_.try_emplace(&cycle);
+    if (fresh) {
+      found->second = gait_of_step(kinematics_, pool_, cycle, contacts(cycle.clip), contacts(cycle.image));
+    }
+    const GaitSource& step = found->second;
+    return {step.clip, step.contacts, -1 - static_cast<int>(&cycle - cycles_.data()), step.begin, step.end};
+  }
+
   // Transforms the cheapest cycle for the control, in pieces that follow each other as in the take.
   void transform(const Control& control) {
-    const Cycle* best = cheapest(control);
+    const ClosedCycle* best = cheapest(control);
     if (!best) return;
-    const Clip& clip = pool_.clips[best->clip];
+    const Gait gait = gait_of(*best);
+    const Clip& clip = gait.clip;
     GaitEdit change;
     change.turn = (control.turn - best->evident.turn) * space_.turn_rate();
     const bool moves = best->evident.speed() > kMoving / space_.scale();
     const double faster = moves ? control.speed() / best->evident.speed() : 1;
     if (moves && control.speed() > 0) change.direction = angle_between(best->evident, control);
-    const int length = std::abs(best->end - best->begin);
+    const int length = std::abs(gait.end - gait.begin);
     const double usual = length / (longest_ * clip.rate);  // pieces, each as long as may be
     const int pieces = std::max(1, static_cast<int>(std::ceil(usual / kMostTempo - 1e-6)));
     const double sideways = std::abs(std::sin(change.direction)), cadence = 1 + sideways * (kMostTempo - 1);
     change.tempo = std::max(usual / pieces, cadence * std::clamp(std::sqrt(faster), 1 / kMostTempo, kMostTempo));
     change.speed = faster / change.tempo;
-    change.hips = hip_turns_.of(best->clip, best->begin, best->end, change);
+    change.hips = hip_turns_.of(clip, gait.number, gait.begin, gait.end, change);
     const int beyond = tail(clip.rate * change.tempo);
     const Hop hop = hop_at(control.speed());
     const int whole = static_cast<int>(std::ceil(hop.seconds() * clip.rate * change.tempo));
-    const Clip made = transformed(kinematics_, legs_, clip, contacts(best->clip), best->begin, best->end,
-                                  length + whole + beyond, change);
+    const Clip made =
+        transformed(kinematics_, legs_, clip, gait.contacts, gait.begin, gait.end, length + whole + beyond, change);
     std::vector<int> ends;
     for (int piece = 0; piece <= pieces; ++piece) ends.push_back(length * piece / pieces);
     if (control.jump <= best->evident.jump) return add(part(made, 0, length + beyond), ends, Origin::transformed);
     for (int piece = 0; piece < pieces; ++piece) {
-      Clip leap = landing_in_turn(part(made, ends[piece], made.frames - 1), *best, ends[piece], hop);
+      Clip leap = landing_in_turn(part(made, ends[piece], made.frames - 1), gait, ends[piece], hop);
       add_jump(part(leap, 0, std::min(leap.frames - 1, whole + beyond)), hop);
     }
   }
 
   // A gait that begins with frame `first` of a cycle, whose flight in a hop ends on the foot that did not take off:
   // legs in the air get there kTurnsAtMost times as fast as steps may follow each other.
-  Clip landing_in_turn(Clip clip, const Cycle& cycle, int first, const Hop& hop) {
+  Clip landing_in_turn(Clip clip, const Gait& gait, int first, const Hop& hop) const {
     const double take_off = hop.crouch() * clip.rate, flight = hop.flight() * clip.rate;
-    const int down = next_foot_down(contacts(cycle.clip), cycle.begin, cycle.end, first + static_cast<int>(take_off),
+    const int down = next_foot_down(gait.contacts, gait.begin, gait.end, first + static_cast<int>(take_off),
                                     static_cast<int>(kTurnsAtMost * kMostTempo * flight));
     return down < 0 ? clip : gait_in_flight(kinematics_, clip, take_off, take_off + flight, down - first);
   }
@@ -371,9 +349,10 @@ class Synthesizer {
   Trajectories trajectories_;
   HipTurns hip_turns_;
   int originals_;
-  std::vector<Cycle> cycles_;
-  double dip_ = kLeastDip;            // m of a 1.8 m character that jumps on the spot
-  std::map<int, Contacts> contacts_;  // of the clips that were transformed
+  std::vector<ClosedCycle> cycles_;
+  double dip_ = kLeastDip;                          // m of a 1.8 m character that jumps on the spot
+  std::map<int, Contacts> contacts_;                // of the clips that were transformed
+  std::map<const ClosedCycle*, GaitSource> steps_;  // likewise
 };
 
 }  // namespace

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "build/build.hpp"
+#include "control/simulated_players.hpp"
+#include "fragments/body_pose.hpp"
+#include "fragments/closed_cycles.hpp"
+#include "fragments/synthesis.hpp"
+#include "measured_clips.hpp"
+#include "motion/mirror.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kCycle = 0.6;  // s, of the run
+
+Clip run_of(double seconds) {
+  Gait run;
+  run.y = 3;
+  run.turn = 0.3;
+  run.cycle = kCycle;
+  run.seconds = seconds;
+  run.rate = 60;
+  return gait_clip(run, "run");
+}
+
+ControlSpace space() { return ControlSpace(1.2, 3, 1.2, 1.8 / stature(kSkeleton)); }
+
+// A walk and such a run, and then their mirror images.
+FragmentPool walk_and_run(double seconds) {
+  std::vector<Clip> clips{gait_clip({}, "walk"), run_of(seconds)};
+  const Mirror mirror(kKinematics, clips);
+  for (int c = 0; c < 2; ++c) clips.push_back(mirror(clips[c]));
+  const ControlSpace controls = space();
+  FragmentPool pool = gait_pool(clips, 1, {}, &controls);
+  for (Fragment& f : pool.fragments) f.origin = f.clip < 2 ? Origin::captured : Origin::mirrored;
+  return pool;
+}
+
+std::vector<ClosedCycle> cycles_of(const FragmentPool& pool) {
+  return closed_cycles(pool, trajectories(pool), space(), 2);
+}
+
+// The cycle of a step of the run, forward or backward.
+ClosedCycle step_of(const FragmentPool& pool, bool backward) {
+  const std::vector<ClosedCycle> cycles = cycles_of(pool);
+  const auto found = std::find_if(cycles.begin(), cycles.end(), [&](const ClosedCycle& cycle) {
+    return cycle.clip == 1 && cycle.is_step() && cycle.backward() == backward;
+  });
+  return found == cycles.end() ? ClosedCycle{} : *found;
+}
+
+GaitSource gait_of(const FragmentPool& pool, const ClosedCycle& step) {
+  const Clip &clip = pool.clips[step.clip], &image = pool.clips[step.image];
+  return gait_of_step(kKinematics, pool, step, find_contacts(kKinematics, clip), find_contacts(kKinematics, image));
+}
+
+// The greatest way of a bone's head from a frame to the next, m.
+double fastest(const Clip& clip, int begin, int end) {
+  PosedBones before(kKinematics.bones()), now(kKinematics.bones());
+  double most = 0;
+  for (int f = begin; f <= end; ++f) {
+    world(kKinematics, clip, f, now.heads.data(), now.rotations.data());
+    for (int b = 0; f > begin && b < kKinematics.bones(); ++b)
+      most = std::max(most, (now.heads[b] - before.heads[b]).norm());
+    std::swap(before, now);
+  }
+  return most;
+}
+
+TEST(ClosedCycles, OfATakeOfOneStepAreThatStepAndItsMirrorImage) {
+  const FragmentPool pool = walk_and_run(0.5);
+  const ClosedCycle forward = step_of(pool, false), backward = step_of(pool, true);
+  ASSERT_TRUE(forward.is_step() && backward.is_step());
+  EXPECT_EQ(pool.clips[forward.image].name, "run mirrored");
+  EXPECT_NEAR(forward.evident.y, 3, 0.2);
+  EXPECT_NEAR(backward.evident.y, -3, 0.2);
+  EXPECT_EQ(forward.evident.x, 0);
+  EXPECT_EQ(forward.evident.turn, 0);
+}
+
+TEST(ClosedCycles, AreWholeWhereATakeHoldsOneOfTheGait) {
+  int runs = 0;
+  for (const ClosedCycle& cycle : cycles_of(walk_and_run(3))) {
+    EXPECT_FALSE(cycle.is_step());
+    runs += cycle.clip == 1 ? 1 : 0;
+  }
+  EXPECT_GT(runs, 0);
+}
+
+TEST(ClosedCycles, AStepThatIsNoneIsNoGait) {
+  const FragmentPool pool = walk_and_run(0.2);
+  for (const ClosedCycle& cycle : cycles_of(pool)) EXPECT_NE(cycle.clip, 1);
+}
+
+TEST(GaitOfStep, GoesStraightOnAndAroundWithoutAJump) {
+  const FragmentPool pool = walk_and_run(0.5);
+  const ClosedCycle step = step_of(pool, false);
+  ASSERT_TRUE(step.is_step());
+  const GaitSource gait = gait_of(pool, step);
+  EXPECT_EQ(gait.begin, 0);
+  EXPECT_EQ(gait.end, 2 * (step.end - step.begin));
+  ASSERT_EQ(gait.clip.frames, gait.end + 1);
+  EXPECT_LT(fastest(gait.clip, 0, gait.end), 1.3 * fastest(pool.clips[1], 0, pool.clips[1].frames - 1));
+  const BodyPose first = body_pose(kKinematics, gait.clip, 0), last = body_pose(kKinematics, gait.clip, gait.end);
+  for (std::size_t i = 0; i < first.rotations.size(); ++i) EXPECT_NEAR(first.rotations[i], last.rotations[i], 1e-6);
+  EXPECT_NEAR(first.frame.heading, last.frame.heading, 1e-6);
+  EXPECT_GT((last.frame.position - first.frame.position).norm(), 0.8 * 3 * kCycle);
+}
+
+TEST(GaitOfStep, StandsOnOneFootAsItStoodOnTheOther) {
+  const FragmentPool pool = walk_and_run(0.5);
+  const ClosedCycle step = step_of(pool, false);
+  ASSERT_TRUE(step.is_step());
+  const GaitSource gait = gait_of(pool, step);
+  int stands = 0;
+  for (int f = 0; f < gait.end / 2; ++f) {
+    for (int side = 0; side < 2; ++side) {
+      EXPECT_EQ(gait.contacts.stands(side, f), gait.contacts.stands(1 - side, f + gait.end / 2)) << f;
+      stands += gait.contacts.stands(side, f) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(stands, gait.end / 4);
+}
+
+TEST(GaitOfStep, BackwardIsTheSameFromItsEnd) {
+  const FragmentPool pool = walk_and_run(0.5);
+  const ClosedCycle onward = step_of(pool, false), back = step_of(pool, true);
+  ASSERT_TRUE(onward.is_step() && back.is_step());
+  const GaitSource forward = gait_of(pool, onward), backward = gait_of(pool, back);
+  EXPECT_EQ(backward.begin, forward.end);
+  EXPECT_EQ(backward.end, forward.begin);
+  EXPECT_EQ(backward.clip.rotations, forward.clip.rotations);
+}
+
+// Who has a walk and one step of a run does not run with the walk's steps.
+TEST(Build, RunsOnTheOneStepOfARunThatItsTakesHold) {
+  BuildOptions options;
+  options.policies = {"greedy"};
+  options.restarts = 1;
+  const Character c = build(kSkeleton, {gait_clip({}, "walk"), run_of(kCycle / 2)},
+                            {simulate_trace("explorer", 10, 1, ControlSpace())}, options);
+  const std::string walk = "walk";
+  int found = 0;
+  for (const Fragment& f : c.pool.fragments) {
+    if (f.origin != Origin::transformed || f.evident.y < 2 || f.evident.jumps()) continue;
+    ++found;
+    EXPECT_NE(c.pool.clips[f.clip].name.substr(0, walk.size()), walk);
+  }
+  EXPECT_GT(found, 0);
+}
+
+}  // namespace
+}  // namespace fragmotion
