@@ -168,6 +168,21 @@ bool score_terms(const BoneName& name, const Term (&terms)[N], std::array<double
   return longest > 0;
 }
 
+/// Of a joint that is named after both of what it joins, "torso_head", the last word counts: that hangs from it.
+bool score_trunk(const BoneName& name, std::array<double, kRoles>& scores) {
+  const bool something = score_terms(name, kTrunk, scores);
+  if (name.words.size() < 2) return something;
+  BoneName last = name;
+  last.words.erase(last.words.begin(), last.words.end() - 1);
+  std::array<double, kRoles> of_last{};
+  if (score_terms(last, kTrunk, of_last)) {
+    bool agrees = false;
+    for (int role = 0; role < kRoles; ++role) agrees = agrees || (scores[role] > 0 && of_last[role] > 0);
+    if (!agrees) scores = of_last;
+  }
+  return something;
+}
+
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
@@ -188,7 +203,7 @@ std::array<double, kRoles> says(const BoneName& name) {
   } else if (is_vertebra(name)) {
     scores[static_cast<int>(Role::kSpine)] = 2.5;
   } else {
-    something = score_terms(name, kTrunk, scores);
+    something = score_trunk(name, scores);
   }
   for (double& score : scores) {
     if (something && score <= 0) score = kContradicts;
