@@ -10,6 +10,7 @@
 #include "io/asf_amc.hpp"
 #include "io/bvh.hpp"
 #include "mocap_files.hpp"
+#include "motion/cycle.hpp"
 #include "motion/in_place.hpp"
 #include "stilts.hpp"
 #include "walker.hpp"
@@ -137,6 +138,26 @@ TEST(FeetWay, LeadsACycleIntoItself) {
   const Clip moved = led(kinematics, clip, *way), faster = led(kinematics, clip, *way, 1.5);
   EXPECT_NEAR(way_of_hips(moved), 1.2 * 24 / 30, 0.03);
   EXPECT_NEAR(way_of_hips(faster), 1.5 * way_of_hips(moved), 1e-9);
+}
+
+// As where a file holds a cycle's last pose while its other clips last: no frozen body glides on.
+TEST(FeetWay, IsNoneWhileThePoseIsHeld) {
+  const Kinematics kinematics(humanoid());
+  const Clip clip = on_the_spot(kinematics.skeleton(), gait_clip({0, 1.2, 0, 2}));
+  Clip held = clip;
+  const std::size_t values = clip.rotations.size() / clip.frames;
+  for (; held.frames < 2 * clip.frames; ++held.frames) {
+    held.rotations.insert(held.rotations.end(), clip.rotations.end() - static_cast<std::ptrdiff_t>(values),
+                          clip.rotations.end());
+    held.root_positions.insert(held.root_positions.end(), clip.root_positions.end() - 3, clip.root_positions.end());
+    held.headings.push_back(clip.headings.back());
+  }
+  const auto way = find_feet_way(kinematics, clip), longer = find_feet_way(kinematics, held);
+  ASSERT_TRUE(way && longer);
+  EXPECT_EQ(longer->mean, way->mean);
+  ASSERT_EQ(longer->velocities.size(), static_cast<std::size_t>(held.frames - 1));
+  EXPECT_EQ(longer->velocities.back(), Vector2::Zero());
+  EXPECT_EQ(without_held_end(held).frames, clip.frames);
 }
 
 // Nothing but where the body faces tells forth from back.

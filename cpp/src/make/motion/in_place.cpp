@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "motion/cycle.hpp"
@@ -27,8 +28,7 @@ constexpr double kTreads = 0.5;                      // of the way: feet that tr
 using Velocities = std::vector<Vector2>;
 
 Vector2 mean_of(const Velocities& velocities) {
-  Vector2 sum = Vector2::Zero();
-  for (const Vector2& velocity : velocities) sum += velocity;
+  const Vector2 sum = std::accumulate(velocities.begin(), velocities.end(), Vector2{0, 0});
   return velocities.empty() ? sum : Vector2(sum / static_cast<double>(velocities.size()));
 }
 
@@ -216,8 +216,7 @@ class Treading {
     const Velocities usual = about(over), drift = about(forth);
     for (int f = 0; f < windows_; ++f) {
       const double height = over[f].x() - usual[f].x();
-      spread.emplace_back(height * height, 0);
-      forth[f] = height * (forth[f] - drift[f]);
+      spread.emplace_back(height * height, 0), forth[f] = height * (forth[f] - drift[f]);
     }
     const Velocities circled = about(forth), square = about(spread);
     for (int f = 0; f < windows_; ++f) {
@@ -339,7 +338,6 @@ std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& cl
   return way;
 }
 
-// What lies halfway.
 FeetWay mean_of(FeetWay a, const FeetWay& b) {
   for (std::size_t f = 0; f < a.velocities.size(); ++f) a.velocities[f] = (a.velocities[f] + b.velocities[f]) / 2;
   return {std::move(a.velocities), (a.turn + b.turn) / 2, (a.mean + b.mean) / 2};
@@ -357,16 +355,18 @@ std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
 
 }  // namespace
 
-std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& clip) {
-  const bool has_feet = !legs_with_feet(kinematics.skeleton().roles).empty();
-  if (!has_feet || !stays(clip, standard_scale(kinematics.skeleton()))) return std::nullopt;
+std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& held) {
+  const Clip clip = without_held_end(held);
+  const Skeleton& skeleton = kinematics.skeleton();
+  if (legs_with_feet(skeleton.roles).empty() || !stays(clip, standard_scale(skeleton))) return std::nullopt;
   const int period = cycle_of(kinematics, clip);
-  if (period == 0) return way_of(kinematics, clip);
-  std::optional<FeetWay> way = way_of(kinematics, unrolled(kinematics, clip, period, 2 * period + clip.frames));
+  const Clip round = period > 0 ? unrolled(kinematics, clip, period, 2 * period + clip.frames) : clip;
+  std::optional<FeetWay> way = way_of(kinematics, round);
   if (!way) return way;
   way->velocities.erase(way->velocities.begin(), way->velocities.begin() + period);
   way->velocities.resize(clip.frames - 1);
   way->mean = mean_of(way->velocities, clip);
+  way->velocities.resize(held.frames - 1, Vector2::Zero());
   return way;
 }
 
