@@ -75,7 +75,7 @@ def test_figures_have_the_fields_that_were_agreed(made: core.Character, monkeypa
     assert set(result) == {"paths", "pins", "moves", "styles", "ground"}
     assert {"name", "speed", "mean_m", "max_m", "arrival_m", "arrival_s"} <= set(result["paths"][0])
     assert all(math.isfinite(row["mean_m"]) for row in result["paths"])
-    assert {"name", "depth_m", "skate_ratio", "hips_ratio"} <= set(result["ground"][0])
+    assert {"name", "depth_m", "skate_ratio", "hips_ratio", "thigh_ratio"} <= set(result["ground"][0])
 
 
 @pytest.mark.thorough

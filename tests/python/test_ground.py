@@ -14,6 +14,7 @@ from tools.measuring.directing.measures.ground import GROUNDS, ground
 
 DEEPEST, ON_STAIRS = 0.02, 0.025  # m: the goal, and with feet that come down late on a step
 SMOOTH, STEPPING = 2.5, 3.0  # times the plane's vertical acceleration of the hips: the goal on slopes; on stairs
+WHIPS = 3.0  # times the fastest turn of a thigh on the plane
 
 
 @pytest.fixture(scope="module")
@@ -26,6 +27,7 @@ def test_real_feet_stand_on_slopes_and_stairs(rows: dict[str, dict[str, Any]], n
     steps = name.startswith("stairs")
     assert rows[name]["depth_m"] < (ON_STAIRS if steps else DEEPEST)
     assert rows[name]["hips_ratio"] < (STEPPING if steps else SMOOTH)
+    assert rows[name]["thigh_ratio"] < WHIPS
 
 
 @pytest.mark.parametrize("name", [name for name in GROUNDS if name.startswith("slope")])

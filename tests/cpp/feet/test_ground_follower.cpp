@@ -123,6 +123,26 @@ TEST(GroundFollower, LiftsNoFootOverTheHipsForAWallThatReachesToTheKnees) {
   }
 }
 
+// The furthest that a thigh turns in a step, rad.
+double furthest_turn(const Shown& shown) {
+  const Skeleton& skeleton = gait_character()->pool.skeleton;
+  const Kinematics kinematics(skeleton);
+  PosedBones now(kinematics.bones()), before = now;
+  double furthest = 0;
+  for (std::size_t f = 0; f < shown.roots.size(); ++f, std::swap(now, before)) {
+    kinematics.world(shown.roots[f], shown.rotations[f].data(), now.heads.data(), now.rotations.data());
+    for (const int thigh : {skeleton.roles.left_thigh, skeleton.roles.right_thigh}) {
+      if (f > 0) furthest = std::max(furthest, now.rotations[thigh].angularDistance(before.rotations[thigh]));
+    }
+  }
+  return furthest;
+}
+
+TEST(GroundFollower, WhipsNoLegAboutItsHipOnStairs) {
+  const double on_plane = furthest_turn(play({}));
+  for (const double heading : {0.0, 0.7, kPi / 2, kPi}) EXPECT_LT(furthest_turn(play(stairs, heading)), 2.5 * on_plane);
+}
+
 // The most times that a step asks for the ground, in half a minute; `restless`: an explorer, and not straight on.
 int most_asked(const Ground& ground, double heading, double seconds, bool restless) {
   int asked = 0, most = 0, all = 0;

@@ -12,7 +12,7 @@ _PINS = ["asked, m", "left, mm", "left, degrees", "tries", "seconds"]
 _MOVES = ["move", "waits, s", "joint step, of the takes'"]
 _SPACES = ["speeds x directions", "controls", "of Optimal, %", "velocity error, m/s", "build, s"]
 _STYLES = ["style", "% of Optimal", "built alone, %", "changes within, s", "joint step, of other stitches'"]
-_GROUND = ["ground", "depth, cm", "within 2 cm, %", "longest beyond, s", "skating", "hips' acceleration"]
+_GROUND = ["ground", "depth, cm", "within 2 cm, %", "longest beyond, s", "skating", "hips' acceleration", "thighs"]
 _PATHS = ["path", "m/s", "mean distance, m", "greatest, m", "from the end, m", "from the time, s"]
 
 
@@ -83,4 +83,5 @@ def _ground_row(row: Mapping[str, Any]) -> list[str]:
         f"{row['late_s']:.2f}",
         f"{row['skate_ratio']:.2f}",
         f"{row['hips_ratio']:.2f}",
+        f"{row['thigh_ratio']:.2f}",
     ]

@@ -83,11 +83,11 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
   lower_hips(hips_.sunk(), pose.root, posed);
   for (int side = 0; side < 2; ++side) {
     raise_heel(side, ankles[side]);
+    unfold(side, ankles[side]);
     turn_foot(kinematics.skeleton(), legs[side], heels_[side] * turns_[side], turns_[side], posed,
               pose.rotations.data());
-    const double length = leg_length(legs[side], posed);
-    reach(kinematics.skeleton(), legs[side], posed, ankles[side], Reach{0.2 * length, longest(legs[side], posed)},
-          pose.rotations.data());
+    const Reach within{shortest(legs[side], posed), longest(legs[side], posed)};
+    reach(kinematics.skeleton(), legs[side], posed, ankles[side], within, pose.rotations.data());
   }
 }
 
@@ -174,6 +174,19 @@ void GroundFollower::raise_heel(int side, Vector3& ankle) {
                lacks = rise_to_reach(posed.heads[leg.thigh] - ball, from_ball, kHipsReach * leg_length(leg, posed));
   heels_[side] = Eigen::AngleAxisd(std::min(lacks, most), heel_axis(from_ball));
   ankle = ball + heels_[side] * from_ball;
+}
+
+// Lowers a foot on its way that comes nearer to its hip than its leg folds up: onto the paraboloid that touches the
+// sphere of that from below, where it goes by without a kink.
+void GroundFollower::unfold(int side, Vector3& ankle) const {
+  const Leg& leg = body_->legs[side];
+  const PosedBones& posed = body_->posed;
+  const double least = shortest(leg, posed);
+  const auto too_high = [&](const Vector3& at) {
+    const Vector3 way = at - posed.heads[leg.thigh];
+    return std::max(0.0, way.z() + least - way.head<2>().squaredNorm() / (2 * least));
+  };
+  ankle.z() -= (1 - feet_[side].weight()) * std::max(0.0, too_high(ankle) - too_high(posed.heads[leg.foot]));
 }
 
 }  // namespace fragmotion

@@ -43,6 +43,7 @@ class GroundFollower {
   Vector3 place_foot(int side, const FootAhead& foot);
   void sink(const FeetAhead& feet, const std::array<Vector3, 2>& ankles, double seconds);
   void raise_heel(int side, Vector3& ankle);
+  void unfold(int side, Vector3& ankle) const;
 
   std::shared_ptr<FootLock::Body> body_;
   Ground ground_;

@@ -63,11 +63,13 @@ class Knee {
     return length_ * apart(natural, wanted);
   }
 
-  // The same of an arm, which may be bent as it is: it is folded up no further than it is folded or bears.
+  // The same of an arm, which may be bent as it is.
   double ends_of_arm(double wanted) const {
-    const double now = distance(cosine_), folded = std::min(now, distance(kFoldsWell));
-    return length_ * std::max(folded, apart(now, wanted / length_));
+    return std::max(folded_up(), length_ * apart(distance(cosine_), wanted / length_));
   }
+
+  // How near the leg's ends come, m: as near as they are, or as where it resists being folded up.
+  double folded_up() const { return length_ * std::min(distance(cosine_), distance(kFoldsWell)); }
 
   // What turns it back to where it is if it is bent backward, by this share.
   Quaternion backward(double share) const {
@@ -248,6 +250,8 @@ double leg_length(const Leg& leg, const PosedBones& posed) {
 }
 
 double longest(const Leg& leg, const PosedBones& posed) { return kStretched * leg_length(leg, posed); }
+
+double shortest(const Leg& leg, const PosedBones& posed) { return knee_of(leg, posed).folded_up(); }
 
 void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations) {
   const Knee knee = knee_of(leg, posed);

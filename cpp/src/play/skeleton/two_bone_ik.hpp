@@ -59,6 +59,8 @@ Vector3 sole(const Skeleton& skeleton, const LegRoles& leg, const PosedBones& po
 /// From the thigh's head over the knee to the foot's, m; and as much of it as the leg reaches.
 double leg_length(const Leg& leg, const PosedBones& posed);
 double longest(const Leg& leg, const PosedBones& posed);
+/// How near its ankle comes to its hip, m: as near as it is, or as where its knee resists being folded up.
+double shortest(const Leg& leg, const PosedBones& posed);
 
 /// Two-bone inverse kinematics: bends the knee, to the front where it is nearly straight, and swings the thigh, so that
 /// the foot's head comes to `ankle` or as near as the leg is long; near its length a leg follows ever less, so that its

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""How exactly feet stand on slopes and stairs, whether they slide there, and how smoothly the hips go up and down.
+"""How exactly feet stand on slopes and stairs, whether they slide there, how smoothly the hips go up and down, and how
+fast the legs turn.
 
 The same player plays the same trace on the plane and on the ground. A foot is planted where its ball is still and its
 sole is on its floor on the plane; it is in contact where it is planted and its ball is still on the ground, too.
@@ -29,10 +30,12 @@ _WEIGHED = 0.025  # m: as MotionMetrics weighs skating
 
 
 class Shown(NamedTuple):
-    """Of a performance: hips' heights [F], m, and soles, heel, ball and tip of both feet [F,2,3,3], m."""
+    """Of a performance: hips' heights [F], m, soles, heel, ball and tip of both feet [F,2,3,3], m, and how both thighs
+    are turned [F,2,4]."""
 
     hips: Array
     soles: Array
+    thighs: Array
 
 
 def slope(x: float, y: float) -> float:
@@ -71,7 +74,8 @@ def make_trace(space: core.ControlSpace) -> Array:
 def ground(character: core.Character) -> list[dict[str, Any]]:
     """A row for each ground: the greatest distance of a foot in contact from it, above or in it, m; the share of the
     planted feet's frames in which they are within 2 cm of it, and the longest time that one is not, s; the skating of
-    feet and the 99th percentile of the hips' vertical acceleration, over those on the plane."""
+    feet, the 99th percentile of the hips' vertical acceleration and the fastest turn of a thigh, over those on the
+    plane."""
     trace = make_trace(character.space)
     rows = []
     for name, (height, heading) in GROUNDS.items():
@@ -87,6 +91,7 @@ def ground(character: core.Character) -> list[dict[str, Any]]:
                 "late_s": _longest(planted & (over > _ALLOWED)) / RATE,
                 "skate_ratio": _skating(seen, lowest, height) / _skating(plane, lowest, lambda _x, _y: 0.0),
                 "hips_ratio": _acceleration(seen.hips) / _acceleration(plane.hips),
+                "thigh_ratio": _furthest_turn(seen.thighs) / _furthest_turn(plane.thighs),
             }
         )
     return rows
@@ -101,7 +106,8 @@ def show(character: core.Character, trace: Array, heading: float, on: Any) -> Sh
     clip = core.Clip(character.skeleton, "played", RATE, played.root_positions, played.rotations)
     heads, rotations = clip.world_transforms(character.skeleton)
     sides = [_sole(character.skeleton, heads, rotations, side) for side in ("left", "right")]
-    return Shown(played.root_positions[:, 2], np.stack(sides, 1))
+    thighs = [character.skeleton.names.index(character.skeleton.roles[f"{side}_thigh"]) for side in ("left", "right")]
+    return Shown(played.root_positions[:, 2], np.stack(sides, 1), rotations[:, thighs])
 
 
 def _sole(skeleton: core.Skeleton, heads: Array, rotations: Array, side: str) -> Array:
@@ -162,3 +168,9 @@ def _skating(shown: Shown, lowest: Array, height: Height) -> float:
 def _acceleration(heights: Array) -> float:
     """The 99th percentile of a vertical acceleration, m/s^2."""
     return float(np.percentile(np.abs(np.diff(heights, 2)), 99)) * RATE**2
+
+
+def _furthest_turn(rotations: Array) -> float:
+    """How far any of them turns in a frame at most, rad."""
+    cosines = np.abs((rotations[1:] * rotations[:-1]).sum(-1))
+    return float(2 * np.arccos(np.clip(cosines, 0, 1)).max())
