@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "base/ranges.hpp"
 #include "motion/clip.hpp"
+#include "motion/cycle.hpp"
 #include "motion/fingers.hpp"
 #include "motion/in_place.hpp"
 #include "motion/mirror.hpp"
@@ -84,7 +85,7 @@ std::optional<std::tuple<Clip, double>> led_by_feet(const Clip& clip, const Skel
   const std::optional<FeetWay> way = find_feet_way(kinematics, clip);
   if (!way) return std::nullopt;
   const double found = way->mean.norm(), faster = speed > 0 && found > 0 ? speed / found : 1;
-  return std::tuple(led(kinematics, clip, *way, faster), found);
+  return std::tuple(without_held_end(led(kinematics, clip, *way, faster)), found);
 }
 
 Take new_take(const Skeleton& skeleton, const std::string& name, double rate, const Doubles& translations,

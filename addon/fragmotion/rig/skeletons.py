@@ -78,6 +78,8 @@ def _other_rest(built: Skeleton, now: Skeleton, factor: float) -> str:
     turned = _angles(built.rest_rotations, now.rest_rotations)
     moved[0] = turned[0] = 0  # the place in the world
     before, after = (factor * np.linalg.norm(built.tips, axis=1), np.linalg.norm(now.tips, axis=1))
+    for role in (name for name in now.roles if name.endswith("foot")):  # how long a foot is may be guessed
+        after[now.names.index(now.roles[role])] = before[now.names.index(now.roles[role])]
     for bone, name in enumerate(now.names):
         if moved[bone] > tolerance:
             return f"bone '{name}' begins {moved[bone]:.3f} m from where it did on '{now.names[now.parents[bone]]}'"

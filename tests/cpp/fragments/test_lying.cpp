@@ -42,6 +42,20 @@ TEST(Lying, WhatStandsALittleLowerIsKept) {
   EXPECT_EQ(fragments_by_clip(pool), before);
 }
 
+// As of a pack whose animals' origin is in their bellies: where the ground is, their feet tell.
+TEST(Lying, NothingIsToldByWhereTheOriginIs) {
+  const Skeleton skeleton = dog();
+  Clip clip = dog_clip({}, false, "walk");
+  for (int f = 0; f < clip.frames; ++f) clip.root_positions[std::size_t{3} * f + 2] -= 0.5;
+  for (const double sunk : {0.0, 0.5}) {
+    FragmentPool pool = cut_with_a_sunk_one(skeleton, clip, sunk);
+    std::vector<int> left = fragments_by_clip(pool);
+    if (sunk > 0) left[2] = 0;
+    drop_lying(pool, 0);
+    EXPECT_EQ(fragments_by_clip(pool), left);
+  }
+}
+
 TEST(Lying, EarlierFragmentsStay) {
   const Skeleton skeleton = dog();
   FragmentPool pool = cut_with_a_sunk_one(skeleton, dog_clip({}, false, "walk"), 0.5);

@@ -68,6 +68,26 @@ TEST(Rig, LegsOfASingleBoneReachTheGround) {
   EXPECT_EQ(skeleton.tips[4], Vector3(0, 0.4, 0)) << "the head is no leg";
 }
 
+// Likewise they have feet without toes point back up the leg.
+TEST(Rig, FeetThatPointUpTheLegPointAhead) {
+  Armature armature;
+  armature.names = {"hips", "thigh.L", "shin.L", "foot.L", "thigh.R", "shin.R", "foot.R"};
+  armature.parents = {-1, 0, 1, 2, 0, 4, 5};
+  const Quaternion up(Eigen::AngleAxisd(kPi / 2, Vector3::UnitX()));  // y along the bone
+  append(compose({0, 0, 1}, up), armature.rest);
+  for (const double x : {0.1, -0.1}) {
+    for (const double z : {0.9, 0.5, 0.1}) append(compose({x, 0, z}, up), armature.rest);
+  }
+  armature.lengths.assign(7, 0.4);
+  append(compose({0, 0, 0}, Quaternion::Identity()), armature.world);
+  const Skeleton skeleton = Rig(armature).skeleton();
+  ASSERT_GE(skeleton.roles.left_foot, 0);
+  for (const int foot : {skeleton.roles.left_foot, skeleton.roles.right_foot}) {
+    const Vector3 tip = up * skeleton.tips[foot];
+    EXPECT_LT((tip - Vector3(0, -0.132, 0)).norm(), 1e-9) << "a third of a shin to Blender's front";
+  }
+}
+
 TEST(Rig, TakesGivenRolesBeforeNames) {
   Armature armature = random_armature(3);
   armature.roles = {{"hips", "body"}, {"head", "spine"}};

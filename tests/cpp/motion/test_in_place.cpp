@@ -10,6 +10,7 @@
 #include "io/asf_amc.hpp"
 #include "io/bvh.hpp"
 #include "mocap_files.hpp"
+#include "motion/cycle.hpp"
 #include "motion/in_place.hpp"
 #include "stilts.hpp"
 #include "walker.hpp"
@@ -85,6 +86,43 @@ TEST(FeetWay, IsToldByFeetThatAreNowhereLowForLong) {
   EXPECT_NEAR(way->mean.y(), 3, 0.15);
 }
 
+// An importer may have invented the end of a hoof, which then is in the ground where the foot swings: not low is what
+// goes back there, but the ankle's path tells forth from back.
+TEST(FeetWay, IsForthHoweverLongFeetAreThoughtToBe) {
+  for (const double longer : {3.0, 5.0}) {
+    Skeleton skeleton = humanoid();
+    for (const char* foot : {"foot.L", "foot.R"}) skeleton.tips[skeleton.find(foot)] *= longer;
+    const Kinematics kinematics(skeleton);
+    Clip clip = on_the_spot(skeleton, gait_clip({0, 1.2}));
+    for (int f = 0; f < clip.frames; ++f) {
+      for (const double side : {1.0, -1.0}) {  // where the foot is lifted it points down
+        const double phase = f / clip.rate + (side > 0 ? 0 : 0.5), swing = (phase - std::floor(phase) - 0.6) / 0.4;
+        if (swing < 0) continue;
+        const int bone = skeleton.find(side > 0 ? "foot.L" : "foot.R");
+        double* foot = &clip.rotations[std::size_t{4} * (f * skeleton.size() + bone)];
+        store_quaternion(load_quaternion(foot) * Eigen::AngleAxisd(std::sin(kPi * swing), Vector3::UnitX()), foot);
+      }
+    }
+    const auto way = find_feet_way(kinematics, clip);
+    ASSERT_TRUE(way) << longer;
+    EXPECT_GT(way->mean.y(), 0) << longer;
+  }
+}
+
+// A foot that comes down while it still goes forth is lowest, and most level, where it turns.
+TEST(FeetWay, IsNotToldByFeetThatGoForth) {
+  const Gait gait{0, 3, 0, 2, 24, 0.5};
+  const Kinematics kinematics(humanoid());
+  Clip clip = on_the_spot(kinematics.skeleton(), gait_clip(gait));
+  for (int f = 0; f < clip.frames; ++f) {
+    const double steps = 2 * f / gait.rate / gait.cycle - 0.05;  // whole where a foot strikes
+    clip.root_positions[std::size_t{3} * f + 2] += 0.1 * std::abs(std::sin(kPi * steps));
+  }
+  const auto way = find_feet_way(kinematics, clip);
+  ASSERT_TRUE(way);
+  EXPECT_NEAR(way->mean.y(), 3, 0.45);
+}
+
 TEST(FeetWay, IsNoneOfWhatGoesOrStands) {
   const Kinematics kinematics(humanoid());
   EXPECT_FALSE(find_feet_way(kinematics, gait_clip({0, 1.2})));
@@ -100,6 +138,26 @@ TEST(FeetWay, LeadsACycleIntoItself) {
   const Clip moved = led(kinematics, clip, *way), faster = led(kinematics, clip, *way, 1.5);
   EXPECT_NEAR(way_of_hips(moved), 1.2 * 24 / 30, 0.03);
   EXPECT_NEAR(way_of_hips(faster), 1.5 * way_of_hips(moved), 1e-9);
+}
+
+// As where a file holds a cycle's last pose while its other clips last: no frozen body glides on.
+TEST(FeetWay, IsNoneWhileThePoseIsHeld) {
+  const Kinematics kinematics(humanoid());
+  const Clip clip = on_the_spot(kinematics.skeleton(), gait_clip({0, 1.2, 0, 2}));
+  Clip held = clip;
+  const std::size_t values = clip.rotations.size() / clip.frames;
+  for (; held.frames < 2 * clip.frames; ++held.frames) {
+    held.rotations.insert(held.rotations.end(), clip.rotations.end() - static_cast<std::ptrdiff_t>(values),
+                          clip.rotations.end());
+    held.root_positions.insert(held.root_positions.end(), clip.root_positions.end() - 3, clip.root_positions.end());
+    held.headings.push_back(clip.headings.back());
+  }
+  const auto way = find_feet_way(kinematics, clip), longer = find_feet_way(kinematics, held);
+  ASSERT_TRUE(way && longer);
+  EXPECT_EQ(longer->mean, way->mean);
+  ASSERT_EQ(longer->velocities.size(), static_cast<std::size_t>(held.frames - 1));
+  EXPECT_EQ(longer->velocities.back(), Vector2::Zero());
+  EXPECT_EQ(without_held_end(held).frames, clip.frames);
 }
 
 // Nothing but where the body faces tells forth from back.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,20 @@ std::vector<Heights> heights_of(const Kinematics& kinematics, const Legs& legs, 
   return heights;
 }
 
+// Where the feet are lowest in most clips: an armature's origin may be anywhere.
+double ground_of(const Kinematics& kinematics, const Legs& legs, const std::vector<Clip>& clips) {
+  PosedBones posed(kinematics.bones());
+  std::vector<double> lowest;
+  for (const Clip& clip : clips) {
+    lowest.push_back(std::numeric_limits<double>::infinity());
+    for (int f = 0; f < clip.frames; ++f) {
+      world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
+      for (const Leg& leg : legs) lowest.back() = std::min(lowest.back(), posed.heads[leg.foot].z());
+    }
+  }
+  return median(std::move(lowest));
+}
+
 double standing_height(const std::vector<std::vector<Heights>>& clips, int pair) {
   std::vector<double> all;
   for (const std::vector<Heights>& clip : clips) {
@@ -47,8 +62,10 @@ void drop_lying(FragmentPool& pool, std::size_t first) {
   std::vector<std::vector<Heights>> clips;
   for (const Clip& clip : pool.clips) clips.push_back(heights_of(kinematics, legs, clip));
   const Heights standing = {standing_height(clips, 0), standing_height(clips, 1)};
+  const double ground = ground_of(kinematics, legs, pool.clips);
   const auto is_down = [&](const Heights& heights) {
-    return heights[0] < kDown * standing[0] || heights[1] < kDown * standing[1];
+    const auto sank = [&](int pair) { return heights[pair] - ground < kDown * (standing[pair] - ground); };
+    return sank(0) || sank(1);
   };
   const auto lies = [&](const Fragment& fragment) {
     const auto begin = clips[fragment.clip].begin();

@@ -13,6 +13,7 @@
 #include "io/hanging.hpp"
 #include "io/rigid_matrix.hpp"
 #include "skeleton/legs_to_ground.hpp"
+#include "skeleton/likely_tips.hpp"
 #include "skeleton/role_names.hpp"
 #include "skeleton/roles.hpp"
 
@@ -242,7 +243,7 @@ Skeleton Rig::choose_tree(std::vector<int>& members) const {
       fail("role '" + role + "'", "bone '" + bone + "' does not hang on '" + best.names[0] + "'");
   }
   assign_roles(armature_.roles, best);
-  return with_legs_to_ground(make_skeleton(std::move(best)), object_.rigid.head.z());
+  return with_short_feet(with_legs_to_ground(make_skeleton(std::move(best)), object_.rigid.head.z()));
 }
 
 // ---- Spaces

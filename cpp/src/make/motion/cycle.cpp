@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -11,7 +12,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSame = 0.5;  // of the steps beside it: ends that are nearer show the same pose
+constexpr double kHeld = 0.01;  // of what a clip changes in a frame on the mean: less is nothing
+constexpr double kSame = 0.5;   // of the steps beside it: ends that are nearer show the same pose
 
 // The poses of a clip, each seen from the character frame of its hips.
 class Poses {
@@ -80,6 +82,21 @@ void append(const Kinematics& kinematics, const Clip& from, int f, const Charact
   ++to.frames;
 }
 
+// How much a channel of so many values a frame changes from each frame to the next.
+std::vector<double> steps_of(const std::vector<double>& channel, std::size_t values) {
+  std::vector<double> steps;
+  for (std::size_t begin = values; begin < channel.size(); begin += values) {
+    double sum = 0;
+    for (std::size_t i = begin; i < begin + values; ++i) sum += std::abs(channel[i] - channel[i - values]);
+    steps.push_back(sum);
+  }
+  return steps;
+}
+
+double mean_of(const std::vector<double>& steps) {
+  return steps.empty() ? 0 : std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
+}
+
 }  // namespace
 
 int cycle_of(const Kinematics& kinematics, const Clip& clip) {
@@ -103,6 +120,19 @@ Clip unrolled(const Kinematics& kinematics, const Clip& clip, int period, int co
   }
   result.markers = markers_in_rounds(clip.markers, 0, period, count);
   return make_clip(kinematics.skeleton(), std::move(result));
+}
+
+Clip without_held_end(Clip clip) {
+  const std::size_t values = clip.rotations.size() / clip.frames;
+  const std::vector<double> turns = steps_of(clip.rotations, values), ways = steps_of(clip.root_positions, 3);
+  const double turn = kHeld * mean_of(turns), way = kHeld * mean_of(ways);
+  int frames = clip.frames;
+  while (frames > 1 && turns[frames - 2] < turn && ways[frames - 2] <= way) --frames;
+  clip.frames = frames;
+  clip.rotations.resize(values * frames);
+  clip.root_positions.resize(std::size_t{3} * frames);
+  clip.headings.resize(frames);
+  return clip;
 }
 
 }  // namespace fragmotion

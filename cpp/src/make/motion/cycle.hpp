@@ -14,4 +14,8 @@ int cycle_of(const Kinematics& kinematics, const Clip& clip);
 /// and as the last one ended.
 Clip unrolled(const Kinematics& kinematics, const Clip& clip, int period, int count);
 
+/// A clip without the frames at its end in which it hardly moves any more, less than a hundredth of the mean: a file
+/// may hold a cycle's last pose for as long as its other clips last.
+Clip without_held_end(Clip clip);
+
 }  // namespace fragmotion

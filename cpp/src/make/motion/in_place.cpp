@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "motion/cycle.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 // Of a character of 1.8 m.
 constexpr double kStays = 0.4;        // m that hips on the spot go at most
-constexpr double kGoes = 0.3;         // m/s: what is slower stands
+constexpr double kGoes = 0.3;         // m/s, of what is larger by dynamic similarity (Froude): what is slower stands
 constexpr double kTurns = kPi / 12;   // rad/s: feet that stand turn by less in a gait that goes straight
 constexpr double kLow = 0.02;         // m over its lowest: a sole on the ground
 constexpr double kWindow = 1.0 / 30;  // s over which velocities are told: keys and markers tremble
@@ -27,12 +28,9 @@ constexpr double kTreads = 0.5;                      // of the way: feet that tr
 using Velocities = std::vector<Vector2>;
 
 Vector2 mean_of(const Velocities& velocities) {
-  Vector2 sum = Vector2::Zero();
-  for (const Vector2& velocity : velocities) sum += velocity;
+  const Vector2 sum = std::accumulate(velocities.begin(), velocities.end(), Vector2{0, 0});
   return velocities.empty() ? sum : Vector2(sum / static_cast<double>(velocities.size()));
 }
-
-double gaussian(double x, double sigma) { return std::exp(-0.5 * x * x / (sigma * sigma)); }
 
 // Weighted by Gaussians and weights; 0 where there is no weight.
 Velocities smoothed(const Velocities& values, const std::vector<double>& weights, double sigma) {
@@ -41,7 +39,7 @@ Velocities smoothed(const Velocities& values, const std::vector<double>& weights
   for (int f = 0; f < count; ++f) {
     double sum = 0;
     for (int g = std::max(0, f - reach); g <= std::min(count - 1, f + reach); ++g) {
-      const double weight = weights[g] * gaussian(f - g, std::max(sigma, 1e-3));
+      const double x = (f - g) / std::max(sigma, 1e-3), weight = weights[g] * std::exp(-0.5 * x * x);
       result[f] += weight * values[g];
       sum += weight;
     }
@@ -56,7 +54,7 @@ class Treading {
   Treading(const std::vector<SolePath>& soles, double rate, double scale)
       : soles_(soles), rate_(rate), scale_(scale), span_(std::max(1, static_cast<int>(std::lround(kWindow * rate)))) {
     windows_ = static_cast<int>(soles[0].heel().path.size()) - span_;
-    for (const SolePath& sole : soles) stands_.push_back(stand_of(sole));
+    for (const SolePath& sole : soles) stands_.push_back(stand_of(sole, [](const SolePoint&, int) { return true; }));
   }
 
   bool is_long_enough() const { return windows_ > 0; }
@@ -146,13 +144,16 @@ class Treading {
     double low = kLow, level = kLevel;
   };
 
-  // That of a foot which is nowhere low or level, as fast as it goes, is where it is lowest.
-  Stand stand_of(const SolePath& sole) const {
+  // That of a foot which is nowhere low or level, as fast as it goes, is where it is lowest, of where it `may` stand.
+  template <typename May>
+  Stand stand_of(const SolePath& sole, const May& may) const {
     double lowest = std::numeric_limits<double>::infinity(), flattest = lowest;
-    each_window(sole, [&](const SolePoint& point, int f) { lowest = std::min(lowest, height(point, f)); });
+    each_window(sole, [&](const SolePoint& point, int f) {
+      if (may(point, f)) lowest = std::min(lowest, height(point, f));
+    });
     const double low = std::max(kLow, lowest);
     each_window(sole, [&](const SolePoint& point, int f) {
-      if (height(point, f) <= low) flattest = std::min(flattest, steepness(point, f));
+      if (may(point, f) && height(point, f) <= low) flattest = std::min(flattest, steepness(point, f));
     });
     return {low, std::max(kLevel, flattest)};
   }
@@ -171,10 +172,6 @@ class Treading {
   }
 
   bool is_low(std::size_t side, const SolePoint& point, int f) const { return height(point, f) <= stands_[side].low; }
-  bool stands(std::size_t side, const SolePoint& point, int f) const {
-    return is_low(side, point, f) && steepness(point, f) <= stands_[side].level;
-  }
-
   // m/s, of a foot's points that are low; -1 where none is.
   double fastest_low(std::size_t side, int f) const {
     double fastest = -1;
@@ -189,39 +186,58 @@ class Treading {
     return std::atan2(foot.y(), foot.x());
   }
 
-  Vector2 velocity(const SolePoint& point, int f, double turn, const Vector2& center) const {
-    const Vector2 back = (point.path[f] - point.path[f + span_]).head<2>() * rate_ / span_;
-    const Vector2 arm = 0.5 * (point.path[f] + point.path[f + span_]).head<2>() - center;
+  Vector2 velocity(const std::vector<Vector3>& path, int f, double turn, const Vector2& center) const {
+    const Vector2 back = (path[f] - path[f + span_]).head<2>() * rate_ / span_;
+    const Vector2 arm = 0.5 * (path[f] + path[f + span_]).head<2>() - center;
     return back - turn * Vector2(-arm.y(), arm.x());
   }
+  Vector2 velocity(const SolePoint& point, int f, double turn, const Vector2& center) const {
+    return velocity(point.path, f, turn, center);
+  }
 
+  // What an ankle does over the ground while it is higher than about then, it does to where the body goes; while it is
+  // lower, to where that comes from. So the area that its path circles, seen from the side, tells forth from back,
+  // however long and high a foot is thought to be. By the spread of its heights that is a speed, m/s: the feet's mean.
   Velocities guess(double turn, const Vector2& center) const {
-    Velocities means(windows_, Vector2::Zero());
-    std::vector<double> weights(windows_, 0);
-    for (std::size_t side = 0; side < soles_.size(); ++side) {
-      each_window(soles_[side], [&](const SolePoint& point, int f) {
-        const double weight = skate_weight(height(point, f) - (stands_[side].low - kLow));
-        means[f] += weight * velocity(point, f, turn, center);
-        weights[f] += weight;
-      });
-    }
+    Velocities sum(windows_, Vector2::Zero());
+    for (const SolePath& sole : soles_) add_circled(sole.ankle, turn, center, sum);
+    for (Vector2& velocity : sum) velocity /= static_cast<double>(soles_.size());
+    return sum;
+  }
+
+  void add_circled(const std::vector<Vector3>& path, double turn, const Vector2& center, Velocities& sum) const {
+    const std::vector<double> even(windows_, 1);
+    const auto about = [&](const Velocities& values) { return smoothed(values, even, kSmooth[0] * rate_); };
+    Velocities forth, over, spread;  // what is one number is an x
     for (int f = 0; f < windows_; ++f) {
-      if (weights[f] > 0) means[f] /= weights[f];
+      forth.push_back(-velocity(path, f, turn, center));
+      over.emplace_back((path[f].z() + path[f + span_].z()) / 2, 0);
     }
-    return smoothed(means, weights, kSmooth[0] * rate_);
+    const Velocities usual = about(over), drift = about(forth);
+    for (int f = 0; f < windows_; ++f) {
+      const double height = over[f].x() - usual[f].x();
+      spread.emplace_back(height * height, 0), forth[f] = height * (forth[f] - drift[f]);
+    }
+    const Velocities circled = about(forth), square = about(spread);
+    for (int f = 0; f < windows_; ++f) {
+      if (square[f].x() > 0) sum[f] += circled[f] / std::sqrt(square[f].x());
+    }
   }
 
   // Of the low points the one that tells the greatest speed along the way, where that is no slower than its
-  // neighbours and the body's grip allow.
+  // neighbours and the body's grip allow. A foot that goes forth does not stand, as low as it may be.
   Told fastest(const Velocities& way, double turn, const Vector2& center) const {
     Velocities best(windows_, Vector2::Zero());
     std::vector<double> along(windows_, -std::numeric_limits<double>::infinity());
-    for (std::size_t side = 0; side < soles_.size(); ++side) {
-      each_window(soles_[side], [&](const SolePoint& point, int f) {
-        if (!stands(side, point, f)) return;
-        const Vector2 told = velocity(point, f, turn, center);
-        const double speed = told.dot(way[f].normalized());
-        if (speed > along[f]) along[f] = speed, best[f] = told;
+    const auto speed = [&](const SolePoint& point, int f) {
+      return velocity(point, f, turn, center).dot(way[f].normalized());
+    };
+    for (const SolePath& sole : soles_) {
+      const Stand stand = stand_of(sole, [&](const SolePoint& point, int f) { return speed(point, f) > 0; });
+      each_window(sole, [&](const SolePoint& point, int f) {
+        if (height(point, f) > stand.low || steepness(point, f) > stand.level) return;
+        const double told = speed(point, f);
+        if (told > along[f]) along[f] = told, best[f] = velocity(point, f, turn, center);
       });
     }
     const std::vector<double> least = gripped(along);
@@ -318,11 +334,10 @@ std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& cl
   way.mean = mean_of(way.velocities, clip);
   const double speed = way.mean.norm();
   const bool treads = treading.slowest() > kTreads * speed && tread(soles, speed * (clip.frames - 1) / clip.rate);
-  if (speed * scale < kGoes || !treads) return std::nullopt;
+  if (speed * std::max(scale, std::sqrt(scale)) < kGoes || !treads) return std::nullopt;
   return way;
 }
 
-// What lies halfway.
 FeetWay mean_of(FeetWay a, const FeetWay& b) {
   for (std::size_t f = 0; f < a.velocities.size(); ++f) a.velocities[f] = (a.velocities[f] + b.velocities[f]) / 2;
   return {std::move(a.velocities), (a.turn + b.turn) / 2, (a.mean + b.mean) / 2};
@@ -340,16 +355,18 @@ std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
 
 }  // namespace
 
-std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& clip) {
-  const bool has_feet = !legs_with_feet(kinematics.skeleton().roles).empty();
-  if (!has_feet || !stays(clip, standard_scale(kinematics.skeleton()))) return std::nullopt;
+std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& held) {
+  const Clip clip = without_held_end(held);
+  const Skeleton& skeleton = kinematics.skeleton();
+  if (legs_with_feet(skeleton.roles).empty() || !stays(clip, standard_scale(skeleton))) return std::nullopt;
   const int period = cycle_of(kinematics, clip);
-  if (period == 0) return way_of(kinematics, clip);
-  std::optional<FeetWay> way = way_of(kinematics, unrolled(kinematics, clip, period, 2 * period + clip.frames));
+  const Clip round = period > 0 ? unrolled(kinematics, clip, period, 2 * period + clip.frames) : clip;
+  std::optional<FeetWay> way = way_of(kinematics, round);
   if (!way) return way;
   way->velocities.erase(way->velocities.begin(), way->velocities.begin() + period);
   way->velocities.resize(clip.frames - 1);
   way->mean = mean_of(way->velocities, clip);
+  way->velocities.resize(held.frames - 1, Vector2::Zero());
   return way;
 }
 

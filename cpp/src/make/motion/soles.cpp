@@ -32,6 +32,7 @@ class Soles {
     std::vector<int> ends;
     for (const LegRoles& leg : legs_with_feet(kinematics.skeleton().roles)) {
       feet_.push_back(joints_of(kinematics.skeleton(), leg));
+      ankles_.push_back(feet_.back().front());
       ends.insert(ends.end(), {leg.foot, leg.toe});
     }
     bones_ = kinematics.chains(ends);
@@ -85,6 +86,7 @@ class Soles {
     for (std::size_t side = 0; side < feet_.size(); ++side) soles[side].points.resize(feet_[side].size());
     visit([&](int, const PosedBones& posed) {
       for (std::size_t side = 0; side < feet_.size(); ++side) {
+        soles[side].ankle.push_back(at(posed, ankles_[side]));
         for (std::size_t i = 0; i < feet_[side].size(); ++i)
           soles[side].points[i].path.push_back(at(posed, feet_[side][i]));
       }
@@ -98,6 +100,7 @@ class Soles {
   const Kinematics& kinematics_;
   const Clip& clip_;
   std::vector<std::vector<Joint>> feet_;
+  std::vector<Joint> ankles_;
   std::vector<int> bones_;
 };
 

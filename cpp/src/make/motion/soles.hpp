@@ -16,6 +16,7 @@ struct SolePoint {
 /// A foot's sole under its heel, ball and the toe's end, where the foot has these; of a leg without a foot its end
 /// alone.
 struct SolePath {
+  std::vector<Vector3> ankle;  ///< Of its foremost joint, or of the end of a leg without a foot.
   std::vector<SolePoint> points;
 
   const SolePoint& heel() const { return points[0]; }

@@ -14,10 +14,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kInstep = 0.4;                  // rad: how far most feet point down from the ankle to the ball
-constexpr double kFoot = 0.33, kLongFoot = 0.6;  // of a shin's length, from the ankle to the ball: usual, and unlikely
-constexpr double kBackUp = 0.5;                  // cosine of a foot to the way from it up the shin
-constexpr double kGround = 0.08;                 // m of a 1.8 m character: joints of feet are no higher over the ground
+constexpr double kInstep = 0.4;   // rad: how far most feet point down from the ankle to the ball
+constexpr double kGround = 0.08;  // m of a 1.8 m character: joints of feet are no higher over the ground
 
 void check_complete(const RoleMap& map) {
   if (map.bone(Role::kForeFoot, Side::kLeft) >= 0)
@@ -74,26 +72,6 @@ Skeleton with_roles(Skeleton skeleton, const RoleMap& map) {
     if (roles.*kept < 0) roles.*kept = skeleton.roles.*kept;
   }
   skeleton.roles = roles;
-  return skeleton;
-}
-
-// Importers that know no bones' ends make feet without toes of any length, and such as point back up the leg, which are
-// to point ahead.
-Skeleton with_short_feet(Skeleton skeleton, const RoleMap& map) {
-  const PosedBones rest = rest_posture(skeleton);
-  const Vector3 left =
-      rest.heads[map.bone(Role::kThigh, Side::kLeft)] - rest.heads[map.bone(Role::kThigh, Side::kRight)];
-  for (const Side side : kSides) {
-    const int foot = map.bone(Role::kFoot, side);
-    if (map.bone(Role::kToe, side) >= 0) continue;
-    const Vector3 up = rest.heads[map.bone(Role::kShin, side)] - rest.heads[foot];
-    const Vector3 ahead = left.cross(up).normalized();
-    Vector3& tip = skeleton.tips[foot];
-    if ((rest.rotations[foot] * tip).dot(up) > kBackUp * tip.norm() * up.norm())
-      tip = rest.rotations[foot].conjugate() * ahead * kFoot * up.norm();
-    else if (tip.norm() > kLongFoot * up.norm())
-      tip *= kFoot * up.norm() / tip.norm();
-  }
   return skeleton;
 }
 
@@ -324,9 +302,10 @@ void set_reference(const Told& told, Body& body) {
 Body make_body(const Skeleton& skeleton, const RoleMap& map, const std::vector<Clip>& clips, const Skin* skin) {
   check_complete(map);
   check_legs(skeleton, map);
-  const Skeleton likely = with_likely_tips(with_short_feet(with_roles(skeleton, map), map), map, skin);
+  const std::array<Leg, 2> legs = {leg_of(skeleton, map, Side::kLeft), leg_of(skeleton, map, Side::kRight)};
+  const Skeleton likely = with_likely_tips(with_short_feet(with_roles(skeleton, map), legs[0], legs[1]), map, skin);
   Body body(Kinematics(likely), on_body(skeleton, map));
-  body.legs = {leg_of(skeleton, map, Side::kLeft), leg_of(skeleton, map, Side::kRight)};
+  body.legs = {legs[0], legs[1]};
   measure(rest_posture(skeleton), body);
   Told told = told_posture(clips, body);
   set_feet(clips, told.posture, body);

@@ -2,11 +2,14 @@
 #include "skeleton/likely_tips.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace fragmotion {
 namespace {
 
-constexpr double kLeadsOn = 0.5;  // cosine
+constexpr double kLeadsOn = 0.5;                 // cosine
+constexpr double kFoot = 0.33, kLongFoot = 0.6;  // of a shin's length, from the ankle to the ball: usual, and unlikely
+constexpr double kBackUp = 0.5;                  // cosine of a foot to the way from it up the shin
 
 struct RestBones {
   std::vector<Vector3> heads;
@@ -64,6 +67,28 @@ Skeleton with_likely_tips(Skeleton skeleton, const RoleMap& map, const Skin* ski
       straighten(skeleton.parents[bone.bone], bone.bone);
     }
   }
+  return skeleton;
+}
+
+Skeleton with_short_feet(Skeleton skeleton, const Leg& left, const Leg& right) {
+  const RestBones rest(skeleton);
+  const Vector3 across = rest.heads[left.thigh] - rest.heads[right.thigh];
+  for (const Leg& leg : {left, right}) {
+    if (leg.toe >= 0) continue;
+    const Vector3 up = rest.heads[leg.knee] - rest.heads[leg.foot], ahead = across.cross(up).normalized();
+    Vector3& tip = skeleton.tips[leg.foot];
+    if ((rest.rotations[leg.foot] * tip).dot(up) > kBackUp * tip.norm() * up.norm())
+      tip = rest.rotations[leg.foot].conjugate() * ahead * kFoot * up.norm();
+    else if (tip.norm() > kLongFoot * up.norm())
+      tip *= kFoot * up.norm() / tip.norm();
+  }
+  return skeleton;
+}
+
+Skeleton with_short_feet(Skeleton skeleton) {
+  const Legs legs = resting_legs(skeleton);
+  for (int pair = 0; pair < legs.count(); pair += 2)
+    skeleton = with_short_feet(std::move(skeleton), legs[pair], legs[pair + 1]);
   return skeleton;
 }
 

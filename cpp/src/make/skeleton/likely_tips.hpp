@@ -2,6 +2,7 @@
 #pragma once
 
 #include "skeleton/role_map.hpp"
+#include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
 
@@ -13,5 +14,11 @@ bool leads_on(const Skeleton& skeleton, int before, int bone);
 /// thumb, else where its part of `skin` does, else, and of a finger's joints but the first, straight on from the bone
 /// before it where it does not lead on.
 Skeleton with_likely_tips(Skeleton skeleton, const RoleMap& map, const Skin* skin = nullptr);
+
+/// The skeleton with likely ends of a pair's feet that have no toes: importers of formats that know no bones' ends make
+/// such of any length, and such as point back up the leg, which are to point ahead.
+Skeleton with_short_feet(Skeleton skeleton, const Leg& left, const Leg& right);
+/// Of all its legs.
+Skeleton with_short_feet(Skeleton skeleton);
 
 }  // namespace fragmotion
