@@ -8,6 +8,7 @@
 #include "dog.hpp"
 #include "humanoids.hpp"
 #include "mocap_files.hpp"
+#include "skeleton/body_words.hpp"
 #include "skeleton/role_map.hpp"
 #include "skeleton/roles.hpp"
 
@@ -97,6 +98,16 @@ TEST(RoleMap, IsToldByTheShapeWhereverTheBodyStands) {
   Humanoid body = nameless(Humanoid(family_named("Bandai Namco")));
   body.skeleton.offsets[1] += Vector3{30, 40, 0};  // of the hips, as in files that begin far from the origin
   EXPECT_EQ(named_bones(body.skeleton, find_role_map(body.skeleton)), body.roles);
+}
+
+TEST(RoleMap, GoesByTheLastWordOfAJointThatIsNamedAfterWhatItJoins) {
+  for (const auto& [name, role] : {std::pair{"torso_head", Role::kHead},
+                                   {"pelvis_lowerback", Role::kSpine},
+                                   {"chest_neck", Role::kNeck},
+                                   {"head_end", Role::kHead}}) {
+    const std::array<double, kRoles> said = says(read_names({name})[0]);
+    EXPECT_EQ(std::max_element(said.begin(), said.end()) - said.begin(), static_cast<int>(role)) << name;
+  }
 }
 
 TEST(RoleMap, TellsNoHeadThatIsNoLongerThanANeck) {
