@@ -64,6 +64,15 @@ TEST(ControlSpaceOf, TakesNoShuffleForAWalk) {
   expect_speeds(control_space_of(going({0.4, 3.5}, 4), 1, {}), {3.5 * 1.2 / 3.3, 3.5});
 }
 
+// A pack's walk and sprint may be 1.5 apart.
+TEST(ControlSpaceOf, TellsGaitsOfWhichNothingGoesBetweenThem) {
+  expect_speeds(control_space_of(going({1.2, 1.8}, 4), 1, {}), {1.2, 1.8});
+  expect_speeds(control_space_of(going({1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8}, 4), 1, {}), {1.5, 1.5 * 3.3 / 1.2});
+  std::vector<Control> strays = going({1.2}, 4);
+  for (int i = 0; i < 3; ++i) strays.push_back({0, 1.8, 0, 0});
+  expect_speeds(control_space_of(strays, 1, {}), {1.2, 1.2 * 3.3 / 1.2});
+}
+
 TEST(ControlSpaceOf, HasNoSpeedOfAFewStrayFragments) {
   std::vector<Control> evident = going({1.3}, 8, 40);
   evident.push_back({0, 5, 0, 0});

@@ -13,8 +13,11 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kShuffle = 0.5;    // m/s of a 1.8 m character: no walk, but what jumps and stands do between
-constexpr double kTwoGaits = 1.6;   // a run is at least so much faster than a walk
+constexpr double kShuffle = 0.5;   // m/s of a 1.8 m character: no walk, but what jumps and stands do between
+constexpr double kTwoGaits = 1.6;  // a run is at least so much faster than a walk, unless nothing goes between them:
+// So far apart are the halves of what is spread evenly, which is the flattest that has one mode.
+const double kOneMode = std::sqrt(12);
+constexpr double kNoSpread = 1e-9;  // m2/s2
 constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gaits
 constexpr double kRunOverWalk = 3.3 / 1.2;
 constexpr double kApart = 1.2;       // a speed that is asked for is at least so much faster than the one before it,
@@ -26,18 +29,36 @@ constexpr double kMostOf = 0.75;  // of so many directions: as good as all
 constexpr int kRounds = 100;
 constexpr double kTurning = kPi / 6;  // rad/s
 
-// The two means of sorted values that split them best (the least squares of two clusters).
-std::pair<double, double> two_means(const std::vector<double>& sorted) {
+// Sorted values in two clusters.
+struct Clusters {
+  double slow = 0, fast = 0;  // their means
+  // Ashman's D, their distance over their spread (K. Ashman et al., Astronomical J. 108, 1994); 0 where one is of few.
+  double apart = 0;
+};
+
+double spread_of(const double* begin, const double* end, double mean) {
+  const double squares =
+      std::accumulate(begin, end, 0.0, [&](double sum, double value) { return sum + (value - mean) * (value - mean); });
+  return squares / static_cast<double>(end - begin);
+}
+
+// Split best, by the least squares.
+Clusters two_clusters(const std::vector<double>& sorted) {
   const double total = std::accumulate(sorted.begin(), sorted.end(), 0.0);
   double best = -1, low = 0;
-  std::pair<double, double> means{sorted.front(), sorted.back()};
+  std::size_t at = 0;
+  Clusters found{sorted.front(), sorted.back()};
   for (std::size_t split = 1; split < sorted.size(); ++split) {
     low += sorted[split - 1];
     const double a = low / static_cast<double>(split), b = (total - low) / static_cast<double>(sorted.size() - split);
     const double between = (b - a) * (b - a) * static_cast<double>(split) * static_cast<double>(sorted.size() - split);
-    if (between > best) best = between, means = {a, b};
+    if (between > best) best = between, at = split, found = {a, b};
   }
-  return means;
+  if (static_cast<double>(std::min(at, sorted.size() - at)) < kGroup * static_cast<double>(sorted.size())) return found;
+  const double *begin = sorted.data(), *end = begin + sorted.size();
+  const double spread = spread_of(begin, begin + at, found.slow) + spread_of(begin + at, end, found.fast);
+  if (at > 0) found.apart = (found.fast - found.slow) * std::sqrt(2 / std::max(spread, kNoSpread));
+  return found;
 }
 
 // Speeds, m/s of a 1.8 m character, of what goes and does not jump; sorted.
@@ -53,10 +74,10 @@ std::vector<double> going_speeds(const std::vector<Control>& evident, double sca
 
 std::vector<double> two_gaits(const std::vector<double>& speeds) {
   if (speeds.empty()) return {1.2, 3.3};
-  const auto [slow, fast] = two_means(speeds);
+  const auto [slow, fast, apart] = two_clusters(speeds);
   const auto walking = std::lower_bound(speeds.begin(), speeds.end(), kShuffle);
   if (slow < kShuffle && walking != speeds.end()) return two_gaits({walking, speeds.end()});
-  if (fast > kTwoGaits * slow) return {slow, fast};
+  if (fast > (apart > kOneMode ? kApart : kTwoGaits) * slow) return {slow, fast};
   const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
   return mean < kWalkOrRun ? std::vector{mean, mean * kRunOverWalk} : std::vector{mean / kRunOverWalk, mean};
 }
