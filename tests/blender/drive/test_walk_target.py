@@ -133,22 +133,6 @@ def test_a_pixel_shows_the_ground_that_is_chosen(
     assert ground_under(view_onto(beside, perspective), 100, 100, driven.ground) is None, "there is none"
 
 
-@pytest.mark.parametrize("perspective", [True, False])
-def test_a_cursor_in_the_air_goes_to_the_ground_that_is_seen_there(
-    addon: ModuleType, obj: bpy.types.Object, perspective: bool
-) -> None:
-    find = import_module(f"{addon.__name__}.paths.drawing").ground_behind_cursor
-    place = Vector((2, -3, 0))
-    area = view_onto(place, perspective)
-    region_3d = area.spaces.active.region_3d
-    eye = region_3d.view_matrix.inverted().translation
-    scene = SimpleNamespace(cursor=SimpleNamespace(location=None))
-    context = SimpleNamespace(area=area, scene=scene)
-    for share in (0.5, 1.0, 1.1):  # of the way from the eye to the ground: the last is below it
-        scene.cursor.location = eye.lerp(place, share)
-        assert tuple(find(context, None)) == pytest.approx(tuple(place), abs=1e-3)
-
-
 def test_a_click_sends_to_the_chosen_ground(
     addon: ModuleType, session: ModuleType, obj: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
