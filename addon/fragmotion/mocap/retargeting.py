@@ -62,12 +62,13 @@ def retargeted_takes(
     """By its number, each take, of whatever skeleton, that can be brought onto the armature's body, those of an animal
     on itself as they are; and why the others cannot be, one cause for those of a skeleton. `placed`: the armature where
     it shows the takes as they are in the world, in place of where it is."""
-    brought = {i: Brought(rig.take_channels(t), []) for i, t in enumerate(takes) if is_its_own(rig, t.skeleton)}
+    shown = placed or rig
+    brought = {i: Brought(shown.take_channels(t), []) for i, t in enumerate(takes) if is_its_own(rig, t.skeleton)}
     others, refused = [index for index in range(len(takes)) if index not in brought], list[str]()
     for group in core.group_skeletons([takes[index].skeleton for index in others]):
         members = [others[index] for index in group]
         try:
-            done = _of_one_skeleton(obj, rig, [takes[index] for index in members], placed or rig)
+            done = _of_one_skeleton(obj, rig, [takes[index] for index in members], shown)
             brought.update(zip(members, done))
         except UserError as error:
             more = len(members) - 1

@@ -41,7 +41,7 @@ def test_a_dog_is_imported_learned_and_kept(addon: ModuleType, tmp_path: Path) -
     assert addon.character.building.load(obj).skeleton.roles == skeleton.roles
 
 
-def test_more_takes_come_onto_it_and_are_mended(addon: ModuleType, tmp_path: Path) -> None:
+def test_more_takes_come_onto_it_where_it_stands_and_are_mended(addon: ModuleType, tmp_path: Path) -> None:
     for folder, name, speed in (("first", "walk", 0.6), ("more", "amble", 0.5)):
         (tmp_path / folder).mkdir()
         made_dog().write_dog(tmp_path / folder / f"{name}.bvh", speed)
@@ -49,12 +49,14 @@ def test_more_takes_come_onto_it_and_are_mended(addon: ModuleType, tmp_path: Pat
         "FINISHED"
     }
     obj = bpy.context.view_layer.objects.active
+    obj.location = place = (3, -2, 0)
+    bpy.context.view_layer.update()
     more = str(tmp_path / "more")
     assert bpy.ops.fragmotion.import_mocap("EXEC_DEFAULT", directory=more, onto="ACTIVE") == {"FINISHED"}
     rig = addon.rig.rigs.make_rig(obj)
     clip = addon.mocap.sampling.sample(bpy.context, obj, bpy.data.actions["amble"], rig)
     take = addon.compat.core.core.read_bvh(tmp_path / "more" / "amble.bvh", 1.0)
-    np.testing.assert_allclose(clip.world_transforms(rig.skeleton)[0], take.world_transforms()[0], atol=1e-4)
+    np.testing.assert_allclose(clip.world_transforms(rig.skeleton)[0], take.world_transforms()[0] + place, atol=1e-4)
 
 
 def test_a_person_keeps_no_roles_unasked(addon: ModuleType, tmp_path: Path) -> None:
