@@ -210,7 +210,7 @@ class Treading {
     const auto about = [&](const Velocities& values) { return smoothed(values, even, kSmooth[0] * rate_); };
     Velocities forth, over, spread;  // what is one number is an x
     for (int f = 0; f < windows_; ++f) {
-      forth.push_back(-velocity(path, f, turn, center));
+      forth.emplace_back(-velocity(path, f, turn, center));
       over.emplace_back((path[f].z() + path[f + span_].z()) / 2, 0);
     }
     const Velocities usual = about(over), drift = about(forth);
