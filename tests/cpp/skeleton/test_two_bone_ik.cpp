@@ -175,6 +175,22 @@ TEST(Reach, NeitherFoldsUpAKneeNorSnapsItWhereAStitchOvershoots) {
   }
 }
 
+TEST(Reach, FoldsALegUpNoFurtherThanItReaches) {
+  for (const double size : {1.0, 0.1, 0.01, 2.5e-3}) {  // of the lower leg: down to hardly one
+    Skeleton skeleton = humanoid();
+    skeleton.offsets[skeleton.roles.left_foot] *= size;
+    const Kinematics kinematics(skeleton);
+    const Clip clip = gait_clip({1.2, 0, 0});
+    const Leg leg = find_legs(kinematics, {clip})[0];
+    ASSERT_TRUE(leg.exists()) << size;
+    PosedBones posed(skeleton.size());
+    for (int f = 0; f < clip.frames; ++f) {
+      world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
+      EXPECT_LE(shortest(leg, posed), longest(leg, posed)) << size << " " << f;
+    }
+  }
+}
+
 TEST(Reach, ComesAsNearAsTheLegIsLong) {
   const Skeleton skeleton = humanoid();
   const Kinematics kinematics(skeleton);

@@ -251,7 +251,9 @@ double leg_length(const Leg& leg, const PosedBones& posed) {
 
 double longest(const Leg& leg, const PosedBones& posed) { return kStretched * leg_length(leg, posed); }
 
-double shortest(const Leg& leg, const PosedBones& posed) { return knee_of(leg, posed).folded_up(); }
+double shortest(const Leg& leg, const PosedBones& posed) {
+  return std::min(knee_of(leg, posed).folded_up(), longest(leg, posed));  // a short lower leg hardly folds the leg up
+}
 
 void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations) {
   const Knee knee = knee_of(leg, posed);
