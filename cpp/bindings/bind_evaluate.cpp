@@ -69,6 +69,8 @@ void bind_measures(py::module_& m) {
       .def_readonly("p999", &Spread::p999)
       .def_readonly("worst", &Spread::worst);
   py::class_<Pushes, Spread>(m, "Pushes", py::module_local()).def_readonly("over_6", &Pushes::over_6);
+  py::class_<ChangePushes, Pushes>(m, "ChangePushes", py::module_local())
+      .def_readonly("dragged", &ChangePushes::dragged);
   py::class_<JumpMeans>(m, "JumpMeans", py::module_local())
       .def_readonly("count", &JumpMeans::count)
       .def_readonly("dip", &JumpMeans::dip)
@@ -90,6 +92,7 @@ void bind_measures(py::module_& m) {
       .def_readonly("yaw", &MotionMeasures::yaw)
       .def_readonly("jumps", &MotionMeasures::jumps)
       .def_readonly("footfalls", &MotionMeasures::footfalls)
+      .def_readonly("dragged_share", &MotionMeasures::dragged_share)
       .def_readonly("turns", &MotionMeasures::turns);
   py::class_<MotionMetrics>(m, "MotionMetrics", py::module_local())
       .def(py::init([](const Character& character) { return MotionMetrics(character); }), py::arg("character"),
@@ -134,9 +137,11 @@ void bind_speeds(py::module_& m) {
       .def_readonly("speed", &SpeedRipple::speed)
       .def_readonly("ripple", &SpeedRipple::ripple)
       .def_readonly("bob", &SpeedRipple::bob)
+      .def_readonly("steps", &SpeedRipple::steps)
       .def_readonly("takes_speed", &SpeedRipple::takes_speed)
       .def_readonly("takes_ripple", &SpeedRipple::takes_ripple)
-      .def_readonly("takes_bob", &SpeedRipple::takes_bob);
+      .def_readonly("takes_bob", &SpeedRipple::takes_bob)
+      .def_readonly("takes_steps", &SpeedRipple::takes_steps);
   define_with_options(m, "speed_ripples", [](const SharedCharacter& character, const PlayerOptions& options) {
     return without_gil([&] { return speed_ripples(character, options); });
   });

@@ -1074,11 +1074,15 @@ class SpeedRipple:
     """Standard deviation of its speed over 0.1 s within a second, mean over all seconds."""
     bob: float
     """Standard deviation of the hips' height within a second, mean over all seconds."""
+    steps: float
+    """How often a foot comes to stand in a second."""
     takes_speed: float
     """Of the takes' steady seconds, the speed nearest to the command."""
     takes_ripple: float
     """Of the takes' steady seconds within 0.1 m/s of that,"""
     takes_bob: float
+    """likewise,"""
+    takes_steps: float
     """likewise."""
 
 @overload
@@ -1099,7 +1103,7 @@ def speed_ripples(
     constants: Mapping[str, float] = ...,
 ) -> list[SpeedRipple]: ...
 @overload
-def change_pushes(character: Character, options: PlayerOptions) -> dict[str, Pushes]:
+def change_pushes(character: Character, options: PlayerOptions) -> dict[str, ChangePushes]:
     """How hard the centre of mass is pushed in the 1.5 s after a change of the command, by its kind: start, stop,
     reverse (by more than 100 degrees), turn (to another direction, or the turn rate) and gait (another speed). Of every
     change between two of the 17 velocities, and of walking and running forward between no turn and either turn."""
@@ -1115,7 +1119,7 @@ def change_pushes(
     root_adjustment: float = 1.0,
     responsiveness: float = 0.5,
     constants: Mapping[str, float] = ...,
-) -> dict[str, Pushes]: ...
+) -> dict[str, ChangePushes]: ...
 
 class Motion:
     """What was shown at a fixed rate: as Performance's arrays of these names."""
@@ -1267,6 +1271,12 @@ class Pushes(Spread):
     over_6: float
     """Share of the time in which it is more than 6 m/s^2."""
 
+class ChangePushes(Pushes):
+    """What changes of the command do to a body."""
+
+    dragged: float
+    """m that feet go lower than those of the takes that are as fast, in the 1.5 s after each."""
+
 class JumpMeans:
     """The jumps of a motion: means over those in which the centre of mass rises 0.2 m or more; NaN where there are
     none."""
@@ -1309,6 +1319,9 @@ class MotionMeasures:
     """rad/s^2: the change over 0.2 s of the mean turn rate over 0.2 s of where the body faces."""
     jumps: JumpMeans
     footfalls: Footfalls
+    dragged_share: float
+    """Share of the way of feet along the ground that they go lower than all but a fiftieth of the takes' that are as
+    fast or faster."""
     turns: Excess
     """Of the takes: each beyond all others."""
 

@@ -165,6 +165,7 @@ def test_weight_is_that_of_the_performances(run: Run, built: core.Character) -> 
     steps = sum(m.footfalls.count for m in measured)
     assert figures["same_foot"] == pytest.approx(sum(m.footfalls.same_foot for m in measured) / steps)
     assert figures["quick_steps"] == pytest.approx(sum(m.footfalls.quick for m in measured) / steps)
+    assert figures["dragged_share"] == pytest.approx(np.mean([m.dragged_share for m in measured]))
     assert figures["yaw_acceleration_max"] == pytest.approx(np.degrees(max(m.yaw.worst for m in measured)))
     commanded = np.mean([p.commanded_speed for p in played])
     limited_error = np.mean([p.velocity_error_limited for p in played])
@@ -196,13 +197,18 @@ def test_trials_are_the_players(run: Run, built: core.Character) -> None:
         assert row["ripple"] == pytest.approx(np.mean([some[i].ripple for some in rows]))
         assert row["bob"] == pytest.approx(np.mean([some[i].bob for some in rows]))
         assert row["takes_bob"] == rows[0][i].takes_bob
+        assert row["steps"] == pytest.approx(np.mean([some[i].steps for some in rows]))
+        assert row["takes_steps"] == rows[0][i].takes_steps
         assert row["takes_ripple"] == rows[0][i].takes_ripple and row["takes_speed"] == rows[0][i].takes_speed
     ratios = [row["ripple"] / row["takes_ripple"] for row in figures["speed_ripple"] if row["takes_ripple"] > 0]
     assert figures["speed_ripple_ratio"] == (pytest.approx(np.mean(ratios)) if ratios else None)
     bobs = [row["bob"] / row["takes_bob"] for row in figures["speed_ripple"] if row["takes_bob"] > 0]
     assert figures["bob_ratio"] == (pytest.approx(np.mean(bobs)) if bobs else None)
+    rates = [row["steps"] / row["takes_steps"] for row in figures["speed_ripple"] if row["takes_steps"]]
+    assert figures["step_rate_ratio"] == (pytest.approx(np.mean(rates)) if rates else None)
     pushes = [core.change_pushes(built, seed, policy="greedy") for seed in seeds]
     assert set(figures["acceleration_by_change"]) == {"start", "stop", "reverse", "turn", "gait"}
     for kind, found in figures["acceleration_by_change"].items():
         assert found["max"] == max(some[kind].worst for some in pushes)
         assert found["p99"] == pytest.approx(np.mean([some[kind].p99 for some in pushes]))
+        assert found["dragged"] == pytest.approx(np.mean([some[kind].dragged for some in pushes]))

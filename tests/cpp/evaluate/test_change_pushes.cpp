@@ -31,6 +31,10 @@ TEST(ChangePushes, AreHarderWhereTheCommandIsFollowedAtOnce) {
   }
   const auto reverse = static_cast<std::size_t>(Change::reverse), gait = static_cast<std::size_t>(Change::gait);
   EXPECT_GT(hard[reverse].p99, hard[gait].p99);
+  PlayerOptions carried;
+  carried.lock_feet = false;
+  const auto start = static_cast<std::size_t>(Change::start);
+  EXPECT_LT(gentle[start].dragged, change_pushes(character, carried)[start].dragged);
 }
 
 }  // namespace

@@ -45,6 +45,9 @@ TEST(MotionMetrics, SeesFeetThatSlide) {
   EXPECT_LE(slow.foot_skate, 0.5 * scale + 1e-9);
   EXPECT_NEAR(fast.foot_skate, 2 * slow.foot_skate, 1e-9);
   EXPECT_EQ(slow.sliding_share, 1);
+  EXPECT_GT(fast.dragged_share, 0.4);
+  EXPECT_LE(fast.dragged_share, 1);
+  EXPECT_LT(yardstick.takes().dragged_share, 0.1);
   EXPECT_NEAR(fast.positions.worst, scale / 60, 1e-6);
   EXPECT_NEAR(fast.velocities.worst, 0, 1e-6);
 }

@@ -25,6 +25,15 @@ TEST(Goings, TellTheSpeedAndTheStandardDeviationsOfItAndOfTheHipsHeight) {
   }
 }
 
+TEST(Goings, CountTheFeetThatComeToStand) {
+  BodyTrack track = standing_track(4);
+  for (int f = 0; f < track.frames(); ++f) {
+    track.stands[0][f] = f % 30 < 20;
+    track.stands[1][f] = true;
+  }
+  for (const Going& going : goings(track)) EXPECT_EQ(going.steps, 2);
+}
+
 TEST(SteadyGoings, AreForwardAndEven) {
   const auto going = [](const Vector3& velocity, double acceleration) {
     BodyTrack track = standing_track(4);
@@ -40,10 +49,9 @@ TEST(SteadyGoings, AreForwardAndEven) {
 }
 
 std::vector<Going> steady_takes(const Character& character) {
-  const Kinematics kinematics(character.pool.skeleton);
   std::vector<Going> takes;
-  for (const Clip& clip : captured_takes(character.pool)) {
-    for (const Going& going : steady_goings(body_track(kinematics, clip))) takes.push_back(going);
+  for (const BodyTrack& track : tracks_of_takes(character).tracks) {
+    for (const Going& going : steady_goings(track)) takes.push_back(going);
   }
   return takes;
 }
@@ -58,16 +66,19 @@ TEST(SpeedRipples, AreOfASpeedEachBesideTheTakes) {
     EXPECT_GT(row.speed, 0);
     EXPECT_GE(row.ripple, 0);
     EXPECT_GT(row.bob, 0);
-    double ripple = 0, bob = 0, count = 0;
+    double ripple = 0, bob = 0, steps = 0, count = 0;
     for (const Going& going : takes) {
       EXPECT_GE(std::abs(going.speed - row.commanded), std::abs(row.takes_speed - row.commanded) - 1e-12);
       if (std::abs(going.speed - row.takes_speed) > 0.1) continue;
       ripple += going.ripple;
       bob += going.bob;
+      steps += going.steps;
       ++count;
     }
     EXPECT_NEAR(row.takes_ripple, ripple / count, 1e-9);
     EXPECT_NEAR(row.takes_bob, bob / count, 1e-9);
+    EXPECT_NEAR(row.takes_steps, steps / count, 1e-9);
+    EXPECT_GT(row.steps, 0.5);
   }
   EXPECT_NEAR(rows[1].speed, 1, 0.15);
 }
@@ -75,7 +86,7 @@ TEST(SpeedRipples, AreOfASpeedEachBesideTheTakes) {
 TEST(SpeedRipples, HaveNothingToCompareWhereNoTakeGoes) {
   const auto stands = std::make_shared<const Character>(tiny_character());
   for (const SpeedRipple& row : speed_ripples(stands)) {
-    EXPECT_TRUE(std::isnan(row.takes_ripple) && std::isnan(row.takes_bob));
+    EXPECT_TRUE(std::isnan(row.takes_ripple) && std::isnan(row.takes_bob) && std::isnan(row.takes_steps));
     EXPECT_FALSE(std::isnan(row.ripple));
   }
 }

@@ -163,8 +163,10 @@ _WEIGHT: tuple[tuple[str, Callable[[Result], str]], ...] = (
     ("flight, x ballistic", lambda r: number(r["flight_time_ratio"], 2)),
     ("same foot, %", lambda r: number(_percent(r["same_foot"]))),
     ("quick steps, %", lambda r: number(_percent(r["quick_steps"]))),
+    ("dragged, %", lambda r: number(_percent(r.get("dragged_share")))),
     ("speed ripple, x takes'", lambda r: number(r.get("speed_ripple_ratio"), 2)),
     ("hips' bob, x takes'", lambda r: number(r.get("bob_ratio"), 2)),
+    ("steps a second, x takes'", lambda r: number(r.get("step_rate_ratio"), 2)),
     ("about-face, s", lambda r: number(r.get("about_face_s"), 2)),
 )
 
@@ -204,11 +206,16 @@ def changes_table(result: Result) -> Table:
     """The default policy's accelerations after each kind of change."""
     found = result["controllers"][result["default"]]["run_time"]["acceleration_by_change"]
     rows = [
-        [kind, *(number(each[key], 2) for key in ("p50", "p99", "p999", "max")), number(100 * each["over_6"], 2)]
+        [
+            kind,
+            *(number(each[key], 2) for key in ("p50", "p99", "p999", "max")),
+            number(100 * each["over_6"], 2),
+            number(_percent(each.get("dragged"))),
+        ]
         for kind, each in found.items()
     ]
     heading = "Acceleration of the centre of mass within 1.5 s of a change of the command, m/s\u00b2"
-    return Table(heading, ["change", "p50", "p99", "p99.9", "greatest", "over 6, %"], rows)
+    return Table(heading, ["change", "p50", "p99", "p99.9", "greatest", "over 6, %", "dragged, cm"], rows)
 
 
 def speeds_table(result: Result) -> Table:
@@ -221,6 +228,8 @@ def speeds_table(result: Result) -> Table:
             number(row["takes_ripple"], 3),
             number(100 * row["bob"]),
             number(_percent(row["takes_bob"])),
+            number(row.get("steps")),
+            number(row.get("takes_steps")),
             number(row["takes_speed"], 2),
         ]
         for row in result["controllers"][result["default"]]["run_time"]["speed_ripple"]
@@ -232,6 +241,8 @@ def speeds_table(result: Result) -> Table:
         "takes' ripple, m/s",
         "bob, cm",
         "takes' bob, cm",
+        "steps a second",
+        "takes' steps a second",
         "at their speed, m/s",
     ]
     return Table("Speeds at commands held", header, rows)

@@ -6,9 +6,8 @@
 #include <utility>
 
 #include "evaluate/body_track.hpp"
+#include "evaluate/dragging.hpp"
 #include "evaluate/runner.hpp"
-#include "motion/center_of_mass.hpp"
-#include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
 namespace {
@@ -39,42 +38,34 @@ std::vector<Step> all_steps(const ControlSpace& space) {
   return steps;
 }
 
-// Plays, and keeps where the centre of mass is.
-class CenterPath {
- public:
-  explicit CenterPath(const Character& character)
-      : kinematics_(character.pool.skeleton),
-        masses_(segment_masses(character.pool.skeleton)),
-        posed_(kinematics_.bones()),
-        scale_(character.space.scale()) {}
+constexpr int kFramesBefore = static_cast<int>(kBefore * kTrackRate),
+              kFramesAfter = static_cast<int>((kAfter + kBefore) * kTrackRate);
 
-  void add(const Player& player) {
-    kinematics_.world(player.root_position(), player.rotations().data(), posed_.heads.data(), posed_.rotations.data());
-    path_.emplace_back(scale_ * center_of_mass(kinematics_.skeleton(), masses_, posed_));
-  }
-  std::vector<Vector3> take() { return std::exchange(path_, {}); }
-
- private:
-  Kinematics kinematics_;
-  std::vector<double> masses_;
-  PosedBones posed_;
-  double scale_;
-  std::vector<Vector3> path_;
-};
-
-// Of the frames from the change until kAfter later; a push is of the 0.2 s to each side of a frame.
-std::vector<double> pushes_after(Runner& runner, CenterPath& path, const Step& step) {
-  const int before = static_cast<int>(kBefore * kTrackRate), after = static_cast<int>((kAfter + kBefore) * kTrackRate);
-  for (int f = 0; f < before; ++f) {
-    runner.frame(step.from);
-    path.add(runner.player());
-  }
-  for (int f = 0; f <= after; ++f) {
-    runner.frame(step.to);
-    path.add(runner.player());
-  }
-  return ground_accelerations(path.take(), kTrackRate);
+void show(const Player& player, Clip& clip) {
+  const Vector3& root = player.root_position();
+  clip.root_positions.insert(clip.root_positions.end(), root.data(), root.data() + 3);
+  clip.rotations.insert(clip.rotations.end(), player.rotations().begin(), player.rotations().end());
+  ++clip.frames;
 }
+
+// From kBefore before the change until kAfter and as much later.
+Clip shown_around(Runner& runner, const Step& step) {
+  Clip clip;
+  clip.rate = kTrackRate;
+  for (int f = -kFramesBefore; f <= kFramesAfter; ++f) {
+    runner.frame(f < 0 ? step.from : step.to);
+    show(runner.player(), clip);
+  }
+  return clip;
+}
+
+// What changes of one kind do; a push is of the 0.2 s to each side of a frame.
+struct Changes {
+  std::vector<double> pushes;
+  double dragged = 0, count = 0;
+
+  ChangePushes result() { return {fragmotion::pushes(std::move(pushes)), count > 0 ? dragged / count : 0}; }
+};
 
 }  // namespace
 
@@ -87,21 +78,27 @@ Change kind_of(const Control& from, const Control& to) {
   return angle > kSameWay || from.turn != to.turn ? Change::turn : Change::gait;
 }
 
-std::array<Pushes, kChanges> change_pushes(const std::shared_ptr<const Character>& character,
-                                           const PlayerOptions& options) {
+std::array<ChangePushes, kChanges> change_pushes(const std::shared_ptr<const Character>& character,
+                                                 const PlayerOptions& options) {
   Player player(character, options);
   Runner runner(player);
-  CenterPath path(*character);
+  const Kinematics kinematics(character->pool.skeleton);
+  const auto [takes, floors] = tracks_of_takes(*character);
+  const FootClearance clearance = clearance_of(takes);
   Random random(options.seed);
-  std::array<std::vector<double>, kChanges> found;
+  std::array<Changes, kChanges> found;
   for (const Step& step : all_steps(character->space)) {
     runner.hold(step.from, random);
-    const std::vector<double> after = pushes_after(runner, path, step);
-    std::vector<double>& some = found[static_cast<std::size_t>(kind_of(step.from, step.to))];
-    some.insert(some.end(), after.begin(), after.end());
+    BodyTrack track = body_track(kinematics, shown_around(runner, step));
+    stand_on(track, floors);
+    const std::vector<double> pushes = ground_accelerations(track.center, kTrackRate);
+    Changes& some = found[static_cast<std::size_t>(kind_of(step.from, step.to))];
+    some.pushes.insert(some.pushes.end(), pushes.begin(), pushes.end());
+    some.dragged += dragging(track, clearance, kFramesBefore).dragged;
+    ++some.count;
   }
-  std::array<Pushes, kChanges> result;
-  for (std::size_t kind = 0; kind < result.size(); ++kind) result[kind] = pushes(std::move(found[kind]));
+  std::array<ChangePushes, kChanges> result;
+  for (std::size_t kind = 0; kind < result.size(); ++kind) result[kind] = found[kind].result();
   return result;
 }
 

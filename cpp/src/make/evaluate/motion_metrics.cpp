@@ -39,21 +39,9 @@ Joints joints_of(const Kinematics& kinematics, const Clip& clip) {
   return joints;
 }
 
-// Where feet stand in most takes; 0 for bodies without.
-Floors floors_of(const std::vector<BodyTrack>& takes) {
-  std::vector<Contacts> contacts(takes.size());
-  for (std::size_t i = 0; i < takes.size(); ++i) {
-    for (int side = 0; side < takes[i].feet.count(); ++side) {
-      const FootPath& foot = takes[i].feet[side];
-      contacts[i].floors[side] = {floor_of(foot.ball), floor_of(foot.heel)};
-    }
-  }
-  return usual_floors(contacts);
-}
-
 class Measurement {
  public:
-  explicit Measurement(const UsualHeights& usual) : usual_(usual) {}
+  Measurement(const UsualHeights& usual, const FootClearance& clearance) : usual_(usual), clearance_(clearance) {}
 
   void add(const BodyTrack& track, const Joints& joints) {
     for (int side = 0; side < track.feet.count(); ++side) {
@@ -68,6 +56,7 @@ class Measurement {
     append(yaw_, angular_accelerations(track.heading, track.rate));
     append(jumps_, find_jumps(track, usual_));
     footfalls_.add(count_footfalls(track));
+    dragging_.add(dragging(track, clearance_));
   }
 
   MotionMeasures result() {
@@ -83,6 +72,7 @@ class Measurement {
     m.yaw = spread(std::move(yaw_));
     m.jumps = jumps();
     m.footfalls = footfalls_;
+    m.dragged_share = dragging_.share();
     return m;
   }
 
@@ -136,10 +126,12 @@ class Measurement {
   }
 
   UsualHeights usual_;
+  const FootClearance& clearance_;
   double skate_ = 0, count_ = 0, low_ = 0, sliding_ = 0, depth_ = 0;
   std::vector<double> positions_, velocities_, accelerations_, center_pushes_, hips_pushes_, yaw_;
   std::vector<Jump> jumps_;
   Footfalls footfalls_;
+  Dragging dragging_;
 };
 
 void check(const Performance& p, std::size_t width) {
@@ -164,11 +156,10 @@ MotionMetrics::MotionMetrics(const Character& character) : skeleton_(character.p
   for (const Clip& take : takes) tracks.push_back(body_track(kinematics, take));
   floors_ = floors_of(tracks);
   usual_ = usual_heights(tracks);
-  Measurement measurement(usual_);
-  for (std::size_t i = 0; i < takes.size(); ++i) {
-    stand_on(tracks[i], floors_);
-    measurement.add(tracks[i], joints_of(kinematics, takes[i]));
-  }
+  for (BodyTrack& track : tracks) stand_on(track, floors_);
+  clearance_ = clearance_of(tracks);
+  Measurement measurement(usual_, clearance_);
+  for (std::size_t i = 0; i < takes.size(); ++i) measurement.add(tracks[i], joints_of(kinematics, takes[i]));
   takes_ = measurement.result();
   takes_.turns = limits_.takes();
 }
@@ -185,7 +176,7 @@ MotionMeasures MotionMetrics::of(const Performance& p) const {
     since = f > 0 && p.entered[f] != p.entered[f - 1] ? 0 : since + 1 / p.rate;
     joints.judged[f] = since < kStitched;
   }
-  Measurement measurement(usual_);
+  Measurement measurement(usual_, clearance_);
   measurement.add(track, joints);
   MotionMeasures measures = measurement.result();
   measures.turns = limits_.of(p.rotations);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "evaluate/dragging.hpp"
 #include "evaluate/footfalls.hpp"
 #include "evaluate/joint_limits.hpp"
 #include "evaluate/jumps.hpp"
@@ -35,7 +36,8 @@ struct MotionMeasures {
   Spread yaw;  ///< rad/s^2: the change over 0.2 s of the mean turn rate over 0.2 s, of facing().
   JumpMeans jumps;
   Footfalls footfalls;
-  Excess turns;  ///< Beyond what joints do in the takes; of a take, in all others.
+  double dragged_share = 0;  ///< Dragging, of feet along the ground.
+  Excess turns;              ///< Beyond what joints do in the takes; of a take, in all others.
 };
 
 /// Measures performances by what the takes do themselves.
@@ -54,6 +56,7 @@ class MotionMetrics {
   Skeleton skeleton_;
   Floors floors_;  // m of a 1.8 m character
   UsualHeights usual_;
+  FootClearance clearance_;
   JointLimits limits_;
   MotionMeasures takes_;
 };

@@ -38,6 +38,15 @@ double bob(const BodyTrack& track, int begin, int end) {
   return standard_deviation(sum, squares, end - begin + 1);
 }
 
+// How often a foot comes to stand after frame `begin` until `end`.
+double steps(const BodyTrack& track, int begin, int end) {
+  double count = 0;
+  for (int side = 0; side < track.feet.count(); ++side) {
+    for (int f = begin + 1; f <= end; ++f) count += track.stands[side][f] && !track.stands[side][f - 1] ? 1 : 0;
+  }
+  return count;
+}
+
 Going going(const BodyTrack& track, int begin) {
   const int end = begin + track.frames_in(kLong), half = track.frames_in(kSmooth / 2);
   const Vector2 mean = velocity(track, begin, end), way = mean.normalized();
@@ -48,7 +57,7 @@ Going going(const BodyTrack& track, int begin) {
     squares += speed * speed;
     ++count;
   }
-  return {mean.norm(), standard_deviation(sum, squares, count), bob(track, begin, end)};
+  return {mean.norm(), standard_deviation(sum, squares, count), bob(track, begin, end), steps(track, begin, end)};
 }
 
 bool is_steady(const BodyTrack& track, int begin) {
@@ -62,20 +71,22 @@ bool is_steady(const BodyTrack& track, int begin) {
 }
 
 void compare(SpeedRipple& row, const std::vector<Going>& takes) {
-  row.takes_speed = row.takes_ripple = row.takes_bob = std::numeric_limits<double>::quiet_NaN();
+  row.takes_speed = row.takes_ripple = row.takes_bob = row.takes_steps = std::numeric_limits<double>::quiet_NaN();
   if (takes.empty()) return;
   row.takes_speed = std::min_element(takes.begin(), takes.end(), [&](const Going& a, const Going& b) {
                       return std::abs(a.speed - row.commanded) < std::abs(b.speed - row.commanded);
                     })->speed;
-  double ripple = 0, bob = 0, count = 0;
+  double ripple = 0, bob = 0, steps = 0, count = 0;
   for (const Going& going : takes) {
     if (std::abs(going.speed - row.takes_speed) > kNear) continue;
     ripple += going.ripple;
     bob += going.bob;
+    steps += going.steps;
     ++count;
   }
   row.takes_ripple = ripple / count;
   row.takes_bob = bob / count;
+  row.takes_steps = steps / count;
 }
 
 }  // namespace
@@ -99,8 +110,9 @@ std::vector<SpeedRipple> speed_ripples(const std::shared_ptr<const Character>& c
                                        const PlayerOptions& options) {
   const Kinematics kinematics(character->pool.skeleton);
   std::vector<Going> takes;
-  for (const Clip& clip : captured_takes(character->pool)) {
-    const std::vector<Going> some = steady_goings(body_track(kinematics, clip));
+  const auto [tracks, floors] = tracks_of_takes(*character);
+  for (const BodyTrack& track : tracks) {
+    const std::vector<Going> some = steady_goings(track);
     takes.insert(takes.end(), some.begin(), some.end());
   }
   std::vector<SpeedRipple> rows;
@@ -108,7 +120,8 @@ std::vector<SpeedRipple> speed_ripples(const std::shared_ptr<const Character>& c
     const Trace trace(static_cast<std::size_t>(kHeld * kTraceRate),
                       Control{0, commanded / character->space.scale(), 0, 0});
     const Performance performance = perform(Player(character, options), trace, kTrackRate);
-    const BodyTrack track = body_track(kinematics, clip_of(performance));
+    BodyTrack track = body_track(kinematics, clip_of(performance));
+    stand_on(track, floors);
     SpeedRipple row;
     row.commanded = commanded;
     const std::vector<Going> played = goings(track, track.frames_in(kSettling));
@@ -116,6 +129,7 @@ std::vector<SpeedRipple> speed_ripples(const std::shared_ptr<const Character>& c
       row.speed += going.speed / static_cast<double>(played.size());
       row.ripple += going.ripple / static_cast<double>(played.size());
       row.bob += going.bob / static_cast<double>(played.size());
+      row.steps += going.steps / static_cast<double>(played.size());
     }
     compare(row, takes);
     rows.push_back(row);

@@ -31,6 +31,15 @@ std::vector<Clip> captured_takes(const PackedPool& pool) {
   return takes;
 }
 
+TakeTracks tracks_of_takes(const Character& character) {
+  const Kinematics kinematics(character.pool.skeleton);
+  TakeTracks takes;
+  for (const Clip& take : captured_takes(character.pool)) takes.tracks.push_back(body_track(kinematics, take));
+  takes.floors = floors_of(takes.tracks);
+  for (BodyTrack& track : takes.tracks) stand_on(track, takes.floors);
+  return takes;
+}
+
 Clip clip_of(const Performance& performance) {
   Clip clip;
   clip.rate = performance.rate;

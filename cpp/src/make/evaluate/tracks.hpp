@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "evaluate/body_track.hpp"
 #include "evaluate/performance.hpp"
 #include "fragments/fragment.hpp"
 
@@ -13,6 +14,13 @@ constexpr double kTrackRate = 60;
 
 /// The clips of a pool that hold captured fragments, at 60 frames a second; they have no headings.
 std::vector<Clip> captured_takes(const PackedPool& pool);
+
+/// What the captured takes do, on the floors that most of them stand on.
+struct TakeTracks {
+  std::vector<BodyTrack> tracks;
+  Floors floors;
+};
+TakeTracks tracks_of_takes(const Character& character);
 
 /// What was played, as a clip without headings.
 Clip clip_of(const Performance& performance);

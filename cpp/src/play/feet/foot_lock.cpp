@@ -19,8 +19,10 @@ constexpr double kStrained = 0.1;      // m that the hips would have to sink for
 constexpr double kForgets = 4;         // times kRelease, until nothing is seen of a foot that was let go
 constexpr double kComesToRest = 0.02;  // s: time constant of a foot that comes to rest
 constexpr double kSoftGround = 0.006;  // m: a foot sinks in at most half of that
-constexpr double kHovers = 0.015;      // m over the floor from where a planted foot is lowered,
-constexpr double kFollows = 0.05;      // s: time constant of that, and of a heel that rises
+constexpr double kHovers = 0.015;      // m over the floor from where a planted foot is lowered
+constexpr double kClears = 0.025;      // m, where no slide is seen of a foot (Zhang et al., as in skate.hpp),
+constexpr double kGoes = 0.5;          // m/s: from there a foot does not stand (find_contacts)
+constexpr double kFollows = 0.05;      // s: time constant of a foot that is lowered or lifted, and of a heel that rises
 constexpr double kLevel = 1e-4;        // rad, below which nothing is seen of it
 constexpr double kPatience = 0.3;      // s that both feet stand before one steps to where its motion has it
 constexpr double kAstray = 0.07;       // m from its motion at least, for a foot to step there rather than slide
@@ -29,6 +31,9 @@ constexpr double kSinksIn = 0.1;       // s: time constant of the hips
 
 // The other foot of a pair.
 int other(int side) { return side ^ 1; }
+
+// How high a foot is at least that goes so fast.
+double clear_at(double speed) { return kClears * std::min(1.0, speed / kGoes); }
 
 // How far a foot is lifted that is so deep in the ground: softly at first.
 double lifted(double depth) {
@@ -110,9 +115,14 @@ double FootLock::step_height(const Foot& foot) const {
   return 4 * phase * (1 - phase) * kStepHeight / body_->scale;
 }
 
-// How far a foot is lowered: where the hips are too high for what plays, its motion would let a planted one hover.
-double FootLock::lowered(Foot& foot, double over, double follows) const {
-  const double hovers = foot.locked ? std::max(0.0, over - kHovers / body_->scale) : 0;
+// How much too high a foot is, or too low: where the hips are too high for what plays, its motion would let a planted
+// one hover; where a stitch brings a foot away from a stand, it would let it cross the floor.
+double FootLock::hovers(const Foot& foot, double over, double ball, double clear) const {
+  if (foot.locked) return std::max(0.0, over - kHovers / body_->scale);
+  return std::min(0.0, std::max(0.0, ball) + step_height(foot) - clear);
+}
+
+double FootLock::lowered(Foot& foot, double over, double hovers, double follows) const {
   foot.lowered += follows * (hovers - foot.lowered);
   return std::min(foot.lowered, std::max(0.0, over));
 }
@@ -198,8 +208,13 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     const bool stands = hands_over || (contacts.stands(side, frame) && (locked || low));
     const Vector3 place = ball(skeleton, legs[side], posed);
     const Vector2 edited = longer * (place - under(side, pose)).head<2>() + shift;
-    const Vector2 held = away(side, place.head<2>() + edited, stands, seconds), by = edited + held;
-    const double lift = lifted(-over * scale) / scale + step_height(feet_[side]) - lowered(feet_[side], over, follows);
+    const Vector2 before = feet_[side].shown, held = away(side, place.head<2>() + edited, stands, seconds),
+                  by = edited + held;
+    const double speed = fresh_ || seconds == 0 ? 0 : (feet_[side].shown - before).norm() / seconds;
+    const double hovers = this->hovers(feet_[side], over, place.z() - contacts.floors[side].ball,
+                                       edit.clears * clear_at(speed * scale) / scale);
+    const double lift =
+        lifted(-over * scale) / scale + step_height(feet_[side]) - lowered(feet_[side], over, hovers, follows);
     const Vector3 moved{by.x(), by.y(), lift};
     ankles[side] = posed.heads[legs[side].foot] + moved;
     raise_heel(side, place + moved, follows, ankles[side], pose.rotations.data());

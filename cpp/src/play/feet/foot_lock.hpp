@@ -17,6 +17,7 @@ namespace fragmotion {
 struct StepEdit {
   Matrix2 stride = Matrix2::Zero();
   Vector2 shift = Vector2::Zero();
+  double clears = 0;  ///< How much of the way off the floor a free foot is lifted that is too low to go so fast.
 
   /// By how much a foot is moved that is so far from the hips, m in the world, of a body that faces `heading`.
   Vector2 moved(const Vector2& from_hips, double heading) const;
@@ -27,8 +28,9 @@ struct StepEdit {
 /// smoothly, with a step where that is far; but the only foot that stands is kept for longer, and until the other one
 /// has come down whose turn it is. Where a leg would be a little too short, the heel of a foot that is left behind
 /// rises and the hips sink; where it would be much too short, the foot steps on. A planted foot that hovers is lowered
-/// to the floor. A body that has stood for a while in the middle of a stride steps out of it. The feet of a four-legged
-/// body are two pairs, each like a biped's. Does nothing to a skeleton without legs. Allocates nothing once it is made.
+/// to the floor, and one that sets off is lifted off it: a stitch from a stand would drag it. A body that has stood for
+/// a while in the middle of a stride steps out of it. The feet of a four-legged body are two pairs, each like a
+/// biped's. Does nothing to a skeleton without legs. Allocates nothing once it is made.
 class FootLock {
  public:
   /// s in which a foot that is let go gets back to its motion, most of the way; it is critically damped, 1/s.
@@ -77,8 +79,8 @@ class FootLock {
     Vector2 place = Vector2::Zero(), drift = Vector2::Zero();  // of the lock; the drift comes to rest
     Vector2 offset = Vector2::Zero(), offset_speed = Vector2::Zero();  // from the motion, when it was let go
     double free = 0;                                                   // s since then
-    double lowered = 0;                                                // m, while it is planted and would hover
-    double raised = 0;  // rad, its heel, while the leg would be too short
+    double lowered = 0;  // m, while it is planted and would hover; under 0 while it is free and would be too low
+    double raised = 0;   // rad, its heel, while the leg would be too short
   };
 
   Vector3 under(int side, const WorldPose& pose) const;
@@ -88,7 +90,8 @@ class FootLock {
   void lock(Foot& foot, const Vector2& shown, double seconds) const;
   void settle(double seconds);
   double step_height(const Foot& foot) const;
-  double lowered(Foot& foot, double over, double follows) const;
+  double hovers(const Foot& foot, double over, double ball, double clear) const;
+  double lowered(Foot& foot, double over, double hovers, double follows) const;
   void raise_heel(int side, const Vector3& ball, double follows, Vector3& ankle, double* rotations);
   void release(Foot& foot, const Vector2& held) const;
 

@@ -9,8 +9,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kDeeper = 0.02;  // of a path's points, that may be under its floor
-
 // The frames from which on a foot of the pair that begins with `left` stands, or does not.
 std::vector<int> changes(const Contacts& contacts, int left, bool stands) {
   std::vector<int> frames;
@@ -36,7 +34,7 @@ bool Contacts::any_stands(std::size_t frame) const {
 double floor_of(const std::vector<Vector3>& path) {
   std::vector<double> heights;
   for (const Vector3& p : path) heights.push_back(p.z());
-  return quantile(std::move(heights), kDeeper);
+  return quantile(std::move(heights), kUnderFloor);
 }
 
 Floors usual_floors(const std::vector<Contacts>& contacts) {

@@ -24,8 +24,11 @@ struct Contacts {
   bool any_stands(std::size_t frame) const;
 };
 
-/// Where a point of a foot stands: the height over which it is all but 2 % of the time, so that neither a hard landing
-/// nor a bad frame is taken for the floor.
+/// Of a path's points, that may be under its floor.
+constexpr double kUnderFloor = 0.02;
+
+/// Where a point of a foot stands: the height over which it is all but kUnderFloor of the time, so that neither a hard
+/// landing nor a bad frame is taken for the floor.
 double floor_of(const std::vector<Vector3>& path);
 
 /// Where feet stand in most clips: the medians, 0 where there are none.

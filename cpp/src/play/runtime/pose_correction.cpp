@@ -54,6 +54,8 @@ void PoseCorrection::edit_steps(const Control& evident, const RootGovernor& gove
   steps_.stride += strode * (most * wanted - steps_.stride);
   const Vector2 behind = -kSetOff * workspace_->shown.root.z() / kGravity * lean_.acceleration();
   steps_.shift += strode * (behind - steps_.shift);
+  const double pushes = scale_ * governor.acceleration().norm() / workspace_->constants.root.acceleration;
+  steps_.clears = goes ? std::min(1.0, pushes) : 0;
 }
 
 void PoseCorrection::lock_feet(const Playback& playback, double seconds) {

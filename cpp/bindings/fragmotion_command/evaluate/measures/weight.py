@@ -18,6 +18,7 @@ SEEN = (
     "flight_time_ratio",
     "same_foot",
     "quick_steps",
+    "dragged_share",
     "yaw_acceleration_p50",
     "yaw_acceleration_p99",
     "yaw_acceleration_p999",
@@ -25,13 +26,21 @@ SEEN = (
 )
 """What takes have, too."""
 RATIOS = ("jump_dip_ratio", "landing_dip_ratio")
-TRIALS = ("speed_ripple_ratio", "bob_ratio", "speed_ripple", "acceleration_by_change", "about_face_s")
+TRIALS = (
+    "speed_ripple_ratio",
+    "bob_ratio",
+    "step_rate_ratio",
+    "speed_ripple",
+    "acceleration_by_change",
+    "about_face_s",
+)
 """What a player is put to the test for."""
 
 
 def seen(measured: Sequence[core.MotionMeasures]) -> Figures:
     """Of motions: how far the hips dip before and after a jump's flight (m), and its
-    time over a ballistic one's; shares of the steps; yaw accelerations over 0.2 s (degrees/s^2)."""
+    time over a ballistic one's; shares of the steps, and of the feet's way; yaw accelerations over 0.2 s
+    (degrees/s^2)."""
     steps = [m.footfalls for m in measured]
     count = sum(each.count for each in steps)
     yaw = [m.yaw for m in measured]
@@ -41,6 +50,7 @@ def seen(measured: Sequence[core.MotionMeasures]) -> Figures:
         "flight_time_ratio": _of_jumps(measured, lambda jumps: jumps.flight_ratio),
         "same_foot": ratio(sum(each.same_foot for each in steps), count),
         "quick_steps": ratio(sum(each.quick for each in steps), count),
+        "dragged_share": statistics.fmean(m.dragged_share for m in measured),
         "yaw_acceleration_p50": math.degrees(statistics.fmean(each.p50 for each in yaw)),
         "yaw_acceleration_p99": math.degrees(statistics.fmean(each.p99 for each in yaw)),
         "yaw_acceleration_p999": math.degrees(statistics.fmean(each.p999 for each in yaw)),
@@ -72,11 +82,13 @@ def trials(character: core.Character, seeds: Iterable[int], **options: Any) -> d
 
 
 def evenness(character: core.Character, seeds: Iterable[int], **options: Any) -> dict[str, Any]:
-    """How even the speeds and the hips' heights of players of these seeds are: means over the takes', and by speed."""
+    """How even the speeds and the hips' heights of players of these seeds are, and how often they step: means over the
+    takes', and by speed."""
     speeds = _speeds([core.speed_ripples(character, seed, **options) for seed in seeds])
     return {
         "speed_ripple_ratio": _mean(ratio(row["ripple"], row["takes_ripple"]) for row in speeds),
         "bob_ratio": _mean(ratio(row["bob"], row["takes_bob"]) for row in speeds),
+        "step_rate_ratio": _mean(ratio(row["steps"], row["takes_steps"]) for row in speeds),
         "speed_ripple": speeds,
     }
 
@@ -91,14 +103,17 @@ def _speeds(players: Sequence[Sequence[core.SpeedRipple]]) -> list[Figures]:
             "takes_ripple": _number(rows[0].takes_ripple),
             "bob": statistics.fmean(row.bob for row in rows),
             "takes_bob": _number(rows[0].takes_bob),
+            "steps": statistics.fmean(row.steps for row in rows),
+            "takes_steps": _number(rows[0].takes_steps),
             "takes_speed": _number(rows[0].takes_speed),
         }
         for rows in zip(*players)
     ]
 
 
-def _changes(players: Sequence[dict[str, core.Pushes]]) -> dict[str, dict[str, float]]:
-    """m/s^2 of a 1.8 m character, and a share, for each kind of change: as `accelerations`."""
+def _changes(players: Sequence[dict[str, core.ChangePushes]]) -> dict[str, dict[str, float]]:
+    """m/s^2 of a 1.8 m character, and a share, for each kind of change: as `accelerations`; and m that feet are dragged
+    after one."""
     return {
         kind: {
             "p50": statistics.fmean(player[kind].p50 for player in players),
@@ -106,6 +121,7 @@ def _changes(players: Sequence[dict[str, core.Pushes]]) -> dict[str, dict[str, f
             "p999": statistics.fmean(player[kind].p999 for player in players),
             "max": max(player[kind].worst for player in players),
             "over_6": statistics.fmean(player[kind].over_6 for player in players),
+            "dragged": statistics.fmean(player[kind].dragged for player in players),
         }
         for kind in players[0]
     }
