@@ -68,23 +68,46 @@ std::pair<double, double> share_over(const FlatTriangle& triangle, const Vector2
   return {from, to};
 }
 
-// The shares of a way that lie over no triangle.
-std::vector<std::pair<double, double>> shares_bare(const std::vector<FlatTriangle>& triangles, const Vector2& start,
-                                                   const Vector2& way) {
-  std::vector<std::pair<double, double>> covered, bare;
-  for (const FlatTriangle& triangle : triangles) {
-    const auto share = share_over(triangle, start, way);
-    if (share.first < share.second) covered.push_back(share);
+// Triangles by where they begin along x, so that few are looked at of many.
+class Covering {
+ public:
+  explicit Covering(std::vector<FlatTriangle> triangles) : triangles_(std::move(triangles)) {
+    std::sort(triangles_.begin(), triangles_.end(),
+              [](const FlatTriangle& a, const FlatTriangle& b) { return begin_of(a) < begin_of(b); });
+    for (const FlatTriangle& each : triangles_) {
+      const double end = std::max({each[0].x(), each[1].x(), each[2].x()});
+      widest_ = std::max(widest_, end - begin_of(each));
+    }
   }
-  std::sort(covered.begin(), covered.end());
-  covered.emplace_back(1, 1);
-  double reached = 0;
-  for (const auto& [from, to] : covered) {
-    if (from > reached + kSeam) bare.emplace_back(reached, from);
-    reached = std::max(reached, to);
+
+  // The shares of a way that lie over no triangle.
+  std::vector<std::pair<double, double>> shares_bare(const Vector2& start, const Vector2& way) const {
+    const auto [first, last] = std::minmax({start.x(), start.x() + way.x()});
+    auto each = std::lower_bound(triangles_.begin(), triangles_.end(), first - widest_,
+                                 [](const FlatTriangle& triangle, double x) { return begin_of(triangle) < x; });
+    std::vector<std::pair<double, double>> covered, bare;
+    for (; each != triangles_.end() && begin_of(*each) <= last; ++each) {
+      const auto share = share_over(*each, start, way);
+      if (share.first < share.second) covered.push_back(share);
+    }
+    std::sort(covered.begin(), covered.end());
+    covered.emplace_back(1, 1);
+    double reached = 0;
+    for (const auto& [from, to] : covered) {
+      if (from > reached + kSeam) bare.emplace_back(reached, from);
+      reached = std::max(reached, to);
+    }
+    return bare;
   }
-  return bare;
-}
+
+ private:
+  static double begin_of(const FlatTriangle& triangle) {
+    return std::min({triangle[0].x(), triangle[1].x(), triangle[2].x()});
+  }
+
+  std::vector<FlatTriangle> triangles_;
+  double widest_ = 0;  // along x
+};
 
 Vector2 next_to(const Vector2& place, const Vector2& from, const Vector2& to) {
   const Vector2 way = to - from;
@@ -102,21 +125,27 @@ bool cross_each_other(const Vector2& a, const Vector2& b, const Vector2& c, cons
 }  // namespace
 
 AreaEdge::AreaEdge(const std::vector<FlatTriangle>& triangles) {
-  const std::vector<FlatTriangle> covering = turned_left(triangles);
+  const std::vector<FlatTriangle> turned = turned_left(triangles);
   double furthest = 0;
-  for (const FlatTriangle& triangle : covering) {
+  for (const FlatTriangle& triangle : turned) {
     for (const Vector2& corner : triangle) furthest = std::max(furthest, corner.cwiseAbs().maxCoeff());
   }
-  for (const Side& side : outer_sides(covering)) {
+  const Covering covering(turned);
+  for (const Side& side : outer_sides(turned)) {
     const Vector2 from = to_vector(side.first), way = to_vector(side.second) - from,
                   outward = Vector2{way.y(), -way.x()} / way.norm();
-    for (const auto& [first, last] : shares_bare(covering, from + kBeside * furthest * outward, way))
+    for (const auto& [first, last] : covering.shares_bare(from + kBeside * furthest * outward, way))
       stretches_.push_back({from + first * way, from + last * way});
   }
+  const double same = 4 * kBeside * furthest;
+  std::stable_sort(stretches_.begin(), stretches_.end(),
+                   [](const Stretch& a, const Stretch& b) { return a.from.x() < b.from.x(); });
   for (Stretch& one : stretches_) {
-    for (const Stretch& next : stretches_) {
-      const bool joins = (next.from - one.to).cwiseAbs().maxCoeff() <= 4 * kBeside * furthest;
-      if (joins && cross(one.to - one.from, next.to - next.from) >= 0) one.juts_out = false;
+    auto next = std::lower_bound(stretches_.begin(), stretches_.end(), one.to.x() - same,
+                                 [](const Stretch& each, double x) { return each.from.x() < x; });
+    for (; next != stretches_.end() && next->from.x() <= one.to.x() + same; ++next) {
+      const bool joins = std::abs(next->from.y() - one.to.y()) <= same;
+      if (joins && cross(one.to - one.from, next->to - next->from) >= 0) one.juts_out = false;
     }
   }
 }
