@@ -242,6 +242,10 @@ Vector3 ball(const Skeleton& skeleton, int foot, int toe, const PosedBones& pose
   return posed.heads[foot] + posed.rotations[foot] * skeleton.tips[foot];
 }
 
+Vector3 ankle_of(const Leg& leg, const PosedBones& posed) {
+  return leg.has_foot() ? posed.heads[leg.foot] : posed.heads[leg.foot] + posed.rotations[leg.foot] * leg.ankle;
+}
+
 Vector3 sole(const Skeleton& skeleton, const LegRoles& leg, const PosedBones& posed) {
   const Vector3 front = ball(skeleton, leg.foot, leg.toe, posed);
   if (ends_without_foot(skeleton, leg)) return front;

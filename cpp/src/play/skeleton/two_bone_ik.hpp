@@ -57,9 +57,7 @@ inline Vector3 ball(const Skeleton& skeleton, const Leg& leg, const PosedBones& 
 }
 
 /// Where a leg's lower bone ends: the foot's head, or, where a shin is the foot, its tip.
-inline Vector3 ankle_of(const Leg& leg, const PosedBones& posed) {
-  return leg.has_foot() ? posed.heads[leg.foot] : posed.heads[leg.foot] + posed.rotations[leg.foot] * leg.ankle;
-}
+Vector3 ankle_of(const Leg& leg, const PosedBones& posed);
 
 /// Turns the foot where there is one: what reach() leaves it at.
 inline void turn_to(const Leg& leg, const Quaternion& world, PosedBones& posed) {
