@@ -12,7 +12,7 @@ from typing import Any
 from .core import core
 from .files import find_takes
 from .running import Done, listed
-from .takes import led_by_feet, read_mended
+from .takes import led_by_feet, on_one_body, read_mended
 
 CONTROLS = ("paper", "found", "told")
 _NEUTRAL = "neutral"  # the style of takes that tell none, where others do
@@ -27,8 +27,8 @@ def build(options: argparse.Namespace) -> Done:
     settings = _settings(options)
     takes = read_mended(paths, options.unit)
     styles = _styles_of([each.path for each in takes], options)
-    skeleton = takes[0].take.skeleton
-    clips = [led_by_feet(core.Clip.from_take(each.take, skeleton), skeleton) for each in takes]
+    skeleton, clips = on_one_body(takes)
+    clips = [led_by_feet(clip, skeleton) for clip in clips]
     teacher = core.simulate_trace("explorer", 60, settings.seed, settings.usual_space)
     if any(styles):
         named = {name: [clip for clip, own in zip(clips, styles) if own == name] for name in sorted(set(styles))}

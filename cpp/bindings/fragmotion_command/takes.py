@@ -107,6 +107,33 @@ def with_more(texts: Sequence[str]) -> str:
     return texts[0] + (f" (and {len(texts) - 1} more like it)" if len(texts) > 1 else "")
 
 
+def on_one_body(takes: Sequence[FileTake]) -> tuple[core.Skeleton, list[core.Clip]]:
+    """The first take's skeleton, and all takes on it; those of a body of other proportions are brought over, and it is
+    said, so that their feet stand."""
+    skeletons = [each.take.skeleton for each in takes]
+    first, *others = core.group_skeletons(skeletons)
+    skeleton = skeletons[0]
+    clips = {index: core.Clip.from_take(takes[index].take, skeleton) for index in first}
+    known = list(clips.values())
+    for group in others:
+        clips.update(zip(group, _brought_over([takes[index] for index in group], skeleton, known)))
+    return skeleton, [clips[index] for index in range(len(takes))]
+
+
+def _brought_over(takes: Sequence[FileTake], skeleton: core.Skeleton, known: Sequence[core.Clip]) -> list[core.Clip]:
+    """Takes of one other skeleton on this one, of which clips are known; as they are where they cannot be brought."""
+    own = takes[0].take.skeleton
+    clips = [core.Clip.from_take(each.take, own) for each in takes]
+    who = f"{with_more([each.path.name for each in takes])}: of a body of other proportions, {own.stature:.2f} m tall,"
+    try:
+        brought = core.Retarget(core.Body(own, clips), core.Body(skeleton, known)).apply_all(clips)
+    except ValueError as error:
+        say(f"{who} on one of {skeleton.stature:.2f} m as it is, so that feet may float or sink: {error}")
+        return [core.Clip.from_take(each.take, skeleton) for each in takes]
+    say(f"{who} brought onto one of {skeleton.stature:.2f} m")
+    return [result.clip for result in brought]
+
+
 def led_by_feet(clip: core.Clip, skeleton: core.Skeleton) -> core.Clip:
     """The clip; one that goes on the spot on the way that its feet tell."""
     way = clip.led_by_feet(skeleton)

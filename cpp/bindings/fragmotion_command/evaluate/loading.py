@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ..building import tell_controls
 from ..core import core
 from ..files import find_takes
-from ..takes import read_take
+from ..takes import FileTake, on_one_body, read_take
 
 SECONDS = 60.0
 STEPS_A_SECOND = 10
@@ -52,17 +52,14 @@ def core_failures(place: str = "") -> Iterator[None]:
 
 
 def read_recordings(paths: Sequence[Path], unit: float) -> Recordings:
-    """All takes on the first one's skeleton; ValueError where one has other bones."""
+    """All takes on the first one's body; ValueError where one has other bones."""
     files = find_takes(paths)
     takes = [read_take(file, unit) for file in files]
     core.tell_four_legs(takes)
-    first = takes[0].skeleton
-    clips = []
     for file, take in zip(files, takes):
-        _check_bones(file, take.skeleton, files[0], first)
-        with core_failures(str(file)):
-            clips.append(core.Clip.from_take(take, first))
-    return Recordings(first, clips)
+        _check_bones(file, take.skeleton, files[0], takes[0].skeleton)
+    with core_failures(str(files[0].parent)):
+        return Recordings(*on_one_body([FileTake(file, take) for file, take in zip(files, takes)]))
 
 
 def _check_bones(file: Path, skeleton: core.Skeleton, first_file: Path, first: core.Skeleton) -> None:
