@@ -103,6 +103,23 @@ def test_a_new_user_has_few_fields_in_sight(addon: ModuleType) -> None:
         assert f"fragmotion.{needed}" in stages[stage]["buttons"]
 
 
+def test_bake_says_what_it_bakes_and_whether_that_is_still_so(addon: ModuleType, obj: bpy.types.Object) -> None:
+    panel, recordings = addon.panels.panel.FRAGMOTION_PT_bake, addon.recordings.recordings
+    settings = obj.fragmotion.bake
+    settings.seconds = 20
+    assert drawn(panel)["texts"] == ["20 s of a simulated walker"]
+    recordings.add_recording(obj, np.tile([0, 1.2, 0, 0], (20, 1)).astype(float)).name = "To the Door"
+    assert drawn(panel)["texts"] == ["To the Door"] and drawn(panel)["buttons"] == ["fragmotion.bake"]
+    assert bpy.ops.fragmotion.bake("EXEC_DEFAULT") == {"FINISHED"}
+    action = recordings.active_recording(obj).baked.name
+    assert drawn(panel)["texts"] == ["To the Door", f"As in '{action}'"]
+    assert drawn(panel)["buttons"] == ["fragmotion.bake", "fragmotion.bake"], "and Update Bake"
+    assert bpy.ops.fragmotion.look_recording("EXEC_DEFAULT") == {"FINISHED"}
+    assert drawn(panel)["texts"] == ["To the Door", f"Changed since '{action}'"]
+    settings.trace_source, settings.trace_file = "FILE", ""
+    assert drawn(panel)["texts"] == ["Choose a CSV file"]
+
+
 def test_build_says_that_nothing_is_ticked(addon: ModuleType) -> None:
     panel = addon.panels.panel.FRAGMOTION_PT_build
     assert not drawn(panel)["texts"]
