@@ -152,7 +152,7 @@ class FRAGMOTION_PT_bake_options(SubPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         obj = active_armature(context)
-        draw_bake(self.layout, obj.fragmotion.bake, obj)
+        draw_bake(self.layout, obj.fragmotion.bake, obj, is_named=True)
         draw_bake_options(self.layout, obj.fragmotion.bake)
 
 
