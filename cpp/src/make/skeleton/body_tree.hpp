@@ -87,6 +87,6 @@ BodyJoints shaped_body(const Skeleton& skeleton, const BodyTree& tree, const Obs
 /// Whether the feet that names tell point to where the names' left is on the body's right: level, to their toes, or to
 /// their tips where nothing hangs from them.
 bool points_to_wrong_sides(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion,
-                           BodyJoints named);
+                           const BodyJoints& named);
 
 }  // namespace fragmotion

@@ -155,9 +155,9 @@ BodyJoints shaped_body(const Skeleton& skeleton, const BodyTree& tree, const Obs
 }
 
 bool points_to_wrong_sides(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion,
-                           BodyJoints named) {
+                           const BodyJoints& named) {
   const BodyShape shape(skeleton, tree, motion);
-  return ShapeFinder(shape).points_to_wrong_sides(std::move(named));
+  return ShapeFinder(shape).points_to_wrong_sides(named);
 }
 
 }  // namespace fragmotion
