@@ -214,13 +214,14 @@ void bind_keep_clear(py::module_& m) {
         [](const py::list& players, const py::list& wishes, const Doubles& worlds, double speed, double arrive,
            const std::string& facing, double heading, const Doubles& place, const std::string& end,
            const std::vector<Doubles>& obstacles, double radius, double seconds, double rate,
-           const py::object& progress) {
+           const py::object& progress, const PaintedArea* area) {
           return keep_crowd_clear(players, wishes, worlds, to_options(speed, arrive, facing, heading, place, end),
-                                  {radius, seconds, rate, {}}, obstacles, progress);
+                                  {radius, seconds, rate, {}, area == nullptr ? nullptr : &area->edge()}, obstacles,
+                                  progress);
         },
         py::arg("players"), py::arg("wishes"), py::arg("worlds"), follow..., py::arg("obstacles") = py::list(),
         py::arg("radius") = CrowdOptions().radius, py::arg("seconds") = 60.0, py::arg("rate") = 60.0,
-        py::arg("progress") = py::none());
+        py::arg("progress") = py::none(), py::arg("area") = py::none());
   });
 }
 
@@ -253,17 +254,17 @@ void bind_area(py::module_& m) {
       .def(py::init(&make_area), py::arg("corners"), py::arg("paint"))
       .def(
           "draw_apart",
-          [](const PaintedArea& area, int count, double spacing, std::uint64_t seed) {
+          [](const PaintedArea& area, int count, double spacing, std::uint64_t seed, double room) {
             check_count(count);
             return to_rows(without_gil([&] {
               Random random(seed);
-              return area.draw_apart(random, count, spacing);
+              return area.draw_apart(random, count, spacing, room);
             }));
           },
-          py::arg("count"), py::arg("spacing"), py::arg("seed"))
+          py::arg("count"), py::arg("spacing"), py::arg("seed"), py::arg("room") = 0.0)
       .def(
           "draw_ways",
-          [](const PaintedArea& area, const Doubles& starts, int count, std::uint64_t seed) {
+          [](const PaintedArea& area, const Doubles& starts, int count, std::uint64_t seed, double room) {
             check_count(count);
             check_shape(starts, "starts", {-1, 3});
             check_count(static_cast<int>(std::min<py::ssize_t>(starts.shape(0) * count, kMostPlaces + 1)));
@@ -272,11 +273,11 @@ void bind_area(py::module_& m) {
             for (std::size_t i = 0; i < numbers.size(); i += 3) places.emplace_back(&numbers[i]);
             return to_rows(without_gil([&] {
                      Random random(seed);
-                     return area.draw_ways(random, places, count);
+                     return area.draw_ways(random, places, count, room);
                    }))
                 .reshape({starts.shape(0), static_cast<py::ssize_t>(count), py::ssize_t{3}});
           },
-          py::arg("starts"), py::arg("count"), py::arg("seed"));
+          py::arg("starts"), py::arg("count"), py::arg("seed"), py::arg("room") = 0.0);
 }
 
 void bind_steering(py::module_& m) {

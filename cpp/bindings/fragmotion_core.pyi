@@ -946,26 +946,29 @@ def keep_clear(
     seconds: float = 60.0,
     rate: float = 60.0,
     progress: Progress | None = None,
+    area: PaintedArea | None = None,
 ) -> list[Doubles]:
     """A trace [T,4] for each player of a crowd, who stands where it begins, by which it keeps clear of the others and
     of obstacles, convex outlines [N,2], m, and does what it would alone as far as that lets it: its wish is a trace
     [T,4], a path, which it goes along as follow_path() says, or goals [G,2], to which it goes one after another.
     `worlds` [P,4]: where a player's origin is in the world that all share, x, y and heading, and by how much larger
-    that is. Each has `radius` metres around it to itself. Paths and goals are gone for so many seconds, 0.1 to 3600.
-    Stepped at `rate`, from the same start and seed, each shows the same motion. ValueError on what is out of its
-    range."""
+    that is. Each has `radius` metres around it to itself. Nobody leaves the `area`, and who stands beside it goes
+    there. Paths and goals are gone for so many seconds, 0.1 to 3600. Stepped at `rate`, from the same start and seed,
+    each shows the same motion. ValueError on what is out of its range."""
 
 class PaintedArea:
     """Triangles, corners [T,3,3] in m, each corner painted 0 to 1, [T,3]; ValueError where nothing is painted."""
 
     def __init__(self, corners: ArrayLike, paint: ArrayLike) -> None: ...
-    def draw_apart(self, count: int, spacing: float, seed: int) -> Doubles:
+    def draw_apart(self, count: int, spacing: float, seed: int, room: float = 0.0) -> Doubles:
         """Places [N,3] on it, the more is painted there, the likelier, linear between the corners; seen from above no
-        two of them are nearer than `spacing`, m. N is `count`, or fewer where no room is found for more."""
+        two of them are nearer than `spacing`, m, and where there are enough of them, none is nearer to its edge than
+        `room`, m. N is `count`, or fewer where no room is found for more."""
 
-    def draw_ways(self, starts: ArrayLike, count: int, seed: int) -> Doubles:
+    def draw_ways(self, starts: ArrayLike, count: int, seed: int, room: float = 0.0) -> Doubles:
         """From each start [S,3] such places one after another, [S,count,3]: the straight way to each from the one
-        before is painted all along, seen from above. Where none is found it is the one before."""
+        before is painted all along, seen from above, and comes no nearer to the edge than `room`, m, unless it begins
+        there or there is no such way. Where none is found it is the one before."""
 
 class Performance:
     """What a player did."""

@@ -103,6 +103,24 @@ def test_a_new_user_has_few_fields_in_sight(addon: ModuleType) -> None:
         assert f"fragmotion.{needed}" in stages[stage]["buttons"]
 
 
+def test_bake_says_what_it_bakes_and_whether_that_is_still_so(addon: ModuleType, obj: bpy.types.Object) -> None:
+    panel, recordings = addon.panels.panel.FRAGMOTION_PT_bake, addon.recordings.recordings
+    settings = obj.fragmotion.bake
+    settings.seconds = 20
+    assert drawn(panel)["texts"] == ["20 s of a simulated walker"]
+    recordings.add_recording(obj, np.tile([0, 1.2, 0, 0], (20, 1)).astype(float)).name = "To the Door"
+    assert drawn(panel)["texts"] == ["To the Door"] and drawn(panel)["buttons"] == ["fragmotion.bake"]
+    assert not drawn(addon.panels.recordings.FRAGMOTION_PT_bake_options)["texts"], "the name is said once"
+    assert bpy.ops.fragmotion.bake("EXEC_DEFAULT") == {"FINISHED"}
+    action = recordings.active_recording(obj).baked.name
+    assert drawn(panel)["texts"] == ["To the Door", f"As in '{action}'"]
+    assert drawn(panel)["buttons"] == ["fragmotion.bake", "fragmotion.bake"], "and Update Bake"
+    assert bpy.ops.fragmotion.look_recording("EXEC_DEFAULT") == {"FINISHED"}
+    assert drawn(panel)["texts"] == ["To the Door", f"Changed since '{action}'"]
+    settings.trace_source, settings.trace_file = "FILE", ""
+    assert drawn(panel)["texts"] == ["Choose a CSV file"]
+
+
 def test_build_says_that_nothing_is_ticked(addon: ModuleType) -> None:
     panel = addon.panels.panel.FRAGMOTION_PT_build
     assert not drawn(panel)["texts"]
@@ -232,6 +250,27 @@ def test_names_of_takes_are_listed_without_what_all_begin_with(
     addon: ModuleType, names: list[str], beginning: str
 ) -> None:
     assert addon.mocap.actions.common_beginning(names) == beginning
+
+
+def test_a_take_can_be_renamed_in_the_list_where_its_whole_name_is_seen(
+    addon: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By a double click, which Blender lets change a name that is drawn as a field."""
+    takes = addon.panels.panel.FRAGMOTION_UL_actions
+    actions = [bpy.data.actions.new(name) for name in ("walk left", "walk right")]
+    chosen = SimpleNamespace(index=bpy.data.actions.find("walk left"))
+
+    def row(action: bpy.types.Action) -> dict[str, list[str]]:
+        layout = Layout()
+        item = SimpleNamespace(beginning=takes.beginning)
+        takes.draw_item(item, bpy.context, layout, bpy.data, action, 0, chosen, "index")
+        return layout.noted
+
+    monkeypatch.setattr(takes, "beginning", "")
+    assert all(row(action)["fields"] == ["use", "name"] for action in actions)
+    monkeypatch.setattr(takes, "beginning", "walk ")
+    assert row(actions[0])["fields"] == ["use", "name"], "the selected one is said whole"
+    assert row(actions[1])["fields"] == ["use"] and row(actions[1])["texts"][0] == "right"
 
 
 def test_the_pie_offers_what_can_be_done_now(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:

@@ -42,6 +42,14 @@ inline Skeleton humanoid(double size = 1) {
   return make_skeleton(std::move(s));
 }
 
+/// A humanoid() that ends in its shins: they are its feet.
+inline Skeleton on_shins() {
+  Skeleton s = humanoid();
+  s.roles.left_foot = s.find("shin.L"), s.roles.right_foot = s.find("shin.R");
+  s.roles.left_toe = s.roles.right_toe = -1;
+  return s;
+}
+
 /// How the walker goes: velocity to the right and forward in m/s and turn rate in rad/s, constant in its own frame.
 struct Gait {
   double x = 0, y = 1.2, turn = 0;

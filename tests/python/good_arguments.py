@@ -341,6 +341,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "seconds": 2.0,
             "rate": 30.0,
             "progress": quiet,
+            "area": core.PaintedArea(np.eye(3)[None], np.ones((1, 3))),
         },
         "PaintedArea": {"corners": np.eye(3)[None], "paint": np.ones((1, 3))},
         "PaintedArea.draw_ways": {
@@ -348,12 +349,14 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "starts": np.ones((2, 3)) / 3,
             "count": 2,
             "seed": 1,
+            "room": 0.1,
         },
         "PaintedArea.draw_apart": {
             "self": core.PaintedArea(np.eye(3)[None], np.ones((1, 3))),
             "count": 2,
             "spacing": 0.1,
             "seed": 1,
+            "room": 0.1,
         },
         "Crowd.start_move": {"self": core.Crowd(made, 3), "player": 1, "move": 1},
         "Crowd.release_move": {"self": core.Crowd(made, 3), "player": 1, "move": 1},

@@ -14,21 +14,30 @@ from ..errors import core_errors
 from ..jobs import Report
 
 if TYPE_CHECKING:
-    from fragmotion_core import Doubles, Path, Player
+    from fragmotion_core import Doubles, PaintedArea, Path, Player
 
-_RADIUS = 0.4  # m of a 1.8 m character, which each has to itself
+RADIUS = 0.4
+"""m of a 1.8 m character, which each has to itself, and off the edge of an area."""
+
 _NO_ROOM = 1e-6  # of one who pays no heed
 
 Spot = tuple[float, float, float]
 
 
 class Together:
-    """What the members share: the outlines of what stands around, m, how long they go, s, how paths are followed, and
-    whether they heed each other at all."""
+    """What the members share: the outlines of what stands around, m, how long they go, s, how paths are followed,
+    whether they heed each other at all, and the area that none leaves."""
 
-    def __init__(self, obstacles: Sequence[Any], seconds: float, follow: dict[str, Any], heeds: bool = True) -> None:
-        self._obstacles, self._seconds, self._follow = obstacles, seconds, follow
-        self._radius = _RADIUS if heeds else _NO_ROOM
+    def __init__(
+        self,
+        obstacles: Sequence[Any],
+        seconds: float,
+        follow: dict[str, Any],
+        heeds: bool = True,
+        area: PaintedArea | None = None,
+    ) -> None:
+        self._obstacles, self._seconds, self._follow, self._area = obstacles, seconds, follow, area
+        self._radius = RADIUS if heeds else _NO_ROOM
         self._members: list[Member] = []
         self._traces: list[Doubles] = []
 
@@ -52,6 +61,7 @@ class Together:
                     rate=rate,
                     progress=report,
                     radius=self._radius / members[0].player_scale,
+                    area=self._area,
                     **self._follow,
                 )
         return self._traces[number]

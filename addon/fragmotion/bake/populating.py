@@ -31,12 +31,12 @@ from ..recordings.traces import make_trace
 from ..rig.belongings import belongings
 from ..settings.bake_fields import MIXED, BakeFields
 from . import baking
-from .crowd import Together
+from .crowd import RADIUS, Together
 from .performing import origin_frame
 from .targets import Target, write
 
 if TYPE_CHECKING:
-    from fragmotion_core import Character
+    from fragmotion_core import Character, PaintedArea
 
 Spot = tuple[float, float, float]
 """Where a copy stands as the original sees it on the ground: x, y (m) and how far it is turned (rad)."""
@@ -161,7 +161,9 @@ def _keep_clear(
         for each in bakes:
             each.walk = together.add(each.walk.path, each.walk.path.start, each.moved)
     elif settings.layout == "AREA":
-        _go_about(context, chosen.area, settings, bakes, Together(stands, settings.seconds, {}, settings.clear))
+        area = painted_area(context, chosen.area)
+        together = Together(stands, settings.seconds, {}, settings.clear, area)
+        _go_about(area, chosen.area.name, settings, bakes, together, RADIUS / character.space.scale)
     else:
         together, start = Together(stands, settings.seconds, {}), origin_frame(obj)
         for each in bakes:
@@ -170,17 +172,13 @@ def _keep_clear(
 
 
 def _go_about(
-    context: bpy.types.Context,
-    mesh: Any,
-    settings: Any,
-    bakes: Sequence[SimpleNamespace],
-    together: Together,
+    area: PaintedArea, name: str, settings: Any, bakes: Sequence[SimpleNamespace], together: Together, room: float
 ) -> None:
-    """Let them go from place to place on an area."""
-    area, random = painted_area(context, mesh), Random(settings.seed)
-    starts = places_apart(area, mesh.name, len(bakes), settings.spacing, settings.seed)
+    """Let them go from place to place on the area of that name, so many m off its edge."""
+    random = Random(settings.seed)
+    starts = places_apart(area, name, len(bakes), settings.spacing, settings.seed, room)
     goals = math.ceil(settings.seconds / _GOAL)
-    places = area.draw_ways(starts, goals, settings.seed + 1)
+    places = area.draw_ways(starts, goals, settings.seed + 1, room)
     for each, start, wished in zip(bakes, starts, places):
         seen = each.moved.inverted()
         x, y, _ = seen @ Vector(start)

@@ -385,15 +385,18 @@ class Session:
         )
 
     @property
+    def news(self) -> str:
+        """What the user was told over the view just now, empty where that is a while ago."""
+        return self._news if self._steps < self._news_until else ""
+
+    @property
     def _title(self) -> str:
         """What goes on, in words."""
         if self.punch is not None:
             return self.punch.words
         if self.recording is not None:
             return f"Recording {self.recording.seconds:.1f} s"
-        if self._steps < self._news_until:
-            return self._news
-        return self.playing or f"Driving {self.armature}"
+        return self.news or self.playing or f"Driving {self.armature}"
 
     @property
     def _go_keys(self) -> str:

@@ -41,10 +41,10 @@ def painted_area(context: bpy.types.Context, obj: bpy.types.Object | None) -> Pa
     return area
 
 
-def places_apart(area: PaintedArea, name: str, count: int, spacing: float, seed: int) -> Doubles:
-    """So many places [count,3] on the area of that name, no two nearer than the spacing; UserError where there is no
-    room for them."""
-    found: Doubles = area.draw_apart(count, spacing, seed)
+def places_apart(area: PaintedArea, name: str, count: int, spacing: float, seed: int, room: float) -> Doubles:
+    """So many places [count,3] on the area of that name, no two nearer than the spacing, and at its edge only where
+    there is no room else; UserError where there is none for them."""
+    found: Doubles = area.draw_apart(count, spacing, seed, room)
     if len(found) < count:
         raise UserError(
             f"'{name}' has room for {len(found)} of {count} copies {spacing:g} m apart: let there be fewer, or "

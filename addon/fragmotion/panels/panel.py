@@ -74,13 +74,17 @@ class FRAGMOTION_UL_actions(bpy.types.UIList):
         _data: object,
         item: bpy.types.Action,
         _icon: int,
-        _active_data: object,
-        _active_name: str,
+        active_data: object,
+        active_name: str,
     ) -> None:
         row = layout.row(align=True)
         row.prop(item.fragmotion, "use", text="")
         split = row.split(factor=_NAME)
-        split.label(text=item.name.removeprefix(self.beginning), translate=False)
+        actions, chosen = bpy.data.actions, getattr(active_data, active_name)
+        if self.beginning and not (0 <= chosen < len(actions) and actions[chosen] == item):
+            split.label(text=item.name.removeprefix(self.beginning), translate=False)
+        else:
+            split.prop(item, "name", text="", emboss=False)  # a double click renames it
         length = split.row()
         length.alignment = "RIGHT"
         length.label(text=_length(seconds_of(item, context.scene)), translate=False)

@@ -36,7 +36,8 @@ def _draw_source(column: bpy.types.UILayout, settings: PathSettings) -> None:
     column.prop(settings, "source")
     if settings.source == "CURVE":
         row = column.row(align=True)
-        row.prop(settings, "curve")
+        row.use_property_split = False  # a name takes all of the width
+        row.prop(settings, "curve", text="")
         row.operator("fragmotion.draw_path", text="" if settings.curve else "Draw", icon="GREASEPENCIL")
     elif settings.source == "COLLECTION":
         column.prop(settings, "collection")

@@ -110,9 +110,9 @@ class FRAGMOTION_PT_change(_RecordingPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, active_armature(context).fragmotion
-        row = _group(layout, context, "Edit what was asked for as curves; play it again").row(align=True)
-        row.operator("fragmotion.edit_curves", icon="GRAPH")
-        row.operator("fragmotion.play_again", icon="FILE_REFRESH")
+        group = _group(layout, context, "Edit what was asked for as curves; play it again")
+        group.operator("fragmotion.edit_curves", icon="GRAPH")
+        group.operator("fragmotion.play_again", icon="FILE_REFRESH")
         row = _group(layout, context, "Leave out a stretch, or let the next one follow").row(align=True)
         row.operator("fragmotion.cut_recording", icon="UNLINKED")
         row.operator("fragmotion.glue_recording", icon="LINKED")
@@ -152,7 +152,7 @@ class FRAGMOTION_PT_bake_options(SubPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         obj = active_armature(context)
-        draw_bake(self.layout, obj.fragmotion.bake, obj)
+        draw_bake(self.layout, obj.fragmotion.bake, obj, is_named=True)
         draw_bake_options(self.layout, obj.fragmotion.bake)
 
 

@@ -63,8 +63,8 @@ def _draw_controls(layout: bpy.types.UILayout, settings: BuildFields) -> None:
     row.prop(settings, "jump", toggle=True)
 
 
-def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.Object) -> None:
-    """What a bake is of, and what it goes to."""
+def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.Object, is_named: bool = False) -> None:
+    """What a bake is of, and what it goes to; `is_named`: the recording's name stands elsewhere."""
     layout = aligned(layout)
     source = baked_source(obj, settings)
     if source == settings.trace_source:
@@ -74,7 +74,8 @@ def draw_bake(layout: bpy.types.UILayout, settings: BakeFields, obj: bpy.types.O
         layout.label(text="None yet: simulated", icon="INFO")
         _draw_player(layout, settings)
     if source == "RECORDING":
-        _draw_recording(layout, obj, settings)
+        if not is_named:
+            _draw_recording(layout, obj, settings)
         layout.prop(settings, "as_recorded")
     if plays_anew(settings, obj):
         layout.prop(settings, "place")

@@ -10,10 +10,10 @@ from ..paths.lines import TYPES
 from .common import length_field, seed_field
 
 _SOURCES = (
-    ("CURVE", "Curve or Stroke", "A curve, or the first stroke of a Grease Pencil object"),
+    ("CURVE", "A Line", "A curve, or the first stroke of a Grease Pencil object"),
     (
         "SELECTED",
-        "Selected Empties",
+        "Empties",
         "A smooth line through the empties that are selected, in the order of their names",
     ),
     ("COLLECTION", "Collection", "A smooth line through the objects of a collection, in the order of their names"),

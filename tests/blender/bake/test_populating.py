@@ -274,8 +274,7 @@ def test_a_crowd_goes_about_on_what_is_painted(addon: ModuleType, obj: bpy.types
     copies = populate(layout="AREA", count=6, seconds=10.0, spacing=1.0)
     places = hips_over_time(copies, range(1, 240, 4))
     assert nearest(places) > 0.4
-    assert places[0, :, 0].min() > -0.3 and places[..., 0].min() > -1.5
-    assert np.abs(places).max() < 6.5
+    assert places[..., 0].min() > 0 and np.abs(places).max() < 5, "none leaves it"
     assert (np.linalg.norm(np.diff(places, axis=0), axis=-1).sum(0) > 3).all(), "all walk"
     with pytest.raises(RuntimeError, match="has room for"):
         populate(layout="AREA", count=300, spacing=2.0)

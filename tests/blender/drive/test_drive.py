@@ -253,6 +253,19 @@ def test_the_figures_say_what_is_asked_and_done(addon: ModuleType, session: Modu
     assert dict(figures.rows(driven.shown()))["Updates"] == "5 a second, too slow: slow motion"
 
 
+def test_the_box_is_as_wide_as_all_that_it_says(
+    session: ModuleType, obj: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    figures = import_module(f"{session.__package__}.hud.figures")
+    monkeypatch.setattr(figures.blf, "dimensions", lambda _font, text: (10.0 * len(text), 10.0))
+    driven = start(session, obj)
+    driven.update(1 / RATE)
+    free = import_module(f"{session.__package__}.hud.views").Free(0, 0, 1000, 800)
+    shown = driven.shown()
+    assert figures.lay_out(shown._replace(title="Kept"), free, 1.0).width < 600
+    assert figures.lay_out(shown._replace(title="K" * 70), free, 1.0).width > 700
+
+
 def test_details_say_how_well_it_is_done(addon: ModuleType, session: ModuleType, obj: bpy.types.Object) -> None:
     figures = import_module(f"{session.__package__}.hud.figures")
     obj.fragmotion.drive.show_details = True

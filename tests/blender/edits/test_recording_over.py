@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from types import ModuleType
 from typing import Any
 
@@ -11,6 +12,7 @@ import driving
 import numpy as np
 import pytest
 from driving import go_on
+from test_modal_operators import Pressed
 
 
 def start(session: ModuleType, obj: bpy.types.Object, begin: float, end: float) -> Any:
@@ -136,6 +138,26 @@ def test_the_view_says_whose_turn_it_is(session: ModuleType, obj: bpy.types.Obje
     assert not driven.is_done
     go_on(driven, 0.2)
     assert driven.is_done
+
+
+def test_what_was_kept_is_said_again_where_the_drive_ends_right_after(
+    addon: ModuleType, session: ModuleType, obj: bpy.types.Object, recording: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What an operator reports before it ends is seen nowhere but in the Info editor."""
+    operators = import_module(f"{addon.__name__}.operators.directing.drive")
+    driven = start(session, obj, 9.7, 11.7)
+    go_on(driven, 2)
+    driven.inputs.keyboard.press("W")
+    go_on(driven, 2.2)
+    assert not driven.is_done and driven.shown().title.startswith("Kept: 'Stroll' is recorded over")
+    driven.inputs.messages.clear()  # told while it went on
+    go_on(driven, 0.2)
+    assert driven.is_done
+    session.stop()
+    monkeypatch.setattr(operators, "rest", lambda _: None)
+    pressed = Pressed(operators.FRAGMOTION_OT_drive, _session=driven, _timer=None)
+    assert pressed._end() == {"FINISHED"}
+    assert pressed.told == [({"INFO"}, "Kept: 'Stroll' is recorded over from 9.7 s to 11.7 s")]
 
 
 @pytest.mark.parametrize(("begin", "end"), [(-3.0, 2.0), (12.5, 14.0)])

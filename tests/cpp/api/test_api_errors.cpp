@@ -167,8 +167,9 @@ TEST(ApiErrors, SayWhichArgumentIsWrong) {
   expect_fails(fragmotion_player_step(player, &input, 0), size, "is 1");
   input = fragmotion_input();
 
-  const FragmotionPlace nowhere{{kNan, 0, 0}, 0}, far{{0, 2e9F, 0}, 0}, dizzy{{0, 0, 0}, kEndless}, here{{0, 0, 0}, 0};
-  for (const FragmotionPlace& place : {nowhere, far, dizzy}) {
+  const FragmotionPlace nowhere{{kNan, 0, 0}, 0}, high{{0, kNan, 0}, 0}, beside{{5, 0, kNan}, 0};
+  const FragmotionPlace far{{0, 2e9F, 0}, 0}, dizzy{{0, 0, 0}, kEndless}, here{{0, 0, 0}, 0};
+  for (const FragmotionPlace& place : {nowhere, high, beside, far, dizzy}) {
     expect_fails(fragmotion_player_reset(player, &place, 0), wrong, "place");
     expect_fails(fragmotion_player_move_to(player, &place), wrong, "place");
   }
@@ -184,7 +185,8 @@ TEST(ApiErrors, SayWhichArgumentIsWrong) {
   }
   expect_fails(fragmotion_player_look(nullptr, FRAGMOTION_LOOK_AHEAD, nullptr), wrong, "null");
   expect_fails(fragmotion_player_look(player, FRAGMOTION_LOOK_AT, nullptr), wrong, "null");
-  expect_fails(fragmotion_player_look(player, FRAGMOTION_LOOK_AT, nowhere.position), wrong, "not a number");
+  for (const FragmotionPlace& place : {nowhere, high, beside})
+    expect_fails(fragmotion_player_look(player, FRAGMOTION_LOOK_AT, place.position), wrong, "not a number");
   expect_fails(fragmotion_player_look(player, FRAGMOTION_LOOK_AT, far.position), wrong, "farther");
   expect_fails(fragmotion_player_reach(nullptr, FRAGMOTION_LEFT_HAND, nullptr), wrong, "null");
   const FragmotionReach none{{0, 0, std::nanf("")}, 0, 1}, heavy{{0, 0, 0}, 0, 1.5F}, odd{{0, 0, 0}, 2, 1};

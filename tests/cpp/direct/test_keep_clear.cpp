@@ -162,6 +162,56 @@ TEST(KeepClear, GoesAroundWhatStandsThereAndWhoStandsAtTheEndOfHisTrace) {
   EXPECT_LT((places[0].back() - Vector2{0.3, 8}).norm(), 0.3);
 }
 
+// How far the one that is furthest out is outside of an area.
+double furthest_out(const AreaEdge& area, const std::vector<std::vector<Vector2>>& places) {
+  double out = 0;
+  for (const std::vector<Vector2>& each : places) {
+    for (const Vector2& place : each) out = std::max(out, -area.room(place));
+  }
+  return out;
+}
+
+// Two arms of 2 m that meet at a right angle, and what eight do there who are told to go elsewhere, too.
+TEST(KeepClear, LeavesNoAreaAndComesBackToIt) {
+  const AreaEdge area(
+      {{{{0, 0}, {8, 0}, {8, 2}}}, {{{0, 0}, {8, 2}, {2, 2}}}, {{{0, 0}, {2, 2}, {2, 8}}}, {{{0, 0}, {2, 8}, {0, 8}}}});
+  const auto played = [&](const AreaEdge* within) {
+    Crowded crowd;
+    for (int i = 0; i < 8; ++i) {
+      const CharacterFrame origin{i % 2 == 0 ? Vector2{1, 1.0 + 0.8 * i} : Vector2{1.5 + 0.8 * i, 1}, 0.9 * i};
+      CrowdMember& member = crowd.add(origin, i == 2 ? 1.1 : 1);
+      if (i < 6) {
+        for (const Vector2& goal : {Vector2{7, 0.6}, Vector2{1, 1}, Vector2{0.7, 7.4}, Vector2{9, 9}})
+          member.goals.emplace_back(Eigen::Rotation2Dd(-origin.heading) * (goal - origin.position) / member.scale);
+      } else {
+        member.wanted = simulate_trace("walker", 20, static_cast<std::uint64_t>(i), ControlSpace());
+      }
+    }
+    CrowdOptions options;
+    options.seconds = 20;
+    options.rate = kCrowdRate;
+    options.area = within;
+    return crowd.replay(keep_clear(crowd.members, options), frame_count(200, kCrowdRate));
+  };
+  const auto kept = played(&area);
+  EXPECT_GT(furthest_out(area, played(nullptr)), 1);
+  EXPECT_LT(furthest_out(area, kept), 0.05);
+  EXPECT_GT(nearest_of(kept), 0.4);
+  double way = 0;
+  for (const Vector2& place : kept[0]) way = std::max(way, (place - Vector2{1, 1}).norm());
+  EXPECT_GT(way, 5) << "it walks";
+}
+
+TEST(KeepClear, GoesBackToTheAreaThatItStandsBeside) {
+  const AreaEdge area({{{{2, -3}, {8, -3}, {8, 3}}}, {{{2, -3}, {8, 3}, {2, 3}}}});
+  Crowded crowd;
+  crowd.add({{0, 0}, 1}).wanted = Trace(80);
+  CrowdOptions options;
+  options.rate = kCrowdRate;
+  options.area = &area;
+  EXPECT_GT(area.room(crowd.replay(keep_clear(crowd.members, options), frame_count(80, kCrowdRate))[0].back()), 0);
+}
+
 TEST(KeepClear, RefusesWhatIsNone) {
   Crowded crowd;
   crowd.add({}).goals = {{0, 4}};

@@ -123,6 +123,38 @@ TEST(PaintedArea, WaysAreOnThePaint) {
   EXPECT_EQ(area.draw_ways(same, starts, kCount), places);
 }
 
+TEST(PaintedArea, WaysKeepOffTheEdgeWhereTheyDoNotBeginAtIt) {
+  const PaintedArea area(ring());
+  Random random(11);
+  constexpr double kRoom = 0.6;
+  constexpr int kCount = 40;
+  const std::vector<Vector3> starts{{1, 1, 0}, {0.1, 3, 0}}, places = area.draw_ways(random, starts, kCount, kRoom);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vector2 from = (i % kCount == 0 ? starts[i / kCount] : places[i - 1]).head<2>(), to = places[i].head<2>();
+    EXPECT_GE(area.edge().room(to), kRoom);
+    EXPECT_GE(area.edge().room(from, to), i == kCount ? 0.1 : kRoom);
+  }
+}
+
+TEST(PaintedArea, WaysThroughWhatIsNarrowKeepToTheMiddle) {
+  const PaintedTriangle left{{Vector3{0, 0, 0}, Vector3{0.4, 0, 0}, Vector3{0, 8, 0}}, {1, 1, 1}},
+      right{{Vector3{0.4, 0, 0}, Vector3{0.4, 8, 0}, Vector3{0, 8, 0}}, {1, 1, 1}};
+  const PaintedArea area({left, right});
+  Random random(2);
+  for (const Vector3& place : area.draw_ways(random, {{0.2, 1, 0}}, 20, 0.4)) {
+    EXPECT_GT(area.edge().room(place.head<2>()), 0.12) << "of 0.2 in the middle";
+  }
+}
+
+TEST(PaintedArea, PlacesKeepOffTheEdgeWhileThereIsRoom) {
+  const PaintedArea area(ring());
+  Random random(4);
+  for (const Vector3& place : area.draw_apart(random, 8, 1, 0.8)) EXPECT_GE(area.edge().room(place.head<2>()), 0.8);
+  const std::vector<Vector3> many = area.draw_apart(random, 60, 0.4, 0.95);
+  ASSERT_EQ(many.size(), 60U);
+  EXPECT_LT(area.edge().room(many.back().head<2>()), 0.95);
+}
+
 TEST(PaintedArea, WhoStandsBesideThePaintStays) {
   Random random(1);
   const Vector3 beside{50, 0, 0};

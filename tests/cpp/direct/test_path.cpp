@@ -73,6 +73,7 @@ TEST(Path, RefusesWhatIsNone) {
   EXPECT_THROW(Path({{1, 1}}, true), std::invalid_argument);
   EXPECT_THROW(Path({{1, 1}, {1, 1}, {1, 1}}), std::invalid_argument) << "vertical: no length on the ground";
   EXPECT_THROW(Path({{1, nan}, {1, 1}}), std::invalid_argument);
+  EXPECT_THROW(Path({{nan, 1}, {1, 1}}), std::invalid_argument);
   EXPECT_THROW(Path({{1, infinity}, {1, 1}}), std::invalid_argument);
   EXPECT_THROW(Path({{0, 0}, {1, 1}}, false, {1}), std::invalid_argument);
   EXPECT_THROW(Path({{0, 0}, {1, 1}}, false, {1, 0}), std::invalid_argument);

@@ -52,6 +52,13 @@ TEST(FootLock, KeepsAPlantedFootWhereItIs) {
   EXPECT_FALSE(body.lock.locked(1));
 }
 
+TEST(FootLock, KeepsTheEndOfALegWithoutAFootWhereItIs) {
+  Carried body{on_shins()};
+  const Vector3 place = body.shown(0, true);
+  for (int f = 1; f < 30; ++f) EXPECT_LT((body.shown(f, true) - place).head<2>().norm(), 5e-3) << f;
+  EXPECT_TRUE(body.lock.locked(0));
+}
+
 TEST(FootLock, EditsStepsByTheFeetsPlacesFromTheHipsAndAShift) {
   Carried body;
   WorldPose pose{load_vector(body.clip.root_positions.data()), 0.5, {}};

@@ -39,6 +39,24 @@ TEST(RigClip, PutsTheHipsWhereTheObjectMovesThem) {
   }
 }
 
+// As exporters leave it; the mean is what its bones are scaled by.
+TEST(RigClip, PutsTheHipsWhereAnObjectMovesThemThatIsScaledALittleUnevenly) {
+  Armature armature = random_armature(8);
+  const Eigen::Vector4d uneven(1.001, 1.001, 0.998, 1);
+  const Matrix4 world = matrix_at(armature.world, 0) * uneven.asDiagonal();
+  armature.world.clear();
+  append(world, armature.world);
+  const Rig rig(armature);
+  const Channels channels = random_channels(12, 4, 9);
+  const Clip clip = clip_of(rig, channels);
+  for (int f = 0; f < 4; ++f) {
+    const Matrix4 hips = world * blender_pose(armature, &channels.locations[36 * f], &channels.rotations[48 * f])[5];
+    EXPECT_LT((load_vector(&clip.root_positions[3 * f]) - hips.topRightCorner<3, 1>()).norm(), 1e-12);
+  }
+  const Channels back = rig.channels(clip.frames, clip.root_positions.data(), clip.rotations.data());
+  expect_same_motion(clip_of(rig, back), clip, 1e-9);
+}
+
 TEST(RigClip, DropsTheScaleOfMatrices) {
   const Armature armature = random_armature(11);
   const Rig rig(armature);

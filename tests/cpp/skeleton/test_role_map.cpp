@@ -300,6 +300,29 @@ TEST(RoleMap, AFootThatCarriesNoSkinGivesWayToTheOneBesideItThatDoes) {
 }
 
 // As Quaternius' dinosaurs have them, whose arms are called legs.
+// Legs alone are no body that its shape tells; it faces -y. Tips that go on down the leg tell nothing.
+TEST(RoleMap, TellsSidesByTheFeetWhereNamesHaveThemTheWrongWayRound) {
+  const auto left_foot = [](double side, const Vector3& tip) {
+    Skeleton s;
+    const auto add = [&](const std::string& name, int parent, const Vector3& offset, const Vector3& tip) {
+      s.names.push_back(name), s.parents.push_back(parent), s.offsets.push_back(offset), s.tips.push_back(tip);
+    };
+    add("hips", -1, {0, 0, 1}, {0, 0, 0.2});
+    add("head", 0, {0, 0, 0.5}, {0, 0, 0.2});
+    for (const std::string end : {".L", ".R"}) {
+      const int thigh = s.size();
+      add("thigh" + end, 0, {end == ".L" ? side : -side, 0, 0}, {0, 0, -0.5});
+      add("shin" + end, thigh, {0, 0, -0.5}, {0, 0, -0.4});
+      add("foot" + end, thigh + 1, {0, 0, -0.4}, tip);
+    }
+    s.rest_rotations.assign(s.size(), Quaternion::Identity());
+    return named_bones(s, find_role_map(s)).at("left_foot");
+  };
+  EXPECT_EQ(left_foot(0.1, {0, -0.2, -0.1}), "foot.L");
+  EXPECT_EQ(left_foot(-0.1, {0, -0.2, -0.1}), "foot.R");
+  EXPECT_EQ(left_foot(-0.1, {0, -0.1, -0.2}), "foot.L");
+}
+
 TEST(RoleMap, OfABeastWithHindLegsItsOtherLegsAreNoLegs) {
   Skeleton skeleton = dog();
   skeleton.roles = {};

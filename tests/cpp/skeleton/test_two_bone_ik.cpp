@@ -86,6 +86,19 @@ TEST(Leg, HasAUnitHingeWhereTheThighsAreInOnePlace) {
   }
 }
 
+TEST(Leg, EndsAtTheTipOfAShinThatIsItsFoot) {
+  const Skeleton skeleton = on_shins();
+  for (const Leg& leg : resting_legs(skeleton)) {
+    ASSERT_TRUE(leg.exists());
+    EXPECT_FALSE(leg.has_foot());
+    EXPECT_EQ(leg.knee, leg.foot);
+    EXPECT_EQ(leg.ankle, skeleton.tips[leg.foot]);
+  }
+  Skeleton stumps = skeleton;
+  stumps.tips[stumps.roles.left_foot] *= 1e-6;
+  EXPECT_FALSE(resting_legs(stumps)[0].exists());
+}
+
 TEST(Reach, StaysANumberWhereALegIsFoldedUpFlat) {
   Skeleton skeleton = humanoid();
   for (const char* bone : {"shin.L", "foot.L"}) skeleton.offsets[skeleton.find(bone)] = {0, 0, -0.43};
@@ -104,8 +117,7 @@ TEST(Reach, StaysANumberWhereALegIsFoldedUpFlat) {
   }
 }
 
-TEST(Reach, BringsTheFootThereAndLeavesItsRotation) {
-  const Skeleton skeleton = humanoid();
+void bring_the_foot_there(const Skeleton& skeleton) {
   const Kinematics kinematics(skeleton);
   const Clip clip = gait_clip({1.2, 0, 0});
   const Legs legs = find_legs(kinematics, {clip});
@@ -115,7 +127,7 @@ TEST(Reach, BringsTheFootThereAndLeavesItsRotation) {
     const int f = random.below(clip.frames);
     PosedBones posed(skeleton.size()), after(skeleton.size());
     world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
-    const Vector3 foot = posed.heads[leg.foot], hip = posed.heads[leg.thigh];
+    const Vector3 foot = ankle_of(leg, posed), hip = posed.heads[leg.thigh];
     const Vector3 wanted = hip + (0.7 + 0.2 * random.uniform()) * (foot - hip) +
                            0.1 * Vector3{random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
     const auto begin = clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size() * f;
@@ -123,11 +135,15 @@ TEST(Reach, BringsTheFootThereAndLeavesItsRotation) {
     reach(skeleton, leg, posed, wanted, rotations.data());
     kinematics.world(load_vector(&clip.root_positions[3 * f]), rotations.data(), after.heads.data(),
                      after.rotations.data());
-    EXPECT_LT((after.heads[leg.foot] - wanted).norm(), 1e-6) << n;
-    EXPECT_GT(std::abs(after.rotations[leg.foot].dot(posed.rotations[leg.foot])), 1 - 1e-9);
+    EXPECT_LT((ankle_of(leg, after) - wanted).norm(), 1e-6) << n;
+    const double turned = std::abs(after.rotations[leg.foot].dot(posed.rotations[leg.foot]));
+    EXPECT_TRUE(!leg.has_foot() || turned > 1 - 1e-9) << n;
     EXPECT_LT((after.heads[leg.thigh] - hip).norm(), 1e-12);
   }
 }
+
+TEST(Reach, BringsTheFootThereAndLeavesItsRotation) { bring_the_foot_there(humanoid()); }
+TEST(Reach, BringsTheEndOfALegWithoutAFootThere) { bring_the_foot_there(on_shins()); }
 
 // A standing leg whose knee is bent further by an angle, before it reaches for where its foot is, and after.
 struct BentLeg {

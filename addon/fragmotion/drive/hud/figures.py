@@ -79,8 +79,9 @@ def lay_out(shown: Shown, free: Free, scale: float) -> Box:
     """The display in the upper left corner of what is free of a view, as wide as its text."""
     table = rows(shown)
     versions.set_font_size(_FONT, _SIZE * scale)
-    widest = max(blf.dimensions(_FONT, value)[0] for _, value in table)
-    width = max((_COLUMN + 2 * _INSET) * scale + widest, _WIDTH * scale)
+    values = max(blf.dimensions(_FONT, value)[0] for _, value in table)
+    widest = max(_COLUMN * scale + values, blf.dimensions(_FONT, shown.title)[0])
+    width = max(2 * _INSET * scale + widest, _WIDTH * scale)
     left, top = free.left + _MARGIN * scale, free.top - (_MARGIN + 50) * scale
     return Box(left, top, width, shown.title, _RED if shown.recording else _VALUE, table, _LINE * scale)
 

@@ -80,6 +80,9 @@ class _Hearing(Woken):
     def _end(self) -> set[str]:
         """The drive is over: say how it ended, where that is not said yet."""
         rest(self._timer)
+        news = self._session.news  # which nobody could read yet: Blender shows no report before an operator ends
+        if news and news not in self._session.inputs.messages:
+            self._session.inputs.messages.append(news)
         self._tell()
         preferences.end_first_steps(bpy.context)
         if self._session.farewell:

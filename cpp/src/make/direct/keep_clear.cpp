@@ -9,6 +9,7 @@
 #include "base/ranges.hpp"
 #include "control/trace_frames.hpp"
 #include "direct/make_way.hpp"
+#include "runtime/player_constants.hpp"
 
 namespace fragmotion {
 namespace {
@@ -17,9 +18,10 @@ constexpr double kControl = 1 / kTraceRate;        // s
 constexpr double kNearGoal = 0.5;                  // m of a 1.8 m character: what is nearer than that is no goal
 constexpr double kGoalLate = 1.5, kGoalLater = 3;  // times as long as planned, and s more: then a goal is given up
 constexpr double kMostScale = 1e6;
-constexpr double kGoesOn = 0.2;  // s until a body can do otherwise, in which it goes on: it takes so much more room
-constexpr int kForgets = 10;     // controls after which it forgets on which side it went past something
-constexpr int kGlances = 8;      // at the way that it would go, for what stands there
+constexpr double kGoesOn = 0.2;   // s until a body can do otherwise, in which it goes on: it takes so much more room
+constexpr double kHeeded = 1e-9;  // m/s: by less than that nothing is in the way
+constexpr int kForgets = 10;      // controls after which it forgets on which side it went past something
+constexpr int kGlances = 8;       // at the way that it would go, for what stands there
 
 // The place of an outline that is next to another, and whether that is inside.
 struct Beside {
@@ -84,33 +86,53 @@ class Detour {
   int side_ = 0, clear_ = 0;  // to the left: 1, to the right: -1; controls since something was on the way
 };
 
+// By how much a velocity is on the side of a plane where it may be, m/s.
+double room_in(const HalfPlane& plane, const Vector2& velocity) { return dot(velocity - plane.point, plane.normal); }
+
 // A member on its way.
 class Heeding {
  public:
-  Heeding(const CrowdMember& member, std::size_t controls)
-      : member_(&member), controls_(member.wanted.empty() ? controls : member.wanted.size()) {
+  Heeding(const CrowdMember& member, const CrowdOptions& options)
+      : member_(&member),
+        options_(&options),
+        controls_(member.wanted.empty() ? static_cast<std::size_t>(std::lround(options.seconds * kTraceRate))
+                                        : member.wanted.size()) {
     if (member.path) follower_.emplace(space(), *member.path, member.options);
   }
 
   bool is_done() const { return trace_.size() >= controls_; }
   std::size_t controls() const { return controls_; }
 
-  Walker walker(double radius) const {
+  Walker walker() const {
+    const double radius = options_->radius;
     const CharacterFrame at = player().frame();
     const Vector2 velocity = Eigen::Rotation2Dd(at.heading) * player().commanded_velocity();
     if (is_done()) return {place(at.position), Vector2::Zero(), radius, false};
     return {place(at.position), way(velocity), radius + kGoesOn * way(velocity).norm(), true};
   }
 
-  // The next control, clear of all.
-  void decide(const Clearance& clearance, const CrowdOptions& options) {
+  // The next control, clear of all: things count where they are not heeded without being asked to.
+  void decide(Clearance clearance, std::vector<HalfPlane> things) {
     Control control = wanted();
-    const double most = std::max(std::hypot(control.x, control.y), space().walk());
+    const double most = member_->scale * std::max(std::hypot(control.x, control.y), space().walk());
     const Eigen::Rotation2Dd turned(player().frame().heading);
     const Vector2 asked = way(turned * Vector2{control.x, control.y}),
-                  meant = detour_.around(options.obstacles, place(player().frame().position), asked, options.radius);
-    const Vector2 clear = back(way_round_.choose(clearance, meant, member_->scale * most, kControl));
-    const Vector2 seen = turned.inverse() * clear;
+                  meant = detour_.around(options_->obstacles, here(), asked, options_->radius);
+    add_edge(things);
+    WayRound way_round = way_round_;
+    Vector2 clear = way_round.choose(clearance, meant, most, kControl);
+    for (int added = 0; added < Clearance::kMostOthers; ++added) {
+      const auto worst = std::min_element(things.begin(), things.end(), [&](const HalfPlane& a, const HalfPlane& b) {
+        return room_in(a, clear) < room_in(b, clear);
+      });
+      if (worst == things.end() || room_in(*worst, clear) > -kHeeded) break;
+      clearance.add(*worst);
+      things.erase(worst);
+      way_round = way_round_;
+      clear = way_round.choose(clearance, meant, most, kControl);
+    }
+    way_round_ = way_round;
+    const Vector2 seen = turned.inverse() * back(clear);
     control.x = seen.x();
     control.y = seen.y();
     trace_.push_back(control);
@@ -129,6 +151,34 @@ class Heeding {
     return Eigen::Rotation2Dd(-member_->origin.heading) * theirs / member_->scale;
   }
   Vector2 place(const Vector2& own) const { return member_->origin.position + way(own); }
+  Vector2 here() const { return place(player().frame().position); }
+
+  // The speed from which a body stops in so many m, if it goes on before it gets slower.
+  double stopping_in(double room) const {
+    const double slower = member_->scale * RootLimits{}.acceleration / space().scale();
+    return slower * (std::sqrt(kGoesOn * kGoesOn + 2 * room / slower) - kGoesOn);
+  }
+
+  // Towards the edge it goes no faster than it can stop before it, and past corners; from beyond it comes back.
+  void add_edge(std::vector<HalfPlane>& things) const {
+    if (options_->area == nullptr) return;
+    const Walker one = walker();
+    const bool within = options_->area->holds(one.place);
+    const AreaEdge::Beside beside = options_->area->beside(one.place);
+    for (const Vector2& next : beside.across) {
+      const Vector2 away = one.place - next;
+      const double distance = away.norm();
+      if (distance == 0) continue;
+      const Vector2 inward = (within ? 1 : -1) / distance * away;
+      const double speed = within ? -stopping_in(std::max(distance - options_->radius, 0.0))
+                                  : std::min(stopping_in(distance + options_->radius), member_->scale * space().walk());
+      things.push_back({speed * inward, inward});
+    }
+    for (const Vector2& corner : beside.corners) {
+      const double room = std::min(one.radius, (corner - one.place).norm());
+      things.push_back(clear_of({one.place, one.velocity, room}, {corner, Vector2::Zero(), 0, false}, kControl));
+    }
+  }
 
   Control wanted() {
     if (!member_->wanted.empty()) return member_->wanted[trace_.size()];
@@ -144,13 +194,19 @@ class Heeding {
     follower_.reset();
     for (; next_ < member_->goals.size() && !follower_; ++next_) {
       const Vector2 here = player().frame().position, goal = member_->goals[next_];
-      if ((goal - here).norm() * space().scale() < kNearGoal) continue;
+      if ((goal - here).norm() * space().scale() < kNearGoal || !is_open(goal)) continue;
       follower_.emplace(space(), Path({here, goal}));
       due_ = kGoalLate * follower_->seconds_left() + kGoalLater;
     }
   }
 
+  // Whether the straight way there is in the area.
+  bool is_open(const Vector2& goal) const {
+    return options_->area == nullptr || options_->area->room(here(), place(goal)) > 0;
+  }
+
   const CrowdMember* member_;
+  const CrowdOptions* options_;
   std::size_t controls_, next_ = 0;
   std::optional<PathFollower> follower_;
   double due_ = 0;  // s until a goal is given up
@@ -159,19 +215,18 @@ class Heeding {
   Trace trace_;
 };
 
-// Keeps one clear of what stands around, m in the crowd's world.
-void keep_off(const std::vector<std::vector<Vector2>>& obstacles, const Walker& walker, Clearance& clearance) {
-  std::vector<std::pair<double, HalfPlane>> seen;
+// What keeps one clear of what stands around, m in the crowd's world.
+std::vector<HalfPlane> keep_off(const std::vector<std::vector<Vector2>>& obstacles, const Walker& walker) {
+  std::vector<HalfPlane> seen;
   for (const std::vector<Vector2>& outline : obstacles) {
     const Beside found = beside(outline, walker.place);
     const double distance = distance_to(outline, walker.place);
-    if (distance == 0 || distance > walker.radius + MakeWay::kAhead * (1 + 2 * walker.velocity.norm())) continue;
+    if (distance == 0) continue;
     const Vector2 outward = (walker.place - found.place) / distance;
     const double room = distance - walker.radius, within = room > 0 ? MakeWay::kAhead / 2 : kControl;
-    seen.push_back({distance, {Vector2{-room / within * outward}, outward}});
+    seen.push_back({Vector2{-room / within * outward}, outward});
   }
-  std::stable_sort(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [distance, plane] : seen) clearance.add(plane);
+  return seen;
 }
 
 void check(const std::vector<CrowdMember>& members, const CrowdOptions& options) {
@@ -191,19 +246,17 @@ std::vector<Trace> keep_clear(const std::vector<CrowdMember>& members, const Cro
   std::vector<Heeding> heeding;
   std::size_t controls = 1;
   for (const CrowdMember& member : members) {
-    heeding.emplace_back(member, static_cast<std::size_t>(std::lround(options.seconds * kTraceRate)));
+    heeding.emplace_back(member, options);
     controls = std::max(controls, heeding.back().controls());
   }
   MakeWay make_way;
   std::vector<Walker> walkers(members.size());
   const auto decide = [&] {
-    for (std::size_t i = 0; i < heeding.size(); ++i) walkers[i] = heeding[i].walker(options.radius);
+    for (std::size_t i = 0; i < heeding.size(); ++i) walkers[i] = heeding[i].walker();
     make_way.look(walkers);
     for (std::size_t i = 0; i < heeding.size(); ++i) {
       if (heeding[i].is_done()) continue;
-      Clearance clearance = make_way.clearance(i, kControl);
-      keep_off(options.obstacles, walkers[i], clearance);
-      heeding[i].decide(clearance, options);
+      heeding[i].decide(make_way.clearance(i, kControl), keep_off(options.obstacles, walkers[i]));
     }
   };
   const int frames = frame_count(controls, options.rate);

@@ -6,6 +6,7 @@
 
 #include "base/progress.hpp"
 #include "control/trace.hpp"
+#include "direct/area_edge.hpp"
 #include "direct/path_follower.hpp"
 #include "runtime/player.hpp"
 
@@ -30,6 +31,7 @@ struct CrowdOptions {
   double rate = 60;     ///< Frames a second at which the traces are played.
   /// What nobody may touch: convex outlines, m in the crowd's world.
   std::vector<std::vector<Vector2>> obstacles;
+  const AreaEdge* area = nullptr;  ///< Which nobody leaves and who stands beside it goes to, m in the crowd's world.
 };
 
 /// A trace for each member, by which it keeps clear of the others and of the obstacles (make_way.hpp) and does what it

@@ -12,7 +12,6 @@ namespace fragmotion {
 namespace {
 
 constexpr int kTries = 400;        // in a row for each place that is there, until the area counts as full
-constexpr double kSeam = 1e-9;     // of a way, that rounding leaves between two triangles with a common edge
 constexpr double kFinest = 1e-12;  // of the furthest corner: a finer grid has no numbers for its cells
 
 double most_paint(const PaintedTriangle& triangle) {
@@ -61,31 +60,13 @@ class Grid {
   std::map<Cell, std::vector<Vector3>> places_;
 };
 
-// From which share of a way to which it lies over a triangle; `from` is more than `to` where it does not.
-struct Stretch {
-  double from = 0, to = 1;
-};
-
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-// M. Cyrus and J. Beck, "Generalized two- and three-dimensional clipping", Computers & Graphics 3, 1978.
-Stretch stretch_over(const PaintedTriangle& triangle, const Vector2& start, const Vector2& way) {
-  const std::array<Vector2, 3> corners{triangle.corners[0].head<2>(), triangle.corners[1].head<2>(),
-                                       triangle.corners[2].head<2>()};
-  const double turns = cross(corners[1] - corners[0], corners[2] - corners[0]);
-  Stretch stretch{0, turns == 0 ? -1.0 : 1.0};  // nothing lies over a triangle that stands upright
-  for (int corner = 0; corner < 3; ++corner) {
-    const Vector2 edge = std::copysign(1.0, turns) * (corners[(corner + 1) % 3] - corners[corner]);
-    const double inside = cross(edge, start - corners[corner]), inward = cross(edge, way);
-    if (inward > 0) {
-      stretch.from = std::max(stretch.from, -inside / inward);
-    } else if (inward < 0) {
-      stretch.to = std::min(stretch.to, -inside / inward);
-    } else if (inside < 0) {
-      return {0, -1};
-    }
+AreaEdge edge_of(const std::vector<PaintedTriangle>& triangles) {
+  std::vector<FlatTriangle> painted;
+  for (const PaintedTriangle& triangle : triangles) {
+    const auto& [a, b, c] = triangle.corners;
+    if (most_paint(triangle) > 0) painted.push_back({a.head<2>(), b.head<2>(), c.head<2>()});
   }
-  return stretch;
+  return AreaEdge(painted);
 }
 
 double furthest_of(const std::vector<PaintedTriangle>& triangles) {
@@ -107,6 +88,7 @@ PaintedArea::PaintedArea(std::vector<PaintedTriangle> triangles) : triangles_(st
     sums_.push_back(sum);
   }
   if (!(sum > 0 && std::isfinite(sum))) throw std::invalid_argument("nothing of the area is painted");
+  edge_ = edge_of(triangles_);
 }
 
 // Uniform in a triangle (R. Osada and others, "Shape distributions", ACM Transactions on Graphics 21, 2002, Sec. 4.1),
@@ -127,13 +109,18 @@ Vector3 PaintedArea::draw(Random& random) const {
   }
 }
 
-std::vector<Vector3> PaintedArea::draw_apart(Random& random, int count, double spacing) const {
+std::vector<Vector3> PaintedArea::draw_apart(Random& random, int count, double spacing, double room) const {
   std::vector<Vector3> places;
   Grid grid(std::max(spacing, kFinest * furthest_of(triangles_)));
   std::int64_t misses = 0;
-  while (static_cast<int>(places.size()) < count && misses < kTries * static_cast<std::int64_t>(places.size() + 1)) {
+  while (static_cast<int>(places.size()) < count) {
+    if (misses >= kTries * static_cast<std::int64_t>(places.size() + 1)) {
+      if (room <= 0) break;
+      room = 0;  // at the edge, too
+      misses = 0;
+    }
     const Vector3 place = draw(random);
-    if (grid.has_nearer(place, spacing)) {
+    if (grid.has_nearer(place, spacing) || (room > 0 && edge_.room(place.head<2>()) < room)) {
       ++misses;
       continue;
     }
@@ -144,37 +131,32 @@ std::vector<Vector3> PaintedArea::draw_apart(Random& random, int count, double s
   return places;
 }
 
-std::vector<Vector3> PaintedArea::draw_ways(Random& random, const std::vector<Vector3>& starts, int count) const {
+std::vector<Vector3> PaintedArea::draw_ways(Random& random, const std::vector<Vector3>& starts, int count,
+                                            double room) const {
   std::vector<Vector3> places;
   for (Vector3 place : starts) {
     for (int number = 0; number < count; ++number) {
-      for (int tries = 0; tries < kTries; ++tries) {
-        const Vector3 next = draw(random);
-        if (!is_painted_between(place, next)) continue;
-        place = next;
-        break;
-      }
+      place = draw_way(random, place, room);
       places.push_back(place);
     }
   }
   return places;
 }
 
-bool PaintedArea::is_painted_between(const Vector3& from, const Vector3& to) const {
-  const Vector2 start = from.head<2>(), way = (to - from).head<2>();
-  std::vector<Stretch> stretches;
-  for (const PaintedTriangle& triangle : triangles_) {
-    if (most_paint(triangle) == 0) continue;
-    const Stretch stretch = stretch_over(triangle, start, way);
-    if (stretch.from <= stretch.to) stretches.push_back(stretch);
+Vector3 PaintedArea::draw_way(Random& random, const Vector3& from, double room) const {
+  const Vector2 start = from.head<2>();
+  const double here = edge_.room(start), enough = std::min(room, here);
+  Vector3 best = from;
+  double most = -1;
+  for (int tries = 0; tries < kTries && here > 0 && most < enough + room; ++tries) {
+    const Vector3 next = draw(random);
+    const Vector2 end = next.head<2>();
+    const double way = edge_.room(start, end);
+    if (way <= 0) continue;
+    const double found = std::min(way, enough) + std::min(edge_.room(end), room);
+    if (found > most) most = found, best = next;
   }
-  std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
-  double reached = 0;
-  for (const Stretch& stretch : stretches) {
-    if (stretch.from > reached + kSeam) return false;
-    reached = std::max(reached, stretch.to);
-  }
-  return reached >= 1 - kSeam;
+  return best;
 }
 
 }  // namespace fragmotion

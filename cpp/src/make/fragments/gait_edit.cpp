@@ -155,8 +155,7 @@ void add_hop(const Kinematics& kinematics, const Legs& legs, Clip& clip, const H
     root[2] += rise;
     for (const Leg& leg : legs) {
       if (!leg.exists()) continue;
-      const Vector3 ankle = posed.heads[leg.foot] + tuck * Vector3::UnitZ();
-      reach(skeleton, leg, posed, ankle, rotations);
+      reach(skeleton, leg, posed, ankle_of(leg, posed) + tuck * Vector3::UnitZ(), rotations);
     }
     const Vector3 left{-std::cos(clip.headings[f]), -std::sin(clip.headings[f]), 0};
     turn_spine(skeleton, trunk, left, kFlexion * std::max(0.0, -height), rotations);

@@ -39,7 +39,7 @@ double ground_of(const Kinematics& kinematics, const Legs& legs, const std::vect
     lowest.push_back(std::numeric_limits<double>::infinity());
     for (int f = 0; f < clip.frames; ++f) {
       world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
-      for (const Leg& leg : legs) lowest.back() = std::min(lowest.back(), posed.heads[leg.foot].z());
+      for (const Leg& leg : legs) lowest.back() = std::min(lowest.back(), ankle_of(leg, posed).z());
     }
   }
   return median(std::move(lowest));

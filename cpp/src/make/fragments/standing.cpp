@@ -88,11 +88,11 @@ class Stance {
 
   void add_foot(int side, const BodyPose& body) {
     const Leg& leg = legs_[side];
-    const double ankle = posed_.heads[leg.foot].z();
-    const double height = ankle + ball(kinematics_.skeleton(), leg, posed_).z();
+    const double low = ankle_of(leg, posed_).z();
+    const double height = low + ball(kinematics_.skeleton(), leg, posed_).z();
     FlatFoot& flat = feet_[side];
     if (height >= flat.height) return;
-    flat = {height, ankle, posed_.rotations[leg.foot], Quaternion::Identity()};
+    flat = {height, low, posed_.rotations[leg.foot], Quaternion::Identity()};
     if (leg.toe >= 0) flat.toe = load_quaternion(&body.rotations[std::size_t{4} * leg.toe]);
   }
 
@@ -100,15 +100,10 @@ class Stance {
   Quaternion pointing(int side) const {
     const Leg& leg = legs_[side];
     const Vector3 arm =
-        posed_.rotations[leg.foot].conjugate() * (ball(kinematics_.skeleton(), leg, posed_) - posed_.heads[leg.foot]);
+        posed_.rotations[leg.foot].conjugate() * (ball(kinematics_.skeleton(), leg, posed_) - ankle_of(leg, posed_));
     const Vector3 points = feet_[side].rotation * arm;
     const double off = std::atan2(-points.x(), points.y()), wanted = side == 0 ? kOutward : -kOutward;
     return Quaternion{Eigen::AngleAxisd(wanted - off, Vector3::UnitZ())} * feet_[side].rotation;
-  }
-
-  double length(const Leg& leg) const {
-    return (posed_.heads[leg.knee] - posed_.heads[leg.thigh]).norm() +
-           (posed_.heads[leg.foot] - posed_.heads[leg.knee]).norm();
   }
 
   void stand_on_feet() {
@@ -116,14 +111,14 @@ class Stance {
     double lift = std::numeric_limits<double>::infinity();
     for (int side = 0; side < 2; ++side) {
       const Leg& leg = legs_[side];
-      lift = std::min(lift, feet_[side].ankle + kHipsReach * length(leg) - posed_.heads[leg.thigh].z());
+      lift = std::min(lift, feet_[side].ankle + kHipsReach * leg_length(leg, posed_) - posed_.heads[leg.thigh].z());
     }
     mean_.height += lift;
     pose(mean_);
     for (int side = 0; side < 2; ++side) {
       const Leg& leg = legs_[side];
       const Vector3 hip = posed_.heads[leg.thigh];
-      posed_.rotations[leg.foot] = pointing(side);
+      turn_to(leg, pointing(side), posed_);
       reach(kinematics_.skeleton(), leg, posed_, {hip.x(), hip.y(), feet_[side].ankle}, mean_.rotations.data());
       if (leg.toe >= 0) store_quaternion(feet_[side].toe, &mean_.rotations[std::size_t{4} * leg.toe]);
     }
@@ -172,7 +167,7 @@ class Swayer {
         scale_(standard_scale(kinematics.skeleton())),
         posed_(kinematics.bones()) {
     kinematics.world({0, 0, pose.height}, pose.rotations.data(), posed_.heads.data(), posed_.rotations.data());
-    for (int side = 0; side < legs.count(); ++side) ankles_[side] = posed_.heads[legs[side].foot];
+    for (int side = 0; side < legs.count(); ++side) ankles_[side] = ankle_of(legs[side], posed_);
   }
 
   // Adds the frame of a share of the time.

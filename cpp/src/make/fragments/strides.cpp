@@ -38,10 +38,11 @@ void Strides::change(BodyPose& body) {
     const Leg& leg = legs_[side];
     const Vector3 from = ball(kinematics_.skeleton(), leg, posed_);
     const Vector2 to = changed(side);
-    Quaternion& foot = posed_.rotations[leg.foot];
-    const Vector3 arm = foot.conjugate() * (from - posed_.heads[leg.foot]);
-    foot = foot.slerp(level, flat_[side].foot);
-    reach(kinematics_.skeleton(), leg, posed_, Vector3{to.x(), to.y(), from.z()} - foot * arm, body.rotations.data());
+    const Quaternion foot = posed_.rotations[leg.foot], level_foot = foot.slerp(level, flat_[side].foot);
+    const Vector3 arm = foot.conjugate() * (from - ankle_of(leg, posed_));
+    turn_to(leg, level_foot, posed_);
+    reach(kinematics_.skeleton(), leg, posed_, Vector3{to.x(), to.y(), from.z()} - level_foot * arm,
+          body.rotations.data());
     if (leg.toe < 0) continue;
     double* toe = &body.rotations[std::size_t{4} * leg.toe];
     store_quaternion(load_quaternion(toe).slerp(level, flat_[side].toe), toe);
@@ -82,7 +83,7 @@ void Strides::find_fore_change(const GaitCycle& cycle, double rate) {
 
 void Strides::find_flat(int side, const BodyPose& body) {
   const Leg& leg = legs_[side];
-  const double height = posed_.heads[leg.foot].z() + ball(kinematics_.skeleton(), leg, posed_).z();
+  const double height = ankle_of(leg, posed_).z() + ball(kinematics_.skeleton(), leg, posed_).z();
   if (height >= flat_[side].height) return;
   flat_[side] = {height, posed_.rotations[leg.foot], Quaternion::Identity()};
   if (leg.toe >= 0) flat_[side].toe = load_quaternion(&body.rotations[std::size_t{4} * leg.toe]);

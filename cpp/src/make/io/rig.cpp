@@ -176,7 +176,7 @@ Rig::Rig(Armature armature)
 Rig::Object Rig::parse_object(const double* matrix, const std::string& label) {
   const RowMajor world(matrix);
   const double scale = uniform_scale(world, label);
-  return {scale, {world.topRightCorner<3, 1>(), extract_rotation(world, label)}};
+  return {scale, column_lengths(world) / scale, {world.topRightCorner<3, 1>(), extract_rotation(world, label)}};
 }
 
 std::vector<Rig::Rigid> Rig::parse_rest(const Armature& armature) {
@@ -260,7 +260,8 @@ Rig::Object Rig::object_at(const std::string& clip, const double* worlds, int fr
 
 Rig::Rigid Rig::to_armature(const Vector3& head, const Quaternion& rotation) const {
   const Quaternion inverse = object_.rigid.rotation.conjugate();
-  return {inverse * (head - object_.rigid.head) / object_.scale, inverse * rotation};
+  const Vector3 scaled = inverse * (head - object_.rigid.head) / object_.scale;
+  return {scaled.cwiseQuotient(object_.uneven), inverse * rotation};
 }
 
 // ---- Forward kinematics as Blender does it (BKE_bone_parent_transform_calc_from_matrices)
@@ -304,7 +305,7 @@ void Rig::store_pose(const Object& object, const Rigid* pose, int frame, Clip& c
     store_quaternion(above * pose[bone].rotation, &clip.rotations[4 * offset_of(frame, skeleton().size(), b)]);
   }
   const Vector3 head = pose[skeleton_bones_[hips]].head;
-  store_vector(object.rigid.head + object.scale * (object.rigid.rotation * head),
+  store_vector(object.rigid.head + object.scale * (object.rigid.rotation * head.cwiseProduct(object.uneven)),
                &clip.root_positions[3 * offset_of(frame, 1, 0)]);
 }
 
@@ -382,7 +383,10 @@ Channels Rig::channels(int frames, const double* root_positions, const double* r
       pose[bone] = to_armature(heads[b], orientations[b]);
       store_rotation(bone, pose.data(), f, channels);
       const bool is_moved = hangs_[bone] != armature_.parents[bone];
-      if (b == 0 || b == skeleton().roles.hips || is_moved) store_location(bone, pose.data(), f, channels);
+      if (b == 0 || b == skeleton().roles.hips || is_moved)
+        store_location(bone, pose.data(), f, channels);
+      else
+        pose[bone].head = unmoved(bone, pose.data()).head;
     }
   }
   align_rotations(bones(), channels);

@@ -38,8 +38,8 @@ struct Channels {
 class Rig {
  public:
   /// Throws std::invalid_argument on wrong sizes or order, on rest matrices that are not rigid, on a world matrix whose
-  /// scale is not uniform and positive (naming it), on roles or bones that do not exist or lie in different trees, and
-  /// on a bone that hangs on one that it moves.
+  /// scale is not positive and, but for a hundredth, uniform (naming it), on roles or bones that do not exist or lie in
+  /// different trees, and on a bone that hangs on one that it moves.
   explicit Rig(Armature armature);
 
   int bones() const { return static_cast<int>(armature_.names.size()); }
@@ -75,6 +75,7 @@ class Rig {
   };
   struct Object {
     double scale = 1;
+    Vector3 uneven = Vector3::Ones();  // times that, along its axes
     Rigid rigid;
   };
 

@@ -10,7 +10,9 @@
 
 namespace fragmotion {
 
-constexpr double kUniform = 1e-4;  // relative difference of scales
+// Relative difference of scales: lengths look the same that differ by less than 3 % (Teghtsoonian, "On the Exponents in
+// Stevens' Law and the Constant in Ekman's Law", 1971).
+constexpr double kUniform = 0.01;
 constexpr double kFlat = 1e-12;
 
 using RowMajor = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>;

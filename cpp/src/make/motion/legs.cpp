@@ -9,7 +9,7 @@ constexpr int kApart = 5;  // frames of the clips that are looked at: each fifth
 // What bends the leg's knee in a pose, as the thigh sees it; the longer the more it is bent.
 Vector3 bend(const Leg& leg, const PosedBones& posed) {
   const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
-                lower = posed.heads[leg.foot] - posed.heads[leg.knee];
+                lower = ankle_of(leg, posed) - posed.heads[leg.knee];
   return posed.rotations[leg.thigh].conjugate() * upper.cross(lower) / (upper.norm() * lower.norm());
 }
 

@@ -84,4 +84,9 @@ std::optional<BodyJoints> four_legged_body(const Skeleton& skeleton, const BodyT
 /// As the shape tells; see find_role_map().
 BodyJoints shaped_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion);
 
+/// Whether the feet that names tell point to where the names' left is on the body's right: level, to their toes, or to
+/// their tips where nothing hangs from them.
+bool points_to_wrong_sides(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion,
+                           const BodyJoints& named);
+
 }  // namespace fragmotion

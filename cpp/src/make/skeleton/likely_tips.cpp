@@ -74,7 +74,7 @@ Skeleton with_short_feet(Skeleton skeleton, const Leg& left, const Leg& right) {
   const RestBones rest(skeleton);
   const Vector3 across = rest.heads[left.thigh] - rest.heads[right.thigh];
   for (const Leg& leg : {left, right}) {
-    if (leg.toe >= 0) continue;
+    if (leg.toe >= 0 || !leg.has_foot()) continue;
     const Vector3 up = rest.heads[leg.knee] - rest.heads[leg.foot], ahead = across.cross(up).normalized();
     Vector3& tip = skeleton.tips[leg.foot];
     if ((rest.rotations[leg.foot] * tip).dot(up) > kBackUp * tip.norm() * up.norm())

@@ -312,7 +312,10 @@ RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion, Sid
   if (!named) tree.forget_names();
   const BodyJoints shaped = shaped_body(skeleton, tree, motion);
   if (named) mend_named_legs(skeleton, tree, *named);
-  if (named && sides == Sides::of_the_body && is_mirrored(*named, shaped)) {
+  const auto is_swapped = [&] {
+    return shaped.legs[0].whole() ? is_mirrored(*named, shaped) : points_to_wrong_sides(skeleton, tree, motion, *named);
+  };
+  if (named && sides == Sides::of_the_body && is_swapped()) {
     tree.swap_sides();
     named = named_body(tree);
     if (named) mend_named_legs(skeleton, tree, *named);

@@ -36,6 +36,12 @@ class ShapeFinder {
     return result;
   }
 
+  bool points_to_wrong_sides(BodyJoints named) const {
+    const int left = named.legs[0].bones[Limb::kEnd];
+    return is_flat(named.legs[0]) && is_flat(named.legs[1]) && tell_sides(named) &&
+           named.legs[0].bones[Limb::kEnd] != left;
+  }
+
  private:
   // A man has no four limbs on one bone.
   static std::vector<LimbPair> one_a_bone(const std::vector<LimbPair>& pairs) {
@@ -121,6 +127,14 @@ class ShapeFinder {
                                          : Vector3::Zero();
   }
 
+  // Whether names tell where the foot of a leg points, and that is rather level: leaves get tips that go on downward.
+  bool is_flat(const Limb& leg) const {
+    const int foot = leg.bones[Limb::kEnd];
+    if (!leg.whole() || (leg.bones[Limb::kTip] < 0 && !shape_.children(foot).empty())) return false;
+    const Vector3 way = pointing(leg, shape_.rest().data());
+    return std::abs(way.z()) < way.head<2>().norm();
+  }
+
   bool tell_sides(BodyJoints& body) const {
     if (!body.legs[0].whole() || !body.legs[1].whole()) return false;
     std::vector<PosedFeet> poses;
@@ -138,6 +152,12 @@ class ShapeFinder {
 
 BodyJoints shaped_body(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion) {
   return ShapeFinder(BodyShape(skeleton, tree, motion)).find();
+}
+
+bool points_to_wrong_sides(const Skeleton& skeleton, const BodyTree& tree, const ObservedPoses* motion,
+                           const BodyJoints& named) {
+  const BodyShape shape(skeleton, tree, motion);
+  return ShapeFinder(shape).points_to_wrong_sides(named);
 }
 
 }  // namespace fragmotion

@@ -11,10 +11,13 @@ namespace {
 constexpr double kMostForeseen = 60;  // s
 constexpr int kMostPlaces = 100000;
 
+// No farther away than is allowed, and numbers: which the greatest of coordinates would not tell.
+bool is_place(const Vector3& at) { return (at.array().abs() <= kFarthestPlace).all(); }
+
 void check_place(const FragmotionPlayer& player, const FragmotionPlace& place) {
   const Vector3 at = player.hero->axes.place(place.position);
-  demand(at.cwiseAbs().maxCoeff() <= kFarthestPlace && std::abs(static_cast<double>(place.heading)) <= kFarthestPlace,
-         FRAGMOTION_ERROR_ARGUMENT, "the place holds what is not a number, or is farther away than a million km");
+  demand(is_place(at) && std::abs(static_cast<double>(place.heading)) <= kFarthestPlace, FRAGMOTION_ERROR_ARGUMENT,
+         "the place holds what is not a number, or is farther away than a million km");
 }
 
 void check_space(FragmotionSpace space, FragmotionSpace first) {
@@ -204,7 +207,7 @@ FragmotionResult fragmotion_player_look(FragmotionPlayer* player, FragmotionLook
     if (look != FRAGMOTION_LOOK_AT) return p.player.look(static_cast<Look>(look));
     demand_given(place, "the place to look at");
     const Vector3 there = p.hero->axes.place(place);
-    demand(there.cwiseAbs().maxCoeff() <= kFarthestPlace, FRAGMOTION_ERROR_ARGUMENT,
+    demand(is_place(there), FRAGMOTION_ERROR_ARGUMENT,
            "the place to look at holds what is not a number, or is farther away than a million km");
     p.player.look(Look::at, p.shift.place_inside(there));
   });
@@ -223,7 +226,7 @@ FragmotionResult fragmotion_player_reach(FragmotionPlayer* player, FragmotionHan
     const bool carried = reach->carried == 1;
     const Vector3 seen = Eigen::Vector3f::Map(reach->place).cast<double>() / p.hero->axes.unit(),
                   there = carried ? seen : p.hero->axes.place(reach->place);
-    demand(there.allFinite() && there.cwiseAbs().maxCoeff() <= kFarthestPlace, FRAGMOTION_ERROR_ARGUMENT,
+    demand(is_place(there), FRAGMOTION_ERROR_ARGUMENT,
            "the place to reach for holds what is not a number, or is farther away than a million km");
     demand(reach->weight >= 0 && reach->weight <= 1, FRAGMOTION_ERROR_ARGUMENT, "the weight of a hand must be 0 to 1");
     demand(reach->carried == 0 || reach->carried == 1, FRAGMOTION_ERROR_ARGUMENT, "carried must be 0 or 1");

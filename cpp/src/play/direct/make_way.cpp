@@ -81,6 +81,11 @@ HalfPlane least_change(const Walker& one, const Walker& other, double seconds) {
 
 }  // namespace
 
+HalfPlane clear_of(const Walker& one, const Walker& other, double seconds) {
+  const HalfPlane change = least_change(one, other, seconds);
+  return {one.velocity + (other.yields ? 0.5 : 1) * change.point, change.normal};
+}
+
 void Clearance::add(const HalfPlane& plane) {
   if (count < kMost + kMostOthers) planes[static_cast<std::size_t>(count++)] = plane;
 }
@@ -154,11 +159,7 @@ Clearance MakeWay::clearance(std::size_t walker, double seconds) const {
     nearest[at] = {square, other};
   });
   Clearance clearance;
-  for (int i = 0; i < seen; ++i) {
-    const Walker& other = walkers_[nearest[i].walker];
-    const HalfPlane change = least_change(one, other, seconds);
-    clearance.planes[clearance.count++] = {one.velocity + (other.yields ? 0.5 : 1) * change.point, change.normal};
-  }
+  for (int i = 0; i < seen; ++i) clearance.add(clear_of(one, walkers_[nearest[i].walker], seconds));
   return clearance;
 }
 

@@ -52,6 +52,9 @@ struct Walker {
   bool yields = true;       ///< Makes way; for who does not, others go all of the way.
 };
 
+/// The velocities by which one keeps clear of another for MakeWay::kAhead; who touch part within so many `seconds`.
+HalfPlane clear_of(const Walker& one, const Walker& other, double seconds);
+
 /// Who makes way for whom: "Reciprocal n-body collision avoidance" (van den Berg, Guy, Lin, Manocha, 2011). The same
 /// walkers have the same bits.
 class MakeWay {

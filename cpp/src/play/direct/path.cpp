@@ -21,7 +21,7 @@ void check(const std::vector<Vector2>& points, const std::vector<double>& speeds
     throw std::invalid_argument("a path may have a million points, and has " + std::to_string(points.size()));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!(points[i].cwiseAbs().maxCoeff() <= kFarthestBody))
+    if (!(points[i].array().abs() <= kFarthestBody).all())
       throw std::invalid_argument("point " + std::to_string(i) + " of the path is not within 1e6 m");
   }
   if (!speeds.empty() && speeds.size() != points.size()) {

@@ -183,7 +183,7 @@ Vector3 FootLock::under(int side, const WorldPose& pose) const {
 double FootLock::height(int side, const FootHeights& floor) const {
   const Leg& leg = body_->legs[side];
   const PosedBones& posed = body_->posed;
-  const double toe = ball(body_->kinematics.skeleton(), leg, posed).z(), heel = posed.heads[leg.foot].z();
+  const double toe = ball(body_->kinematics.skeleton(), leg, posed).z(), heel = ankle_of(leg, posed).z();
   return std::min(toe - floor.ball, heel - floor.heel);
 }
 
@@ -216,7 +216,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     const double lift =
         lifted(-over * scale) / scale + step_height(feet_[side]) - lowered(feet_[side], over, hovers, follows);
     const Vector3 moved{by.x(), by.y(), lift};
-    ankles[side] = posed.heads[legs[side].foot] + moved;
+    ankles[side] = ankle_of(legs[side], posed) + moved;
     raise_heel(side, place + moved, follows, ankles[side], pose.rotations.data());
     if (by.isZero(1e-9) && lift == 0) continue;
     const double strain =

@@ -139,7 +139,7 @@ Vector3 GroundFollower::place_foot(int side, const FootAhead& foot) {
   const Vector2 over = from.head<2>() + placed.shift();
   const Vector3 to = Vector3{over.x(), over.y(), placed.height() + foot.now.ball.z() - lower(side, foot)} +
                      turns_[side] * Vector3{0, 0, foot.floor.ball};
-  return to + turns_[side] * (body_->posed.heads[leg.foot] - from);
+  return to + turns_[side] * (ankle_of(leg, body_->posed) - from);
 }
 
 // Lowers the hips for legs that bear the body, and for those that are about to.
@@ -168,7 +168,7 @@ void GroundFollower::raise_heel(int side, Vector3& ankle) {
   const Leg& leg = body_->legs[side];
   const PosedBones& posed = body_->posed;
   heels_[side] = Quaternion::Identity();
-  const Vector3 from_ball = turns_[side] * (posed.heads[leg.foot] - ball(body_->kinematics.skeleton(), leg, posed)),
+  const Vector3 from_ball = turns_[side] * (ankle_of(leg, posed) - ball(body_->kinematics.skeleton(), leg, posed)),
                 ball = ankle - from_ball;
   const double most = kHighestHeel * exact_ * feet_[side].weight(),
                lacks = rise_to_reach(posed.heads[leg.thigh] - ball, from_ball, kHipsReach * leg_length(leg, posed));
@@ -186,7 +186,7 @@ void GroundFollower::unfold(int side, Vector3& ankle) const {
     const Vector3 way = at - posed.heads[leg.thigh];
     return std::max(0.0, way.z() + least - way.head<2>().squaredNorm() / (2 * least));
   };
-  ankle.z() -= (1 - feet_[side].weight()) * std::max(0.0, too_high(ankle) - too_high(posed.heads[leg.foot]));
+  ankle.z() -= (1 - feet_[side].weight()) * std::max(0.0, too_high(ankle) - too_high(ankle_of(leg, posed)));
 }
 
 }  // namespace fragmotion

@@ -37,7 +37,7 @@ class LookAhead {
     const Skeleton& skeleton = body_.kinematics.skeleton();
     const Leg& leg = body_.legs[side];
     const FootHeights& floor = floors_[side];
-    const Vector3 front = ball(skeleton, leg, posed), &heel = posed.heads[leg.foot];
+    const Vector3 front = ball(skeleton, leg, posed), heel = ankle_of(leg, posed);
     const Vector3 tip = leg.toe < 0 ? front : posed.heads[leg.toe] + posed.rotations[leg.toe] * skeleton.tips[leg.toe];
     const double height = front.z() - floor.ball;
     return {{heel.x(), heel.y(), heel.z() - floor.heel}, {front.x(), front.y(), height}, {tip.x(), tip.y(), height}};
@@ -56,7 +56,7 @@ class LookAhead {
     const Leg& leg = body_.legs[side];
     foot.hips = in_time(later_.root, foot.due);
     foot.hip = in_time(posed.heads[leg.thigh], foot.due);
-    foot.ankle = posed.heads[leg.foot];
+    foot.ankle = ankle_of(leg, posed);
     foot.ankle.head<2>() = foot.way.back().heel.head<2>();
   }
 

@@ -27,7 +27,7 @@ void turn_foot(const Skeleton& skeleton, const Leg& leg, const Quaternion& foot,
     store_quaternion((above.conjugate() * (toe * posed.rotations[leg.toe])).normalized(),
                      rotations + std::ptrdiff_t{4} * leg.toe);
   }
-  posed.rotations[leg.foot] = foot * posed.rotations[leg.foot];
+  turn_to(leg, foot * posed.rotations[leg.foot], posed);
 }
 
 void lower_hips(double by, Vector3& root, PosedBones& posed) {

@@ -106,23 +106,23 @@ class Knee {
 };
 
 Knee knee_of(const Leg& leg, const PosedBones& posed) {
-  return {posed.heads[leg.knee] - posed.heads[leg.thigh], posed.heads[leg.foot] - posed.heads[leg.knee],
+  return {posed.heads[leg.knee] - posed.heads[leg.thigh], ankle_of(leg, posed) - posed.heads[leg.knee],
           posed.rotations[leg.thigh] * leg.hinge};
 }
 
 // Turns the lower leg by `bend` and swings the leg towards `ankle`; the foot keeps its rotation.
-void bend(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle,
-          const Quaternion& bend, double* rotations) {
+void bend(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& to, const Quaternion& bend,
+          double* rotations) {
   const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
-                lower = posed.heads[leg.foot] - posed.heads[leg.knee];
-  const Quaternion thigh = turn_between(upper + bend * lower, ankle - posed.heads[leg.thigh]);
+                lower = ankle_of(leg, posed) - posed.heads[leg.knee];
+  const Quaternion thigh = turn_between(upper + bend * lower, to - posed.heads[leg.thigh]);
   const auto store = [&](int bone, const Quaternion& parent, const Quaternion& world) {
     store_quaternion((parent.conjugate() * world).normalized(), rotations + std::ptrdiff_t{4} * bone);
   };
   const auto above = [&](int bone) { return posed.rotations[skeleton.parents[bone]]; };
   store(leg.thigh, above(leg.thigh), thigh * posed.rotations[leg.thigh]);
   store(leg.knee, above(leg.knee), bend * posed.rotations[leg.knee]);
-  store(leg.foot, thigh * (bend * above(leg.foot)), posed.rotations[leg.foot]);
+  if (leg.has_foot()) store(leg.foot, thigh * (bend * above(leg.foot)), posed.rotations[leg.foot]);
 }
 
 // The leg from a thigh to a foot that has a knee between them; none where the thigh carries the body or both legs. What
@@ -137,6 +137,11 @@ Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe, int other_foo
   const bool has_toe = toe != foot && skeleton.is_below(toe, foot);
   Leg leg{thigh, -1, foot, has_toe ? toe : -1, skeleton.parents[foot]};
   double most = kShortestLegBone / standard_scale(skeleton);
+  if (ends_without_foot(skeleton, {thigh, foot, toe})) {
+    leg.ankle = skeleton.tips[foot];
+    if (skeleton.offsets[foot].norm() > most && leg.ankle.norm() > most) leg.knee = foot;
+    return leg;
+  }
   for (int b = leg.above_foot; b != thigh; b = skeleton.parents[b]) {
     const double shorter = std::min((heads[b] - heads[thigh]).norm(), (heads[foot] - heads[b]).norm());
     if (shorter > most) most = shorter, leg.knee = b;
@@ -237,6 +242,10 @@ Vector3 ball(const Skeleton& skeleton, int foot, int toe, const PosedBones& pose
   return posed.heads[foot] + posed.rotations[foot] * skeleton.tips[foot];
 }
 
+Vector3 ankle_of(const Leg& leg, const PosedBones& posed) {
+  return leg.has_foot() ? posed.heads[leg.foot] : posed.heads[leg.foot] + posed.rotations[leg.foot] * leg.ankle;
+}
+
 Vector3 sole(const Skeleton& skeleton, const LegRoles& leg, const PosedBones& posed) {
   const Vector3 front = ball(skeleton, leg.foot, leg.toe, posed);
   if (ends_without_foot(skeleton, leg)) return front;
@@ -246,7 +255,7 @@ Vector3 sole(const Skeleton& skeleton, const LegRoles& leg, const PosedBones& po
 
 double leg_length(const Leg& leg, const PosedBones& posed) {
   const Vector3& knee = posed.heads[leg.knee];
-  return (knee - posed.heads[leg.thigh]).norm() + (posed.heads[leg.foot] - knee).norm();
+  return (knee - posed.heads[leg.thigh]).norm() + (ankle_of(leg, posed) - knee).norm();
 }
 
 double longest(const Leg& leg, const PosedBones& posed) { return kStretched * leg_length(leg, posed); }

@@ -13,13 +13,16 @@ namespace fragmotion {
 constexpr double kShortestLegBone = 1e-3;
 
 /// A leg by its roles: any chain of bones below the hips, from a thigh of its own to a foot, with a joint between them.
-/// `knee` is -1 where there is none, `toe` where none hangs from the foot.
+/// `knee` is -1 where there is none, `toe` where none hangs from the foot. The foot of a leg that ends without one is
+/// the shin, which begins at the knee, and `ankle` the way to its end.
 struct Leg {
   int thigh = -1, knee = -1, foot = -1, toe = -1;
   int above_foot = -1;               ///< The foot's parent.
   Vector3 hinge = Vector3::UnitX();  ///< The axis that the knee bends about, as the thigh sees it.
+  Vector3 ankle = Vector3::Zero();   ///< m, from the foot's head, as the foot sees it.
 
   bool exists() const { return knee >= 0; }
+  bool has_foot() const { return foot != knee; }
 };
 
 /// The legs of a body, by their numbers; those that exist, none, two or four, are the first ones.
@@ -53,6 +56,14 @@ inline Vector3 ball(const Skeleton& skeleton, const Leg& leg, const PosedBones& 
   return ball(skeleton, leg.foot, leg.toe, posed);
 }
 
+/// Where a leg's lower bone ends: the foot's head, or, where a shin is the foot, its tip.
+Vector3 ankle_of(const Leg& leg, const PosedBones& posed);
+
+/// Turns the foot where there is one: what reach() leaves it at.
+inline void turn_to(const Leg& leg, const Quaternion& world, PosedBones& posed) {
+  if (leg.has_foot()) posed.rotations[leg.foot] = world;
+}
+
 /// Where a foot treads, standing or not: under the middle of heel and ball, as low as the lower one.
 Vector3 sole(const Skeleton& skeleton, const LegRoles& leg, const PosedBones& posed);
 
@@ -63,7 +74,7 @@ double longest(const Leg& leg, const PosedBones& posed);
 double shortest(const Leg& leg, const PosedBones& posed);
 
 /// Two-bone inverse kinematics: bends the knee, to the front where it is nearly straight, and swings the thigh, so that
-/// the foot's head comes to `ankle` or as near as the leg is long; near its length a leg follows ever less, so that its
+/// the leg's ankle comes to `ankle` or as near as the leg is long; near its length a leg follows ever less, so that its
 /// knee does not snap. Foot and toe keep their world rotations. Writes the local `rotations` [bones, 4] of thigh, knee
 /// and foot; `posed` stays as it was before.
 void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations);
