@@ -25,7 +25,7 @@ from . import by_blender
 from .by_blender import NoTakes
 from .comparing import keep_source
 from .doctor import WAIT, examine, keep_findings, keep_remarks
-from .retargeting import Brought, Channels, has_names_of, key_times, make_action, retargeted_takes
+from .retargeting import Brought, Channels, has_names_of, is_as_tall, key_times, make_action, retargeted_takes
 from .scratch import scratch_scene
 from .take_files import BY_BLENDER, TakeFile
 
@@ -46,14 +46,16 @@ _STAGE = 1 / 3  # of the progress: reading, examining, writing
 
 
 class Imported(NamedTuple):
-    """The armature that takes came onto, their Actions with the file of each, the files of a folder that hold none, and
-    what is wrong with each that cannot be read, or brought onto it."""
+    """The armature that takes came onto, their Actions with the file of each, the files of a folder that hold none,
+    what is wrong with each that cannot be read, or brought onto it, and how many takes of the same bones, but of a body
+    of other proportions, were brought onto it."""
 
     obj: bpy.types.Object
     actions: list[bpy.types.Action]
     files: list[Path]
     without: list[Path]
     broken: list[str]
+    resized: int = 0
 
 
 class _ReadFile(NamedTuple):
@@ -89,7 +91,7 @@ def import_takes(
         if onto is None:
             keep_four_legs(obj, takes[0].skeleton)
         rig = make_rig(obj)
-        fitting, refused = _brought(obj, rig, takes, is_new=onto is None)
+        fitting, refused, resized = _brought(obj, rig, takes, is_new=onto is None)
         if not fitting:
             raise UserError(refused[0])
         brought = list(fitting.values())
@@ -107,7 +109,7 @@ def import_takes(
             yield _STAGE * (2 + index / len(examined))
         versions.assign(obj, actions[0])
         context.view_layer.update()
-    return Imported(obj, actions, paths, without, [*broken, *refused])
+    return Imported(obj, actions, paths, without, [*broken, *refused], resized)
 
 
 def _read_all(
@@ -174,19 +176,29 @@ def _read_by_core(file: TakeFile, unit: float) -> list[Take]:
         return [core.read_asf_amc(asf, file.path) if asf else core.read_bvh(file.path, unit)]
 
 
+def _of_other_proportions(takes: Sequence[Take]) -> set[int]:
+    """Which takes have the first one's bones on a body of another size: as they are, their feet would not stand."""
+    first, *_ = own = [take.skeleton for take in takes]
+    return {i for i, each in enumerate(own) if each.names == first.names and not is_as_tall(each, first)}
+
+
 def _brought(
     obj: bpy.types.Object, rig: Rig, takes: Sequence[Take], is_new: bool
-) -> tuple[dict[int, Brought], list[str]]:
+) -> tuple[dict[int, Brought], list[str], int]:
     """By its number, each take's channels: as they are on the armature that was made from them, else brought onto its
-    body; and why others cannot be."""
-    own = {
-        i: Brought(rig.take_channels(t), []) for i, t in enumerate(takes) if is_new and has_names_of(rig, t.skeleton)
-    }
-    others = [index for index in range(len(takes)) if index not in own]
+    body; why others cannot be; and how many have its bones, but other proportions, and are brought over where that
+    can be."""
+    has_bones = {i for i, take in enumerate(takes) if is_new and has_names_of(rig, take.skeleton)}
     placed = make_rig(obj, over_origin(obj))
-    brought, refused = retargeted_takes(obj, rig, [takes[index] for index in others], placed)
-    fitting = own | {others[number]: each for number, each in brought.items()}
-    return dict(sorted(fitting.items())), refused
+
+    def bring(numbers: list[int]) -> tuple[dict[int, Brought], list[str]]:
+        brought, refused = retargeted_takes(obj, rig, [takes[i] for i in numbers], placed)
+        return {numbers[each]: done for each, done in brought.items()}, refused
+
+    resized, _ = bring(sorted(_of_other_proportions(takes))) if is_new else ({}, [])
+    own = {i: Brought(rig.take_channels(takes[i]), []) for i in has_bones - resized.keys()}
+    others, refused = bring([i for i in range(len(takes)) if i not in own and i not in resized])
+    return dict(sorted((own | resized | others).items())), refused, len(resized)
 
 
 @contextmanager

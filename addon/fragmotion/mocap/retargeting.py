@@ -53,7 +53,12 @@ def is_its_own(rig: Rig, skeleton: Skeleton) -> bool:
     """Whether takes of the skeleton are of the animal on four legs that the rig is: nothing has to be brought onto it,
     nor can be."""
     legs = FORE_FOOT in rig.skeleton.roles and FORE_FOOT in skeleton.roles
-    return legs and has_names_of(rig, skeleton) and isclose(rig.skeleton.stature, skeleton.stature, rel_tol=_SAME_SIZE)
+    return legs and has_names_of(rig, skeleton) and is_as_tall(rig.skeleton, skeleton)
+
+
+def is_as_tall(one: Skeleton, other: Skeleton) -> bool:
+    """Whether bodies are of one size."""
+    return isclose(one.stature, other.stature, rel_tol=_SAME_SIZE)
 
 
 def retargeted_takes(

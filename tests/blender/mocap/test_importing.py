@@ -47,6 +47,31 @@ def test_takes_move_the_armature_as_their_files_say(addon: ModuleType, tmp_path:
         check_take(addon, obj, take, np.arange(1, 41), np.arange(40))
 
 
+def export_walk(path: Path, scale: float) -> None:
+    """The sample's walk as a BVH file of so many units a metre."""
+    obj = making.open_sample()
+    obj.animation_data.action = bpy.data.actions["walk forward"]
+    bpy.ops.export_anim.bvh(
+        filepath=str(path), global_scale=scale, frame_start=1, frame_end=90, root_transform_only=True
+    )
+
+
+def lowest_foot(obj: bpy.types.Object, name: str) -> float:
+    """How low a foot gets in an Action, m."""
+    poses = making.blender_poses(obj, bpy.data.actions[name], np.arange(1, 91), ["foot.L", "foot.R"])
+    return float(poses[..., 2, 3].min())
+
+
+def test_takes_of_other_proportions_stand_on_the_first_ones_floor(
+    addon: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name, scale in (("a walk", 100), ("a taller one's", 115)):
+        export_walk(tmp_path / f"{name}.bvh", scale)
+    obj = import_folder(tmp_path, unit="CENTIMETRES")
+    assert "1 take of other proportions brought onto its body" in capsys.readouterr().out
+    assert lowest_foot(obj, "a taller one's") == pytest.approx(lowest_foot(obj, "a walk"), abs=0.01)
+
+
 def test_the_sampled_take_is_the_take(addon: ModuleType, tmp_path: Path) -> None:
     path = making.write_bvh(tmp_path / "walk.bvh", frame_time=0.008333)
     obj = import_folder(tmp_path, mend=False)

@@ -162,12 +162,13 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
 
 
 def _told(imported: Imported) -> str:
-    obj, actions, _, without, broken = imported
+    obj, actions, _, without, broken, resized = imported
     told = f"Imported {counted(len(actions), 'take')} onto armature '{obj.name}' ({len(obj.data.bones)} bones)"
     mended = sum(row.mended for action in actions for row in action.fragmotion.findings)
     left = sum(worst(action) in {"warning", "error"} for action in actions)
     parts = (
         f"{counted(mended, 'fault')} mended" if mended else "",
+        f"{counted(resized, 'take')} of other proportions brought onto its body" if resized else "",
         f"{counted(left, 'take')} to look at in Doctor" if left else "",
         f"{counted(len(without), 'file')} left out in which no armature is animated" if without else "",
         f"{counted(len(broken), 'file')} left out that cannot be used" if broken else "",
