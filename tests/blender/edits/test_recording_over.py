@@ -155,6 +155,7 @@ def test_what_was_kept_is_said_again_where_the_drive_ends_right_after(
     assert driven.is_done
     session.stop()
     monkeypatch.setattr(operators, "rest", lambda _: None)
+    monkeypatch.setattr(operators.preferences, "end_first_steps", lambda _: None)  # which are for other tests to end
     pressed = Pressed(operators.FRAGMOTION_OT_drive, _session=driven, _timer=None)
     assert pressed._end() == {"FINISHED"}
     assert pressed.told == [({"INFO"}, "Kept: 'Stroll' is recorded over from 9.7 s to 11.7 s")]
