@@ -50,7 +50,7 @@ TEST(SteadyGoings, AreForwardAndEven) {
 
 std::vector<Going> steady_takes(const Character& character) {
   std::vector<Going> takes;
-  for (const BodyTrack& track : tracks_of_takes(character).tracks) {
+  for (const BodyTrack& track : tracks_of(character.pool.skeleton, captured_takes(character.pool)).tracks) {
     for (const Going& going : steady_goings(track)) takes.push_back(going);
   }
   return takes;

@@ -46,17 +46,6 @@ BodyTrack body_track(const Kinematics& kinematics, const Clip& clip) {
   return track;
 }
 
-Floors floors_of(const std::vector<BodyTrack>& takes) {
-  std::vector<Contacts> contacts(takes.size());
-  for (std::size_t i = 0; i < takes.size(); ++i) {
-    for (int side = 0; side < takes[i].feet.count(); ++side) {
-      const FootPath& foot = takes[i].feet[side];
-      contacts[i].floors[side] = {floor_of(foot.ball), floor_of(foot.heel)};
-    }
-  }
-  return usual_floors(contacts);
-}
-
 void stand_on(BodyTrack& track, const Floors& floors) {
   track.floors = floors;
   if (!track.has_feet()) return;

@@ -27,9 +27,6 @@ struct BodyTrack {
 /// The track of a clip, whose feet stand on no floor yet.
 BodyTrack body_track(const Kinematics& kinematics, const Clip& clip);
 
-/// Where feet stand in most takes, m of a 1.8 m character; 0 for bodies without.
-Floors floors_of(const std::vector<BodyTrack>& takes);
-
 /// Tells where the feet stand on floors whose heights are in m of a 1.8 m character.
 void stand_on(BodyTrack& track, const Floors& floors);
 

@@ -83,7 +83,7 @@ std::array<ChangePushes, kChanges> change_pushes(const std::shared_ptr<const Cha
   Player player(character, options);
   Runner runner(player);
   const Kinematics kinematics(character->pool.skeleton);
-  const auto [takes, floors] = tracks_of_takes(*character);
+  const auto [takes, floors] = tracks_of(kinematics.skeleton(), captured_takes(character->pool));
   const FootClearance clearance = clearance_of(takes);
   Random random(options.seed);
   std::array<Changes, kChanges> found;

@@ -152,11 +152,9 @@ MotionMetrics::MotionMetrics(const Character& character) : skeleton_(character.p
   const Kinematics kinematics(skeleton_);
   const std::vector<Clip> takes = captured_takes(character.pool);
   if (takes.empty()) throw std::invalid_argument("the character holds no captured fragment to measure by");
-  std::vector<BodyTrack> tracks;
-  for (const Clip& take : takes) tracks.push_back(body_track(kinematics, take));
-  floors_ = floors_of(tracks);
+  const auto [tracks, floors] = tracks_of(skeleton_, takes);
+  floors_ = floors;
   usual_ = usual_heights(tracks);
-  for (BodyTrack& track : tracks) stand_on(track, floors_);
   clearance_ = clearance_of(tracks);
   Measurement measurement(usual_, clearance_);
   for (std::size_t i = 0; i < takes.size(); ++i) measurement.add(tracks[i], joints_of(kinematics, takes[i]));

@@ -110,7 +110,7 @@ std::vector<SpeedRipple> speed_ripples(const std::shared_ptr<const Character>& c
                                        const PlayerOptions& options) {
   const Kinematics kinematics(character->pool.skeleton);
   std::vector<Going> takes;
-  const auto [tracks, floors] = tracks_of_takes(*character);
+  const auto [tracks, floors] = tracks_of(character->pool.skeleton, captured_takes(character->pool));
   for (const BodyTrack& track : tracks) {
     const std::vector<Going> some = steady_goings(track);
     takes.insert(takes.end(), some.begin(), some.end());

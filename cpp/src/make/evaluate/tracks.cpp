@@ -19,6 +19,17 @@ Clip sampled(const PackedClip& packed, int bones) {
   return clip;
 }
 
+Floors floors_of(const std::vector<BodyTrack>& takes) {
+  std::vector<Contacts> contacts(takes.size());
+  for (std::size_t i = 0; i < takes.size(); ++i) {
+    for (int side = 0; side < takes[i].feet.count(); ++side) {
+      const FootPath& foot = takes[i].feet[side];
+      contacts[i].floors[side] = {floor_of(foot.ball), floor_of(foot.heel)};
+    }
+  }
+  return usual_floors(contacts);
+}
+
 }  // namespace
 
 std::vector<Clip> captured_takes(const PackedPool& pool) {
@@ -31,13 +42,13 @@ std::vector<Clip> captured_takes(const PackedPool& pool) {
   return takes;
 }
 
-TakeTracks tracks_of_takes(const Character& character) {
-  const Kinematics kinematics(character.pool.skeleton);
-  TakeTracks takes;
-  for (const Clip& take : captured_takes(character.pool)) takes.tracks.push_back(body_track(kinematics, take));
-  takes.floors = floors_of(takes.tracks);
-  for (BodyTrack& track : takes.tracks) stand_on(track, takes.floors);
-  return takes;
+TakeTracks tracks_of(const Skeleton& skeleton, const std::vector<Clip>& takes) {
+  const Kinematics kinematics(skeleton);
+  TakeTracks found;
+  for (const Clip& take : takes) found.tracks.push_back(body_track(kinematics, take));
+  found.floors = floors_of(found.tracks);
+  for (BodyTrack& track : found.tracks) stand_on(track, found.floors);
+  return found;
 }
 
 Clip clip_of(const Performance& performance) {

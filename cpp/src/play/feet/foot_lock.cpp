@@ -8,6 +8,7 @@
 #include "base/filtered.hpp"
 #include "feet/standing_leg.hpp"
 #include "motion/pose.hpp"
+#include "motion/skate.hpp"
 
 namespace fragmotion {
 namespace {
@@ -20,8 +21,6 @@ constexpr double kForgets = 4;         // times kRelease, until nothing is seen 
 constexpr double kComesToRest = 0.02;  // s: time constant of a foot that comes to rest
 constexpr double kSoftGround = 0.006;  // m: a foot sinks in at most half of that
 constexpr double kHovers = 0.015;      // m over the floor from where a planted foot is lowered
-constexpr double kClears = 0.025;      // m, where no slide is seen of a foot (Zhang et al., as in skate.hpp),
-constexpr double kGoes = 0.5;          // m/s: from there a foot does not stand (find_contacts)
 constexpr double kFollows = 0.05;      // s: time constant of a foot that is lowered or lifted, and of a heel that rises
 constexpr double kLevel = 1e-4;        // rad, below which nothing is seen of it
 constexpr double kPatience = 0.3;      // s that both feet stand before one steps to where its motion has it
@@ -32,8 +31,9 @@ constexpr double kSinksIn = 0.1;       // s: time constant of the hips
 // The other foot of a pair.
 int other(int side) { return side ^ 1; }
 
-// How high a foot is at least that goes so fast.
-double clear_at(double speed) { return kClears * std::min(1.0, speed / kGoes); }
+// How high a foot is at least that goes so fast: where nothing is seen of a slide, if it is faster than one that
+// stands.
+double clear_at(double speed) { return kSkateHeight * std::min(1.0, speed / kStandingSpeed); }
 
 // How far a foot is lifted that is so deep in the ground: softly at first.
 double lifted(double depth) {

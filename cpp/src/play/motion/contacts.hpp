@@ -34,10 +34,13 @@ double floor_of(const std::vector<Vector3>& path);
 /// Where feet stand in most clips: the medians, 0 where there are none.
 Floors usual_floors(const std::vector<Contacts>& contacts);
 
-/// A foot stands while its lower end is within 4.5 cm of its floor and nearly still: slower than 0.5 m/s plus a fifth
-/// of the hips' speed (lengths of a character of 1.8 m). Gaps and contacts shorter than 0.06 s are closed, these where
-/// the foot has longer ones. The floor is floor_of() ball and heel in the clip, unless one is given: a short clip need
-/// not touch it.
+/// m/s of a character of 1.8 m, from where on a foot of a body that stands still does not stand.
+constexpr double kStandingSpeed = 0.5;
+
+/// A foot stands while its lower end is within 4.5 cm of its floor and nearly still: slower than kStandingSpeed plus a
+/// fifth of the hips' speed (lengths of a character of 1.8 m). Gaps and contacts shorter than 0.06 s are closed, these
+/// where the foot has longer ones. The floor is floor_of() ball and heel in the clip, unless one is given: a short clip
+/// need not touch it.
 Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors = nullptr);
 
 /// The contacts for which feet are held in place (foot_lock.hpp): those of find_contacts(), each of which ends as soon

@@ -9,7 +9,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSlow = 0.5, kSpeedShare = 0.2, kLeaves = 0.25, kShortest = 0.06;
+constexpr double kSpeedShare = 0.2, kLeaves = 0.25, kShortest = 0.06;
 
 double speed_at(const std::vector<Vector3>& path, int f, double rate) {
   const int last = static_cast<int>(path.size()) - 1, a = std::max(0, f - 1), b = std::min(last, f + 1);
@@ -57,7 +57,7 @@ std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, 
                                 double rate, double scale) {
   std::vector<bool> flags(path.ball.size());
   for (int f = 0; f < static_cast<int>(flags.size()); ++f) {
-    const double limit = kSlow + kSpeedShare * speed_at(hips, f, rate) * scale;
+    const double limit = kStandingSpeed + kSpeedShare * speed_at(hips, f, rate) * scale;
     const auto stands = [&](const std::vector<Vector3>& point, double lowest) {
       return (point[f].z() - lowest) * scale < kContactHeight && speed_at(point, f, rate) * scale < limit;
     };
