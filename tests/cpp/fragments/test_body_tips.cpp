@@ -88,6 +88,31 @@ TEST(TipReach, IsTheWayFromTheHipsToEachTipOfACharacterOfOneEighty) {
   EXPECT_EQ(BodyTips(skeleton).reach(), tip_reach(skeleton));
 }
 
+TEST(BodyTips, AreWhereBonesEndWhetherAnotherBoneBeginsThereOrNone) {
+  Skeleton skeleton = small_skeleton();
+  skeleton.tips[3] = skeleton.offsets[4];  // a thigh and its foot; the other's have a gap between them
+  const Kinematics kinematics(skeleton);
+  const std::vector<int> bones = measured_bones(skeleton);
+  BodyTips tips(skeleton);
+  Random random(6);
+  const auto number = [&] { return 2 * random.uniform() - 1; };
+  PosedBones posed(skeleton.size());
+  std::vector<double> rotations(std::size_t{4} * skeleton.size());
+  for (int b = 0; b < skeleton.size(); ++b)
+    store_quaternion(Quaternion{number(), number(), number(), number()}.normalized(), &rotations[std::size_t{4} * b]);
+  const Vector3 root{number(), number(), number()};
+  kinematics.world(root, rotations.data(), posed.heads.data(), posed.rotations.data());
+  const int stride = padded(tips.points());
+  Rows rows(std::size_t{3} * stride, 0);
+  tips.pose(root, rotations.data());
+  tips.write({}, rows.data(), stride, 0);
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    const int b = bones[i];
+    const Vector3 end = standard_scale(skeleton) * (posed.heads[b] + posed.rotations[b] * skeleton.tips[b]);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(rows[axis * stride + i], end[axis], 1e-6) << b;
+  }
+}
+
 TEST(TipWriter, WritesWhatBodyTipsWritesToTheBitOfAnyNumberOfPoses) {
   const Skeleton skeleton = small_skeleton();
   BodyTips tips(skeleton);

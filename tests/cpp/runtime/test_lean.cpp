@@ -66,6 +66,29 @@ TEST(Lean, LeansTheTrunkIntoTheAccelerationByHalfOfWhatBalancesIt) {
   }
 }
 
+// Bone by bone, each as it finds the pose.
+TEST(Lean, TurnsThighsHipsSpineAndHeadAsTheyAreTurnedOneAfterAnother) {
+  LeaningBody body;
+  const Skeleton& skeleton = body.skeleton;
+  const Trunk trunk(skeleton);
+  ASSERT_GE(trunk.head, 0);
+  const Vector2 acceleration{3, -4};
+  for (int step = 0; step < 300; ++step) body.after(acceleration, kStep);
+  WorldPose pose{load_vector(body.clip.root_positions.data()), body.clip.headings[0], {}};
+  pose.rotations.assign(body.clip.rotations.begin(), body.clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
+  std::vector<double> expected = pose.rotations;
+  body.lean.apply(skeleton, pose, acceleration, kStep);
+  const double angle = 0.5 * std::atan(5 / 9.81);
+  const Vector3 right{std::cos(pose.heading), std::sin(pose.heading), 0}, forward{-right.y(), right.x(), 0};
+  const double to_side = angle * acceleration.x() / 5, to_front = angle * acceleration.y() / 5;
+  const Legs legs = resting_legs(skeleton);
+  for (const int thigh : {legs[0].thigh, legs[1].thigh}) turn_bone(skeleton, thigh, right, to_front, expected.data());
+  turn_bone(skeleton, skeleton.roles.hips, right, -to_front, expected.data());
+  turn_bone(skeleton, trunk.head, right, kHeadBack * to_front, expected.data());
+  turn_spine(skeleton, trunk, forward, to_side, expected.data());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(pose.rotations[i], expected[i], 1e-6) << i;
+}
+
 TEST(Lean, ComesAndGoesSmoothly) {
   LeaningBody body;
   Vector3 before = body.after({0, 0}, kStep).head;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fragments/body_tips.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/vectorised.hpp"
@@ -72,8 +73,10 @@ using LaneTurn = std::array<Lanes, 4>;
   }
 }
 
-// Poses the hips, which have their places already, and bones that hang on each other and on these.
+// Poses the hips, which have their places already, and bones that hang on each other and on these; and the tips of
+// some.
 FRAGMOTION_VECTORISED void pose_lanes(const Skeleton& skeleton, const std::vector<int>& bones,
+                                      const std::vector<int>& with_tips,
                                       const std::array<const double*, kPoses>& rotations, TipWriter::Posed* posed) {
   for (int n = -1; n < static_cast<int>(bones.size()); ++n) {
     const int b = n < 0 ? skeleton.roles.hips : bones[n];
@@ -86,8 +89,22 @@ FRAGMOTION_VECTORISED void pose_lanes(const Skeleton& skeleton, const std::vecto
       attach_lanes(parent.head, parent.turn, skeleton.offsets[b], to.head);
       turn_lanes(parent.turn, to.turn);
     }
-    tip_lanes(to.head, to.turn, skeleton.tips[b], to.tip);
   }
+  for (const int b : with_tips) tip_lanes(posed[b].head, posed[b].turn, skeleton.tips[b], posed[b].tip);
+}
+
+// For each bone, the one of `among` that hangs on it and has its head where the bone has its tip; -1 where there is
+// none. Such a tip is known as soon as the heads are.
+std::vector<int> joined_at_tips(const Skeleton& skeleton, const std::vector<int>& bones,
+                                const std::vector<int>& among) {
+  std::vector<int> joined;
+  for (const int bone : bones) {
+    const auto found = std::find_if(among.begin(), among.end(), [&](int child) {
+      return skeleton.parents[child] == bone && skeleton.offsets[child] == skeleton.tips[bone];
+    });
+    joined.push_back(found == among.end() ? -1 : *found);
+  }
+  return joined;
 }
 
 }  // namespace
@@ -107,6 +124,7 @@ BodyTips::BodyTips(const Skeleton& skeleton)
       scale_(standard_scale(skeleton)),
       reach_(tip_reach(skeleton)),
       chains_(kinematics_.chains(bones_)),
+      joined_(joined_at_tips(skeleton, bones_, chains_)),
       posed_(skeleton.size()),
       tips_(bones_.size()) {}
 
@@ -114,8 +132,8 @@ void BodyTips::pose(const Vector3& root, const double* rotations) {
   kinematics_.world_below(root, rotations, chains_, posed_.heads.data(), posed_.rotations.data());
   const std::vector<Vector3>& tips = kinematics_.skeleton().tips;
   for (std::size_t i = 0; i < tips_.size(); ++i) {
-    const int b = bones_[i];
-    tips_[i] = posed_.heads[b] + turned(posed_.rotations[b], tips[b]);
+    const int b = bones_[i], joined = joined_[i];
+    tips_[i] = joined >= 0 ? posed_.heads[joined] : posed_.heads[b] + turned(posed_.rotations[b], tips[b]);
   }
 }
 
@@ -135,8 +153,12 @@ TipWriter::TipWriter(const Skeleton& skeleton)
     : kinematics_(skeleton),
       measured_(measured_bones(skeleton)),
       chains_(kinematics_.chains(measured_)),
+      joined_(joined_at_tips(skeleton, measured_, chains_)),
       scale_(standard_scale(skeleton)),
       posed_(skeleton.size()) {
+  for (std::size_t i = 0; i < measured_.size(); ++i) {
+    if (joined_[i] < 0) loose_.push_back(measured_[i]);
+  }
   for (std::vector<double>& rotations : rotations_) rotations.resize(std::size_t{4} * skeleton.size());
 }
 
@@ -149,12 +171,12 @@ void TipWriter::add(const Vector3& root, const CharacterFrame& frame, float* row
 void TipWriter::flush() {
   std::array<const double*, kPoses> rotations{};
   for (int i = 0; i < kPoses; ++i) rotations[i] = rotations_[i].data();
-  pose_lanes(kinematics_.skeleton(), chains_, rotations, posed_.data());
+  pose_lanes(kinematics_.skeleton(), chains_, loose_, rotations, posed_.data());
   for (int i = 0; i < count_; ++i) {
     const Seen seen(to_[i].frame, scale_);
     float* to = to_[i].rows;
-    for (const int bone : measured_) {
-      const auto& [x, y, z] = posed_[bone].tip;
+    for (std::size_t n = 0; n < measured_.size(); ++n) {
+      const auto& [x, y, z] = joined_[n] >= 0 ? posed_[joined_[n]].head : posed_[measured_[n]].tip;
       seen.write(x[i], y[i], z[i], to++, to_[i].stride);
     }
   }

@@ -44,6 +44,7 @@ class BodyTips {
   std::vector<int> bones_;
   double scale_, reach_;
   std::vector<int> chains_;  // the bones_ and those between them and the hips
+  std::vector<int> joined_;  // of each of the bones_, the one of chains_ whose head is its tip; -1 where there is none
   PosedBones posed_;
   std::vector<Vector3> tips_;  // of the bones_, in the world
 };
@@ -65,7 +66,7 @@ class TipWriter {
   static constexpr int kPoses = 8;  ///< At once.
   using Lanes = std::array<double, kPoses>;
 
-  /// Where a bone is in the world in all poses, how it is turned (w, x, y, z), and its tip.
+  /// Where a bone is in the world in all poses, how it is turned (w, x, y, z), and its tip, where no bone is joined.
   struct Posed {
     std::array<Lanes, 3> head;
     std::array<Lanes, 4> turn;
@@ -83,6 +84,8 @@ class TipWriter {
   Kinematics kinematics_;
   std::vector<int> measured_;  // the bones whose tips are seen
   std::vector<int> chains_;    // and those between them and the hips, but for these
+  std::vector<int> joined_;    // of each of the measured ones, that of chains_ whose head is its tip, or -1
+  std::vector<int> loose_;     // the measured ones without such
   double scale_;
   std::vector<Posed> posed_;
   std::array<std::vector<double>, kPoses> rotations_;

@@ -4,8 +4,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kHead = 0.5;  // of the spine's turn that the head turns back
-
 // The bone from which both hang, -1 where it is not below the hips.
 int fork(const Skeleton& skeleton, int a, int b) {
   if (a < 0 || b < 0) return -1;
@@ -27,29 +25,33 @@ Trunk::Trunk(const Skeleton& skeleton)
   for (int b = chest; b != skeleton.roles.hips && !carries_a_leg(b); b = skeleton.parents[b]) base = b;
 }
 
-void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, double angle, double* rotations) {
-  double* local = &rotations[std::size_t{4} * bone];
-  Quaternion world = load_quaternion(local);
+Quaternion world_turn(const Skeleton& skeleton, int bone, const double* rotations) {
+  Quaternion world = load_quaternion(&rotations[std::size_t{4} * bone]);
   for (int b = bone; b != skeleton.roles.hips;) {
     b = skeleton.parents[b];
     world = load_quaternion(&rotations[std::size_t{4} * b]) * world;
   }
-  const Quaternion turn{Eigen::AngleAxisd(angle, world.conjugate() * axis)};
+  return world;
+}
+
+void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, double angle, double* rotations) {
+  double* local = &rotations[std::size_t{4} * bone];
+  const Quaternion turn{Eigen::AngleAxisd(angle, world_turn(skeleton, bone, rotations).conjugate() * axis)};
   store_quaternion((load_quaternion(local) * turn).normalized(), local);
+}
+
+int spine_bones(const Skeleton& skeleton, const Trunk& trunk) {
+  int bones = 1;
+  for (int b = trunk.chest; b != trunk.base; b = skeleton.parents[b]) ++bones;
+  return bones;
 }
 
 void turn_spine(const Skeleton& skeleton, const Trunk& trunk, const Vector3& axis, double angle, double* rotations) {
   if (trunk.base < 0) return;
-  const int end = skeleton.parents[trunk.base];
-  int bones = 0;
-  for (int b = trunk.chest; b != end; b = skeleton.parents[b]) ++bones;
-  for (int b = trunk.chest; b != end; b = skeleton.parents[b]) turn_bone(skeleton, b, axis, angle / bones, rotations);
-  turn_head_back(skeleton, trunk, axis, angle, rotations);
-}
-
-void turn_head_back(const Skeleton& skeleton, const Trunk& trunk, const Vector3& axis, double angle,
-                    double* rotations) {
-  if (trunk.head >= 0) turn_bone(skeleton, trunk.head, axis, -kHead * angle, rotations);
+  const double each = angle / spine_bones(skeleton, trunk);
+  for (int b = trunk.chest; b != skeleton.parents[trunk.base]; b = skeleton.parents[b])
+    turn_bone(skeleton, b, axis, each, rotations);
+  if (trunk.head >= 0) turn_bone(skeleton, trunk.head, axis, -kHeadBack * angle, rotations);
 }
 
 }  // namespace fragmotion

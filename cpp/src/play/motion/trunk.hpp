@@ -14,15 +14,21 @@ struct Trunk {
   explicit Trunk(const Skeleton& skeleton);
 };
 
+/// Of the trunk's turn that the head turns back.
+constexpr double kHeadBack = 0.5;
+
+/// The bones of the spine of a trunk that has one.
+int spine_bones(const Skeleton& skeleton, const Trunk& trunk);
+
+/// How a bone below the hips is turned in the world by a pose's rotations [bones, 4].
+Quaternion world_turn(const Skeleton& skeleton, int bone, const double* rotations);
+
 /// Turns a bone of a pose's rotations [bones, 4] by an angle, rad, about an axis that is given in the world; its
 /// children go along.
 void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, double angle, double* rotations);
 
-/// Turns the trunk, each bone of its spine by as much, so that the chest turns by the angle, and the head back by half
-/// of it. Does nothing where there is no spine.
+/// Turns the trunk, each bone of its spine by as much, so that the chest turns by the angle, and the head back by
+/// kHeadBack of it. Does nothing where there is no spine.
 void turn_spine(const Skeleton& skeleton, const Trunk& trunk, const Vector3& axis, double angle, double* rotations);
-
-/// Turns the head, where there is one, back by half of the angle by which the trunk has turned.
-void turn_head_back(const Skeleton& skeleton, const Trunk& trunk, const Vector3& axis, double angle, double* rotations);
 
 }  // namespace fragmotion

@@ -20,10 +20,10 @@ FragmentSelector::FragmentSelector(Workspace& workspace, std::uint64_t seed)
 
 void FragmentSelector::change_style(int style) { style_ = &(*workspace_->styles)[style]; }
 
-// Poses what plays as it is shown at a time since its first pose.
+// Poses what plays as it is shown at a time since its first pose, but for neck and head.
 CharacterFrame FragmentSelector::pose_tips(const Playback& playback, double seconds, BodyTips& tips) const {
   WorldPose& pose = workspace_->poses[0];
-  playback.sample(seconds, pose);
+  playback.sample_body(seconds, pose);
   tips.pose(pose.root, pose.rotations.data());
   return {pose.root.head<2>(), pose.heading};
 }

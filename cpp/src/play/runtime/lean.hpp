@@ -30,8 +30,6 @@ class Lean {
  private:
   friend struct PlayerState;
 
-  void pitch(const Skeleton& skeleton, double heading, double angle, double* rotations) const;
-
   Trunk trunk_;
   std::array<int, 2> thighs_;
   double scale_;

@@ -17,12 +17,7 @@ Quaternion to_frame_of(const WorldPose& pose) { return CharacterFrame{{}, -pose.
 // How the bone that the neck is on is turned in the world.
 Quaternion LookStitch::turn_below(const WorldPose& pose) const {
   const Skeleton& skeleton = workspace_->kinematics.skeleton();
-  Quaternion world = Quaternion::Identity();
-  for (int b = workspace_->look.front(); b != skeleton.roles.hips;) {
-    b = skeleton.parents[b];
-    world = load_quaternion(&pose.rotations[std::size_t{4} * b]) * world;
-  }
-  return world;
+  return world_turn(skeleton, skeleton.parents[workspace_->look.front()], pose.rotations.data());
 }
 
 // Writes how neck and head are turned, which is seen after a rotation, as the pose of a body that is these bones.
