@@ -46,7 +46,9 @@ if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
   list(JOIN fragmotion_exported "; " exported)
   file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/game/exported.map" "{ global: ${exported}; local: *; };\n")
   target_link_options(fragmotion_shared PRIVATE "-Wl,--version-script=${CMAKE_CURRENT_BINARY_DIR}/game/exported.map"
-                      -Wl,--gc-sections -Wl,--no-undefined $<$<CONFIG:Release>:-s>)
+                      -Wl,--gc-sections -Wl,--no-undefined $<$<CONFIG:Release>:-s>
+                      # Code and constants share pages: 8 kB of zeros less.
+                      -Wl,-z,noseparate-code)
 endif()
 
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND CMAKE_OBJCOPY AND NOT CMAKE_CROSSCOMPILING)
