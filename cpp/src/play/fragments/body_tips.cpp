@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fragments/body_tips.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/vectorised.hpp"
@@ -97,12 +96,11 @@ FRAGMOTION_VECTORISED void pose_lanes(const Skeleton& skeleton, const std::vecto
 // none. Such a tip is known as soon as the heads are.
 std::vector<int> joined_at_tips(const Skeleton& skeleton, const std::vector<int>& bones,
                                 const std::vector<int>& among) {
-  std::vector<int> joined;
-  for (const int bone : bones) {
-    const auto found = std::find_if(among.begin(), among.end(), [&](int child) {
-      return skeleton.parents[child] == bone && skeleton.offsets[child] == skeleton.tips[bone];
-    });
-    joined.push_back(found == among.end() ? -1 : *found);
+  std::vector<int> joined(bones.size(), -1);
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    for (const int child : among) {
+      if (skeleton.parents[child] == bones[i] && skeleton.offsets[child] == skeleton.tips[bones[i]]) joined[i] = child;
+    }
   }
   return joined;
 }

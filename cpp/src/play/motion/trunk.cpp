@@ -34,10 +34,15 @@ Quaternion world_turn(const Skeleton& skeleton, int bone, const double* rotation
   return world;
 }
 
-void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, double angle, double* rotations) {
+void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, const HalfAngle& half, double* rotations) {
   double* local = &rotations[std::size_t{4} * bone];
-  const Quaternion turn{Eigen::AngleAxisd(angle, world_turn(skeleton, bone, rotations).conjugate() * axis)};
-  store_quaternion((load_quaternion(local) * turn).normalized(), local);
+  const Vector3 turn = half.sine * turned(world_turn(skeleton, bone, rotations).conjugate(), axis);
+  store_quaternion((load_quaternion(local) * Quaternion{half.cosine, turn.x(), turn.y(), turn.z()}).normalized(),
+                   local);
+}
+
+void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, double angle, double* rotations) {
+  turn_bone(skeleton, bone, axis, HalfAngle(angle), rotations);
 }
 
 int spine_bones(const Skeleton& skeleton, const Trunk& trunk) {

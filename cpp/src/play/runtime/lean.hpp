@@ -30,6 +30,8 @@ class Lean {
  private:
   friend struct PlayerState;
 
+  void lean_by(const Skeleton& skeleton, const Vector2& lean, double heading, double* rotations) const;
+
   Trunk trunk_;
   std::array<int, 2> thighs_;
   double scale_;
