@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/quantile.hpp"
+#include "base/rounding.hpp"
 #include "control/gaits.hpp"
 
 namespace fragmotion {
@@ -17,7 +18,6 @@ constexpr double kShuffle = 0.5;   // m/s of a 1.8 m character: no walk, but wha
 constexpr double kTwoGaits = 1.6;  // a run is at least so much faster than a walk, unless nothing goes between them:
 // So far apart are the halves of what is spread evenly, which is the flattest that has one mode.
 const double kOneMode = std::sqrt(12);
-constexpr double kNoSpread = 1e-9;  // m2/s2
 constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gaits
 constexpr double kRunOverWalk = 3.3 / 1.2;
 constexpr double kApart = 1.2;       // a speed that is asked for is at least so much faster than the one before it,
@@ -57,7 +57,7 @@ Clusters two_clusters(const std::vector<double>& sorted) {
   if (static_cast<double>(std::min(at, sorted.size() - at)) < kGroup * static_cast<double>(sorted.size())) return found;
   const double *begin = sorted.data(), *end = begin + sorted.size();
   const double spread = spread_of(begin, begin + at, found.slow) + spread_of(begin + at, end, found.fast);
-  if (at > 0) found.apart = (found.fast - found.slow) * std::sqrt(2 / std::max(spread, kNoSpread));
+  if (at > 0) found.apart = (found.fast - found.slow) * std::sqrt(2 / std::max(spread, kRounding));
   return found;
 }
 

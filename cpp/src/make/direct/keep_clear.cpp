@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/ranges.hpp"
+#include "base/rounding.hpp"
 #include "control/trace_frames.hpp"
 #include "direct/make_way.hpp"
 #include "runtime/player_constants.hpp"
@@ -18,10 +19,9 @@ constexpr double kControl = 1 / kTraceRate;        // s
 constexpr double kNearGoal = 0.5;                  // m of a 1.8 m character: what is nearer than that is no goal
 constexpr double kGoalLate = 1.5, kGoalLater = 3;  // times as long as planned, and s more: then a goal is given up
 constexpr double kMostScale = 1e6;
-constexpr double kGoesOn = 0.2;   // s until a body can do otherwise, in which it goes on: it takes so much more room
-constexpr double kHeeded = 1e-9;  // m/s: by less than that nothing is in the way
-constexpr int kForgets = 10;      // controls after which it forgets on which side it went past something
-constexpr int kGlances = 8;       // at the way that it would go, for what stands there
+constexpr double kGoesOn = 0.2;  // s until a body can do otherwise, in which it goes on: it takes so much more room
+constexpr int kForgets = 10;     // controls after which it forgets on which side it went past something
+constexpr int kGlances = 8;      // at the way that it would go, for what stands there
 
 // The place of an outline that is next to another, and whether that is inside.
 struct Beside {
@@ -125,7 +125,7 @@ class Heeding {
       const auto worst = std::min_element(things.begin(), things.end(), [&](const HalfPlane& a, const HalfPlane& b) {
         return room_in(a, clear) < room_in(b, clear);
       });
-      if (worst == things.end() || room_in(*worst, clear) > -kHeeded) break;
+      if (worst == things.end() || room_in(*worst, clear) > -kRounding) break;
       clearance.add(*worst);
       things.erase(worst);
       way_round = way_round_;
@@ -230,7 +230,7 @@ std::vector<HalfPlane> keep_off(const std::vector<std::vector<Vector2>>& obstacl
 }
 
 void check(const std::vector<CrowdMember>& members, const CrowdOptions& options) {
-  require_range("the radius of a crowd's members", options.radius, 1e-9, 1e6);
+  require_range("the radius of a crowd's members", options.radius, kRounding, kMostScale);
   require_range("the time of a crowd, in s,", options.seconds, kControl, kLongestCall);
   for (const CrowdMember& member : members) {
     if (member.player == nullptr) throw std::invalid_argument("a member of a crowd has no player");

@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/ranges.hpp"
+#include "base/rounding.hpp"
 #include "control/trace_frames.hpp"
 
 namespace fragmotion {
@@ -81,9 +82,9 @@ class PinSearch {
         start_(start),
         trace_(trace),
         goal_(goal.frame),
-        first_(static_cast<int>(std::ceil(options.begin * kTraceRate - kFrameRounding))),
+        first_(static_cast<int>(std::ceil(options.begin * kTraceRate - kRounding))),
         frames_(static_cast<int>(std::lround(goal.seconds * kPinRate))),
-        end_(static_cast<int>(std::ceil(frames_ / (kPinRate / kTraceRate) - kFrameRounding))),
+        end_(static_cast<int>(std::ceil(frames_ / (kPinRate / kTraceRate) - kRounding))),
         walk_(character->space.walk()) {
     for (int i = 0; i < thread_count(options.threads); ++i) {
       players_.emplace_back(character, player);
@@ -161,8 +162,8 @@ class PinSearch {
       player.step(changed(f / kFramesAControl, trial.change), 1 / kPinRate);
     }
     trial.reached = player.frame();
-    trial.cost = std::hypot(distance(trial) / std::max(options_.distance, kFrameRounding),
-                            angle(trial) / std::max(options_.angle, kFrameRounding));
+    trial.cost = std::hypot(distance(trial) / std::max(options_.distance, kRounding),
+                            angle(trial) / std::max(options_.angle, kRounding));
   }
 
   // A control of the trace, changed: who stands does not begin to go or to turn.

@@ -3,6 +3,7 @@
 
 #include "api/handles.hpp"
 #include "api/player_state_of.hpp"
+#include "base/rounding.hpp"
 
 namespace fragmotion {
 namespace {
@@ -131,7 +132,7 @@ void FragmotionPlayer::foresee(const FragmotionInput& input, double seconds, int
   std::vector<unsigned char>& state = scratch->state;
   const std::size_t size = save(state.data());
   for (int i = 0; i < count; ++i) {
-    for (double rest = seconds / count; rest > kInstant; rest -= kForeseen) advance(input, std::min(rest, kForeseen));
+    for (double rest = seconds / count; rest > kRounding; rest -= kForeseen) advance(input, std::min(rest, kForeseen));
     const CharacterFrame at = shift.frame(now.frame);
     const double level = now.level + shift.lift;
     places[i] = theirs({at.position.x(), at.position.y(), level}, at.heading);

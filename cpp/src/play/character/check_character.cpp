@@ -8,12 +8,13 @@
 #include <string>
 
 #include "base/ranges.hpp"
+#include "base/rounding.hpp"
 #include "motion/trunk.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kShortest = (1 - kFileRounding) * kShortestFragment;  // s that a fragment may last
+constexpr double kShortest = (1 - kFloatRounding) * kShortestFragment;  // s that a fragment may last
 constexpr double kMost = 1e9;  // of what is in m/s, rad/s or a ratio: its square is a number, and no body is so fast
 constexpr double kHighest = 1e10;  // m of a floor: above any chain of bones at any place
 

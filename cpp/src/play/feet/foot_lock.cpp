@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/filtered.hpp"
+#include "base/rounding.hpp"
 #include "feet/standing_leg.hpp"
 #include "motion/pose.hpp"
 #include "motion/skate.hpp"
@@ -218,7 +219,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     const Vector3 moved{by.x(), by.y(), lift};
     ankles[side] = ankle_of(legs[side], posed) + moved;
     raise_heel(side, place + moved, follows, ankles[side], pose.rotations.data());
-    if (by.isZero(1e-9) && lift == 0) continue;
+    if (by.isZero(kRounding) && lift == 0) continue;
     const double strain =
         std::max(0.0, too_high(longest(legs[side], posed), posed.heads[legs[side].thigh], ankles[side]));
     if (feet_[side].locked && strain * scale > kStrained) release(feet_[side], held);

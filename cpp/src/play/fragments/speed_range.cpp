@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
+
 namespace fragmotion {
 namespace {
 
 constexpr double kBeyond = 1.3;      // of the takes' speed: a body goes so fast that never was seen to
 constexpr double kAround = kPi / 6;  // rad to either side of a direction
-constexpr double kRounding = 1 + 1e-9;
 constexpr int kDirections = 72;
 constexpr double kTurn = 2 * kPi / kDirections;
 
@@ -38,7 +39,7 @@ double SpeedRange::most(const Control& control) const {
 
 bool SpeedRange::allows(const Control& control) const {
   const double speed = control.speed();
-  return speed <= walk_ || speed <= most(control) * kRounding;
+  return speed <= walk_ || speed <= most(control) * (1 + kRounding);
 }
 
 Control SpeedRange::within(const Control& control) const {

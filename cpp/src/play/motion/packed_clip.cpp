@@ -7,13 +7,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/rounding.hpp"
 #include "base/vectorised.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr int kRootNumbers = PackedPoses::kRootNumbers;
-constexpr double kUnit = 1e-6;  // that a constant rotation may be off
 constexpr double kMostSteps = 1 << PackedPoses::kMostBits;
 constexpr double kFarthest = 1e12;  // m, and rad: where places are still told apart
 
@@ -61,7 +61,8 @@ void require(bool holds) {
 
 void check_rotations(const std::vector<float>& lanes, const PoseGrid& grid) {
   require(lanes.size() == std::size_t{4} * kBoneBlock * grid.blocks());
-  for (int b = 0; b < kBoneBlock * grid.blocks(); ++b) require(std::abs(quaternion_of(lanes, b).norm() - 1) < kUnit);
+  for (int b = 0; b < kBoneBlock * grid.blocks(); ++b)
+    require(std::abs(quaternion_of(lanes, b).norm() - 1) < kFloatRounding);
 }
 
 void check_mirror(const PoseGrid& grid) {

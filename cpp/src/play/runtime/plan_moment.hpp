@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/rounding.hpp"
 #include "runtime/player.hpp"
 
 namespace fragmotion {
@@ -22,8 +23,8 @@ void Player::plan(Moment& moment, const Control& control, bool (Player::*can)() 
     const double total = cost(ahead) + kImpatience * wait;
     if ((ahead.*can)() && total < least) least = total, best = wait;
     const double next = std::min(wait + kLook, moment.patience());
-    if (next - wait < kInstant) break;
-    for (double rest = next - wait; rest > kInstant;) rest -= ahead.advance(control, std::min(rest, kFinest));
+    if (next - wait < kRounding) break;
+    for (double rest = next - wait; rest > kRounding;) rest -= ahead.advance(control, std::min(rest, kFinest));
     wait = next;
   }
   moment.plan(best, control);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/ranges.hpp"
+#include "base/rounding.hpp"
 #include "motion/pose.hpp"
 
 namespace fragmotion {
@@ -34,8 +35,8 @@ void Playback::reset(int fragment, const CharacterFrame& frame) {
 
 void Playback::play(const Placed& placed) {
   const double first = fragment(placed).first_played();
-  const bool goes_on = &clip(placed) == &clip(now_) && std::abs(first - at()) < kSameButRounding;
-  const double after = goes_on ? at() : first - 2 * kSameButRounding;
+  const bool goes_on = &clip(placed) == &clip(now_) && std::abs(first - at()) < kFloatRounding;
+  const double after = goes_on ? at() : first - 2 * kFloatRounding;
   now_ = placed;
   pass_markers(after, first);
   const Vector2 velocity = hips_velocity(clip(now_), fragment());
@@ -131,7 +132,7 @@ void Playback::advance(double seconds) {
 // Those of the clip that plays after a frame of it, until another.
 void Playback::pass_markers(double after, double until) {
   for (const Marker& marker : clip(now_).markers) {
-    const double frame = marker.frame - kSameButRounding;
+    const double frame = marker.frame - kFloatRounding;
     if (frame <= after || frame > until) continue;
     if (passed_.count < static_cast<int>(passed_.markers.size())) passed_.markers[passed_.count++] = &marker;
   }

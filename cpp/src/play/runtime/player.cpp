@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/ranges.hpp"
+#include "base/rounding.hpp"
 #include "base/simd.hpp"
 #include "feet/ground_follower.hpp"
 #include "feet/look_ahead.hpp"
@@ -14,8 +15,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a step: less that is left of it is what sums of its parts are off
-constexpr double kMiddle = 0.2;     // s from now to that of a fragment that begins soon
+constexpr double kMiddle = 0.2;  // s from now to that of a fragment that begins soon
 
 double within_one(double value, const char* name) {
   if (value >= 0 && value <= 1) return value;

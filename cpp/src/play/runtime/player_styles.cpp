@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "base/rounding.hpp"
 #include "runtime/plan_moment.hpp"
 
 namespace fragmotion {
@@ -44,7 +45,7 @@ double Player::begin_style(const Control& control, double most) {
     plan(moment, control, &Player::can_change_style,
          [&](const Player& p) { return p.cost_of_style(style, p.wanted(control)); });
   }
-  if (moment.until() > kInstant) return std::min(most, moment.until());
+  if (moment.until() > kRounding) return std::min(most, moment.until());
   if (can_change_style()) {
     set_style(style);
     enter_best_class(wanted(control));

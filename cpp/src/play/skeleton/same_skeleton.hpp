@@ -7,9 +7,6 @@
 
 namespace fragmotion {
 
-/// rad: rest frames that differ by less are the same.
-constexpr double kSameRest = 1e-6;
-
 /// Whether motion of one skeleton is motion of the other as it stands: the same bones with the same parents and hips,
 /// and below the hips the same rest rotations in the world and the same lengths, to 1/1000 of the stature. Where the
 /// hips and what is above or beside them stand at rest does not count: takes put the hips where they are.
