@@ -5,9 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "base/rates.hpp"
 #include "evaluate/body_track.hpp"
 #include "evaluate/dragging.hpp"
 #include "evaluate/runner.hpp"
+#include "evaluate/tracks.hpp"
 
 namespace fragmotion {
 namespace {
@@ -38,8 +40,8 @@ std::vector<Step> all_steps(const ControlSpace& space) {
   return steps;
 }
 
-constexpr int kFramesBefore = static_cast<int>(kBefore * kTrackRate),
-              kFramesAfter = static_cast<int>((kAfter + kBefore) * kTrackRate);
+constexpr int kFramesBefore = static_cast<int>(kBefore * kGameRate),
+              kFramesAfter = static_cast<int>((kAfter + kBefore) * kGameRate);
 
 void show(const Player& player, Clip& clip) {
   const Vector3& root = player.root_position();
@@ -51,7 +53,7 @@ void show(const Player& player, Clip& clip) {
 // From kBefore before the change until kAfter and as much later.
 Clip shown_around(Runner& runner, const Step& step) {
   Clip clip;
-  clip.rate = kTrackRate;
+  clip.rate = kGameRate;
   for (int f = -kFramesBefore; f <= kFramesAfter; ++f) {
     runner.frame(f < 0 ? step.from : step.to);
     show(runner.player(), clip);
@@ -91,7 +93,7 @@ std::array<ChangePushes, kChanges> change_pushes(const std::shared_ptr<const Cha
     runner.hold(step.from, random);
     BodyTrack track = body_track(kinematics, shown_around(runner, step));
     stand_on(track, floors);
-    const std::vector<double> pushes = ground_accelerations(track.center, kTrackRate);
+    const std::vector<double> pushes = ground_accelerations(track.center, kGameRate);
     Changes& some = found[static_cast<std::size_t>(kind_of(step.from, step.to))];
     some.pushes.insert(some.pushes.end(), pushes.begin(), pushes.end());
     some.dragged += dragging(track, clearance, kFramesBefore).dragged;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/rates.hpp"
 #include "evaluate/performance.hpp"
 #include "evaluate/tracks.hpp"
 
@@ -119,7 +120,7 @@ std::vector<SpeedRipple> speed_ripples(const std::shared_ptr<const Character>& c
   for (double commanded = kSlowest; commanded <= kFastest; commanded += kSlowest) {
     const Trace trace(static_cast<std::size_t>(kHeld * kTraceRate),
                       Control{0, commanded / character->space.scale(), 0, 0});
-    const Performance performance = perform(Player(character, options), trace, kTrackRate);
+    const Performance performance = perform(Player(character, options), trace, kGameRate);
     BodyTrack track = body_track(kinematics, clip_of(performance));
     stand_on(track, floors);
     SpeedRipple row;

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/rates.hpp"
 #include "motion/cycle.hpp"
 #include "motion/skate.hpp"
 #include "motion/soles.hpp"
@@ -15,13 +16,12 @@ namespace fragmotion {
 namespace {
 
 // Of a character of 1.8 m.
-constexpr double kStays = 0.4;        // m that hips on the spot go at most
-constexpr double kGoes = 0.3;         // m/s, of what is larger by dynamic similarity (Froude): what is slower stands
-constexpr double kTurns = kPi / 12;   // rad/s: feet that stand turn by less in a gait that goes straight
-constexpr double kLow = 0.02;         // m over its lowest: a sole on the ground
-constexpr double kWindow = 1.0 / 30;  // s over which velocities are told: keys and markers tremble
-constexpr double kLevel = 0.05;       // m it rises or falls for a m back: steeper is a foot that lands or leaves
-constexpr double kAsFast = 0.95;      // of what grip tells: slower is a foot that lands or leaves
+constexpr double kStays = 0.4;       // m that hips on the spot go at most
+constexpr double kGoes = 0.3;        // m/s, of what is larger by dynamic similarity (Froude): what is slower stands
+constexpr double kTurns = kPi / 12;  // rad/s: feet that stand turn by less in a gait that goes straight
+constexpr double kLow = 0.02;        // m over its lowest: a sole on the ground
+constexpr double kLevel = 0.05;      // m it rises or falls for a m back: steeper is a foot that lands or leaves
+constexpr double kAsFast = 0.95;     // of what grip tells: slower is a foot that lands or leaves
 constexpr double kSmooth[] = {0.5, 0.2, 0.1, 0.03};  // s, of the guesses, one after the other
 constexpr double kTreads = 0.5;                      // of the way: feet that tread come back, and none of them stands
 
@@ -52,7 +52,7 @@ Velocities smoothed(const Velocities& values, const std::vector<double>& weights
 class Treading {
  public:
   Treading(const std::vector<SolePath>& soles, double rate, double scale)
-      : soles_(soles), rate_(rate), scale_(scale), span_(std::max(1, static_cast<int>(std::lround(kWindow * rate)))) {
+      : soles_(soles), rate_(rate), scale_(scale), span_(std::max(1, static_cast<int>(std::lround(rate / kPoseRate)))) {
     windows_ = static_cast<int>(soles[0].heel().path.size()) - span_;
     for (const SolePath& sole : soles) stands_.push_back(stand_of(sole, [](const SolePoint&, int) { return true; }));
   }

@@ -10,7 +10,6 @@
 #include "base/rounding.hpp"
 #include "base/take_limits.hpp"
 #include "motion/facing.hpp"
-#include "skeleton/same_skeleton.hpp"
 
 namespace fragmotion {
 

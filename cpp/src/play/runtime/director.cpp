@@ -5,15 +5,14 @@
 #include <limits>
 #include <utility>
 
-#include "base/ranges.hpp"
+#include "base/rates.hpp"
 #include "base/rounding.hpp"
+#include "fragments/entry_poses.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kChange = 1;       // ControlDis between controls that is "a lot"
-constexpr double kWorthIt = 0.05;   // s that must be left of a fragment for leaving it early
-constexpr double kPart = 1 / 30.0;  // s of a fragment that a part of a step plays at most
+constexpr double kChange = 1;  // ControlDis between controls that is "a lot"
 
 }  // namespace
 
@@ -110,10 +109,11 @@ bool Director::makes_way(const Playback& playback) const {
 bool Director::leaves_early(const Control& wanted, bool changes, const Playback& playback,
                             const FragmentSelector& selector) {
   const bool too_soon = playback.seconds() <= soonest(playback) - kRounding;
-  if (too_soon || playback.left() <= kWorthIt || waiting_ >= 0 || plays_forced_) return false;
+  if (too_soon || playback.left() <= kMomentsApart || waiting_ >= 0 || plays_forced_) return false;
   if (playback.is_jumping() || !has_changed(wanted)) return false;
   if (!is_planned(wanted)) {
-    const bool only_now = changes && playback.left() > kWorthIt + kPart;  // it will be planned anew
+    // It will be planned anew: one part of a step plays no more of a fragment than two frames of a game.
+    const bool only_now = changes && playback.left() > kMomentsApart + 2 * kGameStep;
     const Exit found = plan_exit(wanted, playback, selector, only_now);
     exit_ = only_now && found.seconds > playback.seconds() ? Exit{} : found;
     planned_for_ = wanted;
@@ -170,7 +170,7 @@ int Director::decide(const Control& control, const Playback& playback, const Fra
   const int next = plays_forced_ ? std::exchange(forced_, -1) : next_class(control, playback, selector);
   previous_ = std::exchange(class_, next);
   exit_ = {};
-  soonest_ = kSoonest;
+  soonest_ = kEntry;
   return next;
 }
 
@@ -181,7 +181,7 @@ void Director::resume(int next_class, const Control& control) {
   waiting_ = -1;
   plays_forced_ = jump_latched_ = false;
   exit_ = {};
-  soonest_ = kSoonest;
+  soonest_ = kEntry;
 }
 
 double Director::until_due(const Playback& playback, double most) const {

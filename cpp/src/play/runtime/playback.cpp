@@ -4,16 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/ranges.hpp"
+#include "base/rates.hpp"
 #include "base/rounding.hpp"
 #include "motion/pose.hpp"
 
 namespace fragmotion {
-namespace {
-
-constexpr double kApart = 1.0 / 60;  // s over which speeds are measured
-
-}  // namespace
 
 Playback::Playback(const Character& character, Workspace& workspace, Stitching stitching, double stitch)
     : character_(&character),
@@ -106,18 +101,18 @@ Vector2 Playback::start(const Placed& next) {
 Vector2 Playback::begin_stitch(const Placed& old) {
   auto& [old_now, old_later, fresh, fresh_later] = workspace_->poses;
   sample_stitched(old, old.seconds, old_now);
-  if (fragment(old).first_played() + (old.seconds + kApart) * clip(old).rate <= clip(old).frames - 1) {
-    sample_stitched(old, old.seconds + kApart, old_later);
+  if (fragment(old).first_played() + (old.seconds + kGameStep) * clip(old).rate <= clip(old).frames - 1) {
+    sample_stitched(old, old.seconds + kGameStep, old_later);
   } else {
-    sample_stitched(old, old.seconds - kApart, fresh);
+    sample_stitched(old, old.seconds - kGameStep, fresh);
     extrapolate(fresh, old_now, old_later);
   }
   sample(now_, fresh);
   Placed later = now_;
-  later.seconds += kApart;
+  later.seconds += kGameStep;
   sample(later, fresh_later);
-  const Vector2 faster = inertialization_.begin(old_now, old_later, fresh, fresh_later, kApart, stitch_);
-  look_.begin(old_now, old_later, fresh, fresh_later, kApart, stitch_, turning_, inertialization_);
+  const Vector2 faster = inertialization_.begin(old_now, old_later, fresh, fresh_later, kGameStep, stitch_);
+  look_.begin(old_now, old_later, fresh, fresh_later, kGameStep, stitch_, turning_, inertialization_);
   return Eigen::Rotation2Dd(-frame_.heading) * faster;
 }
 
@@ -231,9 +226,9 @@ Travel Playback::mean_travel() const {
 
 Vector2 Playback::velocity() const {
   auto& [before, now, unused, unused_too] = workspace_->poses;
-  sample(now_.seconds - kApart, before);
+  sample(now_.seconds - kGameStep, before);
   sample(now_.seconds, now);
-  return Eigen::Rotation2Dd(-frame_.heading) * (now.root - before.root).head<2>() / kApart;
+  return Eigen::Rotation2Dd(-frame_.heading) * (now.root - before.root).head<2>() / kGameStep;
 }
 
 }  // namespace fragmotion

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/ranges.hpp"
+#include "base/rates.hpp"
 #include "base/rounding.hpp"
 #include "base/simd.hpp"
 #include "feet/ground_follower.hpp"
@@ -219,7 +220,7 @@ void Player::step(const Control& given, double seconds) {
   director_.observe(control);
   if (seconds == 0) playback_.show();
   for (double rest = seconds; rest > kRounding * seconds;) {
-    rest -= advance(control, std::min(rest, kFinest));
+    rest -= advance(control, std::min(rest, kGameStep));
     const bool is_seen = rest <= kRounding * seconds || extras_ != nullptr;  // what begins over a pose looks at it
     if (is_seen) {
       playback_.show();

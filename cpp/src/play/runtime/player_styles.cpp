@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "base/rates.hpp"
 #include "base/rounding.hpp"
 #include "runtime/plan_moment.hpp"
 
@@ -24,7 +25,7 @@ void Player::set_style(int style) {
 }
 
 Control Player::wanted(const Control& control) const {
-  return director_.wanted(governor_.command(control, frame().heading, kFinest));
+  return director_.wanted(governor_.command(control, frame().heading, kGameStep));
 }
 
 // What it costs to play on in another style.
