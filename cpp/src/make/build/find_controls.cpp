@@ -10,11 +10,11 @@
 #include "base/quantile.hpp"
 #include "base/rounding.hpp"
 #include "control/gaits.hpp"
+#include "motion/contacts.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kShuffle = 0.5;   // m/s of a 1.8 m character: no walk, but what jumps and stands do between
 constexpr double kTwoGaits = 1.6;  // a run is at least so much faster than a walk, unless nothing goes between them:
 // So far apart are the halves of what is spread evenly, which is the flattest that has one mode.
 const double kOneMode = std::sqrt(12);
@@ -75,8 +75,8 @@ std::vector<double> going_speeds(const std::vector<Control>& evident, double sca
 std::vector<double> two_gaits(const std::vector<double>& speeds) {
   if (speeds.empty()) return {1.2, 3.3};
   const auto [slow, fast, apart] = two_clusters(speeds);
-  const auto walking = std::lower_bound(speeds.begin(), speeds.end(), kShuffle);
-  if (slow < kShuffle && walking != speeds.end()) return two_gaits({walking, speeds.end()});
+  const auto walking = std::lower_bound(speeds.begin(), speeds.end(), kWalking);
+  if (slow < kWalking && walking != speeds.end()) return two_gaits({walking, speeds.end()});
   if (fast > (apart > kOneMode ? kApart : kTwoGaits) * slow) return {slow, fast};
   const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
   return mean < kWalkOrRun ? std::vector{mean, mean * kRunOverWalk} : std::vector{mean / kRunOverWalk, mean};

@@ -6,6 +6,7 @@
 
 #include "base/ranges.hpp"
 #include "control/trace_frames.hpp"
+#include "motion/contacts.hpp"
 
 namespace fragmotion {
 namespace {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/filtered.hpp"
 #include "base/ranges.hpp"
 #include "base/rates.hpp"
 #include "fragments/body_tips.hpp"
@@ -15,8 +16,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kStitched = kJoined / 4;  // s: see Inertialization::begin
-constexpr double kCarried = 0.1;           // s: time constant of the velocity that goes on
+constexpr double kCarried = 0.1;  // s: time constant of the velocity that goes on
 
 void check_frames(const std::vector<int>& frames, const Motion& motion, const char* name) {
   if (frames.empty()) throw std::invalid_argument(std::string("there are no frames at which ") + name + " is joined");
@@ -97,8 +97,8 @@ Motion join(const Skeleton& skeleton, const Motion& first, int end, const Motion
   const Vector2 faster = end > 0 ? stitch.begin(old, onward(pose_at(first, end - 1), old), fresh,
                                                 beginning > 0 ? onward(carried_pose(beginning - 1), fresh)
                                                               : carried_pose(std::min(1, second.frames() - 1)),
-                                                apart, kStitched)
-                                 : stitch.begin(old, old, fresh, fresh, apart, kStitched);
+                                                apart, kJoined / kUnseen)
+                                 : stitch.begin(old, old, fresh, fresh, apart, kJoined / kUnseen);
   Motion joined = first;
   resize(joined, end + second.frames() - beginning);
   for (int f = 1; beginning + f < second.frames(); ++f) {

@@ -8,6 +8,7 @@
 
 #include "base/ranges.hpp"
 #include "base/rounding.hpp"
+#include "base/take_limits.hpp"
 #include "control/trace_frames.hpp"
 #include "direct/make_way.hpp"
 #include "runtime/player_constants.hpp"
@@ -17,7 +18,6 @@ namespace {
 
 constexpr double kNearGoal = 0.5;                  // m of a 1.8 m character: what is nearer than that is no goal
 constexpr double kGoalLate = 1.5, kGoalLater = 3;  // times as long as planned, and s more: then a goal is given up
-constexpr double kMostScale = 1e6;
 constexpr double kGoesOn = 0.2;  // s until a body can do otherwise, in which it goes on: it takes so much more room
 constexpr int kForgets = 10;     // controls after which it forgets on which side it went past something
 constexpr int kGlances = 8;      // at the way that it would go, for what stands there
@@ -229,11 +229,11 @@ std::vector<HalfPlane> keep_off(const std::vector<std::vector<Vector2>>& obstacl
 }
 
 void check(const std::vector<CrowdMember>& members, const CrowdOptions& options) {
-  require_range("the radius of a crowd's members", options.radius, kRounding, kMostScale);
+  require_range("the radius of a crowd's members", options.radius, kRounding, kFarthestBody);
   require_range("the time of a crowd, in s,", options.seconds, kControlStep, kLongestCall);
   for (const CrowdMember& member : members) {
     if (member.player == nullptr) throw std::invalid_argument("a member of a crowd has no player");
-    require_range("the scale of a crowd's member", member.scale, 1 / kMostScale, kMostScale);
+    require_range("the scale of a crowd's member", member.scale, 1 / kMostOfSpace, kMostOfSpace);
   }
 }
 

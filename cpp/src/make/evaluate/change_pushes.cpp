@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/rates.hpp"
+#include "evaluate/about_face.hpp"
 #include "evaluate/body_track.hpp"
 #include "evaluate/dragging.hpp"
 #include "evaluate/runner.hpp"
@@ -14,8 +15,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kReversed = 100 * kPi / 180, kSameWay = 20 * kPi / 180;  // rad
-constexpr double kAfter = 1.5, kBefore = 0.2;                             // s
+constexpr double kSameWay = 20 * kPi / 180;    // rad
+constexpr double kAfter = 1.5, kBefore = 0.2;  // s
 
 struct Step {
   Control from, to;
@@ -76,7 +77,7 @@ Change kind_of(const Control& from, const Control& to) {
   if (from.speed() == 0) return to.speed() == 0 ? Change::turn : Change::start;
   if (to.speed() == 0) return Change::stop;
   const double angle = std::acos(std::clamp(before.dot(after) / (from.speed() * to.speed()), -1.0, 1.0));
-  if (angle > kReversed) return Change::reverse;
+  if (angle > kTurnsBack) return Change::reverse;
   return angle > kSameWay || from.turn != to.turn ? Change::turn : Change::gait;
 }
 

@@ -13,6 +13,9 @@ constexpr double kFarthestPlace = 1e9;
 /// s that a step, a call or what plays without one may last.
 constexpr double kLongestCall = 3600;
 
+/// s: no trace and no walk lasts longer.
+constexpr double kDay = 24 * 3600;
+
 /// A number as short as people write it.
 inline std::string text_of(double value) {
   std::ostringstream text;

@@ -29,7 +29,7 @@ void check(const std::vector<Vector2>& points, const std::vector<double>& speeds
                                 std::to_string(speeds.size()) + " speeds");
   }
   for (std::size_t i = 0; i < speeds.size(); ++i) {
-    if (!(speeds[i] > 0 && speeds[i] <= kFastestPath))
+    if (!(speeds[i] > 0 && speeds[i] <= kFastestBody))
       throw std::invalid_argument("the speed at point " + std::to_string(i) +
                                   " of the path must be over 0 to 1000 m/s");
   }

@@ -18,7 +18,6 @@ namespace {
 constexpr double kTooFar = 0.3;        // m from its motion at which a foot is let go,
 constexpr double kTooFarAlone = 0.5;   // and at which the only one that stands is
 constexpr double kStrained = 0.1;      // m that the hips would have to sink for a foot: from there it steps on
-constexpr double kForgets = 4;         // times kRelease, until nothing is seen of a foot that was let go
 constexpr double kComesToRest = 0.02;  // s: time constant of a foot that comes to rest
 constexpr double kSoftGround = 0.006;  // m: a foot sinks in at most half of that
 constexpr double kHovers = 0.015;      // m over the floor from where a planted foot is lowered
@@ -157,7 +156,7 @@ Vector2 FootLock::away(int side, const Vector2& moved, bool planted, double seco
   foot.moved = moved;
   foot.free += seconds;
   Vector2 away = Vector2::Zero();
-  if (foot.free < kForgets * kRelease) {
+  if (foot.free < kUnseen * kRelease) {
     const Vector2 rate = foot.offset_speed + kReturns * foot.offset;
     away = std::exp(-kReturns * foot.free) * (foot.offset + foot.free * rate);
   }

@@ -9,8 +9,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kBeyond = 1.3;      // of the takes' speed: a body goes so fast that never was seen to
-constexpr double kAround = kPi / 6;  // rad to either side of a direction
+constexpr double kBeyond = 1.3;  // of the takes' speed: a body goes so fast that never was seen to
 constexpr int kDirections = 72;
 constexpr double kTurn = 2 * kPi / kDirections;
 
@@ -25,7 +24,7 @@ SpeedRange::SpeedRange(const std::vector<Fragment>& fragments, const ControlSpac
     const double at = direction(fragment.evident), speed = kBeyond * fragment.evident.speed();
     for (int i = 0; i < kDirections; ++i) {
       const double off = std::abs(i * kTurn - at);  // up to one and a half turns
-      if (std::min(off, std::abs(off - 2 * kPi)) <= kAround) most_[i] = std::max(most_[i], speed);
+      if (std::min(off, std::abs(off - 2 * kPi)) <= kSameDirection) most_[i] = std::max(most_[i], speed);
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "base/rates.hpp"
 #include "base/rounding.hpp"
 #include "fragments/entry_poses.hpp"
+#include "motion/contacts.hpp"
 
 namespace fragmotion {
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fragments/entry_poses.hpp"
+#include "motion/contacts.hpp"
 #include "motion/pose.hpp"
 #include "policy/answer.hpp"
 

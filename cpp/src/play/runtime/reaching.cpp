@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "control/control.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kHeard = 0.1;      // s: what is told little by little is told so often at least
 constexpr double kReachesIn = 0.6;  // s of a whole reach (T. Flash, N. Hogan, J. Neuroscience 5, 1985)
 constexpr double kHandSpeed = 2;    // m/s at the most, of a 1.8 m character whose hand goes to another place (there)
 // Of an arm's length: from where the trunk helps (L. Mark et al., J. Exp. Psychology: HPP 23, 1997); and from where to
@@ -55,7 +55,7 @@ void Reaching::Turn::follow(const Quaternion& next, double seconds) {
 
 void Reaching::reach(int side, const HandAim& aim) {
   Hand& hand = hands_[side];
-  const double heard = std::min(hand.since, kHeard);
+  const double heard = std::min(hand.since, kControlStep);
   if (hand.rests()) {
     hand.set(aim.place, Vector3::Zero());
     hand.place_due = 0;
