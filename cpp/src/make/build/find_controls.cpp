@@ -18,8 +18,6 @@ namespace {
 constexpr double kTwoGaits = 1.6;  // a run is at least so much faster than a walk, unless nothing goes between them:
 // So far apart are the halves of what is spread evenly, which is the flattest that has one mode.
 const double kOneMode = std::sqrt(12);
-constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gaits
-constexpr double kRunOverWalk = 3.3 / 1.2;
 constexpr double kApart = 1.2;       // a speed that is asked for is at least so much faster than the one before it,
 constexpr double kFoundApart = 1.5;  // and one that is looked for
 constexpr double kGroup = 0.02;      // of what goes, that a speed has at least
@@ -73,13 +71,14 @@ std::vector<double> going_speeds(const std::vector<Control>& evident, double sca
 }
 
 std::vector<double> two_gaits(const std::vector<double>& speeds) {
-  if (speeds.empty()) return {1.2, 3.3};
+  const double walk = kGaits[kWalk].speed, jog = kGaits[kJog].speed, run = kGaits[kRun].speed;
+  if (speeds.empty()) return {walk, run};
   const auto [slow, fast, apart] = two_clusters(speeds);
   const auto walking = std::lower_bound(speeds.begin(), speeds.end(), kWalking);
   if (slow < kWalking && walking != speeds.end()) return two_gaits({walking, speeds.end()});
   if (fast > (apart > kOneMode ? kApart : kTwoGaits) * slow) return {slow, fast};
   const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
-  return mean < kWalkOrRun ? std::vector{mean, mean * kRunOverWalk} : std::vector{mean / kRunOverWalk, mean};
+  return mean < jog ? std::vector{mean, mean * (run / walk)} : std::vector{mean / (run / walk), mean};
 }
 
 double turn_rate(const std::vector<Control>& evident) {

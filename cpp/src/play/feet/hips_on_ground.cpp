@@ -9,8 +9,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kFollowing = 8;  // 1/s: how quickly hips get to their level, critically damped
-constexpr double kRising = 0.3;   // s in which they come up again
+constexpr double kRising = 0.3;  // s in which they come up again
 
 // How much of the way from one place to another a place is.
 double part_between(const Vector2& from, const Vector2& to, const Vector2& place) {
@@ -45,7 +44,7 @@ void HipsOnGround::advance(const Vector2& place, const FeetOnGround& feet, doubl
   } else {
     const double before = level_between(feet, place_), pace = (target - before) / seconds;
     double off = level_ - before, rate = speed_ - pace;
-    settle(off, rate, kFollowing, seconds);
+    settle(off, rate, kHipsFollow, seconds);
     level_ = target + off;
     speed_ = pace + rate;
   }

@@ -8,8 +8,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSameLength = 1e-3;  // of the stature
-
 bool same_tree(const Skeleton& a, const Skeleton& b) {
   return a.names == b.names && a.parents == b.parents && a.roles.hips == b.roles.hips;
 }
