@@ -116,7 +116,7 @@ TEST_F(TraceFile, RefusesMalformedFilesNamingTheLine) {
       {"not a number", kHeader + row + "nan,1,0,0\n", "walk.csv:3: ", "velocity_x is 'nan'"},
       {"infinite", kHeader + row + "0,inf,0,0\n", "walk.csv:3: ", "velocity_y"},
       {"overflow", kHeader + row + "0,1e999,0,0\n", "walk.csv:3: ", "velocity_y is '1e999'"},
-      {"faster than any", kHeader + row + "0,2e6,0,0\n", "walk.csv:3: ", "velocity_y is over 1e6 m/s"},
+      {"faster than light", kHeader + row + "0,2e9,0,0\n", "walk.csv:3: ", "velocity_y is over 1e9 m/s"},
       {"turn too far", kHeader + row + "0,1,6.5,0\n", "walk.csv:3: ", "turn is 6.5"},
       {"turn in degrees", kHeader + row + "0,1,-90,0\n", "walk.csv:3: ", "turn is -90"},
       {"negative jump", kHeader + row + "0,1,0,-1\n", "walk.csv:3: ", "jump is -1"},

@@ -110,7 +110,7 @@ void check_control(const std::string& file, std::size_t line, const Control& con
     if (!std::isfinite(values[i])) fail(file, line, std::string(kColumns[i]) + " is not a finite number");
   }
   for (int i = 0; i < 2; ++i) {
-    if (std::abs(values[i]) > kMostControl) fail(file, line, std::string(kColumns[i]) + " is over 1e6 m/s");
+    if (std::abs(values[i]) > kFarthestPlace) fail(file, line, std::string(kColumns[i]) + " is over 1e9 m/s");
   }
   if (std::abs(control.turn) > kMostTurn) {
     fail(file, line,
