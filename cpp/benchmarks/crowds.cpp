@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/rates.hpp"
 #include "character/policy_file.hpp"
 #include "control/simulated_players.hpp"
 #include "fragmotion/fragmotion.hpp"
@@ -17,7 +18,6 @@
 namespace fragmotion::benchmarks {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;  // s
 constexpr int kFramesPerControl = 6, kNearPlayers = 10000, kManyPlayers = 50000;
 constexpr double kTrace = 60;                 // s of it
 constexpr std::size_t kSetOff = 60;           // frames until they go
@@ -63,7 +63,7 @@ void measure_crowd(benchmark::State& state, const std::shared_ptr<const Characte
     for (int i = 0; i < kNearPlayers; ++i) controls[i] = ways(frame, i);
     ++frame;
   };
-  const auto step = [&] { step_on_threads(crowd, controls.data(), kFrame, roots.data(), rotations.data()); };
+  const auto step = [&] { step_on_threads(crowd, controls.data(), kGameStep, roots.data(), rotations.data()); };
   while (frame < kSetOff) steer(), step();
   for (auto _ : state) {
     state.PauseTiming();
@@ -109,7 +109,7 @@ void measure_far_crowd(benchmark::State& state, const std::shared_ptr<const Char
   for (int i = 0; i < kManyPlayers; ++i) set_level(crowd[i], level_at(std::sqrt(i / kPi)));
   std::vector<FragmotionInput> inputs(kManyPlayers, fragmotion_input());
   std::size_t frame = 0;
-  const auto step = [&] { require(crowd.step(inputs.data(), kFrame)); };
+  const auto step = [&] { require(crowd.step(inputs.data(), kGameStep)); };
   for (; frame < kSetOff; ++frame) steer(ways, frame, inputs), step();
   for (auto _ : state) {
     state.PauseTiming();
@@ -132,7 +132,7 @@ void measure_far_error(benchmark::State& state, const std::shared_ptr<const Char
   for (auto _ : state) {
     for (std::size_t frame = 0; frame < kSteps; ++frame) {
       steer(ways, frame, inputs);
-      require(whole.step(inputs.data(), kFrame) && coarse.step(inputs.data(), kFrame));
+      require(whole.step(inputs.data(), kGameStep) && coarse.step(inputs.data(), kGameStep));
       for (int i = 0; i < kCompared; ++i) {
         require(whole[i].pose(FRAGMOTION_SPACE_WORLD, right.data(), bones) &&
                 coarse[i].pose(FRAGMOTION_SPACE_WORLD, shown.data(), bones));

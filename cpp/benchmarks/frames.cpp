@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "base/random.hpp"
+#include "base/rates.hpp"
 #include "runtime/player.hpp"
 
 namespace fragmotion::benchmarks {
 namespace {
 
-constexpr double kFrame = 1.0 / 60;           // s
 constexpr int kHeld = 600;                    // frames for which a stick is held: a walk, to any side
 constexpr int kRestless = 20;                 // and for which a restless one is: any speed and turn
 constexpr double kRise = 0.17, kTread = 0.3;  // m of the stairs of a house
@@ -50,7 +50,7 @@ void measure_frame(benchmark::State& state, const std::shared_ptr<const Characte
   const Kinematics kinematics(character->pool.skeleton);
   PosedBones posed(kinematics.bones());
   for (auto _ : state) {
-    player.step(stick(), kFrame);
+    player.step(stick(), kGameStep);
     kinematics.world(player.root_position(), player.rotations().data(), posed.heads.data(), posed.rotations.data());
     benchmark::DoNotOptimize(posed.heads.data());
   }
@@ -66,7 +66,7 @@ void measure_stairs(benchmark::State& state, const std::shared_ptr<const Charact
   const Control ahead{0, character->space.walk(), 0, 0};
   for (auto _ : state) {
     const double before = asked;
-    player.step(ahead, kFrame);
+    player.step(ahead, kGameStep);
     most = std::max(most, asked - before);
   }
   state.counters["asked"] = most;

@@ -5,13 +5,13 @@
 #include <string>
 
 #include "base/random.hpp"
+#include "base/rates.hpp"
 #include "skeleton/kinematics.hpp"
 #include "skeleton/roles.hpp"
 
 namespace fragmotion::benchmarks {
 namespace {
 
-constexpr double kRate = 30;
 constexpr int kFrames = 121;
 constexpr double kHipHeight = 0.96;  // m
 constexpr double kLegLength = 0.86;  // m, hip to ankle
@@ -86,18 +86,18 @@ Clip make_take(const Skeleton& skeleton, int take) {
   const Style style = style_of(take);
   Clip clip;
   clip.name = "take " + std::to_string(take);
-  clip.rate = kRate;
+  clip.rate = kPoseRate;
   clip.frames = kFrames;
   CharacterFrame frame;
   for (int f = 0; f < kFrames; ++f) {
-    const double t = f / kRate, phase = 2 * kPi * (t / style.cycle + style.phase);
+    const double t = f / kPoseRate, phase = 2 * kPi * (t / style.cycle + style.phase);
     const double height = kHipHeight - 0.02 + 0.02 * std::cos(2 * phase) + hop(style, t);
     clip.root_positions.insert(clip.root_positions.end(), {frame.position.x(), frame.position.y(), height});
     const std::vector<double> rotations = pose(style, skeleton, phase, frame.heading);
     clip.rotations.insert(clip.rotations.end(), rotations.begin(), rotations.end());
     const double course = frame.heading + style.direction;
-    frame.position += style.speed / kRate * Vector2(-std::sin(course), std::cos(course));
-    frame.heading += style.turn / kRate;
+    frame.position += style.speed / kPoseRate * Vector2(-std::sin(course), std::cos(course));
+    frame.heading += style.turn / kPoseRate;
   }
   return make_clip(skeleton, std::move(clip));
 }

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
+#include "base/take_limits.hpp"
 #include "direct/follow_path.hpp"
 #include "direct/keep_clear.hpp"
 #include "direct/painted_area.hpp"
@@ -17,7 +18,6 @@ using OneFollower = OneCallAtATime<PathFollower>;
 // x, y and heading, as Player.frame.
 using Frame = std::tuple<double, double, double>;
 
-constexpr double kFarthest = 1e6;  // m
 constexpr int kMostPlaces = 1000000;
 
 CharacterFrame to_frame(const Frame& frame) {
@@ -30,7 +30,7 @@ std::vector<Vector2> to_ground(const Doubles& points) {
   if (points.ndim() != 2 || (points.shape(1) != 2 && points.shape(1) != 3)) {
     throw std::invalid_argument("the points of a path must be [N,2] or [N,3]");
   }
-  const std::vector<double> values = to_vector(points, "the points of a path", -kFarthest, kFarthest);
+  const std::vector<double> values = to_vector(points, "the points of a path", -kFarthestBody, kFarthestBody);
   const std::size_t width = static_cast<std::size_t>(points.shape(1));
   std::vector<Vector2> ground;
   for (std::size_t i = 0; i + width <= values.size(); i += width) ground.emplace_back(values[i], values[i + 1]);
@@ -46,7 +46,7 @@ Path make_path(const Doubles& points, bool closed, const std::optional<Doubles>&
 py::array_t<double> places(const Path& path, const Doubles& ways) {
   check_shape(ways, "ways", {-1});
   std::vector<double> rows;
-  for (const double way : to_vector(ways, "ways", -kFarthest, kFarthest)) {
+  for (const double way : to_vector(ways, "ways", -kFarthestBody, kFarthestBody)) {
     const Vector2 place = path.place(way);
     rows.insert(rows.end(), {place.x(), place.y()});
   }
@@ -190,7 +190,7 @@ py::list keep_crowd_clear(const py::list& players, const py::list& wishes, const
   const py::ssize_t count = static_cast<py::ssize_t>(players.size());
   if (wishes.size() != players.size()) throw std::invalid_argument("there must be a wish for each player");
   check_shape(worlds, "worlds", {count, 4});
-  const std::vector<double> rows = to_vector(worlds, "worlds", -kFarthest, kFarthest);
+  const std::vector<double> rows = to_vector(worlds, "worlds", -kFarthestBody, kFarthestBody);
   for (const Doubles& outline : obstacles) options.obstacles.push_back(to_ground(outline));
   std::vector<std::unique_ptr<OnePlayer::Call>> calls;
   std::vector<CrowdMember> members;
@@ -228,7 +228,8 @@ void bind_keep_clear(py::module_& m) {
 PaintedArea make_area(const Doubles& corners, const Doubles& paint) {
   check_shape(corners, "corners", {-1, 3, 3});
   check_shape(paint, "paint", {corners.shape(0), 3});
-  const std::vector<double> places = to_vector(corners, "corners", -kFarthest, kFarthest), shares = to_vector(paint);
+  const std::vector<double> places = to_vector(corners, "corners", -kFarthestBody, kFarthestBody),
+                            shares = to_vector(paint);
   std::vector<PaintedTriangle> triangles(static_cast<std::size_t>(corners.shape(0)));
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -268,7 +269,7 @@ void bind_area(py::module_& m) {
             check_count(count);
             check_shape(starts, "starts", {-1, 3});
             check_count(static_cast<int>(std::min<py::ssize_t>(starts.shape(0) * count, kMostPlaces + 1)));
-            const std::vector<double> numbers = to_vector(starts, "starts", -kFarthest, kFarthest);
+            const std::vector<double> numbers = to_vector(starts, "starts", -kFarthestBody, kFarthestBody);
             std::vector<Vector3> places;
             for (std::size_t i = 0; i < numbers.size(); i += 3) places.emplace_back(&numbers[i]);
             return to_rows(without_gil([&] {

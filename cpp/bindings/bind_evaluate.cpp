@@ -10,6 +10,7 @@
 #include "evaluate/response.hpp"
 #include "evaluate/speed_ripple.hpp"
 #include "evaluate/suggest.hpp"
+#include "fragments/entry_poses.hpp"
 #include "player_options.hpp"
 
 namespace fragmotion::bindings {
@@ -125,7 +126,7 @@ void bind_yardsticks(py::module_& m) {
         const Trace controls = to_trace(trace);
         return without_gil([&] { return optimal_performance(character, controls, rate, shortest); });
       },
-      py::arg("character"), py::arg("trace"), py::arg("rate"), py::arg("shortest") = kSoonest);
+      py::arg("character"), py::arg("trace"), py::arg("rate"), py::arg("shortest") = kEntry);
   define_trials(m, "response_times", response_times);
   m.attr("NO_RESPONSE") = kNoResponse;
   define_trials(m, "about_face_times", about_face_times);

@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "base/ranges.hpp"
+#include "base/take_limits.hpp"
 #include "motion/clip.hpp"
 #include "motion/cycle.hpp"
 #include "motion/fingers.hpp"
@@ -13,8 +14,6 @@
 
 namespace fragmotion::bindings {
 namespace {
-
-constexpr double kFastest = 1000;  // m/s
 
 // World positions [F, B, 3] and rotations [F, B, 4].
 struct Transforms {
@@ -214,7 +213,7 @@ void bind_clip(py::module_& m) {
           "led_by_feet",
           [](const Clip& clip, const Skeleton& skeleton, double speed) -> std::optional<std::tuple<Clip, double>> {
             check_bones(clip, skeleton);
-            require_range("speed", speed, 0, kFastest);
+            require_range("speed", speed, 0, kFastestBody);
             return without_gil([&] { return led_by_feet(clip, skeleton, speed); });
           },
           py::arg("skeleton"), py::arg("speed") = 0.0)

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
+#include "base/ranges.hpp"
 #include "evaluate/performance.hpp"
 #include "player_options.hpp"
 #include "runtime/step_on_threads.hpp"
@@ -11,8 +12,6 @@ namespace {
 
 using OnePlayer = OneCallAtATime<Player>;
 using OneCrowd = OneCallAtATime<Crowd>;
-
-constexpr double kMostNumber = 1e9;  // of a move or a control
 
 py::tuple step(OnePlayer& one, const Doubles& control, double seconds) {
   const OnePlayer::Call player(one);
@@ -75,7 +74,7 @@ std::vector<std::array<int, columns>> to_rows(const py::object& given, const std
   if (given.is_none()) return rows;
   const auto array = given.cast<Doubles>();
   check_shape(array, name, {-1, columns});
-  const std::vector<double> values = to_vector(array, name, -kMostNumber, kMostNumber);
+  const std::vector<double> values = to_vector(array, name, -kFarthestPlace, kFarthestPlace);
   for (std::size_t i = 0; i < values.size(); i += columns) {
     std::array<int, columns>& row = rows.emplace_back();
     for (std::size_t j = 0; j < columns; ++j) {
@@ -113,7 +112,7 @@ std::vector<LookChange> to_looks(const py::object& given) {
   if (given.is_none()) return looks;
   const auto array = given.cast<Doubles>();
   check_shape(array, "looks", {-1, 5});
-  const std::vector<double> values = to_vector(array, "looks", -kMostNumber, kMostNumber);
+  const std::vector<double> values = to_vector(array, "looks", -kFarthestPlace, kFarthestPlace);
   for (std::size_t i = 0; i < values.size(); i += 5) {
     if (values[i] != std::floor(values[i])) throw std::invalid_argument("controls of looks must be whole numbers");
     looks.push_back({static_cast<int>(values[i]), to_look(values[i + 1]), load_vector(&values[i + 2])});
@@ -127,7 +126,7 @@ std::vector<ReachChange> to_reaches(const py::object& given) {
   if (given.is_none()) return reaches;
   const auto array = given.cast<Doubles>();
   check_shape(array, "reaches", {-1, 7});
-  const std::vector<double> values = to_vector(array, "reaches", -kMostNumber, kMostNumber);
+  const std::vector<double> values = to_vector(array, "reaches", -kFarthestPlace, kFarthestPlace);
   for (std::size_t i = 0; i < values.size(); i += 7) {
     for (const std::size_t whole : {i, i + 1, i + 3}) {
       if (values[whole] != std::floor(values[whole]))

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/rates.hpp"
 #include "motion/clip.hpp"
 #include "motion/take.hpp"
 #include "ozz/animation/offline/animation_builder.h"
@@ -31,11 +32,10 @@ namespace {
 
 namespace offline = ozz::animation::offline;
 
-constexpr double kFrame = 1.0 / 60;  // s
-constexpr float kShare = 0.3F;       // of the second take
-constexpr double kOff = 0.01;        // m: ozz's optimiser leaves out what moves no bone by 1 mm
-constexpr std::size_t kTakes = 2;    // blended
-constexpr double kCompared = 0.5;    // of a take: where poses are compared
+constexpr float kShare = 0.3F;     // of the second take
+constexpr double kOff = 0.01;      // m: ozz's optimiser leaves out what moves no bone by 1 mm
+constexpr std::size_t kTakes = 2;  // blended
+constexpr double kCompared = 0.5;  // of a take: where poses are compared
 
 ozz::math::Float3 float3(const double* v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
@@ -174,7 +174,7 @@ void measure_ozz(benchmark::State& state, const std::shared_ptr<const Character>
   Blended blended(*character);
   double seconds = 0;
   for (auto _ : state) {
-    blended.pose(seconds += kFrame, kShare);
+    blended.pose(seconds += kGameStep, kShare);
     benchmark::DoNotOptimize(blended.models());
     benchmark::ClobberMemory();
   }

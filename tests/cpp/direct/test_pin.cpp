@@ -13,7 +13,7 @@ CharacterFrame play(const Trace& trace, std::uint64_t seed, int frames) {
   options.seed = seed;
   Player player(gait_character(), options);
   player.reset();
-  for (int f = 0; f < frames; ++f) player.step(trace[f / 6], 1 / kPinRate);
+  for (int f = 0; f < frames; ++f) player.step(trace[f / 6], 1 / kGameRate);
   return player.frame();
 }
 
@@ -55,14 +55,14 @@ TEST(Player, BranchesIntoOneThatGoesOnAsItWould) {
   const Trace trace = simulate_trace("runner", 6, 4, gait_character()->space);
   Player whole(gait_character()), begun(gait_character());
   for (int f = 0; f < 200; ++f) {
-    whole.step(trace[f / 6], 1 / kPinRate);
-    begun.step(trace[f / 6], 1 / kPinRate);
+    whole.step(trace[f / 6], 1 / kGameRate);
+    begun.step(trace[f / 6], 1 / kGameRate);
   }
   Player other = begun.branch(), branch = begun.branch();
-  for (int f = 0; f < 100; ++f) other.step({0, -1, 1, 0}, 1 / kPinRate);
+  for (int f = 0; f < 100; ++f) other.step({0, -1, 1, 0}, 1 / kGameRate);
   for (int f = 200; f < 360; ++f) {
-    whole.step(trace[f / 6], 1 / kPinRate);
-    branch.step(trace[f / 6], 1 / kPinRate);
+    whole.step(trace[f / 6], 1 / kGameRate);
+    branch.step(trace[f / 6], 1 / kGameRate);
     ASSERT_EQ(whole.root_position(), branch.root_position());
     ASSERT_EQ(whole.rotations(), branch.rotations());
   }
@@ -75,8 +75,8 @@ TEST(Player, DrawsFromAnotherSeedAfterTheNextReset) {
   reseeded.reseed(9);
   reseeded.reset();
   for (int f = 0; f < 300; ++f) {
-    made.step({0, 1.2, 0, 0}, 1 / kPinRate);
-    reseeded.step({0, 1.2, 0, 0}, 1 / kPinRate);
+    made.step({0, 1.2, 0, 0}, 1 / kGameRate);
+    reseeded.step({0, 1.2, 0, 0}, 1 / kGameRate);
     ASSERT_EQ(made.playing_fragment(), reseeded.playing_fragment());
   }
 }

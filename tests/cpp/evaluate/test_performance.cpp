@@ -7,6 +7,7 @@
 #include "build/build.hpp"
 #include "control/simulated_players.hpp"
 #include "evaluate/performance.hpp"
+#include "fragments/entry_poses.hpp"
 #include "runtime/player.hpp"
 #include "small_character.hpp"
 
@@ -20,7 +21,7 @@ TEST(OptimalPerformance, IsNeverReachedByAPlayer) {
   const auto character = gait_character();
   for (const std::string& name : simulated_players()) {
     const Trace trace = simulate_trace(name, 30, 5, character->space);
-    const double best = optimal_performance(*character, trace, kRate, kSoonest);
+    const double best = optimal_performance(*character, trace, kRate, kEntry);
     EXPECT_LT(best, 1);
     for (const std::uint64_t seed : {1, 2, 3}) {
       const double reached = perform(Player(character, {seed}), trace, kRate).quality;
@@ -74,7 +75,7 @@ TEST(OptimalPerformance, IsTheBestOfAllPlays) {
 
 TEST(OptimalPerformance, RefusesAnEmptyTraceAndARateOfNothing) {
   const Character c = tiny_character();
-  EXPECT_THROW(optimal_performance(c, {}, kRate, kSoonest), std::invalid_argument);
+  EXPECT_THROW(optimal_performance(c, {}, kRate, kEntry), std::invalid_argument);
   EXPECT_THROW(optimal_performance(c, {{}, {}}, 0, kStitch), std::invalid_argument);
   EXPECT_THROW(optimal_performance(c, {{}, {}}, 1e-9, kStitch), std::invalid_argument);
 }

@@ -8,18 +8,16 @@
 #include <utility>
 
 #include "base/quantile.hpp"
+#include "base/rounding.hpp"
 #include "control/gaits.hpp"
+#include "motion/contacts.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kShuffle = 0.5;   // m/s of a 1.8 m character: no walk, but what jumps and stands do between
 constexpr double kTwoGaits = 1.6;  // a run is at least so much faster than a walk, unless nothing goes between them:
 // So far apart are the halves of what is spread evenly, which is the flattest that has one mode.
 const double kOneMode = std::sqrt(12);
-constexpr double kNoSpread = 1e-9;  // m2/s2
-constexpr double kWalkOrRun = 2.2;  // m/s of a 1.8 m character: between the gaits
-constexpr double kRunOverWalk = 3.3 / 1.2;
 constexpr double kApart = 1.2;       // a speed that is asked for is at least so much faster than the one before it,
 constexpr double kFoundApart = 1.5;  // and one that is looked for
 constexpr double kGroup = 0.02;      // of what goes, that a speed has at least
@@ -57,7 +55,7 @@ Clusters two_clusters(const std::vector<double>& sorted) {
   if (static_cast<double>(std::min(at, sorted.size() - at)) < kGroup * static_cast<double>(sorted.size())) return found;
   const double *begin = sorted.data(), *end = begin + sorted.size();
   const double spread = spread_of(begin, begin + at, found.slow) + spread_of(begin + at, end, found.fast);
-  if (at > 0) found.apart = (found.fast - found.slow) * std::sqrt(2 / std::max(spread, kNoSpread));
+  if (at > 0) found.apart = (found.fast - found.slow) * std::sqrt(2 / std::max(spread, kRounding));
   return found;
 }
 
@@ -73,13 +71,14 @@ std::vector<double> going_speeds(const std::vector<Control>& evident, double sca
 }
 
 std::vector<double> two_gaits(const std::vector<double>& speeds) {
-  if (speeds.empty()) return {1.2, 3.3};
+  const double walk = kGaits[kWalk].speed, jog = kGaits[kJog].speed, run = kGaits[kRun].speed;
+  if (speeds.empty()) return {walk, run};
   const auto [slow, fast, apart] = two_clusters(speeds);
-  const auto walking = std::lower_bound(speeds.begin(), speeds.end(), kShuffle);
-  if (slow < kShuffle && walking != speeds.end()) return two_gaits({walking, speeds.end()});
+  const auto walking = std::lower_bound(speeds.begin(), speeds.end(), kWalking);
+  if (slow < kWalking && walking != speeds.end()) return two_gaits({walking, speeds.end()});
   if (fast > (apart > kOneMode ? kApart : kTwoGaits) * slow) return {slow, fast};
   const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
-  return mean < kWalkOrRun ? std::vector{mean, mean * kRunOverWalk} : std::vector{mean / kRunOverWalk, mean};
+  return mean < jog ? std::vector{mean, mean * (run / walk)} : std::vector{mean / (run / walk), mean};
 }
 
 double turn_rate(const std::vector<Control>& evident) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/random.hpp"
+#include "base/ranges.hpp"
 
 namespace fragmotion {
 
@@ -138,9 +139,8 @@ const std::vector<std::string>& simulated_players() {
 }
 
 Trace simulate_trace(const std::string& player, double seconds, std::uint64_t seed, const ControlSpace& space) {
-  constexpr double kLongest = 86400;  // s, a day
   const Habits& habits = find_habits(player);
-  if (!(seconds * kTraceRate >= 1.5 && seconds <= kLongest))
+  if (!(seconds * kTraceRate >= 1.5 && seconds <= kDay))
     throw std::invalid_argument("a trace of " + std::to_string(seconds) + " s, expected 0.2 to 86400");
   PlayerSimulation simulation(habits, seed, space);
   Trace trace(std::lround(seconds * kTraceRate));

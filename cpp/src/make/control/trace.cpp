@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/ranges.hpp"
 #include "base/read_file.hpp"
 #include "base/text_reader.hpp"
 #include "base/write_file.hpp"
@@ -23,7 +24,6 @@ namespace fragmotion {
 namespace {
 
 constexpr const char* kColumns[] = {"velocity_x", "velocity_y", "turn", "jump"};
-constexpr double kFastest = 1e9;  // m/s: three times as fast as light
 constexpr const char* kHeader = "velocity_x,velocity_y,turn,jump";
 constexpr std::size_t kNumbers = 4;  // the columns of a control
 constexpr const char* kMove = "move";
@@ -110,7 +110,7 @@ void check_control(const std::string& file, std::size_t line, const Control& con
     if (!std::isfinite(values[i])) fail(file, line, std::string(kColumns[i]) + " is not a finite number");
   }
   for (int i = 0; i < 2; ++i) {
-    if (std::abs(values[i]) > kFastest) fail(file, line, std::string(kColumns[i]) + " is over 1e9 m/s");
+    if (std::abs(values[i]) > kFarthestPlace) fail(file, line, std::string(kColumns[i]) + " is over 1e9 m/s");
   }
   if (std::abs(control.turn) > kMostTurn) {
     fail(file, line,
@@ -232,7 +232,8 @@ class RowParser {
     Vector3 place;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::optional<double> value = parse_double(words[first + i]);
-      if (!value || !(std::abs(*value) <= kFastest)) refuse(line, column, words[first + i], "a place within 1e9 m");
+      if (!value || !(std::abs(*value) <= kFarthestPlace))
+        refuse(line, column, words[first + i], "a place within 1e9 m");
       place[static_cast<Eigen::Index>(i)] = *value;
     }
     return place;

@@ -10,9 +10,6 @@
 
 namespace fragmotion {
 
-/// Controls a second in a trace.
-constexpr double kTraceRate = 10;
-
 /// What a user did with the joystick, a control every 1/kTraceRate s. Controls are kept as they were given, since the
 /// points are known only with a character: build() and whatever asks a policy snap() them to its ControlSpace.
 /// Player asks for the nearest point, too, but draws fragments by the very control.

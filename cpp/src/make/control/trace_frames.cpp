@@ -6,13 +6,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/rounding.hpp"
 #include "control/trace.hpp"
 
 namespace fragmotion {
 
 std::size_t control_at(int frame, double rate, std::size_t controls) {
   const double seconds = std::max(0.0, (frame - 1) / rate);
-  return std::min(static_cast<std::size_t>(seconds * kTraceRate + kFrameRounding), controls - 1);
+  return std::min(static_cast<std::size_t>(seconds * kTraceRate + kRounding), controls - 1);
 }
 
 int frame_count(std::size_t controls, double rate) {

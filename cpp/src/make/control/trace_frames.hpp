@@ -8,9 +8,6 @@ namespace fragmotion {
 /// The most frames that a performance may have: Blender has no more, and they are five hours at 60 a second.
 constexpr int kMostFrames = 1048574;
 
-/// Of a frame, or a control: what products of seconds and rates are off.
-constexpr double kFrameRounding = 1e-9;
-
 /// The frames of a performance of so many controls: 0 .. round(duration * rate). Throws std::invalid_argument on a rate
 /// that is not over 0 and at most 1000, and on more than kMostFrames.
 int frame_count(std::size_t controls, double rate);

@@ -7,11 +7,10 @@
 #include <map>
 #include <utility>
 
+#include "base/rounding.hpp"
+
 namespace fragmotion {
 namespace {
-
-constexpr double kSeam = 1e-9;    // of a side, that rounding leaves between two triangles
-constexpr double kBeside = 1e-9;  // of the furthest corner: there it is looked what lies beside a side
 
 using Side = std::pair<std::array<double, 2>, std::array<double, 2>>;
 
@@ -94,7 +93,7 @@ class Covering {
     covered.emplace_back(1, 1);
     double reached = 0;
     for (const auto& [from, to] : covered) {
-      if (from > reached + kSeam) bare.emplace_back(reached, from);
+      if (from > reached + kRounding) bare.emplace_back(reached, from);
       reached = std::max(reached, to);
     }
     return bare;
@@ -134,10 +133,10 @@ AreaEdge::AreaEdge(const std::vector<FlatTriangle>& triangles) {
   for (const Side& side : outer_sides(turned)) {
     const Vector2 from = to_vector(side.first), way = to_vector(side.second) - from,
                   outward = Vector2{way.y(), -way.x()} / way.norm();
-    for (const auto& [first, last] : covering.shares_bare(from + kBeside * furthest * outward, way))
+    for (const auto& [first, last] : covering.shares_bare(from + kRounding * furthest * outward, way))
       stretches_.push_back({from + first * way, from + last * way});
   }
-  const double same = 4 * kBeside * furthest;
+  const double same = 4 * kRounding * furthest;
   std::stable_sort(stretches_.begin(), stretches_.end(),
                    [](const Stretch& a, const Stretch& b) { return a.from.x() < b.from.x(); });
   for (Stretch& one : stretches_) {

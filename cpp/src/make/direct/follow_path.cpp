@@ -6,14 +6,14 @@
 
 #include "base/ranges.hpp"
 #include "control/trace_frames.hpp"
+#include "motion/contacts.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kShortest = 1 / kTraceRate;  // s
-constexpr double kStandsOn = 1;               // s at the end
-constexpr double kInTime = 0.25;              // s from the time of arrival that will do
-constexpr double kGoodEnough = 0.4;           // of what will do, in place and in time
+constexpr double kStandsOn = 1;      // s at the end
+constexpr double kInTime = 0.25;     // s from the time of arrival that will do
+constexpr double kGoodEnough = 0.4;  // of what will do, in place and in time
 // m: tries of stop_early; those after kUsualTries where none before will do.
 constexpr double kSooner[] = {0,    0.05,  -0.05, 0.1,   -0.1, 0.15,  0.08, -0.08, 0.02, -0.02,
                               0.03, -0.03, 0.06,  -0.06, 0.12, -0.12, 0.2,  -0.15, 0.04, 0.25};
@@ -104,7 +104,7 @@ double error(const PathWalk& walk, double arrive, double scale) {
 
 PathWalk follow_path(Player& player, const CharacterFrame& start, const Path& path, const FollowOptions& options,
                      double rate, double seconds, const Progress& progress) {
-  require_range("the longest that a path is followed, in s,", seconds, kShortest, kLongestCall);
+  require_range("the longest that a path is followed, in s,", seconds, kControlStep, kLongestCall);
   const int frames = frame_count(static_cast<std::size_t>(std::lround(seconds * kTraceRate)), rate);
   const ControlSpace& space = player.styled_character().space;
   const PathFollower plan(space, path, options);
@@ -122,7 +122,7 @@ PathWalk follow_path(Player& player, const CharacterFrame& start, const Path& pa
     const double enough = ++tries < kUsualTries ? kGoodEnough : 1;
     const bool cannot_arrive = soonest > seconds;
     if (options.end != PathEnd::stand || error_of(best) < enough || cannot_arrive) break;
-    if (soonest < options.arrive) tried.arrive = std::max(options.arrive - late / 2, kShortest);
+    if (soonest < options.arrive) tried.arrive = std::max(options.arrive - late / 2, kControlStep);
   }
   best.asked_speed = plan.asked_speed();
   best.planned_seconds = std::max(soonest, options.arrive);

@@ -7,16 +7,16 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/filtered.hpp"
 #include "base/ranges.hpp"
+#include "base/rates.hpp"
 #include "fragments/body_tips.hpp"
 #include "runtime/inertialization.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kStitched = kJoined / 4;  // s: see Inertialization::begin
-constexpr double kCarried = 0.1;           // s: time constant of the velocity that goes on
-constexpr double kLater = 1 / 30.0;        // s
+constexpr double kCarried = 0.1;  // s: time constant of the velocity that goes on
 
 void check_frames(const std::vector<int>& frames, const Motion& motion, const char* name) {
   if (frames.empty()) throw std::invalid_argument(std::string("there are no frames at which ") + name + " is joined");
@@ -51,7 +51,7 @@ class SeamPoses {
   // How the motion would go on after a frame: `onward` its speed up to there.
   std::vector<float> of(const Motion& motion, int frame, bool onward) {
     std::vector<float> rows(std::size_t{3} * stride_, 0);
-    const int later = std::max(1, static_cast<int>(std::lround(kLater * motion.rate)));
+    const int later = std::max(1, static_cast<int>(std::lround(motion.rate / kPoseRate)));
     const int other = std::clamp(onward ? frame - later : frame + later, 0, motion.frames() - 1);
     write(motion, frame, motion.frame(frame), rows, 0);
     write(motion, other, motion.frame(frame), rows, points());
@@ -97,8 +97,8 @@ Motion join(const Skeleton& skeleton, const Motion& first, int end, const Motion
   const Vector2 faster = end > 0 ? stitch.begin(old, onward(pose_at(first, end - 1), old), fresh,
                                                 beginning > 0 ? onward(carried_pose(beginning - 1), fresh)
                                                               : carried_pose(std::min(1, second.frames() - 1)),
-                                                apart, kStitched)
-                                 : stitch.begin(old, old, fresh, fresh, apart, kStitched);
+                                                apart, kJoined / kUnseen)
+                                 : stitch.begin(old, old, fresh, fresh, apart, kJoined / kUnseen);
   Motion joined = first;
   resize(joined, end + second.frames() - beginning);
   for (int f = 1; beginning + f < second.frames(); ++f) {

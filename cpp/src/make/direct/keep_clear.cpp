@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "base/ranges.hpp"
+#include "base/rounding.hpp"
+#include "base/take_limits.hpp"
 #include "control/trace_frames.hpp"
 #include "direct/make_way.hpp"
 #include "runtime/player_constants.hpp"
@@ -14,14 +16,11 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kControl = 1 / kTraceRate;        // s
 constexpr double kNearGoal = 0.5;                  // m of a 1.8 m character: what is nearer than that is no goal
 constexpr double kGoalLate = 1.5, kGoalLater = 3;  // times as long as planned, and s more: then a goal is given up
-constexpr double kMostScale = 1e6;
-constexpr double kGoesOn = 0.2;   // s until a body can do otherwise, in which it goes on: it takes so much more room
-constexpr double kHeeded = 1e-9;  // m/s: by less than that nothing is in the way
-constexpr int kForgets = 10;      // controls after which it forgets on which side it went past something
-constexpr int kGlances = 8;       // at the way that it would go, for what stands there
+constexpr double kGoesOn = 0.2;  // s until a body can do otherwise, in which it goes on: it takes so much more room
+constexpr int kForgets = 10;     // controls after which it forgets on which side it went past something
+constexpr int kGlances = 8;      // at the way that it would go, for what stands there
 
 // The place of an outline that is next to another, and whether that is inside.
 struct Beside {
@@ -120,16 +119,16 @@ class Heeding {
                   meant = detour_.around(options_->obstacles, here(), asked, options_->radius);
     add_edge(things);
     WayRound way_round = way_round_;
-    Vector2 clear = way_round.choose(clearance, meant, most, kControl);
+    Vector2 clear = way_round.choose(clearance, meant, most, kControlStep);
     for (int added = 0; added < Clearance::kMostOthers; ++added) {
       const auto worst = std::min_element(things.begin(), things.end(), [&](const HalfPlane& a, const HalfPlane& b) {
         return room_in(a, clear) < room_in(b, clear);
       });
-      if (worst == things.end() || room_in(*worst, clear) > -kHeeded) break;
+      if (worst == things.end() || room_in(*worst, clear) > -kRounding) break;
       clearance.add(*worst);
       things.erase(worst);
       way_round = way_round_;
-      clear = way_round.choose(clearance, meant, most, kControl);
+      clear = way_round.choose(clearance, meant, most, kControlStep);
     }
     way_round_ = way_round;
     const Vector2 seen = turned.inverse() * back(clear);
@@ -176,7 +175,7 @@ class Heeding {
     }
     for (const Vector2& corner : beside.corners) {
       const double room = std::min(one.radius, (corner - one.place).norm());
-      things.push_back(clear_of({one.place, one.velocity, room}, {corner, Vector2::Zero(), 0, false}, kControl));
+      things.push_back(clear_of({one.place, one.velocity, room}, {corner, Vector2::Zero(), 0, false}, kControlStep));
     }
   }
 
@@ -184,8 +183,8 @@ class Heeding {
     if (!member_->wanted.empty()) return member_->wanted[trace_.size()];
     if (!member_->path) seek_goal();
     if (!follower_) return {};
-    due_ -= kControl;
-    return follower_->steer(player().frame(), kControl);
+    due_ -= kControlStep;
+    return follower_->steer(player().frame(), kControlStep);
   }
 
   // Goes for the next goal where it is at the last one, or late.
@@ -223,18 +222,18 @@ std::vector<HalfPlane> keep_off(const std::vector<std::vector<Vector2>>& obstacl
     const double distance = distance_to(outline, walker.place);
     if (distance == 0) continue;
     const Vector2 outward = (walker.place - found.place) / distance;
-    const double room = distance - walker.radius, within = room > 0 ? MakeWay::kAhead / 2 : kControl;
+    const double room = distance - walker.radius, within = room > 0 ? MakeWay::kAhead / 2 : kControlStep;
     seen.push_back({Vector2{-room / within * outward}, outward});
   }
   return seen;
 }
 
 void check(const std::vector<CrowdMember>& members, const CrowdOptions& options) {
-  require_range("the radius of a crowd's members", options.radius, 1e-9, 1e6);
-  require_range("the time of a crowd, in s,", options.seconds, kControl, kLongestCall);
+  require_range("the radius of a crowd's members", options.radius, kRounding, kFarthestBody);
+  require_range("the time of a crowd, in s,", options.seconds, kControlStep, kLongestCall);
   for (const CrowdMember& member : members) {
     if (member.player == nullptr) throw std::invalid_argument("a member of a crowd has no player");
-    require_range("the scale of a crowd's member", member.scale, 1 / kMostScale, kMostScale);
+    require_range("the scale of a crowd's member", member.scale, 1 / kMostOfSpace, kMostOfSpace);
   }
 }
 
@@ -256,7 +255,7 @@ std::vector<Trace> keep_clear(const std::vector<CrowdMember>& members, const Cro
     make_way.look(walkers);
     for (std::size_t i = 0; i < heeding.size(); ++i) {
       if (heeding[i].is_done()) continue;
-      heeding[i].decide(make_way.clearance(i, kControl), keep_off(options.obstacles, walkers[i]));
+      heeding[i].decide(make_way.clearance(i, kControlStep), keep_off(options.obstacles, walkers[i]));
     }
   };
   const int frames = frame_count(controls, options.rate);

@@ -8,11 +8,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/rounding.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr int kTries = 400;        // in a row for each place that is there, until the area counts as full
-constexpr double kFinest = 1e-12;  // of the furthest corner: a finer grid has no numbers for its cells
+constexpr int kTries = 400;  // in a row for each place that is there, until the area counts as full
 
 double most_paint(const PaintedTriangle& triangle) {
   return *std::max_element(triangle.paint.begin(), triangle.paint.end());
@@ -111,7 +112,7 @@ Vector3 PaintedArea::draw(Random& random) const {
 
 std::vector<Vector3> PaintedArea::draw_apart(Random& random, int count, double spacing, double room) const {
   std::vector<Vector3> places;
-  Grid grid(std::max(spacing, kFinest * furthest_of(triangles_)));
+  Grid grid(std::max(spacing, kRounding * furthest_of(triangles_)));
   std::int64_t misses = 0;
   while (static_cast<int>(places.size()) < count) {
     if (misses >= kTries * static_cast<std::int64_t>(places.size() + 1)) {

@@ -11,7 +11,8 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "base/ranges.hpp"
-#include "control/trace_frames.hpp"
+#include "base/rates.hpp"
+#include "base/rounding.hpp"
 
 namespace fragmotion {
 namespace {
@@ -81,15 +82,15 @@ class PinSearch {
         start_(start),
         trace_(trace),
         goal_(goal.frame),
-        first_(static_cast<int>(std::ceil(options.begin * kTraceRate - kFrameRounding))),
-        frames_(static_cast<int>(std::lround(goal.seconds * kPinRate))),
-        end_(static_cast<int>(std::ceil(frames_ / (kPinRate / kTraceRate) - kFrameRounding))),
+        first_(static_cast<int>(std::ceil(options.begin * kTraceRate - kRounding))),
+        frames_(static_cast<int>(std::lround(goal.seconds * kGameRate))),
+        end_(static_cast<int>(std::ceil(frames_ / (kGameRate / kTraceRate) - kRounding))),
         walk_(character->space.walk()) {
     for (int i = 0; i < thread_count(options.threads); ++i) {
       players_.emplace_back(character, player);
       Player& begun = players_.back();
       begun.reset(start);
-      for (int f = 0; f < begin_frame(); ++f) begun.step(trace_[f / kFramesAControl], 1 / kPinRate);
+      for (int f = 0; f < begin_frame(); ++f) begun.step(trace_[f / kFramesAControl], 1 / kGameRate);
     }
   }
 
@@ -121,7 +122,7 @@ class PinSearch {
   }
 
  private:
-  static constexpr int kFramesAControl = static_cast<int>(kPinRate / kTraceRate);
+  static constexpr int kFramesAControl = static_cast<int>(kGameRate / kTraceRate);
 
   int begin_frame() const { return first_ * kFramesAControl; }
 
@@ -158,11 +159,11 @@ class PinSearch {
       player.reset(start_);
     }
     for (int f = begin_frame(); f < frames_; ++f) {
-      player.step(changed(f / kFramesAControl, trial.change), 1 / kPinRate);
+      player.step(changed(f / kFramesAControl, trial.change), 1 / kGameRate);
     }
     trial.reached = player.frame();
-    trial.cost = std::hypot(distance(trial) / std::max(options_.distance, kFrameRounding),
-                            angle(trial) / std::max(options_.angle, kFrameRounding));
+    trial.cost = std::hypot(distance(trial) / std::max(options_.distance, kRounding),
+                            angle(trial) / std::max(options_.angle, kRounding));
   }
 
   // A control of the trace, changed: who stands does not begin to go or to turn.

@@ -4,13 +4,11 @@
 #include <memory>
 
 #include "base/progress.hpp"
+#include "base/rates.hpp"
 #include "control/trace.hpp"
 #include "runtime/player.hpp"
 
 namespace fragmotion {
-
-/// Frames a second at which a pin is looked for, and at which its trace reaches the pin.
-constexpr double kPinRate = 60;
 
 /// Where a character is to be: `seconds` after the first control, at `frame`.
 struct PinGoal {
@@ -38,7 +36,7 @@ struct Pin {
 };
 
 /// Looks for small changes of a trace's controls between `begin` and the pin, by which a player that is reset to
-/// `start` and stepped kPinRate times a second is at the pin: in speed by two fifths at most, in direction by 20
+/// `start` and stepped kGameRate times a second is at the pin: in speed by two fifths at most, in direction by 20
 /// degrees, in turn by 0.6, as three smooth bumps each; who stands goes on standing. Where it begins with the trace
 /// the seed changes, too. The search is by rounds of the cross-entropy method (R. Rubinstein 1999), begun anew where
 /// it has settled and is not there. The same result whatever the thread count. Throws std::invalid_argument on options

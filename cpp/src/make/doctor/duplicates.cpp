@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "base/parallel.hpp"
+#include "base/rates.hpp"
 #include "doctor/lengths.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kRate = 30;        // frames/s at which takes are compared
 constexpr int kAnchors = 8;         // poses of the shorter take that are looked for in the longer
 constexpr double kSame = 0.015;     // m: root mean square of the points, of a character of 1.8 m
 constexpr double kOfMotion = 0.15;  // of how far the points move in the take
@@ -109,7 +109,7 @@ double shared_along(const Outline& shorter, const Outline& longer, const Match& 
 }
 
 double shared_motion(const Outline& shorter, const Outline& longer) {
-  if (static_cast<double>(shorter.shapes.size()) < kShortestStep * kRate) return 0;
+  if (static_cast<double>(shorter.shapes.size()) < kShortestStep * kPoseRate) return 0;
   const std::vector<Match> matches = matches_of(shorter, longer);
   if (static_cast<int>(matches.size()) < kOverlap * kAnchors) return 0;
   const Match &first = matches.front(), &last = matches.back();
@@ -143,7 +143,7 @@ Outline outline_of(const Patient& patient) {
   if (!has_outline(patient)) return {};
   Outline outline;
   const int last = patient.frames() - 1;
-  for (double at = 0; at <= last; at += patient.rate() / kRate) {
+  for (double at = 0; at <= last; at += patient.rate() / kPoseRate) {
     const int f = static_cast<int>(at);
     const Shape shape = shape_of(patient, f), next = shape_of(patient, std::min(f + 1, last));
     outline.shapes.push_back(between(shape, next, static_cast<float>(at - f)));

@@ -11,14 +11,13 @@
 #include "doctor/check.hpp"
 #include "doctor/lengths.hpp"
 #include "motion/contacts.hpp"
+#include "motion/soles.hpp"
 
 namespace fragmotion {
 namespace {
 
-// Of a character of 1.8 m. The lowest joint of a foot is inside it, and not every file has the toes' ends.
-constexpr double kUnder = -0.02, kOver = 0.08;  // m: where it may be on the ground, which rises by no more
-constexpr double kExplained = 0.7;              // of the heights' variance, by a slope
-constexpr int kFewestStands = 10;               // places where feet stand
+constexpr double kExplained = 0.7;  // of the heights' variance, by a slope
+constexpr int kFewestStands = 10;   // places where feet stand
 
 /// The lowest joint of a foot, or its end, and where. Ends of what is below the toes' are nobody's: files invent them.
 Vector3 sole(const Patient& patient, int frame, int leg) {
@@ -78,7 +77,7 @@ double rise_of(const Patient& patient) {
   const Eigen::VectorXd fitted = places * least_squares(places, heights);
   const double all = (heights.array() - heights.mean()).square().sum(), left = (heights - fitted).squaredNorm();
   const double rise = fitted.maxCoeff() - fitted.minCoeff();
-  return left < (1 - kExplained) * all && rise * patient.scale() >= kOver ? rise : 0;
+  return left < (1 - kExplained) * all && rise * patient.scale() >= kFootHeight ? rise : 0;
 }
 
 }  // namespace
@@ -87,7 +86,7 @@ Findings find_ground(const Patient& patient) {
   const std::optional<double> ground = ground_of(patient);
   if (!ground || rise_of(patient) > 0) return {};
   const double height = *ground * patient.scale();
-  if (height >= kUnder && height <= kOver) return {};
+  if (is_on_ground(height)) return {};
   return {mendable(found(patient, "ground", Severity::kWarning,
                          "the feet stand " + centimetres(std::abs(*ground)) + (height < 0 ? " under" : " over") +
                              " the ground; move the take " + (height < 0 ? "up" : "down")))};

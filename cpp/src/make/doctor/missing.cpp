@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include <numeric>
 
+#include "base/rounding.hpp"
 #include "doctor/check.hpp"
 #include "doctor/runs.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kNoRotation = 1e-6;  // length of a quaternion that is none
-constexpr double kEndShare = 0.1;     // of the take, that may be cut off an end unasked
+constexpr double kEndShare = 0.1;  // of the take, that may be cut off an end unasked
 
 bool lacks(const Patient& patient, int frame, int bone) {
   const Local local = patient.local(frame, bone);
-  return !local.place.allFinite() || !local.rotation.coeffs().allFinite() || local.rotation.norm() < kNoRotation;
+  return !local.place.allFinite() || !local.rotation.coeffs().allFinite() || local.rotation.norm() < kFloatRounding;
 }
 
 int first_lacking(const Patient& patient, int frame) {

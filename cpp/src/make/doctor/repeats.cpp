@@ -3,6 +3,7 @@
 
 #include "doctor/check.hpp"
 #include "doctor/runs.hpp"
+#include "motion/contacts.hpp"
 
 namespace fragmotion {
 namespace {

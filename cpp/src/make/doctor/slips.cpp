@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/quantile.hpp"
+#include "base/rates.hpp"
 #include "doctor/basis.hpp"
 #include "doctor/check.hpp"
 #include "doctor/lengths.hpp"
@@ -13,9 +14,8 @@ namespace {
 
 // Of a character of 1.8 m. Of 165 clean takes of two actors no other axes make feet slip less than the take's own, and
 // in walks feet slip by 0.08 m/s at most.
-constexpr double kSlips = 0.15;   // m/s: a foot that stands does not
-constexpr double kLeft = 0.4;     // of the slip: what other axes or a drift leave of it at most
-constexpr double kBeside = 0.03;  // s: over which velocities are taken, to each side
+constexpr double kSlips = 0.15;  // m/s: a foot that stands does not
+constexpr double kLeft = 0.4;    // of the slip: what other axes or a drift leave of it at most
 
 // At moments of the take: how the hips go, and how the lower foot goes as seen from them, m/s.
 struct Footing {
@@ -32,7 +32,7 @@ int lowest_foot(const Patient& patient, int frame) {
 }
 
 Footing footing_of(const Patient& patient) {
-  const int beside = std::max(1, static_cast<int>(std::lround(kBeside * patient.rate())));
+  const int beside = std::max(1, static_cast<int>(std::lround(patient.rate() / kPoseRate)));
   const double rate = patient.rate() / (2 * beside);
   Footing footing;
   for (int f = beside; f + beside < patient.frames(); f += frames_between_looks(patient.frames())) {

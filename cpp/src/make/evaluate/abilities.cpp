@@ -5,27 +5,28 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "base/rates.hpp"
 #include "evaluate/performance.hpp"
 #include "fragments/coverage.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kAsked = 4, kJudged = 2, kShown = 30;        // s; s; frames a second
+constexpr double kAsked = 4, kJudged = 2;                     // s
 constexpr double kOfSpeed = 0.2, kOfTurn = 0.3, kSlow = 0.1;  // m/s of a 1.8 m character
 
 bool is_done(const std::shared_ptr<const Character>& character, const Control& control) {
   const ControlSpace& space = character->space;
   Trace trace(static_cast<std::size_t>(kAsked * kTraceRate), control);
-  const Performance shown = perform(Player(character), trace, kShown);
-  const int begin = static_cast<int>((kAsked - kJudged) * kShown);
+  const Performance shown = perform(Player(character), trace, kPoseRate);
+  const int begin = static_cast<int>((kAsked - kJudged) * kPoseRate);
   const auto at = [&](int f) { return &shown.path[std::size_t{3} * f]; };
   Vector2 velocity = Vector2::Zero();
   for (int f = begin; f + 1 < shown.frames; ++f) {
     const Vector2 step(at(f + 1)[0] - at(f)[0], at(f + 1)[1] - at(f)[1]);
     velocity += Eigen::Rotation2Dd(-at(f)[2]) * step;
   }
-  const double seconds = (shown.frames - 1 - begin) / kShown;
+  const double seconds = (shown.frames - 1 - begin) / kPoseRate;
   velocity /= seconds;
   const double turn = (at(shown.frames - 1)[2] - at(begin)[2]) / seconds / space.turn_rate();
   const double least = kSlow / space.scale();

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/rates.hpp"
 #include "evaluate/response.hpp"
 #include "evaluate/runner.hpp"
 
@@ -10,16 +11,15 @@ namespace fragmotion {
 namespace {
 
 constexpr int kTrials = 16;
-constexpr double kGoesOn = 100 * kPi / 180;  // rad off where it shall face, from which on it walks
-constexpr double kFaces = 15 * kPi / 180;    // and from which on it faces there
+constexpr double kFaces = 15 * kPi / 180;  // rad off where it shall face, from which on it faces there
 
 double about_face(Runner& runner, const ControlSpace& space, double side) {
   const double begun = runner.heading(), walk = space.walk();
   const Vector2 back{std::sin(begun), -std::cos(begun)};
-  for (int f = 1; f <= kNoAboutFace * kTrackRate; ++f) {
+  for (int f = 1; f <= kNoAboutFace * kGameRate; ++f) {
     const double off = kPi - side * (runner.heading() - begun);
-    runner.frame({0, off < kGoesOn ? walk : 0, side * space.turn_towards(off), 0});
-    if (std::abs(off) < kFaces && runner.world_velocity().dot(back) >= kAnswered * walk) return f / kTrackRate;
+    runner.frame({0, off < kTurnsBack ? walk : 0, side * space.turn_towards(off), 0});
+    if (std::abs(off) < kFaces && runner.world_velocity().dot(back) >= kAnswered * walk) return f / kGameRate;
   }
   return kNoAboutFace;
 }

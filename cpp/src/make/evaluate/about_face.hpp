@@ -14,6 +14,8 @@ namespace fragmotion {
 std::vector<double> about_face_times(const std::shared_ptr<const Character>& character,
                                      const PlayerOptions& options = {});
 
+/// rad by which a way is off another at least that leads back.
+constexpr double kTurnsBack = 100 * kPi / 180;
 /// s
 constexpr double kNoAboutFace = 10;
 

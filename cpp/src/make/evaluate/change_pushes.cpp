@@ -5,15 +5,18 @@
 #include <cmath>
 #include <utility>
 
+#include "base/rates.hpp"
+#include "evaluate/about_face.hpp"
 #include "evaluate/body_track.hpp"
 #include "evaluate/dragging.hpp"
 #include "evaluate/runner.hpp"
+#include "evaluate/tracks.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kReversed = 100 * kPi / 180, kSameWay = 20 * kPi / 180;  // rad
-constexpr double kAfter = 1.5, kBefore = 0.2;                             // s
+constexpr double kSameWay = 20 * kPi / 180;    // rad
+constexpr double kAfter = 1.5, kBefore = 0.2;  // s
 
 struct Step {
   Control from, to;
@@ -38,8 +41,8 @@ std::vector<Step> all_steps(const ControlSpace& space) {
   return steps;
 }
 
-constexpr int kFramesBefore = static_cast<int>(kBefore * kTrackRate),
-              kFramesAfter = static_cast<int>((kAfter + kBefore) * kTrackRate);
+constexpr int kFramesBefore = static_cast<int>(kBefore * kGameRate),
+              kFramesAfter = static_cast<int>((kAfter + kBefore) * kGameRate);
 
 void show(const Player& player, Clip& clip) {
   const Vector3& root = player.root_position();
@@ -51,7 +54,7 @@ void show(const Player& player, Clip& clip) {
 // From kBefore before the change until kAfter and as much later.
 Clip shown_around(Runner& runner, const Step& step) {
   Clip clip;
-  clip.rate = kTrackRate;
+  clip.rate = kGameRate;
   for (int f = -kFramesBefore; f <= kFramesAfter; ++f) {
     runner.frame(f < 0 ? step.from : step.to);
     show(runner.player(), clip);
@@ -74,7 +77,7 @@ Change kind_of(const Control& from, const Control& to) {
   if (from.speed() == 0) return to.speed() == 0 ? Change::turn : Change::start;
   if (to.speed() == 0) return Change::stop;
   const double angle = std::acos(std::clamp(before.dot(after) / (from.speed() * to.speed()), -1.0, 1.0));
-  if (angle > kReversed) return Change::reverse;
+  if (angle > kTurnsBack) return Change::reverse;
   return angle > kSameWay || from.turn != to.turn ? Change::turn : Change::gait;
 }
 
@@ -91,7 +94,7 @@ std::array<ChangePushes, kChanges> change_pushes(const std::shared_ptr<const Cha
     runner.hold(step.from, random);
     BodyTrack track = body_track(kinematics, shown_around(runner, step));
     stand_on(track, floors);
-    const std::vector<double> pushes = ground_accelerations(track.center, kTrackRate);
+    const std::vector<double> pushes = ground_accelerations(track.center, kGameRate);
     Changes& some = found[static_cast<std::size_t>(kind_of(step.from, step.to))];
     some.pushes.insert(some.pushes.end(), pushes.begin(), pushes.end());
     some.dragged += dragging(track, clearance, kFramesBefore).dragged;

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 
+#include "motion/contacts.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr double kGoing = 0.5;    // m/s
 constexpr double kBeside = 0.25;  // s to each side
 constexpr double kQuick = 0.2;    // s
 
@@ -40,7 +41,7 @@ double speed(const BodyTrack& track, int f) {
 
 bool goes(const BodyTrack& track, int first, int last) {
   for (int f = first; f <= last; ++f) {
-    if (!(speed(track, f) > kGoing)) return false;
+    if (!(speed(track, f) > kWalking)) return false;
   }
   return true;
 }

@@ -8,6 +8,7 @@
 
 #include "base/max_accumulate.hpp"
 #include "base/ranges.hpp"
+#include "base/rounding.hpp"
 #include "base/transposed.hpp"
 #include "control/command_limit.hpp"
 #include "fragments/able_trace.hpp"
@@ -85,7 +86,7 @@ class Hindsight {
   Hindsight(const Character& c, const std::vector<int>& controls, double rate, double shortest)
       : n_(c.classes.count),
         frames_(static_cast<int>(controls.size())),
-        shortest_(n_, static_cast<int>(shortest * rate + kFrameRounding)),
+        shortest_(n_, static_cast<int>(shortest * rate + kRounding)),
         longest_(n_, 0),
         smoothness_(transposed(c.quality.smoothness, n_, n_)),
         match_(static_cast<std::size_t>(frames_ + 1) * n_, 0),
@@ -93,8 +94,8 @@ class Hindsight {
     for (std::size_t f = 0; f < c.pool.fragments.size(); ++f) {
       const int label = c.classes.labels[f];
       const double frames = c.pool.seconds(c.pool.fragments[f]) * rate;
-      shortest_[label] = std::clamp(static_cast<int>(frames + kFrameRounding), 1, std::max(1, shortest_[label]));
-      longest_[label] = std::max(longest_[label], static_cast<int>(std::ceil(frames - kFrameRounding)));
+      shortest_[label] = std::clamp(static_cast<int>(frames + kRounding), 1, std::max(1, shortest_[label]));
+      longest_[label] = std::max(longest_[label], static_cast<int>(std::ceil(frames - kRounding)));
     }
     for (int f = 0; f < frames_; ++f) {
       for (int q = 0; q < n_; ++q) {

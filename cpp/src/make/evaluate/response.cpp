@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "evaluate/response.hpp"
 
+#include "base/rates.hpp"
 #include "evaluate/runner.hpp"
 
 namespace fragmotion {
@@ -10,9 +11,9 @@ double response(Runner& runner, const Character& character, const Control& from,
   const Control before = character.admitted(from), after = character.admitted(to);
   const Vector2 begin{before.x, before.y}, step = Vector2{after.x, after.y} - begin;
   if (step.isZero()) return 0;
-  for (int f = 1; f <= kNoResponse * kTrackRate; ++f) {
+  for (int f = 1; f <= kNoResponse * kGameRate; ++f) {
     runner.frame(to);
-    if ((runner.velocity() - begin).dot(step) >= kAnswered * step.squaredNorm()) return f / kTrackRate;
+    if ((runner.velocity() - begin).dot(step) >= kAnswered * step.squaredNorm()) return f / kGameRate;
   }
   return kNoResponse;
 }

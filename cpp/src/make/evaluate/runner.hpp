@@ -3,18 +3,18 @@
 
 #include <vector>
 
-#include "evaluate/tracks.hpp"
+#include "base/rates.hpp"
 #include "runtime/player.hpp"
 
 namespace fragmotion {
 
-/// A player, stepped kTrackRate times a second, whose velocity over the last 0.1 s is known.
+/// A player, stepped kGameRate times a second, whose velocity over the last 0.1 s is known.
 class Runner {
  public:
   explicit Runner(Player& player) : player_(player), track_(kWindow, player.frame()) {}
 
   void frame(const Control& control) {
-    player_.step(control, 1 / kTrackRate);
+    player_.step(control, 1 / kGameRate);
     for (int i = 1; i < kWindow; ++i) track_[i - 1] = track_[i];
     track_[kWindow - 1] = player_.frame();
   }
@@ -22,12 +22,12 @@ class Runner {
   /// Holds a control for 1.5 to 2 s, so that what follows meets every phase of a gait.
   void hold(const Control& control, Random& random) {
     const double seconds = kLeastHeld + (kMostHeld - kLeastHeld) * random.uniform();
-    for (int f = 0; f < seconds * kTrackRate; ++f) frame(control);
+    for (int f = 0; f < seconds * kGameRate; ++f) frame(control);
   }
 
   /// m/s, in the world.
   Vector2 world_velocity() const {
-    return (track_[kWindow - 1].position - track_[0].position) * (kTrackRate / (kWindow - 1));
+    return (track_[kWindow - 1].position - track_[0].position) * (kGameRate / (kWindow - 1));
   }
   /// m/s, seen from the character frame of the window's middle.
   Vector2 velocity() const { return Eigen::Rotation2Dd(-track_[kWindow / 2].heading) * world_velocity(); }

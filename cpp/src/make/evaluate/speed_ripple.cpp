@@ -5,14 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "base/rates.hpp"
 #include "evaluate/performance.hpp"
 #include "evaluate/tracks.hpp"
+#include "fragments/speed_range.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr double kLong = 1, kSmooth = 0.1;      // s
-constexpr double kForward = kPi / 6;            // rad
 constexpr double kSteady = 0.1;                 // of the speed
 constexpr double kNear = 0.1;                   // m/s
 constexpr double kSlowest = 0.5, kFastest = 3;  // m/s, and the step between commands
@@ -67,7 +68,7 @@ bool is_steady(const BodyTrack& track, int begin) {
   const Vector2 ahead{-std::sin(heading), std::cos(heading)};
   const Vector2 change = velocity(track, begin + second - quarter, begin + second + quarter) -
                          velocity(track, begin - quarter, begin + quarter);
-  return mean.dot(ahead) >= std::cos(kForward) * mean.norm() && change.norm() <= kSteady * mean.norm();
+  return mean.dot(ahead) >= std::cos(kSameDirection) * mean.norm() && change.norm() <= kSteady * mean.norm();
 }
 
 void compare(SpeedRipple& row, const std::vector<Going>& takes) {
@@ -119,7 +120,7 @@ std::vector<SpeedRipple> speed_ripples(const std::shared_ptr<const Character>& c
   for (double commanded = kSlowest; commanded <= kFastest; commanded += kSlowest) {
     const Trace trace(static_cast<std::size_t>(kHeld * kTraceRate),
                       Control{0, commanded / character->space.scale(), 0, 0});
-    const Performance performance = perform(Player(character, options), trace, kTrackRate);
+    const Performance performance = perform(Player(character, options), trace, kGameRate);
     BodyTrack track = body_track(kinematics, clip_of(performance));
     stand_on(track, floors);
     SpeedRipple row;

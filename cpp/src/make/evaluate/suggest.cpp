@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/rates.hpp"
 #include "build/build.hpp"
 #include "build/stages.hpp"
 #include "control/simulated_players.hpp"
@@ -15,7 +16,7 @@ namespace {
 constexpr int kTried[] = {24, 34, 48, 68, 97, 137, 194, 274};
 constexpr int kFragmentsAClass = 4;
 constexpr double kAsGood = 1.05;  // times the smallest error
-constexpr double kSeconds = 60, kSuggestRate = 30;
+constexpr double kSeconds = 60;
 constexpr std::uint64_t kSeed = 7;
 
 ClassesTried judged(const std::shared_ptr<const Character>& character) {
@@ -24,7 +25,7 @@ ClassesTried judged(const std::shared_ptr<const Character>& character) {
   const std::vector<std::string>& players = simulated_players();
   for (const std::string& name : players) {
     const Performance p =
-        perform(Player(character), simulate_trace(name, kSeconds, kSeed, character->space), kSuggestRate);
+        perform(Player(character), simulate_trace(name, kSeconds, kSeed, character->space), kPoseRate);
     tried.quality += p.quality / static_cast<double>(players.size());
     error += p.velocity_error;
     commanded += p.commanded_speed;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "evaluate/tracks.hpp"
 
+#include "base/rates.hpp"
 #include "motion/packed_clip.hpp"
 
 namespace fragmotion {
@@ -9,10 +10,10 @@ namespace {
 Clip sampled(const PackedClip& packed, int bones) {
   Clip clip;
   clip.name = packed.name;
-  clip.rate = kTrackRate;
+  clip.rate = kGameRate;
   std::vector<double> rotations(std::size_t{4} * bones);
-  for (; clip.frames * packed.rate / kTrackRate <= packed.frames - 1; ++clip.frames) {
-    const Vector3 root = sample_pose(packed, clip.frames * packed.rate / kTrackRate, rotations.data());
+  for (; clip.frames * packed.rate / kGameRate <= packed.frames - 1; ++clip.frames) {
+    const Vector3 root = sample_pose(packed, clip.frames * packed.rate / kGameRate, rotations.data());
     clip.root_positions.insert(clip.root_positions.end(), root.data(), root.data() + 3);
     clip.rotations.insert(clip.rotations.end(), rotations.begin(), rotations.end());
   }

@@ -9,9 +9,6 @@
 
 namespace fragmotion {
 
-/// Frames a second of what is measured here.
-constexpr double kTrackRate = 60;
-
 /// The clips of a pool that hold captured fragments, at 60 frames a second; they have no headings.
 std::vector<Clip> captured_takes(const PackedPool& pool);
 

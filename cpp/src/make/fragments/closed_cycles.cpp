@@ -9,6 +9,7 @@
 
 #include "fragments/gait_cycle.hpp"
 #include "fragments/gait_heights.hpp"
+#include "motion/contacts.hpp"
 
 namespace fragmotion {
 namespace {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/quantile.hpp"
+#include "motion/contacts.hpp"
 
 namespace fragmotion {
 

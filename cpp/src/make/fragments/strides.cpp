@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "control/control.hpp"
+#include "motion/contacts.hpp"
 #include "motion/pose.hpp"
 
 namespace fragmotion {

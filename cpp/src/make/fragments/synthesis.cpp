@@ -9,6 +9,7 @@
 
 #include "base/quantile.hpp"
 #include "base/ranges.hpp"
+#include "base/rounding.hpp"
 #include "fragments/blend.hpp"
 #include "fragments/closed_cycles.hpp"
 #include "fragments/coverage.hpp"
@@ -256,7 +257,7 @@ class Synthesizer {
     double least = std::numeric_limits<double>::infinity();
     for (const ClosedCycle& cycle : cycles_) {
       const double cost = effort(cycle, control, least);
-      if (cost < least - kSameButRounding) least = cost, best = &cycle;
+      if (cost < least - kFloatRounding) least = cost, best = &cycle;
     }
     return best;
   }

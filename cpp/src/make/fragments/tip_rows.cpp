@@ -7,13 +7,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/ranges.hpp"
 #include "base/vectorised.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr float kMost = 32767;    // units
-constexpr float kLargest = 1e9F;  // m
+constexpr float kMost = 32767;  // units
 
 // The largest absolute value, by the floats' bits, among which what is no number is above all others.
 FRAGMOTION_VECTORISED float largest_of(const float* values, std::size_t count) {
@@ -57,7 +57,7 @@ TipRows::TipRows(int count, int points)
 
 void TipRows::set(int i, const float* from) {
   const float largest = largest_of(from, width());
-  if (!(largest <= kLargest)) {
+  if (!(largest <= kFarthestPlace)) {
     throw std::invalid_argument("fragment " + std::to_string(i) +
                                 ": a coordinate is not a number, or more than a million kilometres");
   }

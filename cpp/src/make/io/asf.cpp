@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/take_limits.hpp"
 #include "base/text_reader.hpp"
 #include "io/parse_text.hpp"
 #include "io/y_up.hpp"

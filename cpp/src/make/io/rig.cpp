@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/quantile.hpp"
+#include "base/rounding.hpp"
 #include "base/take_limits.hpp"
 #include "io/hanging.hpp"
 #include "io/rigid_matrix.hpp"
@@ -117,7 +118,7 @@ Quaternion checked_rotation(const double* wxyz, const std::string& clip, int fra
   const Quaternion q = load_quaternion(wxyz);
   const double norm = q.norm();
   if (!std::isfinite(norm)) fail(frame_label(clip, frame) + ", " + bone, "the rotation is not finite");
-  if (norm < kFlat) fail(frame_label(clip, frame) + ", " + bone, "the rotation is a zero quaternion");
+  if (norm < kRounding) fail(frame_label(clip, frame) + ", " + bone, "the rotation is a zero quaternion");
   return q.normalized();
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/rounding.hpp"
 #include "base/types.hpp"
 
 namespace fragmotion {
@@ -13,7 +14,6 @@ namespace fragmotion {
 // Relative difference of scales: lengths look the same that differ by less than 3 % (Teghtsoonian, "On the Exponents in
 // Stevens' Law and the Constant in Ekman's Law", 1971).
 constexpr double kUniform = 0.01;
-constexpr double kFlat = 1e-12;
 
 using RowMajor = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>;
 
@@ -26,14 +26,14 @@ inline Vector3 column_lengths(const RowMajor& matrix) { return matrix.topLeftCor
 /// Whether a matrix is finite and scales to nothing, or to the other side of it: it has no rotation.
 inline bool is_squashed(const RowMajor& matrix) {
   const Eigen::Matrix3d m = matrix.topLeftCorner<3, 3>();
-  return matrix.allFinite() && (m.colwise().norm().minCoeff() < kFlat || m.determinant() <= 0);
+  return matrix.allFinite() && (m.colwise().norm().minCoeff() < kRounding || m.determinant() <= 0);
 }
 
 /// The rotation in a matrix that may scale; keeps the direction of y, along the bone, where it also shears.
 inline Quaternion extract_rotation(const RowMajor& matrix, const std::string& label) {
   const Eigen::Matrix3d m = matrix.topLeftCorner<3, 3>();
   if (!matrix.allFinite()) fail(label, "the matrix is not finite");
-  if (m.colwise().norm().minCoeff() < kFlat) fail(label, "the matrix is flat (a scale of zero)");
+  if (m.colwise().norm().minCoeff() < kRounding) fail(label, "the matrix is flat (a scale of zero)");
   if (m.determinant() <= 0) fail(label, "the matrix is mirrored (a negative scale) or flat");
   const Vector3 y = m.col(1).normalized();
   const Vector3 x = m.col(0).normalized();
@@ -62,7 +62,7 @@ inline double uniform_scale(const RowMajor& matrix, const std::string& label) {
   const Vector3 scale = column_lengths(matrix);
   const double mean = scale.mean();
   if (matrix.topLeftCorner<3, 3>().determinant() < 0) fail(label, "the scale is " + print_scale(-scale) + advice);
-  if (mean < kFlat || (scale.array() - mean).abs().maxCoeff() > kUniform * mean)
+  if (mean < kRounding || (scale.array() - mean).abs().maxCoeff() > kUniform * mean)
     fail(label, "the scale is " + print_scale(scale) + advice);
   if (!is_square(matrix, kUniform)) fail(label, "the object is sheared, with scale " + print_scale(scale) + advice);
   return mean;

@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "base/rounding.hpp"
+
 namespace fragmotion {
 
 namespace {
-
-constexpr double kGimbalLock = 1e-7;  // cosine of the middle angle
 
 struct Order {
   int first, second, third;  // axes
@@ -65,7 +65,7 @@ Vector3 nearest_angles(const Order& order, const Quaternion& rotation, const Vec
   const Eigen::Matrix3d m = rotation.toRotationMatrix();
   const double along = m(order.first, order.first), across = order.sign * m(order.second, order.first);
   // In gimbal lock any third angle is a solution; the one of the frame before moves least.
-  if (std::hypot(along, across) < kGimbalLock) return unwrap(solve(order, rotation, previous[order.third]), previous);
+  if (std::hypot(along, across) < kRounding) return unwrap(solve(order, rotation, previous[order.third]), previous);
   const double third = std::atan2(across, along);
   const Vector3 one = unwrap(solve(order, rotation, third), previous);
   const Vector3 other = unwrap(solve(order, rotation, third + kPi), previous);

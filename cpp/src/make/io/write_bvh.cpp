@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/rounding.hpp"
 #include "base/take_limits.hpp"
 #include "base/write_file.hpp"
 #include "io/bvh.hpp"
@@ -18,7 +19,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kStill = 1e-7;  // m: a joint that stays nearer to its OFFSET does not leave it
 constexpr int kDecimals = 6;
 constexpr const char* kOrder = "YXZ";  // of euler_to_quaternion: Rz Rx Ry
 constexpr const char* kRotations = " Zrotation Xrotation Yrotation";
@@ -143,7 +143,7 @@ class BvhWriter {
   bool leaves_offset(int bone) const {
     if (bone == 0) return true;
     for (int frame = 0; frame < take_.frames; ++frame) {
-      if ((translation(bone, frame) - take_.skeleton.offsets[bone]).norm() > kStill) return true;
+      if ((translation(bone, frame) - take_.skeleton.offsets[bone]).norm() > kFloatRounding) return true;
     }
     return false;
   }

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/rates.hpp"
+#include "motion/contacts.hpp"
 #include "motion/cycle.hpp"
 #include "motion/skate.hpp"
 #include "motion/soles.hpp"
@@ -15,13 +17,10 @@ namespace fragmotion {
 namespace {
 
 // Of a character of 1.8 m.
-constexpr double kStays = 0.4;        // m that hips on the spot go at most
-constexpr double kGoes = 0.3;         // m/s, of what is larger by dynamic similarity (Froude): what is slower stands
-constexpr double kTurns = kPi / 12;   // rad/s: feet that stand turn by less in a gait that goes straight
-constexpr double kLow = 0.02;         // m over its lowest: a sole on the ground
-constexpr double kWindow = 1.0 / 30;  // s over which velocities are told: keys and markers tremble
-constexpr double kLevel = 0.05;       // m it rises or falls for a m back: steeper is a foot that lands or leaves
-constexpr double kAsFast = 0.95;      // of what grip tells: slower is a foot that lands or leaves
+constexpr double kStays = 0.4;       // m that hips on the spot go at most
+constexpr double kTurns = kPi / 12;  // rad/s: feet that stand turn by less in a gait that goes straight
+constexpr double kLevel = 0.05;      // m it rises or falls for a m back: steeper is a foot that lands or leaves
+constexpr double kAsFast = 0.95;     // of what grip tells: slower is a foot that lands or leaves
 constexpr double kSmooth[] = {0.5, 0.2, 0.1, 0.03};  // s, of the guesses, one after the other
 constexpr double kTreads = 0.5;                      // of the way: feet that tread come back, and none of them stands
 
@@ -52,7 +51,7 @@ Velocities smoothed(const Velocities& values, const std::vector<double>& weights
 class Treading {
  public:
   Treading(const std::vector<SolePath>& soles, double rate, double scale)
-      : soles_(soles), rate_(rate), scale_(scale), span_(std::max(1, static_cast<int>(std::lround(kWindow * rate)))) {
+      : soles_(soles), rate_(rate), scale_(scale), span_(std::max(1, static_cast<int>(std::lround(rate / kPoseRate)))) {
     windows_ = static_cast<int>(soles[0].heel().path.size()) - span_;
     for (const SolePath& sole : soles) stands_.push_back(stand_of(sole, [](const SolePoint&, int) { return true; }));
   }
@@ -65,7 +64,7 @@ class Treading {
     int count = 0;
     for (const SolePath& sole : soles_) {
       for (int f = 0; f < windows_; ++f) {
-        if (std::max(height(sole.heel(), f), height(sole.ball(), f)) > kLow) continue;
+        if (std::max(height(sole.heel(), f), height(sole.ball(), f)) > kFlatSole) continue;
         sum -= wrapped(direction(sole, f + span_) - direction(sole, f)) * rate_ / span_;
         ++count;
       }
@@ -141,7 +140,7 @@ class Treading {
 
   // How a foot is on the ground: how high at most, m, and how steeply its sole goes there.
   struct Stand {
-    double low = kLow, level = kLevel;
+    double low = kFlatSole, level = kLevel;
   };
 
   // That of a foot which is nowhere low or level, as fast as it goes, is where it is lowest, of where it `may` stand.
@@ -151,7 +150,7 @@ class Treading {
     each_window(sole, [&](const SolePoint& point, int f) {
       if (may(point, f)) lowest = std::min(lowest, height(point, f));
     });
-    const double low = std::max(kLow, lowest);
+    const double low = std::max(kFlatSole, lowest);
     each_window(sole, [&](const SolePoint& point, int f) {
       if (may(point, f) && height(point, f) <= low) flattest = std::min(flattest, steepness(point, f));
     });
@@ -168,7 +167,7 @@ class Treading {
   // How far it rises or falls, of how far it goes over the ground, or would if it just went.
   double steepness(const SolePoint& point, int f) const {
     const Vector3 way = point.path[f + span_] - point.path[f];
-    return std::abs(way.z()) / std::max(way.head<2>().norm(), kGoes / scale_ * span_ / rate_);
+    return std::abs(way.z()) / std::max(way.head<2>().norm(), kMoving / scale_ * span_ / rate_);
   }
 
   bool is_low(std::size_t side, const SolePoint& point, int f) const { return height(point, f) <= stands_[side].low; }
@@ -334,7 +333,7 @@ std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& cl
   way.mean = mean_of(way.velocities, clip);
   const double speed = way.mean.norm();
   const bool treads = treading.slowest() > kTreads * speed && tread(soles, speed * (clip.frames - 1) / clip.rate);
-  if (speed * std::max(scale, std::sqrt(scale)) < kGoes || !treads) return std::nullopt;
+  if (speed * std::max(scale, std::sqrt(scale)) < kMoving || !treads) return std::nullopt;
   return way;
 }
 

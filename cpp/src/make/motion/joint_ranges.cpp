@@ -6,12 +6,11 @@
 #include <limits>
 
 #include "base/decompositions.hpp"
+#include "base/rates.hpp"
 #include "motion/pose.hpp"
 
 namespace fragmotion {
 namespace {
-
-constexpr double kLooks = 10;  // poses a second: joints of a gait are near their ends for longer than between two
 
 Vector3 rotation_vector(const Quaternion& q) {
   const Eigen::AngleAxisd turn(q);
@@ -102,7 +101,7 @@ JointRanges::JointRanges(const std::vector<int>& bones, const std::vector<Clip>&
   const auto each_pose = [&](const Visit& visit) {
     for (std::size_t c = 0; c < clips.size(); ++c) {
       const std::size_t width = clips[c].rotations.size() / clips[c].frames;
-      const int step = std::max(1, static_cast<int>(std::lround(clips[c].rate / kLooks)));
+      const int step = std::max(1, static_cast<int>(std::lround(clips[c].rate / kPostureRate)));
       for (int f = 0; f < clips[c].frames; f += step) visit(c % takes, &clips[c].rotations[width * f]);
     }
   };

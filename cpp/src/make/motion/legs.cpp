@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "motion/legs.hpp"
 
+#include "base/rounding.hpp"
+
 namespace fragmotion {
 namespace {
 
@@ -26,7 +28,7 @@ Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips) {
       for (Leg& leg : legs) leg.hinge += bend(leg, posed);
     }
   }
-  for (Leg& leg : legs) leg.hinge = leg.hinge.norm() > kDegenerate ? leg.hinge.normalized() : Vector3::UnitX();
+  for (Leg& leg : legs) leg.hinge = leg.hinge.norm() > kRounding ? leg.hinge.normalized() : Vector3::UnitX();
   return legs;
 }
 

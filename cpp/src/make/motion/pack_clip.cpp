@@ -19,7 +19,6 @@ constexpr double kPlace = 0.015e-3;             // m that the hips may be off
 constexpr double kHeading = 1e-3;               // rad
 constexpr double kFinest = 2e-7;                // step of a turn that single precision still tells apart
 const double kOff = 2 * std::sqrt(3.0);         // rad that a rotation may be off for a step of 1
-constexpr int kRootNumbers = PackedPoses::kRootNumbers;
 
 using Matrix3 = Eigen::Matrix3d;
 
@@ -191,7 +190,7 @@ double root_value(const Clip& clip, int frame, int number) {
 
 void measure_root(const Clip& clip, double scale, PackedPoses& poses) {
   constexpr double kMost = (1 << PackedPoses::kMostBits) - 1;
-  for (int number = 0; number < kRootNumbers; ++number) {
+  for (int number = 0; number < PackedPoses::kRootNumbers; ++number) {
     double low = root_value(clip, 0, number), high = low;
     for (int f = 1; f < clip.frames; ++f) {
       low = std::min(low, root_value(clip, f, number));
@@ -239,11 +238,11 @@ void write_poses(const Clip& clip, const std::vector<std::int32_t>& steps, Packe
   poses.bytes.assign(bytes * clip.frames + PackedPoses::kSpare, 0);
   for (int f = 0; f < clip.frames; ++f) {
     BitWriter write(&poses.bytes[bytes * f]);
-    for (int i = 0; i < kRootNumbers; ++i) {
+    for (int i = 0; i < PackedPoses::kRootNumbers; ++i) {
       write(static_cast<std::uint32_t>(root_steps(clip, f, i, poses)), poses.bits[i]);
     }
     for (std::size_t i = 0; i < width; ++i) {
-      write(steps[width * f + i] - poses.least[i], poses.bits[kRootNumbers + i]);
+      write(steps[width * f + i] - poses.least[i], poses.bits[PackedPoses::kRootNumbers + i]);
     }
   }
 }

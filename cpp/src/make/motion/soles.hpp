@@ -7,6 +7,15 @@
 
 namespace fragmotion {
 
+/// m of a character of 1.8 m over the ground that joints of feet are at most which stand on it; the lowest of them are
+/// in the feet, and not every file has the toes' ends.
+constexpr double kFootHeight = 0.08;
+/// Whether feet whose lowest joint is so high stand on the ground, as nearly as files tell.
+inline bool is_on_ground(double height) { return height >= -kFootHeight / 4 && height <= kFootHeight; }
+
+/// m of a character of 1.8 m over its lowest that any point of a sole is which is flat on the ground.
+constexpr double kFlatSole = 0.02;
+
 /// One point of a sole: its path, and the height over which it is all but 2 % of the time.
 struct SolePoint {
   std::vector<Vector3> path;

@@ -8,14 +8,14 @@
 
 #include "base/listed.hpp"
 #include "base/turn_between.hpp"
+#include "motion/soles.hpp"
 #include "retarget/posture.hpp"
 #include "skeleton/likely_tips.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kInstep = 0.4;   // rad: how far most feet point down from the ankle to the ball
-constexpr double kGround = 0.08;  // m of a 1.8 m character: joints of feet are no higher over the ground
+constexpr double kInstep = 0.4;  // rad: how far most feet point down from the ankle to the ball
 
 void check_complete(const RoleMap& map) {
   if (map.bone(Role::kForeFoot, Side::kLeft) >= 0)
@@ -233,7 +233,7 @@ FootHeights heights_in(const Body& body, int side, const PosedBones& posture) {
 // Over the ground, which is where the feet are, but z = 0 where they are right above it.
 Floors over_ground(Floors soles, double scale) {
   const double lowest = std::min({soles[0].ball, soles[0].heel, soles[1].ball, soles[1].heel});
-  const bool on_ground = lowest * scale > -kGround / 4 && lowest * scale < kGround;
+  const bool on_ground = is_on_ground(lowest * scale);
   for (FootHeights& sole : soles) sole = {sole.ball - (on_ground ? 0 : lowest), sole.heel - (on_ground ? 0 : lowest)};
   return soles;
 }

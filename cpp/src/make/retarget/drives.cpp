@@ -8,11 +8,10 @@
 
 #include "base/decompositions.hpp"
 #include "retarget/posture.hpp"
+#include "skeleton/same_skeleton.hpp"
 
 namespace fragmotion {
 namespace {
-
-constexpr double kAlike = 1e-3;  // of a leg's length: by how much the bones of one body may differ
 
 // Bones along a chain that is driven as one, and where they are on it: 0 is where it begins, 1 its end.
 struct Chain {
@@ -248,14 +247,14 @@ class Shape {
 }  // namespace
 
 bool same_body(const Body& source, const Body& target) {
-  return Shape(source).alike(Shape(target), target.leg / source.leg, kAlike * target.leg);
+  return Shape(source).alike(Shape(target), target.leg / source.leg, kSameLength * target.leg);
 }
 
 std::vector<Drive> find_drives(const Body& source, const Body& target) {
   std::vector<Drive> drives = Drives(source, target).all();
   if (!same_body(source, target)) return drives;
   const Shape from(source), to(target);
-  const bool rest_alike = from.rest_alike(to, target.leg / source.leg, kAlike * target.leg);
+  const bool rest_alike = from.rest_alike(to, target.leg / source.leg, kSameLength * target.leg);
   for (Drive& drive : drives) {
     Lead& lead = drive.first;
     if (rest_alike) lead.turn = from.rest(lead.bone).conjugate() * to.rest(drive.bone);

@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rates.hpp"
 #include "motion/foot_paths.hpp"
 #include "motion/pose.hpp"
+#include "motion/soles.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr double kUpright = 0.7;   // cosine of how far a trunk may lean from the vertical and be taken for upright
 constexpr double kStraight = 0.5;  // and a thigh or a shin for one of a standing body
-constexpr double kApart = 0.1;     // s between the poses that are looked at
 constexpr double kSlow = 0.25;     // of these: the slowest
 constexpr double kStill = 0.4;     // m/s of a 1.8 m character: a foot that is slower does not roll
-constexpr double kFlat = 0.02;     // m of a 1.8 m character: no point of a foot that stands flat is higher
 constexpr double kBends = 0.1;     // sine of the mean bend of a joint that tells its axis
 constexpr int kEnough = 5;         // frames that tell how a foot stands
 
@@ -41,7 +41,7 @@ CharacterFrame frame_of(const Kinematics& kinematics, const PosedBones& posed) {
   return kinematics.frame(posed.heads[hips], posed.rotations[hips]);
 }
 
-int frames_apart(const Clip& clip) { return std::max(1, static_cast<int>(std::lround(kApart * clip.rate))); }
+int frames_apart(const Clip& clip) { return std::max(1, static_cast<int>(std::lround(clip.rate / kPostureRate))); }
 
 std::vector<Moment> upright_moments(const Kinematics& kinematics, const RoleMap& map, const std::vector<Clip>& clips) {
   const int hips = kinematics.skeleton().roles.hips, top = top_of(map);
@@ -112,7 +112,7 @@ void hang_up(const Skeleton& skeleton, PosedBones& posed) {
 std::vector<int> flat_frames(const FootPath& path, const FootHeights& floor, double rate, double scale) {
   const auto rests = [&](const std::vector<Vector3>& points, int f, double lowest) {
     const double speed = (points[f + 1] - points[f - 1]).norm() * rate / 2;
-    return speed * scale < kStill && (points[f].z() - lowest) * scale < kFlat;
+    return speed * scale < kStill && (points[f].z() - lowest) * scale < kFlatSole;
   };
   std::vector<int> frames;
   for (int f = 1; f + 1 < static_cast<int>(path.ball.size()); ++f) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/rounding.hpp"
 #include "motion/pose.hpp"
 #include "motion/skate.hpp"
 #include "retarget/drives.hpp"
@@ -20,7 +21,6 @@ namespace fragmotion {
 namespace {
 
 constexpr double kRolls = 0.14;      // rad: a foot that is tipped further stands on its ball or heel alone
-constexpr double kThere = 1e-9;      // of a leg's length: a foot that is so near to its place is there
 constexpr double kSlowest = 1e-3;    // m/s of a 1.8 m character
 constexpr double kToeDepth = 0.005;  // m of a 1.8 m character
 constexpr double kFree = std::numeric_limits<double>::infinity();
@@ -233,7 +233,7 @@ class Transfer {
   void put_foot(int side, const Vector3& ankle, double* rotations) {
     Leg leg = parts_.target.legs[side];
     const Reach reach = reach_of(leg, to_, motion_.knees[side]);
-    const double apart = (ankle - to_.heads[leg.thigh]).norm(), tolerance = kThere * parts_.target.leg;
+    const double apart = (ankle - to_.heads[leg.thigh]).norm(), tolerance = kRounding * parts_.target.leg;
     const bool there = (ankle - to_.heads[leg.foot]).norm() < tolerance && apart < reach.most + tolerance &&
                        apart > reach.least - tolerance;
     if (!there) fragmotion::reach(skeleton(), leg, to_, ankle, reach, rotations);
@@ -260,7 +260,7 @@ class Transfer {
                  deeper = toe_depth(parts_.target, side, ball, to_) - std::clamp(depth, 0.0, parts_.toe_depth);
     const Vector3 tip = to_.rotations[leg.toe] * skeleton().tips[leg.toe], axis = tip.cross(Vector3::UnitZ());
     const double length = tip.norm();
-    if (deeper < kThere * parts_.target.leg || axis.norm() < kThere * length) return;
+    if (deeper < kRounding * parts_.target.leg || axis.norm() < kRounding * length) return;
     const double rise = std::asin(std::min(1.0, (tip.z() + deeper) / length)) - std::asin(tip.z() / length);
     const Quaternion bent = Eigen::AngleAxisd(rise, axis.normalized()) * to_.rotations[leg.toe];
     const Quaternion local = to_.rotations[skeleton().parents[leg.toe]].conjugate() * bent;

@@ -12,14 +12,13 @@ namespace fragmotion {
 namespace {
 
 constexpr double kMostUnit = 1e6;
-constexpr char kPolicyMagic[9] = "FRAGMOTN";
-constexpr std::size_t kVersionAt = 8;
 
 // A file of another version is no damaged one.
 void check_version(std::string_view bytes) {
   std::uint32_t version = 0;
-  if (bytes.size() < kVersionAt + sizeof version || bytes.substr(0, 8) != kPolicyMagic) return;
-  std::memcpy(&version, bytes.data() + kVersionAt, sizeof version);
+  if (bytes.size() < kPolicyMagic.size() + sizeof version || bytes.substr(0, kPolicyMagic.size()) != kPolicyMagic)
+    return;
+  std::memcpy(&version, bytes.data() + kPolicyMagic.size(), sizeof version);
   demand(version <= kPolicyVersion, FRAGMOTION_ERROR_NEWER_VERSION,
          "the policy is of version %u, newer than the %u that this library knows: get a newer Fragmotion",
          static_cast<unsigned>(version), static_cast<unsigned>(kPolicyVersion));

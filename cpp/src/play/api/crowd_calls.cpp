@@ -3,12 +3,11 @@
 
 #include "api/handles.hpp"
 #include "base/take_limits.hpp"
+#include "control/control.hpp"
 #include "runtime/crowd.hpp"
 
 namespace fragmotion {
 namespace {
-
-constexpr double kShortestParting = 0.1;  // s in which those that touch part: sooner than that nobody can
 
 void make_crowd(const std::shared_ptr<const Hero>& hero, const FragmotionPlayerOptions& options, int count,
                 FragmotionCrowd& crowd) {
@@ -163,7 +162,7 @@ FragmotionResult fragmotion_crowd_make_way(FragmotionCrowd* crowd, float radius,
     list_walkers(others, count, crowd->players.front()->hero->axes.metres(static_cast<double>(radius)), *crowd);
     crowd->make_way.look(crowd->walkers);
     for (std::size_t i = 0; i < crowd->players.size(); ++i) {
-      crowd->players[i]->clearance = crowd->make_way.clearance(i, std::max(seconds, kShortestParting));
+      crowd->players[i]->clearance = crowd->make_way.clearance(i, std::max(seconds, kControlStep));
     }
   });
 }

@@ -3,12 +3,11 @@
 
 #include "api/handles.hpp"
 #include "api/player_state_of.hpp"
+#include "base/rounding.hpp"
 #include "motion/pose.hpp"
 
 namespace fragmotion {
 namespace {
-
-constexpr double kDirection = 1e-6;  // length of what says where to face, at least
 
 double heading_of_way(const Vector3& way) { return std::atan2(-way.x(), way.y()); }
 
@@ -159,7 +158,7 @@ Control FragmotionPlayer::control(const FragmotionInput& input, double seconds) 
   const auto turn = static_cast<double>(input.turn);
   const bool jump = input.jump != 0;
   const Vector3 facing = axes.ours(input.facing);
-  const bool faces = facing.head<2>().norm() > kDirection;
+  const bool faces = facing.head<2>().norm() > kFloatRounding;
   switch (input.steer) {
     case FRAGMOTION_STEER_CHARACTER:
       return {axes.metres(static_cast<double>(input.move[0])), axes.metres(static_cast<double>(input.move[1])), turn,
@@ -282,7 +281,7 @@ void FragmotionPlayer::step(const FragmotionInput& input, double seconds) {
   if (has_fixed_step()) {
     const double step = options.fixed_step;
     banked += played;
-    while (banked > step * (1 - kSameButRounding)) {
+    while (banked > step * (1 - kFloatRounding)) {
       std::swap(before, now);
       banked = std::max(0.0, banked - step);
       play(input, step);

@@ -3,11 +3,12 @@
 
 #include "api/handles.hpp"
 #include "api/player_state_of.hpp"
+#include "base/rates.hpp"
+#include "base/rounding.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kForeseen = 1.0 / 60;      // s of a step that is foreseen
 constexpr std::uint32_t kStateVersion = 7;  // of what exchange() and PlayerState hold
 constexpr char kStateMagic[9] = "FRAGSTAT";
 constexpr std::size_t kStateHeader = 16, kStateEnd = 8;  // bytes: magic, version and size; hash
@@ -131,7 +132,7 @@ void FragmotionPlayer::foresee(const FragmotionInput& input, double seconds, int
   std::vector<unsigned char>& state = scratch->state;
   const std::size_t size = save(state.data());
   for (int i = 0; i < count; ++i) {
-    for (double rest = seconds / count; rest > kInstant; rest -= kForeseen) advance(input, std::min(rest, kForeseen));
+    for (double rest = seconds / count; rest > kRounding; rest -= kGameStep) advance(input, std::min(rest, kGameStep));
     const CharacterFrame at = shift.frame(now.frame);
     const double level = now.level + shift.lift;
     places[i] = theirs({at.position.x(), at.position.y(), level}, at.heading);

@@ -10,11 +10,11 @@ namespace fragmotion {
 /// The largest coordinate, m, and angle, rad, of a place, at which steps are still told apart.
 constexpr double kFarthestPlace = 1e9;
 
-/// What is no further apart differs by rounding alone, in units that are of the order of 1.
-constexpr double kSameButRounding = 1e-6;
-
 /// s that a step, a call or what plays without one may last.
 constexpr double kLongestCall = 3600;
+
+/// s: no trace and no walk lasts longer.
+constexpr double kDay = 24 * 3600;
 
 /// A number as short as people write it.
 inline std::string text_of(double value) {

@@ -11,6 +11,7 @@ constexpr std::size_t kMostBones = 4096;   ///< The largest rigs, with every con
 constexpr std::size_t kLongestName = 255;  ///< Bytes of a bone's name: Blender allows 63.
 constexpr double kLargestNumber = 1e12;    ///< Of file units or degrees: a million km in millimetres.
 constexpr double kFarthestBody = 1e6;      ///< Metres that it is from the origin: no stage is so large.
+constexpr double kFastestBody = 1000;      ///< m/s: three times as fast as sound.
 constexpr double kShortestFrame = 1e-4;    ///< Seconds: motion capture is made at up to some 2,000 frames a second.
 constexpr double kLongestFrame = 1000;     ///< Seconds.
 

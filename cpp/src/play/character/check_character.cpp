@@ -8,14 +8,13 @@
 #include <string>
 
 #include "base/ranges.hpp"
+#include "base/rounding.hpp"
 #include "motion/trunk.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kShortest = (1 - kFileRounding) * kShortestFragment;  // s that a fragment may last
-constexpr double kMost = 1e9;  // of what is in m/s, rad/s or a ratio: its square is a number, and no body is so fast
-constexpr double kHighest = 1e10;  // m of a floor: above any chain of bones at any place
+constexpr double kShortest = (1 - kFloatRounding) * kShortestFragment;  // s that a fragment may last
 
 void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("its ") + what + " do not fit together");
@@ -66,7 +65,8 @@ void check_evident(const std::vector<Fragment>& fragments, double scale) {
 // Whose constructor bounds the numbers above.
 void check_space(const ControlSpace& space) {
   const std::vector<double>& speeds = space.speeds();
-  require(all_in_range(speeds, 1 / kMost, kMost) && all_in_range({space.turn_rate(), space.scale()}, 1 / kMost, kMost),
+  require(all_in_range(speeds, 1 / kMostOfSpace, kMostOfSpace) &&
+              all_in_range({space.turn_rate(), space.scale()}, 1 / kMostOfSpace, kMostOfSpace),
           "controls");
 }
 
@@ -103,7 +103,7 @@ void check_contacts(const Character& c) {
               "contacts");
     }
     for (const FootHeights& floor : c.contacts[i].floors) {
-      require(all_in_range({floor.ball, floor.heel}, -kHighest, kHighest), "contacts");
+      require(all_in_range({floor.ball, floor.heel}, -10 * kFarthestPlace, 10 * kFarthestPlace), "contacts");
     }
   }
 }

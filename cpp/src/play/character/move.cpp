@@ -4,6 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/rounding.hpp"
+
 namespace fragmotion {
 namespace {
 
@@ -39,12 +41,12 @@ std::vector<Fragment> move_parts(const PackedPool& pool, const std::vector<Move>
 
 void check_move_times(const std::string& name, double seconds, double wait, const std::array<double, 2>& loop) {
   const auto [begin, end] = loop;
-  require(seconds >= kShortestMove - kFileRounding && seconds <= kLongestMove + kFileRounding, name, " lasts ", seconds,
-          " s: a move lasts ", kShortestMove, " s to ", kLongestMove, " s");
+  require(seconds >= kShortestMove - kFloatRounding && seconds <= kLongestMove + kFloatRounding, name, " lasts ",
+          seconds, " s: a move lasts ", kShortestMove, " s to ", kLongestMove, " s");
   require(wait >= 0 && wait <= kLongestWait, name, " is to wait ", wait, " s for its moment, which is 0 s to ",
           kLongestWait, " s");
   require(
-      begin == end || (begin >= 0 && end <= seconds + kFileRounding && end - begin >= kShortestLoop - kFileRounding),
+      begin == end || (begin >= 0 && end <= seconds + kFloatRounding && end - begin >= kShortestLoop - kFloatRounding),
       name, " is to loop from ", begin, " s to ", end, " s: a loop lasts ", kShortestLoop,
       " s at least and is within the move, which lasts ", seconds, " s");
 }

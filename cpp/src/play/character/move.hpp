@@ -13,9 +13,6 @@ namespace fragmotion {
 constexpr double kShortestMove = 0.1, kLongestMove = 60, kLongestWait = 2, kShortestLoop = 0.1;
 constexpr int kMostMoves = 256;
 
-/// s, or a ratio: what times of files, which may be of single precision, are off.
-constexpr double kFileRounding = 1e-6;
-
 /// Anything that is not locomotion: wave, punch, sit down. A clip of the pool's from which no fragment is cut.
 struct Move {
   std::string name;

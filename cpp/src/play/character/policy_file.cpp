@@ -20,8 +20,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr char kMagic[9] = "FRAGMOTN";
-constexpr std::size_t kHeader = 8 + 4 + 8, kChecksum = 8;
+constexpr std::size_t kHeader = kPolicyMagic.size() + 4 + 8, kChecksum = 8;
 // Memory of the entry poses, which a player needs beside the file: a file takes at most 20 times its size, beyond 50
 // MB.
 constexpr std::size_t kTimes = 16;  // bytes for each of the file
@@ -72,7 +71,7 @@ std::string unchecked_bytes(const Character& character) {
   PolicyWriter payload;
   exchange(payload, const_cast<Character&>(character));
   PolicyWriter file;
-  file.raw(kMagic, 8);
+  file.raw(kPolicyMagic.data(), kPolicyMagic.size());
   file.number<std::uint32_t>(kPolicyVersion);
   file.number<std::uint64_t>(payload.bytes.size());
   file.bytes += payload.bytes;
@@ -93,7 +92,7 @@ std::string to_bytes(const Character& character) {
 
 Character from_bytes(std::string_view bytes, const std::string& name) {
   try {
-    if (bytes.size() < kHeader || std::memcmp(bytes.data(), kMagic, 8) != 0) {
+    if (bytes.size() < kHeader || bytes.substr(0, kPolicyMagic.size()) != kPolicyMagic) {
       throw std::invalid_argument("it is no Fragmotion policy file");
     }
     std::uint32_t version = 0;

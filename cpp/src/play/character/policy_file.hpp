@@ -10,6 +10,9 @@
 
 namespace fragmotion {
 
+/// What policy files begin with; their version follows.
+constexpr std::string_view kPolicyMagic = "FRAGMOTN";
+
 /// Of the files that are written, and of the oldest ones that are read.
 constexpr std::uint32_t kPolicyVersion = 5, kOldestPolicyVersion = 3;
 

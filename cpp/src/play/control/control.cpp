@@ -20,15 +20,12 @@ void require(bool valid, const char* name, double value, const char* expected) {
   throw std::invalid_argument(text.str());
 }
 
-// Squares of what is within these are numbers still; characters from a micrometre to a thousand kilometres are.
-constexpr double kMost = 1e9;
-
 void require_positive(const char* name, double value) {
-  require(value > 0 && value <= kMost, name, value, "a number above 0, up to 1e9");
+  require(value > 0 && value <= kMostOfSpace, name, value, "a number above 0, up to 1e9");
 }
 
 void require_weight(const char* name, double value) {
-  require(value >= 0 && value <= kMost, name, value, "a number from 0 to 1e9");
+  require(value >= 0 && value <= kMostOfSpace, name, value, "a number from 0 to 1e9");
 }
 
 /// Unit vectors counter-clockwise from forward, of kMostDirections; a table, so that the axes are exact and all others

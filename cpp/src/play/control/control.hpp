@@ -9,8 +9,10 @@
 
 namespace fragmotion {
 
-/// Slower than this a character of 1.8 m stands, m/s.
-constexpr double kMoving = 0.3;
+/// Controls a second in a trace: players hardly change what they ask for more often.
+constexpr double kTraceRate = 10;
+/// s from one to the next.
+constexpr double kControlStep = 1 / kTraceRate;
 
 /// s: time constant of the last of a turn to where a character is to face.
 constexpr double kFacing = 0.25;
@@ -21,6 +23,10 @@ constexpr double kMostTurn = 6;
 /// Of each number of a control that is asked for: nothing is faster than a million m/s, and the squares of such are
 /// numbers still.
 constexpr double kMostControl = 1e6;
+
+/// Of a space's speeds, m/s, rates, rad/s, scale and weights: squares are numbers still, and characters from a
+/// micrometre to a thousand kilometres are within it.
+constexpr double kMostOfSpace = 1e9;
 
 /// What the user asks for, or what a fragment visibly does (Sec. 3.2), in the character frame.
 struct Control {

@@ -29,7 +29,7 @@ constexpr const char* kDirectionNames[kMostDirections] = {
     "right",   "right slightly forward", "forward right", "forward slightly right"};
 
 /// Of kGaits.
-constexpr int kWalk = 1, kRun = 3;
+constexpr int kWalk = 1, kJog = 2, kRun = 3;
 
 /// One of the ascending `slots` for each of as many or fewer ascending values > 0, in their order: those with which the
 /// product of the ratios of value and slot, the greater over the smaller, is least.

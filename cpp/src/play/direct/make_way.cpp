@@ -5,10 +5,11 @@
 #include <cmath>
 #include <optional>
 
+#include "base/rounding.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr double kParallel = 1e-9;       // of a product of unit vectors
 constexpr int kNarrowings = 20;          // of what velocities are off by where none is clear
 constexpr std::int64_t kRows = 1 << 24;  // of cells: more than fit into a million m
 
@@ -44,7 +45,7 @@ class Program {
     double first = middle - std::sqrt(square), last = middle + std::sqrt(square);
     for (int i = 0; i < edge; ++i) {
       const double lacks = dot(point(i) - from, normal(i)), gains = dot(along, normal(i));
-      if (std::abs(gains) < kParallel) {
+      if (std::abs(gains) < kRounding) {
         if (lacks > 0) return std::nullopt;
       } else if (gains > 0) {
         first = std::max(first, lacks / gains);

@@ -6,13 +6,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/rounding.hpp"
 #include "base/take_limits.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr double kShortestPath = 1e-3;  // m that a path is long at least
-constexpr double kSame = 1e-9;          // m between points that are one
 
 void check(const std::vector<Vector2>& points, const std::vector<double>& speeds) {
   if (points.size() < 2)
@@ -29,7 +29,7 @@ void check(const std::vector<Vector2>& points, const std::vector<double>& speeds
                                 std::to_string(speeds.size()) + " speeds");
   }
   for (std::size_t i = 0; i < speeds.size(); ++i) {
-    if (!(speeds[i] > 0 && speeds[i] <= kFastestPath))
+    if (!(speeds[i] > 0 && speeds[i] <= kFastestBody))
       throw std::invalid_argument("the speed at point " + std::to_string(i) +
                                   " of the path must be over 0 to 1000 m/s");
   }
@@ -43,7 +43,7 @@ Path::Path(const std::vector<Vector2>& points, bool closed, const std::vector<do
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = i % points.size();
     const double step = i == 0 ? 0 : (points[at] - points_.back()).norm();
-    if (i > 0 && !(step > kSame)) continue;
+    if (i > 0 && !(step > kRounding)) continue;
     ways_.push_back(i == 0 ? 0 : ways_.back() + step);
     points_.push_back(points[at]);
     if (!speeds.empty()) speeds_.push_back(speeds[at]);
@@ -95,7 +95,7 @@ double Path::nearest(const Vector2& point, double from, double to) const {
     const std::size_t i = segment(at);
     const bool last = i + 2 == ways_.size();
     const double left = last && !closed_ ? to - begin : ways_[i + 1] - at;
-    const double end = std::min(to, begin + std::max(left, kSame * std::max(1.0, std::abs(begin))));
+    const double end = std::min(to, begin + std::max(left, kRounding * std::max(1.0, std::abs(begin))));
     const Vector2 along = (points_[i + 1] - points_[i]) / (ways_[i + 1] - ways_[i]);
     const double way = begin + std::clamp(dot(along, point - place(begin)), 0.0, end - begin);
     const double distance = (place(way) - point).norm();

@@ -11,9 +11,6 @@ namespace fragmotion {
 /// The most points that a path may have.
 constexpr std::size_t kMostPathPoints = 1000000;
 
-/// The greatest speed along a path, m/s.
-constexpr double kFastestPath = 1000;
-
 /// A way over the ground: straight lines from point to point. Places on it are told by the way from its beginning, m;
 /// round a closed path this goes on lap after lap, and beyond the ends of an open one it leads straight on.
 class Path {

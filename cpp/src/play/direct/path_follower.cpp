@@ -7,11 +7,10 @@
 #include <stdexcept>
 
 #include "base/ranges.hpp"
+#include "base/take_limits.hpp"
 
 namespace fragmotion {
 namespace {
-
-constexpr double kLatest = 24 * 3600.0;  // s
 
 double heading_of(const Vector2& direction) { return std::atan2(-direction.x(), direction.y()); }
 
@@ -20,8 +19,8 @@ Path followed(const Path& path, PathEnd end) { return end == PathEnd::loop ? pat
 bool stops(const FollowOptions& options) { return options.end == PathEnd::stand; }
 
 void check(const FollowOptions& options) {
-  require_range("the speed along the path, in m/s,", options.speed, 0, kFastestPath);
-  require_range("the time of arrival, in s,", options.arrive, 0, kLatest);
+  require_range("the speed along the path, in m/s,", options.speed, 0, kFastestBody);
+  require_range("the time of arrival, in s,", options.arrive, 0, kDay);
   require_range("how much sooner to stop, in m,", options.stop_early, -kFarthestPlace, kFarthestPlace);
   require_range("the heading to face", options.heading, -kFarthestPlace, kFarthestPlace);
   for (const double value : {options.place.x(), options.place.y()})

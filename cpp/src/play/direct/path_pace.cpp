@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "motion/contacts.hpp"
 #include "runtime/player_constants.hpp"
 
 namespace fragmotion {

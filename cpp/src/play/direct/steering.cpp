@@ -5,17 +5,17 @@
 #include <cmath>
 
 #include "base/ranges.hpp"
+#include "base/rates.hpp"
 #include "runtime/player.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kTurnsWell = 0.75;      // of the turn rate that is asked for
-constexpr double kTrial = 2;             // s of going straight, and of turning then
-constexpr double kTrialStep = 1.0 / 60;  // s
+constexpr double kTurnsWell = 0.75;  // of the turn rate that is asked for
+constexpr double kTrial = 2;         // s of going straight, and of turning then
 
 void go(Player& player, const Control& control, double seconds) {
-  for (long step = std::lround(seconds / kTrialStep); step > 0; --step) player.step(control, kTrialStep);
+  for (long step = std::lround(seconds / kGameStep); step > 0; --step) player.step(control, kGameStep);
 }
 
 // How far a player turns to the asked side in a trial, rad.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/filtered.hpp"
+#include "base/rounding.hpp"
 #include "feet/standing_leg.hpp"
 #include "motion/pose.hpp"
 #include "motion/skate.hpp"
@@ -17,7 +18,6 @@ namespace {
 constexpr double kTooFar = 0.3;        // m from its motion at which a foot is let go,
 constexpr double kTooFarAlone = 0.5;   // and at which the only one that stands is
 constexpr double kStrained = 0.1;      // m that the hips would have to sink for a foot: from there it steps on
-constexpr double kForgets = 4;         // times kRelease, until nothing is seen of a foot that was let go
 constexpr double kComesToRest = 0.02;  // s: time constant of a foot that comes to rest
 constexpr double kSoftGround = 0.006;  // m: a foot sinks in at most half of that
 constexpr double kHovers = 0.015;      // m over the floor from where a planted foot is lowered
@@ -156,7 +156,7 @@ Vector2 FootLock::away(int side, const Vector2& moved, bool planted, double seco
   foot.moved = moved;
   foot.free += seconds;
   Vector2 away = Vector2::Zero();
-  if (foot.free < kForgets * kRelease) {
+  if (foot.free < kUnseen * kRelease) {
     const Vector2 rate = foot.offset_speed + kReturns * foot.offset;
     away = std::exp(-kReturns * foot.free) * (foot.offset + foot.free * rate);
   }
@@ -218,7 +218,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     const Vector3 moved{by.x(), by.y(), lift};
     ankles[side] = ankle_of(legs[side], posed) + moved;
     raise_heel(side, place + moved, follows, ankles[side], pose.rotations.data());
-    if (by.isZero(1e-9) && lift == 0) continue;
+    if (by.isZero(kRounding) && lift == 0) continue;
     const double strain =
         std::max(0.0, too_high(longest(legs[side], posed), posed.heads[legs[side].thigh], ankles[side]));
     if (feet_[side].locked && strain * scale > kStrained) release(feet_[side], held);

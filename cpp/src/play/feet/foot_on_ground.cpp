@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "feet/standing_leg.hpp"
+
 namespace fragmotion {
 namespace {
 
@@ -12,7 +14,6 @@ constexpr double kSettle = 0.03;     // s in which a foot that stands gets onto 
 constexpr double kFastestError = 3;  // m/s at which it does so
 constexpr double kSlid = 0.005;      // m that a foot may slide on the same footing
 constexpr double kPace = 0.1;        // m/s with which a foot that steps on the spot is on its way
-constexpr double kLoading = 0.08;    // s before it stands, and after it, in which a foot bears more and more, and less
 
 constexpr double kMargin = 0.03;        // m by which it clears what is in its way
 constexpr double kClearing = 0.1;       // s in which its clearance gets as high as it must

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/ranges.hpp"
+#include "base/rounding.hpp"
 
 namespace fragmotion {
 namespace {
@@ -23,9 +24,9 @@ bool is_ground(const GroundPoint& point) {
 // How much ground of this normal rises along x and y.
 Vector2 slope_of(const Vector3& normal) {
   const double up = std::abs(normal.z()), side = normal.head<2>().norm();
-  if (side < 1e-9 * up) return Vector2::Zero();
+  if (side < kRounding * up) return Vector2::Zero();
   const double sign = normal.z() < 0 ? 1 : -1;
-  return sign * std::min(kSteepest, side / std::max(up, 1e-9 * side)) / side * normal.head<2>();
+  return sign * std::min(kSteepest, side / std::max(up, kRounding * side)) / side * normal.head<2>();
 }
 
 }  // namespace

@@ -20,7 +20,6 @@ constexpr double kGetsExact = 0.15;   // s in which they come to
 constexpr double kDeepest = 0.45;     // m that they sink
 constexpr int kAsked = 8;             // times that a step asks for the ground,
 constexpr int kAskedAtFirst = 80;     // and a reset
-constexpr double kHips = 0.15;        // s: time constant of hips without legs
 
 Quaternion turned_by(const Vector2& slope) {
   if (slope.isZero(0)) return Quaternion::Identity();
@@ -125,7 +124,7 @@ void GroundFollower::follow_hips(WorldPose& pose, double seconds, GroundProbe& p
   const std::optional<Footing> under = probe.at(pose.root.head<2>());
   if (!under) missed_ += seconds;
   const double wanted = under ? under->height : level_;
-  level_ += (fresh_ ? 1 : filtered(seconds, kHips)) * (wanted - level_);
+  level_ += (fresh_ ? 1 : filtered(seconds, 1 / kHipsFollow)) * (wanted - level_);
   fresh_ = false;
   pose.root.z() += level_;
 }

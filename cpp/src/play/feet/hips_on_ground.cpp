@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "feet/standing_leg.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr double kFollowing = 8;   // 1/s: how quickly hips get to their level, critically damped
-constexpr double kSinking = 0.08;  // s in which they get as low as they must, or must soon, at least,
-constexpr double kRising = 0.3;    // and come up again
+constexpr double kRising = 0.3;  // s in which they come up again
 
 // How much of the way from one place to another a place is.
 double part_between(const Vector2& from, const Vector2& to, const Vector2& place) {
@@ -44,7 +44,7 @@ void HipsOnGround::advance(const Vector2& place, const FeetOnGround& feet, doubl
   } else {
     const double before = level_between(feet, place_), pace = (target - before) / seconds;
     double off = level_ - before, rate = speed_ - pace;
-    settle(off, rate, kFollowing, seconds);
+    settle(off, rate, kHipsFollow, seconds);
     level_ = target + off;
     speed_ = pace + rate;
   }
@@ -53,12 +53,12 @@ void HipsOnGround::advance(const Vector2& place, const FeetOnGround& feet, doubl
 }
 
 void HipsOnGround::sink(double now, double soon, double due, double seconds) {
-  due = std::max(due, kSinking);
-  const double at_once = (now - sunk_.value) / kSinking, later = (soon - sunk_.value) / due;
+  due = std::max(due, kLoading);
+  const double at_once = (now - sunk_.value) / kLoading, later = (soon - sunk_.value) / due;
   if (at_once <= 0 && later <= 0) {
     sunk_.advance(std::max(now, soon), kRising, seconds);
   } else if (at_once > later) {
-    sunk_.advance(now, kSinking, seconds);
+    sunk_.advance(now, kLoading, seconds);
   } else {
     sunk_.advance(soon, due, seconds);
   }

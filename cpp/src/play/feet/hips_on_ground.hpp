@@ -6,6 +6,9 @@
 
 namespace fragmotion {
 
+/// 1/s: how quickly hips get to the level of the ground.
+constexpr double kHipsFollow = 8;
+
 using FeetOnGround = std::array<FootOnGround, 2>;  ///< Left, right.
 
 /// How high hips go: from footing to footing as they get from above the one to above the next, without a kink, and

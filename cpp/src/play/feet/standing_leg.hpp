@@ -7,6 +7,8 @@ namespace fragmotion {
 
 /// Of a leg's length: how far hips are from the ankle of a foot that stands at most.
 constexpr double kHipsReach = 0.985;
+/// s in which a leg that lands comes to bear the body, and in which hips get as low as it needs.
+constexpr double kLoading = 0.08;
 /// rad by which a heel rises at most.
 constexpr double kHighestHeel = 0.6;
 

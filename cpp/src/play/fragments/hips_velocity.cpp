@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fragments/entry_poses.hpp"
 #include "motion/pose.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kEnd = 0.1;  // s
 constexpr int kMoments = 8;
 
 Travel travel_between(const PackedClip& clip, double begin, double end) {
@@ -50,7 +50,7 @@ std::vector<EndVelocities> end_velocities(const PackedPool& pool) {
   std::vector<EndVelocities> all;
   for (const Fragment& f : pool.fragments) {
     const PackedClip& clip = pool.clips[f.clip];
-    const double first = f.first_played(), last = f.last_played(), end = std::min(kEnd * clip.rate, last - first);
+    const double first = f.first_played(), last = f.last_played(), end = std::min(kEntry * clip.rate, last - first);
     all.push_back({velocity_between(clip, first, first + end), velocity_between(clip, last - end, last)});
   }
   return all;

@@ -5,14 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include "base/rates.hpp"
 #include "motion/pose.hpp"
 #include "motion/trunk.hpp"
 
 namespace fragmotion {
 namespace {
-
-constexpr double kRate = 30;   // times a second at which poses are compared
-constexpr double kGazes = 10;  // times a second at which it is seen where they look
 
 // Reads takes for how bones that hang on each other and on the hips are turned in them.
 class Reader {
@@ -29,8 +27,8 @@ class Reader {
         fastest_(bones.size()) {}
 
   void read(const PackedClip& clip) {
-    const double apart = std::max(1.0, std::round(clip.rate / kRate)),
-                 seen = apart * std::max(1.0, std::round(clip.rate / kGazes / apart));
+    const double apart = std::max(1.0, std::round(clip.rate / kPoseRate)),
+                 seen = apart * std::max(1.0, std::round(clip.rate / kPostureRate / apart));
     for (double frame = 0; frame < clip.frames; frame += apart) {
       const Vector3 root = sample_pose(clip, frame, chain_.back() + 1, rotations_.data());
       kinematics_.world_below(root, rotations_.data(), chain_, heads_.data(), now_.data());

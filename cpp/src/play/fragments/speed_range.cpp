@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr double kBeyond = 1.3;      // of the takes' speed: a body goes so fast that never was seen to
-constexpr double kAround = kPi / 6;  // rad to either side of a direction
-constexpr double kRounding = 1 + 1e-9;
+constexpr double kBeyond = 1.3;  // of the takes' speed: a body goes so fast that never was seen to
 constexpr int kDirections = 72;
 constexpr double kTurn = 2 * kPi / kDirections;
 
@@ -24,7 +24,7 @@ SpeedRange::SpeedRange(const std::vector<Fragment>& fragments, const ControlSpac
     const double at = direction(fragment.evident), speed = kBeyond * fragment.evident.speed();
     for (int i = 0; i < kDirections; ++i) {
       const double off = std::abs(i * kTurn - at);  // up to one and a half turns
-      if (std::min(off, std::abs(off - 2 * kPi)) <= kAround) most_[i] = std::max(most_[i], speed);
+      if (std::min(off, std::abs(off - 2 * kPi)) <= kSameDirection) most_[i] = std::max(most_[i], speed);
     }
   }
 }
@@ -38,7 +38,7 @@ double SpeedRange::most(const Control& control) const {
 
 bool SpeedRange::allows(const Control& control) const {
   const double speed = control.speed();
-  return speed <= walk_ || speed <= most(control) * kRounding;
+  return speed <= walk_ || speed <= most(control) * (1 + kRounding);
 }
 
 Control SpeedRange::within(const Control& control) const {

@@ -7,6 +7,9 @@
 
 namespace fragmotion {
 
+/// rad to either side of a direction that count as the same.
+constexpr double kSameDirection = kPi / 6;
+
 /// How fast a character goes in each direction at most: 1.3 times as fast as its takes and their mirror images go
 /// within 30 degrees of it, and at least as fast as it walks.
 class SpeedRange {

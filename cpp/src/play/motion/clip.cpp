@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/ranges.hpp"
+#include "base/rounding.hpp"
 #include "base/take_limits.hpp"
 #include "motion/facing.hpp"
-#include "skeleton/same_skeleton.hpp"
 
 namespace fragmotion {
 
@@ -98,7 +98,7 @@ void check_rest(const Skeleton& skeleton, const Take& take, const std::vector<in
   rest_pose(skeleton, heads, ours);
   rest_pose(take.skeleton, heads, theirs);
   for (int b = 0; b < skeleton.size(); ++b) {
-    if (found[b] >= 0 && ours[b].angularDistance(theirs[found[b]]) > kSameRest)
+    if (found[b] >= 0 && ours[b].angularDistance(theirs[found[b]]) > kFloatRounding)
       fail(take.name, "bone '" + skeleton.names[b] +
                           "' rests in another rotation than the skeleton's; put the take on the rig first");
   }

@@ -34,6 +34,11 @@ double floor_of(const std::vector<Vector3>& path);
 /// Where feet stand in most clips: the medians, 0 where there are none.
 Floors usual_floors(const std::vector<Contacts>& contacts);
 
+/// m/s of a character of 1.8 m: slower than this it stands,
+constexpr double kMoving = 0.3;
+/// and slower than this it shuffles, as between jumps and stands, and does not walk.
+constexpr double kWalking = 0.5;
+
 /// m/s of a character of 1.8 m, from where on a foot of a body that stands still does not stand.
 constexpr double kStandingSpeed = 0.5;
 

@@ -7,15 +7,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/rounding.hpp"
+#include "base/take_limits.hpp"
 #include "base/vectorised.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr int kRootNumbers = PackedPoses::kRootNumbers;
-constexpr double kUnit = 1e-6;  // that a constant rotation may be off
 constexpr double kMostSteps = 1 << PackedPoses::kMostBits;
-constexpr double kFarthest = 1e12;  // m, and rad: where places are still told apart
 
 inline std::uint32_t read_bits(const std::uint8_t* bytes, unsigned at, std::uint32_t mask) {
   std::uint32_t word = 0;
@@ -42,7 +41,7 @@ struct PackedBetween {
   unsigned root(const PackedClip& clip, double* values) const {
     const PackedPoses& poses = *clip.poses;
     unsigned at = 0;
-    for (int i = 0; i < kRootNumbers; ++i) {
+    for (int i = 0; i < PackedPoses::kRootNumbers; ++i) {
       const std::uint32_t mask = mask_of(poses.bits[i]);
       const double a = read_bits(pose, at, mask), b = read_bits(next, at, mask);
       values[i] = poses.origin[i] + poses.steps[i] * (a + weight * (b - a));
@@ -61,7 +60,8 @@ void require(bool holds) {
 
 void check_rotations(const std::vector<float>& lanes, const PoseGrid& grid) {
   require(lanes.size() == std::size_t{4} * kBoneBlock * grid.blocks());
-  for (int b = 0; b < kBoneBlock * grid.blocks(); ++b) require(std::abs(quaternion_of(lanes, b).norm() - 1) < kUnit);
+  for (int b = 0; b < kBoneBlock * grid.blocks(); ++b)
+    require(std::abs(quaternion_of(lanes, b).norm() - 1) < kFloatRounding);
 }
 
 void check_mirror(const PoseGrid& grid) {
@@ -76,11 +76,12 @@ void check_mirror(const PoseGrid& grid) {
 
 void check_poses(const PackedPoses& poses, int frames, const PoseGrid& grid) {
   const std::size_t turns = std::size_t{3} * kBoneBlock * grid.blocks();
-  require(poses.least.size() == turns && poses.bits.size() == kRootNumbers + turns);
+  require(poses.least.size() == turns && poses.bits.size() == PackedPoses::kRootNumbers + turns);
   for (const int bits : poses.bits) require(bits <= PackedPoses::kMostBits);
   for (const std::int32_t number : poses.least) require(std::abs(static_cast<double>(number)) < kMostSteps);
-  for (int i = 0; i < kRootNumbers; ++i) {
-    require(poses.steps[i] > 0 && std::abs(poses.origin[i]) < kFarthest && poses.steps[i] * kMostSteps < kFarthest);
+  for (int i = 0; i < PackedPoses::kRootNumbers; ++i) {
+    require(poses.steps[i] > 0 && std::abs(poses.origin[i]) < kLargestNumber &&
+            poses.steps[i] * kMostSteps < kLargestNumber);
   }
   require(poses.bytes.size() >= PackedPoses::kSpare && (poses.bytes.size() - PackedPoses::kSpare) % frames == 0 &&
           poses.pose_bytes(frames) == bytes_for(poses.bits));
@@ -210,10 +211,10 @@ FRAGMOTION_VECTORISED Vector3 sample_pose(const PackedClip& clip, double at, int
   const PoseGrid& grid = *clip.grid;
   const int blocks = clip.mirrored && bones > 0 ? grid.blocks() : (bones + kBoneBlock - 1) / kBoneBlock;
   const PackedBetween between(clip, at);
-  double root[kRootNumbers];
+  double root[PackedPoses::kRootNumbers];
   unsigned bit = between.root(clip, root);
   const std::int32_t* least = clip.poses->least.data();
-  const std::uint8_t* bits = &clip.poses->bits[kRootNumbers];
+  const std::uint8_t* bits = &clip.poses->bits[PackedPoses::kRootNumbers];
   const bool is_between = between.weight > 0;
   for (int block = 0; block < blocks; ++block, bits += 3 * kBoneBlock, least += 3 * kBoneBlock) {
     Turns a, b;
@@ -240,7 +241,7 @@ FRAGMOTION_VECTORISED Vector3 sample_pose(const PackedClip& clip, double at, int
 }
 
 CharacterFrame frame_at(const PackedClip& clip, double at) {
-  double root[kRootNumbers];
+  double root[PackedPoses::kRootNumbers];
   PackedBetween(clip, at).root(clip, root);
   return {{root[0], root[1]}, root[3]};
 }

@@ -5,14 +5,15 @@
 #include <limits>
 #include <utility>
 
-#include "base/ranges.hpp"
+#include "base/rates.hpp"
+#include "base/rounding.hpp"
+#include "fragments/entry_poses.hpp"
+#include "motion/contacts.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kChange = 1;       // ControlDis between controls that is "a lot"
-constexpr double kWorthIt = 0.05;   // s that must be left of a fragment for leaving it early
-constexpr double kPart = 1 / 30.0;  // s of a fragment that a part of a step plays at most
+constexpr double kChange = 1;  // ControlDis between controls that is "a lot"
 
 }  // namespace
 
@@ -22,7 +23,7 @@ Director::Director(const Character& character, const Policy& policy, double resp
 }
 
 void Director::set_responsiveness(double responsiveness) {
-  haste_ = responsiveness / std::max(1 - responsiveness, kInstant);
+  haste_ = responsiveness / std::max(1 - responsiveness, kRounding);
 }
 
 void Director::reset() {
@@ -83,7 +84,7 @@ int Director::bridge_between(int previous, int next) const {
 }
 
 bool Director::is_planned(const Control& wanted) const {
-  return exit_.next_class >= 0 && character_->space.distance(wanted, planned_for_) < kSameButRounding;
+  return exit_.next_class >= 0 && character_->space.distance(wanted, planned_for_) < kFloatRounding;
 }
 
 int Director::next_class(const Control& control, const Playback& playback, const FragmentSelector& selector) {
@@ -103,21 +104,22 @@ int Director::next_class(const Control& control, const Playback& playback, const
 }
 
 bool Director::makes_way(const Playback& playback) const {
-  return forced_ >= 0 && playback.seconds() > soonest(playback) - kInstant;
+  return forced_ >= 0 && playback.seconds() > soonest(playback) - kRounding;
 }
 
 bool Director::leaves_early(const Control& wanted, bool changes, const Playback& playback,
                             const FragmentSelector& selector) {
-  const bool too_soon = playback.seconds() <= soonest(playback) - kInstant;
-  if (too_soon || playback.left() <= kWorthIt || waiting_ >= 0 || plays_forced_) return false;
+  const bool too_soon = playback.seconds() <= soonest(playback) - kRounding;
+  if (too_soon || playback.left() <= kMomentsApart || waiting_ >= 0 || plays_forced_) return false;
   if (playback.is_jumping() || !has_changed(wanted)) return false;
   if (!is_planned(wanted)) {
-    const bool only_now = changes && playback.left() > kWorthIt + kPart;  // it will be planned anew
+    // It will be planned anew: one part of a step plays no more of a fragment than two frames of a game.
+    const bool only_now = changes && playback.left() > kMomentsApart + 2 * kGameStep;
     const Exit found = plan_exit(wanted, playback, selector, only_now);
     exit_ = only_now && found.seconds > playback.seconds() ? Exit{} : found;
     planned_for_ = wanted;
   }
-  return exit_.next_class >= 0 && playback.seconds() > exit_.seconds - kInstant;
+  return exit_.next_class >= 0 && playback.seconds() > exit_.seconds - kRounding;
 }
 
 // Where what plays is left in the middle of a step, or at the end of its take, the class that the table gives may begin
@@ -140,7 +142,7 @@ Exit Director::plan_exit(const Control& wanted, const Playback& playback, const 
 
 bool Director::is_due(const Control& control, bool changes, const Playback& playback,
                       const FragmentSelector& selector) {
-  return makes_way(playback) || playback.left() < kInstant ||
+  return makes_way(playback) || playback.left() < kRounding ||
          leaves_early(wanted(control), changes, playback, selector);
 }
 
@@ -148,7 +150,7 @@ bool Director::is_due(const Control& control, bool changes, const Playback& play
 // of that is left for, with a class that is entered now and goes on in its own take. So the end of a take is no reason
 // to follow it: it is left now where that joins better than after its next fragment.
 int Director::continuation(const Control& control, const Playback& playback, const FragmentSelector& selector) const {
-  if (makes_way(playback) || playback.left() > kInstant) return -1;
+  if (makes_way(playback) || playback.left() > kRounding) return -1;
   const Control wanted = this->wanted(control);
   const int found = selector.successor(playback.number(), wanted);
   if (found < 0) return -1;
@@ -169,7 +171,7 @@ int Director::decide(const Control& control, const Playback& playback, const Fra
   const int next = plays_forced_ ? std::exchange(forced_, -1) : next_class(control, playback, selector);
   previous_ = std::exchange(class_, next);
   exit_ = {};
-  soonest_ = kSoonest;
+  soonest_ = kEntry;
   return next;
 }
 
@@ -180,12 +182,12 @@ void Director::resume(int next_class, const Control& control) {
   waiting_ = -1;
   plays_forced_ = jump_latched_ = false;
   exit_ = {};
-  soonest_ = kSoonest;
+  soonest_ = kEntry;
 }
 
 double Director::until_due(const Playback& playback, double most) const {
   const auto until = [&](double time) {
-    return time - playback.seconds() > kInstant ? time - playback.seconds() : most;
+    return time - playback.seconds() > kRounding ? time - playback.seconds() : most;
   };
   return std::min({most, playback.left(), until(soonest(playback)), until(exit_.next_class < 0 ? -1 : exit_.seconds)});
 }

@@ -5,9 +5,6 @@
 
 namespace fragmotion {
 
-/// Seconds that a fragment is played at least before a change of the control may end it.
-constexpr double kSoonest = 0.1;
-
 /// Decides which class is played next, and when (Sec. 3.3): at a fragment's end what the table tells, or the
 /// stand-in-place class between; before it, unless in the air, when the control changes a lot. A jump that is pressed,
 /// however shortly, is latched until the decision that plays it; held on, it is one jump. Allocates nothing.

@@ -5,15 +5,11 @@
 #include <limits>
 
 #include "fragments/entry_poses.hpp"
+#include "motion/contacts.hpp"
 #include "motion/pose.hpp"
 #include "policy/answer.hpp"
 
 namespace fragmotion {
-namespace {
-
-constexpr double kLook = kEntry / 2;  // s between the moments at which a fragment may be left early
-
-}  // namespace
 
 FragmentSelector::FragmentSelector(Workspace& workspace, std::uint64_t seed)
     : workspace_(&workspace), style_(&workspace.styles->front()), seed_(seed), random_(seed) {}
@@ -231,10 +227,10 @@ Exit FragmentSelector::best_exit(const std::array<Exit, 2>& classes, const Contr
   if (!may_gain(0)) return best;
   pose_tips(playback, seconds - kEntry, long_before);
   StepSequence steps = playback.steps();
-  for (double wait = 0; may_gain(wait); wait = std::min(wait + kLook, rest)) {
+  for (double wait = 0; may_gain(wait); wait = std::min(wait + kMomentsApart, rest)) {
     if (wait == rest) pose_tips(playback, seconds + wait - kEntry, long_before);
     extrapolate(pose_tips(playback, seconds + wait, now), long_before, now);
-    if (wait > 0) steps.advance(playback.standing_feet(seconds + wait), kLook);
+    if (wait > 0) steps.advance(playback.standing_feet(seconds + wait), kMomentsApart);
     for (std::size_t i = 0; i < classes.size(); ++i) {
       if (classes[i].next_class < 0) continue;
       const float limit = most(i, wait), cost = least_cost(classes[i].next_class, left.fragment.evident, steps,
@@ -242,7 +238,7 @@ Exit FragmentSelector::best_exit(const std::array<Exit, 2>& classes, const Contr
       if (cost < limit) best = {classes[i].next_class, seconds + wait, cost + (classes[i].cost + haste * wait)};
     }
     if (wait >= rest || (only_now && best.seconds > seconds)) break;
-    if (wait == 0) pose_tips(playback, seconds - kLook, before);
+    if (wait == 0) pose_tips(playback, seconds - kMomentsApart, before);
     std::swap(long_before, before);
     std::swap(before, now);
   }

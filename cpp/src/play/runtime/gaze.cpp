@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
+#include "motion/contacts.hpp"
 #include "motion/trunk.hpp"
 #include "runtime/look_stitch.hpp"
 
@@ -16,7 +18,6 @@ constexpr double kSeenAhead =
     1;  // s: walkers look where they are then (A. Patla, J. Vickers, Exp. Brain Research 148, 2003)
 constexpr double kSlowest = 1e-3;            // rad/s, of a head that never turns in its takes
 constexpr double kRightBehind = 0.75 * kPi;  // rad: from there on it is over the shoulder that was looked over already
-constexpr double kNearest = 1e-3;            // m: what is nearer to the eyes has no direction
 
 }  // namespace
 
@@ -47,7 +48,7 @@ Gaze::Angles Gaze::angles(const Vector3& way) const {
 
 Gaze::Angles Gaze::towards(const Vector3& eyes) const {
   const Vector3 way = place_ - eyes;
-  if (way.norm() < kNearest) return wanted_;
+  if (way.norm() < kFloatRounding) return wanted_;
   return within(angles(way));
 }
 

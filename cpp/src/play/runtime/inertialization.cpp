@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/filtered.hpp"
 #include "base/vectorised.hpp"
 #include "motion/pose.hpp"
 
@@ -85,7 +86,7 @@ Inertialization::Inertialization(int bones, const StitchConstants& constants)
 Vector2 Inertialization::begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh,
                                const WorldPose& fresh_later, double apart, double seconds) {
   damping_ = constants_->fades / seconds;
-  end_ = kLasts * seconds;
+  end_ = kUnseen * seconds;
   root_ = old.root - fresh.root;
   const Vector3 faster = (old_later.root - old.root - (fresh_later.root - fresh.root)) / apart;
   root_speed_ = {0, 0, faster.z()};

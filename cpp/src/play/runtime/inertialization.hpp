@@ -31,8 +31,6 @@ struct Fade {
 /// is a body's velocity (root_governor.hpp).
 class Inertialization {
  public:
-  static constexpr double kLasts = 4;  ///< Times its seconds, until nothing is seen of a stitch.
-
   /// The constants must outlive it.
   explicit Inertialization(int bones, const StitchConstants& constants = kUsualStitch);
 

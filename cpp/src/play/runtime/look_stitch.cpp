@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/filtered.hpp"
+
 namespace fragmotion {
 namespace {
 
@@ -53,7 +55,7 @@ void LookStitch::begin(const WorldPose& old, const WorldPose& old_later, const W
 }
 
 bool LookStitch::active(double time, const Inertialization& body) const {
-  return damping_ > 0 && time < Inertialization::kLasts * body.constants().fades / damping_;
+  return damping_ > 0 && time < kUnseen * body.constants().fades / damping_;
 }
 
 void LookStitch::apply(double time, const Inertialization& body, WorldPose& pose) const {

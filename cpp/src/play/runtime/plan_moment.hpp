@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/rates.hpp"
+#include "base/rounding.hpp"
+#include "fragments/entry_poses.hpp"
 #include "runtime/player.hpp"
 
 namespace fragmotion {
@@ -13,7 +16,6 @@ namespace fragmotion {
 template <typename Cost>
 void Player::plan(Moment& moment, const Control& control, bool (Player::*can)() const, const Cost& cost) {
   Player& ahead = *extras_->rehearsal;
-  constexpr double kLook = 0.05;     // s between the moments that are looked at
   constexpr double kImpatience = 1;  // m of Dis of a body of kTunedReach that a second of waiting costs
   ahead.imitate(*this);
   ahead.playback_.show();
@@ -21,9 +23,9 @@ void Player::plan(Moment& moment, const Control& control, bool (Player::*can)() 
   for (double wait = 0;;) {
     const double total = cost(ahead) + kImpatience * wait;
     if ((ahead.*can)() && total < least) least = total, best = wait;
-    const double next = std::min(wait + kLook, moment.patience());
-    if (next - wait < kInstant) break;
-    for (double rest = next - wait; rest > kInstant;) rest -= ahead.advance(control, std::min(rest, kFinest));
+    const double next = std::min(wait + kMomentsApart, moment.patience());
+    if (next - wait < kRounding) break;
+    for (double rest = next - wait; rest > kRounding;) rest -= ahead.advance(control, std::min(rest, kGameStep));
     wait = next;
   }
   moment.plan(best, control);

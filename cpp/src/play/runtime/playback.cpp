@@ -4,15 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/ranges.hpp"
+#include "base/rates.hpp"
+#include "base/rounding.hpp"
 #include "motion/pose.hpp"
 
 namespace fragmotion {
-namespace {
-
-constexpr double kApart = 1.0 / 60;  // s over which speeds are measured
-
-}  // namespace
 
 Playback::Playback(const Character& character, Workspace& workspace, Stitching stitching, double stitch)
     : character_(&character),
@@ -34,8 +30,8 @@ void Playback::reset(int fragment, const CharacterFrame& frame) {
 
 void Playback::play(const Placed& placed) {
   const double first = fragment(placed).first_played();
-  const bool goes_on = &clip(placed) == &clip(now_) && std::abs(first - at()) < kSameButRounding;
-  const double after = goes_on ? at() : first - 2 * kSameButRounding;
+  const bool goes_on = &clip(placed) == &clip(now_) && std::abs(first - at()) < kFloatRounding;
+  const double after = goes_on ? at() : first - 2 * kFloatRounding;
   now_ = placed;
   pass_markers(after, first);
   const Vector2 velocity = hips_velocity(clip(now_), fragment());
@@ -105,18 +101,18 @@ Vector2 Playback::start(const Placed& next) {
 Vector2 Playback::begin_stitch(const Placed& old) {
   auto& [old_now, old_later, fresh, fresh_later] = workspace_->poses;
   sample_stitched(old, old.seconds, old_now);
-  if (fragment(old).first_played() + (old.seconds + kApart) * clip(old).rate <= clip(old).frames - 1) {
-    sample_stitched(old, old.seconds + kApart, old_later);
+  if (fragment(old).first_played() + (old.seconds + kGameStep) * clip(old).rate <= clip(old).frames - 1) {
+    sample_stitched(old, old.seconds + kGameStep, old_later);
   } else {
-    sample_stitched(old, old.seconds - kApart, fresh);
+    sample_stitched(old, old.seconds - kGameStep, fresh);
     extrapolate(fresh, old_now, old_later);
   }
   sample(now_, fresh);
   Placed later = now_;
-  later.seconds += kApart;
+  later.seconds += kGameStep;
   sample(later, fresh_later);
-  const Vector2 faster = inertialization_.begin(old_now, old_later, fresh, fresh_later, kApart, stitch_);
-  look_.begin(old_now, old_later, fresh, fresh_later, kApart, stitch_, turning_, inertialization_);
+  const Vector2 faster = inertialization_.begin(old_now, old_later, fresh, fresh_later, kGameStep, stitch_);
+  look_.begin(old_now, old_later, fresh, fresh_later, kGameStep, stitch_, turning_, inertialization_);
   return Eigen::Rotation2Dd(-frame_.heading) * faster;
 }
 
@@ -131,7 +127,7 @@ void Playback::advance(double seconds) {
 // Those of the clip that plays after a frame of it, until another.
 void Playback::pass_markers(double after, double until) {
   for (const Marker& marker : clip(now_).markers) {
-    const double frame = marker.frame - kSameButRounding;
+    const double frame = marker.frame - kFloatRounding;
     if (frame <= after || frame > until) continue;
     if (passed_.count < static_cast<int>(passed_.markers.size())) passed_.markers[passed_.count++] = &marker;
   }
@@ -230,9 +226,9 @@ Travel Playback::mean_travel() const {
 
 Vector2 Playback::velocity() const {
   auto& [before, now, unused, unused_too] = workspace_->poses;
-  sample(now_.seconds - kApart, before);
+  sample(now_.seconds - kGameStep, before);
   sample(now_.seconds, now);
-  return Eigen::Rotation2Dd(-frame_.heading) * (now.root - before.root).head<2>() / kApart;
+  return Eigen::Rotation2Dd(-frame_.heading) * (now.root - before.root).head<2>() / kGameStep;
 }
 
 }  // namespace fragmotion

@@ -8,8 +8,6 @@
 
 namespace fragmotion {
 
-/// Shorter than this is no time, s.
-constexpr double kInstant = 1e-9;
 /// A stitch that is to take less is none, s.
 constexpr double kShortestStitch = 0.001;
 

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "base/ranges.hpp"
+#include "base/rates.hpp"
+#include "base/rounding.hpp"
 #include "base/simd.hpp"
 #include "feet/ground_follower.hpp"
 #include "feet/look_ahead.hpp"
@@ -14,8 +16,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a step: less that is left of it is what sums of its parts are off
-constexpr double kMiddle = 0.2;     // s from now to that of a fragment that begins soon
+constexpr double kMiddle = 0.2;  // s from now to that of a fragment that begins soon
 
 double within_one(double value, const char* name) {
   if (value >= 0 && value <= 1) return value;
@@ -219,7 +220,7 @@ void Player::step(const Control& given, double seconds) {
   director_.observe(control);
   if (seconds == 0) playback_.show();
   for (double rest = seconds; rest > kRounding * seconds;) {
-    rest -= advance(control, std::min(rest, kFinest));
+    rest -= advance(control, std::min(rest, kGameStep));
     const bool is_seen = rest <= kRounding * seconds || extras_ != nullptr;  // what begins over a pose looks at it
     if (is_seen) {
       playback_.show();

@@ -171,8 +171,6 @@ class Player {
     Style style;
   };
 
-  static constexpr double kFinest = 1 / 60.0;  // s for which a command is the same at most
-
   void complete(const PlayerOptions& options);
   void make_extras(const PlayerOptions& options);
   void set_style(int style);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/rounding.hpp"
 #include "runtime/plan_moment.hpp"
 
 namespace fragmotion {
@@ -63,7 +64,7 @@ void Player::imitate(const Player& other) {
   correction_ = other.correction_;
 }
 
-bool Player::is_stitched() const { return playback_.seconds() > playback_.faded() - kInstant; }
+bool Player::is_stitched() const { return playback_.seconds() > playback_.faded() - kRounding; }
 
 bool Player::can_begin_move() const { return !playback_.is_jumping() && is_stitched(); }
 
@@ -79,7 +80,7 @@ bool Player::is_due(MoveTrack& track, const Control& control, const Cost& cost) 
       plan(moment, control, &Player::can_begin_move, cost);
     }
   }
-  return moment.until() < kInstant && can_begin_move();
+  return moment.until() < kRounding && can_begin_move();
 }
 
 // Begins what is due. Returns until when no other moment comes, at most `most` s.
@@ -93,7 +94,7 @@ double Player::begin_moves(const Control& control, double most) {
     upper.begin();
   }
   for (const MoveTrack* track : {&whole, &upper.track}) {
-    if (track->waits() && track->moment.until() > kInstant) most = std::min(most, track->moment.until());
+    if (track->waits() && track->moment.until() > kRounding) most = std::min(most, track->moment.until());
   }
   return most;
 }
@@ -102,7 +103,7 @@ double Player::begin_moves(const Control& control, double most) {
 bool Player::continue_move(const Control& control) {
   if (extras_ == nullptr || !extras_->whole_body.plays()) return false;
   MoveTrack& track = extras_->whole_body;
-  if (playback_.left() > kInstant) return true;
+  if (playback_.left() > kRounding) return true;
   const int part = track.next_part();
   if (part >= 0) {
     play_move(part);

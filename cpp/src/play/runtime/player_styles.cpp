@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "base/rates.hpp"
+#include "base/rounding.hpp"
 #include "runtime/plan_moment.hpp"
 
 namespace fragmotion {
@@ -23,7 +25,7 @@ void Player::set_style(int style) {
 }
 
 Control Player::wanted(const Control& control) const {
-  return director_.wanted(governor_.command(control, frame().heading, kFinest));
+  return director_.wanted(governor_.command(control, frame().heading, kGameStep));
 }
 
 // What it costs to play on in another style.
@@ -44,7 +46,7 @@ double Player::begin_style(const Control& control, double most) {
     plan(moment, control, &Player::can_change_style,
          [&](const Player& p) { return p.cost_of_style(style, p.wanted(control)); });
   }
-  if (moment.until() > kInstant) return std::min(most, moment.until());
+  if (moment.until() > kRounding) return std::min(most, moment.until());
   if (can_change_style()) {
     set_style(style);
     enter_best_class(wanted(control));

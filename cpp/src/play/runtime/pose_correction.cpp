@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/filtered.hpp"
+#include "motion/contacts.hpp"
 #include "runtime/look_stitch.hpp"
 
 namespace fragmotion {

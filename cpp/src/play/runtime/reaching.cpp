@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
+#include "control/control.hpp"
+
 namespace fragmotion {
 namespace {
 
-constexpr double kHeard = 0.1;      // s: what is told little by little is told so often at least
 constexpr double kReachesIn = 0.6;  // s of a whole reach (T. Flash, N. Hogan, J. Neuroscience 5, 1985)
 constexpr double kHandSpeed = 2;    // m/s at the most, of a 1.8 m character whose hand goes to another place (there)
 // Of an arm's length: from where the trunk helps (L. Mark et al., J. Exp. Psychology: HPP 23, 1997); and from where to
@@ -16,7 +18,6 @@ constexpr double kHelps = 0.9, kGivesUp = 1.4, kGone = 2.2;
 constexpr double kSoftly = 0.1;               // of an arm's length, within which the trunk begins to help
 constexpr double kMostLean = 20 * kPi / 180;  // a quarter of what trunks bend (AAOS, Joint Motion, 1965)
 constexpr double kBehind = 30 * kPi / 180;    // beyond what a shoulder lets reach: within it a hand gives up
-constexpr double kNoWay = 1e-6;               // m
 // rad/s: twice as fast as a whole reach at its fastest, from beside the body to over the head, and as fast as a lean.
 constexpr double kArmSpeed = 2 * Approach::kPeak * kPi / kReachesIn,
                  kLeanSpeed = Approach::kPeak * kMostLean / kReachesIn;
@@ -54,7 +55,7 @@ void Reaching::Turn::follow(const Quaternion& next, double seconds) {
 
 void Reaching::reach(int side, const HandAim& aim) {
   Hand& hand = hands_[side];
-  const double heard = std::min(hand.since, kHeard);
+  const double heard = std::min(hand.since, kControlStep);
   if (hand.rests()) {
     hand.set(aim.place, Vector3::Zero());
     hand.place_due = 0;
@@ -112,7 +113,7 @@ std::optional<Reaching::Goal> Reaching::goal(int side) const {
   const PosedBones& posed = workspace_->body->posed;
   const Vector3 place = world_place(hand), way = place - posed.heads[arm.upper];
   const double away = way.norm() / arm_length(skeleton, arm, posed);
-  const double along = way.norm() > kNoWay ? way.normalized().dot(frame_.rotation() * forward_aside(side)) : 1,
+  const double along = way.norm() > kFloatRounding ? way.normalized().dot(frame_.rotation() * forward_aside(side)) : 1,
                angle = std::acos(std::clamp(along, -1.0, 1.0));
   const double weight =
       std::clamp(hand.weight.value, 0.0, 1.0) * fading(away, kGivesUp, kGone) * fading(angle, widest, widest + kBehind);
@@ -133,7 +134,7 @@ Vector3 Reaching::wanted_lean(const Goals& goals) const {
     const Vector3 from = posed.heads[arm.upper] - posed.heads[workspace_->trunk.base],
                   way = goals[side]->place - posed.heads[arm.upper];
     const double over = way.norm() - kHelps * length;
-    if (over <= 0 || from.norm() < kNoWay) continue;
+    if (over <= 0 || from.norm() < kFloatRounding) continue;
     const double eased = over * over / (over + kSoftly * length);
     const double angle = kMostLean * (1 - std::exp(-eased / (kMostLean * from.norm())));
     turn += goals[side]->weight * angle * from.normalized().cross(way.normalized());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/filtered.hpp"
+#include "motion/contacts.hpp"
 
 namespace fragmotion {
 namespace {

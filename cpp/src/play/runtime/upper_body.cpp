@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/rounding.hpp"
+
 namespace fragmotion {
 namespace {
 
@@ -67,7 +69,7 @@ void UpperBody::advance(double seconds) {
     const double part = std::min(rest, playback_.left());
     playback_.advance(part);
     rest -= part;
-    if (playback_.left() > kInstant) continue;
+    if (playback_.left() > kRounding) continue;
     const int next = track.next_part();
     if (next < 0) break;
     playback_.show();

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/rounding.hpp"
+
 namespace fragmotion {
 
 namespace {
@@ -15,7 +17,7 @@ Vector3 right_of_hips(const Skeleton& skeleton, const std::vector<Vector3>& head
   Vector3 right = -Vector3::UnitX();  // Blender's characters face -y
   if (roles.left_thigh >= 0 && roles.right_thigh >= 0) {
     const Vector3 line = heads[roles.right_thigh] - heads[roles.left_thigh];
-    if (line.norm() > kDegenerate) right = line.normalized();
+    if (line.norm() > kRounding) right = line.normalized();
   }
   return hips.conjugate() * right;
 }
@@ -23,7 +25,7 @@ Vector3 right_of_hips(const Skeleton& skeleton, const std::vector<Vector3>& head
 /// The rotation about z that brings +x to a direction; none where the direction is hardly one.
 Quaternion rotation_towards(const Vector2& direction) {
   const double length = direction.norm();
-  if (length < kDegenerate) return Quaternion::Identity();
+  if (length < kRounding) return Quaternion::Identity();
   const double cosine = direction.x() / length, sine = direction.y() / length;
   const double larger = std::sqrt((1 + std::abs(cosine)) / 2), smaller = std::abs(sine) / (2 * larger);
   const double w = cosine < 0 ? smaller : larger, z = cosine < 0 ? larger : smaller;
@@ -74,7 +76,7 @@ Kinematics::Kinematics(const Skeleton& skeleton) {
 
 CharacterFrame Kinematics::frame(const Vector3& position, const Quaternion& rotation) const {
   const Vector3 right = rotation * parts_->right;
-  const bool upright = right.head<2>().norm() >= kDegenerate;
+  const bool upright = right.head<2>().norm() >= kRounding;
   return {position.head<2>(), upright ? std::atan2(right.y(), right.x()) : 0};
 }
 

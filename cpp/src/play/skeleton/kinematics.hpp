@@ -8,9 +8,6 @@
 
 namespace fragmotion {
 
-/// m, or a ratio: length of what is hardly a direction.
-constexpr double kDegenerate = 1e-9;
-
 /// Where a character stands and faces: x right, y forward, z up; ground projection and heading of the hips.
 /// Heading 0 faces the world's +y; positive turns left (counter-clockwise from above), radians.
 struct CharacterFrame {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "base/rounding.hpp"
+
 namespace fragmotion {
 namespace {
-
-constexpr double kSameLength = 1e-3;  // of the stature
 
 bool same_tree(const Skeleton& a, const Skeleton& b) {
   return a.names == b.names && a.parents == b.parents && a.roles.hips == b.roles.hips;
@@ -18,7 +18,7 @@ bool same_rest(const Skeleton& a, const Skeleton& b) {
   rest_pose(a, heads, of_a);
   rest_pose(b, heads, of_b);
   for (int bone = 0; bone < a.size(); ++bone) {
-    if (a.is_below(bone, a.roles.hips) && of_a[bone].angularDistance(of_b[bone]) > kSameRest) return false;
+    if (a.is_below(bone, a.roles.hips) && of_a[bone].angularDistance(of_b[bone]) > kFloatRounding) return false;
   }
   return true;
 }

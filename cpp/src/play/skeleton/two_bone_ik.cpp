@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
 #include "base/turn_between.hpp"
 
 namespace fragmotion {
@@ -13,8 +14,7 @@ constexpr double kStretched = 0.995;  // of a leg's length: what it reaches at m
 constexpr double kSoft = 0.03;        // of a leg's length, below that: where it follows less
 constexpr double kStraight = 0.1;     // rad: a knee that is bent less than that resists being bent backward
 constexpr double kFolded = 2.5;       // rad: a knee that is bent more resists being folded up
-constexpr double kNear = 0.02;   // of a leg's length: wanted so near to where it is, a foot may go as the knee does
-constexpr double kTiny = 1e-12;  // m^2
+constexpr double kNear = 0.02;  // of a leg's length: wanted so near to where it is, a foot may go as the knee does
 
 const double kBendsWell = std::cos(kStraight), kFoldsWell = std::cos(kFolded);
 
@@ -37,7 +37,7 @@ double square(double value) { return value * value; }
 
 // The rotation about a unit axis by an angle that is told by its cosine and its sine.
 Quaternion rotation(const Vector3& axis, double cosine, double sine) {
-  if (1 + cosine <= kOpposite) return Quaternion{Eigen::AngleAxisd(std::atan2(sine, cosine), axis)};
+  if (1 + cosine <= kFloatRounding) return Quaternion{Eigen::AngleAxisd(std::atan2(sine, cosine), axis)};
   const double w = std::sqrt((1 + cosine) / 2), along = sine / (2 * w);
   return {w, along * axis.x(), along * axis.y(), along * axis.z()};
 }
@@ -49,7 +49,7 @@ class Knee {
       : upper_(upper.squaredNorm()),
         axis_((hinge - dot(hinge, upper) / upper_ * upper).normalized()),
         beside_(square(dot(lower, axis_))),
-        across_(std::max(kTiny, lower.squaredNorm() - beside_)),
+        across_(std::max(kFloatRounding * kFloatRounding, lower.squaredNorm() - beside_)),
         length_(std::sqrt(upper_) + std::sqrt(beside_ + across_)),
         twice_(2 * std::sqrt(upper_ * across_)),
         cosine_(2 * dot(upper, lower) / twice_),
