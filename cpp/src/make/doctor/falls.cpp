@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/decompositions.hpp"
 #include "base/quantile.hpp"
 #include "doctor/check.hpp"
 #include "doctor/lengths.hpp"
@@ -47,7 +47,7 @@ double height(const Patient& patient, int frame) {
 }
 
 double unexplained(const Eigen::MatrixXd& powers, const Eigen::VectorXd& heights) {
-  return (heights - powers * powers.colPivHouseholderQr().solve(heights).eval()).squaredNorm();
+  return (heights - powers * least_squares(powers, heights)).squaredNorm();
 }
 
 // By how much the body falls faster from second to second in a flight, m/s^2; 0 where it is no free fall.
@@ -60,7 +60,7 @@ double fall(const Patient& patient, const Run& run) {
     powers.row(i) << 1, time, time * time;
     heights[i] = height(patient, run.begin + i) * patient.scale();
   }
-  const double curve = powers.colPivHouseholderQr().solve(heights)[2], end = powers(0, 1);
+  const double curve = least_squares(powers, heights)[2], end = powers(0, 1);
   if (-curve * end * end < kBow) return 0;
   const double straight = unexplained(powers.leftCols(2), heights);
   return unexplained(powers, heights) < kEven * kEven * straight ? -2 * curve : 0;

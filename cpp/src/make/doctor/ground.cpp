@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/decompositions.hpp"
 #include "base/quantile.hpp"
 #include "doctor/check.hpp"
 #include "doctor/lengths.hpp"
@@ -75,7 +75,7 @@ double rise_of(const Patient& patient) {
     places.row(static_cast<Eigen::Index>(i)) << 1, stands[i].x(), stands[i].y(), stands[i].w();
     heights[static_cast<Eigen::Index>(i)] = stands[i].z();
   }
-  const Eigen::VectorXd fitted = places * places.colPivHouseholderQr().solve(heights).eval();
+  const Eigen::VectorXd fitted = places * least_squares(places, heights);
   const double all = (heights.array() - heights.mean()).square().sum(), left = (heights - fitted).squaredNorm();
   const double rise = fitted.maxCoeff() - fitted.minCoeff();
   return left < (1 - kExplained) * all && rise * patient.scale() >= kOver ? rise : 0;

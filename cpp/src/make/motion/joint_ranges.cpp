@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "motion/joint_ranges.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/decompositions.hpp"
 #include "motion/pose.hpp"
 
 namespace fragmotion {
@@ -36,9 +36,7 @@ void find_axes(const EachPose& each_pose, std::vector<JointAxes>& joints) {
       spreads[j] += turn * turn.transpose();
     }
   });
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    joints[j].axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spreads[j]).eigenvectors().rowwise().reverse();
-  }
+  for (std::size_t j = 0; j < joints.size(); ++j) joints[j].axes = principal_axes(spreads[j]);
 }
 
 // Of the joint that is furthest beyond, in the mean of the takes.

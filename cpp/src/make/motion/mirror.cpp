@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "motion/mirror.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "motion/fingers.hpp"
 #include "motion/pose.hpp"
 
@@ -23,11 +23,6 @@ struct Pose {
   std::vector<Quaternion> orientations;
   explicit Pose(int bones) : heads(bones), orientations(bones) {}
 };
-
-Matrix3 nearest_orthogonal(const Matrix3& m) {
-  const Eigen::JacobiSVD<Matrix3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
-}
 
 // World orientations of the rest pose in its character frame, or nothing where that pose is not symmetric.
 std::vector<Matrix3> symmetric_rest(const Kinematics& kinematics, const std::vector<int>& counterpart) {

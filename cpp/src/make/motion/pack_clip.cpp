@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "motion/pack_clip.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>

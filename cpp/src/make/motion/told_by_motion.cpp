@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/turn_between.hpp"
 #include "skeleton/role_map.hpp"
 #include "skeleton/roles.hpp"
 #include "skeleton/same_skeleton.hpp"
@@ -46,7 +47,7 @@ void tell(const std::vector<Take*>& takes) {
   if (poses.poses == 0) return;
   for (const Vector3& up : {Vector3{0, 0, 1}, Vector3{0, 1, 0}, Vector3{0, -1, 0}, Vector3{1, 0, 0}, Vector3{-1, 0, 0},
                             Vector3{0, 0, -1}}) {
-    const ObservedPoses upright = turned(poses, Quaternion::FromTwoVectors(up, Vector3::UnitZ()));
+    const ObservedPoses upright = turned(poses, turn_between(up, Vector3::UnitZ()));
     const RoleMap map = find_role_map(takes.front()->skeleton, &upright);
     if (map.bone(Role::kForeFoot, Side::kLeft) < 0) continue;
     for (Take* take : takes) take->skeleton.roles = roles_of(map);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "retarget/drives.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include "base/decompositions.hpp"
 #include "retarget/posture.hpp"
 
 namespace fragmotion {
@@ -197,9 +197,7 @@ class Shape {
     for (std::size_t k = 0; k < hung_[i].size(); ++k) sum += place(i, k) * other.place(i, k).transpose();
     sum += 1e-6 * sum.norm() * guess.toRotationMatrix();
     if (sum.norm() == 0) return guess;
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Vector3 signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-    return Quaternion(Eigen::Matrix3d(svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose()));
+    return nearest_rotation(sum);
   }
 
   /// Whether the bodies also rest alike.
