@@ -17,6 +17,7 @@ from ..files import read_regular
 from ..jobs import Report
 from ..mocap import actions
 from ..mocap.curve_points import read_once
+from ..mocap.doctor import tell_size
 from ..mocap.hands import hand_pose, with_hands
 from ..mocap.on_the_spot import led_by_feet
 from ..mocap.sampling import sample_parts
@@ -95,7 +96,13 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
     options = make_options(settings)
     traces = make_traces(obj, settings, options.usual_space)
     styled, warnings = _sample_all(context, obj, takes, rig)
-    return Material(rig, grouped(styled), traces, options, found + say_feet(rig.skeleton) + warnings)
+    return Material(
+        rig,
+        grouped(styled),
+        traces,
+        options,
+        found + say_feet(rig.skeleton) + tell_size(takes, rig.skeleton) + warnings,
+    )
 
 
 def say_feet(skeleton: Skeleton) -> list[str]:

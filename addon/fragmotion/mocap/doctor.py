@@ -13,7 +13,7 @@ from ..compat.core import core
 from ..jobs import Job, Report
 
 if TYPE_CHECKING:
-    from fragmotion_core import Examination, Finding, Take
+    from fragmotion_core import Examination, Finding, Skeleton, Take
 
 DUPLICATE = "duplicate"
 """The code of a finding that is mended by leaving the take out."""
@@ -22,6 +22,7 @@ IN_PLACE = "in_place"
 """The code of a finding that the take goes on the spot."""
 
 _UNIT = "unit"  # a finding's code
+_SIZE = "character_size"  # that of what is wrong with the armature, not with the take
 WAIT = 0.1
 """Seconds between looks at a thread that is waited for."""
 
@@ -85,6 +86,36 @@ def _treat(take: Take, seen: Examination, mends: bool, keep_unit: bool, report: 
     chosen = [f for f in findings if mends and f.safe and not (keep_unit and f.code == _UNIT)]
     mended = core.mend(take, chosen, progress=lambda _fraction, stage: report(1, stage)) if chosen else take
     return Examined(mended, [Found(f, f in chosen) for f in findings])
+
+
+def say_size(skeleton: Skeleton) -> list[str]:
+    """That a character is as no person or animal is, by the Doctor's law, and by how much to scale it to be one."""
+    rest = core.Take(skeleton, "rest", 30, skeleton.offsets[None], skeleton.rest_rotations[None])
+    told = core.examine([rest])[0]
+    return [
+        f"The character has no person's or animal's size: {finding.text}. If that is not meant, make the armature, "
+        f"or what it hangs on, the child of an Empty, scale that to {told.scale:.3g}, and Build"
+        for finding in told.findings
+        if finding.code == _UNIT
+    ]
+
+
+def tell_size(actions: Sequence[bpy.types.Action], skeleton: Skeleton) -> list[str]:
+    """As `say_size`, and the Doctor says so of these Actions of the character."""
+    said = say_size(skeleton)
+    for action in actions:
+        tell_anew(action, _SIZE, "warning", "".join(said))
+    return said
+
+
+def tell_anew(action: bpy.types.Action, code: str, severity: str, text: str, mendable: bool = False) -> None:
+    """Keep with an Action what Build finds in place of what it found before; nothing where the text is empty."""
+    findings = action.fragmotion.findings
+    for index in reversed([i for i, row in enumerate(findings) if row.code == code and not row.mended]):
+        findings.remove(index)
+    if text and action.library is None:
+        row = findings.add()
+        row.code, row.severity, row.text, row.mendable = code, severity, text, mendable
 
 
 def keep_findings(action: bpy.types.Action, found: Sequence[Found]) -> None:

@@ -85,7 +85,8 @@ def frame_times(scene: bpy.types.Scene, action: bpy.types.Action, curves: Curves
     """The rate at which to sample (an imported take's own, else the scene's), and the scene frames of the samples.
 
     An imported take keeps its own time when the scene's rate is changed after the import, as it remembers the rate for
-    which its keys were laid. Any other Action lasts as long as the scene plays it now.
+    which its keys were laid. Any other Action lasts as long as the scene plays it now, and is sampled from its first
+    key to its last, which are the same pose in a loop, however many frames of this scene lie between them.
     """
     rate = rate_of(action, RATE, scene_rate(scene))
     step = rate_of(action, SCENE_RATE, scene_rate(scene)) / rate
@@ -100,7 +101,20 @@ def frame_times(scene: bpy.types.Scene, action: bpy.types.Action, curves: Curves
             f"Action '{action.name}' goes from frame {first:g} to {last:g}, more than {_MOST_FRAMES:,} samples: "
             "delete the stray key, or untick it"
         )
-    return rate, first + step * np.arange(math.floor(frames + _SAME_FRAME) + 1)
+    steps = math.floor(frames + _SAME_FRAME) if RATE in action else _steps_to_the_end(curves, first, last, frames)
+    if abs(frames - steps) > _SAME_FRAME and RATE not in action:
+        rate, step = rate * steps / frames, (last - first) / max(steps, 1)
+    return rate, first + step * np.arange(steps + 1)
+
+
+def _steps_to_the_end(curves: Curves, first: float, last: float, frames: float) -> int:
+    """From a sample to the next, from the first frame to the last: from key to key where a channel has them evenly, as
+    files for games do at another rate than the scene's."""
+    points = points_of(max(curves.values(), key=lambda curve: len(curve.keyframe_points)))[:, 0]
+    even = np.abs(points - np.linspace(first, last, len(points))).max() < _SAME_FRAME
+    gaps = len(points) - 1
+    keyed = gaps * max(round(frames / gaps), 1) if even and gaps > 0 else 0
+    return keyed if frames <= 2 * keyed <= 3 * frames else round(frames)
 
 
 def sample_times(scene: bpy.types.Scene, obj: bpy.types.Object, action: bpy.types.Action) -> Doubles:

@@ -209,3 +209,41 @@ def test_an_action_lasts_as_long_as_the_scene_plays_it(addon: ModuleType) -> Non
     bpy.context.scene.render.fps = 60
     clip = addon.mocap.sampling.sample(bpy.context, obj, action, addon.rig.rigs.make_rig(obj))
     assert clip.rate == 60 and len(clip.root_positions) == FRAMES
+
+
+def linear_loop(addon: ModuleType, obj: bpy.types.Object, keys: np.ndarray) -> bpy.types.Action:
+    """An Action that has these keys alone, in scene frames, and is the same at its end as at its beginning."""
+    action = making.add_action(obj, FRAMES)
+    for curve in addon.compat.versions.curves_of(action, obj):
+        curve.keyframe_points.clear()
+        curve.keyframe_points.add(len(keys))
+        values = 1 + 0.1 * curve.array_index * np.sin(np.linspace(0, 2 * np.pi, len(keys)))
+        curve.keyframe_points.foreach_set("co", np.column_stack((keys, values)).astype(np.float32).ravel())
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
+        curve.update()
+    return action
+
+
+@pytest.mark.parametrize("fps", (24, 25, 30))
+def test_a_file_of_another_rate_is_sampled_at_its_keys(addon: ModuleType, fps: int) -> None:
+    obj = making.add_armature()
+    bpy.context.scene.render.fps = fps
+    action = linear_loop(addon, obj, np.arange(25) * fps / 30)
+    clip = addon.mocap.sampling.sample(bpy.context, obj, action, addon.rig.rigs.make_rig(obj))
+    assert clip.rate == pytest.approx(30, rel=1e-5)
+    assert len(clip.root_positions) == 25
+    np.testing.assert_allclose(clip.root_positions[-1], clip.root_positions[0], atol=1e-6)
+    np.testing.assert_allclose(np.abs((clip.rotations[-1] * clip.rotations[0]).sum(1)), 1, atol=1e-6)
+
+
+@pytest.mark.parametrize("keys", ((0.0, 3.3, 8.0, 12.7), (0.0, 12.7), tuple(np.arange(128) / 10)))
+def test_an_action_is_sampled_to_its_last_key(addon: ModuleType, keys: tuple[float, ...]) -> None:
+    obj = making.add_armature()
+    bpy.context.scene.render.fps = 24
+    action = linear_loop(addon, obj, np.array(keys))
+    clip = addon.mocap.sampling.sample(bpy.context, obj, action, addon.rig.rigs.make_rig(obj))
+    times = addon.mocap.sampling.sample_times(bpy.context.scene, obj, action)
+    assert len(times) == len(clip.root_positions) == 14
+    assert times[0] == 0 and times[-1] == pytest.approx(12.7, abs=1e-5)
+    assert clip.rate == pytest.approx(24 * 13 / 12.7, rel=1e-5)

@@ -12,10 +12,11 @@ from bpy.props import BoolProperty, CollectionProperty, EnumProperty, StringProp
 from ...errors import UserError, ends_on_error, reported
 from ...jobs import Job, SteppedJob
 from ...mocap import by_blender
-from ...mocap.doctor import worst
+from ...mocap.doctor import tell_size, worst
 from ...mocap.importing import METRES, Imported, import_takes
 from ...mocap.take_files import ENDINGS, find_takes
 from ...rig.bodies import doubts_at_import
+from ...rig.rigs import make_rig
 from ...settings.drawing import aligned, draw_wrapped
 from ...words import counted
 from ..base import background
@@ -145,7 +146,7 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
         more = len(result.broken) - _MOST_TOLD
         if more > 0:
             self.report({"WARNING"}, f"Left out: {counted(more, 'more file')} that cannot be used")
-        for doubt in doubts_at_import(result.obj) if self.onto == "ACTIVE" else ():
+        for doubt in _doubts(result) if self.onto == "ACTIVE" else ():
             self.report({"WARNING"}, doubt)
         self.report({"INFO"}, _told(result))
 
@@ -159,6 +160,13 @@ class FRAGMOTION_OT_import_mocap(Exclusive, bpy.types.Operator):
             raise UserError(advise_on_foreign(obj))
         check_plain(obj)
         return obj
+
+
+def _doubts(imported: Imported) -> list[str]:
+    return [
+        *doubts_at_import(imported.obj),
+        *tell_size(imported.actions, make_rig(imported.obj).skeleton),
+    ]
 
 
 def _told(imported: Imported) -> str:

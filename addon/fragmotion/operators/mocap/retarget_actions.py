@@ -11,8 +11,10 @@ from ...control_rig.binding import is_source
 from ...errors import UserError
 from ...jobs import Job, SteppedJob
 from ...mocap.actions import ticked
+from ...mocap.doctor import tell_size
 from ...mocap.retargeting import retarget_actions
 from ...rig.bodies import doubts_at_import
+from ...rig.rigs import make_rig
 from ...words import counted
 from ..base import background
 from ..base.background import Exclusive
@@ -51,7 +53,7 @@ class FRAGMOTION_OT_retarget_actions(Exclusive, bpy.types.Operator):
         return SteppedJob(f"Retargeting onto '{obj.name}'", counted(len(actions), "Action"), steps)
 
     def _keep(self, _context: bpy.types.Context, obj: bpy.types.Object, made: list[bpy.types.Action]) -> None:
-        for doubt in doubts_at_import(obj):
+        for doubt in (*doubts_at_import(obj), *tell_size(made, make_rig(obj).skeleton)):
             self.report({"WARNING"}, doubt)
         self.report(
             {"INFO"}, f"Armature '{obj.name}' has {counted(len(made), 'Action')} of '{obj.fragmotion.source.name}'"
