@@ -258,6 +258,7 @@ def make_area(size: float, painted: bool = False) -> bpy.types.Object:
     return area
 
 
+@pytest.mark.thorough
 def test_a_crowd_on_a_square_keeps_clear(addon: ModuleType, obj: bpy.types.Object) -> None:
     fields = {"count": 12, "spacing": 0.9, "seconds": 8.0, "player": "explorer"}
     frames = range(1, 190, 3)
