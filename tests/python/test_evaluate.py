@@ -135,6 +135,7 @@ def test_pictures_are_drawn_and_small(run: Run) -> None:
     assert all(1_000 < size < 300_000 for size in pictures.values())
 
 
+@pytest.mark.thorough
 def test_curves_have_a_row_for_each_point(
     takes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -156,6 +157,7 @@ def test_curves_have_a_row_for_each_point(
     assert "against the number of classes" in capsys.readouterr().out
 
 
+@pytest.mark.thorough
 def test_takes_that_cannot_be_halved_are_measured_but_for_their_likeness(
     takes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -298,6 +298,27 @@ def test_a_crowd_goes_around_obstacles(addon: ModuleType, obj: bpy.types.Object)
     assert not inside.any()
 
 
+def test_a_crowd_goes_around_the_original_where_it_is_seen(addon: ModuleType, obj: bpy.types.Object) -> None:
+    path = add_path([(-4.0, 0.0), (10.0, 0.0)], False)
+    obj.fragmotion.path.curve = path
+    obj.animation_data_clear()
+    obj.rotation_euler.z = 0.0
+    for frame, y in ((1, 0.0), (200, 0.2)):
+        obj.location = (3, y, 0)
+        obj.keyframe_insert("location", frame=frame)
+
+    def off() -> float:
+        bpy.context.scene.frame_set(7)
+        copies = populate(layout="PATH", count=2, spacing=1.5)
+        assert bpy.context.scene.frame_current == 7
+        return float(np.linalg.norm(hips_over_time(copies, range(1, 200, 2)) - np.array([3.0, 0.1]), axis=-1).min())
+
+    seen = off()
+    obj.hide_set(True)
+    hidden = off()
+    assert hidden < 0.35 < seen
+
+
 def test_copies_are_shared_out_among_several_paths_and_sizes(addon: ModuleType, obj: bpy.types.Object) -> None:
     lines = bpy.data.collections.new("Lines")
     bpy.context.scene.collection.children.link(lines)
