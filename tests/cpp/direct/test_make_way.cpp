@@ -74,6 +74,24 @@ TEST(Clearance, IsNextToWhatIsWantedOrOffByTheLeast) {
   EXPECT_LT(tight, 57);
 }
 
+// Pressed against a wall from three sides: the others are off, the wall is not.
+TEST(Clearance, IsOffForOthersRatherThanForWhatStandsThere) {
+  MakeWay way;
+  const double near = 1.5 * kRadius;
+  way.look({{{0, 0}, {0, 0}, kRadius, true},
+            {{0, near}, {0, -1}, kRadius, true},
+            {{-near, near}, {0.5, -1}, kRadius, true},
+            {{near, near}, {-0.5, -1}, kRadius, true}});
+  Clearance clearance = way.clearance(0, kStep);
+  ASSERT_LT(clearance.nearest(Vector2::Zero(), kMost).y(), -0.1) << "they press";
+  const HalfPlane wall{Vector2::Zero(), Vector2::UnitY()};
+  clearance.add(wall);
+  const Vector2 found = clearance.nearest(Vector2::Zero(), kMost);
+  EXPECT_GE((found - wall.point).dot(wall.normal), -1e-9);
+  clearance.add({Vector2{0, -1}, -Vector2::UnitY()});
+  EXPECT_NEAR(clearance.nearest(Vector2::Zero(), kMost).y(), -0.5, 0.5) << "between two walls that leave nothing";
+}
+
 // Of those around, as brute force finds them: all whom the grid could miss are too far away to matter.
 TEST(MakeWay, SeesTheNearest) {
   std::mt19937 random(2);

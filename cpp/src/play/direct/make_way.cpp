@@ -16,10 +16,11 @@ constexpr std::int64_t kRows = 1 << 24;  // of cells: more than fit into a milli
 double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 Vector2 to_the_left(const Vector2& v) { return {-v.y(), v.x()}; }
 
-// The half-planes of a clearance, each moved back by so much.
+// The half-planes of a clearance, so many of which, the first ones, are moved back by so much.
 class Program {
  public:
-  Program(const Clearance& clearance, double back, double most) : clearance_(clearance), back_(back), most_(most) {}
+  Program(const Clearance& clearance, int moved, double back, double most)
+      : clearance_(clearance), moved_(moved), back_(back), most_(most) {}
 
   // What is next to `wanted` in all of them and within the circle of the fastest.
   std::optional<Vector2> solve(const Vector2& wanted) const {
@@ -35,7 +36,10 @@ class Program {
 
  private:
   const Vector2& normal(int i) const { return clearance_.planes[static_cast<std::size_t>(i)].normal; }
-  Vector2 point(int i) const { return clearance_.planes[static_cast<std::size_t>(i)].point - back_ * normal(i); }
+  Vector2 point(int i) const {
+    const Vector2& point = clearance_.planes[static_cast<std::size_t>(i)].point;
+    return i < moved_ ? Vector2{point - back_ * normal(i)} : point;
+  }
 
   // The same on the edge of one, within those before it.
   std::optional<Vector2> solve_along(int edge, const Vector2& wanted) const {
@@ -58,8 +62,25 @@ class Program {
   }
 
   const Clearance& clearance_;
+  int moved_;
   double back_, most_;
 };
+
+// The velocity that is off by the least where the first planes may give way; none where the rest leave none.
+std::optional<Vector2> least_off(const Clearance& clearance, int moved, const Vector2& wanted, double most) {
+  double least = 0, enough = 0;
+  for (int i = 0; i < moved; ++i) {
+    const HalfPlane& plane = clearance.planes[static_cast<std::size_t>(i)];
+    enough = std::max(enough, dot(plane.point, plane.normal) + most);
+  }
+  const auto off_by = [&](double back) { return Program(clearance, moved, back, most).solve(wanted); };
+  if (!off_by(enough)) return std::nullopt;
+  for (int i = 0; i < kNarrowings; ++i) {
+    const double middle = (least + enough) / 2;
+    (off_by(middle) ? enough : least) = middle;
+  }
+  return off_by(enough);
+}
 
 // By what the velocity of `one` as seen from `other` must change at least, and outward from what is forbidden.
 HalfPlane least_change(const Walker& one, const Walker& other, double seconds) {
@@ -92,17 +113,10 @@ void Clearance::add(const HalfPlane& plane) {
 }
 
 Vector2 Clearance::nearest(const Vector2& wanted, double most) const {
-  if (const auto clear = Program(*this, 0, most).solve(wanted)) return *clear;
-  double least = 0, enough = most;
-  for (int i = 0; i < count; ++i) {
-    enough =
-        std::max(enough, dot(planes[static_cast<std::size_t>(i)].point, planes[static_cast<std::size_t>(i)].normal));
-  }
-  for (int i = 0; i < kNarrowings; ++i) {
-    const double middle = (least + enough) / 2;
-    (Program(*this, middle, most).solve(wanted) ? enough : least) = middle;
-  }
-  return Program(*this, enough, most).solve(wanted).value_or(Vector2::Zero());
+  std::optional<Vector2> found = Program(*this, 0, 0, most).solve(wanted);
+  if (!found) found = least_off(*this, walkers, wanted, most);
+  if (!found) found = least_off(*this, count, wanted, most);
+  return found.value_or(Vector2::Zero());
 }
 
 Vector2 WayRound::choose(const Clearance& clearance, const Vector2& wanted, double most, double seconds) {
@@ -161,6 +175,7 @@ Clearance MakeWay::clearance(std::size_t walker, double seconds) const {
   });
   Clearance clearance;
   for (int i = 0; i < seen; ++i) clearance.add(clear_of(one, walkers_[nearest[i].walker], seconds));
+  clearance.walkers = clearance.count;
   return clearance;
 }
 

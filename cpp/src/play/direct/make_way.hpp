@@ -21,11 +21,13 @@ struct Clearance {
   static constexpr int kMostOthers = 4;  ///< and so many things beside.
   std::array<HalfPlane, kMost + kMostOthers> planes;
   int count = 0;
+  int walkers = 0;  ///< That many planes, the first ones, are of others who make way; the rest of what never does.
 
   /// Keeps clear of something else, too; beyond the most of them of nothing more.
   void add(const HalfPlane& plane);
 
-  /// The one next to what is wanted, at most so fast; where there is none, that which is off by the least.
+  /// The one next to what is wanted, at most so fast. Where there is none, that which is off by the least for the
+  /// others, and clear of what stands there; where that leaves none, that which is off by the least for all.
   Vector2 nearest(const Vector2& wanted, double most) const;
 };
 
