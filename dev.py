@@ -26,7 +26,7 @@ from tools.testing import engines, fuzzing, stages, testing
 
 _STAGES_HELP = (
     f"only these, whole, of {', '.join(testing.STAGES)}; or `{testing.WHOLE}` of them; or `{testing.REST}`: "
-    "what is left out when none is named"
+    "what CI runs besides what runs when none is named"
 )
 
 

@@ -186,12 +186,13 @@ py::list traces_of_crowd(const std::vector<Trace>& traces) {
 
 py::list keep_crowd_clear(const py::list& players, const py::list& wishes, const Doubles& worlds,
                           const FollowOptions& follow, CrowdOptions options, const std::vector<Doubles>& obstacles,
-                          const py::object& progress) {
+                          const std::vector<Doubles>& passers_by, const py::object& progress) {
   const py::ssize_t count = static_cast<py::ssize_t>(players.size());
   if (wishes.size() != players.size()) throw std::invalid_argument("there must be a wish for each player");
   check_shape(worlds, "worlds", {count, 4});
   const std::vector<double> rows = to_vector(worlds, "worlds", -kFarthestBody, kFarthestBody);
   for (const Doubles& outline : obstacles) options.obstacles.push_back(to_ground(outline));
+  for (const Doubles& places : passers_by) options.passers_by.push_back(to_ground(places));
   std::vector<std::unique_ptr<OnePlayer::Call>> calls;
   std::vector<CrowdMember> members;
   for (std::size_t i = 0; i < players.size(); ++i) {
@@ -214,14 +215,14 @@ void bind_keep_clear(py::module_& m) {
         [](const py::list& players, const py::list& wishes, const Doubles& worlds, double speed, double arrive,
            const std::string& facing, double heading, const Doubles& place, const std::string& end,
            const std::vector<Doubles>& obstacles, double radius, double seconds, double rate,
-           const py::object& progress, const PaintedArea* area) {
+           const py::object& progress, const PaintedArea* area, const std::vector<Doubles>& passers_by) {
           return keep_crowd_clear(players, wishes, worlds, to_options(speed, arrive, facing, heading, place, end),
-                                  {radius, seconds, rate, {}, area == nullptr ? nullptr : &area->edge()}, obstacles,
-                                  progress);
+                                  {radius, seconds, rate, {}, area == nullptr ? nullptr : &area->edge(), {}}, obstacles,
+                                  passers_by, progress);
         },
         py::arg("players"), py::arg("wishes"), py::arg("worlds"), follow..., py::arg("obstacles") = py::list(),
         py::arg("radius") = CrowdOptions().radius, py::arg("seconds") = 60.0, py::arg("rate") = 60.0,
-        py::arg("progress") = py::none(), py::arg("area") = py::none());
+        py::arg("progress") = py::none(), py::arg("area") = py::none(), py::arg("passers_by") = py::list());
   });
 }
 

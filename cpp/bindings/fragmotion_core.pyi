@@ -947,14 +947,16 @@ def keep_clear(
     rate: float = 60.0,
     progress: Progress | None = None,
     area: PaintedArea | None = None,
+    passers_by: Sequence[ArrayLike] = ...,
 ) -> list[Doubles]:
     """A trace [T,4] for each player of a crowd, who stands where it begins, by which it keeps clear of the others and
     of obstacles, convex outlines [N,2], m, and does what it would alone as far as that lets it: its wish is a trace
     [T,4], a path, which it goes along as follow_path() says, or goals [G,2], to which it goes one after another.
     `worlds` [P,4]: where a player's origin is in the world that all share, x, y and heading, and by how much larger
     that is. Each has `radius` metres around it to itself. Nobody leaves the `area`, and who stands beside it goes
-    there. Paths and goals are gone for so many seconds, 0.1 to 3600. Stepped at `rate`, from the same start and seed,
-    each shows the same motion. ValueError on what is out of its range."""
+    there. `passers_by` make way for nobody: the places [N,2] of each, m, ten a second, at the last of which it stays.
+    Paths and goals are gone for so many seconds, 0.1 to 3600. Stepped at `rate`, from the same start and seed, each
+    shows the same motion. ValueError on what is out of its range."""
 
 class PaintedArea:
     """Triangles, corners [T,3,3] in m, each corner painted 0 to 1, [T,3]; ValueError where nothing is painted."""

@@ -9,6 +9,7 @@ from types import ModuleType
 import bpy
 import making
 import numpy as np
+import pytest
 
 MANY = 300
 DAY = 24 * 3600 * 10  # controls: no recording is longer
@@ -33,6 +34,7 @@ def test_many_moves_looks_and_changes_of_style_are_there_after_reopening(addon: 
     assert recordings.asked_of(reopened) == recordings.Asked(**asked)
 
 
+@pytest.mark.thorough
 def test_a_day_of_changes_of_style_is_there_after_reopening(addon: ModuleType, tmp_path: Path) -> None:
     recordings = addon.recordings.recordings
     styles = [recordings.StyleChange(control, "ab"[control % 2]) for control in range(DAY)]

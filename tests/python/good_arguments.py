@@ -337,6 +337,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "worlds": np.array([[0.0, 0.0, 0.0, 1.0], [3.0, 0.0, 0.0, 1.0]]),
             **following,
             "obstacles": [np.array([[5.0, 5.0], [6.0, 5.0], [6.0, 6.0]])],
+            "passers_by": [np.array([[0.0, 3.0], [0.1, 3.0]])],
             "radius": 0.4,
             "seconds": 2.0,
             "rate": 30.0,

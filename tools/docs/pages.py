@@ -106,7 +106,7 @@ def _retargeting(options: argparse.Namespace) -> None:
         return
     take = _takes(options, "cmu") / "02_01.amc"
     machine.set_up(machine.DEMO)
-    package = packages.build_for_debian(BUILD / "packages-quick")
+    package = packages.build_for_debian()
     kinds = {"rigify": [], **({"xbot": [options.fbx.resolve()]} if options.fbx else {})}
     for name, character in kinds.items():
         words = [package, take, _DOCS / "retargeting" / f"{name}.jpg", *character]

@@ -21,7 +21,8 @@ from tools.shell import Failure, run
 
 _MANIFEST = "blender_manifest.toml"
 _SDL_FILES = re.compile(r"sdl2/\w+\.py$|sdl2dll/dll/(libSDL2-2|SDL2\.dll)")
-_BUILDING = threading.Lock()
+_BUILDING = threading.RLock()
+_HERE = BUILD / "packages-quick"
 _MODULE = re.compile(r"fragmotion_core\.(cp|cpython-)\d+\S*\.(so|pyd)$|fragmotion_command/\S+\.py$")
 
 
@@ -63,10 +64,24 @@ def legacy_path(platform: Platform, folder: Path = PACKAGES) -> Path:
     return folder / f"fragmotion-{version()}-legacy-{platform.label}.zip"
 
 
-def build_for_debian(folder: Path) -> Path:
+def build_for_debian(folder: Path = _HERE) -> Path:
     """The zip that Debian's Blender takes, its core built by this machine's compiler for the Python of that Blender."""
-    python = blender.debian_python()
-    build_kind = build_extension if blender.takes_extensions() else build_legacy
+    return _build_here(blender.debian_python(), blender.takes_extensions(), folder)
+
+
+def build_here(python: str) -> Path:
+    """The extension with a core for one Python alone, built by this machine's compiler."""
+    return _build_here(python, True, _HERE / python)
+
+
+def _build_here(python: str, is_extension: bool, folder: Path) -> Path:
+    with _BUILDING:
+        return _built_here(python, is_extension, folder)
+
+
+@cache
+def _built_here(python: str, is_extension: bool, folder: Path) -> Path:
+    build_kind = build_extension if is_extension else build_legacy
     return build_kind(LINUX, {python: wheel(python)}, folder)
 
 

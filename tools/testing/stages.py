@@ -15,7 +15,7 @@ from pathlib import Path
 
 from tools.packaging import compiling, packages
 from tools.packaging.compiling import compile_preset, installed_core
-from tools.paths import BUILD, LOGS, TOP
+from tools.paths import LOGS, TOP
 from tools.platforms import LINUX, TESTED_PLATFORMS, WINDOWS, Platform
 from tools.setup import blender, environments, machine, windows
 from tools.setup.environments import BPY_PYTHON, HOST
@@ -122,10 +122,10 @@ class Part(Enum):
 
     ALL = "all"
     QUICK = "quick"
-    THOROUGH = "thorough"
+    REST = "rest"
 
 
-_MARKS = {Part.QUICK: "not thorough", Part.THOROUGH: "thorough"}  # of pytest; the markers are in pyproject.toml
+_MARKS = {Part.QUICK: "not thorough", Part.REST: "thorough"}  # of pytest; the markers are in pyproject.toml
 
 
 def style_checks(expression: str | None) -> Counts:
@@ -147,7 +147,7 @@ def tidy(expression: str | None) -> Counts:
 def cpp(expression: str | None, part: Part = Part.ALL) -> Counts:
     """GoogleTest, and through ctest what games link; `expression` is a regular expression here."""
     folder = compile_preset("release")
-    if part is Part.THOROUGH:
+    if part is Part.REST:
         return _googletest("cpp", folder, expression, wanted=_THOROUGH)
     left_out = _THOROUGH if part is Part.QUICK else ()
     return _googletest("cpp", folder, expression, left_out) + _runtime_alone(folder, expression)
@@ -229,25 +229,25 @@ def _say_packages(platform: Platform) -> None:
         say(f"{path.relative_to(TOP)}: {size:.1f} MB, for Python {pythons}, after {time.monotonic() - start:.0f} s")
 
 
-def blender_45(expression: str | None) -> Counts:
-    """All of the add-on's tests in Blender 4.5 LTS, a Python 3.11 module."""
-    return _pytest("blender-4.5", "3.11", _BLENDER_TESTS, _extension("blender-4.5"), expression)
+def blender_45(expression: str | None, part: Part = Part.ALL) -> Counts:
+    """All of the add-on's tests in Blender 4.5 LTS, a Python 3.11 module; where not all runs, with a core that this
+    machine's compiler built."""
+    package = packages.extension_path(LINUX) if part is Part.ALL else packages.build_here(BPY_PYTHON)
+    return _pytest("blender-4.5", BPY_PYTHON, _BLENDER_TESTS, _extension("blender-4.5", package), expression)
 
 
 def blender_52(expression: str | None) -> Counts:
     """The quick ones of the add-on's tests in Blender 5.2 LTS, a Python 3.13 module."""
-    return _pytest("blender-5.2", "3.13", _BLENDER_TESTS, _extension("blender-5.2"), expression, _NOT_THOROUGH)
+    environment = _extension("blender-5.2", packages.extension_path(LINUX))
+    return _pytest("blender-5.2", "3.13", _BLENDER_TESTS, environment, expression, _NOT_THOROUGH)
 
 
 def blender_debian(expression: str | None, part: Part = Part.ALL) -> Counts:
-    """The add-on's tests in Debian's Blender (3.4.1 on Debian 12, 4.3 on 13), with pytest inside it; the quick ones
-    with a zip whose core this machine's compiler built."""
-    is_quick = part is Part.QUICK
-    package = packages.build_for_debian(BUILD / "packages-quick") if is_quick else packages.debian_zip()
+    """The add-on's tests in Debian's Blender (3.4.1 on Debian 12, 4.3 on 13), with pytest inside it."""
     options = _marked(part, "not measures")
     arguments = [machine.PYTEST_FOLDER, *_pytest_arguments("blender-debian", expression, _BLENDER_TESTS, *options)]
     command = blender.background_command(_BLENDER_TESTS / "run_in_blender.py", *arguments)
-    return _counted(command, "blender-debian", _debian("blender-debian", package), expression)
+    return _counted(command, "blender-debian", _debian("blender-debian", part), expression)
 
 
 def _marked(part: Part, *more: str) -> tuple[str, ...]:
@@ -304,11 +304,11 @@ def _windows(
     return _counted(command, stage, {**windows.environment(stage), **environment}, expression)
 
 
-def gui(expression: str | None) -> Counts:
+def gui(expression: str | None, part: Part = Part.ALL) -> Counts:
     """Window tests: pytest on a screen of its own; the tests start Blender's windows themselves."""
     if not gui_tests():
         raise Skipped("tests/gui holds no test yet")
-    environment = {**_debian("gui", packages.debian_zip()), "LIBGL_ALWAYS_SOFTWARE": "1"}
+    environment = {**_debian("gui", part), "LIBGL_ALWAYS_SOFTWARE": "1"}
     screen = ("xvfb-run", "--auto-servernum", "--server-args", "-screen 0 1600x900x24")
     arguments = _pytest_arguments("gui", expression, TOP / "tests" / "gui")
     command = [*screen, environments.environment_python(HOST), "-m", "pytest", *arguments]
@@ -354,11 +354,13 @@ def _tests_that_match(program: Path, expression: str) -> list[str]:
     return [name for name in names if re.search(expression, name)]
 
 
-def _extension(sandbox: str) -> dict[str, str]:
-    return {**blender.sandbox(sandbox), "FRAGMOTION_ADDON_ZIP": str(packages.extension_path(LINUX))}
+def _extension(sandbox: str, package: Path) -> dict[str, str]:
+    return {**blender.sandbox(sandbox), "FRAGMOTION_ADDON_ZIP": str(package)}
 
 
-def _debian(sandbox: str, package: Path) -> dict[str, str]:
+def _debian(sandbox: str, part: Part) -> dict[str, str]:
+    """What Debian's Blender is told; its zip has a core that this machine's compiler built where not all runs."""
+    package = packages.debian_zip() if part is Part.ALL else packages.build_for_debian()
     return {**blender.debian_environment(sandbox), "FRAGMOTION_ADDON_ZIP": str(package)}
 
 

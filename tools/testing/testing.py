@@ -7,9 +7,7 @@ import os
 import time
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from dataclasses import dataclass, field
-from functools import partial
-from typing import Optional
+from dataclasses import dataclass
 
 from tools.setup import machine
 from tools.shell import Failure, say
@@ -17,56 +15,50 @@ from tools.testing import stages
 from tools.testing.counts import Counts, Skip
 from tools.testing.stages import Part, Skipped
 
-Run = Callable[[Optional[str]], Counts]
-
 
 @dataclass(frozen=True)
 class Stage:
-    """One stage: what it does, what it needs of the machine, the stages that must have passed before (except for the
-    quick part), and what it does of each part of the tests: the whole is thorough, if not told."""
+    """One stage: what it does of a part of its tests, what it needs of the machine, the stages that must have passed
+    before where they run as well, and the parts that it has: one without parts runs when it is named, or with all."""
 
-    run: Run
+    run: Callable[[str | None, Part], Counts]
     needs: Callable[[], machine.Needs]
     after: tuple[str, ...] = ()
-    parts: dict[Part, Run] = field(default_factory=dict)
+    parts: tuple[Part, ...] = ()
 
-    def of(self, part: Part) -> Run | None:
-        """What runs a part of its tests, if there are any in it."""
-        if part is Part.ALL or (part is Part.THOROUGH and not self.parts):
-            return self.run
-        return self.parts.get(part)
+    def has(self, part: Part) -> bool:
+        """Whether there are tests of that part in it."""
+        return part is Part.ALL or part in self.parts
 
 
-def _in_parts(run: Callable[[str | None, Part], Counts]) -> dict[Part, Run]:
-    return {part: partial(_run_part, run, part) for part in (Part.QUICK, Part.THOROUGH)}
+def _whole(run: Callable[[str | None], Counts]) -> Callable[[str | None, Part], Counts]:
+    """A stage that does the same whatever the part."""
+    return lambda expression, part: run(expression)
 
 
-def _run_part(run: Callable[[str | None, Part], Counts], part: Part, expression: str | None) -> Counts:
-    return run(expression, part)
+_BOTH, _REST = (Part.QUICK, Part.REST), (Part.REST,)
 
 
 # Those that take longest before others that need the same, so that none is left to run alone.
 STAGES = {
-    "cpp": Stage(stages.cpp, lambda: machine.CPP_TESTS, parts=_in_parts(stages.cpp)),
-    "style": Stage(stages.style_checks, lambda: machine.STYLE, parts={Part.QUICK: stages.style_checks}),
-    "python": Stage(stages.python, lambda: machine.PYTHON_TESTS, parts=_in_parts(stages.python)),
-    "package": Stage(stages.package, lambda: machine.PACKAGE_TESTS),
-    "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS),
-    "gui": Stage(stages.gui, lambda: machine.GUI if stages.gui_tests() else machine.Needs(), ("package",)),
-    "windows": Stage(stages.windows_python, lambda: machine.WINDOWS_45, ("package",)),
-    "windows-4.5": Stage(stages.windows_45, lambda: machine.WINDOWS_45, ("package",)),
-    "windows-5.2": Stage(stages.windows_52, lambda: machine.WINDOWS_52, ("package",)),
-    "blender-4.5": Stage(stages.blender_45, lambda: machine.BLENDER_45, ("package",)),
-    "blender-5.2": Stage(stages.blender_52, lambda: machine.BLENDER_52, ("package",)),
-    "blender-debian": Stage(
-        stages.blender_debian, lambda: machine.BLENDER_DEBIAN, ("package",), _in_parts(stages.blender_debian)
-    ),
-    "threads": Stage(stages.threads, lambda: machine.SANITIZED_TESTS),
-    "game": Stage(stages.game, lambda: machine.GAME_TESTS),
-    "same-bits": Stage(stages.same_bits, lambda: machine.SAME_BITS),
-    "engines": Stage(stages.engines, lambda: machine.ENGINES),
-    "tidy": Stage(stages.tidy, lambda: machine.TIDY),
-    "fuzz": Stage(stages.fuzz, lambda: machine.FUZZ),
+    "cpp": Stage(stages.cpp, lambda: machine.CPP_TESTS, parts=_BOTH),
+    "style": Stage(_whole(stages.style_checks), lambda: machine.STYLE, parts=(Part.QUICK,)),
+    "python": Stage(stages.python, lambda: machine.PYTHON_TESTS, parts=_BOTH),
+    "package": Stage(_whole(stages.package), lambda: machine.PACKAGE_TESTS),
+    "sanitize": Stage(_whole(stages.sanitize), lambda: machine.SANITIZED_TESTS, parts=_REST),
+    "gui": Stage(stages.gui, lambda: machine.GUI if stages.gui_tests() else machine.Needs(), ("package",), _REST),
+    "windows": Stage(_whole(stages.windows_python), lambda: machine.WINDOWS_45, ("package",)),
+    "windows-4.5": Stage(_whole(stages.windows_45), lambda: machine.WINDOWS_45, ("package",)),
+    "windows-5.2": Stage(_whole(stages.windows_52), lambda: machine.WINDOWS_52, ("package",)),
+    "blender-4.5": Stage(stages.blender_45, lambda: machine.BLENDER_45, ("package",), _REST),
+    "blender-5.2": Stage(_whole(stages.blender_52), lambda: machine.BLENDER_52, ("package",)),
+    "blender-debian": Stage(stages.blender_debian, lambda: machine.BLENDER_DEBIAN, ("package",), _BOTH),
+    "game": Stage(_whole(stages.game), lambda: machine.GAME_TESTS, parts=_REST),
+    "threads": Stage(_whole(stages.threads), lambda: machine.SANITIZED_TESTS),
+    "same-bits": Stage(_whole(stages.same_bits), lambda: machine.SAME_BITS),
+    "engines": Stage(_whole(stages.engines), lambda: machine.ENGINES),
+    "tidy": Stage(_whole(stages.tidy), lambda: machine.TIDY),
+    "fuzz": Stage(_whole(stages.fuzz), lambda: machine.FUZZ),
 }
 
 EXPECTED_SKIPS = (
@@ -78,7 +70,7 @@ EXPECTED_SKIPS = (
 """How the reasons begin for which tests may be skipped where FRAGMOTION_NO_SKIPS is set, as in CI."""
 
 WHOLE, REST = "all", "rest"
-"""What stands for all stages, and for what is left when no stage is named."""
+"""What stands for all stages, and for what CI runs besides what runs when none is named."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +87,7 @@ def run_tests(names: list[str], expression: str | None) -> int:
     """Run the named stages and those they build on; `all` of them, the quick ones when none is named, or the `rest`;
     non-zero when any failed."""
     start = time.monotonic()
-    part = {(): Part.QUICK, (REST,): Part.THOROUGH}.get(tuple(names), Part.ALL)
+    part = {(): Part.QUICK, (REST,): Part.REST}.get(tuple(names), Part.ALL)
     selected = _selected(names, part)
     needs = machine.Needs()
     for name in selected:
@@ -105,7 +97,7 @@ def run_tests(names: list[str], expression: str | None) -> int:
     results = _run_side_by_side(selected, part, expression)
     failed = _summarise({name: results[name] for name in selected}, time.monotonic() - start)
     if part is Part.QUICK:
-        say("these are the quick ones; `python3 dev.py test rest` runs the others, `python3 dev.py test all` every one")
+        say("these are the quick ones; `python3 dev.py test rest` runs what CI does besides, `test all` every one")
     return failed
 
 
@@ -115,7 +107,7 @@ def _selected(names: list[str], part: Part) -> list[str]:
         raise Failure(
             f"there is no stage {', '.join(unknown)}; the stages are {', '.join(STAGES)}; or: {WHOLE}, {REST}"
         )
-    in_part = [name for name, stage in STAGES.items() if stage.of(part)]
+    in_part = [name for name, stage in STAGES.items() if stage.has(part)]
     return in_part if unknown or not names else _with_prerequisites(names)
 
 
@@ -150,8 +142,7 @@ def _run_stage(name: str, part: Part, expression: str | None, results: dict[str,
     try:
         if blockers:
             raise Failure(f"not run, as {', '.join(blockers)} failed")
-        run = STAGES[name].of(part) or STAGES[name].run
-        counts = run(expression)
+        counts = STAGES[name].run(expression, part)
         state, remark = ("failed" if counts.failed else "passed"), ""
     except Skipped as skipped:
         counts, state, remark = Counts(skipped=1, skips=(Skip("all of it", str(skipped)),)), "skipped", str(skipped)

@@ -26,7 +26,7 @@ Spot = tuple[float, float, float]
 
 class Together:
     """What the members share: the outlines of what stands around, m, how long they go, s, how paths are followed,
-    whether they heed each other at all, and the area that none leaves."""
+    whether they heed each other at all, the area that none leaves, and who else is about, as core.keep_clear() says."""
 
     def __init__(
         self,
@@ -35,8 +35,10 @@ class Together:
         follow: dict[str, Any],
         heeds: bool = True,
         area: PaintedArea | None = None,
+        passers_by: Sequence[Doubles] = (),
     ) -> None:
         self._obstacles, self._seconds, self._follow, self._area = obstacles, seconds, follow, area
+        self._passers_by = passers_by
         self._radius = RADIUS if heeds else _NO_ROOM
         self._members: list[Member] = []
         self._traces: list[Doubles] = []
@@ -62,6 +64,7 @@ class Together:
                     progress=report,
                     radius=self._radius / members[0].player_scale,
                     area=self._area,
+                    passers_by=self._passers_by,
                     **self._follow,
                 )
         return self._traces[number]

@@ -27,16 +27,19 @@ from ..paths.following import shared
 from ..paths.lines import TYPES as LINES
 from ..paths.lines import line_of
 from ..recordings.curves import curves_of
+from ..recordings.recordings import TRACE_RATE
 from ..recordings.traces import make_trace
 from ..rig.belongings import belongings
+from ..rig.posing import visit
+from ..rig.rigs import make_rig
 from ..settings.bake_fields import MIXED, BakeFields
 from . import baking
 from .crowd import RADIUS, Together
-from .performing import origin_frame
+from .performing import character_frame, origin_frame
 from .targets import Target, write
 
 if TYPE_CHECKING:
-    from fragmotion_core import Character, PaintedArea
+    from fragmotion_core import Character, Doubles, PaintedArea
 
 Spot = tuple[float, float, float]
 """Where a copy stands as the original sees it on the ground: x, y (m) and how far it is turned (rad)."""
@@ -152,23 +155,40 @@ def _keep_clear(
     """Let those of a crowd make way for each other, and for what stands around, where that is asked for."""
     chosen = obj.fragmotion.crowd
     stands = outlines(chosen.obstacles.all_objects) if chosen.obstacles is not None else []
+
+    def together(seconds: float, follow: dict[str, Any], area: PaintedArea | None = None) -> Together:
+        passers_by = _original(context, obj, bakes[0].frame_start, seconds)
+        return Together(stands, seconds, follow, settings.clear, area, passers_by)
+
     if settings.layout == "PATH":
         follow = dict(bakes[0].walk.options, arrive=max(each.walk.options["arrive"] for each in bakes))
         seconds = follow.pop("seconds")
         if follow["end"] == "stand":
             seconds = min(seconds, follow["arrive"] + _REST)
-        together = Together(stands, seconds, follow)
+        crowd = together(seconds, follow)
         for each in bakes:
-            each.walk = together.add(each.walk.path, each.walk.path.start, each.moved)
+            each.walk = crowd.add(each.walk.path, each.walk.path.start, each.moved)
     elif settings.layout == "AREA":
         area = painted_area(context, chosen.area)
-        together = Together(stands, settings.seconds, {}, settings.clear, area)
-        _go_about(area, chosen.area.name, settings, bakes, together, RADIUS / character.space.scale)
+        crowd = together(settings.seconds, {}, area)
+        _go_about(area, chosen.area.name, settings, bakes, crowd, RADIUS / character.space.scale)
     else:
-        together, start = Together(stands, settings.seconds, {}), origin_frame(obj)
+        crowd, start = together(settings.seconds, {}), origin_frame(obj)
         for each in bakes:
             style = character.style_names.index(each.style) if each.style else 0
-            each.walk = together.add(make_trace(each, character.in_style(style).space), start, each.moved)
+            each.walk = crowd.add(make_trace(each, character.in_style(style).space), start, each.moved)
+
+
+def _original(context: bpy.types.Context, obj: bpy.types.Object, first: float, seconds: float) -> list[Doubles]:
+    """Where the original is at each control from a frame on, as core.keep_clear() takes passers-by: none where it is
+    not seen."""
+    if not obj.visible_get():
+        return []
+    rig, scene = make_rig(obj), context.scene
+    apart = scene_rate(scene) / TRACE_RATE
+    moves = obj.animation_data or obj.parent or len(obj.constraints)
+    times = first + apart * np.arange(math.ceil(seconds * TRACE_RATE) if moves else 1)
+    return [np.array([character_frame(context, obj, rig)[:2] for _ in visit(scene, times)])]
 
 
 def _go_about(

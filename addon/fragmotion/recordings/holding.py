@@ -10,6 +10,7 @@ import bpy
 from mathutils import Matrix, Vector
 
 from ..mocap.sampling import scene_rate
+from ..rig.posing import visit
 from .reaches import EMPTY, Hold, Holds, ReachChange, reaches_from
 from .recordings import TRACE_RATE
 
@@ -36,15 +37,12 @@ def holds_over_time(
     """What hands hold before each of so many controls of what begins at scene frame `first`, a control ahead, so that
     they are there in time; before the first one alone where it does not change, and nothing where that is nothing."""
     scene, apart = context.scene, scene_rate(context.scene) / TRACE_RATE
-    count = max(controls, 1) if _may_change(obj) else 1
-    now, found = (scene.frame_current, scene.frame_subframe), []
-    for number in range(count):
-        if count > 1:
-            _go_to(scene, first + (number + 1) * apart)
-        holds = holds_of(obj)
-        found.append(holds if moved is None else _seen_from(holds, moved))
-    if count > 1:
-        scene.frame_set(now[0], subframe=now[1])
+    if controls > 1 and _may_change(obj):
+        found = [holds_of(obj) for _ in visit(scene, (first + (number + 1) * apart for number in range(controls)))]
+    else:
+        found = [holds_of(obj)]
+    if moved is not None:
+        found = [_seen_from(holds, moved) for holds in found]
     return [] if all(holds == EMPTY for holds in found) else found
 
 
@@ -74,8 +72,3 @@ def _hold_of(obj: bpy.types.Object, settings: Any) -> Hold:
         seen = Matrix.Rotation(-turned - math.pi, 4, "Z") @ (place - origin)
         return Hold(held.fragmotion.held, 1, *seen)
     return Hold(held.fragmotion.held, 0, *place)
-
-
-def _go_to(scene: bpy.types.Scene, frame: float) -> None:
-    whole = math.floor(frame)
-    scene.frame_set(whole, subframe=frame - whole)

@@ -133,6 +133,17 @@ def get_channel(obj: bpy.types.Object, channel: str) -> NDArray[np.float32]:
     return values
 
 
+def visit(scene: bpy.types.Scene, times: Iterable[float]) -> Iterator[float]:
+    """Show each of these frames in turn, and at the end the one that was shown."""
+    now = (scene.frame_current, scene.frame_subframe)
+    try:
+        for time in times:
+            _go_to(scene, time)
+            yield time
+    finally:
+        scene.frame_set(now[0], subframe=now[1])
+
+
 def _go_to(scene: bpy.types.Scene, time: float) -> None:
     """Fractional frames as frame and subframe; the nearest whole frame where that is meant."""
     whole = math.floor(time + 1e-4)

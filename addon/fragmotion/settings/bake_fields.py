@@ -207,8 +207,8 @@ class PopulateFields:
     )
     clear: BoolProperty(  # type: ignore[valid-type]
         name="Keep Clear",
-        description="They make way for each other and for obstacles: none comes nearer to another than 0.4 m. Ticked "
-        "recordings are played as they are",
+        description="They make way for each other, for the armature where it is seen, and for obstacles: none comes nearer "
+        "to another than 0.4 m. Ticked recordings are played as they are",
         default=True,
     )
     sizes: FloatProperty(  # type: ignore[valid-type]

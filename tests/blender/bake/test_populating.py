@@ -258,6 +258,7 @@ def make_area(size: float, painted: bool = False) -> bpy.types.Object:
     return area
 
 
+@pytest.mark.thorough
 def test_a_crowd_on_a_square_keeps_clear(addon: ModuleType, obj: bpy.types.Object) -> None:
     fields = {"count": 12, "spacing": 0.9, "seconds": 8.0, "player": "explorer"}
     frames = range(1, 190, 3)
@@ -295,6 +296,27 @@ def test_a_crowd_goes_around_obstacles(addon: ModuleType, obj: bpy.types.Object)
     places = hips_over_time(populate(layout="AREA", count=3, seconds=12.0, spacing=2.5, seed=4), range(1, 280, 4))
     inside = (np.abs(places[20:]) < 0.8).all(-1)
     assert not inside.any()
+
+
+def test_a_crowd_goes_around_the_original_where_it_is_seen(addon: ModuleType, obj: bpy.types.Object) -> None:
+    path = add_path([(-4.0, 0.0), (10.0, 0.0)], False)
+    obj.fragmotion.path.curve = path
+    obj.animation_data_clear()
+    obj.rotation_euler.z = 0.0
+    for frame, y in ((1, 0.0), (200, 0.2)):
+        obj.location = (3, y, 0)
+        obj.keyframe_insert("location", frame=frame)
+
+    def off() -> float:
+        bpy.context.scene.frame_set(7)
+        copies = populate(layout="PATH", count=2, spacing=1.5)
+        assert bpy.context.scene.frame_current == 7
+        return float(np.linalg.norm(hips_over_time(copies, range(1, 200, 2)) - np.array([3.0, 0.1]), axis=-1).min())
+
+    seen = off()
+    obj.hide_set(True)
+    hidden = off()
+    assert hidden < 0.35 < seen
 
 
 def test_copies_are_shared_out_among_several_paths_and_sizes(addon: ModuleType, obj: bpy.types.Object) -> None:

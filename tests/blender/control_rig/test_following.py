@@ -201,6 +201,7 @@ def test_a_cancelled_bake_leaves_everything(addon: ModuleType) -> None:
         job.result()
 
 
+@pytest.mark.thorough
 def test_a_cancelled_search_for_controls_leaves_everything(addon: ModuleType, rigify: bpy.types.Object) -> None:
     before = layouts.everything(rigify)
     binding = addon.control_rig.binding

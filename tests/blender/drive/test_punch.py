@@ -102,6 +102,7 @@ def record_over(session: ModuleType, obj: bpy.types.Object) -> Seen:
     return seen
 
 
+@pytest.mark.thorough
 def test_what_is_recorded_over_moves_and_styles_is_kept_as_it_was_shown(
     addon: ModuleType, session: ModuleType, obj: bpy.types.Object
 ) -> None:
@@ -121,6 +122,7 @@ def test_what_is_recorded_over_moves_and_styles_is_kept_as_it_was_shown(
     assert len(obj.fragmotion.recordings) == 1
 
 
+@pytest.mark.thorough
 def test_the_users_moves_and_styles_stand_where_the_recordings_were(
     addon: ModuleType, session: ModuleType, obj: bpy.types.Object
 ) -> None:

@@ -128,6 +128,30 @@ TEST(KeepClear, IsTheSameEveryTime) {
   }
 }
 
+TEST(KeepClear, GoesAroundWhoMakesWayForNobody) {
+  Crowded crowd;
+  crowd.add({}).goals = {{0, 8}};
+  CrowdOptions options;
+  options.seconds = 12;
+  options.rate = kCrowdRate;
+  const int frames = frame_count(120, kCrowdRate);
+  std::vector<Vector2> comes;
+  for (int control = 0; control <= 40; ++control) comes.emplace_back(0, 8 - 0.1 * control);  // and stays where it goes
+  const auto seen = [&](int frame) { return comes[std::min<std::size_t>(frame / (kCrowdRate / kTraceRate), 40)]; };
+  const auto nearest = [&](const std::vector<std::vector<Vector2>>& passers_by) {
+    options.passers_by = passers_by;
+    crowd.members.front().player->reset();
+    const std::vector<Vector2> places = crowd.replay(keep_clear(crowd.members, options), frames).front();
+    double found = 1e9;
+    for (int f = 0; f < frames; ++f) found = std::min(found, (places[f] - seen(f)).norm());
+    return found;
+  };
+  EXPECT_LT(nearest({}), 0.2);
+  EXPECT_GT(nearest({comes}), 0.5);
+  options.passers_by = {{}};
+  EXPECT_THROW(keep_clear(crowd.members, options), std::invalid_argument);
+}
+
 TEST(KeepClear, GoesToItsGoalsAndAlongItsPath) {
   Crowded crowd;
   crowd.add({}).goals = {{0, 4}, {3, 4}};

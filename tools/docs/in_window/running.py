@@ -35,7 +35,7 @@ def run_script(name: str, folder: Path) -> None:
 
 def _run_here(script: Path, folder: Path, log: str) -> None:
     machine.set_up(machine.GUI)
-    package = packages.build_for_debian(BUILD / "packages-quick")
+    package = packages.build_for_debian()
     environment = {**blender.debian_environment("docs"), "LIBGL_ALWAYS_SOFTWARE": "1"}
     run(_command(BLENDER, script, package, folder), log, environment, echo=True)
 

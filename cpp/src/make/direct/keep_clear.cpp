@@ -228,12 +228,20 @@ std::vector<HalfPlane> keep_off(const std::vector<std::vector<Vector2>>& obstacl
   return seen;
 }
 
+Walker passer_by(const std::vector<Vector2>& places, std::size_t control, double radius) {
+  const std::size_t last = places.size() - 1, now = std::min(control, last);
+  return {places[now], (places[std::min(now + 1, last)] - places[now]) / kControlStep, radius, false};
+}
+
 void check(const std::vector<CrowdMember>& members, const CrowdOptions& options) {
   require_range("the radius of a crowd's members", options.radius, kRounding, kFarthestBody);
   require_range("the time of a crowd, in s,", options.seconds, kControlStep, kLongestCall);
   for (const CrowdMember& member : members) {
     if (member.player == nullptr) throw std::invalid_argument("a member of a crowd has no player");
     require_range("the scale of a crowd's member", member.scale, 1 / kMostOfSpace, kMostOfSpace);
+  }
+  for (const std::vector<Vector2>& places : options.passers_by) {
+    if (places.empty()) throw std::invalid_argument("a passer-by of a crowd has no place");
   }
 }
 
@@ -249,9 +257,11 @@ std::vector<Trace> keep_clear(const std::vector<CrowdMember>& members, const Cro
     controls = std::max(controls, heeding.back().controls());
   }
   MakeWay make_way;
-  std::vector<Walker> walkers(members.size());
-  const auto decide = [&] {
-    for (std::size_t i = 0; i < heeding.size(); ++i) walkers[i] = heeding[i].walker();
+  std::vector<Walker> walkers;
+  const auto decide = [&](std::size_t control) {
+    walkers.clear();
+    for (const Heeding& each : heeding) walkers.push_back(each.walker());
+    for (const auto& places : options.passers_by) walkers.push_back(passer_by(places, control, options.radius));
     make_way.look(walkers);
     for (std::size_t i = 0; i < heeding.size(); ++i) {
       if (heeding[i].is_done()) continue;
@@ -263,7 +273,7 @@ std::vector<Trace> keep_clear(const std::vector<CrowdMember>& members, const Cro
   for (int f = 1; f < frames; ++f) {
     if (f % 64 == 0) report(progress, static_cast<double>(f) / frames, "Making way");
     if (control_at(f, options.rate, controls) == decided) {
-      decide();
+      decide(decided);
       ++decided;
     }
     for (const Heeding& each : heeding) {

@@ -32,12 +32,15 @@ struct CrowdOptions {
   /// What nobody may touch: convex outlines, m in the crowd's world.
   std::vector<std::vector<Vector2>> obstacles;
   const AreaEdge* area = nullptr;  ///< Which nobody leaves and who stands beside it goes to, m in the crowd's world.
+  /// Who makes way for nobody: each one's places, m in the crowd's world, one a control; it stays at the last.
+  std::vector<std::vector<Vector2>> passers_by;
 };
 
 /// A trace for each member, by which it keeps clear of the others and of the obstacles (make_way.hpp) and does what it
 /// would as far as that lets it: played at the same rate from the same start and seed, it shows the same motion. Who is
 /// at the end of its trace stands there, and the others go around it. Deterministic. Throws std::invalid_argument on
-/// options out of their range, a scale that is not over 0 and at most 1e6, and a member without a player.
+/// options out of their range, a scale that is not over 0 and at most 1e6, a member without a player, and a passer-by
+/// without a place.
 std::vector<Trace> keep_clear(const std::vector<CrowdMember>& members, const CrowdOptions& options,
                               const Progress& progress = {});
 
