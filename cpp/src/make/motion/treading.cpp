@@ -126,9 +126,9 @@ double Treading::slowest() const {
       const double foot = fastest_low(side, f);
       if (foot >= 0) slowest = std::min(slowest, foot);
     }
-    if (std::isfinite(slowest)) sum += slowest * slowest, ++count;
+    if (std::isfinite(slowest)) sum += slowest, ++count;
   }
-  return count > 0 ? std::sqrt(sum / count) : 0;
+  return count > 0 ? sum / count : 0;
 }
 
 Velocities Treading::steps(const Velocities& windows) const {

@@ -12,7 +12,7 @@ namespace fragmotion {
 using Velocities = std::vector<Vector2>;
 
 /// Of the way that a body goes: feet that tread come back, and go back no slower, none of them standing all the time.
-constexpr double kTreads = 0.4;
+constexpr double kTreads = 0.35;
 
 /// Zero of none.
 Vector2 mean_velocity(const Velocities& velocities);
@@ -32,7 +32,7 @@ class Treading {
   /// The body's velocity in each window, m/s, as it turns at `turn` about `center`; empty where no sole is low.
   Velocities velocities(double turn, const Vector2& center) const;
 
-  /// The speed at which what is low goes back, of the slower foot where both are, m/s: the root of a mean square.
+  /// The speed at which what is low goes back, of the slower foot where both are, m/s: a mean.
   double slowest() const;
 
   /// For each step of the clip from a frame to the next the velocity in its middle.
