@@ -28,6 +28,7 @@ Curves = dict[tuple[str, int], bpy.types.FCurve]
 _FEWEST_FRAMES = 2
 _MOST_FRAMES = 2_000_000  # of an Action: more than four hours at 120 frames a second
 _SAME_FRAME = 0.01  # keys closer than this to a frame are on it
+_KEYED = (23.9, 60.1)  # keys a second of files for games: each is a pose of the motion
 _ROTATIONS: dict[str, tuple[str, tuple[float, ...]]] = {
     "QUATERNION": ("rotation_quaternion", (1, 0, 0, 0)),
     "AXIS_ANGLE": ("rotation_axis_angle", (0, 0, 1, 0)),
@@ -101,19 +102,24 @@ def frame_times(scene: bpy.types.Scene, action: bpy.types.Action, curves: Curves
             f"Action '{action.name}' goes from frame {first:g} to {last:g}, more than {_MOST_FRAMES:,} samples: "
             "delete the stray key, or untick it"
         )
-    steps = math.floor(frames + _SAME_FRAME) if RATE in action else _steps_to_the_end(curves, first, last, frames)
+    steps = math.floor(frames + _SAME_FRAME) if RATE in action else _steps_to_the_end(curves, first, last, frames, rate)
     if abs(frames - steps) > _SAME_FRAME and RATE not in action:
         rate, step = rate * steps / frames, (last - first) / max(steps, 1)
     return rate, first + step * np.arange(steps + 1)
 
 
-def _steps_to_the_end(curves: Curves, first: float, last: float, frames: float) -> int:
+def _steps_to_the_end(curves: Curves, first: float, last: float, frames: float, rate: float) -> int:
     """From a sample to the next, from the first frame to the last: from key to key where a channel has them evenly, as
-    files for games do at another rate than the scene's."""
+    files for games do whatever the scene's frame rate is, for what is between two keys nobody has drawn. `frames` are
+    how many of the scene it lasts, of which there are `rate` a second."""
     points = points_of(max(curves.values(), key=lambda curve: len(curve.keyframe_points)))[:, 0]
     even = np.abs(points - np.linspace(first, last, len(points))).max() < _SAME_FRAME
     gaps = len(points) - 1
-    keyed = gaps * max(round(frames / gaps), 1) if even and gaps > 0 else 0
+    if not even or gaps == 0:
+        return round(frames)
+    if _KEYED[0] * frames <= gaps * rate <= _KEYED[1] * frames:
+        return gaps
+    keyed = gaps * max(round(frames / gaps), 1)
     return keyed if frames <= 2 * keyed <= 3 * frames else round(frames)
 
 

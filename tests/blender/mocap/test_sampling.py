@@ -225,7 +225,7 @@ def linear_loop(addon: ModuleType, obj: bpy.types.Object, keys: np.ndarray) -> b
     return action
 
 
-@pytest.mark.parametrize("fps", (24, 25, 30))
+@pytest.mark.parametrize("fps", (24, 25, 30, 60, 120))
 def test_a_file_of_another_rate_is_sampled_at_its_keys(addon: ModuleType, fps: int) -> None:
     obj = making.add_armature()
     bpy.context.scene.render.fps = fps

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "build/build.hpp"
-#include "fragments/gait_edit.hpp"
+#include "fragments/coverage.hpp"
+#include "fragments/leap.hpp"
+#include "fragments/synthesis.hpp"
+#include "motion/legs.hpp"
 #include "motion/pose.hpp"
 #include "small_character.hpp"
 
@@ -79,6 +82,48 @@ TEST(MadeJumps, OfARunLandOnTheOtherFoot) {
   }
   EXPECT_GE(jumps, 3);
   EXPECT_EQ(hops, 0);
+}
+
+// A walk that goes by turns faster and slower than it says, as drawn ones do.
+Clip surging_walk() {
+  const Gait gait{0, 1.2, 0, 6};
+  Clip clip = gait_clip(gait);
+  for (int f = 0; f < clip.frames; ++f)
+    clip.root_positions[std::size_t{3} * f + 1] += 0.04 * std::sin(4 * kPi * f / gait.rate / gait.cycle);
+  return make_clip(humanoid(), std::move(clip));
+}
+
+TEST(Leap, FliesAsFastAsItIsAskedToWithItsFeetWhereTheyWereUntilItTakesOff) {
+  const Kinematics kinematics(humanoid());
+  const ControlSpace space(1.2, 3, 1.2, standard_scale(kinematics.skeleton()));
+  Clip clip = surging_walk();
+  const Hop hop(0.22, 0.15, 0.25);
+  add_hop(kinematics, find_legs(kinematics, {clip}), clip, hop);
+  const double usual = usual_height({body_motion(kinematics, surging_walk())});
+  Leap leap = leap_of(kinematics, clip, hop, usual, space);
+  const Control asked{0.3, 0.9, 0, 1};
+  ASSERT_GT(std::abs(leap.evident.y - asked.y), 0.1);
+  fly_as_fast(asked, leap);
+  for (std::size_t i = 0; i < std::size_t{3} * leap.begin + 3; ++i)
+    EXPECT_EQ(leap.clip.root_positions[i], clip.root_positions[i]);
+  const Control is = evident_control(leap.motion, clip.rate, leap.begin, leap.end, usual, space);
+  EXPECT_NEAR(is.x, asked.x, 1e-9);
+  EXPECT_NEAR(is.y, asked.y, 1e-9);
+  EXPECT_NEAR(leap.evident.y, asked.y, 1e-9);
+}
+
+TEST(MadeJumps, AreAsFastAndHighAsTheyAreAskedForWhereNoTakeJumps) {
+  const Kinematics kinematics(humanoid());
+  const ControlSpace space(1.2, 3, 1.2, standard_scale(kinematics.skeleton()));
+  const std::vector<Clip> clips{surging_walk(), make_clip(humanoid(), gait_clip({0, 0, 0}))};
+  FragmentPool pool = gait_pool(clips, 1, {}, &space);
+  synthesize(pool, space, usual_height({body_motion(kinematics, clips[0]), body_motion(kinematics, clips[1])}));
+  const Coverage is = coverage(pool.fragments, space);
+  for (int c = 0; c < space.size(); ++c) {
+    const Control& asked = space.point(c);
+    if (asked.jumps() && std::abs(asked.speed() - space.walk()) < 0.01)
+      EXPECT_LE(is.distances[c], kPerformed) << asked.x << " " << asked.y << " " << asked.turn;
+  }
 }
 
 }  // namespace

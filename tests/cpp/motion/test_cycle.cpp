@@ -28,6 +28,20 @@ TEST(Cycle, IsFoundWithItsLastPoseTwiceOrOnce) {
   EXPECT_EQ(cycle_of(kinematics, part(closed, 0, 29)), 30);
 }
 
+// Of motion capture, whose steps are small, no end is as near to the beginning as the next frame.
+TEST(Cycle, IsOneAtAnyFrameRate) {
+  const Kinematics kinematics(humanoid());
+  Gait off = kRound;
+  off.seconds = 0.98;
+  for (const double rate : {24.0, 30.0, 60.0, 120.0}) {
+    off.rate = rate;
+    EXPECT_NE(cycle_of(kinematics, gait_clip(off)), 0) << rate;
+    off.seconds = 0.9;
+    EXPECT_EQ(cycle_of(kinematics, gait_clip(off)), 0) << rate;
+    off.seconds = 0.98;
+  }
+}
+
 TEST(Cycle, IsNoneOfWhatEndsOtherwise) {
   const Kinematics kinematics(humanoid());
   EXPECT_EQ(cycle_of(kinematics, part(gait_clip(kRound), 0, 20)), 0);

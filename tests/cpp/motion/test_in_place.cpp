@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "io/asf_amc.hpp"
 #include "io/bvh.hpp"
@@ -160,6 +162,22 @@ TEST(FeetWay, IsNoneWhileThePoseIsHeld) {
   EXPECT_EQ(without_held_end(held).frames, clip.frames);
 }
 
+// A drawn foot may go back faster, or slower, for a moment as it comes down: it stands for longer than that.
+TEST(FeetWay, IsNotToldByASlapOfTheFeetAtAnyFrameRate) {
+  const Kinematics kinematics(humanoid());
+  for (const double rate : {24.0, 30.0, 60.0, 120.0}) {
+    const Gait gait{0, 1.2, 0, 4, rate};
+    Clip clip = on_the_spot(kinematics.skeleton(), gait_clip(gait));
+    for (int f = 0; f < clip.frames; ++f) {  // the body back by 12 cm as each foot comes down, slowly forth again
+      const double steps = 2 * f / gait.rate / gait.cycle, part = steps - std::floor(steps);
+      clip.root_positions[std::size_t{3} * f + 1] += 0.12 * (part < 0.12 ? -part / 0.12 : (part - 1) / 0.88);
+    }
+    const auto way = find_feet_way(kinematics, clip);
+    ASSERT_TRUE(way);
+    EXPECT_NEAR(way->mean.y() / (1.2 - 0.12 / 0.44), 1, 0.02) << rate;
+  }
+}
+
 // Nothing but where the body faces tells forth from back.
 TEST(FeetWay, OfLegsOfASingleBoneLeadsAheadAsFarAsTheyOpen) {
   const Kinematics kinematics(stilts());
@@ -200,6 +218,72 @@ Clip on_a_treadmill(const Skeleton& skeleton, const Clip& clip, int frames, doub
     for (int axis = 0; axis < 2; ++axis) part.root_positions[std::size_t{3} * f + axis] -= f * step[axis];
   }
   return make_clip(skeleton, std::move(part));
+}
+
+// Every so many-th frame.
+Clip thinned(const Skeleton& skeleton, const Clip& clip, int step) {
+  Clip thin{clip.name, clip.rate / step, 0, {}, {}, {}};
+  const std::ptrdiff_t values = std::ptrdiff_t{4} * skeleton.size();
+  for (int f = 0; f < clip.frames; f += step, ++thin.frames) {
+    const auto root = clip.root_positions.begin() + std::ptrdiff_t{3} * f;
+    thin.root_positions.insert(thin.root_positions.end(), root, root + 3);
+    const auto pose = clip.rotations.begin() + values * f;
+    thin.rotations.insert(thin.rotations.end(), pose, pose + values);
+  }
+  return make_clip(skeleton, std::move(thin));
+}
+
+// A clip's speed is not that of its frames: a file keeps 24 or 30 of them, motion capture 60 or 120.
+TEST(FeetWay, IsTheSameAtAnyFrameRate) {
+  for (const double speed : {0.7, 1.2, 3.0}) {
+    std::vector<double> told;
+    for (const double rate : {24.0, 30.0, 60.0, 120.0}) {
+      const Kinematics kinematics(humanoid());
+      const auto way = find_feet_way(kinematics, on_the_spot(kinematics.skeleton(), gait_clip({0, speed, 0, 3, rate})));
+      ASSERT_TRUE(way);
+      told.push_back(way->mean.norm());
+    }
+    for (const double each : told) EXPECT_NEAR(each / told.back(), 1, 0.02) << speed;
+  }
+}
+
+// The stride that closes best, of those which end in a frame of every rate.
+Clip stride_of(const Skeleton& skeleton, const Clip& clip, double& speed) {
+  const Kinematics kinematics(skeleton);
+  double nearest = std::numeric_limits<double>::infinity();
+  Clip best;
+  for (int begin = 0; begin + 161 <= clip.frames; begin += 4) {
+    for (const int frames : {100, 120, 140}) {
+      const Clip stride = part(clip, begin, begin + frames);
+      const Clip ends = make_clip(skeleton, thinned(skeleton, stride, frames));
+      PosedBones one(kinematics.bones()), other(kinematics.bones());
+      world(kinematics, ends, 0, one.heads.data(), one.rotations.data());
+      world(kinematics, ends, 1, other.heads.data(), other.rotations.data());
+      double gap = 0;
+      for (int b = 0; b < kinematics.bones(); ++b)
+        gap += ((other.heads[b] - other.heads[0]) - (one.heads[b] - one.heads[0])).norm();
+      if (gap < nearest) nearest = gap, best = stride;
+    }
+  }
+  return on_a_treadmill(skeleton, best, best.frames, speed);
+}
+
+TEST(FeetWay, IsTheSameAtAnyFrameRateOfRealTakes) {
+  const std::filesystem::path cmu = shared_mocap() / "cmu";
+  if (files_in(cmu, ".amc").empty()) GTEST_SKIP() << "no motion capture beside the project";
+  for (const char* name : {"02_01.amc", "02_02.amc"}) {
+    const Take take = read_asf_amc(cmu / "02.asf", cmu / name);
+    double speed = 0;
+    const Clip still = stride_of(take.skeleton, clip_from_take(take.skeleton, take), speed);
+    std::vector<double> told;
+    for (const int step : {1, 2, 4, 5}) {
+      const auto way = find_feet_way(Kinematics(take.skeleton), thinned(take.skeleton, still, step));
+      ASSERT_TRUE(way) << name;
+      told.push_back(way->mean.norm());
+    }
+    for (const double each : told) EXPECT_NEAR(each / told.front(), 1, 0.02) << name;
+    EXPECT_NEAR(told.front() / speed, 1, 0.05) << name;
+  }
 }
 
 // A foot that leaves the ground rolls over its tip and slows down: it must not slow the body down.

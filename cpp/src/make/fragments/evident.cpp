@@ -18,6 +18,8 @@ double evident_jump(double rise) { return std::clamp((rise - kNoRise) / (kJumpRi
 
 }  // namespace
 
+double missing_rise(double jump) { return (1 - jump) * (kJumpRise - kNoRise); }
+
 BodyMotion body_motion(const Kinematics& kinematics, const Clip& clip) {
   std::vector<Vector3> center = center_of_mass(kinematics, clip);
   std::vector<bool> in_gait = gait_bounces(kinematics, clip, center);

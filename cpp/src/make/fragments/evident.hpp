@@ -9,6 +9,9 @@ namespace fragmotion {
 /// m of a 1.8 m character that the centre of mass rises over its usual height in a jump.
 constexpr double kJumpRise = 0.2;
 
+/// How much less it rises, m, where that is `jump` of a jump.
+double missing_rise(double jump);
+
 /// What Ev needs to know of a clip.
 struct BodyMotion {
   std::vector<Vector3> center;  ///< [frames] m: the centre of mass

@@ -16,6 +16,7 @@
 #include "fragments/distance.hpp"
 #include "fragments/gait_edit.hpp"
 #include "fragments/hip_turns.hpp"
+#include "fragments/leap.hpp"
 #include "fragments/speed_range.hpp"
 #include "fragments/standing.hpp"
 #include "fragments/successors.hpp"
@@ -230,7 +231,8 @@ class Synthesizer {
         lowest = std::min(lowest, clip.root_positions[std::size_t{3} * at + 2]);
       dips.push_back((usual - lowest) * space_.scale());
     }
-    if (!dips.empty()) dip_ = std::clamp(median(std::move(dips)), kLeastDip, kMostDip);
+    takes_jump_ = !dips.empty();
+    if (takes_jump_) dip_ = std::clamp(median(std::move(dips)), kLeastDip, kMostDip);
   }
 
   // What it costs a cycle's looks to be made to perform a control, if that is less than `most`. Whether it jumps makes
@@ -304,17 +306,20 @@ class Synthesizer {
     change.speed = faster / change.tempo;
     change.hips = hip_turns_.of(clip, gait.number, gait.begin, gait.end, change);
     const int beyond = tail(clip.rate * change.tempo);
-    const Hop hop = hop_at(control.speed());
-    const int whole = static_cast<int>(std::ceil(hop.seconds() * clip.rate * change.tempo));
-    const Clip made =
-        transformed(kinematics_, legs_, clip, gait.contacts, gait.begin, gait.end, length + whole + beyond, change);
+    const int most = length + beyond + frames_of(hop_at(control.speed(), missing_rise(0)), clip.rate * change.tempo);
+    const Clip made = transformed(kinematics_, legs_, clip, gait.contacts, gait.begin, gait.end, most, change);
     std::vector<int> ends;
     for (int piece = 0; piece <= pieces; ++piece) ends.push_back(length * piece / pieces);
     if (control.jump <= best->evident.jump) return add(part(made, 0, length + beyond), ends, Origin::transformed);
-    for (int piece = 0; piece < pieces; ++piece) {
-      Clip leap = landing_in_turn(part(made, ends[piece], made.frames - 1), gait, ends[piece], hop);
-      add_jump(part(leap, 0, std::min(leap.frames - 1, whole + beyond)), hop);
+    std::vector<double> higher(pieces, 0);
+    std::vector<Leap> leaps = leaping(made, gait, ends, control, higher);
+    if (!takes_jump_ &&
+        std::none_of(leaps.begin(), leaps.end(), [&](const Leap& leap) { return performs(leap, control); })) {
+      for (int piece = 0; piece < pieces; ++piece) higher[piece] = missing_rise(leaps[piece].evident.jump);
+      leaps = leaping(made, gait, ends, control, higher);
+      for (Leap& leap : leaps) fly_as_fast(control, leap);
     }
+    for (Leap& leap : leaps) add(std::move(leap.clip), leap.motion, {leap.begin, leap.end}, Origin::transformed);
   }
 
   // A gait that begins with frame `first` of a cycle, whose flight in a hop ends on the foot that did not take off:
@@ -326,19 +331,30 @@ class Synthesizer {
     return down < 0 ? clip : gait_in_flight(kinematics_, clip, take_off, take_off + flight, down - first);
   }
 
-  // Of a character that goes so fast.
-  Hop hop_at(double speed) const {
+  // Of a character that goes so fast, and so much higher than usual, m.
+  Hop hop_at(double speed, double higher) const {
     const double running = std::min(1.0, speed / space_.run());
-    return {kJumpHeight, dip_ * (1 + running * (kRunningDip - 1)), kSinking * (1 - running / 2), running};
+    return {kJumpHeight + higher, dip_ * (1 + running * (kRunningDip - 1)), kSinking * (1 - running / 2), running};
   }
 
-  // Adds a clip with a hop in it, whose flight is the fragment.
-  void add_jump(Clip clip, const Hop& hop) {
-    add_hop(kinematics_, legs_, clip, hop);
-    const auto frame = [&](double seconds) { return static_cast<int>(std::lround(seconds * clip.rate)); };
-    BodyMotion motion = body_motion(kinematics_, clip);
-    motion.in_gait.assign(clip.frames, false);
-    add(std::move(clip), motion, {frame(hop.crouch()), frame(hop.crouch() + hop.flight())}, Origin::transformed);
+  static int frames_of(const Hop& hop, double rate) { return static_cast<int>(std::ceil(hop.seconds() * rate)); }
+
+  bool performs(const Leap& leap, const Control& control) const {
+    return space_.distance(leap.evident, control) <= kPerformed;
+  }
+
+  // A hop from each piece of a gait on, so much higher than usual, m.
+  std::vector<Leap> leaping(const Clip& made, const Gait& gait, const std::vector<int>& ends, const Control& control,
+                            const std::vector<double>& higher) const {
+    std::vector<Leap> leaps;
+    for (std::size_t piece = 0; piece < higher.size(); ++piece) {
+      const Hop hop = hop_at(control.speed(), higher[piece]);
+      Clip clip = landing_in_turn(part(made, ends[piece], made.frames - 1), gait, ends[piece], hop);
+      clip = part(clip, 0, std::min(clip.frames - 1, frames_of(hop, clip.rate) + tail(clip.rate)));
+      add_hop(kinematics_, legs_, clip, hop);
+      leaps.push_back(leap_of(kinematics_, std::move(clip), hop, usual_, space_));
+    }
+    return leaps;
   }
 
   FragmentPool& pool_;
@@ -351,6 +367,7 @@ class Synthesizer {
   HipTurns hip_turns_;
   int originals_;
   std::vector<ClosedCycle> cycles_;
+  bool takes_jump_ = false;                         // then these show how high and fast
   double dip_ = kLeastDip;                          // m of a 1.8 m character that jumps on the spot
   std::map<int, Contacts> contacts_;                // of the clips that were transformed
   std::map<const ClosedCycle*, GaitSource> steps_;  // likewise

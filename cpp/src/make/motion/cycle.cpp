@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/rates.hpp"
 #include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
@@ -100,12 +101,13 @@ double mean_of(const std::vector<double>& steps) {
 }  // namespace
 
 int cycle_of(const Kinematics& kinematics, const Clip& clip) {
-  const int last = clip.frames - 1;
-  if (last < 2) return 0;
+  const int last = clip.frames - 1, span = std::max(1, static_cast<int>(std::lround(clip.rate / kPoseRate)));
+  if (last < 2 * span) return 0;
   const Poses poses(kinematics, clip);
-  const double begins = poses.distance(0, 1), ends = poses.distance(last - 1, last), gap = poses.distance(last, 0);
-  if (gap > std::max(begins, ends) || std::max(begins, ends) == 0) return 0;
-  return gap <= kSame * std::min(begins, ends) ? last : clip.frames;
+  const double gap = poses.distance(last, 0);
+  const double most = std::max(poses.distance(0, span), poses.distance(last - span, last));
+  if (gap > most || most == 0) return 0;
+  return gap <= kSame * std::min(poses.distance(0, 1), poses.distance(last - 1, last)) ? last : clip.frames;
 }
 
 Clip unrolled(const Kinematics& kinematics, const Clip& clip, int period, int count) {

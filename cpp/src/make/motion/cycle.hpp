@@ -7,7 +7,7 @@ namespace fragmotion {
 
 /// The frames after which a clip begins again: one less than it has where the last shows the first's pose once more,
 /// as many where the first would be the next. 0 where the clip is no cycle: its ends, seen from their character frames,
-/// are farther apart than the steps beside them.
+/// are farther apart than what a thirtieth of a second changes beside them.
 int cycle_of(const Kinematics& kinematics, const Clip& clip);
 
 /// Frames 0 .. `count` - 1 of the clip that goes round and round, `period` as of cycle_of(): each round begins where

@@ -16,12 +16,13 @@ struct FeetWay {
 };
 
 /// The way of a clip on the spot; nothing where the hips travel or the feet do not tread, and where the skeleton has
-/// not two feet. A foot that stands is still, so the body goes as the sole on the ground goes back; of what is low
-/// enough and goes back level the fastest tells, as nothing of a foot goes back over the ground. What rises or falls
-/// is a foot that lands or leaves, as is what would ask for more grip than the body's weight gives (a change of
-/// velocity of 9.81 m/s^2). In a flight the velocity goes from what it was to what it will be. Of a cycle (cycle_of())
-/// the ends are each other's neighbours. Where rigid legs pass each other, as low the one as the other, the body goes
-/// where it faces, in each step as far as they open.
+/// not two feet. A foot that stands is still, so the body goes as the sole on the ground goes back: about as fast as
+/// most of what is low and level does (steadiest_speed()), for drawn feet may slap the ground or drag over it, and of
+/// what goes so the fastest tells, as nothing of a foot goes back over the ground. What goes slower than the grip of
+/// the body's weight allows (a change of velocity of 9.81 m/s^2) is a foot that lands or leaves. In a flight the
+/// velocity goes from what it was to what it will be. Of a cycle (cycle_of()) the ends are each other's neighbours.
+/// Where rigid legs pass each other, as low the one as the other, the body goes where it faces, in each step as far as
+/// they open. The frame rate tells nothing (Treading).
 std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& clip);
 
 /// [frames] where the way takes the clip's place: what was at x and y is at frame.position + R(frame.heading) (x, y).
