@@ -278,6 +278,23 @@ TEST(RoleMap, AFootOnWhichNothingHangsGivesWayToTheOneBesideIt) {
   }
 }
 
+TEST(RoleMap, HipsBesideATorsoGiveWayToWhatCarriesBoth) {
+  Skeleton skeleton = Humanoid(family_named("Unreal")).skeleton;
+  const int torso = skeleton.find("pelvis"), hips = torso + 1;
+  const auto insert = [&](auto& of_each, const auto& what) { of_each.insert(of_each.begin() + hips, what); };
+  for (int& parent : skeleton.parents) parent += parent >= hips;
+  insert(skeleton.parents, torso);
+  insert(skeleton.offsets, Vector3{Vector3::Zero()});
+  insert(skeleton.rest_rotations, Quaternion{Quaternion::Identity()});
+  insert(skeleton.tips, Vector3{skeleton.tips[torso]});
+  insert(skeleton.names, std::string("pelvis"));
+  skeleton.names[torso] = "torso";
+  for (const std::string thigh : {"thigh_l", "thigh_r"}) skeleton.parents[skeleton.find(thigh)] = hips;
+  const Names named = named_bones(skeleton, find_role_map(skeleton));
+  EXPECT_EQ(named.at("hips"), "torso");
+  EXPECT_EQ(named.at("left_thigh"), "thigh_l");
+}
+
 TEST(RoleMap, AFootThatCarriesNoSkinGivesWayToTheOneBesideItThatDoes) {
   Skeleton skeleton = Humanoid(family_named("Unreal")).skeleton;
   for (const std::string side : {"l", "r"}) {  // with toes of its own, as a chain of controls has them

@@ -213,10 +213,11 @@ void find_hips(const BodyTree& tree, BodyJoints& body) {
   } else if (named >= 0 && score >= 2) {  // told only where a leg hangs on them
     const bool carries = std::any_of(body.legs.begin(), body.legs.end(),
                                      [&](const Limb& leg) { return tree.is_below(leg.bones[Limb::kEnd], named); });
-    if (carries) {
-      body.hips = named, body.hips_confidence = 0.6;
-    } else if (carrier >= 0 && tree.parents[named] == carrier) {  // a pelvis beside the legs is a part of the spine
+    const bool hangs = carrier >= 0 && tree.parents[named] == carrier;
+    if (hangs && (!carries || tree.parents[carrier] >= 0)) {  // beside the legs or the torso they do not move the body
       body.hips = carrier, body.hips_confidence = 0.8;
+    } else if (carries) {
+      body.hips = named, body.hips_confidence = 0.6;
     }
   } else {
     body.hips = carrier >= 0 ? carrier : named;
