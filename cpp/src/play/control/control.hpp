@@ -55,6 +55,9 @@ struct ControlWeights {
   double jump = 4;
 };
 
+/// ControlDis between controls that is "a lot" (Sec. 3.3): what was decided on is decided anew.
+constexpr double kChange = 1;
+
 /// What can be asked for (Sec. 4): the points of a layout at a character's own speeds and turn rate. The default is the
 /// paper's, of 102 points (Fig. 4).
 class ControlSpace {

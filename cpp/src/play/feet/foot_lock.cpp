@@ -22,7 +22,6 @@ constexpr double kComesToRest = 0.02;  // s: time constant of a foot that comes 
 constexpr double kSoftGround = 0.006;  // m: a foot sinks in at most half of that
 constexpr double kHovers = 0.015;      // m over the floor from where a planted foot is lowered
 constexpr double kFollows = 0.05;      // s: time constant of a foot that is lowered or lifted, and of a heel that rises
-constexpr double kLevel = 1e-4;        // rad, below which nothing is seen of it
 constexpr double kPatience = 0.3;      // s that both feet stand before one steps to where its motion has it
 constexpr double kAstray = 0.07;       // m from its motion at least, for a foot to step there rather than slide
 constexpr double kStepHeight = 0.04;   // m
@@ -135,7 +134,7 @@ void FootLock::raise_heel(int side, const Vector3& ball, double follows, Vector3
   const Vector3 from_ball = ankle - ball, hip = posed.heads[leg.thigh] - ball;
   const double lacks = foot.locked ? rise_to_reach(hip, from_ball, longest(leg, posed)) : 0;
   foot.raised += follows * (std::min(lacks, kHighestHeel) - foot.raised);
-  if (foot.raised < kLevel) return;
+  if (foot.raised < kFloatRounding) return;
   const Quaternion turn{Eigen::AngleAxisd(foot.raised, heel_axis(from_ball))};
   ankle = ball + turn * from_ball;
   turn_foot(body_->kinematics.skeleton(), leg, turn, Quaternion::Identity(), posed, rotations);

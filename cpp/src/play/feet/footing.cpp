@@ -12,13 +12,10 @@ namespace fragmotion {
 namespace {
 
 const double kSteepest = std::tan(35 * kPi / 180);  // that a foot is turned
-constexpr double kLeastNormal = 1e-100;             // length of one
 
 // Squares of a normal's length are numbers that it can be divided by, and heights are still told apart.
 bool is_ground(const GroundPoint& point) {
-  const double length = point.normal.cwiseAbs().maxCoeff();
-  return std::abs(point.height) <= kFarthestPlace && point.normal.allFinite() && length >= kLeastNormal &&
-         length <= 1 / kLeastNormal;
+  return std::abs(point.height) <= kFarthestPlace && std::isnormal(point.normal.squaredNorm());
 }
 
 // How much ground of this normal rises along x and y.

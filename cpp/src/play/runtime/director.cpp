@@ -11,11 +11,6 @@
 #include "motion/contacts.hpp"
 
 namespace fragmotion {
-namespace {
-
-constexpr double kChange = 1;  // ControlDis between controls that is "a lot"
-
-}  // namespace
 
 Director::Director(const Character& character, const Policy& policy, double responsiveness)
     : character_(&character), policy_(&policy) {

@@ -16,7 +16,6 @@ constexpr double kTurnsIn =
     0.5;  // s: a person's head takes so long (W. Zangemeister, L. Stark, Exp. Neurology 77, 1982)
 constexpr double kSeenAhead =
     1;  // s: walkers look where they are then (A. Patla, J. Vickers, Exp. Brain Research 148, 2003)
-constexpr double kSlowest = 1e-3;            // rad/s, of a head that never turns in its takes
 constexpr double kRightBehind = 0.75 * kPi;  // rad: from there on it is over the shoulder that was looked over already
 
 }  // namespace
@@ -70,7 +69,7 @@ std::optional<Gaze::Angles> Gaze::wanted(const Seen& seen, const Control& comman
 }
 
 double Gaze::fastest() const {
-  return std::max(kSlowest, kTurnsAtMost * static_cast<double>(workspace_->fastest_looks.back()));
+  return std::max(kFloatRounding, kTurnsAtMost * static_cast<double>(workspace_->fastest_looks.back()));
 }
 
 // What is shown is so far from what is wanted.

@@ -18,7 +18,7 @@ class Moment {
 
   /// Whether the moment is to be found (again): none is known, or it was for another control.
   bool needs_plan(const Control& control, const ControlSpace& space) const {
-    return !planned_ || (begins_in_ > 0 && space.distance(control, planned_for_) > kOtherwise);
+    return !planned_ || (begins_in_ > 0 && space.distance(control, planned_for_) > kChange);
   }
   /// The moment is in `seconds`, under this control.
   void plan(double seconds, const Control& control) {
@@ -38,8 +38,6 @@ class Moment {
 
  private:
   friend struct PlayerState;
-
-  static constexpr double kOtherwise = 0.5;  // ControlDis to the control that was planned for that makes a plan void
 
   explicit Moment(double patience) : patience_(patience) {}
 

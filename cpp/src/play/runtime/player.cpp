@@ -16,8 +16,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kMiddle = 0.2;  // s from now to that of a fragment that begins soon
-
 double within_one(double value, const char* name) {
   if (value >= 0 && value <= 1) return value;
   throw std::invalid_argument(std::string("the ") + name + " must be 0 to 1");
@@ -245,7 +243,7 @@ double Player::advance(const Control& control, double most) {
 }
 
 double Player::advance_by_policy(const Control& control, double most) {
-  const Control soon = governor_.command(control, frame().heading, most + kMiddle);
+  const Control soon = governor_.command(control, frame().heading, most + kSoon);
   const bool changes = !(soon.x == control.x && soon.y == control.y) && !playback_.is_in_the_air();
   if (director_.is_due(soon, changes, playback_, selector_)) go_on(soon);
   const double tempo = governor_.tempo(), played = director_.until_due(playback_, most * tempo), part = played / tempo;

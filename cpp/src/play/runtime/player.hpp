@@ -21,6 +21,8 @@ class GroundFollower;
 
 /// Seconds that a stitch takes, unless told: a crossfade all, inertialization most of its way (inertialization.hpp).
 constexpr double kStitch = 0.2;
+/// s from now to the middle of a fragment that begins soon: what is asked for then is what it is to do.
+constexpr double kSoon = 0.2;
 
 struct PlayerOptions {
   std::uint64_t seed = 1;

@@ -6,11 +6,6 @@
 #include "runtime/plan_moment.hpp"
 
 namespace fragmotion {
-namespace {
-
-constexpr double kAhead = 0.25;  // s by which the command at a move's end is that of later
-
-}  // namespace
 
 void Player::make_extras(const PlayerOptions& options) {
   if (character_->moves.empty() && character_->style_count() == 1) return;
@@ -128,7 +123,7 @@ void Player::resume(const Control& control) {
   const double heading = frame().heading;
   if (waiting_style() >= 0) set_style(waiting_style());
   governor_.resume(heading, playback_.velocity());
-  enter_best_class(director_.wanted(governor_.command(control, heading, kAhead)));
+  enter_best_class(director_.wanted(governor_.command(control, heading, kSoon)));
 }
 
 void Player::enter_best_class(const Control& wanted) {

@@ -11,7 +11,6 @@ namespace fragmotion {
 namespace {
 
 constexpr double kSetOff = 0.15;              // of what balances it that the feet are set off for a body's acceleration
-constexpr double kStriding = 0.3;             // s: time constant of the steps'
 constexpr double kLonger = kTurnsAtMost - 1;  // of a step at most, as legs swing that much faster for it
 
 }  // namespace
@@ -51,7 +50,7 @@ void PoseCorrection::edit_steps(const Control& evident, const RootGovernor& gove
       goes ? Matrix2{governor.velocity() * velocity.transpose() / (governor.tempo() * velocity.squaredNorm())}
            : Matrix2{Matrix2::Zero()};
   const double most = std::min(1.0, kLonger / std::max(kLonger, wanted.norm()));
-  const double strode = filtered(seconds, kStriding);
+  const double strode = filtered(seconds, FootLock::kRelease);
   steps_.stride += strode * (most * wanted - steps_.stride);
   const Vector2 behind = -kSetOff * workspace_->shown.root.z() / kGravity * lean_.acceleration();
   steps_.shift += strode * (behind - steps_.shift);

@@ -15,7 +15,6 @@ constexpr double kHandSpeed = 2;    // m/s at the most, of a 1.8 m character who
 // Of an arm's length: from where the trunk helps (L. Mark et al., J. Exp. Psychology: HPP 23, 1997); and from where to
 // where a hand gives up what is too far away.
 constexpr double kHelps = 0.9, kGivesUp = 1.4, kGone = 2.2;
-constexpr double kSoftly = 0.1;               // of an arm's length, within which the trunk begins to help
 constexpr double kMostLean = 20 * kPi / 180;  // a quarter of what trunks bend (AAOS, Joint Motion, 1965)
 constexpr double kBehind = 30 * kPi / 180;    // beyond what a shoulder lets reach: within it a hand gives up
 // rad/s: twice as fast as a whole reach at its fastest, from beside the body to over the head, and as fast as a lean.
@@ -135,7 +134,7 @@ Vector3 Reaching::wanted_lean(const Goals& goals) const {
                   way = goals[side]->place - posed.heads[arm.upper];
     const double over = way.norm() - kHelps * length;
     if (over <= 0 || from.norm() < kFloatRounding) continue;
-    const double eased = over * over / (over + kSoftly * length);
+    const double eased = over * over / (over + (1 - kHelps) * length);
     const double angle = kMostLean * (1 - std::exp(-eased / (kMostLean * from.norm())));
     turn += goals[side]->weight * angle * from.normalized().cross(way.normalized());
   }

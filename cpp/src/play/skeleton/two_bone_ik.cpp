@@ -11,18 +11,15 @@ namespace fragmotion {
 namespace {
 
 constexpr double kStretched = 0.995;  // of a leg's length: what it reaches at most, unless it does already
-constexpr double kSoft = 0.03;        // of a leg's length, below that: where it follows less
 constexpr double kStraight = 0.1;     // rad: a knee that is bent less than that resists being bent backward
 constexpr double kFolded = 2.5;       // rad: a knee that is bent more resists being folded up
 constexpr double kNear = 0.02;  // of a leg's length: wanted so near to where it is, a foot may go as the knee does
 
 const double kBendsWell = std::cos(kStraight), kFoldsWell = std::cos(kFolded);
 
-constexpr double kTires = kStretched - kSoft;  // of a leg's length: from where it follows less
-static_assert(kArmReach <= kTires);
-
 double softly(double distance) {
-  return distance < kTires ? distance : kTires + kSoft * (1 - std::exp((kTires - distance) / kSoft));
+  const double rest = kStretched - kTires;
+  return distance < kTires ? distance : kTires + rest * (1 - std::exp((kTires - distance) / rest));
 }
 
 // How far apart the ends of a leg come that are `now` apart and would be `wanted`, all in lengths of the leg. Where

@@ -12,6 +12,9 @@ namespace fragmotion {
 /// m of a 1.8 m character: a bone of a leg that is shorter has no direction.
 constexpr double kShortestLegBone = 1e-3;
 
+/// Of the length of a leg or an arm: so far it reaches as it is asked to, and beyond that it follows ever less.
+constexpr double kTires = 0.965;
+
 /// A leg by its roles: any chain of bones below the hips, from a thigh of its own to a foot, with a joint between them.
 /// `knee` is -1 where there is none, `toe` where none hangs from the foot. The foot of a leg that ends without one is
 /// the shin, which begins at the knee, and `ankle` the way to its end.
@@ -98,12 +101,11 @@ Vector3 palm(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed);
 double arm_length(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed);
 
 /// Two-bone inverse kinematics as that of a leg, but that the hand goes along with the forearm: the palm comes to
-/// `place`. Up to kArmReach of its length it is there; beyond, it follows ever less. The arm swings by way of
+/// `place`. Up to kTires of its length it is there; beyond, it follows ever less. The arm swings by way of
 /// `halfway`, a direction, so that the elbow is where it is of an arm that is raised so. An elbow that is bent backward
 /// stays so by as much as `weight` is below 1.
 void reach(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed, const Vector3& place, double weight,
            const Vector3& halfway, double* rotations);
-constexpr double kArmReach = 0.965;
 
 /// How far the ends of a leg may be from each other, m.
 struct Reach {
