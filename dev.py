@@ -36,7 +36,7 @@ def parse_arguments(arguments: list[str]) -> argparse.Namespace:
     commands = parser.add_subparsers(dest="command", required=True)
     commands.add_parser("demo", help="from motion capture to a baked, controlled Action in Debian's Blender")
     test = commands.add_parser(
-        "test", help="style, C++, Python and the add-on in Debian's Blender, but for the slowest tests"
+        "test", help="style, C++, Python, and whether the add-on runs in Debian's Blender, but for the slowest tests"
     )
     test.add_argument("stages", nargs="*", metavar="STAGE", help=_STAGES_HELP)
     test.add_argument("-k", dest="expression", metavar="EXPR", help="only the tests that match, as pytest's -k")

@@ -30,6 +30,8 @@ from tools.measuring.peers.motion_matching.constants import Constants, load
 from tools.measuring.peers.motion_matching.library import floors_of
 from tools.shell import Failure
 
+pytestmark = pytest.mark.thorough
+
 PLAYERS = ("walker", "circler")
 
 
@@ -188,7 +190,6 @@ def result(made: Setting, folder: Path) -> dict[str, Any]:
         return json.loads(json.dumps(found, allow_nan=False))  # type: ignore[no-any-return]
 
 
-@pytest.mark.thorough
 def test_every_row_of_every_system_is_filled(result: dict[str, Any]) -> None:
     table = beside_table(result)
     names = [row.name for row in ROWS if "limited" not in row.name]
@@ -202,7 +203,6 @@ def test_every_row_of_every_system_is_filled(result: dict[str, Any]) -> None:
     assert result["takes"]["unlikeness"] == 1 and result["takes"]["foot_skate_ratio"] == pytest.approx(1)
 
 
-@pytest.mark.thorough
 def test_tuning_keeps_the_best(made: Setting, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tuning, "_SECONDS", 4.0)
     monkeypatch.setattr(tuning, "_PLAYERS", ("walker",))

@@ -329,6 +329,7 @@ def test_any_number_of_threads_says_the_same(takes: list[core.Take]) -> None:
     assert one == two
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(os.name == "nt", reason="Windows tells in no file how much memory is used")
 @pytest.mark.parametrize("fault", ["none", "flips and feet"])
 def test_a_long_take_is_not_copied(walk: core.Take, fault: str) -> None:

@@ -243,17 +243,19 @@ def blender_52(expression: str | None) -> Counts:
 
 
 def blender_debian(expression: str | None, part: Part = Part.ALL) -> Counts:
-    """The add-on's tests in Debian's Blender (3.4.1 on Debian 12, 4.3 on 13), with pytest inside it."""
-    options = _marked(part, "not measures")
-    arguments = [machine.PYTEST_FOLDER, *_pytest_arguments("blender-debian", expression, _BLENDER_TESTS, *options)]
+    """The add-on's tests in Debian's Blender (3.4.1 on Debian 12, 4.3 on 13), with pytest inside it; the quick ones are
+    whether it runs."""
+    is_quick = part is Part.QUICK
+    tests = [TOP / "tests" / name for name in _SHORT] if is_quick else [_BLENDER_TESTS]
+    options = _NOT_THOROUGH if is_quick else ("-m", "not measures")
+    arguments = [machine.PYTEST_FOLDER, *_pytest_arguments("blender-debian", expression, *tests, *options)]
     command = blender.background_command(_BLENDER_TESTS / "run_in_blender.py", *arguments)
     return _counted(command, "blender-debian", _debian("blender-debian", part), expression)
 
 
-def _marked(part: Part, *more: str) -> tuple[str, ...]:
-    """pytest's options for a part of the tests that `more` marks select."""
-    marks = " and ".join((*more, *filter(None, [_MARKS.get(part)])))
-    return ("-m", marks) if marks else ()
+def _marked(part: Part) -> tuple[str, ...]:
+    """pytest's options for a part of the tests."""
+    return ("-m", _MARKS[part]) if part in _MARKS else ()
 
 
 def windows_python(expression: str | None) -> Counts:
