@@ -81,6 +81,7 @@ _THOROUGH = (
     "GroundFollower.GoesTheSameWayOnTheSlopeAndIsTheSameEveryTime",
     "GroundFollower.ShowsOnLevelGroundToTheBitWhatIsShownWithoutGround",
     "KeepClear.KeepsTwoHundredOnASquareApart",
+    "KeepClear.LeavesNoAreaAndComesBackToIt",
     "MakeWay.LetsNobodyTouchAnotherWhoDoesAsIsSaid",
     "Mirror.ReflectsRealTakesWithinTheBonesAsymmetry",
     "MotionMetrics.FindsLessSkateWhereFeetAreLocked",
