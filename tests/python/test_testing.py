@@ -52,7 +52,7 @@ def test_all_runs_every_stage_whole(ran: list[tuple[str, Part]]) -> None:
 
 def test_the_rest_has_what_the_quick_tests_leave_out_of_their_stages(ran: list[tuple[str, Part]]) -> None:
     assert testing.run_tests(["rest"], None) == 0
-    assert {"cpp", "python", "blender-debian", "sanitize", "gui", "game"} < {name for name, _ in ran}
+    assert {"cpp", "python", "blender-debian", "sanitize", "gui", "game"} <= {name for name, _ in ran}
     assert {part for _, part in ran} == {Part.REST}
 
 

@@ -66,22 +66,14 @@ def legacy_path(platform: Platform, folder: Path = PACKAGES) -> Path:
 
 def build_for_debian(folder: Path = _HERE) -> Path:
     """The zip that Debian's Blender takes, its core built by this machine's compiler for the Python of that Blender."""
-    return _build_here(blender.debian_python(), blender.takes_extensions(), folder)
-
-
-def build_here(python: str) -> Path:
-    """The extension with a core for one Python alone, built by this machine's compiler."""
-    return _build_here(python, True, _HERE / python)
-
-
-def _build_here(python: str, is_extension: bool, folder: Path) -> Path:
     with _BUILDING:
-        return _built_here(python, is_extension, folder)
+        return _built_for_debian(folder)
 
 
 @cache
-def _built_here(python: str, is_extension: bool, folder: Path) -> Path:
-    build_kind = build_extension if is_extension else build_legacy
+def _built_for_debian(folder: Path) -> Path:
+    python = blender.debian_python()
+    build_kind = build_extension if blender.takes_extensions() else build_legacy
     return build_kind(LINUX, {python: wheel(python)}, folder)
 
 

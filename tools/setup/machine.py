@@ -77,7 +77,7 @@ FUZZ = BUILD_HOST | Needs(_CLANG_PACKAGES)
 PYTHON_TESTS = BUILD_HOST | Needs((), {HOST: ("cma", "numpy", "pytest", "scikit-learn", "scipy", "matplotlib")})
 GAME_TESTS = PYTHON_TESTS | CPP_TESTS
 PACKAGE_TESTS = package_needs(TESTED_PLATFORMS)
-BLENDER_45 = BUILD_HOST | build_needs("3.11") | Needs(_BPY_PACKAGES, {"3.11": ("bpy==4.5.*", "numpy", "pytest")})
+BLENDER_45 = BUILD_HOST | Needs(_BPY_PACKAGES, {"3.11": ("bpy==4.5.*", "numpy", "pytest")})
 BLENDER_52 = BUILD_HOST | Needs(_BPY_PACKAGES, {"3.13": ("bpy==5.2.*", "numpy", "pytest")})
 DEMO = BUILD_HOST | build_needs(SYSTEM) | Needs(_BLENDER_PACKAGES)
 BLENDER_DEBIAN = DEMO | Needs(pytest_folder=True)

@@ -50,7 +50,7 @@ STAGES = {
     "windows": Stage(_whole(stages.windows_python), lambda: machine.WINDOWS_45, ("package",)),
     "windows-4.5": Stage(_whole(stages.windows_45), lambda: machine.WINDOWS_45, ("package",)),
     "windows-5.2": Stage(_whole(stages.windows_52), lambda: machine.WINDOWS_52, ("package",)),
-    "blender-4.5": Stage(stages.blender_45, lambda: machine.BLENDER_45, ("package",), _REST),
+    "blender-4.5": Stage(_whole(stages.blender_45), lambda: machine.BLENDER_45, ("package",)),
     "blender-5.2": Stage(_whole(stages.blender_52), lambda: machine.BLENDER_52, ("package",)),
     "blender-debian": Stage(stages.blender_debian, lambda: machine.BLENDER_DEBIAN, ("package",), _BOTH),
     "game": Stage(_whole(stages.game), lambda: machine.GAME_TESTS, parts=_REST),
