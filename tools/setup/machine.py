@@ -75,7 +75,7 @@ TIDY = CPP_TESTS | Needs((), {HOST: ("clang-tidy==23.1.4",)})
 SANITIZED_TESTS = CPP_TESTS | Needs(_CLANG_PACKAGES)
 FUZZ = BUILD_HOST | Needs(_CLANG_PACKAGES)
 PYTHON_TESTS = BUILD_HOST | Needs((), {HOST: ("cma", "numpy", "pytest", "scikit-learn", "scipy", "matplotlib")})
-GAME_TESTS = PYTHON_TESTS | CPP_TESTS
+GAME_TESTS = PYTHON_TESTS | CPP_TESTS | Needs(_CLANG_PACKAGES, {HOST: cross.REQUIREMENTS})
 PACKAGE_TESTS = package_needs(TESTED_PLATFORMS)
 BLENDER_45 = BUILD_HOST | Needs(_BPY_PACKAGES, {"3.11": ("bpy==4.5.*", "numpy", "pytest")})
 BLENDER_52 = BUILD_HOST | Needs(_BPY_PACKAGES, {"3.13": ("bpy==5.2.*", "numpy", "pytest")})
