@@ -93,6 +93,6 @@ def _said_aside() -> Iterator[None]:
         yield
     finally:
         sys.stdout.flush()
-        ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None).fflush(None)  # C's own buffer, which importers fill
+        ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None).fflush(None)  # C's own, which importers print to
         os.dup2(kept, 1)
         os.close(kept)
