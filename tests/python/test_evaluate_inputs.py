@@ -24,7 +24,8 @@ from tools.paths import TOP
 pytest_plugins = ["evaluated"]
 
 
-@pytest.mark.thorough  # among which bpy is installed
+@pytest.mark.thorough
+@pytest.mark.bpy
 def test_the_sample_rigs_actions_are_takes() -> None:
     """In a process of its own: bpy is no neighbour for other tests."""
     if find_spec("bpy") is None:

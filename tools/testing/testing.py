@@ -45,7 +45,7 @@ STAGES = {
     "style": Stage(_whole(stages.style_checks), lambda: machine.STYLE, parts=(Part.QUICK,)),
     "python": Stage(stages.python, lambda: machine.PYTHON_TESTS, parts=_BOTH),
     "package": Stage(_whole(stages.package), lambda: machine.PACKAGE_TESTS),
-    "sanitize": Stage(_whole(stages.sanitize), lambda: machine.SANITIZED_TESTS, parts=_REST),
+    "sanitize": Stage(stages.sanitize, lambda: machine.SANITIZED_TESTS, parts=_REST),
     "gui": Stage(stages.gui, lambda: machine.GUI if stages.gui_tests() else machine.Needs(), ("package",), _REST),
     "windows": Stage(_whole(stages.windows_python), lambda: machine.WINDOWS_45, ("package",)),
     "windows-4.5": Stage(_whole(stages.windows_45), lambda: machine.WINDOWS_45, ("package",)),

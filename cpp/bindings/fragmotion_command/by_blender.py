@@ -4,6 +4,7 @@ them with does it: of the add-on that this package is part of, or of the wheel, 
 
 from __future__ import annotations
 
+import ctypes
 import os
 import sys
 from collections.abc import Iterator
@@ -92,5 +93,6 @@ def _said_aside() -> Iterator[None]:
         yield
     finally:
         sys.stdout.flush()
+        ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None).fflush(None)  # C's own, which importers print to
         os.dup2(kept, 1)
         os.close(kept)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import math
 import statistics
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, Union
@@ -18,11 +19,12 @@ ABOUT = (
     "than its spread, or, of what is told by frames or counted, the least that can be told: "
     "tests/python/test_quality.py. `python3 -m tools.measuring.quality` compares; with --write 'why' it writes this "
     "anew, and under `lowered` each bar that is lower than it was, and why. A bar is the worst mean that passes; of a "
-    "figure that is best at a value, how far from that it may be."
+    "figure that is best at a value, how far from that it may be; of a ratio that is best at 1, its greatest "
+    "|logarithm| (up to flight_time_ratio's row: how far from 1 it may be)."
 )
-LESS, MORE = "less is better", "more is better"
+LESS, MORE, LIKE = "less is better", "more is better", "best at 1"
 Better = Union[str, float]
-"""LESS, MORE, or the value that is best."""
+"""LESS, MORE, LIKE (a ratio over what it is to be: twice of it is as bad as half of it), or the value that is best."""
 
 WORSE: Mapping[str, Better] = {
     "percent_of_optimal": MORE,
@@ -52,26 +54,26 @@ WORSE: Mapping[str, Better] = {
     "yaw_acceleration_p99": LESS,
     "yaw_acceleration_p999": LESS,
     "yaw_acceleration_max": LESS,
-    "jump_dip_ratio": 1.0,
-    "landing_dip_ratio": 1.0,
-    "flight_time_ratio": 1.0,
-    "speed_ripple_ratio": 1.0,
-    "bob_ratio": 1.0,
+    "jump_dip_ratio": LIKE,
+    "landing_dip_ratio": LIKE,
+    "flight_time_ratio": LIKE,
+    "speed_ripple_ratio": LIKE,
+    "bob_ratio": LIKE,
     "same_foot": LESS,
     "quick_steps": LESS,
     "frechet": LESS,
     "nearest": LESS,
     "auc": LESS,
     "successors": MORE,
-    "head_jerk": LESS,
-    "hands_jerk": LESS,
+    "head_jerk": LIKE,
+    "hands_jerk": LIKE,
     "ball_travel": LESS,
     "ball_under": 0.0,
-    "stances": 1.0,
-    "steps": 1.0,
+    "stances": LIKE,
+    "steps": LIKE,
     "left_right": LESS,
-    "sway": 1.0,
-    "ripple": 1.0,
+    "sway": LIKE,
+    "ripple": LIKE,
     "whips": LESS,
 }
 """The figures, by their names in the JSON file of `fragmotion evaluate`, and what makes each of them better."""
@@ -134,11 +136,19 @@ class Change(NamedTuple):
 
 def bar(name: str, spread: Spread) -> float:
     """How bad a figure's mean may be."""
-    return badness(spread.mean, WORSE[name]) + max(spread.spread, _GRAINS.get(name, 0.0))
+    off = max(spread.spread, _GRAINS.get(name, 0.0))
+    return badness(spread.mean, WORSE[name]) + (math.log1p(off / spread.mean) if WORSE[name] == LIKE else off)
+
+
+def off_one(ratio: float) -> float:
+    """How far a ratio is from 1: its |logarithm|."""
+    return abs(math.log(ratio)) if ratio > 0 else math.inf
 
 
 def badness(figure: float, better: Better) -> float:
-    """The greater the worse, in the figure's own unit."""
+    """The greater the worse: in the figure's own unit, or how far a ratio is from 1."""
+    if better == LIKE:
+        return off_one(figure)
     if isinstance(better, float):
         return abs(figure - better)
     return figure if better == LESS else -figure
