@@ -56,10 +56,16 @@ bool is_camel_boundary(std::string_view name, std::size_t at) {
 std::size_t length_of_namespace(std::string_view name) { return name.find_last_of(":|") + 1; }
 
 /// Whether what stands before a ":" tells bones apart, as in "Leg:Left:Upper" beside "Arm:Left:Upper": no namespace.
-bool has_no_namespace(const BonesByName& bones) {
-  BonesByName without;
-  for (const auto& [name, bone] : bones) without.emplace(name.substr(length_of_namespace(name)), bone);
-  return without.size() < bones.size();
+bool has_no_namespace(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const std::string_view plain = std::string_view(name).substr(length_of_namespace(name));
+    for (const std::string_view other : names) {
+      if (plain.size() == name.size() || other.data() == name.data() || other.size() < plain.size()) continue;
+      const std::size_t at = other.size() - plain.size();
+      if (other.substr(at) == plain && length_of_namespace(other) == at) return true;
+    }
+  }
+  return false;
 }
 
 std::vector<Piece> split_words(std::string_view name, std::size_t start) {
@@ -184,7 +190,7 @@ std::vector<BoneName> read_names(const std::vector<std::string>& bone_names) {
   }
   std::vector<BoneName> names;
   names.reserve(bone_names.size());
-  const bool whole = has_no_namespace(bones);
+  const bool whole = has_no_namespace(bone_names);
   for (const std::string& name : bone_names) {
     names.push_back(read_name(name, whole ? 0 : length_of_namespace(name), bones));
   }
