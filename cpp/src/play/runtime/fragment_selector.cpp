@@ -49,9 +49,10 @@ void FragmentSelector::extrapolate_end(const Fragment& fragment) const {
   const PackedClip& clip = style_->character->pool.clips[fragment.clip];
   double* rotations = workspace_->poses[0].rotations.data();
   const double end = fragment.last_played();
-  before.pose(sample_pose(clip, end - kEntry * clip.rate, rotations), rotations);
-  now.pose(sample_pose(clip, end, rotations), rotations);
-  extrapolate(frame_at(clip, end), before, now);
+  before.pose(workspace_->unpacked.sample(clip, end - kEntry * clip.rate, rotations).place, rotations);
+  const RootPose root = workspace_->unpacked.sample(clip, end, rotations);
+  now.pose(root.place, rotations);
+  extrapolate(root.frame(), before, now);
 }
 
 // Finds the members that may be played, and what is known of their costs before they are joined; one that costs least
