@@ -294,8 +294,6 @@ RootPose root_at(const PackedClip& clip, double at) {
   return {{root[0], root[1], root[2]}, root[3]};
 }
 
-CharacterFrame frame_at(const PackedClip& clip, double at) { return root_at(clip, at).frame(); }
-
 void check(const PoseGrid& grid, const Skeleton& skeleton) {
   require(grid.bones == skeleton.size() && grid.steps.size() == static_cast<std::size_t>(kBoneBlock) * grid.blocks());
   check_rotations(grid.usual, grid);

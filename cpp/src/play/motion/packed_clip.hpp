@@ -88,8 +88,6 @@ void check(const PoseGrid& grid, const Skeleton& skeleton);
 Vector3 sample_pose(const PackedClip& clip, double at, double* rotations);
 /// The same, but of rotations no more than those of the first `bones` bones need be written: 0, only the hips' place.
 Vector3 sample_pose(const PackedClip& clip, double at, int bones, double* rotations);
-CharacterFrame frame_at(const PackedClip& clip, double at);
-
 /// The hips' place, m, and where the character faces, rad.
 struct RootPose {
   Vector3 place;
@@ -98,8 +96,9 @@ struct RootPose {
   CharacterFrame frame() const { return {place.head<2>(), heading}; }
 };
 
-/// That of sample_pose() and frame_at().
+/// That of sample_pose().
 RootPose root_at(const PackedClip& clip, double at);
+inline CharacterFrame frame_at(const PackedClip& clip, double at) { return root_at(clip, at).frame(); }
 
 /// The rotations of a block of bones from their usual ones.
 struct TurnBlock {
