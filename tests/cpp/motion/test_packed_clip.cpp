@@ -155,6 +155,32 @@ TEST(PackedClip, ShowsSomeBonesAsItShowsAll) {
   }
 }
 
+TEST(UnpackedPoses, ShowTheSameBitsWhateverWasAskedForBefore) {
+  const Skeleton skeleton = humanoid();
+  const Kinematics kinematics(skeleton);
+  std::vector<Clip> clips = gait_takes();
+  const Mirror mirror(kinematics, clips);
+  std::vector<int> originals(clips.size(), -1);
+  for (int c = static_cast<int>(clips.size()) - 1; c >= 0; --c) {
+    clips.push_back(mirror(clips[c]));
+    originals.push_back(c);
+  }
+  const PackedPool packed = pack({skeleton, clips, {}}, {originals, mirror.turns()});
+  UnpackedPoses unpacked(skeleton.size());
+  std::vector<double> rotations(std::size_t{4} * skeleton.size()), expected = rotations;
+  Random random(5);
+  double at = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const PackedClip& clip = packed.clips[random.below(static_cast<int>(packed.clips.size()))];
+    at = n % 5 == 0 ? (clip.frames + 1) * random.uniform() - 1 : at + 2 * random.uniform() - 0.9;
+    if (n % 7 == 0) at = std::round(at);
+    const RootPose root = unpacked.sample(clip, at, rotations.data());
+    EXPECT_EQ(root.place, sample_pose(clip, at, expected.data()));
+    EXPECT_EQ(root.heading, frame_at(clip, at).heading);
+    EXPECT_EQ(rotations, expected);
+  }
+}
+
 // Of a packed clip at these times.
 Clip sampled(const PackedClip& packed, const std::vector<double>& times) {
   const std::size_t width = std::size_t{4} * packed.grid->bones;

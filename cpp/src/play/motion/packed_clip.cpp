@@ -26,11 +26,12 @@ constexpr std::uint32_t mask_of(int bits) { return (std::uint32_t{1} << bits) - 
 
 // The poses on both sides of a time, and how near it is to the second.
 struct PackedBetween {
+  int frame;
   const std::uint8_t *pose, *next;
   double weight;
 
-  PackedBetween(const PackedClip& clip, double at) {
-    const int frame = std::clamp(static_cast<int>(std::floor(at)), 0, clip.frames - 1);
+  PackedBetween(const PackedClip& clip, double at)
+      : frame(std::clamp(static_cast<int>(std::floor(at)), 0, clip.frames - 1)) {
     const std::size_t bytes = clip.poses->pose_bytes(clip.frames);
     pose = &clip.poses->bytes[bytes * frame];
     next = pose + (frame + 1 < clip.frames ? bytes : 0);
@@ -87,19 +88,19 @@ void check_poses(const PackedPoses& poses, int frames, const PoseGrid& grid) {
           poses.pose_bytes(frames) == bytes_for(poses.bits));
 }
 
-using Lanes = float[kBoneBlock];
 using Turns = std::int32_t[3][kBoneBlock];
 
 // Reads the turns of a block of bones from a pose, from a bit on, and of a second pose where there is one; returns the
 // bit after them.
 template <bool kTwo>
-[[gnu::always_inline]] inline unsigned read_turns(const PackedBetween& between, unsigned bit, const std::uint8_t* bits,
-                                                  const std::int32_t* least, Turns& first, Turns& second) {
+[[gnu::always_inline]] inline unsigned read_turns(const std::uint8_t* pose, const std::uint8_t* next, unsigned bit,
+                                                  const std::uint8_t* bits, const std::int32_t* least, Turns& first,
+                                                  Turns& second) {
   for (int axis = 0; axis < 3; ++axis) {
     for (int i = 0; i < kBoneBlock; ++i) {
       const std::uint32_t mask = mask_of(*bits);
-      first[axis][i] = *least + static_cast<std::int32_t>(read_bits(between.pose, bit, mask));
-      if (kTwo) second[axis][i] = *least + static_cast<std::int32_t>(read_bits(between.next, bit, mask));
+      first[axis][i] = *least + static_cast<std::int32_t>(read_bits(pose, bit, mask));
+      if (kTwo) second[axis][i] = *least + static_cast<std::int32_t>(read_bits(next, bit, mask));
       ++least;
       bit += *bits++;
     }
@@ -108,8 +109,8 @@ template <bool kTwo>
 }
 
 // Unit quaternions from the turns x, y, z that are given in steps.
-struct LaneQuaternions {
-  Lanes w, x, y, z;
+struct LaneQuaternions : TurnBlock {
+  explicit LaneQuaternions(const TurnBlock& turns) : TurnBlock(turns) {}
 
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): the loop fills them
   [[gnu::always_inline]] LaneQuaternions(const Turns& numbers, const float* steps) {
@@ -162,6 +163,49 @@ struct LaneQuaternions {
   }
 };
 
+// Turns a block of bones from their usual rotations, in the mirror where the clip is an image.
+[[gnu::always_inline]] inline void write_block(LaneQuaternions& turns, const PackedClip& clip, int block,
+                                               double* rotations) {
+  const PoseGrid& grid = *clip.grid;
+  const int first = kBoneBlock * block, count = std::min(kBoneBlock, grid.bones - first);
+  const std::size_t lanes = std::size_t{4} * first;
+  float written[kBoneBlock][4];
+  if (clip.mirrored) {
+    turns.turn_after(&grid.mirror.after[lanes]);
+    turns.write(&grid.mirror.before[lanes], written);
+    for (int i = 0; i < count; ++i)
+      std::copy_n(written[i], 4, rotations + std::ptrdiff_t{4} * grid.mirror.counterparts[first + i]);
+  } else {
+    turns.write(&grid.usual[lanes], written);
+    std::copy_n(&written[0][0], count < kBoneBlock ? 4 * count : 4 * kBoneBlock, rotations + lanes);
+  }
+}
+
+// Writes the turns of a block of bones in a pose, which begin at a bit of it, and in a second one where there is one:
+// both at once take less time. Returns the bit after them.
+FRAGMOTION_VECTORISED unsigned unpack_block(const PackedClip& clip, int block, const std::uint8_t* pose,
+                                            const std::uint8_t* next, unsigned bit, TurnBlock& turns,
+                                            TurnBlock& next_turns) {
+  const std::size_t first = static_cast<std::size_t>(kBoneBlock) * block;
+  const std::int32_t* least = &clip.poses->least[3 * first];
+  const std::uint8_t* bits = &clip.poses->bits[PackedPoses::kRootNumbers + 3 * first];
+  const float* steps = &clip.grid->steps[first];
+  Turns a, b;
+  bit = next != nullptr ? read_turns<true>(pose, next, bit, bits, least, a, b)
+                        : read_turns<false>(pose, pose, bit, bits, least, a, b);
+  turns = LaneQuaternions(a, steps);
+  if (next != nullptr) next_turns = LaneQuaternions(b, steps);
+  return bit;
+}
+
+// Writes the rotations of a block of bones that are so far from the turns of a pose to those of the next.
+FRAGMOTION_VECTORISED void blend_block(const PackedClip& clip, int block, const TurnBlock& pose, const TurnBlock& next,
+                                       float weight, double* rotations) {
+  LaneQuaternions turns(pose);
+  turns.blend(LaneQuaternions(next), weight);
+  write_block(turns, clip, block, rotations);
+}
+
 }  // namespace
 
 Quaternion quaternion_of(const std::vector<float>& lanes, int bone) {
@@ -207,43 +251,47 @@ Vector3 sample_pose(const PackedClip& clip, double at, double* rotations) {
   return sample_pose(clip, at, clip.grid->bones, rotations);
 }
 
-FRAGMOTION_VECTORISED Vector3 sample_pose(const PackedClip& clip, double at, int bones, double* rotations) {
-  const PoseGrid& grid = *clip.grid;
-  const int blocks = clip.mirrored && bones > 0 ? grid.blocks() : (bones + kBoneBlock - 1) / kBoneBlock;
+Vector3 sample_pose(const PackedClip& clip, double at, int bones, double* rotations) {
+  const int blocks = clip.mirrored && bones > 0 ? clip.grid->blocks() : (bones + kBoneBlock - 1) / kBoneBlock;
   const PackedBetween between(clip, at);
   double root[PackedPoses::kRootNumbers];
   unsigned bit = between.root(clip, root);
-  const std::int32_t* least = clip.poses->least.data();
-  const std::uint8_t* bits = &clip.poses->bits[PackedPoses::kRootNumbers];
   const bool is_between = between.weight > 0;
-  for (int block = 0; block < blocks; ++block, bits += 3 * kBoneBlock, least += 3 * kBoneBlock) {
-    Turns a, b;
-    bit = is_between ? read_turns<true>(between, bit, bits, least, a, b)
-                     : read_turns<false>(between, bit, bits, least, a, b);
-    const int first = kBoneBlock * block, count = std::min(kBoneBlock, grid.bones - first);
-    const std::size_t lanes = std::size_t{4} * first;
-    const float* steps = &grid.steps[first];
-    LaneQuaternions quaternions(a, steps);
-    quaternions.blend(is_between ? LaneQuaternions(b, steps) : quaternions, static_cast<float>(between.weight));
-    float blended[kBoneBlock][4];
-    if (clip.mirrored) {
-      quaternions.turn_after(&grid.mirror.after[lanes]);
-      quaternions.write(&grid.mirror.before[lanes], blended);
-      for (int i = 0; i < count; ++i) {
-        std::copy_n(blended[i], 4, rotations + std::ptrdiff_t{4} * grid.mirror.counterparts[first + i]);
-      }
-    } else {
-      quaternions.write(&grid.usual[lanes], blended);
-      std::copy_n(&blended[0][0], count < kBoneBlock ? 4 * count : 4 * kBoneBlock, rotations + lanes);
-    }
+  for (int block = 0; block < blocks; ++block) {
+    TurnBlock pose, next;
+    bit = unpack_block(clip, block, between.pose, is_between ? between.next : nullptr, bit, pose, next);
+    blend_block(clip, block, pose, is_between ? next : pose, static_cast<float>(between.weight), rotations);
   }
   return {root[0], root[1], root[2]};
 }
 
-CharacterFrame frame_at(const PackedClip& clip, double at) {
+UnpackedPoses::UnpackedPoses(int bones)
+    : blocks_((bones + kBoneBlock - 1) / kBoneBlock), turns_(packed_.size() * blocks_) {}
+
+RootPose UnpackedPoses::sample(const PackedClip& clip, double at, double* rotations) {
+  const PackedBetween between(clip, at);
+  double root[PackedPoses::kRootNumbers];
+  unsigned bit = between.root(clip, root);
+  const bool is_between = between.weight > 0;
+  const std::size_t slot = between.frame % packed_.size(), next_slot = (slot + (is_between ? 1 : 0)) % packed_.size();
+  TurnBlock *pose = &turns_[blocks_ * slot], *next = &turns_[blocks_ * next_slot];
+  const bool lacks = std::exchange(packed_[slot], between.pose) != between.pose,
+             lacks_next = is_between && std::exchange(packed_[next_slot], between.next) != between.next;
+  for (int block = 0; block < blocks_; ++block) {
+    if (lacks) {
+      bit = unpack_block(clip, block, between.pose, lacks_next ? between.next : nullptr, bit, pose[block], next[block]);
+    } else if (lacks_next) {
+      bit = unpack_block(clip, block, between.next, nullptr, bit, next[block], next[block]);
+    }
+    blend_block(clip, block, pose[block], next[block], static_cast<float>(between.weight), rotations);
+  }
+  return {{root[0], root[1], root[2]}, root[3]};
+}
+
+RootPose root_at(const PackedClip& clip, double at) {
   double root[PackedPoses::kRootNumbers];
   PackedBetween(clip, at).root(clip, root);
-  return {{root[0], root[1]}, root[3]};
+  return {{root[0], root[1], root[2]}, root[3]};
 }
 
 void check(const PoseGrid& grid, const Skeleton& skeleton) {

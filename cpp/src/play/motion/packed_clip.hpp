@@ -88,6 +88,36 @@ void check(const PoseGrid& grid, const Skeleton& skeleton);
 Vector3 sample_pose(const PackedClip& clip, double at, double* rotations);
 /// The same, but of rotations no more than those of the first `bones` bones need be written: 0, only the hips' place.
 Vector3 sample_pose(const PackedClip& clip, double at, int bones, double* rotations);
-CharacterFrame frame_at(const PackedClip& clip, double at);
+/// The hips' place, m, and where the character faces, rad.
+struct RootPose {
+  Vector3 place;
+  double heading;
+
+  CharacterFrame frame() const { return {place.head<2>(), heading}; }
+};
+
+/// That of sample_pose().
+RootPose root_at(const PackedClip& clip, double at);
+inline CharacterFrame frame_at(const PackedClip& clip, double at) { return root_at(clip, at).frame(); }
+
+/// The rotations of a block of bones from their usual ones.
+struct TurnBlock {
+  float w[kBoneBlock], x[kBoneBlock], y[kBoneBlock], z[kBoneBlock];
+};
+
+/// The poses that were unpacked last of clips of one skeleton, since what plays asks for the same ones again and again.
+/// Allocates nothing once it is made.
+class UnpackedPoses {
+ public:
+  explicit UnpackedPoses(int bones);
+
+  /// sample_pose() and root_at() to the bit. The clip's poses must outlive this.
+  RootPose sample(const PackedClip& clip, double at, double* rotations);
+
+ private:
+  int blocks_;
+  std::array<const std::uint8_t*, 16> packed_{};  // those of half a second, which come to places by their frames
+  std::vector<TurnBlock> turns_;                  // [poses, blocks]
+};
 
 }  // namespace fragmotion

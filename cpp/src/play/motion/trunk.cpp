@@ -34,11 +34,14 @@ Quaternion world_turn(const Skeleton& skeleton, int bone, const double* rotation
   return world;
 }
 
-void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, const HalfAngle& half, double* rotations) {
-  double* local = &rotations[std::size_t{4} * bone];
-  const Vector3 turn = half.sine * turned(world_turn(skeleton, bone, rotations).conjugate(), axis);
+void turn_bone(const Quaternion& world, const Vector3& axis, const HalfAngle& half, double* local) {
+  const Vector3 turn = half.sine * turned(world.conjugate(), axis);
   store_quaternion((load_quaternion(local) * Quaternion{half.cosine, turn.x(), turn.y(), turn.z()}).normalized(),
                    local);
+}
+
+void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, const HalfAngle& half, double* rotations) {
+  turn_bone(world_turn(skeleton, bone, rotations), axis, half, &rotations[std::size_t{4} * bone]);
 }
 
 void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, double angle, double* rotations) {

@@ -32,6 +32,8 @@ struct HalfAngle {
   explicit HalfAngle(double angle) : cosine(std::cos(angle / 2)), sine(std::sin(angle / 2)) {}
 };
 
+/// Turns a bone that is turned in the world like that by an angle about an axis that is given there.
+void turn_bone(const Quaternion& world, const Vector3& axis, const HalfAngle& half, double* local);
 /// Turns a bone of a pose's rotations [bones, 4] by an angle about an axis that is given in the world; its children go
 /// along.
 void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, const HalfAngle& half, double* rotations);

@@ -152,10 +152,12 @@ int Director::continuation(const Control& control, const Playback& playback, con
   const int entered = selector.class_of(found), after = look_up_class(entered, wanted);
   if (bridge_between(entered, after) >= 0 || !selector.goes_as_asked(after, wanted)) return -1;
   const int next = waiting_ >= 0 && !has_changed(wanted) ? waiting_ : look_up_class(class_, wanted);
-  const Cost left = selector.cost_of_leaving(next, wanted, playback);
-  const float leaving = left.whole + left.performing, staying = selector.cost_of_going_on(found, wanted);
+  const float staying = selector.cost_of_going_on(found, wanted);
   const int second = selector.successor(found, wanted);
-  if (second >= 0 && staying + selector.cost_of_going_on(second, wanted) <= leaving) return found;
+  const float going_on = second < 0 ? FragmentSelector::kAny : staying + selector.cost_of_going_on(second, wanted);
+  const Cost left = selector.cost_of_leaving(next, wanted, playback, going_on);
+  const float leaving = left.whole + left.performing;
+  if (second >= 0 && going_on <= leaving) return found;
   if (staying > leaving) return -1;
   return staying + selector.cost_of_leaving(after, wanted, found, playback.steps()).whole <= leaving ? found : -1;
 }

@@ -49,9 +49,10 @@ void FragmentSelector::extrapolate_end(const Fragment& fragment) const {
   const PackedClip& clip = style_->character->pool.clips[fragment.clip];
   double* rotations = workspace_->poses[0].rotations.data();
   const double end = fragment.last_played();
-  before.pose(sample_pose(clip, end - kEntry * clip.rate, rotations), rotations);
-  now.pose(sample_pose(clip, end, rotations), rotations);
-  extrapolate(frame_at(clip, end), before, now);
+  before.pose(workspace_->unpacked.sample(clip, end - kEntry * clip.rate, rotations).place, rotations);
+  const RootPose root = workspace_->unpacked.sample(clip, end, rotations);
+  now.pose(root.place, rotations);
+  extrapolate(root.frame(), before, now);
 }
 
 // Finds the members that may be played, and what is known of their costs before they are joined; one that costs least
@@ -133,10 +134,14 @@ int FragmentSelector::successor(int fragment, const Control& control) const {
   return !is_excluded && as_asked && matches_jump(evident, control) ? next : -1;
 }
 
-Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, const Playback& playback) const {
-  const Left left{playback.fragment(), playback.contacts()};
+// What is known of the costs tells often enough, without a pose.
+Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, const Playback& playback,
+                                       float enough) const {
+  Candidates& candidates = workspace_->candidates[0];
+  find_candidates(next_class, control, {playback.fragment(), playback.contacts()}, candidates);
+  if (candidates.front().first >= enough) return {candidates.front().first, 0};
   extrapolate(playback);
-  return cost_of_leaving(next_class, control, left, playback.steps());
+  return least_cost(next_class, control, playback.evident(), playback.steps());
 }
 
 Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, int fragment, StepSequence steps) const {
@@ -147,15 +152,14 @@ Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, i
     steps.advance(standing_feet(contacts, frame + 1), 1 / c.pool.clips[f.clip].rate);
   }
   extrapolate_end(f);
-  return cost_of_leaving(next_class, control, Left{f, contacts}, steps);
+  find_candidates(next_class, control, {f, contacts}, workspace_->candidates[0]);
+  return least_cost(next_class, control, f.evident, steps);
 }
 
-Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, const Left& left,
-                                       const StepSequence& steps) const {
+Cost FragmentSelector::least_cost(int next_class, const Control& control, const Control& evident,
+                                  const StepSequence& steps) const {
   Candidates& candidates = workspace_->candidates[0];
-  find_candidates(next_class, control, left, candidates);
-  constexpr float kAny = std::numeric_limits<float>::infinity();
-  const float whole = least_cost(next_class, left.fragment.evident, steps, candidates, kAny);
+  const float whole = least_cost(next_class, evident, steps, candidates, kAny);
   return {whole, style_->cost.of_going_on(candidates.front().second->fragment, control)};
 }
 

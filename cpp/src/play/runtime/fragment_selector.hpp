@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "base/random.hpp"
 #include "runtime/playback.hpp"
@@ -25,6 +26,8 @@ struct Cost {
 /// (transition_cost.hpp). Allocates nothing once it is made.
 class FragmentSelector {
  public:
+  static constexpr float kAny = std::numeric_limits<float>::infinity();  ///< Of any cost.
+
   /// Chooses from the first style. The workspace and its character must outlive it.
   FragmentSelector(Workspace& workspace, std::uint64_t seed);
 
@@ -53,8 +56,8 @@ class FragmentSelector {
 
   /// The class to enter, in the shown pose, after what was no fragment: of the greatest Eq. 2 for the control.
   int best_class(const Control& control, const Playback& playback) const;
-  /// What it costs to play a class after what is shown.
-  Cost cost_of_leaving(int next_class, const Control& control, const Playback& playback) const;
+  /// What it costs to play a class after what is shown; or, where that is no less than `enough`, anything between.
+  Cost cost_of_leaving(int next_class, const Control& control, const Playback& playback, float enough = kAny) const;
   /// The same after a fragment that is played to its end, which begins after these steps.
   Cost cost_of_leaving(int next_class, const Control& control, int fragment, StepSequence steps) const;
   /// What it costs to join a move on to what is shown.
@@ -85,7 +88,7 @@ class FragmentSelector {
   int out_of_turn(const Entrant& entrant, bool went, const StepSequence& steps) const;
   float least_cost(int next_class, const Control& evident, const StepSequence& steps, Candidates& candidates,
                    float most) const;
-  Cost cost_of_leaving(int next_class, const Control& control, const Left& left, const StepSequence& steps) const;
+  Cost least_cost(int next_class, const Control& control, const Control& evident, const StepSequence& steps) const;
 
   Workspace* workspace_;
   const FragmentLists* style_;  // that is chosen from

@@ -18,10 +18,10 @@ Vector3 turn_of(const Quaternion& q) { return q.vec() / (1 + q.w()); }
 // Rounding errors are no offset: their squares are denormal numbers, with which processors are slow.
 float rounded(double value) { return std::abs(value) < 1e-12 ? 0.0F : static_cast<float>(value); }
 
-// Turns the rotations of a block of bones.
-[[gnu::always_inline]] inline void turn_block(const float* offsets, float offset, float speed, double* rotations) {
-  const float *x = offsets, *y = x + kBoneBlock, *z = y + kBoneBlock;
-  const float *to_x = z + kBoneBlock, *to_y = to_x + kBoneBlock, *to_z = to_y + kBoneBlock;
+// Turns the rotations of a block of bones, of whose offsets so many are in a row.
+[[gnu::always_inline]] inline void turn_block(const float* offsets, int row, float offset, float speed,
+                                              double* rotations) {
+  const float *x = offsets, *y = x + row, *z = y + row, *to_x = z + row, *to_y = to_x + row, *to_z = to_y + row;
   float turn[4][kBoneBlock];
   for (int i = 0; i < kBoneBlock; ++i) {
     const float a = offset * x[i] + speed * to_x[i], b = offset * y[i] + speed * to_y[i],
@@ -43,29 +43,18 @@ float rounded(double value) { return std::abs(value) < 1e-12 ? 0.0F : static_cas
   }
 }
 
-// Bones that are no whole block, as one: the last of them stands for what it lacks.
-struct FilledBlock {
-  float offsets[6][kBoneBlock];
-  double rotations[kBoneBlock][4];
-
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): the loop fills them
-  [[gnu::always_inline]] FilledBlock(const float* few, int count, const double* turned) {
-    for (int i = 0; i < kBoneBlock; ++i) {
-      const int bone = std::min(i, count - 1);
-      for (int value = 0; value < 6; ++value) offsets[value][i] = few[value * count + bone];
-      for (int part = 0; part < 4; ++part) rotations[i][part] = turned[4 * bone + part];
-    }
-  }
-};
-
 // Turns the rotations [bones, 4] further by what is left of the offsets and the speeds.
 FRAGMOTION_VECTORISED void add_turns(const float* offsets, int bones, float offset, float speed, double* rotations) {
   for (; bones >= kBoneBlock; bones -= kBoneBlock, offsets += 6 * kBoneBlock, rotations += 4 * kBoneBlock)
-    turn_block(offsets, offset, speed, rotations);
+    turn_block(offsets, kBoneBlock, offset, speed, rotations);
   if (bones == 0) return;
-  FilledBlock last(offsets, bones, rotations);
-  turn_block(last.offsets[0], offset, speed, last.rotations[0]);
-  std::copy_n(last.rotations[0], 4 * bones, rotations);
+  // Bones that are no whole block, with room for one: beyond them is what nobody asks for.
+  float few[6 * kBoneBlock] = {};
+  double turned[4 * kBoneBlock] = {};
+  std::copy_n(offsets, 6 * bones, few);
+  std::copy_n(rotations, 4 * bones, turned);
+  turn_block(few, bones, offset, speed, turned);
+  std::copy_n(turned, 4 * bones, rotations);
 }
 
 }  // namespace

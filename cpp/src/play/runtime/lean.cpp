@@ -34,15 +34,31 @@ void Lean::lean_by(const Skeleton& skeleton, const Vector2& lean, double heading
   const double upright = hips.cosine * hips.cosine - hips.sine * hips.sine;
   const Vector3 forward{upright * left.y(), -upright * left.x(), 2 * hips.sine * hips.cosine};
   if (trunk_.head >= 0) {
-    turn_bone(skeleton, trunk_.head, left, HalfAngle(-kHeadBack * lean.y()), rotations);
-    turn_bone(skeleton, trunk_.head, forward, HalfAngle(-kHeadBack * lean.x()), rotations);
+    double* head = &rotations[std::size_t{4} * trunk_.head];
+    const Quaternion neck = bend(skeleton, skeleton.parents[trunk_.head], false, forward, spine, rotations);
+    turn_bone(neck * load_quaternion(head), left, HalfAngle(-kHeadBack * lean.y()), head);
+    turn_bone(neck * load_quaternion(head), forward, HalfAngle(-kHeadBack * lean.x()), head);
+  } else {
+    bend(skeleton, trunk_.chest, true, forward, spine, rotations);
   }
-  for (int b = trunk_.chest; b != skeleton.parents[trunk_.base]; b = skeleton.parents[b])
-    turn_bone(skeleton, b, forward, spine, rotations);
   for (const int thigh : thighs_) {
     if (thigh >= 0) turn_bone(skeleton, thigh, -left, hips, rotations);
   }
   turn_bone(skeleton, skeleton.roles.hips, left, hips, rotations);
+}
+
+// Bends the spine from its base up to a bone, or, where that is not of it yet, to the chest below. Returns how the bone
+// was turned in the world.
+Quaternion Lean::bend(const Skeleton& skeleton, int bone, bool in_spine, const Vector3& axis, const HalfAngle& half,
+                      double* rotations) const {
+  double* local = &rotations[std::size_t{4} * bone];
+  const Quaternion own = load_quaternion(local);
+  if (bone == skeleton.roles.hips) return own;
+  in_spine = in_spine || bone == trunk_.chest;
+  const bool goes_on = in_spine && bone != trunk_.base;
+  const Quaternion world = bend(skeleton, skeleton.parents[bone], goes_on, axis, half, rotations) * own;
+  if (in_spine) turn_bone(world, axis, half, local);
+  return world;
 }
 
 }  // namespace fragmotion

@@ -31,6 +31,8 @@ class Lean {
   friend struct PlayerState;
 
   void lean_by(const Skeleton& skeleton, const Vector2& lean, double heading, double* rotations) const;
+  Quaternion bend(const Skeleton& skeleton, int bone, bool in_spine, const Vector3& axis, const HalfAngle& half,
+                  double* rotations) const;
 
   Trunk trunk_;
   std::array<int, 2> thighs_;

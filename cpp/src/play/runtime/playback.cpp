@@ -49,20 +49,21 @@ Playback::Placed Playback::place(int style, int number, const CharacterFrame& fr
   return placed;
 }
 
-// Places hips and heading of a frame of the clip, in which these are at `root`; returns by what all is turned.
-Quaternion Playback::put(const Placed& placed, double at, const Vector3& root, WorldPose& pose) const {
+// Places hips and heading of a frame of the clip; returns by what all is turned.
+Quaternion Playback::put(const Placed& placed, const RootPose& root, WorldPose& pose) {
   // By half the angle, for the quaternion as well as for the plane.
   const double w = std::cos(placed.heading / 2), z = std::sin(placed.heading / 2), c = w * w - z * z, s = 2 * w * z;
-  pose.root = {placed.offset.x() + c * root.x() - s * root.y(), placed.offset.y() + s * root.x() + c * root.y(),
-               root.z()};
-  pose.heading = placed.heading + frame_at(clip(placed), at).heading;
+  const Vector3& place = root.place;
+  pose.root = {placed.offset.x() + c * place.x() - s * place.y(), placed.offset.y() + s * place.x() + c * place.y(),
+               place.z()};
+  pose.heading = placed.heading + root.heading;
   return {w, 0, 0, z};
 }
 
 void Playback::sample(const Placed& placed, WorldPose& pose) const {
   const PackedClip& source = clip(placed);
   const double at = fragment(placed).first_played() + placed.seconds * source.rate;
-  const Quaternion turn = put(placed, at, sample_pose(source, at, pose.rotations.data()), pose);
+  const Quaternion turn = put(placed, workspace_->unpacked.sample(source, at, pose.rotations.data()), pose);
   double* hips = &pose.rotations[std::size_t{4} * character_->pool.skeleton.roles.hips];
   store_quaternion(turn * load_quaternion(hips), hips);
 }
@@ -157,7 +158,7 @@ void Playback::show() {
 void Playback::find_frame() {
   if (stitching_ == Stitching::crossfade) return show();
   WorldPose place;
-  put(now_, at(), sample_pose(clip(now_), at(), 0, nullptr), place);
+  put(now_, root_at(clip(now_), at()), place);
   inertialization_.move(now_.seconds, place);
   frame_ = {place.root.head<2>(), place.heading};
 }

@@ -123,7 +123,7 @@ class Playback {
   Placed place(int style, int number, const CharacterFrame& frame) const;
   Vector2 start(const Placed& next);
   void play(const Placed& placed);
-  Quaternion put(const Placed& placed, double at, const Vector3& root, WorldPose& pose) const;
+  static Quaternion put(const Placed& placed, const RootPose& root, WorldPose& pose);
   void sample(const Placed& placed, WorldPose& pose) const;
   void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
   Vector2 begin_stitch(const Placed& old);

@@ -18,7 +18,8 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
       trunk(kinematics.skeleton()),
       move_entries(entry_poses(character.pool, character.move_parts)),
       tips{BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton)},
-      onward(character.entry_poses.size() / character.pool.fragments.size()) {
+      onward(character.entry_poses.size() / character.pool.fragments.size()),
+      unpacked(character.pool.skeleton.size()) {
   std::size_t most = 0;
   std::vector<const PackedPool*> pools;
   std::vector<FragmentLists> lists;

@@ -58,6 +58,7 @@ struct Workspace {
   std::vector<float> onward;             ///< Tips of what is shown, and of how it would go on.
   std::array<Candidates, 2> candidates;  ///< Of one class, or of the two that are compared.
 
+  UnpackedPoses unpacked;          ///< Of all that plays.
   WorldPose shown;                 ///< By the player that stepped last.
   std::array<WorldPose, 4> poses;  ///< Of a stitch.
   std::array<WorldPose, 4> looks;  ///< Neck and head in them, as bodies of their own.
