@@ -4,7 +4,7 @@ to hang on the bone that it moves with."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import bpy
@@ -40,11 +40,27 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
         poses = np.concatenate([posing.sample_poses(context, obj, action, _times(action))[0] for action in actions])
         parents = [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
         found = core.find_hanging(bones.keys(), parents, poses, [bones.find(name) for name in candidates])
+        found = {**_beside_hips(obj, candidates), **found}
         obj.fragmotion.hanging.clear()
         for bone, on in sorted(found.items()):
             row = obj.fragmotion.hanging.add()
             row.name, row.on = bones[bone].name, bones[on].name
     return _say(obj, candidates)
+
+
+def _beside_hips(obj: bpy.types.Object, moved: Sequence[str]) -> dict[int, int]:
+    """What hangs on a moved bone above the hips, as a tail beside them, moves with the hips: of the bones above them
+    only the root keeps a way of its own, the others' is a part of the hips'."""
+    bones = obj.data.bones
+    hips = bones[make_rig(obj).skeleton.roles["hips"]]
+    line = {hips.name, *(bone.name for bone in hips.parent_recursive)}
+    beside = [child for name in moved if name in line for child in bones[name].children if child.name not in line]
+    return {bones.find(child.name): bones.find(hips.name) for child in beside if not is_tied(child)}
+
+
+def _carries_no_other(obj: bpy.types.Object, above: str, hanging: Mapping[str, str]) -> bool:
+    """Whether what hangs on a bone above the hips is the hips, or is learned as a part of something else."""
+    return sum(child.name not in hanging for child in obj.data.bones[above].children) <= 1
 
 
 def _is_moved(obj: bpy.types.Object, action: bpy.types.Action, bone: bpy.types.Bone, least: float) -> bool:
@@ -71,7 +87,10 @@ def _say(obj: bpy.types.Object, candidates: Sequence[str]) -> list[str]:
     if hanging:
         pairs = ", ".join(f"'{name}' with '{on}'" for name, on in hanging.items())
         told.append(f"Learned, and baked, as bones that move with others than their parents: {pairs}")
-    rest = [name for name in candidates if name not in hanging and name not in carriers(obj, make_rig(obj))]
+    rig = make_rig(obj)
+    above = [bone.name for bone in obj.data.bones[rig.skeleton.roles["hips"]].parent_recursive]
+    carried = {*hanging, *carriers(obj, rig), *(name for name in above if _carries_no_other(obj, name, hanging))}
+    rest = [name for name in candidates if name not in carried]
     if rest:
         more = f" and {len(rest) - 1} more" if len(rest) > 1 else ""
         told.append(f"Left out: what keys of bone '{rest[0]}'{more} move away from the parent")

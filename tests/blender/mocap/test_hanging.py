@@ -78,6 +78,32 @@ def test_build_says_which(addon: ModuleType, baked_ik: bpy.types.Object) -> None
     assert "'foot.L' with 'shin.L', 'foot.R' with 'shin.R'" in told[0]
 
 
+def test_a_tail_beside_the_hips_goes_where_they_go(addon: ModuleType) -> None:
+    obj = making.open_sample()
+    action = bpy.data.actions["walk forward"]
+    with making.editing(obj) as bones:
+        for name, parent in (("body", "root"), ("tail", "body")):
+            bone = bones.new(name)
+            bone.head, bone.tail, bone.parent = (0, 0.1, 0.9), (0, 0.4, 0.9), bones[parent]
+        bones["hips"].use_connect, bones["hips"].parent = False, bones["body"]
+    addon.compat.versions.assign(obj, action)
+    for frame, height in ((1, 0.0), (10, 0.3)):
+        obj.pose.bones["body"].location = (0, 0, height)
+        obj.pose.bones["body"].keyframe_insert("location", frame=frame)
+    assert addon.rig.hanging.find_hanging(bpy.context, obj, [action]) == [
+        "Learned, and baked, as bones that move with others than their parents: 'tail' with 'hips'"
+    ]
+    rig = addon.rig.rigs.make_rig(obj)
+    clip = addon.mocap.sampling.sample(bpy.context, obj, action, rig)
+    heads = clip.world_transforms(rig.skeleton)[0]
+    tail = rig.skeleton.names.index("tail")
+    for frame in (1, 10):
+        bpy.context.scene.frame_set(frame)
+        seen = np.array(obj.matrix_world @ obj.pose.bones["tail"].head)
+        off = np.linalg.norm(heads[frame - int(action.frame_range[0]), tail] - seen)
+        assert off < np.linalg.norm(obj.pose.bones["hips"].location) + 1e-3, "by what the hips go on their own"
+
+
 def test_build_says_which_feet_are_not_held(addon: ModuleType) -> None:
     obj = making.open_sample()
     assert addon.character.building.say_feet(addon.rig.rigs.make_rig(obj).skeleton) == []

@@ -30,8 +30,8 @@ Clip run_of(double seconds) {
 ControlSpace space() { return ControlSpace(1.2, 3, 1.2, 1.8 / stature(kSkeleton)); }
 
 // A walk and such a run, and then their mirror images.
-FragmentPool walk_and_run(double seconds) {
-  std::vector<Clip> clips{gait_clip({}, "walk"), run_of(seconds)};
+FragmentPool walk_and_run(double seconds, const Gait& walk = {}) {
+  std::vector<Clip> clips{gait_clip(walk, "walk"), run_of(seconds)};
   const Mirror mirror(kKinematics, clips);
   for (int c = 0; c < 2; ++c) clips.push_back(mirror(clips[c]));
   const ControlSpace controls = space();
@@ -89,6 +89,20 @@ TEST(ClosedCycles, AreWholeWhereATakeHoldsOneOfTheGait) {
     runs += cycle.clip == 1 ? 1 : 0;
   }
   EXPECT_GT(runs, 0);
+}
+
+// As who limps or is large goes: whose pose, a third of a second later, is nearly the same.
+TEST(ClosedCycles, OfAGaitOfLongStepsGoRoundWithItsFeet) {
+  Gait limp;
+  limp.y = 0.5, limp.cycle = 3, limp.seconds = 7;
+  const FragmentPool pool = walk_and_run(3, limp);
+  int limps = 0;
+  for (const ClosedCycle& cycle : cycles_of(pool)) {
+    if (cycle.clip != 0 || cycle.is_step() || std::abs(cycle.evident.y) < 0.3) continue;
+    EXPECT_NEAR(std::abs(cycle.end - cycle.begin) / pool.clips[0].rate, limp.cycle, 0.1 * limp.cycle);
+    ++limps;
+  }
+  EXPECT_GT(limps, 0);
 }
 
 TEST(ClosedCycles, AStepThatIsNoneIsNoGait) {

@@ -187,6 +187,34 @@ TEST(FeetWay, OfLegsOfASingleBoneLeadsAheadAsFarAsTheyOpen) {
   EXPECT_NEAR(way->mean.y(), kStiltsGo, 0.05 * kStiltsGo);
 }
 
+// The same legs with knees and feet, which stay as they are, under hips that neither rise nor fall.
+TEST(FeetWay, OfLegsThatSwingLikePendulumsLeadsAheadAsFarAsTheyOpen) {
+  Skeleton skeleton = stilts();
+  for (const int leg : {2, 3}) {
+    skeleton.names.push_back(leg == 2 ? "shin-left" : "shin-right");
+    skeleton.names.push_back(leg == 2 ? "foot-left" : "foot-right");
+    skeleton.parents.insert(skeleton.parents.end(), {leg, static_cast<int>(skeleton.parents.size())});
+    skeleton.offsets.insert(skeleton.offsets.end(), {{0, 0, -0.45}, {0, 0, -0.45}});
+    skeleton.tips.insert(skeleton.tips.end(), {{0, 0, -0.45}, {0, -0.12, 0}});
+  }
+  skeleton.rest_rotations.assign(8, Quaternion::Identity());
+  skeleton.roles = {};
+  skeleton = make_skeleton(std::move(skeleton));
+  ASSERT_EQ(skeleton.names[skeleton.roles.left_foot], "foot-left");
+  Clip clip = stilts_on_the_spot(0), legs = clip;
+  clip.rotations.clear();
+  for (int f = 0; f < clip.frames; ++f) {
+    clip.root_positions[std::size_t{3} * f + 2] = 0.9;
+    const auto from = legs.rotations.begin() + std::ptrdiff_t{16} * f;
+    clip.rotations.insert(clip.rotations.end(), from, from + 16);
+    for (int bone = 0; bone < 4; ++bone) clip.rotations.insert(clip.rotations.end(), {1, 0, 0, 0});
+  }
+  const auto way = find_feet_way(Kinematics(skeleton), make_clip(skeleton, std::move(clip)));
+  ASSERT_TRUE(way);
+  EXPECT_NEAR(way->mean.x(), 0, 0.01);
+  EXPECT_NEAR(way->mean.y(), kStiltsGo, 0.05 * kStiltsGo);
+}
+
 void expect_found_again(const Take& take) {
   const Clip clip = clip_from_take(take.skeleton, take);
   if (clip.frames < 2 * clip.rate) return;  // a stride and a half

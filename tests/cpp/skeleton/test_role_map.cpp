@@ -359,6 +359,16 @@ TEST(RoleMap, OfABeastWithHindLegsItsOtherLegsAreNoLegs) {
   EXPECT_EQ(beast.roles.left_fore_foot, -1);
 }
 
+// "Leg:Left:Upper" and "Arm:Left:Upper" differ ahead of the last mark alone.
+TEST(RoleMap, ReadsWholeNamesWhereWhatLooksLikeANamespaceTellsBonesApart) {
+  Family family = family_named("Mixamo");
+  family.others.clear();
+  family.arm = {"Arm:@:Shoulder", "Arm:@:Upper", "Arm:@:Lower", "Arm:@:Hand"};
+  family.leg = {"Leg:@:Upper", "Leg:@:Lower", "Leg:@:Foot", "Leg:@:Toe"};
+  const Humanoid body(family);
+  EXPECT_EQ(named_bones(body.skeleton, find_role_map(make_skeleton(body.skeleton))), body.roles);
+}
+
 TEST(RoleMap, OfAUserIsKept) {
   const Humanoid body(family_named("Daz"));
   const RoleMap map = role_map_of(body.skeleton, body.roles);

@@ -14,7 +14,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s
+constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s; longer only where there is none of a gait
 constexpr double kClosed = 3 / kTunedReach;                  // m a metre of reach between the ends of a cycle
 
 Control mean(const Control& a, const Control& b, double w) {
@@ -24,6 +24,24 @@ Control mean(const Control& a, const Control& b, double w) {
 ClosedCycle backward(const ClosedCycle& cycle) {
   const Control& ev = cycle.evident;
   return {cycle.clip, cycle.end, cycle.begin, cycle.image, {-ev.x, -ev.y, -ev.turn, ev.jump}, cycle.flaw};
+}
+
+// How far a fragment's poses get from its first, m, but for the way of all.
+double farthest_within(const Trajectories& t, int fragment) {
+  const std::vector<float> rows = t.whole.read(fragment);
+  const auto place = [&](int pose, int tip) {
+    const std::size_t at = static_cast<std::size_t>(pose) * t.tips + tip, stride = t.whole.stride();
+    return Vector3{rows[at], rows[at + stride], rows[at + 2 * stride]};
+  };
+  double farthest = 0;
+  for (int pose = 1; pose < kPoses; ++pose) {
+    Vector3 way = Vector3::Zero();
+    for (int tip = 0; tip < t.tips; ++tip) way += (place(pose, tip) - place(0, tip)) / t.tips;
+    double sum = 0;
+    for (int tip = 0; tip < t.tips; ++tip) sum += (place(pose, tip) - place(0, tip) - way).norm();
+    farthest = std::max(farthest, sum);
+  }
+  return farthest;
 }
 
 // The fragments of mirror images, by the clip and the frame in which they begin.
@@ -72,11 +90,25 @@ struct CycleSearch {
   std::map<std::pair<int, int>, int> images;             // beginnings()
   std::array<std::vector<ClosedCycle>, 2> whole, steps;  // of the walk and of the run
 
+  // m a metre of reach.
+  double gap(int last, int again) const {
+    return double{transition_distance(trajectories, last, again)} / trajectories.reach;
+  }
+
+  // Whether fragments first .. last come back to where the first begins, twice as near as they were on the way: the
+  // pose of who limps slowly is near to what it was for long.
+  bool closes(int first, int last) const {
+    const double end = gap(last, first);
+    if (end > kClosed) return false;
+    double farthest = farthest_within(trajectories, first) / trajectories.reach;
+    for (int f = first; f < last; ++f) farthest = std::max(farthest, gap(f, first));
+    return 2 * end <= farthest;
+  }
+
   // Where fragments first .. last lead to the beginning of that one.
   void add(ClosedCycle cycle, int first, int last, int again, std::array<std::vector<ClosedCycle>, 2>& to) const {
-    const double gap = double{transition_distance(trajectories, last, again)} / trajectories.reach;
+    const double gap = this->gap(last, again), speed = cycle.evident.speed();
     if (gap > kClosed) return;
-    const double speed = cycle.evident.speed();
     cycle.flaw += gap + usual.excess(first, last, speed);
     to[usual.gait_at(speed)].insert(to[usual.gait_at(speed)].end(), {cycle, backward(cycle)});
   }
@@ -91,8 +123,10 @@ struct CycleSearch {
         image->second, steps);
   }
 
-  // All that begin with a fragment.
-  void look(int first) {
+  // Tells of the fragments from `first` to each further one of its take, while that is wanted: the cycle that they
+  // would be, the last of them, and the seconds that they last.
+  template <typename Each>
+  void from(int first, Each each) const {
     ClosedCycle cycle;
     double seconds = 0;
     for (int last = first; last < static_cast<int>(pool.fragments.size()); ++last) {
@@ -102,10 +136,39 @@ struct CycleSearch {
       if (last == first) cycle.clip = f.clip, cycle.begin = f.begin;
       cycle.end = f.end;
       cycle.evident = mean(cycle.evident, f.evident, share);
-      if (seconds > kLongestCycle) break;
-      if (seconds >= kShortestCycle) add(cycle, first, last, first, whole);
-      if (2 * seconds >= kShortestCycle && 2 * seconds <= kLongestCycle) add_step(cycle, first, last);
+      if (!each(cycle, last, seconds)) break;
     }
+  }
+
+  // All that begin with a fragment.
+  void look(int first) {
+    from(first, [&](const ClosedCycle& cycle, int last, double seconds) {
+      if (seconds > kLongestCycle) return false;
+      const bool stands = cycle.evident.speed() <= moving;
+      if (seconds >= kShortestCycle && (stands || closes(first, last))) add(cycle, first, last, first, whole);
+      if (2 * seconds >= kShortestCycle && 2 * seconds <= kLongestCycle) add_step(cycle, first, last);
+      return true;
+    });
+  }
+
+  // Whether a take holds something whole of a gait.
+  bool goes(std::size_t gait) const {
+    return std::any_of(whole[gait].begin(), whole[gait].end(),
+                       [&](const ClosedCycle& cycle) { return cycle.evident.speed() > moving; });
+  }
+
+  // The first of those that are longer, as of who limps or is large, and that come back nearest.
+  void look_further(int first, std::array<std::vector<ClosedCycle>, 2>& longer) const {
+    ClosedCycle nearest;
+    int end = -1;
+    from(first, [&](const ClosedCycle& cycle, int last, double seconds) {
+      const double speed = cycle.evident.speed();
+      if (seconds <= kLongestCycle || speed <= moving || goes(usual.gait_at(speed))) return true;
+      const bool nearer = end < 0 ? closes(first, last) : gap(last, first) < gap(end, first);
+      if (nearer) nearest = cycle, end = last;
+      return nearer || end < 0;
+    });
+    if (end >= 0) add(nearest, first, end, first, longer);
   }
 };
 
@@ -116,11 +179,18 @@ std::vector<ClosedCycle> closed_cycles(const FragmentPool& pool, const Trajector
   CycleSearch search{
       pool, trajectories, {trajectories, pool.fragments, space}, kMoving / space.scale(), beginnings(pool, takes), {},
       {}};
-  for (std::size_t f = 0; f < pool.fragments.size(); ++f) search.look(static_cast<int>(f));
+  std::array<std::vector<ClosedCycle>, 2> longer;
+  const int fragments = static_cast<int>(pool.fragments.size());
+  for (int f = 0; f < fragments; ++f) search.look(f);
+  for (int f = 0; f < fragments; ++f) search.look_further(f, longer);
   std::vector<ClosedCycle> found;
-  for (std::size_t gait = 0; gait < search.whole.size(); ++gait) {
-    const auto& cycles = search.whole[gait].empty() ? search.steps[gait] : search.whole[gait];
+  const auto append = [&](const std::vector<ClosedCycle>& cycles) {
     found.insert(found.end(), cycles.begin(), cycles.end());
+  };
+  for (std::size_t gait = 0; gait < search.whole.size(); ++gait) {
+    append(search.whole[gait]);
+    if (!search.goes(gait)) append(search.steps[gait]);
+    append(longer[gait]);
   }
   return found;
 }

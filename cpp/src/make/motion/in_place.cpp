@@ -56,14 +56,9 @@ Vector2 seen_mean(const Velocities& velocities, const Clip& clip) {
   return mean_velocity(seen);
 }
 
-// As a pair of feet tells it.
-std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& clip, double scale) {
-  const Treading treading(soles, clip, scale);
-  if (!treading.is_long_enough()) return std::nullopt;
-  FeetWay way;
-  if (!turns(clip)) way.turn = treading.turn();
-  if (std::abs(way.turn) < kTurns) way.turn = 0;
-  const Velocities windows = treading.velocities(way.turn, middle(clip));
+// What a pair of feet tells, if it goes anywhere and the feet tread as the body goes.
+std::optional<FeetWay> way_of(const Treading& treading, const std::vector<SolePath>& soles, const Velocities& windows,
+                              FeetWay way, const Clip& clip, double scale) {
   if (windows.empty()) return std::nullopt;
   way.velocities = treading.steps(windows);
   way.mean = seen_mean(way.velocities, clip);
@@ -71,6 +66,18 @@ std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& cl
   const bool treads = treading.slowest() > kTreads * speed && tread(soles, speed * (clip.frames - 1) / clip.rate);
   if (speed * std::max(scale, std::sqrt(scale)) < kMoving || !treads) return std::nullopt;
   return way;
+}
+
+// As a pair of feet tells it.
+std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& clip, double scale) {
+  const Treading treading(soles, clip, scale);
+  if (!treading.is_long_enough()) return std::nullopt;
+  FeetWay way;
+  if (!turns(clip)) way.turn = treading.turn();
+  if (std::abs(way.turn) < kTurns) way.turn = 0;
+  const Vector2 center = middle(clip);
+  const auto told = way_of(treading, soles, treading.velocities(way.turn, center), way, clip, scale);
+  return told ? told : way_of(treading, soles, treading.striding(way.turn, center), way, clip, scale);
 }
 
 FeetWay halfway(FeetWay a, const FeetWay& b) {

@@ -108,7 +108,7 @@ double Treading::turn() const {
 
 Velocities Treading::velocities(double turn, const Vector2& center) const {
   Velocities way = guess(turn, center);
-  if (is_stiff() && mean_velocity(way).norm() < kTreads * slowest()) return striding(turn, center);
+  if (is_stiff() && mean_velocity(way).norm() < kTreads * slowest()) return strides(turn, center);
   for (std::size_t round = 1; round < std::size(kSmooth); ++round) {
     const Told told = this->told(way, turn, center);
     if (told.windows.empty()) return {};
@@ -141,20 +141,35 @@ bool Treading::is_stiff() const {
   return std::all_of(soles_.begin(), soles_.end(), [](const SolePath& sole) { return sole.points.size() == 1; });
 }
 
-// Rigid legs that pass each other are as low, and go forth as fast as back, where they are on the ground for a frame
-// alone: then the body goes where it faces, in each step as far as its legs open.
 Velocities Treading::striding(double turn, const Vector2& center) const {
-  Velocities ahead;
+  double with = 0, against = 0, behind = 0, before = 0;
+  for (int f = 0; f < windows_; ++f) {
+    const double left = ahead(0, f, turn, center), right = ahead(1, f, turn, center);
+    with += std::abs(left + right), against += std::abs(left - right);
+    const Vector2 apart = (soles_[1].heel().path[f] - soles_[0].heel().path[f]).head<2>();
+    const double place = apart.dot(Eigen::Rotation2Dd(headings_[f]) * Vector2::UnitY());
+    behind = std::max(behind, -place), before = std::max(before, place);
+  }
+  const bool pass = 2 * std::min(behind, before) > std::max(behind, before);
+  return pass && against > 2 * with ? strides(turn, center) : Velocities{};
+}
+
+// The body goes where it faces, in each step as far as its legs open.
+Velocities Treading::strides(double turn, const Vector2& center) const {
+  Velocities ways;
   double gone = 0;
   for (int f = 0; f < windows_; ++f) {
-    ahead.emplace_back(Eigen::Rotation2Dd(headings_[f]) * Vector2::UnitY());
-    double fastest = 0;
-    for (const SolePath& sole : soles_)
-      fastest = std::max(fastest, velocity(sole.heel().path, f, turn, center).dot(ahead[f]));
-    gone += fastest;
+    ways.emplace_back(Eigen::Rotation2Dd(headings_[f]) * Vector2::UnitY());
+    gone += std::max({0.0, ahead(0, f, turn, center), ahead(1, f, turn, center)});
   }
-  for (Vector2& velocity : ahead) velocity *= gone / windows_;
-  return ahead;
+  for (Vector2& velocity : ways) velocity *= gone / windows_;
+  return ways;
+}
+
+// How fast a foot goes back under a body that faces ahead, m/s.
+double Treading::ahead(std::size_t side, int f, double turn, const Vector2& center) const {
+  const Vector2 facing = Eigen::Rotation2Dd(headings_[f]) * Vector2::UnitY();
+  return velocity(soles_[side].heel().path, f, turn, center).dot(facing);
 }
 
 double Treading::height(const SolePoint& point, int f) const {

@@ -32,6 +32,10 @@ class Treading {
   /// The body's velocity in each window, m/s, as it turns at `turn` about `center`; empty where no sole is low.
   Velocities velocities(double turn, const Vector2& center) const;
 
+  /// The same where nothing on the ground tells forth from back: of legs that swing against each other like pendulums,
+  /// which are as low, and go forth as fast as back, where they pass each other. Empty where feet do not alternate.
+  Velocities striding(double turn, const Vector2& center) const;
+
   /// The speed at which what is low goes back, of the slower foot where both are, m/s: a mean.
   double slowest() const;
 
@@ -52,7 +56,8 @@ class Treading {
   };
 
   bool is_stiff() const;
-  Velocities striding(double turn, const Vector2& center) const;
+  Velocities strides(double turn, const Vector2& center) const;
+  double ahead(std::size_t side, int f, double turn, const Vector2& center) const;
   double height(const SolePoint& point, int f) const;
   double steepness(const SolePoint& point, int f) const;
   double stands(const SolePoint& point, int f) const;

@@ -53,10 +53,23 @@ bool is_camel_boundary(std::string_view name, std::size_t at) {
   return !is_upper(name[at - 1]) || (at + 1 < name.size() && is_lower(name[at + 1]));
 }
 
-std::vector<Piece> split_words(std::string_view name) {
+std::size_t length_of_namespace(std::string_view name) { return name.find_last_of(":|") + 1; }
+
+/// Whether what stands before a ":" tells bones apart, as in "Leg:Left:Upper" beside "Arm:Left:Upper": no namespace.
+bool has_no_namespace(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const std::string_view plain = std::string_view(name).substr(length_of_namespace(name));
+    for (const std::string_view other : names) {
+      if (plain.size() == name.size() || other.data() == name.data() || other.size() < plain.size()) continue;
+      const std::size_t at = other.size() - plain.size();
+      if (other.substr(at) == plain && length_of_namespace(other) == at) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<Piece> split_words(std::string_view name, std::size_t start) {
   std::vector<Piece> words;
-  const std::size_t space_end = name.find_last_of(":|");
-  const std::size_t start = space_end == std::string_view::npos ? 0 : space_end + 1;
   for (std::size_t at = start; at < name.size(); ++at) {
     if (!is_word_character(name[at])) continue;
     const bool first = at == start || !is_word_character(name[at - 1]);
@@ -133,9 +146,9 @@ void read_pieces(const std::string& lower, const std::vector<Piece>& pieces, con
   }
 }
 
-BoneName read_name(const std::string& name, const BonesByName& bones) {
+BoneName read_name(const std::string& name, std::size_t start, const BonesByName& bones) {
   const std::string lower = lower_case(name);
-  const std::vector<Piece> pieces = split_words(name);
+  const std::vector<Piece> pieces = split_words(name, start);
   BoneName result;
   Piece mark;
   for (const SideMark& candidate : side_marks(lower, pieces)) {
@@ -177,7 +190,10 @@ std::vector<BoneName> read_names(const std::vector<std::string>& bone_names) {
   }
   std::vector<BoneName> names;
   names.reserve(bone_names.size());
-  for (const std::string& name : bone_names) names.push_back(read_name(name, bones));
+  const bool whole = has_no_namespace(bone_names);
+  for (const std::string& name : bone_names) {
+    names.push_back(read_name(name, whole ? 0 : length_of_namespace(name), bones));
+  }
   return names;
 }
 
