@@ -34,7 +34,7 @@ DRAWS = 10  # of the panels, of which the quickest counts
 
 session, waking = window.module("drive.session"), window.module("preview.waking")
 overlays = window.module("drive.hud.overlays")
-button = window.module("operators.directing.drive")
+woken = window.module("operators.base.woken")
 recordings = window.module("recordings.recordings")
 sdl = window.module("input.sdl").load()
 costs = window.watch_panels()
@@ -44,7 +44,7 @@ class Clock:
     """The time that the drive's operator sees: the real one, or so much more at each look."""
 
     def __init__(self) -> None:
-        self._real = button.time.perf_counter
+        self._real = time.perf_counter
         self._shift, self.step = 0.0, 0.0
 
     def perf_counter(self) -> float:
@@ -177,7 +177,7 @@ def measure_panels(moment: str) -> Iterator[None]:
 def session_of_tests() -> Iterator[None]:
     """The whole of it."""
     clock = Clock()
-    button.time, session._HICCUP = clock, 0.5
+    woken.time, session.LONGEST_UPDATE = clock, 0.5
     obj = build_character(Path(window.FOLDER) / "takes")
     yield from window.open_tab()
     yield from measure_panels("at rest")

@@ -21,6 +21,7 @@ TICK = 0.05  # s
 _TAB = 145  # pixels from the sidebar's top to our tab, the fourth and last, up to 4.1
 _STEP = 9  # pixels; every button is higher than that
 
+_places: dict[str, tuple[int, int]] = {}  # where buttons were
 _parents: dict[str, str] = {}
 ADDON = making.install(ZIP)
 
@@ -110,13 +111,15 @@ def click(x: int, y: int) -> Iterator[None]:
 def click_button(name: str) -> Iterator[None]:
     """Click the sidebar's button of that operator ("fragmotion.record") or property ("follow"), wherever it stands."""
     region = sidebar()["region"]
-    for x in (region.x + region.width // 4, region.x + region.width // 2):
-        for y in range(region.y + region.height - _STEP, region.y, -_STEP):
-            yield from send("MOUSEMOVE", "NOTHING", x, y)
-            if _hovered() == name:
-                yield from click(x, y)
-                yield from send("MOUSEMOVE", "NOTHING", 300, 300)
-                return
+    columns, rows = (4, 2), range(region.y + region.height - _STEP, region.y, -_STEP)
+    anywhere = ((region.x + region.width // column, y) for column in columns for y in rows)
+    for x, y in (*([_places[name]] if name in _places else []), *anywhere):
+        yield from send("MOUSEMOVE", "NOTHING", x, y)
+        if _hovered() == name:
+            _places[name] = x, y
+            yield from click(x, y)
+            yield from send("MOUSEMOVE", "NOTHING", 300, 300)
+            return
     raise AssertionError(f"the sidebar has no button of {name}")
 
 
