@@ -144,10 +144,10 @@ def synthesis(result: Result) -> str:
     papers = [_PAPER_SYNTHESIS.get(name, ("-", "-")) for name in result["controllers"]]
     rows = [[*row, *paper] for row, paper in zip(table.rows, papers)]
     seconds = {name: figures["synthesis_seconds"] for name, figures in result["controllers"].items()}
-    ratio = seconds["svm"] / seconds["iterate"]
+    ratio = float(f"{seconds['svm'] / seconds['iterate']:.2g}")
     return (
         f"{markdown(Table('', [*table.header, 'paper: time', 'paper: memory'], rows))}\n\n"
-        f"SVM took {ratio:.2g} times as long as Iterate; in the paper it took a sixth."
+        f"SVM took {ratio:g} times as long as Iterate; in the paper it took a sixth."
     )
 
 
