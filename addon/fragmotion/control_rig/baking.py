@@ -14,6 +14,7 @@ from ..compat import versions
 from ..errors import UserError
 from ..mocap.actions import BAKED
 from ..rig.keys import Bone, Poses, Track, make_tracks
+from ..rig.posing import visit
 from ..rig.rigs import bone_path
 from ..rig.writing import keep_former, write_tracks
 from .binding import follows, motion_of, set_following
@@ -66,15 +67,14 @@ def keyed_controls(obj: bpy.types.Object) -> list[Bone]:
 def step(context: bpy.types.Context, obj: bpy.types.Object, frames: range) -> Stepping:
     """Go through the frames, telling what share is done, and return the controls' channels on them. When it ends, is
     closed or fails, the frame and the constraints are as they were."""
-    scene, frame, did_follow = context.scene, context.scene.frame_current_final, follows(obj)
+    did_follow = follows(obj)
     names = [bone.name for bone in keyed_controls(obj)]
     locations, rotations = np.empty((len(frames), len(names), 3)), np.empty((len(frames), len(names), 4))
     set_following(obj, True)
     stretching = Stretching(context, obj, motion_of(obj))
     scales = np.empty((len(frames), len(stretching.controls)))
     try:
-        for index, number in enumerate(frames):
-            scene.frame_set(number)
+        for index, _ in enumerate(visit(context.scene, frames)):
             scales[index] = stretching.settle()
             locations[index], rotations[index] = _channels(context, obj, names)
             turned_round = (rotations[index] * rotations[max(index - 1, 0)]).sum(-1) < 0
@@ -83,7 +83,6 @@ def step(context: bpy.types.Context, obj: bpy.types.Object, frames: range) -> St
     finally:
         stretching.restore()
         set_following(obj, did_follow)
-        scene.frame_set(floor(frame), subframe=frame - floor(frame))
     return Keyed(Poses(locations, rotations), stretching.controls, scales)
 
 

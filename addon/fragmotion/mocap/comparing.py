@@ -13,7 +13,7 @@ from mathutils import Matrix, Quaternion, Vector
 
 from ..errors import UserError
 from ..rig.belongings import belongings
-from ..rig.posing import playing
+from ..rig.posing import playing, visit
 from ..rig.rigs import make_rig
 from .figures import Figure, Line, Surface, draw_pairs
 from .sampling import sample, sample_times
@@ -56,14 +56,14 @@ def _results(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.type
     rig = make_rig(obj)
     clip, times = sample(context, obj, action, rig), sample_times(context.scene, obj, action)
     meshes = [each for each in belongings(obj) if each.type == "MESH" and each.visible_get()]
+    indices = _indices(clip)
+    if not meshes:
+        yield from (Figure([Line(*bone) for bone in _bones(clip, rig.skeleton, index)]) for index in indices)
+        return
     with playing(context, obj, action):
-        for index in _indices(clip):
-            if meshes:
-                context.scene.frame_set(round(times[index]))
-                seen = _frame(clip, rig.skeleton, index)
-                yield Figure([], [_surface(context, mesh, seen) for mesh in meshes])
-            else:
-                yield Figure([Line(*bone) for bone in _bones(clip, rig.skeleton, index)])
+        for index, _ in zip(indices, visit(context.scene, times[indices])):
+            seen = _frame(clip, rig.skeleton, index)
+            yield Figure([], [_surface(context, mesh, seen) for mesh in meshes])
 
 
 def _indices(clip: Clip) -> list[int]:

@@ -17,7 +17,7 @@ from . import posing
 from .rigs import bone_path, carriers, hanging_of, is_tied, make_rig
 
 if TYPE_CHECKING:
-    from fragmotion_core import Doubles
+    from fragmotion_core import Doubles, Rig
 
 _STRAYS = 0.005  # of the armature's size: what moves a bone by less is no motion
 _FRAMES = 16  # of each Action that are looked at
@@ -33,26 +33,27 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
     """Keep with the armature which of its bones hang on others in these Actions, and say so, and what is left out."""
     bones = obj.data.bones
     least = _STRAYS * float(np.ptp([bone.head_local for bone in bones], axis=0).max())
-    carrying = carriers(obj, make_rig(obj))
+    rig = make_rig(obj)
+    carrying, hips = carriers(obj, rig), bones[rig.skeleton.roles["hips"]]
     others = [bone for bone in bones if bone.name not in carrying]
     candidates = [bone.name for bone in others if any(_is_moved(obj, action, bone, least) for action in actions)]
     if candidates:
         poses = np.concatenate([posing.sample_poses(context, obj, action, _times(action))[0] for action in actions])
         parents = [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
         found = core.find_hanging(bones.keys(), parents, poses, [bones.find(name) for name in candidates])
-        found = {**_beside_hips(obj, candidates), **found}
+        found = {**_beside_hips(obj, hips, candidates), **found}
         obj.fragmotion.hanging.clear()
         for bone, on in sorted(found.items()):
             row = obj.fragmotion.hanging.add()
             row.name, row.on = bones[bone].name, bones[on].name
-    return _say(obj, candidates)
+        rig = make_rig(obj)
+    return _say(obj, rig, candidates)
 
 
-def _beside_hips(obj: bpy.types.Object, moved: Sequence[str]) -> dict[int, int]:
+def _beside_hips(obj: bpy.types.Object, hips: bpy.types.Bone, moved: Sequence[str]) -> dict[int, int]:
     """What hangs on a moved bone above the hips, as a tail beside them, moves with the hips: of the bones above them
     only the root keeps a way of its own, the others' is a part of the hips'."""
     bones = obj.data.bones
-    hips = bones[make_rig(obj).skeleton.roles["hips"]]
     line = {hips.name, *(bone.name for bone in hips.parent_recursive)}
     beside = [child for name in moved if name in line for child in bones[name].children if child.name not in line]
     return {bones.find(child.name): bones.find(hips.name) for child in beside if not is_tied(child)}
@@ -82,12 +83,11 @@ def _times(action: bpy.types.Action) -> Doubles:
     return np.linspace(float(first), float(last), _FRAMES)
 
 
-def _say(obj: bpy.types.Object, candidates: Sequence[str]) -> list[str]:
+def _say(obj: bpy.types.Object, rig: Rig, candidates: Sequence[str]) -> list[str]:
     told, hanging = [], hanging_of(obj)
     if hanging:
         pairs = ", ".join(f"'{name}' with '{on}'" for name, on in hanging.items())
         told.append(f"Learned, and baked, as bones that move with others than their parents: {pairs}")
-    rig = make_rig(obj)
     above = [bone.name for bone in obj.data.bones[rig.skeleton.roles["hips"]].parent_recursive]
     carried = {*hanging, *carriers(obj, rig), *(name for name in above if _carries_no_other(obj, name, hanging))}
     rest = [name for name in candidates if name not in carried]
