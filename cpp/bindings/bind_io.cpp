@@ -104,6 +104,7 @@ void bind_rig(py::module_& m) {
            py::arg("world"), py::arg("inherit_rotation") = py::none(), py::arg("local_location") = py::none(),
            py::arg("roles") = py::none(), py::arg("hangs") = py::none())
       .def_property_readonly("skeleton", &Rig::skeleton)
+      .def_property_readonly("rise", &Rig::rise)
       .def(
           "clip",
           [](const Rig& rig, const std::string& name, double rate, const Doubles& locations, const Doubles& rotations,

@@ -216,12 +216,14 @@ class Rig:
         hangs: dict[str, str] | None = None,
     ) -> None:
         """rest [B,4,4]: armature-space rest matrices (row-major, y along the bone), lengths [B] of the bones along y,
-        world [4,4]: the armature object's matrix (a uniform scale only), inherit_rotation and local_location [B] bool
-        (default all True). hangs: bone -> the bone that it moves with, though it is another's child. Raises ValueError
-        on a non-uniform or mirrored scale, naming it, and on a bone that hangs on one that it moves. Bones outside the
-        tree of the hips keep their rest pose."""
+        world [4,4]: the armature object's matrix (a scale that is uniform but along the vertical), inherit_rotation and
+        local_location [B] bool (default all True). hangs: bone -> the bone that it moves with, though it is another's
+        child. Raises ValueError on any other or a mirrored scale, naming it, and on a bone that hangs on one that it
+        moves. Bones outside the tree of the hips keep their rest pose."""
     skeleton: Skeleton
-    """In world metres."""
+    """In world metres, as wide as it is shown."""
+    rise: float
+    """How many times as high as the heights of its skeleton, clips and poses it is shown; 1 but for a hundredth."""
     def clip(
         self, name: str, rate: float, locations: ArrayLike, rotations: ArrayLike, worlds: ArrayLike | None = None
     ) -> Clip:

@@ -49,10 +49,10 @@ def test_one_bone() -> None:
     refuses(bpy.ops.fragmotion.build, "'Rig' has only one bone, 'root'")
 
 
-def test_a_non_uniform_scale() -> None:
+def test_a_scale_that_is_not_uniform_along_the_ground() -> None:
     obj = making.add_armature()
     add_takes(obj)
-    obj.scale = (1, 1, 1.5)
+    obj.scale = (1, 1.5, 1)
     refuses(bpy.ops.fragmotion.build, r"'Rig'.*scale")
 
 

@@ -70,6 +70,31 @@ def test_a_bake_follows_the_ground(obj: bpy.types.Object, make: Any, rise: float
     assert np.ptp(seen[:, 2] - plane[:, 2]) > 0.2
 
 
+def lowest_feet(obj: bpy.types.Object) -> np.ndarray:
+    """How high the lowest joint of a baked character's feet is over the slope, or a plane that rises so, [F]."""
+    feet = [bone.name for bone in obj.data.bones if bone.name.startswith(("foot", "toe"))]
+    lowest = []
+    for frame in range(1, 40):
+        bpy.context.scene.frame_set(frame)
+        places = [obj.matrix_world @ obj.pose.bones[name].head for name in feet]
+        lowest.append(min(place.z - math.tan(ANGLE) * place.y for place in places))
+    return np.array(lowest)
+
+
+def test_a_character_that_its_object_makes_taller_goes_as_far_and_stands_on_the_ground(obj: bpy.types.Object) -> None:
+    plane = bake(obj)
+    stand_on(obj, add_slope())
+    bake(obj)
+    stands = lowest_feet(obj)
+    obj.fragmotion.ground.kind = "PLANE"
+    obj.scale.z *= 1.206
+    bpy.context.view_layer.update()
+    np.testing.assert_allclose(bake(obj), plane * [1, 1, 1.206], atol=2e-4)
+    obj.fragmotion.ground.kind = "OBJECT"
+    bake(obj)
+    np.testing.assert_allclose(lowest_feet(obj), stands, atol=0.05)
+
+
 def test_a_drive_stands_on_the_ground_and_says_where_there_is_none(session: ModuleType, obj: bpy.types.Object) -> None:
     ground = add_slope(size=0.5)
     ground.location.z = 3

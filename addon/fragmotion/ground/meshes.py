@@ -14,6 +14,7 @@ from mathutils.bvhtree import BVHTree
 from ..errors import UserError
 from ..rig.belongings import belongings
 from ..rig.external_motion import animated
+from ..rig.rigs import make_rig, stretch_of
 
 if TYPE_CHECKING:
     from fragmotion_core import Player
@@ -36,12 +37,12 @@ class Ground:
         self._tree, self._top = tree, top
         self._seen = seen or Matrix()
         self._back = self._seen.inverted()
-        self._turned_back = self._back.to_quaternion()
+        self._normals_back = self._seen.to_3x3().transposed()  # normals go back so, whatever stretches places
 
     def __call__(self, x: float, y: float, z: float) -> tuple[float, float, float, float] | None:
         """The height and the normal of what a ray down from a place meets, or None."""
         hit, normal, _, _ = self._tree.ray_cast(self._seen @ Vector((x, y, min(z, self._top))), _DOWN)
-        return None if hit is None else ((self._back @ hit).z, *(self._turned_back @ normal))
+        return None if hit is None else ((self._back @ hit).z, *(self._normals_back @ normal).normalized())
 
     def seen_along(self, eye: Vector, along: Vector) -> Vector | None:
         """The place in the world where a line of sight meets it first, or None."""
@@ -50,7 +51,7 @@ class Ground:
     def seen_from(self, moved: Matrix) -> Ground:
         """The same for one who plays elsewhere than he is seen: `moved` takes the one place, on the level, to the
         other."""
-        return Ground(self._tree, self._top, self.remark, moved)
+        return Ground(self._tree, self._top, self.remark, moved @ self._seen)
 
 
 def find_ground(context: bpy.types.Context, obj: bpy.types.Object) -> Ground | None:
@@ -66,7 +67,8 @@ def find_ground(context: bpy.types.Context, obj: bpy.types.Object) -> Ground | N
         raise UserError(f"The ground {what} has no faces: {_HELP}")
     moving = [each.name for each in chosen if animated(each)]
     remark = f"The ground '{moving[0]}' moves: it is taken as it stands now" if moving else ""
-    return Ground(BVHTree.FromPolygons(points, faces), max(z for _, _, z in points) + _OVER, remark)
+    top = max(z for _, _, z in points) + _OVER
+    return Ground(BVHTree.FromPolygons(points, faces), top, remark, stretch_of(make_rig(obj)))
 
 
 def remarks_of(player: Player, ground: Ground | None) -> list[str]:

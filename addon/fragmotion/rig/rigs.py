@@ -42,6 +42,11 @@ def make_rig(obj: bpy.types.Object, place: Matrix | None = None) -> Rig:
         return rig
 
 
+def stretch_of(rig: Rig) -> Matrix:
+    """What takes the rig's places to where they are shown, where its object stretches it upwards."""
+    return Matrix.Diagonal((1.0, 1.0, rig.rise, 1.0))
+
+
 def over_origin(obj: bpy.types.Object) -> Matrix:
     """The armature's place, were it over the world's origin: what comes from files is written as there, and so plays
     where the armature is."""

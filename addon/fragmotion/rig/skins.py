@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 from ..compat.core import core
+from .rigs import stretch_of
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles, Rig, Skin
@@ -18,15 +20,16 @@ def make_skin(obj: bpy.types.Object, rig: Rig) -> Skin:
     """The skin of an armature: the meshes that it deforms by their vertex groups, and those that are its bones'
     children."""
     skin: Skin = core.Skin(rig.skeleton)
+    back = stretch_of(rig).inverted()
     for mesh in bpy.data.objects:
         if mesh.type != "MESH":
             continue
         if mesh.find_armature() == obj:
-            skin.add(np.array(mesh.matrix_world), _points(mesh), mesh.vertex_groups.keys(), _weights(mesh))
+            skin.add(np.array(back @ mesh.matrix_world), _points(mesh), mesh.vertex_groups.keys(), _weights(mesh))
         elif mesh.parent == obj and mesh.parent_type == "BONE" and mesh.parent_bone in obj.data.bones:
             points = _points(mesh)
             rows = np.column_stack([np.arange(len(points)), np.zeros(len(points)), np.ones(len(points))])
-            skin.add(_resting(mesh, obj), points, [mesh.parent_bone], rows)
+            skin.add(np.array(back @ _resting(mesh, obj)), points, [mesh.parent_bone], rows)
     return skin
 
 
@@ -42,9 +45,8 @@ def _weights(mesh: bpy.types.Object) -> Doubles:
     return np.array(rows, float).reshape(-1, 3)
 
 
-def _resting(mesh: bpy.types.Object, obj: bpy.types.Object) -> Doubles:
+def _resting(mesh: bpy.types.Object, obj: bpy.types.Object) -> Matrix:
     """Where a bone's child is while the armature rests."""
     bone = obj.pose.bones[mesh.parent_bone]
-    return np.array(
-        obj.matrix_world @ bone.bone.matrix_local @ (obj.matrix_world @ bone.matrix).inverted_safe() @ mesh.matrix_world
-    )
+    shown = (obj.matrix_world @ bone.matrix).inverted_safe()
+    return obj.matrix_world @ bone.bone.matrix_local @ shown @ mesh.matrix_world

@@ -158,6 +158,7 @@ TEST(Rig, RefusesObjectsItCannotScaleUniformly) {
     std::vector<std::string> named;
   } cases[] = {
       {"non-uniform", {1, 0, 0, 5, 0, 2, 0, 5, 0, 0, 1, 5, 0, 0, 0, 1}, {"(1, 2, 1): apply the scale (Ctrl+A)"}},
+      {"tilted", {1, 0, 0, 0, 0, 0.8, -1.2, 0, 0, 0.6, 1.6, 0, 0, 0, 0, 1}, {"(1, 1, 2): apply the scale (Ctrl+A)"}},
       {"negative", {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1}, {"(-1, -1, -1): apply the scale"}},
       {"mirrored", {-3, 0, 0, 0, 0, 3, 0, 0, 0, 0, 3, 0, 0, 0, 0, 1}, {"(-3, -3, -3): apply the scale"}},
       {"sheared", {1, 0.6, 0, 0, 0, 0.8, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, {"sheared", "(1, 1, 1)"}},

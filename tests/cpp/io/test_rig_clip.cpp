@@ -57,6 +57,31 @@ TEST(RigClip, PutsTheHipsWhereAnObjectMovesThemThatIsScaledALittleUnevenly) {
   expect_same_motion(clip_of(rig, back), clip, 1e-9);
 }
 
+// What turns about the vertical stays as it is, whatever stretches it upwards; as bones' lengths do in clips.
+TEST(RigClip, LeavesOutWhatStretchesTheObjectUpwards) {
+  const Eigen::Vector4d upwards(1, 1, 1.206, 1);
+  Armature armature = random_armature(8);
+  const Matrix4 plain = matrix_at(armature.world, 0), world = upwards.asDiagonal() * plain;
+  const Rig rig(armature);
+  armature.world.clear();
+  append(world, armature.world);
+  const Rig stretched(armature);
+  EXPECT_NEAR(stretched.rise(), 1.206, 1e-12);
+  EXPECT_EQ(rig.rise(), 1);
+  for (int b = 0; b < rig.skeleton().size(); ++b)
+    EXPECT_LT((stretched.skeleton().offsets[b] - rig.skeleton().offsets[b]).norm(), 1e-12);
+  const Channels channels = random_channels(12, 4, 9);
+  const Clip clip = clip_of(stretched, channels);
+  expect_same_motion(clip, clip_of(rig, channels), 1e-12);
+  for (int f = 0; f < 4; ++f) {
+    const Matrix4 hips = world * blender_pose(armature, &channels.locations[36 * f], &channels.rotations[48 * f])[5];
+    const Vector3 shown = load_vector(&clip.root_positions[3 * f]).cwiseProduct(upwards.head<3>());
+    EXPECT_LT((shown - hips.topRightCorner<3, 1>()).norm(), 1e-12);
+  }
+  const Channels back = stretched.channels(clip.frames, clip.root_positions.data(), clip.rotations.data());
+  expect_same_motion(clip_of(stretched, back), clip, 1e-9);
+}
+
 TEST(RigClip, DropsTheScaleOfMatrices) {
   const Armature armature = random_armature(11);
   const Rig rig(armature);

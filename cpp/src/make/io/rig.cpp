@@ -2,6 +2,7 @@
 #include "io/rig.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -167,6 +168,7 @@ int count_roles(const Armature& armature, const Skeleton& tree) {
 
 Rig::Rig(Armature armature)
     : armature_(checked(std::move(armature))),
+      rise_(stretch_upwards(armature_.world.data())),
       object_(parse_object(armature_.world.data(), "armature")),
       rest_(parse_rest(armature_)),
       local_(rest_in(armature_.parents)),
@@ -174,9 +176,12 @@ Rig::Rig(Armature armature)
       order_(checked_order(armature_, hangs_)),
       kinematics_(choose_tree(skeleton_bones_)) {}
 
-Rig::Object Rig::parse_object(const double* matrix, const std::string& label) {
-  const RowMajor world(matrix);
-  const double scale = uniform_scale(world, label);
+Rig::Object Rig::parse_object(const double* matrix, const std::string& label) const {
+  std::array<double, 16> unstretched;
+  std::copy_n(matrix, unstretched.size(), unstretched.begin());
+  for (int column = 0; column < 4; ++column) unstretched[8 + column] /= rise_;
+  const RowMajor world(unstretched.data());
+  const double scale = uniform_scale(world, column_lengths(RowMajor(matrix)), label);
   return {scale, column_lengths(world) / scale, {world.topRightCorner<3, 1>(), extract_rotation(world, label)}};
 }
 

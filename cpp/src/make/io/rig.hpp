@@ -31,21 +31,24 @@ struct Channels {
 };
 
 /// Turns an armature's channels into clips, and poses back into channels. Its skeleton is the tree of bones that holds
-/// the hips, in world metres; bones of other trees rest. A bone that hangs on another than its parent is there in the
-/// skeleton, at its place at rest, and its channels are such that it keeps that. Legs without feet reach to the height
-/// of the object's origin. A bone that Blender connects to its parent ignores its location: the hips and the first bone
-/// must not be connected, for take_channels no bone.
+/// the hips, in world metres; bones of other trees rest. An armature that its object stretches along the vertical moves
+/// as it is without that: heights of skeleton, clips and poses are rise() times as great in the world. A bone that
+/// hangs on another than its parent is there in the skeleton, at its place at rest, and its channels are such that it
+/// keeps that. Legs without feet reach to the height of the object's origin. A bone that Blender connects to its parent
+/// ignores its location: the hips and the first bone must not be connected, for take_channels no bone.
 class Rig {
  public:
   /// Throws std::invalid_argument on wrong sizes or order, on rest matrices that are not rigid, on a world matrix whose
-  /// scale is not positive and, but for a hundredth, uniform (naming it), on roles or bones that do not exist or lie in
-  /// different trees, and on a bone that hangs on one that it moves.
+  /// scale is not positive and, but for a hundredth and along the vertical, uniform (naming it), on roles or bones that
+  /// do not exist or lie in different trees, and on a bone that hangs on one that it moves.
   explicit Rig(Armature armature);
 
   int bones() const { return static_cast<int>(armature_.names.size()); }
   const Skeleton& skeleton() const { return kinematics_.skeleton(); }
   /// The armature's bone that each of the skeleton's is.
   const std::vector<int>& skeleton_bones() const { return skeleton_bones_; }
+  /// How much taller the object makes it than it makes it wide; 1 but for a hundredth.
+  double rise() const { return rise_; }
 
   /// Channels [frames, bones, 3] and [frames, bones, 4] (need not be unit) to a clip. `worlds` [frames, 4, 4], or null
   /// where the object stands still; its scale must stay. Of the locations only what they do to the hips is kept.
@@ -79,7 +82,7 @@ class Rig {
     Rigid rigid;
   };
 
-  static Object parse_object(const double* matrix, const std::string& label);
+  Object parse_object(const double* matrix, const std::string& label) const;
   static std::vector<Rigid> parse_rest(const Armature& armature);
   std::vector<Rigid> rest_in(const std::vector<int>& parents) const;
   Skeleton make_tree(int root, std::vector<int>& members) const;
@@ -101,7 +104,8 @@ class Rig {
   std::vector<int> match_take(const Take& take) const;
 
   Armature armature_;
-  Object object_;
+  double rise_;
+  Object object_;             // not stretched
   std::vector<Rigid> rest_;   // in the armature's space
   std::vector<Rigid> local_;  // in the parent at rest
   std::vector<int> hangs_;    // on which bone each does: by default its parent

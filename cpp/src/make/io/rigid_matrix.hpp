@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
@@ -56,15 +57,27 @@ inline std::string print_scale(const Vector3& scale) {
   return text.str();
 }
 
-inline double uniform_scale(const RowMajor& matrix, const std::string& label) {
-  const std::string advice = ": apply the scale (Ctrl+A); only a uniform, positive one can be used";
+/// How much more than along the ground an object's matrix stretches along the vertical, which shears nothing that turns
+/// about it; 1 where it stretches nothing else than that, but for kUniform.
+inline double stretch_upwards(const double* matrix) {
+  const Eigen::Matrix3d m = RowMajor(matrix).topLeftCorner<3, 3>();
+  const Vector3 lengths = m.rowwise().norm();
+  const double wide = lengths.head<2>().mean(), stretch = lengths.z() / wide;
+  const bool is_round = std::abs(lengths.x() - lengths.y()) <= kUniform * wide;
+  return is_round && stretch > kRounding && std::isfinite(stretch) && std::abs(stretch - 1) > kUniform ? stretch : 1;
+}
+
+/// The scale of an object's matrix; it is called `printed` where it is refused.
+inline double uniform_scale(const RowMajor& matrix, const Vector3& printed, const std::string& label) {
+  const std::string advice =
+      ": apply the scale (Ctrl+A); only a positive one can be used that is uniform or differs upwards alone";
   if (!matrix.allFinite()) fail(label, "the world matrix is not finite");
   const Vector3 scale = column_lengths(matrix);
   const double mean = scale.mean();
-  if (matrix.topLeftCorner<3, 3>().determinant() < 0) fail(label, "the scale is " + print_scale(-scale) + advice);
+  if (matrix.topLeftCorner<3, 3>().determinant() < 0) fail(label, "the scale is " + print_scale(-printed) + advice);
   if (mean < kRounding || (scale.array() - mean).abs().maxCoeff() > kUniform * mean)
-    fail(label, "the scale is " + print_scale(scale) + advice);
-  if (!is_square(matrix, kUniform)) fail(label, "the object is sheared, with scale " + print_scale(scale) + advice);
+    fail(label, "the scale is " + print_scale(printed) + advice);
+  if (!is_square(matrix, kUniform)) fail(label, "the object is sheared, with scale " + print_scale(printed) + advice);
   return mean;
 }
 
