@@ -48,6 +48,7 @@ void bind_doctor(py::module_& m) {
         return without_gil(progress, [&](const Progress& told) { return examine(each, threads, told); });
       },
       py::arg("takes"), py::arg("threads") = 0, py::arg("progress") = py::none());
+  m.def("examine_ground", &examine_ground, py::arg("take"));
   m.def(
       "mend",
       [](const Take& take, const std::vector<Finding>& findings, const py::object& progress) {

@@ -183,6 +183,9 @@ def tell_four_legs(takes: Sequence[Take]) -> None:
 def examine(takes: list[Take], threads: int = 0, progress: Progress | None = None) -> list[Examination]:
     """Examine takes as they were read, each by itself and for motion that several have. 0 threads: the machine's."""
 
+def examine_ground(take: Take) -> list[Finding]:
+    """What examine finds of the height at which feet stand, in a take with whose other faults nothing is done."""
+
 def mend(take: Take, findings: list[Finding], progress: Progress | None = None) -> Take:
     """The take without what these findings of its examination say, where they are mendable; others change nothing."""
 

@@ -135,6 +135,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Take.world_transforms": {"self": take},
         "tell_four_legs": {"takes": [walked, take]},
         "examine": {"takes": [walked, take], "threads": 1, "progress": quiet},
+        "examine_ground": {"take": walked},
         "mend": {"take": walked, "findings": core.examine([walked])[0].findings, "progress": quiet},
         "read_bvh": {"path": folder / "take.bvh", "unit": 0.01},
         "write_bvh": {"take": take, "path": folder / "written.bvh", "unit": 0.01},

@@ -17,7 +17,7 @@ from ..files import read_regular
 from ..jobs import Report
 from ..mocap import actions
 from ..mocap.curve_points import read_once
-from ..mocap.doctor import tell_size
+from ..mocap.doctor import tell_ground, tell_size
 from ..mocap.hands import hand_pose, with_hands
 from ..mocap.on_the_spot import led_by_feet
 from ..mocap.sampling import sample_parts
@@ -156,12 +156,14 @@ def _sample_all(
     """The takes as clips with the style of each, and what to warn of. Takes of a single pose are left out where there
     are others."""
     clips: list[tuple[str, Clip]] = []
-    poses, warnings = [], []
+    poses, warnings, hovering = [], [], []
     hands = hand_pose(context, obj, rig)
     for action in takes:
         try:
             with read_once():
                 parts = led_by_feet(action, sample_parts(context, obj, action, rig), rig.skeleton)
+                ground = tell_ground(action, parts, rig.skeleton)
+                hovering.extend([f"'{action.name}': {ground}"] if ground else [])
                 clips.extend((style_of(action), with_hands(clip, rig, hands)) for clip in parts)
                 digest_of(action)  # kept for sources_of
         except SinglePose:
@@ -170,6 +172,9 @@ def _sample_all(
                 raise
     if poses:
         warnings.append(f"Left out, as they hold a single pose: {', '.join(poses)}")
+    if hovering:
+        more = f" ({len(hovering) - 1} more do, too)" if len(hovering) > 1 else ""
+        warnings.append(f"In {hovering[0]}, as Mend does in Doctor, or it is learned so{more}")
     others = external_motion(obj)
     if others:
         warnings.append(f"The takes were learned as Blender shows them, moved also by {'; '.join(others)}")

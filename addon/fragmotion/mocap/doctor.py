@@ -13,7 +13,7 @@ from ..compat.core import core
 from ..jobs import Job, Report
 
 if TYPE_CHECKING:
-    from fragmotion_core import Examination, Finding, Skeleton, Take
+    from fragmotion_core import Clip, Examination, Finding, Skeleton, Take
 
 DUPLICATE = "duplicate"
 """The code of a finding that is mended by leaving the take out."""
@@ -21,7 +21,7 @@ DUPLICATE = "duplicate"
 IN_PLACE = "in_place"
 """The code of a finding that the take goes on the spot."""
 
-_UNIT = "unit"  # a finding's code
+_GROUND, _UNIT = "ground", "unit"  # findings' codes
 _SIZE = "character_size"  # that of what is wrong with the armature, not with the take
 WAIT = 0.1
 """Seconds between looks at a thread that is waited for."""
@@ -105,6 +105,15 @@ def tell_size(actions: Sequence[bpy.types.Action], skeleton: Skeleton) -> list[s
     said = say_size(skeleton)
     for action in actions:
         tell_anew(action, _SIZE, "warning", "".join(said))
+    return said
+
+
+def tell_ground(action: bpy.types.Action, clips: Sequence[Clip], skeleton: Skeleton) -> str:
+    """How far over or under the ground the feet stand in an Action's clips, and the Doctor tells it; empty where they
+    stand on it, as in clips that were made for the body."""
+    found = [each for clip in clips for each in core.examine_ground(core.Take.from_clip(clip, skeleton))]
+    said = found[0].text if found else ""
+    tell_anew(action, _GROUND, "warning", said, mendable=True)
     return said
 
 

@@ -9,6 +9,7 @@ from types import ModuleType
 import bpy
 import making
 import pytest
+from mathutils import Vector
 
 
 def told_of(action: bpy.types.Action) -> list[str]:
@@ -50,3 +51,27 @@ def test_a_child_and_a_hero_are_no_odd_sizes(addon: ModuleType, scale: float) ->
     obj.scale = (scale,) * 3
     bpy.context.view_layer.update()
     assert addon.mocap.doctor.say_size(addon.rig.rigs.make_rig(obj).skeleton) == []
+
+
+def test_build_says_that_feet_hover_and_mend_puts_them_down(addon: ModuleType) -> None:
+    """As those of clips that were made for a body with longer legs."""
+    obj = making.open_sample()
+    walk = bpy.data.actions["walk forward"]
+    for action in bpy.data.actions:
+        action.fragmotion.use = action == walk
+    curves = addon.compat.versions.curves_of(walk, obj)
+    heights = [c for c in curves if c.data_path == 'pose.bones["hips"].location']
+    up = obj.data.bones["hips"].matrix_local.to_3x3().inverted() @ Vector((0, 0, 0.04))
+    gather = addon.character.building.gather
+    for raised in (False, True):
+        for curve in heights if raised else ():
+            for key in curve.keyframe_points:
+                key.co.y += up[curve.array_index]
+            curve.update()
+        said = [text for text in gather(bpy.context, obj, obj.fragmotion.build).warnings if "over the ground" in text]
+        rows = [index for index, row in enumerate(walk.fragmotion.findings) if row.code == "ground"]
+        assert len(said) == len(rows) == raised
+    assert "'walk forward': the feet stand " in said[0]
+    bpy.context.window_manager.fragmotion.active_action = bpy.data.actions.find(walk.name)
+    assert bpy.ops.fragmotion.mend_finding(index=rows[0]) == {"FINISHED"}
+    assert not [text for text in gather(bpy.context, obj, obj.fragmotion.build).warnings if "the ground" in text]

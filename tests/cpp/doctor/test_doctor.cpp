@@ -267,6 +267,24 @@ TEST(Doctor, PutsFeetOnTheGround) {
   }
 }
 
+// Its clips are another's, whose legs are longer: on the way or on the spot.
+TEST(Doctor, TellsFeetThatHoverOverWhereTheyAreAtRest) {
+  for (const bool on_the_spot : {false, true}) {
+    for (const double height : {0.0, 0.03, -0.03}) {
+      Take take = walk();
+      for (int f = 0; f < take.frames; ++f) {
+        place(take, f)[2] += height;
+        if (on_the_spot) place(take, f)[1] -= 1.2 * f / take.rate;
+      }
+      const std::vector<Finding> found = examine_ground(take);
+      ASSERT_EQ(found.size(), height == 0 ? 0 : 1) << on_the_spot << height;
+      if (height == 0) continue;
+      EXPECT_NE(found[0].text.find(height < 0 ? "cm under the ground" : "cm over the ground"), std::string::npos);
+      EXPECT_TRUE(examine_ground(mend(take, found)).empty());
+    }
+  }
+}
+
 TEST(Doctor, TellsASlope) {
   Take take = walk();
   for (int f = 0; f < take.frames; ++f) place(take, f)[2] += 0.1 * place(take, f)[1] - 0.18;

@@ -51,4 +51,7 @@ const std::vector<std::string>& finding_codes();
 std::vector<Examination> examine(const std::vector<const Take*>& takes, int threads = 0, const Progress& progress = {});
 std::vector<Examination> examine(const std::vector<Take>& takes, int threads = 0, const Progress& progress = {});
 
+/// What examine() finds of the height at which feet stand, in a take with whose other faults nothing is done.
+std::vector<Finding> examine_ground(const Take& take);
+
 }  // namespace fragmotion

@@ -8,7 +8,9 @@
 
 #include "base/decompositions.hpp"
 #include "base/quantile.hpp"
+#include "doctor/basis.hpp"
 #include "doctor/check.hpp"
+#include "doctor/examine.hpp"
 #include "doctor/lengths.hpp"
 #include "motion/contacts.hpp"
 #include "motion/soles.hpp"
@@ -56,11 +58,47 @@ Stands stands_of(const Patient& patient, bool level) {
   return stands;
 }
 
-/// The median height over the ground at which feet stand, m; nothing where none does.
-std::optional<double> ground_of(const Patient& patient) {
+/// Those near the lowest; of feet that tread on the spot, as they would on their way.
+Stands level_stands(const Patient& patient) {
+  Stands stands = stands_of(patient, true);
+  if (!stands.empty()) return stands;
+  const Findings on_the_spot = find_in_place(patient);
+  if (on_the_spot.empty()) return {};
+  Patient led = patient;
+  lead_by_feet(led, on_the_spot);
+  return stands_of(led, true);
+}
+
+/// The heights of the lowest joints of feet that stand, m.
+std::vector<double> standing_heights(const Patient& patient) {
   std::vector<double> heights;
-  for (const Eigen::Vector4d& stand : stands_of(patient, true)) heights.push_back(stand.z());
-  return heights.empty() ? std::nullopt : std::optional(median(std::move(heights)));
+  for (const Eigen::Vector4d& stand : level_stands(patient)) heights.push_back(stand.z());
+  return heights;
+}
+
+/// That of a body at rest, where it stands on the ground: nothing of a rest pose whose feet are as near to the
+/// knees' height, as where the hips are the origin.
+std::optional<double> resting_height(const Patient& patient) {
+  const Patient rest(patient.skeleton());
+  if (!rest.has_legs() || standing_axis(rest) != Vector3::UnitZ()) return std::nullopt;
+  double lowest = std::numeric_limits<double>::infinity(), knee = lowest;
+  for (int leg = 0; leg < static_cast<int>(rest.legs.size()); ++leg) {
+    lowest = std::min(lowest, sole(rest, 0, leg).z());
+    knee = std::min(knee, rest.head(0, rest.legs[leg].middle >= 0 ? rest.legs[leg].middle : rest.legs[leg].top).z());
+  }
+  return 2 * std::abs(lowest) < knee ? std::optional(lowest) : std::nullopt;
+}
+
+/// How high feet stand over the ground, m; 0 where they stand on it, as nearly as the body tells: those that go on toes
+/// are as low as they come.
+double height_over_ground(const Patient& patient) {
+  const std::vector<double> heights = standing_heights(patient);
+  if (heights.empty()) return 0;
+  const double stands = median(heights);
+  const std::optional<double> rests = resting_height(patient);
+  if (!rests) return is_on_ground(stands * patient.scale()) ? 0 : stands;
+  const double over = stands > *rests ? std::max(0.0, quantile(heights, kUnderFloor) - *rests) : stands - *rests;
+  return std::abs(over) * patient.scale() <= kFlatSole ? 0 : over;
 }
 
 /// How much the ground that feet stand on rises or falls over the take, as a plane or with time, m; 0 where it is
@@ -83,16 +121,14 @@ double rise_of(const Patient& patient) {
 }  // namespace
 
 Findings find_ground(const Patient& patient) {
-  const std::optional<double> ground = ground_of(patient);
-  if (!ground || rise_of(patient) > 0) return {};
-  const double height = *ground * patient.scale();
-  if (is_on_ground(height)) return {};
+  const double over = height_over_ground(patient);
+  if (over == 0 || rise_of(patient) > 0) return {};
   return {mendable(found(patient, "ground", Severity::kWarning,
-                         "the feet stand " + centimetres(std::abs(*ground)) + (height < 0 ? " under" : " over") +
-                             " the ground; move the take " + (height < 0 ? "up" : "down")))};
+                         "the feet stand " + centimetres(std::abs(over)) + (over < 0 ? " under" : " over") +
+                             " the ground; move the take " + (over < 0 ? "up" : "down")))};
 }
 
-void put_on_ground(Patient& patient, const Findings&) { patient.move({0, 0, -*ground_of(patient)}); }
+void put_on_ground(Patient& patient, const Findings&) { patient.move({0, 0, -height_over_ground(patient)}); }
 
 Findings find_slope(const Patient& patient) {
   const double rise = rise_of(patient);
@@ -100,6 +136,11 @@ Findings find_slope(const Patient& patient) {
   return {found(patient, "slope", Severity::kWarning,
                 "the ground that the feet stand on rises or falls by " + centimetres(rise) +
                     " over the take: a hill or stairs, or the capture drifted; leave out the part that is not level")};
+}
+
+std::vector<Finding> examine_ground(const Take& take) {
+  const Patient patient(take);
+  return patient.is_finite() ? find_ground(patient) : Findings{};
 }
 
 }  // namespace fragmotion
