@@ -51,6 +51,8 @@ def find_joints(obj: bpy.types.Object) -> dict[str, Joint]:
             world=np.array(obj.matrix_world),
         )
         found = core.Body(rig.skeleton).roles
+    if rig.rise != 1:
+        raise UserError(f"Armature '{obj.name}' is scaled unevenly, which no constraints allow: apply the scale")
     by_name = {bone.name.removeprefix(_PREFIX): bone for bone in ordered}
     return _joints({role: by_name[name] for role, name in found.items()}, ordered, parents)
 
