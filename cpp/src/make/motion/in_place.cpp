@@ -76,7 +76,8 @@ std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& cl
   if (!turns(clip)) way.turn = treading.turn();
   if (std::abs(way.turn) < kTurns) way.turn = 0;
   const Vector2 center = middle(clip);
-  return way_of(treading, soles, treading.velocities(way.turn, center), way, clip, scale);
+  const auto told = way_of(treading, soles, treading.velocities(way.turn, center), way, clip, scale);
+  return told ? told : way_of(treading, soles, treading.striding(way.turn, center), way, clip, scale);
 }
 
 FeetWay halfway(FeetWay a, const FeetWay& b) {

@@ -111,9 +111,10 @@ Velocities Treading::velocities(double turn, const Vector2& center) const {
   Velocities way(windows_, Vector2::Zero());
   Vector2 correlation = Vector2::Zero();
   for (const SolePath& sole : soles_) correlation += add_circled(sole.ankle, turn, center, way);
-  const double chance = 1 / std::sqrt(windows_);  // the standard error of a correlation of numbers that have none
-  if (correlation.norm() / static_cast<double>(soles_.size()) < 2 * chance) {
-    if (is_stiff() || swings(turn, center)) return strides(turn, center);
+  const double feet = static_cast<double>(soles_.size());
+  if (is_stiff() && mean_velocity(way).norm() < feet * kTreads * slowest()) return strides(turn, center);
+  if (correlation.norm() < feet / std::sqrt(windows_)) {  // the standard error of that of numbers that have none
+    if (swings(turn, center)) return strides(turn, center);
     for (int f = 0; f < windows_; ++f) way[f] = facing(f);
   }
   for (std::size_t round = 1; round < std::size(kSmooth); ++round) {
@@ -150,7 +151,10 @@ bool Treading::is_stiff() const {
   return std::all_of(soles_.begin(), soles_.end(), [](const SolePath& sole) { return sole.points.size() == 1; });
 }
 
-// Of legs that swing against each other like pendulums.
+Velocities Treading::striding(double turn, const Vector2& center) const {
+  return swings(turn, center) ? strides(turn, center) : Velocities{};
+}
+
 bool Treading::swings(double turn, const Vector2& center) const {
   double with = 0, against = 0, behind = 0, before = 0;
   for (int f = 0; f < windows_; ++f) {

@@ -30,9 +30,12 @@ class Treading {
   double turn() const;
 
   /// The body's velocity in each window, m/s, as it turns at `turn` about `center`; empty where no sole is low. Where
-  /// the feet go forth and back on one path, nothing tells which is which: the body goes where it faces, and of legs of
-  /// a single bone, or that swing against each other like pendulums, in each step as far as they open.
+  /// the feet go forth and back on one path, nothing tells which is which: the body goes where it faces.
   Velocities velocities(double turn, const Vector2& center) const;
+
+  /// The same where nothing on the ground tells forth from back: of legs that swing against each other like pendulums,
+  /// which are as low, and go forth as fast as back, where they pass each other. Empty where feet do not alternate.
+  Velocities striding(double turn, const Vector2& center) const;
 
   /// The speed at which what is low goes back, of the slower foot where both are, m/s: a mean.
   double slowest() const;
