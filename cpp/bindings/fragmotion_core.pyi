@@ -1031,7 +1031,7 @@ def optimal_performance(character: Character, trace: ArrayLike, rate: float, sho
     any time from `shortest` seconds (0 .. 3600) to the longest of its fragments."""
 
 def abilities(character: Character, threads: int = 0) -> list[bool]:
-    """Which of its controls the character does: those without a jump are asked for over four seconds, and done where
+    """Which of its controls the character does: those without a jump are asked for over six seconds, and done where
     velocity and turn rate are within a fifth and 30 %; of those with a jump, which a fragment performs."""
 
 NO_RESPONSE: float

@@ -38,6 +38,19 @@ def say_abilities(done: Sequence[bool], layout: ControlLayout) -> str:
     return told[0].upper() + told[1:]
 
 
+def say_undone(done: Sequence[bool], layout: ControlLayout) -> str:
+    """Which ways to go are not done as they are asked for, and what is done instead; empty where all are, or none."""
+    table = np.asarray(done, bool).reshape(layout.shape)[1:, layout.shape[1] // 2, 0]
+    names = [f"{gait} {direction}" for gait in layout.gaits for direction in layout.direction_names]
+    undone = [name for name, is_done in zip(names, table) if not is_done]
+    if not undone or not table.any():
+        return ""
+    return (
+        f"Cannot {', '.join(undone)} as it is asked to: no take shows how, and none could be made that does. "
+        "What comes nearest is done instead"
+    )
+
+
 def _phrases(ways: dict[str, str]) -> list[str]:
     """As 'walks and runs in all directions': what goes the same ways is said together."""
     phrases = []

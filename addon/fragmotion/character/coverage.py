@@ -63,15 +63,6 @@ def _rows(layout: ControlLayout) -> dict[str, list[int]]:
     return rows
 
 
-def say_unanswered(character: Character) -> str:
-    """What is done instead where nothing that it has learned goes as it can be asked to; empty where all is done."""
-    if not character.unanswered:
-        return ""
-    return (
-        f"No take shows how to {', '.join(character.unanswered)}, and none could be made: the nearest is done instead"
-    )
-
-
 def lacking(tables: Mapping[str, Sequence[Row]]) -> list[str]:
     """What to warn of: what none of the controls of a kind is done of in a style, and some are in another;
     from each style's table."""

@@ -33,6 +33,7 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
     """Keep with the armature which of its bones hang on others in these Actions, and say so, and what is left out."""
     bones = obj.data.bones
     least = _STRAYS * float(np.ptp([bone.head_local for bone in bones], axis=0).max())
+    obj.fragmotion.hanging.clear()
     rig = make_rig(obj)
     carrying, hips = carriers(obj, rig), bones[rig.skeleton.roles["hips"]]
     others = [bone for bone in bones if bone.name not in carrying]
@@ -42,7 +43,6 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
         parents = [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
         found = core.find_hanging(bones.keys(), parents, poses, [bones.find(name) for name in candidates])
         found = {**_beside_hips(obj, hips, candidates), **found}
-        obj.fragmotion.hanging.clear()
         for bone, on in sorted(found.items()):
             row = obj.fragmotion.hanging.add()
             row.name, row.on = bones[bone].name, bones[on].name

@@ -78,6 +78,19 @@ def test_build_says_which(addon: ModuleType, baked_ik: bpy.types.Object) -> None
     assert "'foot.L' with 'shin.L', 'foot.R' with 'shin.R'" in told[0]
 
 
+def test_they_are_found_again_beside_a_bone_that_is_left_out(addon: ModuleType, baked_ik: bpy.types.Object) -> None:
+    action = bpy.data.actions["walk forward"]
+    with making.editing(baked_ik) as bones:
+        bones["hand.L"].use_connect = False
+    for frame, off in ((1, 0.0), (10, 0.3)):
+        baked_ik.pose.bones["hand.L"].location = (off, 0, 0)
+        baked_ik.pose.bones["hand.L"].keyframe_insert("location", frame=frame)
+    first, second = (addon.rig.hanging.find_hanging(bpy.context, baked_ik, [action]) for _ in range(2))
+    assert {row.name: row.on for row in baked_ik.fragmotion.hanging} == FEET
+    assert second == first
+    assert "what keys of bone 'hand.L' move away" in second[1]
+
+
 def test_a_tail_beside_the_hips_goes_where_they_go(addon: ModuleType) -> None:
     obj = making.open_sample()
     action = bpy.data.actions["walk forward"]

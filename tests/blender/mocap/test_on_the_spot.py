@@ -131,3 +131,42 @@ def test_legs_of_a_single_bone_lead_a_character_everywhere(addon: ModuleType, fi
     assert character.skeleton.roles["left_foot"] == "leg-left"
     steps = 2 * bpy.context.scene.render.fps / np.array([24, 18])  # a second
     assert character.space.speeds == pytest.approx(steps * 2 * 0.4 * np.sin([0.4, 0.7]), rel=0.1)
+
+
+def test_build_names_each_way_that_is_not_gone_as_it_is_asked_for(
+    addon: ModuleType, figure: bpy.types.Object, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    (told,) = (line for line in capfd.readouterr().out.splitlines() if "Cannot" in line)
+    character, core = addon.character.building.load(figure), addon.compat.core.core
+    space = character.space
+    named = {name for name in told.partition("Cannot ")[2].partition(" as it")[0].split(", ")}
+    for number, control in enumerate(space.points):
+        if control[2] or control[3] or not number:
+            continue
+        path = core.Player(character, 1).run(np.tile(control, (60, 1)), 30).path[60:]
+        steps, heading = np.diff(path[:, :2], axis=0), path[:-1, 2]
+        ahead = steps[:, 1] * np.cos(heading) - steps[:, 0] * np.sin(heading)
+        aside = steps[:, 0] * np.cos(heading) + steps[:, 1] * np.sin(heading)
+        off = np.hypot(30 * aside.mean() - control[0], 30 * ahead.mean() - control[1])
+        gait = space.gaits[int(np.hypot(*control[:2]) > space.speeds[0] * 1.01)]
+        direction = round(np.arctan2(-control[0], control[1]) / (np.pi / 4)) % 8
+        name = f"{gait} {core.DIRECTIONS[2 * direction]}"
+        assert (name in named) == (off > 0.2 * np.hypot(*control[:2])), name
+    assert named
+
+
+def test_build_says_that_a_posed_root_without_keys_is_learned_at_rest(
+    addon: ModuleType, figure: bpy.types.Object
+) -> None:
+    skeleton = addon.rig.rigs.make_rig(figure).skeleton
+    figure.pose.bones["torso"].rotation_quaternion = (0.7, 0.7, 0, 0)
+    figure.pose.bones["root"].rotation_quaternion = (0.7, 0.7, 0, 0)
+    assert addon.character.building.say_posed(figure, skeleton) == [], "its Actions key it"
+    for action in bpy.data.actions:
+        for curve in addon.compat.versions.curves_of(action, figure):
+            curve.data_path = curve.data_path.replace('"root"', '"torso"')
+    (told,) = addon.character.building.say_posed(figure, skeleton)
+    assert told.startswith("No Action keys bone 'root': it is learned as it rests")
+    figure.pose.bones["root"].rotation_quaternion = (1, 0, 0, 0)
+    assert addon.character.building.say_posed(figure, skeleton) == []

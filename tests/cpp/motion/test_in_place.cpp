@@ -187,8 +187,8 @@ TEST(FeetWay, OfLegsOfASingleBoneLeadsAheadAsFarAsTheyOpen) {
   EXPECT_NEAR(way->mean.y(), kStiltsGo, 0.05 * kStiltsGo);
 }
 
-// The same legs with knees and feet, which stay as they are, under hips that neither rise nor fall.
-TEST(FeetWay, OfLegsThatSwingLikePendulumsLeadsAheadAsFarAsTheyOpen) {
+// The same legs with knees and feet, which stay as they are.
+Skeleton pendulums() {
   Skeleton skeleton = stilts();
   for (const int leg : {2, 3}) {
     skeleton.names.push_back(leg == 2 ? "shin-left" : "shin-right");
@@ -199,20 +199,52 @@ TEST(FeetWay, OfLegsThatSwingLikePendulumsLeadsAheadAsFarAsTheyOpen) {
   }
   skeleton.rest_rotations.assign(8, Quaternion::Identity());
   skeleton.roles = {};
-  skeleton = make_skeleton(std::move(skeleton));
-  ASSERT_EQ(skeleton.names[skeleton.roles.left_foot], "foot-left");
+  return make_skeleton(std::move(skeleton));
+}
+
+// Under hips that neither rise nor fall; both legs as the left one where they swing together.
+Clip swinging(const Skeleton& skeleton, bool together) {
   Clip clip = stilts_on_the_spot(0), legs = clip;
   clip.rotations.clear();
   for (int f = 0; f < clip.frames; ++f) {
     clip.root_positions[std::size_t{3} * f + 2] = 0.9;
     const auto from = legs.rotations.begin() + std::ptrdiff_t{16} * f;
+    if (together) std::copy(from + 8, from + 12, from + 12);
     clip.rotations.insert(clip.rotations.end(), from, from + 16);
     for (int bone = 0; bone < 4; ++bone) clip.rotations.insert(clip.rotations.end(), {1, 0, 0, 0});
   }
-  const auto way = find_feet_way(Kinematics(skeleton), make_clip(skeleton, std::move(clip)));
+  return make_clip(skeleton, std::move(clip));
+}
+
+Clip backward(const Skeleton& skeleton, const Clip& clip) {
+  Clip result = clip;
+  for (int f = 0; f < clip.frames; ++f) {
+    const std::ptrdiff_t size = std::ptrdiff_t{4} * skeleton.size(), from = clip.frames - 1 - f;
+    std::copy_n(clip.root_positions.begin() + 3 * from, 3, result.root_positions.begin() + std::ptrdiff_t{3} * f);
+    std::copy_n(clip.rotations.begin() + size * from, size, result.rotations.begin() + size * f);
+  }
+  return make_clip(skeleton, std::move(result));
+}
+
+TEST(FeetWay, OfLegsThatSwingLikePendulumsLeadsAheadAsFarAsTheyOpen) {
+  const Skeleton skeleton = pendulums();
+  ASSERT_EQ(skeleton.names[skeleton.roles.left_foot], "foot-left");
+  const auto way = find_feet_way(Kinematics(skeleton), swinging(skeleton, false));
   ASSERT_TRUE(way);
   EXPECT_NEAR(way->mean.x(), 0, 0.01);
   EXPECT_NEAR(way->mean.y(), kStiltsGo, 0.05 * kStiltsGo);
+}
+
+// As of a drawn gallop, whose hind legs swing together: the same motion, whichever end it begins at.
+TEST(FeetWay, OfFeetThatGoForthAndBackOnOnePathLeadsAhead) {
+  const Skeleton skeleton = pendulums();
+  const Clip clip = swinging(skeleton, true);
+  for (const Clip& each : {clip, backward(skeleton, clip)}) {
+    const auto way = find_feet_way(Kinematics(skeleton), each);
+    ASSERT_TRUE(way);
+    EXPECT_NEAR(way->mean.x(), 0, 0.01);
+    EXPECT_GT(way->mean.y(), kStiltsGo);
+  }
 }
 
 void expect_found_again(const Take& take) {

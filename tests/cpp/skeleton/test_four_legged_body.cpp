@@ -40,6 +40,18 @@ TEST(FourLeggedBody, HasItsHeadAtItsForeLegs) {
   EXPECT_EQ(turned.names[turned.roles.right_fore_foot], "h3.L");
 }
 
+// As Rigify has them: of a dog whose head is one more bone of its spine and whose root is at its hips.
+TEST(FourLeggedBody, HasTheForeLegsThatAreNamedSo) {
+  Skeleton skeleton = dog();
+  skeleton.roles = {};
+  for (std::string& name : skeleton.names) {
+    if (name[0] == 'h') name = "front_" + name;
+  }
+  const Skeleton turned = make_skeleton(skeleton);
+  EXPECT_EQ(turned.names[turned.roles.left_thigh], "f1.R");
+  EXPECT_EQ(turned.names[turned.roles.right_fore_foot], "front_h3.L");
+}
+
 // As Quaternius' rat has them, whose body's bone is low between them.
 TEST(FourLeggedBody, MayHaveAllItsLegsOnOneBone) {
   Skeleton skeleton = dog();

@@ -8,9 +8,9 @@ from typing import Any, ClassVar
 import bpy
 
 from ...character import building
-from ...character.abilities import NOTHING
-from ...character.control_layout import say_lacking
-from ...character.coverage import lacking, say_unanswered
+from ...character.abilities import NOTHING, say_undone
+from ...character.control_layout import layout_of, say_lacking
+from ...character.coverage import lacking
 from ...jobs import Job
 from ...mocap.actions import fitting
 from ...settings.build_fields import BuildFields
@@ -70,11 +70,11 @@ class FRAGMOTION_OT_build(BuildFields, Building, bpy.types.Operator):
             f"does {figures.performed} of {figures.controls} controls{told}",
         )
         spare = say_lacking(built.character)
-        unanswered = say_unanswered(built.character)
+        undone = say_undone(built.done[0], layout_of(built.character.space))
         remarks = (
             *filter(NOTHING.__eq__, (figures.abilities,)),
             *self._warnings,
-            *filter(None, (spare, unanswered)),
+            *filter(None, (spare, undone)),
             *lacking(building.coverage_by_style(built)),
         )
         for warning in remarks:

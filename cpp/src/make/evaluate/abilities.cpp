@@ -12,7 +12,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kAsked = 4, kJudged = 2;                     // s
+constexpr double kAsked = 6, kJudged = 4;                     // s: drawn limps take as long for two steps
 constexpr double kOfSpeed = 0.2, kOfTurn = 0.3, kSlow = 0.1;  // m/s of a 1.8 m character
 
 bool is_done(const std::shared_ptr<const Character>& character, const Control& control) {

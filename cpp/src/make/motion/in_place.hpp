@@ -21,8 +21,8 @@ struct FeetWay {
 /// what goes so the fastest tells, as nothing of a foot goes back over the ground. What goes slower than the grip of
 /// the body's weight allows (a change of velocity of 9.81 m/s^2) is a foot that lands or leaves. In a flight the
 /// velocity goes from what it was to what it will be. Of a cycle (cycle_of()) the ends are each other's neighbours.
-/// Where legs pass each other, as low the one as the other, the body goes where it faces, in each step as far as
-/// they open. The frame rate tells nothing (Treading).
+/// Where feet go forth and back on one path the body goes where it faces; where legs pass each other, as low the one as
+/// the other, in each step as far as they open. The frame rate tells nothing (Treading).
 std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& clip);
 
 /// [frames] where the way takes the clip's place: what was at x and y is at frame.position + R(frame.heading) (x, y).

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/rates.hpp"
+#include "base/rounding.hpp"
 #include "motion/contacts.hpp"
 #include "motion/steadiest_speed.hpp"
 
@@ -107,8 +108,15 @@ double Treading::turn() const {
 }
 
 Velocities Treading::velocities(double turn, const Vector2& center) const {
-  Velocities way = guess(turn, center);
-  if (is_stiff() && mean_velocity(way).norm() < kTreads * slowest()) return strides(turn, center);
+  Velocities way(windows_, Vector2::Zero());
+  Vector2 correlation = Vector2::Zero();
+  for (const SolePath& sole : soles_) correlation += add_circled(sole.ankle, turn, center, way);
+  const double feet = static_cast<double>(soles_.size());
+  if (is_stiff() && mean_velocity(way).norm() < feet * kTreads * slowest()) return strides(turn, center);
+  if (correlation.norm() < feet / std::sqrt(windows_)) {  // the standard error of that of numbers that have none
+    if (swings(turn, center)) return strides(turn, center);
+    for (int f = 0; f < windows_; ++f) way[f] = facing(f);
+  }
   for (std::size_t round = 1; round < std::size(kSmooth); ++round) {
     const Told told = this->told(way, turn, center);
     if (told.windows.empty()) return {};
@@ -137,21 +145,27 @@ Velocities Treading::steps(const Velocities& windows) const {
   return steps;
 }
 
+Vector2 Treading::facing(int f) const { return Eigen::Rotation2Dd(headings_[f]) * Vector2::UnitY(); }
+
 bool Treading::is_stiff() const {
   return std::all_of(soles_.begin(), soles_.end(), [](const SolePath& sole) { return sole.points.size() == 1; });
 }
 
 Velocities Treading::striding(double turn, const Vector2& center) const {
+  return swings(turn, center) ? strides(turn, center) : Velocities{};
+}
+
+bool Treading::swings(double turn, const Vector2& center) const {
   double with = 0, against = 0, behind = 0, before = 0;
   for (int f = 0; f < windows_; ++f) {
     const double left = ahead(0, f, turn, center), right = ahead(1, f, turn, center);
     with += std::abs(left + right), against += std::abs(left - right);
     const Vector2 apart = (soles_[1].heel().path[f] - soles_[0].heel().path[f]).head<2>();
-    const double place = apart.dot(Eigen::Rotation2Dd(headings_[f]) * Vector2::UnitY());
+    const double place = apart.dot(facing(f));
     behind = std::max(behind, -place), before = std::max(before, place);
   }
   const bool pass = 2 * std::min(behind, before) > std::max(behind, before);
-  return pass && against > 2 * with ? strides(turn, center) : Velocities{};
+  return pass && against > 2 * with;
 }
 
 // The body goes where it faces, in each step as far as its legs open.
@@ -159,7 +173,7 @@ Velocities Treading::strides(double turn, const Vector2& center) const {
   Velocities ways;
   double gone = 0;
   for (int f = 0; f < windows_; ++f) {
-    ways.emplace_back(Eigen::Rotation2Dd(headings_[f]) * Vector2::UnitY());
+    ways.push_back(facing(f));
     gone += std::max({0.0, ahead(0, f, turn, center), ahead(1, f, turn, center)});
   }
   for (Vector2& velocity : ways) velocity *= gone / windows_;
@@ -168,8 +182,7 @@ Velocities Treading::strides(double turn, const Vector2& center) const {
 
 // How fast a foot goes back under a body that faces ahead, m/s.
 double Treading::ahead(std::size_t side, int f, double turn, const Vector2& center) const {
-  const Vector2 facing = Eigen::Rotation2Dd(headings_[f]) * Vector2::UnitY();
-  return velocity(soles_[side].heel().path, f, turn, center).dot(facing);
+  return velocity(soles_[side].heel().path, f, turn, center).dot(facing(f));
 }
 
 double Treading::height(const SolePoint& point, int f) const {
@@ -206,16 +219,10 @@ Vector2 Treading::velocity(const std::vector<Vector3>& path, int f, double turn,
 
 // What an ankle does over the ground while it is higher than about then, it does to where the body goes; while it is
 // lower, to where that comes from. So the area that its path circles, seen from the side, tells forth from back,
-// however long and high a foot is thought to be. By the spread of its heights that is a speed, m/s: the feet's mean.
-Velocities Treading::guess(double turn, const Vector2& center) const {
-  Velocities sum(windows_, Vector2::Zero());
-  for (const SolePath& sole : soles_) add_circled(sole.ankle, turn, center, sum);
-  for (Vector2& velocity : sum) velocity /= static_cast<double>(soles_.size());
-  return sum;
-}
-
-void Treading::add_circled(const std::vector<Vector3>& path, double turn, const Vector2& center,
-                           Velocities& sum) const {
+// however long and high a foot is thought to be; by the spread of its heights that is a speed, m/s. Returns how heights
+// and velocities correlate: by no more than by chance where it goes forth and back on one path.
+Vector2 Treading::add_circled(const std::vector<Vector3>& path, double turn, const Vector2& center,
+                              Velocities& sum) const {
   const auto about = [&](const Velocities& values) { return smoothed(values, kSmooth[0] * rate_); };
   Velocities forth, over, spread;  // what is one number is an x
   for (int f = 0; f < windows_; ++f) {
@@ -225,12 +232,15 @@ void Treading::add_circled(const std::vector<Vector3>& path, double turn, const 
   const Velocities usual = about(over), drift = about(forth);
   for (int f = 0; f < windows_; ++f) {
     const double height = over[f].x() - usual[f].x();
-    spread.emplace_back(height * height, 0), forth[f] = height * (forth[f] - drift[f]);
+    const Vector2 faster = forth[f] - drift[f];
+    spread.emplace_back(height * height, faster.squaredNorm()), forth[f] = height * faster;
   }
   const Velocities circled = about(forth), square = about(spread);
   for (int f = 0; f < windows_; ++f) {
     if (square[f].x() > 0) sum[f] += circled[f] / std::sqrt(square[f].x());
   }
+  const Vector2 spreads = mean_velocity(spread);
+  return mean_velocity(forth) / std::max(std::sqrt(spreads.x() * spreads.y()), kRounding);
 }
 
 // What most of what stands agrees with, along the way, is how fast the body goes: a drawn foot may slap the ground, or

@@ -29,7 +29,8 @@ class Treading {
   /// The mean turn of what is flat on the ground, rad/s, to the other side: as the body turns against it.
   double turn() const;
 
-  /// The body's velocity in each window, m/s, as it turns at `turn` about `center`; empty where no sole is low.
+  /// The body's velocity in each window, m/s, as it turns at `turn` about `center`; empty where no sole is low. Where
+  /// the feet go forth and back on one path, nothing tells which is which: the body goes where it faces.
   Velocities velocities(double turn, const Vector2& center) const;
 
   /// The same where nothing on the ground tells forth from back: of legs that swing against each other like pendulums,
@@ -56,6 +57,7 @@ class Treading {
   };
 
   bool is_stiff() const;
+  bool swings(double turn, const Vector2& center) const;
   Velocities strides(double turn, const Vector2& center) const;
   double ahead(std::size_t side, int f, double turn, const Vector2& center) const;
   double height(const SolePoint& point, int f) const;
@@ -63,8 +65,8 @@ class Treading {
   double stands(const SolePoint& point, int f) const;
   double fastest_low(std::size_t sole, int f) const;
   Vector2 velocity(const std::vector<Vector3>& path, int f, double turn, const Vector2& center) const;
-  Velocities guess(double turn, const Vector2& center) const;
-  void add_circled(const std::vector<Vector3>& path, double turn, const Vector2& center, Velocities& sum) const;
+  Vector2 facing(int f) const;
+  Vector2 add_circled(const std::vector<Vector3>& path, double turn, const Vector2& center, Velocities& sum) const;
   Told told(const Velocities& way, double turn, const Vector2& center) const;
   std::vector<int> standing(const std::vector<ToldSpeeds>& along, const std::vector<double>& usual) const;
   std::vector<double> gripped(std::vector<double> speeds) const;

@@ -105,8 +105,15 @@ class FourLegs {
     return head;
   }
 
-  // Which pair is the fore one: the one by the head, else the one that hangs on the other.
+  bool is_named_fore(const LimbPair& pair) const {
+    const auto is_fore = [&](int bone) { return has_any_word(tree_.names[bone], {"front", "fore"}); };
+    return std::any_of(pair.chains[0].begin(), pair.chains[0].end(), is_fore);
+  }
+
+  // Which pair is the fore one: the one that is named so, the one by the head, or the one that hangs on the other.
   int fore_of(const std::vector<LimbPair>& legs, int head) const {
+    const bool first = is_named_fore(legs[0]);
+    if (first != is_named_fore(legs[1])) return first ? 0 : 1;
     if (head < 0) return shape_.is_below(legs[0].node, legs[1].node) ? 0 : 1;
     const auto way = [&](const LimbPair& pair) {
       return mean([&](const Vector3* heads) { return (heads[head] - begin(pair, heads)).norm(); });
