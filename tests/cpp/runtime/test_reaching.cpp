@@ -182,6 +182,25 @@ TEST(Reaching, FollowsAWeightThatIsKeyed) {
   }
 }
 
+TEST(Reaching, StraightensNoElbowWithASnap) {
+  Handed one;
+  const Arm& arm = one.ranges[1].arm;
+  std::vector<double> straight(std::size_t{4} * one.kinematics.bones());
+  for (int b = 0; b < one.kinematics.bones(); ++b) straight[std::size_t{4} * b] = 1;
+  const auto bend_at = [&](double distance) {
+    one.kinematics.world(Vector3::Zero(), straight.data(), one.posed.heads.data(), one.posed.rotations.data());
+    const Vector3 way = (one.hand(1) - one.shoulder(1)).normalized(), halfway{0, 1, -1};
+    std::vector<double> bent = straight;
+    reach(one.skeleton(), arm, one.posed, one.shoulder(1) + way * distance * one.length(1), 1, halfway, bent.data());
+    one.kinematics.world(Vector3::Zero(), bent.data(), one.posed.heads.data(), one.posed.rotations.data());
+    return one.bend(1);
+  };
+  for (double distance = 0.8; distance < 1.2; distance += 0.001) {
+    EXPECT_LT(std::abs(bend_at(distance) - bend_at(distance + 0.001)), 0.01)
+        << distance;  // one that gets straight: 0.1
+  }
+}
+
 TEST(Reaching, BendsElbowsAsElbowsBend) {
   for (const double distance : {0.2, 0.5, 0.8}) {
     Handed one;

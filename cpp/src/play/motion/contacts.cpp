@@ -73,7 +73,8 @@ Contacts find_plants(const Kinematics& kinematics, const Clip& clip, const Floor
   Contacts contacts = find_contacts(kinematics, clip, floors);
   const FootPaths paths = foot_paths(kinematics, clip);
   const double scale = standard_scale(kinematics.skeleton());
-  for (int side = 0; side < kMostLegs; ++side) end_where_ball_rises(paths[side], clip.rate, scale, contacts.feet[side]);
+  for (int side = 0; side < kMostLegs; ++side)
+    hold_where_ball_rests(paths[side], clip.rate, scale, contacts.feet[side]);
   return contacts;
 }
 

@@ -60,9 +60,11 @@ class Knee {
     return length_ * apart(natural, wanted);
   }
 
-  // The same of an arm, which may be bent as it is.
-  double ends_of_arm(double wanted) const {
-    return std::max(folded_up(), length_ * apart(distance(cosine_), wanted / length_));
+  // The same of an arm, which may be bent as it is; a straight one stays so by as much as `weight` is below 1.
+  double ends_of_arm(double wanted, double weight) const {
+    wanted /= length_;
+    const double as_it_is = apart(distance(cosine_), wanted);
+    return std::max(folded_up(), length_ * (as_it_is + weight * (softly(wanted) - as_it_is)));
   }
 
   // How near the leg's ends come, m: as near as they are, or as where it resists being folded up.
@@ -209,7 +211,7 @@ void reach(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed, co
   const Vector3 upper = posed.heads[arm.elbow] - posed.heads[arm.upper],
                 lower = palm(skeleton, arm, posed) - posed.heads[arm.elbow], way = place - posed.heads[arm.upper];
   const Knee elbow(upper, lower, posed.rotations[arm.upper] * arm.hinge);
-  const Quaternion bend = elbow.backward(1 - weight) * elbow.bent_by(elbow.ends_of_arm(way.norm())),
+  const Quaternion bend = elbow.backward(1 - weight) * elbow.bent_by(elbow.ends_of_arm(way.norm(), weight)),
                    swing = turn_between(halfway, way) * turn_between(upper + bend * lower, halfway);
   const auto turn = [&](int bone, const Quaternion& by) {
     const Quaternion& parent = posed.rotations[skeleton.parents[bone]];

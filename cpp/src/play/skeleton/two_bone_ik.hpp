@@ -102,8 +102,8 @@ double arm_length(const Skeleton& skeleton, const Arm& arm, const PosedBones& po
 
 /// Two-bone inverse kinematics as that of a leg, but that the hand goes along with the forearm: the palm comes to
 /// `place`. Up to kTires of its length it is there; beyond, it follows ever less. The arm swings by way of
-/// `halfway`, a direction, so that the elbow is where it is of an arm that is raised so. An elbow that is bent backward
-/// stays so by as much as `weight` is below 1.
+/// `halfway`, a direction, so that the elbow is where it is of an arm that is raised so. An elbow that is straight
+/// or bent backward stays so by as much as `weight` is below 1.
 void reach(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed, const Vector3& place, double weight,
            const Vector3& halfway, double* rotations);
 
