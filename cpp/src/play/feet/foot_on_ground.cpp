@@ -10,6 +10,7 @@
 namespace fragmotion {
 namespace {
 
+// Lengths are those of a character of 1.8 m.
 constexpr double kSettle = 0.03;     // s in which a foot that stands gets onto its footing, where it is not on it
 constexpr double kFastestError = 3;  // m/s at which it does so
 constexpr double kSlid = 0.005;      // m that a foot may slide on the same footing
@@ -33,6 +34,7 @@ double arch(double part) { return 1 - std::pow(2 * part - 1, 4); }
 }  // namespace
 
 bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, GroundProbe& probe, int spared) {
+  metre_ = probe.metre();
   due_ = foot.stands ? 0 : foot.due;
   swing_time_ = foot.stands ? 0 : swing_time_ + seconds;
   const Vector2 place = foot.now.place() + shift();
@@ -45,7 +47,7 @@ bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, 
   advance_shift(foot, fresh_ ? kSettle : seconds);
   if (!fresh_) error_.value += before - on_way(place, 0).height;
   plane_ = on_way(foot.now.place() + shift(), 0);
-  error_.advance(0, std::max({due_, kSettle, std::abs(error_.value) / kFastestError}), seconds);
+  error_.advance(0, std::max({due_, kSettle, std::abs(error_.value) / (kFastestError * metre_)}), seconds);
   clear(foot, lower, seconds, probe);
   bear(foot, seconds);
   stood_ = foot.stands;
@@ -58,7 +60,7 @@ void FootOnGround::stand(const FootAhead& foot, GroundProbe& probe, int spared) 
   probe.spare(spared + kAsksAtLeast);
   if (lands) beside_ = fresh_ ? beside_edges(foot, probe) : shift();
   const Sole sole = foot.landing().moved(beside_);
-  if (lands || !found_ || (sole.place() - last_.place).norm() > kSlid) {
+  if (lands || !found_ || (sole.place() - last_.place).norm() > kSlid * metre_) {
     const std::optional<Footing> under = ask_under(sole, probe);
     next_ = under.value_or(lands && !fresh_ ? Footing{sole.place(), next_.height, next_.slope}
                                             : Footing{sole.place(), last_.at(sole.place()), last_.slope});
@@ -98,13 +100,13 @@ Vector2 FootOnGround::beside_edges(const FootAhead& foot, GroundProbe& probe) {
   Vector2 best = Vector2::Zero();
   for (int i = 0; i <= 2 * kTrials; ++i) {
     const int steps = (i + 1) / 2;
-    const Vector2 moved = (i % 2 == 0 ? kTried : -kTried) * steps * along;
-    if (moved.norm() >= least) break;
+    const Vector2 moved = (i % 2 == 0 ? kTried : -kTried) * metre_ * steps * along;
+    if (moved.norm() >= least * metre_) break;
     const Sole there = sole.moved(moved);
     const std::optional<Footing> ground =
         planned ? known_.at(there.place(), {along, kLandingBeside}, probe) : std::nullopt;
     const double off = ground ? std::abs(ground->height - next_.height) : 0;
-    const double cost = moved.norm() + keeps * off + known_.edges(there, kLandingBeside, probe);
+    const double cost = (moved.norm() + keeps * off) / metre_ + known_.edges(there, kLandingBeside, probe);
     if (cost < least) least = cost, best = moved;
   }
   return best;
@@ -116,8 +118,8 @@ void FootOnGround::advance_shift(const FootAhead& foot, double seconds) {
 }
 
 double FootOnGround::part_of_way(const Vector2& place, double later) const {
-  const double gone = (place - last_.place).norm() + kPace * (swing_time_ + later),
-               left = (next_.place - place).norm() + kPace * std::max(0.0, due_ - later);
+  const double pace = kPace * metre_, gone = (place - last_.place).norm() + pace * (swing_time_ + later),
+               left = (next_.place - place).norm() + pace * std::max(0.0, due_ - later);
   return gone + left > 0 ? gone / (gone + left) : 1;
 }
 
@@ -142,9 +144,9 @@ void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, Gr
     const Sole at = foot.way[i].moved(shift() + u * (beside_ - shift()));
     const double over = known_.over(at, lower, on_way(at.place(), later), along, probe);
     const double height = arch(part_of_way(at.place(), later));
-    if (over > 0 && height > kLeast) wanted = std::max(wanted, (over + std::min(over, kMargin)) / height);
+    if (over > 0 && height > kLeast) wanted = std::max(wanted, (over + std::min(over, kMargin * metre_)) / height);
   }
-  clearance_.advance(std::min(wanted, kMostClearance), fresh_ ? 0 : kClearing, seconds);
+  clearance_.advance(std::min(wanted, kMostClearance * metre_), fresh_ ? 0 : kClearing, seconds);
   lift_ = std::max(clearance_.value, 0.0) * arch(part_of_way(now, 0));
 }
 

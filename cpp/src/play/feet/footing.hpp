@@ -21,11 +21,14 @@ struct Footing {
 /// average. None where there is no ground.
 std::optional<Footing> plane_under(const Sole& sole, const std::array<std::optional<Footing>, 3>& points);
 
-/// What feet ask the ground, from one height downward, so many times at most.
+/// What feet ask the ground, from one height downward, so many times at most. `metre`: what is a metre of a character
+/// of 1.8 m, by which feet of all sizes tell edges and places apart.
 class GroundProbe {
  public:
-  GroundProbe(const Ground& ground, double above, int most) : ground_(&ground), above_(above), left_(most) {}
+  GroundProbe(const Ground& ground, double above, int most, double metre = 1)
+      : ground_(&ground), above_(above), metre_(metre), left_(most) {}
 
+  double metre() const { return metre_; }
   /// Whether it may, if so many questions are spared for others.
   bool may_ask() const { return left_ > spared_; }
   void spare(int spared) { spared_ = spared; }
@@ -37,7 +40,7 @@ class GroundProbe {
 
  private:
   const Ground* ground_;
-  double above_;
+  double above_, metre_;
   int left_, spared_ = 0;
 };
 

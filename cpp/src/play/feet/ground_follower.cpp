@@ -42,7 +42,7 @@ void GroundFollower::forget_ground() {
 // What asks for the ground: from a step's height over where it is.
 GroundProbe GroundFollower::probe(const WorldPose& pose) const {
   const double highest = kHighestStep / body_->scale;
-  GroundProbe probe(ground_, level_ + highest, appears_ ? kAskedAtFirst : kAsked);
+  GroundProbe probe(ground_, level_ + highest, appears_ ? kAskedAtFirst : kAsked, 1 / body_->scale);
   if (!fresh_) return probe;
   const std::optional<GroundPoint> near = probe.ask(pose.root.head<2>());
   if (near && near->normal.z() > 0) return probe;

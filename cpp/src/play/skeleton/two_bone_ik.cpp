@@ -155,10 +155,10 @@ void hinge_at_rest(const Skeleton& skeleton, Leg& of_left, Leg& of_right) {
   for (Leg* leg : {&of_left, &of_right}) leg->hinge = rotations[leg->thigh].conjugate() * left.normalized();
 }
 
-// How well two joints serve as shoulder and elbow of a hand.
+// How well two joints serve as shoulder and elbow of a hand, m.
 double evenness(const Vector3& shoulder, const Vector3& elbow, const Vector3& hand) {
   const double upper = (elbow - shoulder).norm(), lower = (hand - elbow).norm();
-  return square(std::min(upper, lower)) / std::max({upper, lower, kShortestLegBone});
+  return square(std::min(upper, lower)) / std::max({upper, lower, kFloatRounding});
 }
 
 // The arm to a hand from below the bone `trunk`, which carries both.
