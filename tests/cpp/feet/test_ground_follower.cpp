@@ -253,7 +253,7 @@ TEST(PlaneUnder, IsOnTheHighestGroundUnderASole) {
 TEST(KnownGround, FindsEdgesUnderASoleAndNoneOnASlope) {
   const auto edges = [](const Ground& ground, const Sole& sole) {
     GroundProbe probe(ground, 1, kMany);
-    return KnownGround().edges(sole, 0, probe);
+    return KnownGround().edges(sole, probe);
   };
   const Ground steps = stairs, slope = up_along_y;
   const Sole free{{0, 0.36, 0}, {0, 0.48, 0}, {0, 0.54, 0}}, low{{0, 0.44, 0}, {0, 0.56, 0}, {0, 0.62, 0}};

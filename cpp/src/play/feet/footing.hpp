@@ -8,6 +8,18 @@
 
 namespace fragmotion {
 
+// Lengths are those of a character of 1.8 m.
+/// m by which ground differs that is not level: as high is an edge, and so far a foot keeps from one.
+constexpr double kUneven = 0.03;
+/// m within which it is the same place.
+constexpr double kThere = 0.01;
+/// m between places that may be on one plane.
+constexpr double kApart = 0.13;
+/// m that a sole is moved at a time to be off an edge.
+constexpr double kTried = 0.02;
+/// m that a body steps up, sinks or lifts a foot over ground at most.
+constexpr double kHighestStep = 0.7;
+
 /// The plane that a sole stands on.
 struct Footing {
   Vector2 place = Vector2::Zero();  ///< Where it is at `height`, m.

@@ -8,22 +8,14 @@
 namespace fragmotion {
 namespace {
 
-// Lengths are those of a character of 1.8 m.
-constexpr double kThere = 0.004;     // m within which it is the same place
-constexpr double kApart = 0.13;      // m between places that may be on one plane
-constexpr double kBeyondEnd = 0.03;  // m beyond the last place that is known, where the ground goes on
-constexpr double kOnePlane = 0.015;  // m by which two planes differ that are one
-
-constexpr double kEdge = 0.05;               // m that ground is beside a plane, at an edge
-constexpr double kBeyond = 0.04;             // m beyond the ends of a sole that are to be free
-constexpr double kOver = 0.1, kNear = 0.05;  // m that a sole is better moved
+constexpr double kAtEdge = 0.1;  // m of a character of 1.8 m that a sole is better moved
 
 }  // namespace
 
 bool KnownGround::agree(const Known& a, const Known& b, double metre) {
   if (!a.exists || !b.exists) return a.exists == b.exists;
-  return std::abs(a.plane.at(b.plane.place) - b.plane.height) < kOnePlane * metre &&
-         std::abs(b.plane.at(a.plane.place) - a.plane.height) < kOnePlane * metre;
+  return std::abs(a.plane.at(b.plane.place) - b.plane.height) < kUneven * metre &&
+         std::abs(b.plane.at(a.plane.place) - a.plane.height) < kUneven * metre;
 }
 
 std::optional<Footing> KnownGround::ask(const Vector2& place, GroundProbe& probe) {
@@ -55,24 +47,24 @@ std::optional<Footing> KnownGround::at(const Vector2& place, const Along& along,
   const auto level_with = [&](const Near& near) { return near.aside <= along.beside * metre; };
   const bool sure =
       same || (between ? agree(*behind.known, *before.known, metre) && level_with(behind) && level_with(before)
-                       : nearest.known && nearest.ahead < kBeyondEnd * metre && level_with(nearest));
+                       : nearest.known && nearest.ahead < kTried * metre && level_with(nearest));
   if (!sure && probe.may_ask()) return ask(place, probe);
   if (nearest.known == nullptr || !nearest.known->exists) return std::nullopt;
   return Footing{place, nearest.known->plane.at(place), nearest.known->plane.slope};
 }
 
-double KnownGround::edges(const Sole& sole, double beside, GroundProbe& probe) {
+double KnownGround::edges(const Sole& sole, GroundProbe& probe) {
   const Vector2 heel = sole.heel.head<2>(), tip = sole.tip.head<2>(), along = (tip - heel).normalized();
-  const std::optional<Footing> ground = at(sole.place(), {along, beside}, probe);
+  const std::optional<Footing> ground = at(sole.place(), {along, kThere}, probe);
   if (count_ == 0) return 0;
   if (!ground) return kInTheWay;
-  const Vector2 beyond = kBeyond * probe.metre() * along;
-  const auto edge = [&](const Vector2& place, double overhanging) {
-    const std::optional<Footing> there = at(place, {along, beside}, probe);
+  const Vector2 beyond = kUneven * probe.metre() * along;
+  const auto edge = [&](const Vector2& place) {
+    const std::optional<Footing> there = at(place, {along, kThere}, probe);
     const double higher = there ? there->height - ground->at(place) : 0;
-    return higher > kEdge * probe.metre() ? kInTheWay : higher < -kEdge * probe.metre() ? overhanging : 0;
+    return higher > kUneven * probe.metre() ? kInTheWay : higher < -kUneven * probe.metre() ? kAtEdge : 0;
   };
-  return edge(heel, kOver) + edge(heel - beyond, kNear) + edge(tip + beyond, kNear) + edge(tip, kOver);
+  return edge(heel) + edge(heel - beyond) + edge(tip + beyond) + edge(tip);
 }
 
 double KnownGround::over(const Sole& sole, double lower, const Footing& plane, const Along& along, GroundProbe& probe) {

@@ -27,7 +27,7 @@ class KnownGround {
   std::optional<Footing> at(const Vector2& place, const Along& along, GroundProbe& probe);
   /// How far a sole is better moved than set where it is, m of a character of 1.8 m: 0 unless ground of another height
   /// than that under its ball is under its ends or just beyond them.
-  double edges(const Sole& sole, double beside, GroundProbe& probe);
+  double edges(const Sole& sole, GroundProbe& probe);
   /// How far the ground reaches over a plane into a sole that is so much lower than captured, m; 0 where it does not.
   double over(const Sole& sole, double lower, const Footing& plane, const Along& along, GroundProbe& probe);
 
