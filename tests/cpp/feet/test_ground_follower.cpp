@@ -253,7 +253,7 @@ TEST(PlaneUnder, IsOnTheHighestGroundUnderASole) {
 TEST(KnownGround, FindsEdgesUnderASoleAndNoneOnASlope) {
   const auto edges = [](const Ground& ground, const Sole& sole) {
     GroundProbe probe(ground, 1, kMany);
-    return KnownGround().edges(sole, 0, probe);
+    return KnownGround().edges(sole, probe);
   };
   const Ground steps = stairs, slope = up_along_y;
   const Sole free{{0, 0.36, 0}, {0, 0.48, 0}, {0, 0.54, 0}}, low{{0, 0.44, 0}, {0, 0.56, 0}, {0, 0.62, 0}};
@@ -351,6 +351,41 @@ TEST(HipsOnGround, GoUpASlopeAsThePlaneDoesAndOverStairsWithoutAKink) {
       }
       before = hips.level();
       EXPECT_NEAR(hips.level(), ground({0, y, 50})->height, 0.3) << i;
+    }
+  }
+}
+
+// Lengths are shares of the body's own, and time is that of the takes: what falls in them falls as much faster as the
+// body is larger.
+TEST(GroundFollower, GoesTheSameInEverySizeOnStairsOfThatSize) {
+  const auto shown = [](double size) {
+    BuildOptions options;
+    options.classes = 20, options.restarts = 1;
+    const ControlSpace space(1.2 * size, 3.3 * size);
+    const auto character = std::make_shared<const Character>(
+        build(humanoid(size), gait_takes(30, size), {simulate_trace("walker", 30, 2, space)}, options));
+    Player player(character);
+    player.stand_on([size](const Vector3& from) {
+      return GroundPoint{size * stairs(from / size).height, Vector3::UnitZ()};
+    });
+    player.reset({{0, 0.1 * size}, 0});
+    Shown shown;
+    for (const Control& control : simulate_trace("explorer", 10, 5, character->space)) {
+      for (int i = 0; i < 6; ++i) {
+        player.step(control, kStep);
+        shown.roots.push_back(player.root_position() / size);
+        shown.rotations.push_back(player.rotations());
+      }
+    }
+    return shown;
+  };
+  const Shown man = shown(1);
+  for (const double size : {0.125, 8.0}) {  // powers of two: no rounding decides between equals
+    const Shown other = shown(size);
+    for (std::size_t f = 0; f < man.roots.size(); ++f) {
+      ASSERT_LT((other.roots[f] - man.roots[f]).norm(), 1e-6) << size << " at " << f;
+      for (std::size_t i = 0; i < man.rotations[f].size(); ++i)
+        ASSERT_NEAR(other.rotations[f][i], man.rotations[f][i], 1e-6) << size << " at " << f;
     }
   }
 }

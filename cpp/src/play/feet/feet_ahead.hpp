@@ -9,8 +9,11 @@
 
 namespace fragmotion {
 
-/// m over its floor, of a 1.8 m character, within which a foot comes down to it.
+// Lengths are those of a character of 1.8 m.
+/// m over its floor within which a foot comes down to it.
 constexpr double kLanding = 0.06;
+/// s in which a foot gets to a height that is not its motion's.
+constexpr double kSettles = 0.05;
 /// s that are looked ahead at most.
 constexpr double kLookedAhead = 0.8;
 

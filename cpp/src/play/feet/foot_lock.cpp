@@ -14,18 +14,7 @@
 namespace fragmotion {
 namespace {
 
-// Lengths are those of a character of 1.8 m.
-constexpr double kTooFar = 0.3;        // m from its motion at which a foot is let go,
-constexpr double kTooFarAlone = 0.5;   // and at which the only one that stands is
-constexpr double kStrained = 0.1;      // m that the hips would have to sink for a foot: from there it steps on
-constexpr double kComesToRest = 0.02;  // s: time constant of a foot that comes to rest
-constexpr double kSoftGround = 0.006;  // m: a foot sinks in at most half of that
-constexpr double kHovers = 0.015;      // m over the floor from where a planted foot is lowered
-constexpr double kFollows = 0.05;      // s: time constant of a foot that is lowered or lifted, and of a heel that rises
-constexpr double kPatience = 0.3;      // s that both feet stand before one steps to where its motion has it
-constexpr double kAstray = 0.07;       // m from its motion at least, for a foot to step there rather than slide
-constexpr double kStepHeight = 0.04;   // m
-constexpr double kSinksIn = 0.1;       // s: time constant of the hips
+constexpr double kSoftGround = 0.006;  // m of a character of 1.8 m: a foot sinks in at most half of that
 
 // The other foot of a pair.
 int other(int side) { return side ^ 1; }
@@ -34,12 +23,6 @@ int other(int side) { return side ^ 1; }
 // stands.
 double clear_at(double speed) { return kSkateHeight * std::min(1.0, speed / kStandingSpeed); }
 
-// How far a foot is lifted that is so deep in the ground: softly at first.
-double lifted(double depth) {
-  if (depth < 0) return 0;
-  return depth < kSoftGround ? depth * depth / (2 * kSoftGround) : depth - kSoftGround / 2;
-}
-
 }  // namespace
 
 Vector2 StepEdit::moved(const Vector2& from_hips, double heading) const {
@@ -47,8 +30,9 @@ Vector2 StepEdit::moved(const Vector2& from_hips, double heading) const {
   return turn * stride * turn.transpose() * from_hips + turn * shift;
 }
 
-FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs)
-    : kinematics(kinematics),
+FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs, const FeetConstants& constants)
+    : constants(constants),
+      kinematics(kinematics),
       legs(legs),
       scale(standard_scale(kinematics.skeleton())),
       bones(kinematics.chains({legs[0].foot, legs[0].toe, legs[1].foot, legs[1].toe, legs[2].foot, legs[2].toe,
@@ -67,7 +51,7 @@ FootLock::FootLock(std::shared_ptr<Body> body) : body_(std::move(body)), feet_(s
 
 void FootLock::reset() {
   Foot free;
-  free.free = kRelease;
+  free.free = body_->constants.release;
   std::fill(feet_.begin(), feet_.end(), free);
   sunk_ = stood_ = 0;
   fresh_ = true;
@@ -86,38 +70,36 @@ bool FootLock::all_locked() const {
 // A body that has come to stand does not stay in the middle of a stride.
 void FootLock::settle(double seconds) {
   stood_ = all_locked() ? stood_ + seconds : 0;
-  if (stood_ < kPatience) return;
+  if (stood_ < body_->constants.release) return;
   const auto astray = [&](const Foot& foot) { return (foot.place - foot.moved).norm() * body_->scale; };
-  int most = body_->legs.count() - 1;
-  for (int side = most - 1; side >= 0; --side) {
-    if (astray(feet_[side]) > astray(feet_[most])) most = side;
-  }
-  Foot& foot = feet_[most];
-  if (astray(foot) < kAstray) return;
+  Foot& foot = *std::max_element(feet_.begin(), feet_.end(),
+                                 [&](const Foot& a, const Foot& b) { return astray(a) < astray(b); });
+  if (astray(foot) < body_->constants.astray) return;
   release(foot, foot.place - foot.moved);
 }
 
 Vector2 FootLock::coming_to_rest(int side) const {
   const Foot& foot = feet_[side];
-  return foot.locked ? Vector2{kComesToRest * foot.drift} : Vector2::Zero();
+  return foot.locked ? Vector2{body_->constants.rests * foot.drift} : Vector2::Zero();
 }
 
 double FootLock::stepping(int side) const {
   const Foot& foot = feet_[side];
-  return foot.steps ? std::max(0.0, kRelease - foot.free) : 0;
+  return foot.steps ? std::max(0.0, body_->constants.release - foot.free) : 0;
 }
 
 // The height of a foot that steps to where its motion has it.
 double FootLock::step_height(const Foot& foot) const {
-  if (!foot.steps || foot.free >= kRelease) return 0;
-  const double phase = foot.free / kRelease;
-  return 4 * phase * (1 - phase) * kStepHeight / body_->scale;
+  const FeetConstants& constants = body_->constants;
+  if (!foot.steps || foot.free >= constants.release) return 0;
+  const double phase = foot.free / constants.release;
+  return 4 * phase * (1 - phase) * constants.step / body_->scale;
 }
 
 // How much too high a foot is, or too low: where the hips are too high for what plays, its motion would let a planted
 // one hover; where a stitch brings a foot away from a stand, it would let it cross the floor.
 double FootLock::hovers(const Foot& foot, double over, double ball, double clear) const {
-  if (foot.locked) return std::max(0.0, over - kHovers / body_->scale);
+  if (foot.locked) return std::max(0.0, over - body_->constants.hovers / body_->scale);
   return std::min(0.0, std::max(0.0, ball) + step_height(foot) - clear);
 }
 
@@ -142,7 +124,7 @@ void FootLock::raise_heel(int side, const Vector3& ball, double follows, Vector3
 
 void FootLock::release(Foot& foot, const Vector2& held) const {
   foot.locked = false;
-  foot.steps = held.norm() * body_->scale > kAstray;
+  foot.steps = held.norm() * body_->scale > body_->constants.astray;
   foot.offset = held;
   foot.offset_speed = foot.drift - foot.speed;
   foot.free = 0;
@@ -150,21 +132,23 @@ void FootLock::release(Foot& foot, const Vector2& held) const {
 
 // How far the foot is shown from where its motion has it.
 Vector2 FootLock::away(int side, const Vector2& moved, bool planted, double seconds) {
+  const FeetConstants& constants = body_->constants;
   Foot& foot = feet_[side];
   foot.speed = seconds > 0 && !fresh_ ? Vector2{(moved - foot.moved) / seconds} : Vector2::Zero();
   foot.moved = moved;
   foot.free += seconds;
   Vector2 away = Vector2::Zero();
-  if (foot.free < kUnseen * kRelease) {
-    const Vector2 rate = foot.offset_speed + kReturns * foot.offset;
-    away = std::exp(-kReturns * foot.free) * (foot.offset + foot.free * rate);
+  if (foot.free < kUnseen * constants.release) {
+    const Vector2 rate = foot.offset_speed + body_->returns() * foot.offset;
+    away = std::exp(-body_->returns() * foot.free) * (foot.offset + foot.free * rate);
   }
-  const bool stepping = foot.steps && foot.free < kRelease;
-  const double too_far = foot.locked && feet_[other(side)].locked ? kTooFar : kTooFarAlone;
-  if (planted && !foot.locked && !stepping && away.norm() * body_->scale < kTooFar) lock(foot, moved + away, seconds);
+  const bool stepping = foot.steps && foot.free < constants.release;
+  const double too_far = foot.locked && feet_[other(side)].locked ? constants.too_far : constants.alone;
+  if (planted && !foot.locked && !stepping && away.norm() * body_->scale < constants.too_far)
+    lock(foot, moved + away, seconds);
   if (foot.locked) {
-    const double goes_on = std::exp(-seconds / kComesToRest);
-    foot.place += kComesToRest * (1 - goes_on) * foot.drift;
+    const double goes_on = std::exp(-seconds / constants.rests);
+    foot.place += constants.rests * (1 - goes_on) * foot.drift;
     foot.drift *= goes_on;
     away = foot.place - moved;
     if (!planted || away.norm() * body_->scale > too_far) release(foot, away);
@@ -188,7 +172,7 @@ double FootLock::height(int side, const FootHeights& floor) const {
 
 void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds,
                      const StepEdit& edit) {
-  auto& [kinematics, legs, scale, leg_bones, bones, posed] = *body_;
+  auto& [constants, kinematics, legs, scale, leg_bones, bones, posed] = *body_;
   const int count = legs.count();
   if (count == 0) return;
   const Skeleton& skeleton = kinematics.skeleton();
@@ -197,7 +181,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
                 longer = heading * edit.stride * heading.transpose();
   const Vector2 shift = heading * edit.shift;
   std::array<Vector3, kMostLegs> ankles;
-  const double follows = filtered(seconds, kFollows);
+  const double follows = filtered(seconds, kSettles);
   double strained = 0;
   settle(seconds);
   for (int side = 0; side < count; ++side) {
@@ -212,19 +196,19 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
     const double speed = fresh_ || seconds == 0 ? 0 : (feet_[side].shown - before).norm() / seconds;
     const double hovers = this->hovers(feet_[side], over, place.z() - contacts.floors[side].ball,
                                        edit.clears * clear_at(speed * scale) / scale);
-    const double lift =
-        lifted(-over * scale) / scale + step_height(feet_[side]) - lowered(feet_[side], over, hovers, follows);
+    const double lift = softly_over(-over, kSoftGround / scale) + step_height(feet_[side]) -
+                        lowered(feet_[side], over, hovers, follows);
     const Vector3 moved{by.x(), by.y(), lift};
     ankles[side] = ankle_of(legs[side], posed) + moved;
     raise_heel(side, place + moved, follows, ankles[side], pose.rotations.data());
     if (by.isZero(kRounding) && lift == 0) continue;
     const double strain =
         std::max(0.0, too_high(longest(legs[side], posed), posed.heads[legs[side].thigh], ankles[side]));
-    if (feet_[side].locked && strain * scale > kStrained) release(feet_[side], held);
-    strained = std::max(strained, std::min(kStrained / scale, strain));
+    if (feet_[side].locked && strain * scale > constants.strained) release(feet_[side], held);
+    strained = std::max(strained, std::min(constants.strained / scale, strain));
   }
   fresh_ = false;
-  sunk_ += (strained - sunk_) * filtered(seconds, kSinksIn);
+  sunk_ += (strained - sunk_) * filtered(seconds, constants.sinks);
   lower_hips(sunk_, pose.root, posed);
   for (int side = 0; side < count; ++side) {
     reach(skeleton, legs[side], posed, ankles[side], pose.rotations.data());

@@ -7,6 +7,7 @@
 
 #include "base/simd.hpp"
 #include "feet/feet_ahead.hpp"
+#include "feet/feet_constants.hpp"
 #include "motion/pose.hpp"
 #include "skeleton/two_bone_ik.hpp"
 
@@ -33,13 +34,14 @@ struct StepEdit {
 /// biped's. Does nothing to a skeleton without legs. Allocates nothing once it is made.
 class FootLock {
  public:
-  /// s in which a foot that is let go gets back to its motion, most of the way; it is critically damped, 1/s.
-  static constexpr double kRelease = 0.33, kReturns = 3.5 / kRelease;
-
   /// What the foot locks of one body share that are applied in turn: what never changes, and room to work in.
   struct Body {
-    Body(const Kinematics& kinematics, const Legs& legs);
+    Body(const Kinematics& kinematics, const Legs& legs, const FeetConstants& constants = {});
 
+    /// 1/s: of a foot that is let go, which is critically damped.
+    double returns() const { return 3.5 / constants.release; }
+
+    FeetConstants constants;
     Kinematics kinematics;
     Legs legs;
     double scale;

@@ -10,22 +10,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSettle = 0.03;     // s in which a foot that stands gets onto its footing, where it is not on it
-constexpr double kFastestError = 3;  // m/s at which it does so
-constexpr double kSlid = 0.005;      // m that a foot may slide on the same footing
-constexpr double kPace = 0.1;        // m/s with which a foot that steps on the spot is on its way
-
-constexpr double kMargin = 0.03;        // m by which it clears what is in its way
-constexpr double kClearing = 0.1;       // s in which its clearance gets as high as it must
-constexpr double kLeast = 0.2;          // of the arch's height, below which it is not told from that what it is to be
-constexpr double kMostClearance = 0.5;  // m
-
-constexpr double kTried = 0.02;      // m by which a sole is moved off an edge,
-constexpr int kTrials = 8;           // times that, to the front and to the back
-constexpr double kHysteresis = 0.1;  // s: the sooner it lands, the more it keeps to the tread that was foreseen
-
-constexpr double kLandingBeside = 0.01;  // m beside a place where a foot is to stand, that counts as there,
-constexpr double kWayBeside = 0.09;      // and where it is on its way
+constexpr int kTrials = 8;  // times that a sole is moved off an edge, to the front and to the back
 
 // The height of a foot's clearance at a part of its way.
 double arch(double part) { return 1 - std::pow(2 * part - 1, 4); }
@@ -33,6 +18,7 @@ double arch(double part) { return 1 - std::pow(2 * part - 1, 4); }
 }  // namespace
 
 bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, GroundProbe& probe, int spared) {
+  metre_ = probe.metre();
   due_ = foot.stands ? 0 : foot.due;
   swing_time_ = foot.stands ? 0 : swing_time_ + seconds;
   const Vector2 place = foot.now.place() + shift();
@@ -42,10 +28,10 @@ bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, 
   } else {
     swing(foot, probe, spared);
   }
-  advance_shift(foot, fresh_ ? kSettle : seconds);
+  advance_shift(foot, fresh_ ? kSettles : seconds);
   if (!fresh_) error_.value += before - on_way(place, 0).height;
   plane_ = on_way(foot.now.place() + shift(), 0);
-  error_.advance(0, std::max({due_, kSettle, std::abs(error_.value) / kFastestError}), seconds);
+  error_.advance(0, std::max(due_, kSettles), seconds);
   clear(foot, lower, seconds, probe);
   bear(foot, seconds);
   stood_ = foot.stands;
@@ -58,7 +44,7 @@ void FootOnGround::stand(const FootAhead& foot, GroundProbe& probe, int spared) 
   probe.spare(spared + kAsksAtLeast);
   if (lands) beside_ = fresh_ ? beside_edges(foot, probe) : shift();
   const Sole sole = foot.landing().moved(beside_);
-  if (lands || !found_ || (sole.place() - last_.place).norm() > kSlid) {
+  if (lands || !found_ || (sole.place() - last_.place).norm() > kThere * metre_) {
     const std::optional<Footing> under = ask_under(sole, probe);
     next_ = under.value_or(lands && !fresh_ ? Footing{sole.place(), next_.height, next_.slope}
                                             : Footing{sole.place(), last_.at(sole.place()), last_.slope});
@@ -66,7 +52,7 @@ void FootOnGround::stand(const FootAhead& foot, GroundProbe& probe, int spared) 
     found_ = under.has_value();
   }
   probe.spare(spared);
-  const double edges = known_.edges(sole, 0, probe);
+  const double edges = known_.edges(sole, probe);
   if (edges >= KnownGround::kInTheWay || (lands && edges > 0)) beside_ = beside_edges(foot, probe);
 }
 
@@ -93,31 +79,30 @@ Vector2 FootOnGround::beside_edges(const FootAhead& foot, GroundProbe& probe) {
   const Sole& sole = foot.landing();
   const Vector2 along = (sole.tip - sole.heel).head<2>().normalized();
   const bool planned = !fresh_ && !stood_;
-  const double keeps = kHysteresis / std::max(due_, kTried);
+  const double keeps = kLoading / std::max(due_, kSettles);  // the sooner it lands, the more
   double least = std::numeric_limits<double>::infinity();
   Vector2 best = Vector2::Zero();
   for (int i = 0; i <= 2 * kTrials; ++i) {
     const int steps = (i + 1) / 2;
-    const Vector2 moved = (i % 2 == 0 ? kTried : -kTried) * steps * along;
-    if (moved.norm() >= least) break;
+    const Vector2 moved = (i % 2 == 0 ? kTried : -kTried) * metre_ * steps * along;
+    if (moved.norm() >= least * metre_) break;
     const Sole there = sole.moved(moved);
-    const std::optional<Footing> ground =
-        planned ? known_.at(there.place(), {along, kLandingBeside}, probe) : std::nullopt;
+    const std::optional<Footing> ground = planned ? known_.at(there.place(), {along, kThere}, probe) : std::nullopt;
     const double off = ground ? std::abs(ground->height - next_.height) : 0;
-    const double cost = moved.norm() + keeps * off + known_.edges(there, kLandingBeside, probe);
+    const double cost = (moved.norm() + keeps * off) / metre_ + known_.edges(there, probe);
     if (cost < least) least = cost, best = moved;
   }
   return best;
 }
 
 void FootOnGround::advance_shift(const FootAhead& foot, double seconds) {
-  const double due = fresh_ ? 0 : foot.stands ? kSettle : std::max(due_, kSettle);
+  const double due = fresh_ ? 0 : foot.stands ? kSettles : std::max(due_, kSettles);
   for (int axis = 0; axis < 2; ++axis) shift_[axis].advance(beside_[axis], due, seconds);
 }
 
 double FootOnGround::part_of_way(const Vector2& place, double later) const {
-  const double gone = (place - last_.place).norm() + kPace * (swing_time_ + later),
-               left = (next_.place - place).norm() + kPace * std::max(0.0, due_ - later);
+  const double pace = kStandingSpeed * metre_, gone = (place - last_.place).norm() + pace * (swing_time_ + later),
+               left = (next_.place - place).norm() + pace * std::max(0.0, due_ - later);
   return gone + left > 0 ? gone / (gone + left) : 1;
 }
 
@@ -135,16 +120,16 @@ void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, Gr
     return;
   }
   const Vector2 now = foot.now.place() + shift();
-  const KnownGround::Along along{(foot.landing().place() + beside_ - now).normalized(), kWayBeside};
+  const KnownGround::Along along{(foot.landing().place() + beside_ - now).normalized(), kApart};
   double wanted = 0;
   for (std::size_t i = 0; i < FootAhead::kPoints; ++i) {
     const double u = static_cast<double>(i + 1) / FootAhead::kPoints, later = u * due_;
     const Sole at = foot.way[i].moved(shift() + u * (beside_ - shift()));
     const double over = known_.over(at, lower, on_way(at.place(), later), along, probe);
     const double height = arch(part_of_way(at.place(), later));
-    if (over > 0 && height > kLeast) wanted = std::max(wanted, (over + std::min(over, kMargin)) / height);
+    if (over > 0 && height > 0) wanted = std::max(wanted, (over + std::min(over, kUneven * metre_)) / height);
   }
-  clearance_.advance(std::min(wanted, kMostClearance), fresh_ ? 0 : kClearing, seconds);
+  clearance_.advance(std::min(wanted, kHighestStep * metre_), fresh_ ? 0 : kLoading, seconds);
   lift_ = std::max(clearance_.value, 0.0) * arch(part_of_way(now, 0));
 }
 

@@ -59,6 +59,7 @@ class FootOnGround {
   std::array<Approach, 2> shift_;
   Approach clearance_;               // how high it steps over what is in its way, m
   double swing_time_ = 0, due_ = 0;  // s since it stood, and until it stands
+  double metre_ = 1;                 // GroundProbe::metre()
   double lift_ = 0, weight_ = 1;     // m; 0 .. 1
 };
 

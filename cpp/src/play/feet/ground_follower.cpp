@@ -11,15 +11,9 @@
 namespace fragmotion {
 namespace {
 
-// Lengths are those of a character of 1.8 m.
-constexpr double kHighestStep = 0.7;  // m over the level under the body, of ground that it may step on
-constexpr double kSky = 1e5;          // m: over all ground
-constexpr double kUneven = 0.03;      // m by which ground differs where feet stand on it exactly
-constexpr double kFootLength = 0.25;  // m over which a slope counts
-constexpr double kGetsExact = 0.15;   // s in which they come to
-constexpr double kDeepest = 0.45;     // m that they sink
-constexpr int kAsked = 8;             // times that a step asks for the ground,
-constexpr int kAskedAtFirst = 80;     // and a reset
+constexpr double kSky = 1e5;       // m: over all ground
+constexpr int kAsked = 8;          // times that a step asks for the ground,
+constexpr int kAskedAtFirst = 80;  // and a reset
 
 Quaternion turned_by(const Vector2& slope) {
   if (slope.isZero(0)) return Quaternion::Identity();
@@ -42,7 +36,7 @@ void GroundFollower::forget_ground() {
 // What asks for the ground: from a step's height over where it is.
 GroundProbe GroundFollower::probe(const WorldPose& pose) const {
   const double highest = kHighestStep / body_->scale;
-  GroundProbe probe(ground_, level_ + highest, appears_ ? kAskedAtFirst : kAsked);
+  GroundProbe probe(ground_, level_ + highest, appears_ ? kAskedAtFirst : kAsked, 1 / body_->scale);
   if (!fresh_) return probe;
   const std::optional<GroundPoint> near = probe.ask(pose.root.head<2>());
   if (near && near->normal.z() > 0) return probe;
@@ -66,10 +60,10 @@ bool GroundFollower::advance_feet(const FeetAhead& feet, double seconds, GroundP
 void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double seconds) {
   GroundProbe probe = this->probe(pose);
   appears_ = false;
-  auto& [kinematics, legs, scale, leg_bones, bones, posed] = *body_;
+  auto& [constants, kinematics, legs, scale, leg_bones, bones, posed] = *body_;
   if (!legs[0].exists() || !legs[1].exists()) return follow_hips(pose, seconds, probe);
   if (!advance_feet(feet, seconds, probe)) missed_ += seconds;
-  get_exact(seconds);
+  get_exact(feet, seconds);
   hips_.advance(pose.root.head<2>(), feet_, seconds);
   level_ = hips_.level();
   pose.root.z() += level_;
@@ -91,7 +85,7 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
 }
 
 // Feet stand exactly on ground that is not level: the less level, the more, so that rounding of its faces is not seen.
-void GroundFollower::get_exact(double seconds) {
+void GroundFollower::get_exact(const FeetAhead& feet, double seconds) {
   double lowest = feet_[0].last().height, highest = lowest, steepest = 0;
   for (const FootOnGround& foot : feet_) {
     for (const Footing* footing : {&foot.last(), &foot.next()}) {
@@ -100,16 +94,15 @@ void GroundFollower::get_exact(double seconds) {
       steepest = std::max(steepest, footing->slope.norm());
     }
   }
-  const double uneven = highest - lowest + steepest * kFootLength / body_->scale;
-  const double wanted = std::clamp(uneven * body_->scale / kUneven, 0.0, 1.0), most = fresh_ ? 1 : seconds / kGetsExact;
+  const double uneven = highest - lowest + steepest * (feet[0].now.tip - feet[0].now.heel).norm();
+  const double wanted = std::clamp(uneven * body_->scale / kUneven, 0.0, 1.0), most = fresh_ ? 1 : seconds / kLoading;
   exact_ += std::clamp(wanted - exact_, -most, most);
 }
 
 // How much lower than captured a foot is shown, m: one that is low comes down to its floor, softly.
 double GroundFollower::lower(int side, const FootAhead& foot) const {
-  const double contact = kLanding / body_->scale, height = foot.now.height();
-  const double lowered = height <= 0 ? 0 : height < contact ? height * height / (2 * contact) : height - contact / 2;
-  return exact_ * feet_[side].weight() * (height - lowered);
+  const double height = foot.now.height();
+  return exact_ * feet_[side].weight() * (height - softly_over(height, kLanding / body_->scale));
 }
 
 // Whether the body stands as on level ground.
@@ -143,7 +136,7 @@ Vector3 GroundFollower::place_foot(int side, const FootAhead& foot) {
 
 // Lowers the hips for legs that bear the body, and for those that are about to.
 void GroundFollower::sink(const FeetAhead& feet, const std::array<Vector3, 2>& ankles, double seconds) {
-  const double deepest = kDeepest / body_->scale;
+  const double deepest = kHighestStep / body_->scale;
   double now = 0, soon = 0, due = kLookedAhead;
   for (int side = 0; side < 2; ++side) {
     const Leg& leg = body_->legs[side];
@@ -159,7 +152,7 @@ void GroundFollower::sink(const FeetAhead& feet, const std::array<Vector3, 2>& a
     soon = std::max(0.0, too_high(length, hip, ankle));
     due = foot.due;
   }
-  hips_.sink(std::min(exact_ * now, deepest), std::min(exact_ * soon, deepest), due, seconds);
+  hips_.sink(std::min(exact_ * now, deepest), std::min(exact_ * soon, deepest), due, body_->constants.release, seconds);
 }
 
 // Raises the heel, and the ankle with it, about the ball where the leg is too short still.

@@ -37,7 +37,7 @@ class GroundFollower {
   void follow_hips(WorldPose& pose, double seconds, GroundProbe& probe);
   GroundProbe probe(const WorldPose& pose) const;
   bool advance_feet(const FeetAhead& feet, double seconds, GroundProbe& probe);
-  void get_exact(double seconds);
+  void get_exact(const FeetAhead& feet, double seconds);
   double lower(int side, const FootAhead& foot) const;
   bool is_flat() const;
   Vector3 place_foot(int side, const FootAhead& foot);

@@ -9,20 +9,11 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kRising = 0.3;  // s in which they come up again
-
 // How much of the way from one place to another a place is.
 double part_between(const Vector2& from, const Vector2& to, const Vector2& place) {
   const Vector2 way = to - from;
   const double square = way.squaredNorm();
   return square > 0 ? std::clamp(dot(place - from, way) / square, 0.0, 1.0) : 0;
-}
-
-// A value's distance from a target that moves evenly, and its rate, after a time: a critically damped spring.
-void settle(double& off, double& rate, double quickness, double seconds) {
-  const double decay = std::exp(-quickness * seconds), push = rate + quickness * off;
-  off = decay * (off + seconds * push);
-  rate = decay * (rate - seconds * quickness * push);
 }
 
 }  // namespace
@@ -37,26 +28,26 @@ double level_between(const FeetOnGround& feet, const Vector2& place) {
   return (1 - away) * under.at(place) + away * ends;
 }
 
+// A critically damped spring on a target that moves evenly.
 void HipsOnGround::advance(const Vector2& place, const FeetOnGround& feet, double seconds) {
   const double target = level_between(feet, place);
-  if (fresh_ || seconds <= 0) {
-    if (fresh_) level_ = target;
-  } else {
-    const double before = level_between(feet, place_), pace = (target - before) / seconds;
-    double off = level_ - before, rate = speed_ - pace;
-    settle(off, rate, kHipsFollow, seconds);
-    level_ = target + off;
-    speed_ = pace + rate;
+  if (fresh_) {
+    level_ = target;
+  } else if (seconds > 0) {
+    const double before = level_between(feet, place_), pace = (target - before) / seconds, off = level_ - before,
+                 rate = speed_ - pace, decay = std::exp(-kHipsFollow * seconds), push = rate + kHipsFollow * off;
+    level_ = target + decay * (off + seconds * push);
+    speed_ = pace + decay * (rate - seconds * kHipsFollow * push);
   }
   place_ = place;
   fresh_ = false;
 }
 
-void HipsOnGround::sink(double now, double soon, double due, double seconds) {
+void HipsOnGround::sink(double now, double soon, double due, double rising, double seconds) {
   due = std::max(due, kLoading);
   const double at_once = (now - sunk_.value) / kLoading, later = (soon - sunk_.value) / due;
   if (at_once <= 0 && later <= 0) {
-    sunk_.advance(std::max(now, soon), kRising, seconds);
+    sunk_.advance(std::max(now, soon), rising, seconds);
   } else if (at_once > later) {
     sunk_.advance(now, kLoading, seconds);
   } else {

@@ -17,8 +17,9 @@ class HipsOnGround {
  public:
   /// Goes on to hips over `place`, `seconds` after the last.
   void advance(const Vector2& place, const FeetOnGround& feet, double seconds);
-  /// Goes on to hips that are lower than their level: by `now`, m, and by `soon` in `due` seconds.
-  void sink(double now, double soon, double due, double seconds);
+  /// Goes on to hips that are lower than their level: by `now`, m, and by `soon` in `due` seconds; they come up
+  /// again in `rising` seconds.
+  void sink(double now, double soon, double due, double rising, double seconds);
 
   /// Of the ground under them, m.
   double level() const { return level_; }

@@ -8,21 +8,14 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kThere = 0.004;     // m within which it is the same place
-constexpr double kApart = 0.13;      // m between places that may be on one plane
-constexpr double kBeyondEnd = 0.03;  // m beyond the last place that is known, where the ground goes on
-constexpr double kOnePlane = 0.015;  // m by which two planes differ that are one
-
-constexpr double kEdge = 0.05;               // m that ground is beside a plane, at an edge
-constexpr double kBeyond = 0.04;             // m beyond the ends of a sole that are to be free
-constexpr double kOver = 0.1, kNear = 0.05;  // m that a sole is better moved
+constexpr double kAtEdge = 0.1;  // m of a character of 1.8 m that a sole is better moved
 
 }  // namespace
 
-bool KnownGround::agree(const Known& a, const Known& b) {
+bool KnownGround::agree(const Known& a, const Known& b, double metre) {
   if (!a.exists || !b.exists) return a.exists == b.exists;
-  return std::abs(a.plane.at(b.plane.place) - b.plane.height) < kOnePlane &&
-         std::abs(b.plane.at(a.plane.place) - a.plane.height) < kOnePlane;
+  return std::abs(a.plane.at(b.plane.place) - b.plane.height) < kUneven * metre &&
+         std::abs(b.plane.at(a.plane.place) - a.plane.height) < kUneven * metre;
 }
 
 std::optional<Footing> KnownGround::ask(const Vector2& place, GroundProbe& probe) {
@@ -39,6 +32,7 @@ std::optional<Footing> KnownGround::at(const Vector2& place, const Along& along,
     double square = std::numeric_limits<double>::infinity(), ahead = 0, aside = 0;
   };
   Near behind, before;
+  const double metre = probe.metre();
   for (int i = 0; i < count_; ++i) {
     const Vector2 off = known_[i].plane.place - place;
     const double square = off.x() * off.x() + off.y() * off.y(),
@@ -48,28 +42,29 @@ std::optional<Footing> KnownGround::at(const Vector2& place, const Along& along,
       side = {&known_[i], square, std::abs(ahead), std::abs(off.x() * along.way.y() - off.y() * along.way.x())};
   }
   const Near& nearest = behind.square < before.square ? behind : before;
-  const bool between = behind.known && before.known && behind.ahead + before.ahead <= kApart,
-             same = nearest.square < kThere * kThere;
-  const auto level_with = [&](const Near& near) { return near.aside <= along.beside; };
-  const bool sure = same || (between ? agree(*behind.known, *before.known) && level_with(behind) && level_with(before)
-                                     : nearest.known && nearest.ahead < kBeyondEnd && level_with(nearest));
+  const bool between = behind.known && before.known && behind.ahead + before.ahead <= kApart * metre,
+             same = nearest.square < kThere * metre * kThere * metre;
+  const auto level_with = [&](const Near& near) { return near.aside <= along.beside * metre; };
+  const bool sure =
+      same || (between ? agree(*behind.known, *before.known, metre) && level_with(behind) && level_with(before)
+                       : nearest.known && nearest.ahead < kTried * metre && level_with(nearest));
   if (!sure && probe.may_ask()) return ask(place, probe);
   if (nearest.known == nullptr || !nearest.known->exists) return std::nullopt;
   return Footing{place, nearest.known->plane.at(place), nearest.known->plane.slope};
 }
 
-double KnownGround::edges(const Sole& sole, double beside, GroundProbe& probe) {
+double KnownGround::edges(const Sole& sole, GroundProbe& probe) {
   const Vector2 heel = sole.heel.head<2>(), tip = sole.tip.head<2>(), along = (tip - heel).normalized();
-  const std::optional<Footing> ground = at(sole.place(), {along, beside}, probe);
+  const std::optional<Footing> ground = at(sole.place(), {along, kThere}, probe);
   if (count_ == 0) return 0;
   if (!ground) return kInTheWay;
-  const auto edge = [&](const Vector2& place, double overhanging) {
-    const std::optional<Footing> there = at(place, {along, beside}, probe);
+  const Vector2 beyond = kUneven * probe.metre() * along;
+  const auto edge = [&](const Vector2& place) {
+    const std::optional<Footing> there = at(place, {along, kThere}, probe);
     const double higher = there ? there->height - ground->at(place) : 0;
-    return higher > kEdge ? kInTheWay : higher < -kEdge ? overhanging : 0;
+    return higher > kUneven * probe.metre() ? kInTheWay : higher < -kUneven * probe.metre() ? kAtEdge : 0;
   };
-  return edge(heel, kOver) + edge(heel - kBeyond * along, kNear) + edge(tip + kBeyond * along, kNear) +
-         edge(tip, kOver);
+  return edge(heel) + edge(heel - beyond) + edge(tip + beyond) + edge(tip);
 }
 
 double KnownGround::over(const Sole& sole, double lower, const Footing& plane, const Along& along, GroundProbe& probe) {

@@ -7,8 +7,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSoonestDown = 0.02;  // s in which a foot that is higher comes down at least
-
 // What a body's feet do next.
 class LookAhead {
  public:
@@ -45,11 +43,11 @@ class LookAhead {
 
   void look(int side, FootAhead& foot) const {
     const double stepping = lock_ != nullptr ? lock_->stepping(side) : 0;
-    foot.due = std::clamp(course_.until_standing[side], std::max(stepping, kSoonestDown), kLookedAhead);
+    foot.due = std::clamp(course_.until_standing[side], std::max(stepping, kSettles), kLookedAhead);
     const Vector2 held = (foot.now.ball - later(side, 0).ball).head<2>();
     for (std::size_t i = 0; i < FootAhead::kPoints; ++i) {
       const double seconds = foot.due * static_cast<double>(i + 1) / FootAhead::kPoints;
-      const double returned = FootLock::kReturns * seconds;
+      const double returned = body_.returns() * seconds;
       foot.way[i] = later(side, seconds).moved((1 + returned) * std::exp(-returned) * held);
     }
     const PosedBones& posed = body_.posed;

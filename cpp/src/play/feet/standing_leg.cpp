@@ -6,6 +6,11 @@
 
 namespace fragmotion {
 
+double softly_over(double over, double soft) {
+  if (over < 0) return 0;
+  return over < soft ? over * over / (2 * soft) : over - soft / 2;
+}
+
 double too_high(double length, const Vector3& hip, const Vector3& ankle) {
   const Vector3 way = ankle - hip;
   return -way.z() - std::sqrt(std::max(0.0, length * length - way.head<2>().squaredNorm()));

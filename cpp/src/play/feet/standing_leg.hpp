@@ -7,10 +7,14 @@ namespace fragmotion {
 
 /// Of a leg's length: how far hips are from the ankle of a foot that stands at most.
 constexpr double kHipsReach = 0.985;
-/// s in which a leg that lands comes to bear the body, and in which hips get as low as it needs.
+/// s in which a leg that lands comes to bear the body, and in which hips get as low as it needs: a tenth of a walk's
+/// cycle or less (J. Perry, "Gait Analysis", 1992: loading response).
 constexpr double kLoading = 0.08;
 /// rad by which a heel rises at most.
 constexpr double kHighestHeel = 0.6;
+
+/// How much of what is `over` 0 is taken away: softly up to `soft`, and all but half of that from there on.
+double softly_over(double over, double soft);
 
 /// How much higher the upper end of a leg of this length is than it reaches its ankle from, m; less than 0 where it
 /// might be higher. One further aside than the leg is long is reached from no height: that of the ankle counts.

@@ -4,25 +4,23 @@
 #include <cmath>
 
 #include "base/filtered.hpp"
+#include "base/rounding.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kShare = 0.5;     // of the angle that would balance the body
-constexpr double kFollows = 0.12;  // s: time constant of each of two filters, so that no lean begins with a jerk
-constexpr double kMost = 6,
-                 kLeast = 0.1;  // m/s^2 of a 1.8 m character that it follows, and below which nothing is seen
+constexpr double kMost = 6;  // m/s^2 of a 1.8 m character that it follows
 
 }  // namespace
 
 void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, double seconds) {
   const Vector2 wanted = clamp_length(scale_ * acceleration, kMost);
-  const double part = filtered(seconds, kFollows);
+  const double part = filtered(seconds, constants_.follows);
   pushed_ += part * (wanted - pushed_);
   acceleration_ += part * (pushed_ - acceleration_);
   const double strength = acceleration_.norm();
-  if (strength < kLeast || trunk_.base < 0) return;
-  const Vector2 lean = kShare * std::atan(strength / kGravity) / strength * acceleration_;
+  if (strength < kRounding || trunk_.base < 0) return;
+  const Vector2 lean = constants_.share * std::atan(strength / kGravity) / strength * acceleration_;
   lean_by(skeleton, lean, pose.heading, pose.rotations.data());
 }
 

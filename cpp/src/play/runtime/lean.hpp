@@ -5,6 +5,7 @@
 
 #include "motion/pose.hpp"
 #include "motion/trunk.hpp"
+#include "runtime/player_constants.hpp"
 #include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
@@ -16,8 +17,8 @@ namespace fragmotion {
 class Lean {
  public:
   /// `scale` as ControlSpace::scale().
-  Lean(const Trunk& trunk, const Legs& legs, double scale)
-      : trunk_(trunk), thighs_{legs[0].thigh, legs[1].thigh}, scale_(scale) {}
+  Lean(const Trunk& trunk, const Legs& legs, double scale, const LeanConstants& constants = {})
+      : constants_(constants), trunk_(trunk), thighs_{legs[0].thigh, legs[1].thigh}, scale_(scale) {}
 
   /// Stands upright.
   void reset() { pushed_ = acceleration_ = Vector2::Zero(); }
@@ -34,6 +35,7 @@ class Lean {
   Quaternion bend(const Skeleton& skeleton, int bone, bool in_spine, const Vector3& axis, const HalfAngle& half,
                   double* rotations) const;
 
+  LeanConstants constants_;
   Trunk trunk_;
   std::array<int, 2> thighs_;
   double scale_;

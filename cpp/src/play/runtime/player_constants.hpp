@@ -4,6 +4,8 @@
 #include <map>
 #include <string>
 
+#include "feet/feet_constants.hpp"
+
 namespace fragmotion {
 
 /// Of a stitch (inertialization.hpp).
@@ -38,12 +40,20 @@ struct TransitionWeights {
   double variety = 0.7;  ///< By so much more than the least a fragment may cost that is drawn.
 };
 
+/// Of a body that leans into its acceleration (lean.hpp).
+struct LeanConstants {
+  double share = 0.5;     ///< Of the angle that would balance it.
+  double follows = 0.12;  ///< s: time constant of each of two filters, so that no lean begins with a jerk.
+};
+
 /// What the run time cannot derive from the character's takes nor from physics. `dev.py tune` fits these by what
 /// players and viewers see; a game leaves them as they are.
 struct PlayerConstants {
   StitchConstants stitch;
   RootLimits root;
   TransitionWeights transition;
+  FeetConstants feet;
+  LeanConstants lean;
 };
 
 /// Calls `visit(name, value)` with each of the constants.
@@ -67,6 +77,18 @@ void for_each_constant(Constants& constants, const Visit& visit) {
   visit("transition_wait", constants.transition.wait);
   visit("transition_skip", constants.transition.skip);
   visit("transition_variety", constants.transition.variety);
+  visit("feet_release", constants.feet.release);
+  visit("feet_rests", constants.feet.rests);
+  visit("feet_sinks", constants.feet.sinks);
+  visit("feet_too_far", constants.feet.too_far);
+  visit("feet_alone", constants.feet.alone);
+  visit("feet_strained", constants.feet.strained);
+  visit("feet_astray", constants.feet.astray);
+  visit("feet_step", constants.feet.step);
+  visit("feet_hovers", constants.feet.hovers);
+  visit("feet_ahead", constants.feet.ahead);
+  visit("lean_share", constants.lean.share);
+  visit("lean_follows", constants.lean.follows);
 }
 
 /// The constants, but for those that `values` names. Throws std::invalid_argument on a name that there is not, and

@@ -10,7 +10,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSetOff = 0.15;              // of what balances it that the feet are set off for a body's acceleration
 constexpr double kLonger = kTurnsAtMost - 1;  // of a step at most, as legs swing that much faster for it
 
 }  // namespace
@@ -20,7 +19,7 @@ PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace,
       scale_(character.space.scale()),
       lock_feet_(lock_feet),
       foot_lock_(workspace.body),
-      lean_(workspace.trunk, workspace.body->legs, scale_) {}
+      lean_(workspace.trunk, workspace.body->legs, scale_, workspace.constants.lean) {}
 
 void PoseCorrection::set_lock_feet(bool lock_feet) {
   if (lock_feet != lock_feet_) foot_lock_.reset();
@@ -50,9 +49,10 @@ void PoseCorrection::edit_steps(const Control& evident, const RootGovernor& gove
       goes ? Matrix2{governor.velocity() * velocity.transpose() / (governor.tempo() * velocity.squaredNorm())}
            : Matrix2{Matrix2::Zero()};
   const double most = std::min(1.0, kLonger / std::max(kLonger, wanted.norm()));
-  const double strode = filtered(seconds, FootLock::kRelease);
+  const double strode = filtered(seconds, workspace_->constants.feet.release);
   steps_.stride += strode * (most * wanted - steps_.stride);
-  const Vector2 behind = -kSetOff * workspace_->shown.root.z() / kGravity * lean_.acceleration();
+  const Vector2 behind =
+      -workspace_->constants.feet.ahead * workspace_->shown.root.z() / kGravity * lean_.acceleration();
   steps_.shift += strode * (behind - steps_.shift);
   const double pushes = scale_ * governor.acceleration().norm() / workspace_->constants.root.acceleration;
   steps_.clears = goes ? std::min(1.0, pushes) : 0;

@@ -12,7 +12,7 @@ namespace fragmotion {
 Workspace::Workspace(const Character& character, const PlayerConstants& constants)
     : constants(constants),
       kinematics(character.pool.skeleton),
-      body(std::make_shared<FootLock::Body>(kinematics, character.legs)),
+      body(std::make_shared<FootLock::Body>(kinematics, character.legs, constants.feet)),
       floors(usual_floors(character.contacts)),
       look(look_bones(kinematics.skeleton())),
       trunk(kinematics.skeleton()),

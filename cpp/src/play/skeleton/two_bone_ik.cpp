@@ -10,16 +10,16 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kStretched = 0.995;  // of a leg's length: what it reaches at most, unless it does already
-constexpr double kStraight = 0.1;     // rad: a knee that is bent less than that resists being bent backward
-constexpr double kFolded = 2.5;       // rad: a knee that is bent more resists being folded up
-constexpr double kNear = 0.02;  // of a leg's length: wanted so near to where it is, a foot may go as the knee does
+constexpr double kStraight = 0.1;  // rad: a knee that is bent less than that resists being bent backward
+constexpr double kFolded = 2.5;    // rad: a knee that is bent more resists being folded up
 
 const double kBendsWell = std::cos(kStraight), kFoldsWell = std::cos(kFolded);
+// Of a leg's length: what it reaches at most, thigh and shin kStraight off the line between its ends, unless it does
+// already; and what is left to it where it tires.
+const double kStretched = kBendsWell, kRest = kStretched - kTires;
 
 double softly(double distance) {
-  const double rest = kStretched - kTires;
-  return distance < kTires ? distance : kTires + rest * (1 - std::exp((kTires - distance) / rest));
+  return distance < kTires ? distance : kTires + kRest * (1 - std::exp((kTires - distance) / kRest));
 }
 
 // How far apart the ends of a leg come that are `now` apart and would be `wanted`, all in lengths of the leg. Where
@@ -52,11 +52,12 @@ class Knee {
         cosine_(2 * dot(upper, lower) / twice_),
         sine_(2 * dot(axis_, upper.cross(lower)) / twice_) {}
 
-  // How far apart the leg's ends come that would be `wanted`, m.
+  // How far apart the leg's ends come that would be `wanted`, m: wanted near to where it is, it may go as the knee
+  // does.
   double ends(double wanted) const {
     const double now = distance(cosine_), natural = bends_well() ? now : distance(std::cos(bearable()));
     wanted /= length_;
-    wanted += std::max(0.0, 1 - std::abs(wanted - now) / kNear) * (natural - now);
+    wanted += std::max(0.0, 1 - std::abs(wanted - now) / kRest) * (natural - now);
     return length_ * apart(natural, wanted);
   }
 
@@ -157,10 +158,10 @@ void hinge_at_rest(const Skeleton& skeleton, Leg& of_left, Leg& of_right) {
   for (Leg* leg : {&of_left, &of_right}) leg->hinge = rotations[leg->thigh].conjugate() * left.normalized();
 }
 
-// How well two joints serve as shoulder and elbow of a hand.
+// How well two joints serve as shoulder and elbow of a hand, m.
 double evenness(const Vector3& shoulder, const Vector3& elbow, const Vector3& hand) {
   const double upper = (elbow - shoulder).norm(), lower = (hand - elbow).norm();
-  return square(std::min(upper, lower)) / std::max({upper, lower, kShortestLegBone});
+  return square(std::min(upper, lower)) / std::max({upper, lower, kFloatRounding});
 }
 
 // The arm to a hand from below the bone `trunk`, which carries both.
