@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "allocations.hpp"
 #include "character/policy_file.hpp"
 #include "control/simulated_players.hpp"
 #include "evaluate/performance.hpp"
+#include "fragments/entry_poses.hpp"
 #include "made_moves.hpp"
 #include "mocap_files.hpp"
 #include "runtime/crowd.hpp"
@@ -103,6 +105,39 @@ TEST(PlayerMoves, BeginWhereTheyJoinBetterThanWhereTheyWerePressed) {
     begun += last;
   }
   EXPECT_LT(begun, 0.95 * pressed);
+}
+
+// How far the arms are turned from those of a move's first pose, rad.
+double arms_apart(const Player& player, const Character& c, int move) {
+  const Clip clip = unpack(c.pool.clips[c.moves[move].clip]);
+  double sum = 0;
+  for (const char* bone : {"upper_arm.L", "upper_arm.R"}) {
+    const std::size_t at = std::size_t{4} * c.pool.skeleton.find(bone);
+    sum += load_quaternion(&player.rotations()[at]).angularDistance(load_quaternion(&clip.rotations[at]));
+  }
+  return sum;
+}
+
+// Where a move of the upper body begins, the arms of one that walks are off from its first pose by no more than they
+// swing within half of the time between two moments that are looked at.
+TEST(PlayerMoves, OfTheUpperBodyBeginWhereSwingingArmsJoinBest) {
+  const Character& c = *moving_character();
+  for (double before = 1; before < 3; before += 0.11) {
+    Player player(moving_character(), bare());
+    settle(player, kForward, before - 0.5);
+    double apart = 0, swing = 0;
+    const auto look = [&] {
+      if (waves(player)) return true;
+      const double now = arms_apart(player, c, kWave), was = std::exchange(apart, now);
+      swing = std::max(swing, std::abs(now - was) / kStep);
+      return false;
+    };
+    apart = arms_apart(player, c, kWave);
+    steps_until(player, kForward, 0.5, look);
+    player.start_move(kWave);
+    steps_until(player, kForward, 0.5, look);
+    EXPECT_LE(apart, swing * kMomentsApart / 2) << before;
+  }
 }
 
 TEST(PlayerMoves, KeepTheirRootMotion) {

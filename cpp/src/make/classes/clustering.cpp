@@ -23,13 +23,14 @@ const char* const kStage = "Clustering";
 
 // Renumbers the classes by their representatives' order.
 Classes ordered(const KMeans& run, int count) {
-  const std::vector<int> medoids = run.medoids();
+  const std::vector<float> to_means = run.to_own_means();
+  const std::vector<int> medoids = run.medoids(to_means);
   std::vector<int> order(count), rank(count);
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return medoids[a] < medoids[b]; });
   Classes classes;
   classes.count = count;
-  classes.inertia = run.inertia();
+  classes.inertia = run.inertia(to_means);
   for (int k = 0; k < count; ++k) {
     rank[order[k]] = k;
     classes.representatives.push_back(medoids[order[k]]);
@@ -100,8 +101,8 @@ class Clustering {
         iterations_(options.iterations),
         few_(t.count / kHardlyAny),
         sums_(summed_poses(t, thread_count(options.threads))),
-        fine_{&t.whole, weights.data(), kinds.data()},
-        coarse_{&sums_, weights.data(), kinds.data()},
+        fine_{t.whole, weights.data(), kinds.data()},
+        coarse_{sums_, weights.data(), kinds.data()},
         rounding_(t.whole.rounding() + sums_.rounding()) {}
   Clustering(const Clustering&) = delete;
   Clustering& operator=(const Clustering&) = delete;

@@ -56,9 +56,14 @@ void check_body(const FragmotionBody& body) {
 void step_part_of(FragmotionCrowd& crowd, int part, const FragmotionInput* inputs, double seconds) {
   const auto players = static_cast<std::int64_t>(crowd.players.size());
   const std::int64_t end = players * (part + 1) / crowd.parts;
+  const auto player = [&](std::int64_t i) {
+    return crowd.players[static_cast<std::size_t>(i < end ? i : end - 1)].get();
+  };
+  const std::int64_t ahead = 4;  // where each fourth frame is stepped, whoever steps next
   for (std::int64_t i = players * part / crowd.parts; i < end; ++i) {
-    crowd.players[static_cast<std::size_t>(std::min(i + 1, end - 1))]->prefetch();
-    crowd.players[static_cast<std::size_t>(i)]->step(inputs[i], seconds);
+    player(i + 2 * ahead)->prefetch_turn();
+    player(i + ahead)->prefetch();
+    player(i)->step(inputs[i], seconds);
   }
 }
 

@@ -64,10 +64,10 @@ struct Scratch {
 
 /// What a step leaves to be asked for.
 struct StepReport {
-  std::array<FragmotionEvent, FRAGMOTION_MOST_EVENTS> events{};
   int count = 0;
   Vector3 motion = Vector3::Zero(), velocity = Vector3::Zero();
   double turned = 0;
+  std::array<FragmotionEvent, FRAGMOTION_MOST_EVENTS> events{};
 };
 
 /// What a path is followed with, and what it is known by.
@@ -123,6 +123,7 @@ struct FragmotionPlayer {
   fragmotion::Vector3 place() const;
   double heading() const { return shift.frame(shown().frame).heading; }
 
+  void prefetch_turn() const;
   void prefetch() const;
   void reset(const FragmotionPlace* place, int style);
   void make_room();

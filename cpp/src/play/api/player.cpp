@@ -265,10 +265,19 @@ void FragmotionPlayer::interpolate() {
   blend_rotations(before.rotations.data(), now.rotations.data(), share, hero->bones(), between.rotations.data());
 }
 
-// What its next step needs of it.
+// What tells whether its next step is left out, which is all that such a step needs of it.
+void FragmotionPlayer::prefetch_turn() const {
+  fragmotion::prefetch(&options, 1);
+  fragmotion::prefetch(&banked, 1);
+  fragmotion::prefetch(&report.count, 1);
+  fragmotion::prefetch(&report.turned, 1);
+}
+
+// What its next step needs of it, unless that is left out.
 void FragmotionPlayer::prefetch() const {
+  if (!has_fixed_step() && left_out + 1 < options.step_interval) return;
   fragmotion::prefetch(this, 1);
-  if (has_fixed_step() || left_out + 1 >= options.step_interval) player.prefetch();
+  player.prefetch();
 }
 
 void FragmotionPlayer::step(const FragmotionInput& input, double seconds) {
@@ -276,6 +285,10 @@ void FragmotionPlayer::step(const FragmotionInput& input, double seconds) {
   report.motion = report.velocity = Vector3::Zero();
   report.turned = 0;
   const double played = std::min(seconds * options.time_scale, kLongestCall);
+  if (!has_fixed_step() && ++left_out < options.step_interval) {
+    banked = std::min(banked + played, kLongestCall);
+    return;
+  }
   const Vector3 from = place();
   const double faced = heading();
   if (has_fixed_step()) {
@@ -287,9 +300,6 @@ void FragmotionPlayer::step(const FragmotionInput& input, double seconds) {
       play(input, step);
     }
     interpolate();
-  } else if (++left_out < options.step_interval) {
-    banked = std::min(banked + played, kLongestCall);
-    return;
   } else {
     left_out = 0;
     play(input, std::min(banked + played, kLongestCall));

@@ -22,7 +22,9 @@ SpeedRange::SpeedRange(const std::vector<Fragment>& fragments, const ControlSpac
   for (const Fragment& fragment : fragments) {
     if (is_made(fragment.origin)) continue;
     const double at = direction(fragment.evident), speed = kBeyond * fragment.evident.speed();
-    for (int i = 0; i < kDirections; ++i) {
+    const int last = static_cast<int>(std::ceil((at + kSameDirection) / kTurn));
+    for (int near = static_cast<int>(std::floor((at - kSameDirection) / kTurn)); near <= last; ++near) {
+      const int i = (near + kDirections) % kDirections;
       const double off = std::abs(i * kTurn - at);  // up to one and a half turns
       if (std::min(off, std::abs(off - 2 * kPi)) <= kSameDirection) most_[i] = std::max(most_[i], speed);
     }

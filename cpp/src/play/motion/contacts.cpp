@@ -22,6 +22,12 @@ std::vector<int> changes(const Contacts& contacts, int left, bool stands) {
   return frames;
 }
 
+std::vector<Vector3> hips_path(const Clip& clip) {
+  std::vector<Vector3> hips;
+  for (int f = 0; f < clip.frames; ++f) hips.push_back(load_vector(&clip.root_positions[3 * f]));
+  return hips;
+}
+
 }  // namespace
 
 bool Contacts::any_stands(std::size_t frame) const {
@@ -51,9 +57,7 @@ Floors usual_floors(const std::vector<Contacts>& contacts) {
 }
 
 Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
-  std::vector<Vector3> hips;
-  for (int f = 0; f < clip.frames; ++f) hips.push_back(load_vector(&clip.root_positions[3 * f]));
-  return find_contacts(kinematics.skeleton(), foot_paths(kinematics, clip), hips, clip.rate, floors);
+  return find_contacts(kinematics.skeleton(), foot_paths(kinematics, clip), hips_path(clip), clip.rate, floors);
 }
 
 Contacts find_contacts(const Skeleton& skeleton, const FootPaths& paths, const std::vector<Vector3>& hips, double rate,
@@ -70,8 +74,8 @@ Contacts find_contacts(const Skeleton& skeleton, const FootPaths& paths, const s
 }
 
 Contacts find_plants(const Kinematics& kinematics, const Clip& clip, const Floors* floors) {
-  Contacts contacts = find_contacts(kinematics, clip, floors);
   const FootPaths paths = foot_paths(kinematics, clip);
+  Contacts contacts = find_contacts(kinematics.skeleton(), paths, hips_path(clip), clip.rate, floors);
   const double scale = standard_scale(kinematics.skeleton());
   for (int side = 0; side < kMostLegs; ++side)
     hold_where_ball_rests(paths[side], clip.rate, scale, contacts.feet[side]);

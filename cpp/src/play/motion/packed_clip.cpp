@@ -110,8 +110,6 @@ template <bool kTwo>
 
 // Unit quaternions from the turns x, y, z that are given in steps.
 struct LaneQuaternions : TurnBlock {
-  explicit LaneQuaternions(const TurnBlock& turns) : TurnBlock(turns) {}
-
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): the loop fills them
   [[gnu::always_inline]] LaneQuaternions(const Turns& numbers, const float* steps) {
     for (int i = 0; i < kBoneBlock; ++i) {
@@ -125,12 +123,15 @@ struct LaneQuaternions : TurnBlock {
     }
   }
 
-  // Goes straight to another rotation, on the shorter way, and makes the result unit.
-  [[gnu::always_inline]] void blend(const LaneQuaternions& to, float weight) {
+  // So far straight from one to another, on the shorter way, made unit. They are read where they are: copied in small
+  // parts, they would have to be waited for before they are loaded in large ones.
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): the loop fills them
+  [[gnu::always_inline]] LaneQuaternions(const TurnBlock& from, const TurnBlock& to, float weight) {
     for (int i = 0; i < kBoneBlock; ++i) {
-      const float side = w[i] * to.w[i] + x[i] * to.x[i] + y[i] * to.y[i] + z[i] * to.z[i] < 0 ? -weight : weight;
-      const float d = w[i] + (side * to.w[i] - weight * w[i]), a = x[i] + (side * to.x[i] - weight * x[i]),
-                  b = y[i] + (side * to.y[i] - weight * y[i]), c = z[i] + (side * to.z[i] - weight * z[i]),
+      const float p = from.w[i], q = from.x[i], r = from.y[i], s = from.z[i];
+      const float side = p * to.w[i] + q * to.x[i] + r * to.y[i] + s * to.z[i] < 0 ? -weight : weight;
+      const float d = p + (side * to.w[i] - weight * p), a = q + (side * to.x[i] - weight * q),
+                  b = r + (side * to.y[i] - weight * r), c = s + (side * to.z[i] - weight * s),
                   scale = 1 / std::sqrt(d * d + a * a + b * b + c * c);
       w[i] = scale * d;
       x[i] = scale * a;
@@ -201,8 +202,7 @@ FRAGMOTION_VECTORISED unsigned unpack_block(const PackedClip& clip, int block, c
 // Writes the rotations of a block of bones that are so far from the turns of a pose to those of the next.
 FRAGMOTION_VECTORISED void blend_block(const PackedClip& clip, int block, const TurnBlock& pose, const TurnBlock& next,
                                        float weight, double* rotations) {
-  LaneQuaternions turns(pose);
-  turns.blend(LaneQuaternions(next), weight);
+  LaneQuaternions turns(pose, next, weight);
   write_block(turns, clip, block, rotations);
 }
 

@@ -24,8 +24,9 @@ int first_player(int part, int parts, int players) {
 Crowd::Crowd(std::shared_ptr<const Character> character, int count, const PlayerOptions& options, int parts)
     : bones_(character->pool.skeleton.size()), parts_(std::clamp(parts, 1, std::max(1, checked_count(count)))) {
   players_.reserve(count);
+  const auto first = std::make_shared<Workspace>(*character, options.constants);
   for (int part = 0; part < parts_; ++part) {
-    const auto workspace = std::make_shared<Workspace>(*character, options.constants);
+    const auto workspace = part == 0 ? first : std::make_shared<Workspace>(first->another());
     while (size() < first_player(part + 1, parts_, count)) {
       PlayerOptions own = options;
       own.seed += players_.size();

@@ -18,14 +18,17 @@ void Player::plan(Moment& moment, const Control& control, bool (Player::*can)() 
   Player& ahead = *extras_->rehearsal;
   constexpr double kImpatience = 1;  // m of Dis of a body of kTunedReach that a second of waiting costs
   ahead.imitate(*this);
-  ahead.playback_.show();
   double best = moment.patience(), least = std::numeric_limits<double>::infinity();
   for (double wait = 0;;) {
+    ahead.playback_.show();
     const double total = cost(ahead) + kImpatience * wait;
     if ((ahead.*can)() && total < least) least = total, best = wait;
     const double next = std::min(wait + kMomentsApart, moment.patience());
     if (next - wait < kRounding) break;
-    for (double rest = next - wait; rest > kRounding;) rest -= ahead.advance(control, std::min(rest, kGameStep));
+    for (double rest = next - wait; rest > kRounding;) {
+      rest -= ahead.advance(control, std::min(rest, kGameStep));
+      ahead.playback_.find_frame();
+    }
     wait = next;
   }
   moment.plan(best, control);
