@@ -4,40 +4,35 @@
 #include "motion/contacts.hpp"
 #include "motion/foot_paths.hpp"
 #include "motion/in_place.hpp"
-#include "motion/skate.hpp"
 #include "stilts.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
 namespace {
 
-TEST(Contacts, OfHeldFeetAreNoneWhileTheBallIsOnItsWay) {
+TEST(Contacts, OfHeldFeetEndAsSoonAsTheBallRisesAndGoesAway) {
   Gait gait;
   gait.seconds = 8;
   gait.rate = 60;
-  gait.cycle = 1;
-  gait.y = 1.6;
+  gait.cycle = 2;
+  gait.y = 0.6;
   const Clip clip = gait_clip(gait);
   const Kinematics kinematics(humanoid());
   const Contacts stands = find_contacts(kinematics, clip), held = find_plants(kinematics, clip);
   const FootPaths paths = foot_paths(kinematics, clip);
   const double scale = standard_scale(humanoid());
-  int sooner = 0, later = 0;
+  int sooner = 0;
   for (int side = 0; side < 2; ++side) {
     const std::vector<Vector3>& ball = paths[side].ball;
     for (int f = 1; f + 1 < clip.frames; ++f) {
       EXPECT_LE(held.feet[side][f], stands.feet[side][f]);
-      sooner += held.feet[side][f - 1] && !held.feet[side][f] && stands.feet[side][f] ? 1 : 0;
-      if (!held.feet[side][f]) continue;
-      later += !held.feet[side][f - 1] && stands.feet[side][f - 1] ? 1 : 0;
+      sooner += stands.feet[side][f] && !held.feet[side][f] ? 1 : 0;
+      if (!held.feet[side][f] || held.feet[side][f + 1]) continue;
       const double speed = (ball[f + 1] - ball[f - 1]).norm() * clip.rate / 2 * scale;
-      const bool falls = ball[f - 1].z() > ball[f].z(), rises = ball[f + 1].z() > ball[f].z();
-      if (!held.feet[side][f - 1]) EXPECT_TRUE(speed <= kStandingSpeed || !falls) << "after " << f << " frames";
-      if (!held.feet[side][f + 1]) EXPECT_TRUE(speed <= kSliding || !rises) << "after " << f << " frames";
+      EXPECT_TRUE(speed <= 0.25 || ball[f + 1].z() <= ball[f].z()) << "after " << f << " frames";
     }
   }
   EXPECT_GT(sooner, 10);
-  EXPECT_GT(later, 5);
 }
 
 // The hip joint, which is where such a foot begins, is always as low as it gets.

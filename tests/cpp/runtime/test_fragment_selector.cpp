@@ -257,7 +257,7 @@ TEST(FragmentSelector, LeavesAFragmentAtTheSameMomentWhereTheSameLimbsAreOfMoreB
       waited_of_split += other;
     }
   }
-  EXPECT_GT(same, 0.9 * exits);  // where Dis grows with the number of bones: 0.7
+  EXPECT_GT(same, 0.96 * exits);
   EXPECT_GT(waited / exits, 0.005);
   EXPECT_NEAR(waited_of_split / waited, 1, 0.2);
 }

@@ -14,7 +14,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kStitched = 0.25;
+constexpr double kSliding = 0.1, kStitched = 0.25;
 
 // The places of a motion's joints, of a character of 1.8 m.
 struct Joints {

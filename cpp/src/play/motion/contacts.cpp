@@ -77,8 +77,7 @@ Contacts find_plants(const Kinematics& kinematics, const Clip& clip, const Floor
   const FootPaths paths = foot_paths(kinematics, clip);
   Contacts contacts = find_contacts(kinematics.skeleton(), paths, hips_path(clip), clip.rate, floors);
   const double scale = standard_scale(kinematics.skeleton());
-  for (int side = 0; side < kMostLegs; ++side)
-    hold_where_ball_rests(paths[side], clip.rate, scale, contacts.feet[side]);
+  for (int side = 0; side < kMostLegs; ++side) end_where_ball_rises(paths[side], clip.rate, scale, contacts.feet[side]);
   return contacts;
 }
 

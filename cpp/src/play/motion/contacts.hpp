@@ -48,8 +48,8 @@ constexpr double kStandingSpeed = 0.5;
 /// need not touch it.
 Contacts find_contacts(const Kinematics& kinematics, const Clip& clip, const Floors* floors = nullptr);
 
-/// The contacts for which feet are held in place (foot_lock.hpp): those of find_contacts(), but for the time in which
-/// the ball still comes down faster than kStandingSpeed, or rises and slides away (skate.hpp).
+/// The contacts for which feet are held in place (foot_lock.hpp): those of find_contacts(), each of which ends as soon
+/// as the ball rises and goes away, though it is low and slow enough to stand still.
 Contacts find_plants(const Kinematics& kinematics, const Clip& clip, const Floors* floors = nullptr);
 
 /// The frames in which a foot strikes the ground, of four-legged bodies a hind one, in order: the gait events between

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/skate.hpp"
 #include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kSpeedShare = 0.2, kShortest = 0.06;
+constexpr double kSpeedShare = 0.2, kLeaves = 0.25, kShortest = 0.06;
 
 double speed_at(const std::vector<Vector3>& path, int f, double rate) {
   const int last = static_cast<int>(path.size()) - 1, a = std::max(0, f - 1), b = std::min(last, f + 1);
@@ -72,16 +71,11 @@ std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, 
   return stands ? flags : all;
 }
 
-void hold_where_ball_rests(const FootPath& path, double rate, double scale, std::vector<bool>& contacts) {
+void end_where_ball_rises(const FootPath& path, double rate, double scale, std::vector<bool>& contacts) {
   const std::vector<Vector3>& ball = path.ball;
-  const int last = static_cast<int>(contacts.size()) - 1;
-  const auto falls = [&](int f, int next) { return ball[f].z() > ball[next].z(); };
-  const auto faster = [&](int f, double speed) { return speed_at(ball, f, rate) * scale > speed; };
-  for (int f = 1; f < last; ++f) {
-    if (contacts[f] && !contacts[f - 1] && falls(f - 1, f) && faster(f, kStandingSpeed)) contacts[f] = false;
-  }
-  for (int f = last - 1; f > 0; --f) {
-    if (contacts[f] && !contacts[f + 1] && falls(f + 1, f) && faster(f, kSliding)) contacts[f] = false;
+  for (int f = static_cast<int>(contacts.size()) - 2; f > 0; --f) {
+    const bool ends = contacts[f] && !contacts[f + 1], rises = ball[f + 1].z() > ball[f].z();
+    if (ends && rises && speed_at(ball, f, rate) * scale > kLeaves) contacts[f] = false;
   }
 }
 

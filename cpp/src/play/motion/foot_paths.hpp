@@ -37,9 +37,8 @@ FootPaths foot_paths(const Kinematics& kinematics, const Clip& clip);
 std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, const std::vector<Vector3>& hips,
                                 double rate, double scale);
 
-/// Leaves of each contact what a foot is held for: from when the ball comes down no faster than kStandingSpeed until it
-/// rises and slides away.
-void hold_where_ball_rests(const FootPath& path, double rate, double scale, std::vector<bool>& contacts);
+/// Ends each contact as soon as the ball rises and goes away, faster than 0.25 m/s of a character of 1.8 m.
+void end_where_ball_rises(const FootPath& path, double rate, double scale, std::vector<bool>& contacts);
 
 /// find_contacts() of feet and hips that went so.
 Contacts find_contacts(const Skeleton& skeleton, const FootPaths& paths, const std::vector<Vector3>& hips, double rate,

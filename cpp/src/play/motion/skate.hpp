@@ -10,9 +10,6 @@ namespace fragmotion {
 /// Starke, Komura and Saito, "Mode-adaptive neural networks for quadruped motion control", SIGGRAPH 2018).
 constexpr double kSkateHeight = 0.025;
 
-/// m/s of a character of 1.8 m: faster than this a foot on the ground slides.
-constexpr double kSliding = 0.1;
-
 /// How much it counts at a height: 1 on the ground, and less and less up to kSkateHeight (likewise).
 inline double skate_weight(double height) { return std::clamp(2 - std::exp2(height / kSkateHeight), 0.0, 1.0); }
 
