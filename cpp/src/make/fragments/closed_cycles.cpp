@@ -7,7 +7,6 @@
 #include <map>
 #include <utility>
 
-#include "base/rounding.hpp"
 #include "fragments/gait_cycle.hpp"
 #include "fragments/gait_heights.hpp"
 #include "motion/contacts.hpp"
@@ -43,17 +42,6 @@ double farthest_within(const Trajectories& t, int fragment) {
     farthest = std::max(farthest, sum);
   }
   return farthest;
-}
-
-// But for where the hips are and face.
-bool same_pose(const FragmentPool& pool, int clip, int a, int b) {
-  const std::vector<double>& rotations = pool.clips[clip].rotations;
-  const std::size_t values = std::size_t{4} * pool.skeleton.size(), hips = std::size_t{4} * pool.skeleton.roles.hips;
-  for (std::size_t i = 0; i < values; ++i) {
-    if (i >= hips && i < hips + 4) continue;
-    if (std::abs(rotations[values * a + i] - rotations[values * b + i]) > kFloatRounding) return false;
-  }
-  return true;
 }
 
 // The fragments of mirror images, by the clip and the frame in which they begin.
@@ -152,25 +140,12 @@ struct CycleSearch {
     }
   }
 
-  // The last of the fragments after which a take is just as where the first begins, as drawn cycles are that are gone
-  // through again and again: nothing shorter of it is a cycle, however near it comes. -1 of all others.
-  int round(int first) const {
-    int found = -1;
-    from(first, [&](const ClosedCycle& cycle, int last, double seconds) {
-      if (seconds >= kShortestCycle && same_pose(pool, cycle.clip, cycle.begin, cycle.end)) found = last;
-      return found < 0;
-    });
-    return found;
-  }
-
   // All that begin with a fragment.
   void look(int first) {
-    const int round = this->round(first);
     from(first, [&](const ClosedCycle& cycle, int last, double seconds) {
-      const bool is_long = seconds > kLongestCycle, stands = cycle.evident.speed() <= moving;
-      if (is_long && last > round) return false;
-      const bool comes_back = round < 0 ? closes(first, last) : last == round;
-      if (seconds >= kShortestCycle && (comes_back || (stands && !is_long))) add(cycle, first, last, first, whole);
+      if (seconds > kLongestCycle) return false;
+      const bool stands = cycle.evident.speed() <= moving;
+      if (seconds >= kShortestCycle && (stands || closes(first, last))) add(cycle, first, last, first, whole);
       if (2 * seconds >= kShortestCycle && 2 * seconds <= kLongestCycle) add_step(cycle, first, last);
       return true;
     });
