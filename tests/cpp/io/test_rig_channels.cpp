@@ -188,6 +188,15 @@ TEST(TakeChannels, GiveTheClipOfTheTake) {
     EXPECT_NEAR(through_rig.root_positions[i], direct.root_positions[i], 1e-12);
 }
 
+TEST(TakeChannels, GiveTheClipOfATakeOfItsOwnWhereBonesAreHeld) {
+  Armature armature = random_armature(49);
+  armature.held["root"] = {1, 2, 3, 0.6, 0, 0.8, 0};
+  armature.held["spine"] = {0, 0.5, 0, 0, 1, 0, 0};
+  const Rig rig(armature);
+  const Take take = random_take(rig.skeleton(), 5, 50);
+  expect_same_motion(clip_of(rig, rig.take_channels(take)), clip_from_take(rig.skeleton(), take), 1e-7);
+}
+
 TEST(TakeChannels, NameTheBonesThatTheRigLacks) {
   Skeleton skeleton = small_skeleton();
   const Rig rig(armature_of(skeleton, 44, false));

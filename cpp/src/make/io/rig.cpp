@@ -475,6 +475,7 @@ Channels Rig::take_channels(const Take& take) const {
   std::vector<double> positions, rotations;
   world_transforms(take, positions, rotations);
 
+  const std::vector<Rigid> rest = armature_.held.empty() ? rest_ : held_pose(skeleton());
   Channels channels = resting_channels(take.frames);
   std::vector<Rigid> pose(bones());
   for (int f = 0; f < take.frames; ++f) {
@@ -483,7 +484,7 @@ Channels Rig::take_channels(const Take& take) const {
       if (found[b] < 0) continue;
       const std::size_t at = offset_of(f, take.skeleton.size(), found[b]);
       const Quaternion away = load_quaternion(&rotations[4 * at]) * take_rest[found[b]].conjugate();
-      pose[b] = to_armature(load_vector(&positions[3 * at]), away * object_.rigid.rotation * rest_[b].rotation);
+      pose[b] = to_armature(load_vector(&positions[3 * at]), away * object_.rigid.rotation * rest[b].rotation);
       store_rotation(b, pose.data(), f, channels);
       store_location(b, pose.data(), f, channels);
     }
