@@ -20,7 +20,7 @@ from ..mocap.curve_points import read_once
 from ..mocap.doctor import tell_ground, tell_size
 from ..mocap.hands import hand_pose, with_hands
 from ..mocap.on_the_spot import led_by_feet
-from ..mocap.sampling import sample_parts
+from ..mocap.sampling import rig_as_posed, sample_parts
 from ..mocap.styles import grouped, style_of
 from ..recordings.traces import make_traces
 from ..rig.external_motion import external_motion
@@ -296,7 +296,7 @@ def load_policy(context: bpy.types.Context, obj: bpy.types.Object, path: Path) -
     """Give the armature the character of a policy file; UserError where it is damaged or of another skeleton."""
     character = _decode(read_regular(path, follow=True), f"'{path}'")
     context.view_layer.update()
-    other = difference(character.skeleton, make_rig(obj).skeleton, obj.data.bones.keys())
+    other = difference(character.skeleton, rig_as_posed(obj).skeleton, obj.data.bones.keys())
     if other:
         raise UserError(f"'{path}' was built for another skeleton than armature '{obj.name}' has: here {other}")
     keep(obj, examine(character, ""))

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -14,7 +16,7 @@ import pytest
 from mathutils import Quaternion
 
 TAKES = ("walk forward", "run forward", "stand")
-PLACED, TURNED = (0.3, -0.2, 0.5), Quaternion((0.8, 0.0, 0.0, 0.6))
+PLACED, TURNED = (0.3, 0.5, 0.2), Quaternion((0.8, 0.0, 0.6, 0.0))  # the bone points up
 
 
 @pytest.fixture
@@ -159,9 +161,60 @@ def test_undo_gives_the_pose_back_that_is_held(addon: ModuleType, carried: bpy.t
     bpy.ops.ed.undo_push(message="built again")
     bpy.ops.ed.undo()
     again = bpy.data.objects[name]
-    assert addon.rig.rigs.held_of(again)["carrier"][2] == pytest.approx(PLACED[2])
+    assert addon.rig.rigs.held_of(again)["carrier"][:3] == pytest.approx(PLACED)
     build(again)
     assert again.fragmotion.digest == first
+
+
+def test_what_a_driver_moves_is_not_held(addon: ModuleType, carried: bpy.types.Object) -> None:
+    carried.pose.bones["carrier"].driver_add("location", 2).driver.expression = "0.7 + frame"
+    addon.mocap.sampling.rig_as_posed(carried)
+    assert addon.rig.rigs.held_of(carried)["carrier"][:3] == [0, 0, 0]
+
+
+def test_a_rig_in_a_file_stands_as_it_is_posed(addon: ModuleType, carried: bpy.types.Object, tmp_path: Path) -> None:
+    path = tmp_path / "carried.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    skeleton, _ = import_module(f"{addon.__name__}.mocap.alone").read_rig(path, carried.name)
+    assert skeleton.names[0] == "carrier"
+    np.testing.assert_allclose(skeleton.offsets[0], (PLACED[0], -PLACED[2], PLACED[1]), atol=1e-6)
+
+
+def test_a_retarget_of_it_leaves_the_others_as_they_were(addon: ModuleType, carried: bpy.types.Object) -> None:
+    action = bpy.data.actions["run forward"]
+    names, _ = shown(addon, carried, action)
+    before = learned(addon, carried, action, names)
+    rows = addon.rig.rigs.held_of(carried)
+    del carried[addon.rig.rigs.HELD]
+    walk = [bpy.data.actions["walk forward"]]
+    for _ in addon.mocap.retargeting.retarget_actions(bpy.context, carried, carried, walk):
+        pass
+    made = next(each for each in bpy.data.actions if " on " in each.name)
+    keyed = addon.mocap.actions.animated_bones(made, carried)
+    assert {"carrier", "head"} <= keyed
+    assert addon.rig.rigs.held_of(carried) == rows
+    np.testing.assert_array_equal(learned(addon, carried, action, names), before)
+
+
+def test_a_policy_is_of_the_armature_as_it_is_posed(
+    addon: ModuleType, carried: bpy.types.Object, tmp_path: Path
+) -> None:
+    insert_middle(carried)
+    build(carried)
+    addon.character.building.save_policy(carried, tmp_path / "carried.policy")
+    del carried[addon.rig.rigs.HELD]
+    addon.character.building.load_policy(bpy.context, carried, tmp_path / "carried.policy")
+    assert list(addon.rig.rigs.held_of(carried)) == ["carrier", "middle", "head"]
+
+
+def insert_middle(obj: bpy.types.Object) -> None:
+    """A posed bone between root and hips, of which a bake keys its turn alone."""
+    with making.editing(obj) as bones:
+        middle = bones.new("middle")
+        middle.head, middle.tail = bones["hips"].head, bones["hips"].tail
+        middle.parent, bones["hips"].parent = bones["root"], middle
+    obj.pose.bones["middle"].location = (0.1, 0.2, -0.1)
+    obj.pose.bones["middle"].rotation_quaternion = (0.8, 0, 0, 0.6)
 
 
 def build(obj: bpy.types.Object) -> None:
@@ -169,12 +222,7 @@ def build(obj: bpy.types.Object) -> None:
 
 
 def test_a_bake_shows_what_was_played(addon: ModuleType, carried: bpy.types.Object) -> None:
-    with making.editing(carried) as bones:  # between root and hips, where nothing is keyed by a bake but its turn
-        middle = bones.new("middle")
-        middle.head, middle.tail = bones["hips"].head, bones["hips"].tail
-        middle.parent, bones["hips"].parent = bones["root"], middle
-    carried.pose.bones["middle"].location = (0.1, 0.2, -0.1)
-    carried.pose.bones["middle"].rotation_quaternion = (0.8, 0, 0, 0.6)
+    insert_middle(carried)
     build(carried)
     assert list(addon.rig.rigs.held_of(carried)) == ["carrier", "middle", "head"]
     character, core = addon.character.building.load(carried), addon.compat.core.core
