@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
 #include <map>
 
 #include "arrays.hpp"
@@ -24,7 +25,8 @@ std::vector<bool> to_flags(const std::optional<Flags>& flags, const std::string&
 Rig new_rig(const std::vector<std::string>& names, const std::vector<int>& parents, const Doubles& rest,
             const Doubles& lengths, const Doubles& world, const std::optional<Flags>& inherit_rotation,
             const std::optional<Flags>& local_location, const std::optional<std::map<std::string, std::string>>& roles,
-            const std::optional<std::map<std::string, std::string>>& hangs) {
+            const std::optional<std::map<std::string, std::string>>& hangs,
+            const std::optional<std::map<std::string, std::array<double, 7>>>& held) {
   const auto bones = static_cast<py::ssize_t>(names.size());
   check_shape(lengths, "lengths", {bones});
   check_shape(world, "world", {4, 4});
@@ -39,6 +41,7 @@ Rig new_rig(const std::vector<std::string>& names, const std::vector<int>& paren
   armature.local_location = to_flags(local_location, "local_location", bones);
   if (roles) armature.roles = *roles;
   if (hangs) armature.hangs = *hangs;
+  if (held) armature.held = *held;
   return Rig(std::move(armature));
 }
 
@@ -102,9 +105,14 @@ void bind_rig(py::module_& m) {
   py::class_<Rig>(m, "Rig", py::module_local())
       .def(py::init(&new_rig), py::arg("names"), py::arg("parents"), py::arg("rest"), py::arg("lengths"),
            py::arg("world"), py::arg("inherit_rotation") = py::none(), py::arg("local_location") = py::none(),
-           py::arg("roles") = py::none(), py::arg("hangs") = py::none())
+           py::arg("roles") = py::none(), py::arg("hangs") = py::none(), py::arg("held") = py::none())
       .def_property_readonly("skeleton", &Rig::skeleton)
       .def_property_readonly("rise", &Rig::rise)
+      .def_property_readonly("carried",
+                             [](const Rig& rig) {
+                               const std::array<double, 16> matrix = rig.carried();
+                               return to_array(std::vector<double>(matrix.begin(), matrix.end()), {4, 4});
+                             })
       .def(
           "clip",
           [](const Rig& rig, const std::string& name, double rate, const Doubles& locations, const Doubles& rotations,

@@ -20,11 +20,12 @@ from ..mocap.curve_points import read_once
 from ..mocap.doctor import tell_ground, tell_size
 from ..mocap.hands import hand_pose, with_hands
 from ..mocap.on_the_spot import led_by_feet
-from ..mocap.sampling import sample_parts
+from ..mocap.sampling import rig_as_posed, sample_parts
 from ..mocap.styles import grouped, style_of
 from ..recordings.traces import make_traces
 from ..rig.external_motion import external_motion
 from ..rig.hanging import find_hanging
+from ..rig.held import keep_held
 from ..rig.rigs import carriers, make_rig
 from ..rig.skeletons import difference
 from . import classes
@@ -40,7 +41,6 @@ if TYPE_CHECKING:
 _EXAM_SECONDS = 60.0
 _EXAM_SEED = 7_001
 _EXAMINERS = ("explorer", "runner")
-_POSED = 1e-3  # of a bone's own channels: what is less is at rest
 _FROM_TAKES = ("captured", "mirrored")
 _BUILD_SHARE = 0.95  # of the progress; the exam has the rest
 _cache: dict[tuple[str, tuple[Any, ...]], Character] = {}  # by the policy's digest and classes.all_excluded()
@@ -91,6 +91,7 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
     """Sample the ticked Actions; UserError on what cannot be built from."""
     takes = _ticked(obj)
     context.view_layer.update()
+    keep_held(obj, actions.with_own_bones(obj))
     found = find_hanging(context, obj, takes)
     rig = make_rig(obj)
     carriers(obj, rig)
@@ -102,7 +103,7 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
         grouped(styled),
         traces,
         options,
-        found + say_feet(rig.skeleton) + say_posed(obj, rig.skeleton) + tell_size(takes, rig.skeleton) + warnings,
+        found + say_feet(rig.skeleton) + tell_size(takes, rig.skeleton) + warnings,
     )
 
 
@@ -119,23 +120,6 @@ def say_feet(skeleton: Skeleton) -> list[str]:
     if not others:
         return []
     return [f"Held where they stand are {' and '.join(held)} alone; {', '.join(others)} go as in the takes"]
-
-
-def say_posed(obj: bpy.types.Object, skeleton: Skeleton) -> list[str]:
-    """Which of the bones that carry the body no Action keys, though they are posed, as in some files for games."""
-    keyed = {bone for action in actions.fitting(obj) for bone in actions.animated_bones(action, obj)}
-    hips = obj.pose.bones[skeleton.roles["hips"]]
-    posed = [
-        bone.name
-        for bone in (hips, *hips.parent_recursive)
-        if bone.name not in keyed and not np.allclose(bone.matrix_basis, np.eye(4), atol=_POSED)
-    ]
-    if not posed:
-        return []
-    return [
-        f"No Action keys bone '{posed[-1]}': it is learned as it rests, not as it is posed. Where the body lies or "
-        "sinks by that, key the bone in each Action as it is posed now, and Build again"
-    ]
 
 
 def prepare(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> Prepared:
@@ -312,7 +296,7 @@ def load_policy(context: bpy.types.Context, obj: bpy.types.Object, path: Path) -
     """Give the armature the character of a policy file; UserError where it is damaged or of another skeleton."""
     character = _decode(read_regular(path, follow=True), f"'{path}'")
     context.view_layer.update()
-    other = difference(character.skeleton, make_rig(obj).skeleton, obj.data.bones.keys())
+    other = difference(character.skeleton, rig_as_posed(obj).skeleton, obj.data.bones.keys())
     if other:
         raise UserError(f"'{path}' was built for another skeleton than armature '{obj.name}' has: here {other}")
     keep(obj, examine(character, ""))

@@ -16,7 +16,7 @@ from ..mocap.actions import RATE, SCENE_RATE, ticked
 from ..mocap.curve_points import points_of
 from ..mocap.markers import marks_of
 from ..mocap.styles import style_of
-from ..rig.rigs import roles_in_bones
+from ..rig.rigs import held_of, roles_in_bones
 from ..rig.writing import LINEAR
 
 _PATIENCE = 0.03  # s that one look may take; what is not read by then waits for the next look
@@ -24,8 +24,9 @@ _digests: dict[tuple[object, ...], str] = {}
 
 
 def sources_of(obj: bpy.types.Object) -> str:
-    """A digest of all that Build reads of the ticked Actions, whose names do not count, and of *Bones*."""
-    return _joined([*(_told_by(action) for action in ticked(obj)), *_roles_of(obj)])
+    """A digest of all that Build reads of the ticked Actions, whose names do not count, of *Bones*, and of what is held
+    as it was posed when that was read last: to draw is no time to look which bones are keyed."""
+    return _joined([*(_told_by(action) for action in ticked(obj)), *_told_by_bones(obj)])
 
 
 def is_stale(obj: bpy.types.Object) -> bool:
@@ -42,11 +43,12 @@ def is_stale(obj: bpy.types.Object) -> bool:
         digests.append(_told_by(action))
         if time.perf_counter() > until and any(_key(other) not in _digests for other in actions):
             return False
-    return bool(_joined([*digests, *_roles_of(obj)]) != built)
+    return bool(_joined([*digests, *_told_by_bones(obj)]) != built)
 
 
-def _roles_of(obj: bpy.types.Object) -> list[str]:
-    return [f"{role} {bone}" for role, bone in sorted(roles_in_bones(obj).items()) if role in core.ROLES]
+def _told_by_bones(obj: bpy.types.Object) -> list[str]:
+    roles = [f"{role} {bone}" for role, bone in sorted(roles_in_bones(obj).items()) if role in core.ROLES]
+    return roles + [f"{bone} {row}" for bone, row in held_of(obj).items()]
 
 
 def register() -> None:

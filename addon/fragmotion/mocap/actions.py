@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import bpy
 
@@ -40,9 +40,20 @@ def animated_bones(action: bpy.types.Action, obj: bpy.types.Object) -> set[str]:
 
 def fits(action: bpy.types.Action, obj: bpy.types.Object) -> bool:
     """Whether most of what the Action animates is this armature's."""
+    known = _known_bones(action, obj)
+    return known > 0 and known >= _ARMATURE_SHARE * len(obj.data.bones)
+
+
+def with_own_bones(obj: bpy.types.Object) -> Iterator[bpy.types.Action]:
+    """The Actions that animate bones of the armature, be they few, and hardly others; bakes, too."""
+    return (action for action in bpy.data.actions if _known_bones(action, obj) > 0)
+
+
+def _known_bones(action: bpy.types.Action, obj: bpy.types.Object) -> int:
+    """How many of the armature's bones an Action animates; 0 where most that it animates are not of it."""
     animated = animated_bones(action, obj)
     known = sum(name in obj.data.bones for name in animated)
-    return known > 0 and known >= _OWN_SHARE * len(animated) and known >= _ARMATURE_SHARE * len(obj.data.bones)
+    return known if known >= _OWN_SHARE * len(animated) else 0
 
 
 def fits_cached(action: bpy.types.Action, obj: bpy.types.Object) -> bool:

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..errors import UserError
-from ..rig.rigs import make_rig
 from ..rig.skins import make_skin
 from . import by_blender
+from .sampling import rig_as_posed
 from .scratch import scratch_scene
 from .target_rigs import open_rig
 
@@ -32,7 +32,7 @@ def read_rig(path: Path, armature: str | None) -> tuple[Skeleton, Skin]:
     none."""
     with _as_the_core_says():
         obj = open_rig(path, armature)
-        rig = make_rig(obj)
+        rig = rig_as_posed(obj)
         return rig.skeleton, make_skin(obj, rig)
 
 

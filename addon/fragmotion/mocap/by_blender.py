@@ -18,9 +18,9 @@ from ..compat import versions
 from ..compat.core import core
 from ..errors import SinglePose, UserError
 from ..files import check_regular
-from ..rig.rigs import FEWEST_BONES, make_rig
+from ..rig.rigs import FEWEST_BONES
 from .actions import RATE, SCENE_RATE, fits
-from .sampling import sample, scene_rate
+from .sampling import rig_as_posed, sample, scene_rate
 from .scratch import nothing_left
 
 if TYPE_CHECKING:
@@ -209,7 +209,7 @@ def _choose(path: Path, characters: list[_Character], name: str) -> list[_Charac
 def _takes_of(context: bpy.types.Context, path: Path, one: _Character, rate: float, is_alone: bool) -> list[Take]:
     """A character's takes, named after the file, and what tells them from its others."""
     try:
-        rig = make_rig(one.obj)
+        rig = rig_as_posed(one.obj)
         clips = list(_sample(context, one, rig, rate))
     except UserError as error:
         raise UserError(f"'{path}': {error}") from error

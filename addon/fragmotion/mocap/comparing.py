@@ -14,9 +14,8 @@ from mathutils import Matrix, Quaternion, Vector
 from ..errors import UserError
 from ..rig.belongings import belongings
 from ..rig.posing import playing, visit
-from ..rig.rigs import make_rig
 from .figures import Figure, Line, Surface, draw_pairs
-from .sampling import sample, sample_times
+from .sampling import rig_as_posed, sample, sample_times
 
 if TYPE_CHECKING:
     from fragmotion_core import Clip, Doubles, Skeleton
@@ -53,7 +52,7 @@ def compare(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types
 
 
 def _results(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action) -> Iterator[Figure]:
-    rig = make_rig(obj)
+    rig = rig_as_posed(obj)
     clip, times = sample(context, obj, action, rig), sample_times(context.scene, obj, action)
     meshes = [each for each in belongings(obj) if each.type == "MESH" and each.visible_get()]
     indices = _indices(clip)

@@ -9,12 +9,12 @@ import bpy
 
 from ..compat.core import core
 from ..errors import UserError, core_errors
-from ..rig.rigs import carriers, make_rig
+from ..rig.rigs import carriers
 from ..rig.writing import write_poses
 from .actions import RATE, SCENE_RATE, rate_of
 from .doctor import DUPLICATE, TakeFinding
 from .retargeting import FIRST_FRAME, key_times, retargeted_takes
-from .sampling import sample, scene_rate
+from .sampling import rig_as_posed, sample, scene_rate
 
 if TYPE_CHECKING:
     from fragmotion_core import Rig, Take
@@ -26,7 +26,7 @@ def mend_finding(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.
     if row.code == DUPLICATE:
         action.fragmotion.use, row.mended = False, True
         return True
-    rig = make_rig(obj)
+    rig = rig_as_posed(obj)
     clip = sample(context, obj, action, rig)
     take = core.Take.from_clip(clip, rig.skeleton)
     found = [each for each in core.examine([take])[0].findings if each.code == row.code and each.mendable]

@@ -13,7 +13,7 @@ import numpy as np
 from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..rig.bodies import make_body
-from ..rig.rigs import FORE_FOOT, carriers, make_rig
+from ..rig.rigs import FORE_FOOT, carriers
 from ..rig.writing import write_poses
 from ..words import counted
 from .actions import RATE, SCENE_RATE
@@ -21,7 +21,7 @@ from .comparing import keep_source
 from .doctor import keep_remarks
 from .left_out import leave_out_likewise
 from .markers import mark_likewise
-from .sampling import sample, sample_times, scene_rate
+from .sampling import rig_as_posed, sample, sample_times, scene_rate
 
 if TYPE_CHECKING:
     from fragmotion_core import Body, Clip, Doubles, RetargetedClip, Rig, Skeleton, Take
@@ -108,7 +108,7 @@ def retarget_actions(
 ) -> Generator[float, None, list[bpy.types.Action]]:
     """New Actions, ticked, in which the armature does what the source does in its Actions. Gives the share that is
     done; on an error, and where it is closed before its end, there are none."""
-    source_rig, rig = make_rig(source), make_rig(obj)
+    source_rig, rig = rig_as_posed(source), rig_as_posed(obj)
     moving = carriers(obj, rig)
     clips = []
     for index, action in enumerate(actions):

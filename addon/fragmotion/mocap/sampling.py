@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import bpy
@@ -13,10 +14,11 @@ from mathutils import Matrix, Quaternion, Vector
 from ..compat import versions
 from ..errors import SinglePose, UserError, core_errors
 from ..rig import posing
-from ..rig.keys import to_quaternions
-from ..rig.rigs import bone_path, is_tied
+from ..rig.held import keep_held
+from ..rig.keys import from_quaternions, to_quaternions
+from ..rig.rigs import bone_path, held_of, is_tied, make_rig
 from . import left_out
-from .actions import RATE, SCENE_RATE, animated_bones, rate_of
+from .actions import RATE, SCENE_RATE, animated_bones, rate_of, with_own_bones
 from .curve_points import points_of
 from .markers import markers_of
 
@@ -37,10 +39,16 @@ _EULER: tuple[str, tuple[float, ...]] = ("rotation_euler", (0, 0, 0))
 _OBJECT_CHANNELS = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
 
 
+def rig_as_posed(obj: bpy.types.Object) -> Rig:
+    """The armature as `make_rig` has it, whose bones that no Action of the file keys are held as they are posed now."""
+    keep_held(obj, with_own_bones(obj))
+    return make_rig(obj)
+
+
 def sample(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action, rig: Rig) -> Clip:
     """The Action on the armature at its own rate; SinglePose where it lasts one frame.
 
-    A channel without keys or muted rests; the file is as before.
+    A channel without keys or muted is as the armature's bone is held, else at rest; the file is as before.
     """
     rate, times = frame_times(context.scene, action, _checked_curves(obj, action))
     return sample_at(context, obj, action, rig, rate, times)
@@ -144,14 +152,17 @@ def _playing_curves(obj: bpy.types.Object, action: bpy.types.Action) -> Curves:
 
 def _sample_bones(obj: bpy.types.Object, curves: Curves, times: Doubles) -> tuple[Doubles, Doubles]:
     """Locations [F,B,3] and quaternions [F,B,4] of all bones, in the armature's order."""
-    bones = obj.data.bones
+    bones, held = obj.data.bones, held_of(obj)
     locations = np.zeros((len(times), len(bones), 3))
     rotations = np.zeros((len(times), len(bones), 4))
     for index, bone in enumerate(bones):
-        if not is_tied(bone):
-            locations[:, index] = _channel(curves, bone_path(bone.name, "location"), (0, 0, 0), times)
         mode = obj.pose.bones[bone.name].rotation_mode
+        place: Sequence[float] = (0, 0, 0)
         channel, rest = _ROTATIONS.get(mode, _EULER)
+        if bone.name in held:
+            place, rest = held[bone.name][:3], tuple(from_quaternions(mode, np.array([held[bone.name][3:]]))[1][0])
+        if not is_tied(bone):
+            locations[:, index] = _channel(curves, bone_path(bone.name, "location"), place, times)
         rotations[:, index] = to_quaternions(mode, _channel(curves, bone_path(bone.name, channel), rest, times))
     return locations, rotations
 
@@ -172,7 +183,7 @@ def _sample_object(obj: bpy.types.Object, curves: Curves, times: Doubles) -> Dou
     )
 
 
-def _channel(curves: Curves, path: str, rest: tuple[float, ...], times: Doubles) -> Doubles:
+def _channel(curves: Curves, path: str, rest: Sequence[float], times: Doubles) -> Doubles:
     """A vector channel at the times, [F, len(rest)]."""
     values = np.empty((len(times), len(rest)))
     for index, default in enumerate(rest):

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..rig.rigs import carriers, make_rig
+from ..rig.rigs import carriers
 from ..rig.writing import write_poses
 from .actions import RATE, SCENE_RATE, fits_cached, rate_of
 from .retargeting import key_times, make_action, take_after
-from .sampling import sample_at, scene_rate
+from .sampling import rig_as_posed, sample_at, scene_rate
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
@@ -35,7 +35,7 @@ def strips_of(obj: bpy.types.Object) -> list[bpy.types.NlaStrip]:
 
 def actions_of_strips(context: bpy.types.Context, obj: bpy.types.Object) -> list[bpy.types.Action]:
     """New Actions, ticked in place of the strips' own: each does in its own time what a strip does alone and whole."""
-    rig, strips = make_rig(obj), strips_of(obj)
+    rig, strips = rig_as_posed(obj), strips_of(obj)
     clips, shown = [], []
     for strip in strips:
         rate, frames = _samples(context.scene, strip)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..compat.data_blocks import is_alive
 from ..errors import core_errors
+from ..rig.rigs import PUT_ASIDE
 from . import suspended_state
 
 if TYPE_CHECKING:
@@ -60,12 +61,12 @@ class PosedArmature:
         if not is_alive(self._obj):
             if is_alive(self._data):
                 self._data.pose_position = self._position
-        elif suspended_state.NOTE in self._obj:
+        elif PUT_ASIDE in self._obj:
             suspended_state.give_back(self._obj, layer)
 
     def _put_aside(self) -> None:
         """Put its own pose and animation aside, unless they are."""
-        if suspended_state.NOTE in self._obj:
+        if PUT_ASIDE in self._obj:
             return
         try:
             suspended_state.put_aside(self._obj)

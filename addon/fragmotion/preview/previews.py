@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import bpy
 
+from ..mocap.sampling import rig_as_posed
 from ..rig.posing import check_free
-from ..rig.rigs import make_rig
 from .posed_armature import PosedArmature
 
 current: Preview | None = None
@@ -25,7 +25,7 @@ class Preview:
     def __init__(self, context: bpy.types.Context, obj: bpy.types.Object) -> None:
         check_free(obj)
         context.view_layer.update()
-        self.obj, self._rig = obj, make_rig(obj)
+        self.obj, self._rig = obj, rig_as_posed(obj)
 
     def _begin(self) -> None:
         """Let the armature show the first pose: the last that may fail."""

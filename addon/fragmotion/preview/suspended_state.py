@@ -12,9 +12,7 @@ import bpy
 
 from ..compat import versions
 from ..rig.posing import CHANNELS, get_channel, reset_pose
-
-NOTE = "fragmotion_put_aside"
-"""Custom property of an armature object while it is driven, or shows a take or a class."""
+from ..rig.rigs import PUT_ASIDE
 
 # By a note that no drive wrote.
 _DAMAGES = (ArithmeticError, AttributeError, LookupError, ReferenceError, RuntimeError, TypeError, ValueError)
@@ -22,7 +20,7 @@ _DAMAGES = (ArithmeticError, AttributeError, LookupError, ReferenceError, Runtim
 
 def put_aside(obj: bpy.types.Object) -> None:
     """Free the armature for poses written as quaternions; nothing else moves it but drivers and constraints."""
-    obj[NOTE] = _note(obj)
+    obj[PUT_ASIDE] = _note(obj)
     if obj.animation_data is not None:
         obj.animation_data.use_nla = False
         obj.animation_data.action = None
@@ -37,7 +35,7 @@ def give_back(obj: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -
 
     The object is in the view layer, by default the one that is shown.
     """
-    note, layer = obj[NOTE], layer or bpy.context.view_layer
+    note, layer = obj[PUT_ASIDE], layer or bpy.context.view_layer
     data = obj.animation_data
     if data is not None:
         action = note.get("action")
@@ -54,7 +52,7 @@ def give_back(obj: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -
     for channel in CHANNELS:
         setattr(obj, channel, list(note["place"][channel]))
         _pose(bones, channel, note["pose"][channel])
-    del obj[NOTE]
+    del obj[PUT_ASIDE]
     obj.update_tag()
     layer.update()
 
@@ -62,11 +60,11 @@ def give_back(obj: bpy.types.Object, layer: bpy.types.ViewLayer | None = None) -
 def heal() -> None:
     """Give back what was put aside in a file or an undo step that was made in the middle of a drive."""
     for obj in bpy.data.objects:
-        if NOTE in obj and obj.library is None:
+        if PUT_ASIDE in obj and obj.library is None:
             try:
                 give_back(obj)
             except _DAMAGES as error:
-                del obj[NOTE]
+                del obj[PUT_ASIDE]
                 print(f"Fragmotion: how '{obj.name}' was before it was driven is not known any more ({error})")
 
 

@@ -13,6 +13,8 @@ import numpy as np
 
 from ..compat import versions
 from ..errors import UserError
+from .keys import from_quaternions
+from .rigs import held_of
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
@@ -65,9 +67,15 @@ def sample_poses(
 
 
 def reset_pose(obj: bpy.types.Object, channels: Iterable[str] = CHANNELS) -> None:
-    """Let these channels of all the armature's bones rest."""
+    """Let these channels of all the armature's bones rest, or be as bones are held."""
     for channel in channels:
         obj.pose.bones.foreach_set(channel, np.tile(np.array(_REST[channel], np.float32), len(obj.pose.bones)))
+    for name, row in held_of(obj).items():
+        bone = obj.pose.bones[name]
+        channel, (rotation,) = from_quaternions(bone.rotation_mode, np.array([row[3:]]))
+        for each, value in (("location", row[:3]), (channel, rotation)):
+            if each in channels:
+                setattr(bone, each, value)
     obj.update_tag()
 
 
@@ -94,7 +102,7 @@ def set_pose(obj: bpy.types.Object, pose: Pose) -> None:
 
 @contextmanager
 def playing(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action | None) -> Iterator[None]:
-    """The object plays the Action (or none) alone from a resting pose; afterwards everything is as it was."""
+    """The object plays the Action (or none) alone from the pose of `reset_pose`; afterwards everything is as it was."""
     check_free(obj)
     had_data, played, frame = (
         obj.animation_data is not None,

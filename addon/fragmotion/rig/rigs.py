@@ -17,6 +17,10 @@ if TYPE_CHECKING:
 
 FORE_FOOT = "left_fore_foot"
 """A role that bodies on four legs alone have."""
+HELD = "fragmotion_held"
+"""Custom property of an armature object: location and rotation of its bones that are posed and not keyed."""
+PUT_ASIDE = "fragmotion_put_aside"
+"""Custom property of an armature object while it is driven, or shows a take or a class."""
 FEWEST_BONES = 2
 """A character needs a bone that moves against another."""
 
@@ -38,6 +42,7 @@ def make_rig(obj: bpy.types.Object, place: Matrix | None = None) -> Rig:
             local_location=[bone.use_local_location for bone in bones],
             roles={role: bone for role, bone in roles_in_bones(obj).items() if role in core.ROLES and bone in bones},
             hangs={name: on for name, on in hanging_of(obj).items() if name in bones and on in bones},
+            held=held_of(obj),
         )
         return rig
 
@@ -66,6 +71,12 @@ def hanging_of(obj: bpy.types.Object) -> dict[str, str]:
     where a .blend is read by the core's command alone."""
     kept = getattr(obj, "fragmotion", None)
     return {row.name: row.on for row in kept.hanging} if kept else {}
+
+
+def held_of(obj: bpy.types.Object) -> dict[str, list[float]]:
+    """Location (x, y, z) and rotation (w, x, y, z) of the bones that are posed and not keyed, as `held.keep_held` found
+    them."""
+    return {name: list(row) for name, row in obj.get(HELD, {}).items() if name in obj.data.bones}
 
 
 def carriers(obj: bpy.types.Object, rig: Rig) -> list[str]:

@@ -10,7 +10,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..compat.core import core
-from .rigs import stretch_of
+from .rigs import held_of, stretch_of
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles, Rig, Skin
@@ -20,17 +20,24 @@ def make_skin(obj: bpy.types.Object, rig: Rig) -> Skin:
     """The skin of an armature: the meshes that it deforms by their vertex groups, and those that are its bones'
     children."""
     skin: Skin = core.Skin(rig.skeleton)
-    back = stretch_of(rig).inverted()
+    to = stretch_of(rig).inverted() @ _carried(obj, rig)
     for mesh in bpy.data.objects:
         if mesh.type != "MESH":
             continue
         if mesh.find_armature() == obj:
-            skin.add(np.array(back @ mesh.matrix_world), _points(mesh), mesh.vertex_groups.keys(), _weights(mesh))
+            skin.add(np.array(to @ mesh.matrix_world), _points(mesh), mesh.vertex_groups.keys(), _weights(mesh))
         elif mesh.parent == obj and mesh.parent_type == "BONE" and mesh.parent_bone in obj.data.bones:
             points = _points(mesh)
             rows = np.column_stack([np.arange(len(points)), np.zeros(len(points)), np.ones(len(points))])
-            skin.add(np.array(back @ _resting(mesh, obj)), points, [mesh.parent_bone], rows)
+            skin.add(np.array(to @ _resting(mesh, obj)), points, [mesh.parent_bone], rows)
     return skin
+
+
+def _carried(obj: bpy.types.Object, rig: Rig) -> Matrix:
+    """What takes meshes at rest to where held bones carry the body."""
+    if not held_of(obj):
+        return Matrix()
+    return obj.matrix_world @ Matrix(rig.carried.tolist()) @ obj.matrix_world.inverted()
 
 
 def _points(mesh: bpy.types.Object) -> Doubles:

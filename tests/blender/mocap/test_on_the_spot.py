@@ -154,19 +154,3 @@ def test_build_names_each_way_that_is_not_gone_as_it_is_asked_for(
         name = f"{gait} {core.DIRECTIONS[2 * direction]}"
         assert (name in named) == (off > 0.2 * np.hypot(*control[:2])), name
     assert named
-
-
-def test_build_says_that_a_posed_root_without_keys_is_learned_at_rest(
-    addon: ModuleType, figure: bpy.types.Object
-) -> None:
-    skeleton = addon.rig.rigs.make_rig(figure).skeleton
-    figure.pose.bones["torso"].rotation_quaternion = (0.7, 0.7, 0, 0)
-    figure.pose.bones["root"].rotation_quaternion = (0.7, 0.7, 0, 0)
-    assert addon.character.building.say_posed(figure, skeleton) == [], "its Actions key it"
-    for action in bpy.data.actions:
-        for curve in addon.compat.versions.curves_of(action, figure):
-            curve.data_path = curve.data_path.replace('"root"', '"torso"')
-    (told,) = addon.character.building.say_posed(figure, skeleton)
-    assert told.startswith("No Action keys bone 'root': it is learned as it rests")
-    figure.pose.bones["root"].rotation_quaternion = (1, 0, 0, 0)
-    assert addon.character.building.say_posed(figure, skeleton) == []

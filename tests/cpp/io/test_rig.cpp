@@ -142,6 +142,8 @@ TEST(Rig, RefusesBadArmaturesNamingTheCause) {
          a.roles = {{"head", "lamp"}, {"hips", "hips"}, {"left_foot", "foot.L"}};
        },
        {"'head'", "'lamp'", "'root'"}},
+      {"holds no bone", [](Armature& a) { a.held["tail"] = {}; }, {"'tail'", "no such bone"}},
+      {"holds no rotation", [](Armature& a) { a.held["head"] = {}; }, {"'head'", "zero quaternion"}},
   };
   for (const auto& c : cases) {
     SCOPED_TRACE(c.label);

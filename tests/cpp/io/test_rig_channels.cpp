@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "random_armature.hpp"
 
 namespace fragmotion {
 namespace {
+
+Armature held_armature(std::uint64_t seed, bool special) {
+  Armature armature = random_armature(seed, special);
+  for (const char* bone : {"root", "prop", "body", "spine", "lamp"}) {
+    const Channels channels = random_channels(1, 1, ++seed);
+    const Quaternion turn = load_quaternion(channels.rotations.data()).normalized();
+    std::array<double, 7>& place = armature.held[bone];
+    store_vector(load_vector(channels.locations.data()), place.data());
+    store_quaternion(turn, place.data() + 3);
+  }
+  return armature;
+}
 
 class RigChannels : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(InheritAndLocal, RigChannels, testing::Bool());
@@ -18,8 +32,7 @@ TEST_P(RigChannels, RoundTripThroughChannels) {
   }
 }
 
-TEST_P(RigChannels, PoseAsKinematicsDoes) {
-  const Armature armature = random_armature(31, GetParam());
+void expect_posed_as_kinematics_does(const Armature& armature) {
   const Rig rig(armature);
   const Kinematics kinematics(rig.skeleton());
   const Clip clip = make_clip(rig.skeleton(), random_clip(rig.skeleton(), 5, 32));
@@ -35,6 +48,41 @@ TEST_P(RigChannels, PoseAsKinematicsDoes) {
       EXPECT_LT(rotations[b].angularDistance(rotation_of(bone)), 1e-11) << rig.skeleton().names[b];
     }
   }
+}
+
+TEST_P(RigChannels, PoseAsKinematicsDoes) { expect_posed_as_kinematics_does(random_armature(31, GetParam())); }
+
+TEST_P(RigChannels, PoseAsKinematicsDoesWhereBonesAreHeld) {
+  expect_posed_as_kinematics_does(held_armature(31, GetParam()));
+}
+
+TEST(RigHeld, BonesKeepTheirPlacesAndWhatIsNotBelowTheHipsItsTurn) {
+  const Armature armature = held_armature(37, false);
+  const Rig rig(armature);
+  const Clip clip = make_clip(rig.skeleton(), random_clip(rig.skeleton(), 5, 38));
+  const Channels channels = rig.channels(clip.frames, clip.root_positions.data(), clip.rotations.data());
+  for (int f = 0; f < clip.frames; ++f) {
+    for (const int b : {0, 2, 4, 10}) {  // lamp, prop, body and spine; the root carries all
+      const std::array<double, 7>& place = armature.held.at(armature.names[b]);
+      const std::size_t at = 12 * static_cast<std::size_t>(f) + b;
+      EXPECT_LT((load_vector(&channels.locations[3 * at]) - load_vector(place.data())).norm(), 1e-9) << b;
+      const Quaternion turn = load_quaternion(&channels.rotations[4 * at]);
+      EXPECT_EQ(turn.angularDistance(load_quaternion(&place[3])) < 1e-9, b != 10) << armature.names[b];
+    }
+  }
+}
+
+TEST(RigHeld, CarriesTheHipsToWhereTheSkeletonRests) {
+  const Armature armature = held_armature(39, true);
+  const Rig rig(armature);
+  std::vector<Vector3> heads;
+  std::vector<Quaternion> rotations;
+  rest_pose(rig.skeleton(), heads, rotations);
+  const std::array<double, 16> carried = rig.carried();
+  const Matrix4 hips =
+      matrix_at(armature.world, 0) * matrix_at({carried.begin(), carried.end()}, 0) * matrix_at(armature.rest, 5);
+  EXPECT_LT((heads[3] - hips.topRightCorner<3, 1>()).norm(), 1e-9);
+  EXPECT_LT(rotations[3].angularDistance(rotation_of(hips)), 1e-9);
 }
 
 TEST_P(RigChannels, MoveOnlyTheHipsAndTheFirstBone) {
@@ -138,6 +186,15 @@ TEST(TakeChannels, GiveTheClipOfTheTake) {
   const Clip direct = clip_from_take(skeleton, take);
   for (std::size_t i = 0; i < direct.root_positions.size(); ++i)
     EXPECT_NEAR(through_rig.root_positions[i], direct.root_positions[i], 1e-12);
+}
+
+TEST(TakeChannels, GiveTheClipOfATakeOfItsOwnWhereBonesAreHeld) {
+  Armature armature = random_armature(49);
+  armature.held["root"] = {1, 2, 3, 0.6, 0, 0.8, 0};
+  armature.held["spine"] = {0, 0.5, 0, 0, 1, 0, 0};
+  const Rig rig(armature);
+  const Take take = random_take(rig.skeleton(), 5, 50);
+  expect_same_motion(clip_of(rig, rig.take_channels(take)), clip_from_take(rig.skeleton(), take), 1e-7);
 }
 
 TEST(TakeChannels, NameTheBonesThatTheRigLacks) {

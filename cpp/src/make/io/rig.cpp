@@ -54,6 +54,9 @@ void check_bones(const Armature& armature) {
     if (seen.count(bone) == 0 || seen.count(on) == 0)
       fail("bone '" + bone + "' hangs on '" + on + "'", "the armature has not both");
   }
+  for (const auto& [bone, place] : armature.held) {
+    if (seen.count(bone) == 0) fail("held bone '" + bone + "'", "the armature has no such bone");
+  }
 }
 
 /// On which bone each hangs: its parent, where nothing else is said.
@@ -171,10 +174,11 @@ Rig::Rig(Armature armature)
       rise_(stretch_upwards(armature_.world.data())),
       object_(parse_object(armature_.world.data(), "armature")),
       rest_(parse_rest(armature_)),
-      local_(rest_in(armature_.parents)),
+      local_(in_parents(rest_, armature_.parents)),
+      held_(parse_held(armature_)),
       hangs_(hanging(armature_)),
       order_(checked_order(armature_, hangs_)),
-      kinematics_(choose_tree(skeleton_bones_)) {}
+      kinematics_(make_body(skeleton_bones_)) {}
 
 Rig::Object Rig::parse_object(const double* matrix, const std::string& label) const {
   std::array<double, 16> unstretched;
@@ -197,21 +201,33 @@ std::vector<Rig::Rigid> Rig::parse_rest(const Armature& armature) {
   return rest;
 }
 
-std::vector<Rig::Rigid> Rig::rest_in(const std::vector<int>& parents) const {
-  std::vector<Rigid> local = rest_;
-  for (int b = 0; b < bones(); ++b) {
+std::vector<Rig::Rigid> Rig::parse_held(const Armature& armature) {
+  std::vector<Rigid> held(armature.names.size());
+  for (std::size_t b = 0; b < held.size(); ++b) {
+    const auto found = armature.held.find(armature.names[b]);
+    if (found == armature.held.end()) continue;
+    const std::string label = bone_label(armature, static_cast<int>(b));
+    held[b] = {checked_location(found->second.data(), "held", 0, label),
+               checked_rotation(found->second.data() + 3, "held", 0, label)};
+  }
+  return held;
+}
+
+std::vector<Rig::Rigid> Rig::in_parents(const std::vector<Rigid>& rest, const std::vector<int>& parents) {
+  std::vector<Rigid> local = rest;
+  for (std::size_t b = 0; b < rest.size(); ++b) {
     const int parent = parents[b];
     if (parent < 0) continue;
-    const Quaternion inverse = rest_[parent].rotation.conjugate();
-    local[b] = {inverse * (rest_[b].head - rest_[parent].head), inverse * rest_[b].rotation};
+    const Quaternion inverse = rest[parent].rotation.conjugate();
+    local[b] = {inverse * (rest[b].head - rest[parent].head), inverse * rest[b].rotation};
   }
   return local;
 }
 
 /// The tree below `root` as a skeleton; `members` are its bones.
-Skeleton Rig::make_tree(int root, std::vector<int>& members) const {
+Skeleton Rig::make_tree(int root, const std::vector<Rigid>& rest, std::vector<int>& members) const {
   Skeleton tree;
-  const std::vector<Rigid> local = rest_in(hangs_);
+  const std::vector<Rigid> local = in_parents(rest, hangs_);
   std::vector<int> index(bones(), -1);
   members.clear();
   for (const int b : order_) {
@@ -237,7 +253,7 @@ Skeleton Rig::choose_tree(std::vector<int>& members) const {
   for (int root = 0; root < bones(); ++root) {
     if (armature_.parents[root] >= 0) continue;
     std::vector<int> tree_members;
-    Skeleton tree = make_tree(root, tree_members);
+    Skeleton tree = make_tree(root, rest_, tree_members);
     const int roles = count_roles(armature_, tree);
     if (std::pair(roles, tree.size()) <= std::pair(best_roles, best.size())) continue;
     best = std::move(tree);
@@ -249,7 +265,40 @@ Skeleton Rig::choose_tree(std::vector<int>& members) const {
       fail("role '" + role + "'", "bone '" + bone + "' does not hang on '" + best.names[0] + "'");
   }
   assign_roles(armature_.roles, best);
-  return with_short_feet(with_legs_to_ground(make_skeleton(std::move(best)), object_.rigid.head.z()));
+  return make_skeleton(std::move(best));
+}
+
+Skeleton Rig::make_body(std::vector<int>& members) const {
+  Skeleton body = choose_tree(members);
+  if (!armature_.held.empty()) {
+    body = make_tree(members.front(), held_pose(body), members);
+    assign_roles(armature_.roles, body);
+    body = make_skeleton(std::move(body));
+  }
+  return with_short_feet(with_legs_to_ground(std::move(body), object_.rigid.head.z()));
+}
+
+/// At rest, in the armature's space, but as bones are held; those below the hips are not turned.
+std::vector<Rig::Rigid> Rig::held_pose(const Skeleton& skeleton) const {
+  std::vector<Rigid> pose(bones());
+  for (int b = 0; b < bones(); ++b) {
+    const int member = skeleton.find(armature_.names[b]), hips = skeleton.roles.hips;
+    const bool turns = member >= 0 && (member == hips || !skeleton.is_below(member, hips));
+    pose[b] = moved(b, pose.data(), held_[b].head, turns ? held_[b].rotation : Quaternion::Identity());
+  }
+  return pose;
+}
+
+std::array<double, 16> Rig::carried() const {
+  const int hips = skeleton_bones_[skeleton().roles.hips];
+  const Rigid held = held_pose(skeleton())[hips];
+  const Quaternion turn = held.rotation * rest_[hips].rotation.conjugate();
+  std::array<double, 16> matrix{};
+  Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> carried(matrix.data());
+  carried.topLeftCorner<3, 3>() = turn.toRotationMatrix();
+  carried.topRightCorner<3, 1>() = held.head - turn * rest_[hips].head;
+  carried(3, 3) = 1;
+  return matrix;
 }
 
 // ---- Spaces
@@ -359,7 +408,11 @@ Channels Rig::resting_channels(int frames) const {
   Channels channels{frames, {}, {}};
   channels.locations.resize(3 * offset_of(frames, bones(), 0));
   channels.rotations.resize(4 * offset_of(frames, bones(), 0));
-  for (std::size_t i = 0; i < channels.rotations.size(); i += 4) channels.rotations[i] = 1;
+  for (std::size_t at = 0; at < channels.locations.size() / 3; ++at) {
+    const Rigid& held = held_[at % held_.size()];
+    store_vector(held.head, &channels.locations[3 * at]);
+    store_quaternion(held.rotation, &channels.rotations[4 * at]);
+  }
   return channels;
 }
 
@@ -388,7 +441,7 @@ Channels Rig::channels(int frames, const double* root_positions, const double* r
       const int bone = skeleton_bones_[b];
       pose[bone] = to_armature(heads[b], orientations[b]);
       store_rotation(bone, pose.data(), f, channels);
-      const bool is_moved = hangs_[bone] != armature_.parents[bone];
+      const bool is_moved = hangs_[bone] != armature_.parents[bone] || !held_[bone].head.isZero(0);
       if (b == 0 || b == skeleton().roles.hips || is_moved)
         store_location(bone, pose.data(), f, channels);
       else
@@ -422,6 +475,7 @@ Channels Rig::take_channels(const Take& take) const {
   std::vector<double> positions, rotations;
   world_transforms(take, positions, rotations);
 
+  const std::vector<Rigid> rest = armature_.held.empty() ? rest_ : held_pose(skeleton());
   Channels channels = resting_channels(take.frames);
   std::vector<Rigid> pose(bones());
   for (int f = 0; f < take.frames; ++f) {
@@ -430,7 +484,7 @@ Channels Rig::take_channels(const Take& take) const {
       if (found[b] < 0) continue;
       const std::size_t at = offset_of(f, take.skeleton.size(), found[b]);
       const Quaternion away = load_quaternion(&rotations[4 * at]) * take_rest[found[b]].conjugate();
-      pose[b] = to_armature(load_vector(&positions[3 * at]), away * object_.rigid.rotation * rest_[b].rotation);
+      pose[b] = to_armature(load_vector(&positions[3 * at]), away * object_.rigid.rotation * rest[b].rotation);
       store_rotation(b, pose.data(), f, channels);
       store_location(b, pose.data(), f, channels);
     }
