@@ -156,6 +156,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "local_location": np.ones(bones, bool),
             "roles": {"head": "head"},
             "hangs": {},
+            "held": {"head": [0.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0]},
         },
         "Rig.clip": {
             "self": rig,
