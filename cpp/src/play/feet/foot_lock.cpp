@@ -42,6 +42,14 @@ FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs, const FeetC
     leg_bones[side] = kinematics.chains({legs[side].foot, legs[side].toe});
 }
 
+void FootLock::Body::Filters::set(double time, const FeetConstants& constants) {
+  if (seconds == time) return;
+  seconds = time;
+  rests = std::exp(-seconds / constants.rests);
+  settles = filtered(seconds, kSettles);
+  sinks = filtered(seconds, constants.sinks);
+}
+
 FootLock::FootLock(const Kinematics& kinematics, const Legs& legs)
     : FootLock(std::make_shared<Body>(kinematics, legs)) {}
 
@@ -103,19 +111,19 @@ double FootLock::hovers(const Foot& foot, double over, double ball, double clear
   return std::min(0.0, std::max(0.0, ball) + step_height(foot) - clear);
 }
 
-double FootLock::lowered(Foot& foot, double over, double hovers, double follows) const {
-  foot.lowered += follows * (hovers - foot.lowered);
+double FootLock::lowered(Foot& foot, double over, double hovers) const {
+  foot.lowered += body_->filters.settles * (hovers - foot.lowered);
   return std::min(foot.lowered, std::max(0.0, over));
 }
 
 // Of a planted foot that is left behind further than the leg is long the heel rises about the ball.
-void FootLock::raise_heel(int side, const Vector3& ball, double follows, Vector3& ankle, double* rotations) {
+void FootLock::raise_heel(int side, const Vector3& ball, double longest, Vector3& ankle, double* rotations) {
   Foot& foot = feet_[side];
   const Leg& leg = body_->legs[side];
   PosedBones& posed = body_->posed;
   const Vector3 from_ball = ankle - ball, hip = posed.heads[leg.thigh] - ball;
-  const double lacks = foot.locked ? rise_to_reach(hip, from_ball, longest(leg, posed)) : 0;
-  foot.raised += follows * (std::min(lacks, kHighestHeel) - foot.raised);
+  const double lacks = foot.locked ? rise_to_reach(hip, from_ball, longest) : 0;
+  foot.raised += body_->filters.settles * (std::min(lacks, kHighestHeel) - foot.raised);
   if (foot.raised < kFloatRounding) return;
   const Quaternion turn{Eigen::AngleAxisd(foot.raised, heel_axis(from_ball))};
   ankle = ball + turn * from_ball;
@@ -147,9 +155,8 @@ Vector2 FootLock::away(int side, const Vector2& moved, bool planted, double seco
   if (planted && !foot.locked && !stepping && away.norm() * body_->scale < constants.too_far)
     lock(foot, moved + away, seconds);
   if (foot.locked) {
-    const double goes_on = std::exp(-seconds / constants.rests);
-    foot.place += constants.rests * (1 - goes_on) * foot.drift;
-    foot.drift *= goes_on;
+    foot.place += constants.rests * (1 - body_->filters.rests) * foot.drift;
+    foot.drift *= body_->filters.rests;
     away = foot.place - moved;
     if (!planted || away.norm() * body_->scale > too_far) release(foot, away);
   }
@@ -163,52 +170,46 @@ Vector3 FootLock::under(int side, const WorldPose& pose) const {
   return (body_->posed.heads[body_->legs[2].thigh] + body_->posed.heads[body_->legs[3].thigh]) / 2;
 }
 
-double FootLock::height(int side, const FootHeights& floor) const {
-  const Leg& leg = body_->legs[side];
-  const PosedBones& posed = body_->posed;
-  const double toe = ball(body_->kinematics.skeleton(), leg, posed).z(), heel = ankle_of(leg, posed).z();
-  return std::min(toe - floor.ball, heel - floor.heel);
-}
-
 void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds,
                      const StepEdit& edit) {
-  auto& [constants, kinematics, legs, scale, leg_bones, bones, posed] = *body_;
+  auto& [constants, kinematics, legs, scale, leg_bones, bones, posed, filters] = *body_;
   const int count = legs.count();
   if (count == 0) return;
+  filters.set(seconds, constants);
   const Skeleton& skeleton = kinematics.skeleton();
   kinematics.world_below(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
   const Matrix2 heading = Eigen::Rotation2Dd(pose.heading).toRotationMatrix(),
                 longer = heading * edit.stride * heading.transpose();
   const Vector2 shift = heading * edit.shift;
   std::array<Vector3, kMostLegs> ankles;
-  const double follows = filtered(seconds, kSettles);
   double strained = 0;
   settle(seconds);
   for (int side = 0; side < count; ++side) {
-    const double over = height(side, contacts.floors[side]);
+    const Vector3 place = ball(skeleton, legs[side], posed), ankle = ankle_of(legs[side], posed);
+    const FootHeights& floor = contacts.floors[side];
+    const double over = std::min(place.z() - floor.ball, ankle.z() - floor.heel);
     const bool locked = feet_[side].locked, low = over * scale < kLanding;
     const bool hands_over = locked && contacts.stands(other(side), frame) && !feet_[other(side)].locked;
     const bool stands = hands_over || (contacts.stands(side, frame) && (locked || low));
-    const Vector3 place = ball(skeleton, legs[side], posed);
     const Vector2 edited = longer * (place - under(side, pose)).head<2>() + shift;
     const Vector2 before = feet_[side].shown, held = away(side, place.head<2>() + edited, stands, seconds),
                   by = edited + held;
     const double speed = fresh_ || seconds == 0 ? 0 : (feet_[side].shown - before).norm() / seconds;
-    const double hovers = this->hovers(feet_[side], over, place.z() - contacts.floors[side].ball,
-                                       edit.clears * clear_at(speed * scale) / scale);
-    const double lift = softly_over(-over, kSoftGround / scale) + step_height(feet_[side]) -
-                        lowered(feet_[side], over, hovers, follows);
+    const double hovers =
+        this->hovers(feet_[side], over, place.z() - floor.ball, edit.clears * clear_at(speed * scale) / scale);
+    const double lift =
+        softly_over(-over, kSoftGround / scale) + step_height(feet_[side]) - lowered(feet_[side], over, hovers);
     const Vector3 moved{by.x(), by.y(), lift};
-    ankles[side] = ankle_of(legs[side], posed) + moved;
-    raise_heel(side, place + moved, follows, ankles[side], pose.rotations.data());
+    ankles[side] = ankle + moved;
+    const double most = longest(legs[side], posed);
+    raise_heel(side, place + moved, most, ankles[side], pose.rotations.data());
     if (by.isZero(kRounding) && lift == 0) continue;
-    const double strain =
-        std::max(0.0, too_high(longest(legs[side], posed), posed.heads[legs[side].thigh], ankles[side]));
+    const double strain = std::max(0.0, too_high(most, posed.heads[legs[side].thigh], ankles[side]));
     if (feet_[side].locked && strain * scale > constants.strained) release(feet_[side], held);
     strained = std::max(strained, std::min(constants.strained / scale, strain));
   }
   fresh_ = false;
-  sunk_ += (strained - sunk_) * filtered(seconds, constants.sinks);
+  sunk_ += (strained - sunk_) * filters.sinks;
   lower_hips(sunk_, pose.root, posed);
   for (int side = 0; side < count; ++side) {
     reach(skeleton, legs[side], posed, ankles[side], pose.rotations.data());

@@ -36,6 +36,12 @@ class FootLock {
  public:
   /// What the foot locks of one body share that are applied in turn: what never changes, and room to work in.
   struct Body {
+    /// What filters do in the time between two poses, s, which is mostly as long as the last.
+    struct Filters {
+      double seconds = -1, rests = 0, settles = 0, sinks = 0;
+      void set(double time, const FeetConstants& constants);
+    };
+
     Body(const Kinematics& kinematics, const Legs& legs, const FeetConstants& constants = {});
 
     /// 1/s: of a foot that is let go, which is critically damped.
@@ -48,6 +54,7 @@ class FootLock {
     std::array<std::vector<int>, kMostLegs> leg_bones;  // of each leg, from below the hips,
     std::vector<int> bones;                             // and of all
     PosedBones posed;
+    Filters filters;
   };
 
   FootLock(const Kinematics& kinematics, const Legs& legs);
@@ -86,15 +93,14 @@ class FootLock {
   };
 
   Vector3 under(int side, const WorldPose& pose) const;
-  double height(int side, const FootHeights& floor) const;
   bool all_locked() const;
   Vector2 away(int side, const Vector2& moved, bool planted, double seconds);
   void lock(Foot& foot, const Vector2& shown, double seconds) const;
   void settle(double seconds);
   double step_height(const Foot& foot) const;
   double hovers(const Foot& foot, double over, double ball, double clear) const;
-  double lowered(Foot& foot, double over, double hovers, double follows) const;
-  void raise_heel(int side, const Vector3& ball, double follows, Vector3& ankle, double* rotations);
+  double lowered(Foot& foot, double over, double hovers) const;
+  void raise_heel(int side, const Vector3& ball, double longest, Vector3& ankle, double* rotations);
   void release(Foot& foot, const Vector2& held) const;
 
   std::shared_ptr<Body> body_;

@@ -60,7 +60,7 @@ bool GroundFollower::advance_feet(const FeetAhead& feet, double seconds, GroundP
 void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double seconds) {
   GroundProbe probe = this->probe(pose);
   appears_ = false;
-  auto& [constants, kinematics, legs, scale, leg_bones, bones, posed] = *body_;
+  auto& [constants, kinematics, legs, scale, leg_bones, bones, posed, filters] = *body_;
   if (!legs[0].exists() || !legs[1].exists()) return follow_hips(pose, seconds, probe);
   if (!advance_feet(feet, seconds, probe)) missed_ += seconds;
   get_exact(feet, seconds);
