@@ -14,8 +14,7 @@ class KnownGround {
   static constexpr double kInTheWay = 1;  ///< edges() of a sole that reaches into a step.
 
   /// How exactly a place is known: it was asked for; or it is between two, one behind the other along a way, that are
-  /// on one plane, or next to one, and these are at most `beside` to the side, m of a
-  /// character of 1.8 m.
+  /// on one plane, or next to one, and these are at most `beside` to the side, m of a character of 1.8 m.
   struct Along {
     Vector2 way = Vector2::UnitY();
     double beside = 0;
