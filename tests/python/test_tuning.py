@@ -14,6 +14,7 @@ import pytest
 from tools.measuring.quality.sample import sample_recordings
 from tools.measuring.tuning import inputs, objective
 from tools.measuring.tuning.search import fit
+from tools.measuring.tuning.sensitivity import TIMES, rises
 from tools.shell import Failure
 
 
@@ -32,6 +33,16 @@ def test_the_search_finds_the_least_cost_and_never_more_than_it_began_with() -> 
     found = fit(start, cost, 0.05, seed=0)
     assert found == pytest.approx(best, rel=0.01)
     assert fit(best, cost, 0.0001, seed=1) == best
+
+
+def test_what_a_constant_is_worth_is_what_the_costs_rise_by_without_it() -> None:
+    def costs(some: Mapping[str, float]) -> list[float]:
+        return [10 + some["a"] + weight * abs(math.log(some["b"], TIMES)) + 0 * some["c"] for weight in (1.0, 3.0)]
+
+    found = rises({"a": 5.0, "b": 1.0, "c": 7.0}, costs)
+    assert np.allclose(found["a"], [(-4.5, 0), (45, 0)])
+    assert np.allclose(found["b"], [(2, 1), (2, 1)]), "a standard error of two costs is half of their difference"
+    assert np.allclose(found["c"], 0)
 
 
 def test_a_cost_counts_each_figure_by_its_goal() -> None:

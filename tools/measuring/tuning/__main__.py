@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Fit the run time's constants to sets of takes, and say what that does on sets that were not fitted.
+"""Fit the run time's constants to sets of takes, and say what that does on sets that were not fitted; or say what each
+is worth.
 
 `python3 dev.py tune` runs this with the built core; python -m tools.measuring.tuning --help tells the rest.
 """
@@ -19,9 +20,11 @@ from tools.measuring.command import run_command
 from tools.measuring.quality.sample import sample_recordings
 from tools.measuring.tuning import inputs, objective
 from tools.measuring.tuning.search import fit
+from tools.measuring.tuning.sensitivity import TIMES, rises
 from tools.shell import say
 
 _SEEDS = 2  # of the build and the players, to fit to; as many others to judge by
+_MANY_SEEDS = 10  # for how sensitive the cost is
 
 
 def recordings_of(name: str, unit: float) -> Recordings:
@@ -29,13 +32,25 @@ def recordings_of(name: str, unit: float) -> Recordings:
     return sample_recordings() if name == inputs.SAMPLE else read_recordings(inputs.files_of(name), unit)
 
 
-def characters_of(names: Sequence[str], first_seed: int, unit: float) -> list[objective.Character]:
+def characters_of(names: Sequence[str], first_seed: int, unit: float, seeds: int = _SEEDS) -> list[objective.Character]:
     """Those to measure."""
     some = []
     for name in names:
         recordings = recordings_of(name, unit)
-        some += [objective.Character(name, recordings, seed) for seed in range(first_seed, first_seed + _SEEDS)]
+        some += [objective.Character(name, recordings, seed) for seed in range(first_seed, first_seed + seeds)]
     return some
+
+
+def sensitivity(names: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
+    """What each constant is worth on some sets; prints it, and returns it as saved."""
+    characters = characters_of(names, options.seed, options.unit, _MANY_SEEDS)
+    found = rises(
+        core.PlayerOptions().constants, lambda some: list(map(objective.cost, objective.measure(characters, some)))
+    )
+    say(f"the cost rises, where a constant is 1 / {TIMES:g} of what it is and {TIMES:g} times, by (standard error)")
+    for name, (less, more) in found.items():
+        say(f"{name:24} {less[0]:+.4f} ({less[1]:.4f}) {more[0]:+.4f} ({more[1]:.4f})")
+    return {"sets": list(names), "rises": found}
 
 
 def tune(fitted: Sequence[str], judged: Sequence[str], options: argparse.Namespace) -> dict[str, Any]:
@@ -62,14 +77,21 @@ def tune(fitted: Sequence[str], judged: Sequence[str], options: argparse.Namespa
 def run(options: argparse.Namespace) -> None:
     """Do all that the options ask for; Failure says what was wrong with them."""
     inputs.check(options)
-    if options.leave_one_out:
-        rounds = [([other for other in options.sets if other != name], [name]) for name in options.sets]
+    found: list[dict[str, Any]]
+    if options.sensitivity:
+        found = [sensitivity(options.sets, options)]
     else:
-        rounds = [(options.sets, options.judge)]
-    found = [tune(fitted, judged, options) for fitted, judged in rounds]
+        found = [tune(fitted, judged, options) for fitted, judged in _rounds(options)]
     if options.json:
         options.json.write_text(json.dumps(found, indent=1, allow_nan=False) + "\n")
         say(f"\nfigures: {options.json}")
+
+
+def _rounds(options: argparse.Namespace) -> list[tuple[list[str], list[str]]]:
+    """What is fitted, and what judged on."""
+    if options.leave_one_out:
+        return [([other for other in options.sets if other != name], [name]) for name in options.sets]
+    return [(options.sets, options.judge)]
 
 
 def main(arguments: list[str]) -> int:

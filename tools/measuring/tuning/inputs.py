@@ -28,6 +28,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--leave-one-out", action="store_true", help="fit to all sets but one, judge on that one, and so for each"
     )
+    parser.add_argument(
+        "--sensitivity",
+        action="store_true",
+        help="fit nothing: say what each constant is worth, by the cost where it is a tenth and ten times as large",
+    )
     parser.add_argument("--minutes", type=float, default=30.0, metavar="N", help="how long each fit lasts (default 30)")
     parser.add_argument("--seed", type=int, default=1, metavar="S", help="of all that is drawn at random (default 1)")
     parser.add_argument(
@@ -55,6 +60,8 @@ def check(options: argparse.Namespace) -> None:
         raise Failure(f"--unit is {options.unit:g}, and must be over 0")
     if options.leave_one_out and (len(options.sets) < 2 or options.judge):
         raise Failure("--leave-one-out takes two sets or more, and judges on each of them: leave --judge out")
+    if options.sensitivity and (options.judge or options.leave_one_out):
+        raise Failure("--sensitivity fits nothing: leave --judge and --leave-one-out out")
     if options.json and not options.json.absolute().parent.is_dir():
         raise Failure(f"{options.json.parent}: there is no such folder")
     for name in (*options.sets, *options.judge):

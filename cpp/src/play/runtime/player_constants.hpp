@@ -26,14 +26,13 @@ struct RootLimits {
 
 /// Of what plays next, and when (transition_cost.hpp), in metres of Dis of a body whose tip_reach() is kTunedReach.
 struct TransitionWeights {
-  double match = 0.9;       ///< A unit of ControlDis between what a fragment does and the control.
-  double made = 0.3;        ///< That a fragment is synthesized.
-  double unsteady = 5;      ///< Each m/s by which a fragment gets faster or slower: one limps through a held control.
-  double bent = 1.5;        ///< A turn rate by which what goes on turns otherwise than asked: planted feet are twisted.
-  double hurried = 3;       ///< All of a step that a fragment lacks: parts of steps bring a stitch the more.
-  double mirrored = 0.3;    ///< That captured and mirrored follow each other.
-  double other_take = 0.3;  ///< That another take goes on, in its own manner.
-  double out_of_turn = 2;   ///< Each foot that comes down out of turn.
+  double match = 0.9;      ///< A unit of ControlDis between what a fragment does and the control.
+  double manner = 0.3;     ///< For each of: it is synthesized, captured and mirrored follow each other, and another
+                           ///< take goes on, as no two are of quite one manner.
+  double unsteady = 5;     ///< Each m/s by which a fragment gets faster or slower: one limps through a held control.
+  double bent = 1.5;       ///< A turn rate by which what goes on turns otherwise than asked: planted feet are twisted.
+  double hurried = 3;      ///< All of a step that a fragment lacks: parts of steps bring a stitch the more.
+  double out_of_turn = 2;  ///< Each foot that comes down out of turn.
   double wait = 1.6;  ///< A second of each unit of ControlDis between what plays and the class that the policy tells,
                       ///< at a responsiveness of a half.
   double skip = 1;    ///< That the class which the policy tells is skipped for the one after it.
@@ -67,12 +66,10 @@ void for_each_constant(Constants& constants, const Visit& visit) {
   visit("root_settles", constants.root.settles);
   visit("root_sways", constants.root.sways);
   visit("transition_match", constants.transition.match);
-  visit("transition_made", constants.transition.made);
+  visit("transition_manner", constants.transition.manner);
   visit("transition_unsteady", constants.transition.unsteady);
   visit("transition_bent", constants.transition.bent);
   visit("transition_hurried", constants.transition.hurried);
-  visit("transition_mirrored", constants.transition.mirrored);
-  visit("transition_other_take", constants.transition.other_take);
   visit("transition_out_of_turn", constants.transition.out_of_turn);
   visit("transition_wait", constants.transition.wait);
   visit("transition_skip", constants.transition.skip);

@@ -19,8 +19,7 @@ TransitionCost::TransitionCost(const Character& character, const TransitionWeigh
       match_(static_cast<float>(weights.match)),
       unsteady_(static_cast<float>(weights.unsteady * standard_scale(character.pool.skeleton))),
       bent_(static_cast<float>(weights.bent)),
-      mirrored_(static_cast<float>(weights.mirrored)),
-      other_take_(static_cast<float>(weights.other_take)),
+      manner_(static_cast<float>(weights.manner)),
       out_of_turn_(static_cast<float>(weights.out_of_turn)),
       per_distance_(static_cast<float>(kTunedReach / tip_reach(character.pool.skeleton) / 2)) {
   const PackedPool& pool = character.pool;
@@ -28,7 +27,7 @@ TransitionCost::TransitionCost(const Character& character, const TransitionWeigh
     const Fragment& fragment = pool.fragments[f];
     const double lacks = std::max(0.0, 1 - pool.seconds(fragment) / kStep),
                  changes = (ends_[f].last - ends_[f].first).norm();
-    made_.push_back(is_made(fragment.origin) ? static_cast<float>(weights.made) : 0);
+    made_.push_back(is_made(fragment.origin) ? manner_ : 0);
     entered_.push_back(static_cast<float>(weights.hurried * lacks) + unsteady_ * static_cast<float>(changes));
   }
 }

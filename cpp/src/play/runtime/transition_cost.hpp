@@ -21,9 +21,9 @@ struct Entrant {
 /// kTunedReach:
 ///
 ///   cost = perform(g) + enter(g) + join(g) + wait ControlDis(Ev(what plays), Ev(class)) t
-///   perform(g) = match ControlDis(Ev(g), control) + made [g is synthesized]
-///   enter(g) = unsteady |dv(g)| + hurried (1 - seconds(g) / a step's)+ + mirrored [g or what is left is the mirrored
-///              one of the two] + other_take [g is of another take]
+///   perform(g) = match ControlDis(Ev(g), control) + manner [g is synthesized]
+///   enter(g) = unsteady |dv(g)| + hurried (1 - seconds(g) / a step's)+ + manner ([g or what is left is the mirrored
+///              one of the two] + [g is of another take])
 ///   join(g) = Dis(what is left as it would go on, the beginning of g) + out_of_turn (feet that come down out of turn)
 ///
 /// of which the class is the one that the policy tells, join and match are the factors of Eq. 2, and the rest is what a
@@ -47,7 +47,7 @@ class TransitionCost {
   /// perform() + enter() of one after another, mirrored or not, that is of a clip of this number.
   float of_entering(const Entrant& entrant, const Control& control, bool is_mirrored, int clip) const {
     return of_performing(entrant.evident, entrant.made, control) + entrant.entered +
-           (entrant.is_mirrored != is_mirrored ? mirrored_ : 0) + (entrant.clip == clip ? 0 : other_take_);
+           (entrant.is_mirrored != is_mirrored ? manner_ : 0) + (entrant.clip == clip ? 0 : manner_);
   }
   /// join() by a tip_distance() of places and of speeds, both of which it sums, for so many feet out of turn.
   float of_joining(float distance, int out_of_turn) const {
@@ -62,7 +62,7 @@ class TransitionCost {
 
   const Character* character_;
   std::vector<EndVelocities> ends_;
-  float match_, unsteady_, bent_, mirrored_, other_take_, out_of_turn_, per_distance_;
+  float match_, unsteady_, bent_, manner_, out_of_turn_, per_distance_;
   std::vector<float> made_, entered_;  // of each fragment: of perform() and of enter() what no control tells
 };
 
