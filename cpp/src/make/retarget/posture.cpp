@@ -201,6 +201,17 @@ std::vector<Vector3> mean_hinges(const Kinematics& kinematics, const RoleMap& ma
   return sums;
 }
 
+bool bends_back(const RoleMap& map, const PosedBones& posture, const std::vector<Vector3>& hinges) {
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    for (const Role role : {Role::kThigh, Role::kShin}) {
+      const int bone = map.bone(role, side);
+      const Vector3 hinge = posture.rotations[bone] * hinges[bone];
+      if (!hinge.isZero(0) && hinge.dot(-Vector3::UnitX()) < kStraight) return false;
+    }
+  }
+  return true;
+}
+
 std::array<FlatFoot, 2> flat_feet(const Kinematics& kinematics, const Legs& legs, const std::vector<Clip>& clips) {
   const std::vector<int> bones = kinematics.chains({legs[0].foot, legs[0].toe, legs[1].foot, legs[1].toe});
   const double scale = standard_scale(kinematics.skeleton());

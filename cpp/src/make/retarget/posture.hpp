@@ -23,6 +23,10 @@ std::optional<PosedBones> mean_posture(const Kinematics& kinematics, const RoleM
 /// and where they hardly bend.
 std::vector<Vector3> mean_hinges(const Kinematics& kinematics, const RoleMap& map, const std::vector<Clip>& clips);
 
+/// Whether knees bend to the back of a posture that faces +y, which they do about these hinges, or nothing is known of
+/// any: files whose rotations were made of joints' places alone turn their bones otherwise than they rest.
+bool bends_back(const RoleMap& map, const PosedBones& posture, const std::vector<Vector3>& hinges);
+
 /// A foot that stands flat, as clips have it.
 struct FlatFoot {
   bool known = false;
