@@ -89,6 +89,21 @@ TEST(Doctor, DoesNotRaiseUnaskedWhoMayLie) {
   EXPECT_FALSE(finding.safe);
 }
 
+TEST(Doctor, RaisesWhoStandsOnTheGroundOfItsFileAndRestsUpright) {
+  Gait gait;
+  gait.y = 0, gait.turn = 0.2;
+  Take take = walk(gait);
+  const Quaternion over(Eigen::AngleAxisd(kPi / 2, Vector3::UnitX()));
+  for (int f = 0; f < take.frames; ++f) {
+    double *hips = rotation(take, f, "hips"), *at = place(take, f);
+    store_quaternion(over * load_quaternion(hips), hips);
+    Eigen::Map<Vector3>{at} = over * load_vector(at);
+  }
+  const Finding finding = findings_of(take).at(0);
+  EXPECT_EQ(finding.code, "up");
+  EXPECT_TRUE(finding.safe) << finding.text;
+}
+
 TEST(Doctor, TurnsToTheFront) {
   const Take clean = walk();
   for (const int quarters : {1, 2, 3}) {
