@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from . import by_blender
 from .core import core
-from .files import ENDINGS, UNIT
+from .files import UNIT
 from .running import say
 
 _OF_UNIT = "unit"  # a finding's code
@@ -27,11 +27,6 @@ class FileTake(NamedTuple):
 
 def read_take(path: Path, unit: float = UNIT) -> core.Take:
     """The take of a file, an AMC's on the skeleton that lies beside it; ValueError names what is wrong."""
-    if path.suffix.lower() not in ENDINGS:
-        raise ValueError(
-            f"{path}: not motion capture that is read without Blender ({', '.join(ENDINGS)}); FBX, glTF and others are "
-            "read by `fragmotion build`, `doctor` and `retarget`"
-        )
     return core.read_bvh(path, unit) if path.suffix.lower() == ".bvh" else core.read_asf_amc(core.find_asf(path), path)
 
 
