@@ -336,6 +336,18 @@ TEST(Body, OfNoStandingRestPoseIsToldByItsClips) {
   }
 }
 
+TEST(Body, StandsOnNoGroundOfFeetThatHang) {
+  std::vector<Clip> clips = takes();
+  const Body plain = make_body(humanoid(), find_role_map(humanoid()), clips);
+  clips.push_back(clips[0]);
+  for (std::size_t z = 2; z < clips.back().root_positions.size(); z += 3) clips.back().root_positions[z] += 0.4;
+  const Body told = make_body(humanoid(), find_role_map(humanoid()), clips);
+  for (int side = 0; side < 2; ++side) {
+    EXPECT_NEAR(told.soles[side].ball, plain.soles[side].ball, 1e-3);
+    EXPECT_NEAR(told.soles[side].heel, plain.soles[side].heel, 1e-3);
+  }
+}
+
 // Rotations that were made of joints' places alone leave it open how a bone is turned about its length.
 TEST(Body, WhoseKneesBendAsideAtRestIsToldByItsClips) {
   const Skeleton skeleton = humanoid();

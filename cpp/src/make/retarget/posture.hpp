@@ -34,7 +34,8 @@ struct FlatFoot {
   FootHeights heights;                                                     ///< m
 };
 
-/// The left and the right foot where they stand flat and still in clips.
+/// The left and the right foot where they stand flat and still in clips, on the ground on which most of that is: who
+/// sits lets them hang.
 std::array<FlatFoot, 2> flat_feet(const Kinematics& kinematics, const Legs& legs, const std::vector<Clip>& clips);
 
 /// Turns a posture so that it faces +y and stands upright: about the vertical alone, unless the trunk leans far.
