@@ -104,6 +104,23 @@ TEST(Doctor, RaisesWhoStandsOnTheGroundOfItsFileAndRestsUpright) {
   EXPECT_TRUE(finding.safe) << finding.text;
 }
 
+TEST(Doctor, TellsHipsOfWhichTheFileHasNoHeight) {
+  Take take = walk();
+  for (int f = 0; f < take.frames; ++f) {
+    const double bent = 0.5 * (1 - std::cos(2 * kPi * f / take.frames));
+    for (const char* side : {".L", ".R"}) {
+      for (const auto& [bone, angle] : {std::pair{"thigh", -bent}, {"shin", 2 * bent}, {"foot", -bent}}) {
+        store_quaternion(Quaternion(Eigen::AngleAxisd(angle, Vector3::UnitX())),
+                         rotation(take, f, bone + std::string(side)));
+      }
+    }
+    place(take, f)[2] = place(take, 0)[2];
+  }
+  const std::vector<std::string> codes = codes_of(take), as_before = codes_of(walk());
+  EXPECT_EQ(std::count(codes.begin(), codes.end(), "height"), 1);
+  EXPECT_EQ(std::count(as_before.begin(), as_before.end(), "height"), 0);
+}
+
 TEST(Doctor, TurnsToTheFront) {
   const Take clean = walk();
   for (const int quarters : {1, 2, 3}) {
