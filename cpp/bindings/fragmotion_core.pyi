@@ -124,7 +124,7 @@ def read_bvh(path: str | PathLike[str], unit: float = 0.01) -> Take:
 
 def write_bvh(take: Take, path: str | PathLike[str], unit: float = 0.01) -> None:
     """Write a take as a BVH file, y up, `unit` metres being one file unit; whole or not at all. ValueError on a bone's
-    name that is empty or holds a blank or a brace, and on numbers that are missing."""
+    name that is empty, holds a brace or other blanks than one between words, and on numbers that are missing."""
 
 def read_asf(path: str | PathLike[str]) -> Skeleton:
     """Read an Acclaim skeleton alone."""

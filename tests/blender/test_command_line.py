@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import bpy
 import making
@@ -364,16 +365,18 @@ def test_the_command_alone_reads_takes_and_rigs_through_bpy(
     write(path)
     command = addon.compat.core.command("running")
     environment = {**os.environ, "PYTHONPATH": str(Path(command.__file__).parents[1])}
-    words = [sys.executable, "-m", "fragmotion_command", "retarget", walk, path, "--onto", path, "--json", "-"]
-    ended = subprocess.run(
-        [*map(str, words), "--into", str(tmp_path / "moved")],
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert ended.returncode == 0, ended.stderr
-    told = json.loads(ended.stdout)
+
+    def told_by(*words: object) -> dict[str, Any]:
+        whole = [sys.executable, "-m", "fragmotion_command", *map(str, words), "--json", "-"]
+        ended = subprocess.run(whole, env=environment, capture_output=True, text=True, check=False)
+        assert ended.returncode == 0, ended.stderr
+        told: dict[str, Any] = json.loads(ended.stdout)
+        return told
+
+    (examined,) = told_by("doctor", path)["files"]
+    assert examined["format"] == write.__name__[3:].upper() and examined["roles"]["left_foot"]
+    assert told_by("build", path, "--policy", tmp_path / "alone.policy")["fragments"]
+    told = told_by("retarget", walk, path, "--onto", path, "--into", tmp_path / "moved")
     assert [Path(take["path"]).name for take in told["takes"]] == ["walk.bvh", path.name]
     assert all(take["contact_error_m"] <= 0.01 for take in told["takes"])
     first, second = (

@@ -14,6 +14,7 @@ from fragmotion_command import main
 
 FIELDS = [
     "path",
+    "take",
     "format",
     "unit_m",
     "stature_m",

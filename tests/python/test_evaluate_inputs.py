@@ -128,6 +128,12 @@ def test_an_amc_goes_with_its_asf(tmp_path: Path) -> None:
         read_take(tmp_path / "09_01.amc")
 
 
+def test_takes_are_mended_before_they_are_measured(takes: Path, tmp_path: Path) -> None:
+    core.write_bvh(core.read_bvh(takes / "gait_1.bvh"), tmp_path / "metres.bvh", 1.0)
+    told, plain = (loading.read_recordings([path], None) for path in (tmp_path / "metres.bvh", takes / "gait_1.bvh"))
+    assert told.skeleton.stature == pytest.approx(plain.skeleton.stature)
+
+
 def test_takes_in_a_file_are_those_that_were_written(takes: Path) -> None:
     """The oracle of this file's own writer: the walk goes forward as far as it was made to."""
     clip = loading.read_recordings([takes / "gait_1.bvh"], 0.01).clips[0]

@@ -152,7 +152,13 @@ def _played(
     styled = beside.styled
     reaches = [reach for reach in beside.reaches if reach.control < len(trace)]
     performance = player.run(
-        trace, rate, report, beside.moves or None, styled.changes or None, beside.looks or None, reaches or None
+        trace,
+        rate,
+        report,
+        beside.moves or None,
+        styled.changes or None,
+        looks=beside.looks or None,
+        reaches=reaches or None,
     )
     motion = Motion(performance.root_positions, performance.rotations, performance.path, performance.classes)
     remarks = filter(None, (styled.remark, *remarks_of(player, ground)))

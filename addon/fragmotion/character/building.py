@@ -34,6 +34,7 @@ from .control_layout import keep_layout, layout_of
 from .coverage import Row, makes_its_jumps, measure_coverage
 from .staleness import digest_of, sources_of
 from .storing import keep_policy, key_of, read_policy
+from .stretched import StretchedPlayer
 
 if TYPE_CHECKING:
     from fragmotion_core import BuildOptions, Character, Clip, Doubles, Player, Rig, Skeleton
@@ -338,8 +339,9 @@ def player_options(obj: bpy.types.Object) -> dict[str, Any]:
 
 
 def make_player(obj: bpy.types.Object, character: Character, seed: int, policy: str = "") -> Player:
-    """What plays the character, with the armature's settings of how it moves."""
-    player: Player = core.Player(character, seed, policy=policy, **player_options(obj))
+    """What plays the character, with the armature's settings of how it moves, and shown as its object shows it."""
+    options, rise = {"seed": seed, "policy": policy, **player_options(obj)}, make_rig(obj).rise
+    player: Player = core.Player(character, **options) if rise == 1 else StretchedPlayer(character, rise, **options)
     return player
 
 

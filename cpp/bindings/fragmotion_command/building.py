@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from .core import core
-from .files import find_takes
+from .files import BY_BLENDER, find_takes
 from .running import Done, listed
 from .takes import led_by_feet, on_one_body, read_mended
 
@@ -22,7 +22,7 @@ def build(options: argparse.Namespace) -> Done:
     """Build a character, and write its policy file."""
     if not options.policy:
         raise ValueError("nothing would be kept: say where to, by --policy")
-    paths = find_takes(options.takes)
+    paths = find_takes(options.takes, BY_BLENDER)
     _styles_of(paths, options)
     settings = _settings(options)
     takes = read_mended(paths, options.unit)

@@ -18,7 +18,7 @@ UNIT = 0.01
 
 def find_takes(paths: Sequence[Path], others: Sequence[str] = ()) -> list[Path]:
     """The files of takes among files and folders, each once, but hidden ones in folders; ValueError names what is not
-    there. `others`: endings of files that are looked for beside those that the core reads."""
+    there, and a file of another kind. `others`: endings that are looked for beside those that the core reads."""
     found = dict.fromkeys(file for path in paths for file in _files_of(path, (*ENDINGS, *others)))
     if not found:
         raise ValueError(
@@ -32,6 +32,8 @@ def _files_of(path: Path, endings: Sequence[str]) -> Iterator[Path]:
         yield from sorted(file for file in path.rglob("*") if _is_take(file, path, endings))
     elif not path.is_file():
         raise ValueError(f"{path}: there is no such file or folder")
+    elif path.suffix.lower() not in (*endings, ".asf"):
+        raise ValueError(f"{path}: not motion capture that is read ({', '.join(endings)})")
     elif path.suffix.lower() != ".asf":  # its motion is in .amc files
         yield path
 

@@ -122,7 +122,7 @@ def _add_evaluate(word: argparse.ArgumentParser) -> argparse._MutuallyExclusiveG
             f"--{name}", nargs="+", type=Path, metavar="CSV", help=f"traces to {what} (the simulated players')"
         )
     _add_what_is_built(takes)
-    takes.add_argument("--unit", type=float, metavar="M", help="metres in one unit of a BVH file (0.01)")
+    _add_unit(takes)
     takes.add_argument("--figures", type=Path, metavar="DIR", help="draw pictures there, and save the traces")
     takes.add_argument(
         "--no-curves",
@@ -157,7 +157,7 @@ def _add_retarget(word: argparse.ArgumentParser) -> None:
     word.set_defaults(command=retarget)
 
 
-def _add_unit(word: argparse.ArgumentParser) -> None:
+def _add_unit(word: argparse._ActionsContainer) -> None:
     word.add_argument(
         "--unit", type=float, metavar="M", help="metres in one unit of a BVH file (the body's size tells)"
     )

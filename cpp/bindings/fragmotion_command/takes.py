@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from . import by_blender
 from .core import core
-from .files import ENDINGS, UNIT
+from .files import UNIT
 from .running import say
 
 _OF_UNIT = "unit"  # a finding's code
@@ -27,11 +27,6 @@ class FileTake(NamedTuple):
 
 def read_take(path: Path, unit: float = UNIT) -> core.Take:
     """The take of a file, an AMC's on the skeleton that lies beside it; ValueError names what is wrong."""
-    if path.suffix.lower() not in ENDINGS:
-        raise ValueError(
-            f"{path}: not motion capture that is read without Blender ({', '.join(ENDINGS)}); FBX, glTF and others are "
-            "read by `fragmotion retarget` and by `blender -c fragmotion`"
-        )
     return core.read_bvh(path, unit) if path.suffix.lower() == ".bvh" else core.read_asf_amc(core.find_asf(path), path)
 
 
@@ -41,6 +36,27 @@ def read_each(paths: Sequence[Path], unit: float = UNIT) -> list[core.Take | str
         read = list(pool.map(partial(_read_or_cause, unit=unit), paths))
     core.tell_four_legs([take for take in read if not isinstance(take, str)])
     return read
+
+
+def read_all(paths: Sequence[Path]) -> list[tuple[Path, core.Take | str]]:
+    """Each take of each file, those of Blender's importers among them, or why a file cannot be read."""
+    others = [path for path in paths if by_blender.needs_blender(path)]
+    own = [path for path in paths if path not in others]
+    read = dict(zip(own, ([take] for take in read_each(own))))
+    told = [(path, take) for path in paths for take in (read[path] if path in read else _of_others(path))]
+    core.tell_four_legs([take for _, take in told if isinstance(take, core.Take)])
+    return told
+
+
+def _of_others(path: Path) -> Sequence[core.Take | str]:
+    try:
+        by_blender.check()
+    except ValueError as error:
+        return [f"{path}: {error}"]
+    try:
+        return by_blender.read_takes(path)
+    except ValueError as error:
+        return [str(error)]
 
 
 def _read_or_cause(path: Path, unit: float) -> core.Take | str:

@@ -32,6 +32,11 @@ def key_weight(thing: bpy.types.Object, **weights: float) -> None:
 def palm(obj: bpy.types.Object, frame: int) -> Vector:
     """The middle of the right hand on a frame, as Blender shows it."""
     bpy.context.scene.frame_set(frame)
+    return palm_now(obj)
+
+
+def palm_now(obj: bpy.types.Object) -> Vector:
+    """The middle of the right hand as Blender shows it."""
     hand = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).pose.bones["hand.R"]
     return obj.matrix_world @ ((hand.head + hand.tail) / 2)
 
@@ -57,6 +62,20 @@ def test_a_bake_carries_an_object(addon: ModuleType, obj: bpy.types.Object) -> N
     assert max(abs(place.z - 1.2) for place in carried) < 0.002
     assert max(distances) - min(distances) < 0.002
     assert distances[0] == pytest.approx(np.hypot(0.25, 0.4), abs=0.05)
+
+
+def test_hands_reach_for_places_where_the_object_stretches_the_body(
+    addon: ModuleType, session: ModuleType, obj: bpy.types.Object
+) -> None:
+    obj.scale.z *= 1.2
+    bpy.context.view_layer.update()
+    thing = put((-0.25, -0.4, 1.44))
+    obj.fragmotion.right_hand.object, obj.fragmotion.right_hand.carried = thing, True
+    bake("carries")
+    assert max(abs(palm(obj, frame).z - 1.44) for frame in range(40, 90)) < 0.002
+    driven = session.start(bpy.context, obj)
+    go_on(driven, 2.0)
+    assert palm_now(obj).z == pytest.approx(1.44, abs=0.002)
 
 
 def test_a_bake_reaches_as_the_object_is_keyed(addon: ModuleType, obj: bpy.types.Object) -> None:

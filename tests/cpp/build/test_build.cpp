@@ -8,6 +8,7 @@
 #include "character/character.hpp"
 #include "character/policy_file.hpp"
 #include "control/simulated_players.hpp"
+#include "fragments/hips_velocity.hpp"
 #include "mocap_files.hpp"
 #include "policy/greedy.hpp"
 #include "small_build.hpp"
@@ -45,6 +46,14 @@ TEST(Build, GivesTheSameBitsForAnyNumberOfThreads) {
       EXPECT_EQ(to_bytes(build(humanoid(), some_takes(), some_traces(), options)), one) << policy;
     }
   }
+}
+
+TEST(Build, TakesNoJumpForAWayThatTheBodyWent) {
+  std::vector<Clip> takes = some_takes();
+  Clip& stand = takes[0];
+  for (int f = stand.frames / 2; f < stand.frames; ++f) stand.root_positions[std::size_t{3} * f] += 2;
+  const Character c = build(humanoid(), takes, some_traces(), few_classes());
+  for (int f = 0; f < stand.frames; ++f) EXPECT_LT(hips_velocity_around(c.pool.clips[0], f, 0.5).norm(), 0.1) << f;
 }
 
 TEST(Build, NamesItsPolicyAndFillsTheTableWithClasses) {

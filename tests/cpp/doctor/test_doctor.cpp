@@ -89,6 +89,38 @@ TEST(Doctor, DoesNotRaiseUnaskedWhoMayLie) {
   EXPECT_FALSE(finding.safe);
 }
 
+TEST(Doctor, RaisesWhoStandsOnTheGroundOfItsFileAndRestsUpright) {
+  Gait gait;
+  gait.y = 0, gait.turn = 0.2;
+  Take take = walk(gait);
+  const Quaternion over(Eigen::AngleAxisd(kPi / 2, Vector3::UnitX()));
+  for (int f = 0; f < take.frames; ++f) {
+    double *hips = rotation(take, f, "hips"), *at = place(take, f);
+    store_quaternion(over * load_quaternion(hips), hips);
+    Eigen::Map<Vector3>{at} = over * load_vector(at);
+  }
+  const Finding finding = findings_of(take).at(0);
+  EXPECT_EQ(finding.code, "up");
+  EXPECT_TRUE(finding.safe) << finding.text;
+}
+
+TEST(Doctor, TellsHipsOfWhichTheFileHasNoHeight) {
+  Take take = walk();
+  for (int f = 0; f < take.frames; ++f) {
+    const double bent = 0.5 * (1 - std::cos(2 * kPi * f / take.frames));
+    for (const char* side : {".L", ".R"}) {
+      for (const auto& [bone, angle] : {std::pair{"thigh", -bent}, {"shin", 2 * bent}, {"foot", -bent}}) {
+        store_quaternion(Quaternion(Eigen::AngleAxisd(angle, Vector3::UnitX())),
+                         rotation(take, f, bone + std::string(side)));
+      }
+    }
+    place(take, f)[2] = place(take, 0)[2];
+  }
+  const std::vector<std::string> codes = codes_of(take), as_before = codes_of(walk());
+  EXPECT_EQ(std::count(codes.begin(), codes.end(), "height"), 1);
+  EXPECT_EQ(std::count(as_before.begin(), as_before.end(), "height"), 0);
+}
+
 TEST(Doctor, TurnsToTheFront) {
   const Take clean = walk();
   for (const int quarters : {1, 2, 3}) {

@@ -119,8 +119,14 @@ TEST(WriteBvh, KeepsTheRate) {
   }
 }
 
+TEST(WriteBvh, KeepsNamesOfSeveralWords) {
+  Take take = random_take(small_skeleton(), 2, 3);
+  take.skeleton.names[4] = "Bip01 L Thigh";
+  EXPECT_GE(read_back(take).skeleton.find("Bip01 L Thigh"), 0);
+}
+
 TEST(WriteBvh, RefusesNamesThatEndEarly) {
-  for (const char* name : {"", "Bip01 L Thigh", "tab\there", "brace{", "brace}", "line\nend"}) {
+  for (const char* name : {"", " before", "after ", "two  blanks", "tab\there", "brace{", "brace}", "line\nend"}) {
     Take take = random_take(small_skeleton(), 2, 3);
     take.skeleton.names[4] = name;
     const TemporaryFolder folder;

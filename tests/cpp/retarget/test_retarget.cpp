@@ -336,6 +336,43 @@ TEST(Body, OfNoStandingRestPoseIsToldByItsClips) {
   }
 }
 
+TEST(Body, StandsOnNoGroundOfFeetThatHang) {
+  std::vector<Clip> clips = takes();
+  const Body plain = make_body(humanoid(), find_role_map(humanoid()), clips);
+  clips.push_back(clips[0]);
+  for (std::size_t z = 2; z < clips.back().root_positions.size(); z += 3) clips.back().root_positions[z] += 0.4;
+  const Body told = make_body(humanoid(), find_role_map(humanoid()), clips);
+  for (int side = 0; side < 2; ++side) {
+    EXPECT_NEAR(told.soles[side].ball, plain.soles[side].ball, 1e-3);
+    EXPECT_NEAR(told.soles[side].heel, plain.soles[side].heel, 1e-3);
+  }
+}
+
+// Rotations that were made of joints' places alone leave it open how a bone is turned about its length.
+TEST(Body, WhoseKneesBendAsideAtRestIsToldByItsClips) {
+  const Skeleton skeleton = humanoid();
+  const Quaternion twist(Eigen::AngleAxisd(kPi / 2, Vector3::UnitZ()));
+  std::vector<Clip> clips = takes();
+  for (Clip& clip : clips) {
+    for (int f = 0; f < clip.frames; ++f) {
+      for (const char* side : {".L", ".R"}) {
+        const auto turn = [&](const std::string& bone, const Quaternion& before, const Quaternion& after) {
+          double* own = &clip.rotations[std::size_t{4} * (f * skeleton.size() + skeleton.find(bone + side))];
+          store_quaternion(before * load_quaternion(own) * after, own);
+        };
+        turn("thigh", Quaternion::Identity(), twist);
+        turn("shin", twist.conjugate(), twist);
+        turn("foot", twist.conjugate(), Quaternion::Identity());
+      }
+    }
+  }
+  const Body plain = body_of(skeleton), told = make_body(skeleton, find_role_map(skeleton), clips);
+  for (const char* bone : {"thigh.L", "shin.L", "thigh.R", "shin.R"}) {
+    const int b = skeleton.find(bone);
+    EXPECT_LT(told.reference[b].angularDistance(plain.reference[b] * twist), 6 * kPi / 180) << bone;
+  }
+}
+
 TEST(Retarget, RefusesAClipOfAnotherSkeleton) {
   const Retarget retarget(body_of(with_spines(3)), body_of(humanoid()));
   EXPECT_NE(error_of([&] { retarget.apply(gait_clip({})); }).find("has not the source's"), std::string::npos);

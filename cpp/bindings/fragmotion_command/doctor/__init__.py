@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ..files import find_takes
+from ..files import BY_BLENDER, find_takes
 from ..running import Done
 from .examining import examine, is_readable
 from .report import lines
@@ -13,5 +13,5 @@ from .report import lines
 
 def doctor(options: argparse.Namespace) -> Done:
     """Examine files; the exit code is 1 where one cannot be read."""
-    result = examine(find_takes(options.takes))
+    result = examine(find_takes(options.takes, BY_BLENDER))
     return Done(result, "\n".join(lines(result)), 0 if all(map(is_readable, result["files"])) else 1)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TypedDict
 
 from ..core import core
-from ..takes import hear, read_each
+from ..takes import hear, read_all
 
 _FORMATS = {".bvh": "BVH", ".amc": "ASF/AMC"}
 _IN_FILE = {"+X": "+X", "-X": "-X", "+Z": "+Y", "-Z": "-Y", "-Y": "+Z", "+Y": "-Z", "": None}  # readers turn y up to z
@@ -25,9 +25,10 @@ class Finding(TypedDict):
 
 
 class File(TypedDict):
-    """A file; what cannot be told is None. Axes are the file's own."""
+    """A take of a file; what cannot be told is None. Axes are the file's own."""
 
     path: str
+    take: str | None
     format: str
     unit_m: float | None
     stature_m: float | None
@@ -48,13 +49,13 @@ class Result(TypedDict):
 
 def examine(paths: Sequence[Path]) -> Result:
     """Read and examine the files; one that cannot be read has a finding `unreadable` with the reader's words."""
-    read = read_each(paths)
-    takes = [take for take in read if isinstance(take, core.Take)]
+    read = read_all(paths)
+    takes = [take for _, take in read if isinstance(take, core.Take)]
     examinations = iter(core.examine(takes, progress=hear))
     return {
         "files": [
             _told(path, take, next(examinations)) if isinstance(take, core.Take) else _unreadable(path, take)
-            for path, take in zip(paths, read)
+            for path, take in read
         ]
     }
 
@@ -67,6 +68,7 @@ def is_readable(file: File) -> bool:
 def _told(path: Path, take: core.Take, examination: core.Examination) -> File:
     return {
         **_empty(path),
+        "take": take.name,
         "unit_m": take.unit * examination.scale,
         "stature_m": examination.stature,
         "up": _IN_FILE[examination.up],
@@ -97,7 +99,8 @@ def _unreadable(path: Path, why: str) -> File:
 def _empty(path: Path) -> File:
     return {
         "path": str(path),
-        "format": _FORMATS.get(path.suffix.lower(), path.suffix.lstrip(".")),
+        "take": None,
+        "format": _FORMATS.get(path.suffix.lower(), path.suffix.lstrip(".").upper()),
         "unit_m": None,
         "stature_m": None,
         "up": None,

@@ -14,8 +14,10 @@ _POSES = {"T": "T pose", "A": "A pose", "down": "arms down", "other": "another r
 
 def lines(result: Result) -> Iterator[str]:
     """A line for each file and for each of its findings, and what they come to."""
+    takes = Counter(file["path"] for file in result["files"])
     for file in result["files"]:
-        yield f"{file['path']}: {_facts(file) if is_readable(file) else 'cannot be read'}"
+        take = f", take '{file['take']}'" if takes[file["path"]] > 1 else ""
+        yield f"{file['path']}{take}: {_facts(file) if is_readable(file) else 'cannot be read'}"
         for (severity, code, is_mended), alike in _grouped(file["findings"]):
             mended = " (safe to mend)" if is_mended else ""
             yield f"  {severity}, {code}: {with_more([finding['text'] for finding in alike])}{mended}"
@@ -50,4 +52,4 @@ def _summary(result: Result) -> str:
     clean = sum(not file["findings"] for file in files)
     codes = Counter(finding["code"] for file in files for finding in file["findings"])
     found = ", ".join(f"{count} {code}" for code, count in codes.most_common())
-    return f"\n{len(files)} files, {clean} without findings" + (f"; {found}" if found else "")
+    return f"\n{len(files)} takes, {clean} without findings" + (f"; {found}" if found else "")

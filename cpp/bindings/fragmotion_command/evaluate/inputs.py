@@ -8,9 +8,9 @@ from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..files import ENDINGS, UNIT
+from ..files import BY_BLENDER, ENDINGS
 
-_USUAL = {"classes": 97, "seed": 1, "unit": UNIT, "responsiveness": 0.5}
+_USUAL = {"classes": 97, "seed": 1, "responsiveness": 0.5}
 _OF_CHARACTERS = ("trace", "player", "seconds")
 _OF_TAKES = (
     *("train", "test", "classes", "controls", "speeds", "directions", "turn", "jump", "unit"),
@@ -23,7 +23,8 @@ def is_character(options: argparse.Namespace) -> bool:
     source = options.sources[0]
     if not source.exists():
         raise ValueError(f"{source}: there is no such file or folder")
-    found = len(options.sources) == 1 and not source.is_dir() and source.suffix.lower() not in (*ENDINGS, ".asf")
+    of_takes = source.is_dir() or source.suffix.lower() in (*ENDINGS, *BY_BLENDER, ".asf")
+    found = len(options.sources) == 1 and not of_takes
     check_kind(options, found)
     return found
 
@@ -42,7 +43,7 @@ def check(options: argparse.Namespace) -> None:
     for name, value in _USUAL.items():
         if getattr(options, name) is None:
             setattr(options, name, value)
-    if not options.unit > 0:
+    if options.unit is not None and not options.unit > 0:
         raise ValueError(f"--unit is {options.unit:g}, and must be over 0")
     if not 0 <= options.responsiveness <= 1:
         raise ValueError(f"--responsiveness is {options.responsiveness:g}, and must be 0 to 1")

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from ..building import tell_controls
 from ..core import core
-from ..files import find_takes
-from ..takes import FileTake, on_one_body, read_take
+from ..files import BY_BLENDER, find_takes
+from ..takes import on_one_body, read_mended
 
 SECONDS = 60.0
 STEPS_A_SECOND = 10
@@ -51,15 +51,14 @@ def core_failures(place: str = "") -> Iterator[None]:
         raise ValueError(f"{place}: {error}" if place else str(error)) from error
 
 
-def read_recordings(paths: Sequence[Path], unit: float) -> Recordings:
-    """All takes on the first one's body; ValueError where one has other bones."""
-    files = find_takes(paths)
-    takes = [read_take(file, unit) for file in files]
-    core.tell_four_legs(takes)
-    for file, take in zip(files, takes):
-        _check_bones(file, take.skeleton, files[0], takes[0].skeleton)
-    with core_failures(str(files[0].parent)):
-        return Recordings(*on_one_body([FileTake(file, take) for file, take in zip(files, takes)]))
+def read_recordings(paths: Sequence[Path], unit: float | None) -> Recordings:
+    """All takes on the first one's body, mended as for a build; ValueError where one has other bones."""
+    takes = read_mended(find_takes(paths, BY_BLENDER), unit)
+    first = takes[0]
+    for each in takes:
+        _check_bones(each.path, each.take.skeleton, first.path, first.take.skeleton)
+    with core_failures(str(first.path.parent)):
+        return Recordings(*on_one_body(takes))
 
 
 def _check_bones(file: Path, skeleton: core.Skeleton, first_file: Path, first: core.Skeleton) -> None:

@@ -22,6 +22,7 @@
 #include "fragments/synthesis.hpp"
 #include "fragments/whole_jumps.hpp"
 #include "motion/cycle.hpp"
+#include "motion/discontinuities.hpp"
 #include "motion/legs.hpp"
 #include "motion/mirror.hpp"
 #include "motion/one_floor.hpp"
@@ -60,13 +61,13 @@ std::vector<Contacts> all_contacts(const Kinematics& kinematics, const std::vect
                       [&](int c) { return find_contacts(kinematics, clips[c]); });
 }
 
-// Adds clips with these contacts, cuts them and marks their fragments.
+// Adds clips with these contacts, cuts them and marks their fragments; the discontinuities of each come after `seams`.
 void cut(FragmentPool& pool, std::vector<Clip> clips, const std::vector<Contacts>& contacts, Origin origin,
-         const BuildOptions& options) {
+         const BuildOptions& options, std::vector<std::vector<int>>& seams) {
   const std::size_t before = pool.fragments.size();
   for (std::size_t c = 0; c < clips.size(); ++c) {
     pool.clips.push_back(std::move(clips[c]));
-    cut_fragments(pool, static_cast<int>(pool.clips.size()) - 1, contacts[c], options.cut);
+    seams.push_back(cut_fragments(pool, static_cast<int>(pool.clips.size()) - 1, contacts[c], options.cut));
   }
   drop_lying(pool, before);
   for (std::size_t i = before; i < pool.fragments.size(); ++i) pool.fragments[i].origin = origin;
@@ -98,7 +99,8 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
       parallel_map(takes, threads, [&](int c) { return in_rounds(kinematics, make_clip(skeleton, clips[c])); });
   std::vector<Contacts> contacts = all_contacts(kinematics, captured, threads);
   put_on_one_floor(captured, contacts);
-  cut(pool, std::move(captured), contacts, Origin::captured, options);
+  std::vector<std::vector<int>> seams;
+  cut(pool, std::move(captured), contacts, Origin::captured, options, seams);
   if (pool.fragments.empty()) {
     throw std::invalid_argument("the takes are too short: none holds a fragment of " +
                                 std::to_string(options.cut.shortest) + " s");
@@ -108,8 +110,9 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
     std::vector<Clip> mirrored = parallel_map(takes, threads, [&](int c) { return mirror(pool.clips[c]); });
     contacts = all_contacts(kinematics, mirrored, threads);
     images = mirror_images(mirror.turns(), takes);
-    cut(pool, std::move(mirrored), contacts, Origin::mirrored, options);
+    cut(pool, std::move(mirrored), contacts, Origin::mirrored, options, seams);
   }
+  for (std::size_t c = 0; c < seams.size(); ++c) close_way(seams[c], pool.clips[c]);
   return pool;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "doctor/basis.hpp"
@@ -77,6 +79,20 @@ bool walks_across(const Patient& patient, const Vector3& up) {
   return false;
 }
 
+/// The lowest place of a joint along an axis, m.
+double lowest(const Patient& patient, const Vector3& up) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int f = 0; f < patient.frames(); f += frames_between_looks(patient.frames())) {
+    for (int bone = 0; bone < patient.bones(); ++bone) least = std::min(least, up.dot(patient.head(f, bone)));
+  }
+  return least;
+}
+
+/// Whether the body stands on the ground of its file, and would go under it as it is: who lies is over the ground.
+bool stands_on_ground(const Patient& patient, const Vector3& up) {
+  return std::abs(lowest(patient, up)) < -lowest(patient, Vector3::UnitZ());
+}
+
 /// How far feet and knees point to the front that the sides tell: -1 to 1, and lengths of a leg.
 struct Front {
   double feet = 0, knees = 0;
@@ -129,7 +145,7 @@ Findings find_up(const Patient& patient) {
   const Vector3 up = up_axis(patient);
   if (up.isZero(0) || up.z() == 1) return {};
   const bool rests_so = standing_axis(Patient(patient.skeleton())) == up;
-  const bool sure = rests_so || walks_across(patient, up);
+  const bool sure = rests_so || walks_across(patient, up) || stands_on_ground(patient, up);
   const std::string doubt = sure ? "" : " (or the take is of somebody who lies)";
   return {mendable(found(patient, "up", Severity::kWarning,
                          "the body stands along " + axis_name(up) + " and not upright: the file's up axis is another" +

@@ -60,6 +60,8 @@ void cut_ends(Patient& patient, const Findings& findings);
 Findings find_ground(const Patient& patient);
 void put_on_ground(Patient& patient, const Findings& findings);
 Findings find_slope(const Patient& patient);
+/// Of a body whose hips have no height of their own, and whose feet go up and down under them.
+Findings find_fixed_hips(const Patient& patient);
 /// Of feet that stand: other axes of the root's way by which they would, or a drift.
 Findings find_slips(const Patient& patient);
 Findings find_in_place(const Patient& patient);

@@ -8,6 +8,7 @@
 
 #include "base/decompositions.hpp"
 #include "base/quantile.hpp"
+#include "base/rounding.hpp"
 #include "doctor/basis.hpp"
 #include "doctor/check.hpp"
 #include "doctor/examine.hpp"
@@ -136,6 +137,22 @@ Findings find_slope(const Patient& patient) {
   return {found(patient, "slope", Severity::kWarning,
                 "the ground that the feet stand on rises or falls by " + centimetres(rise) +
                     " over the take: a hill or stairs, or the capture drifted; leave out the part that is not level")};
+}
+
+Findings find_fixed_hips(const Patient& patient) {
+  if (!patient.has_legs() || patient.is_four_legged() || patient.hips < 0) return {};
+  std::vector<double> soles, hips;
+  for (int f = 0; f < patient.frames(); f += frames_between_looks(patient.frames())) {
+    soles.push_back(std::min(sole(patient, f, 0).z(), sole(patient, f, 1).z()));
+    hips.push_back(patient.head(f, patient.hips).z());
+  }
+  const double moved = quantile(hips, 1) - quantile(hips, 0),
+               rise = quantile(soles, kUsualShare) - quantile(soles, 1 - kUsualShare);
+  if (moved > kFloatRounding * patient.stature() || rise * patient.scale() < kFootHeight) return {};
+  return {found(patient, "height", Severity::kWarning,
+                "the hips stay at one height, and the lower foot goes up and down by " + centimetres(rise) +
+                    ": the file does not tell how high the body is, as poses seen in a video; have it solved with the "
+                    "feet on the ground, or leave the take out")};
 }
 
 std::vector<Finding> examine_ground(const Take& take) {

@@ -65,7 +65,7 @@ void check(const CutOptions& options) {
   require_range("the longest fragment (s)", options.longest, kLeastLongest, kLongest);
 }
 
-void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const CutOptions& options) {
+std::vector<int> cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const CutOptions& options) {
   check(options);
   const Clip& source = pool.clips[clip];
   const int shortest = std::max(1, static_cast<int>(std::ceil(options.shortest * source.rate - 1e-6)));
@@ -73,7 +73,8 @@ void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const
   if (longest < shortest) {
     throw std::invalid_argument("a fragment of " + std::to_string(options.shortest) + " to " +
                                 std::to_string(options.longest) + " s holds no whole frame of clip \"" + source.name +
-                                "\" at " + std::to_string(source.rate) + " frames a second");
+                                "\" at " + std::to_string(source.rate) +
+                                " frames a second: leave it out, or tell its true rate");
   }
   Cutter cutter{pool, clip, shortest, longest, {}, {}, {}};
   if (options.at_gait_events) {
@@ -81,12 +82,14 @@ void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const
     cutter.lifts = foot_lifts(contacts);
     cutter.fore_strikes = fore_foot_strikes(contacts);
   }
+  std::vector<int> seams = discontinuities(pool.skeleton, source);
   int begin = 0;
-  for (const int found : discontinuities(pool.skeleton, source)) {
+  for (const int found : seams) {
     cutter.cut(begin, found - 1);
     begin = found;
   }
   cutter.cut(begin, source.frames - 1);
+  return seams;
 }
 
 }  // namespace fragmotion

@@ -19,9 +19,9 @@ Take read_bvh(const std::filesystem::path& path, double unit = 0.01);
 /// frames are the world's axes at rest, whatever the bones' are; rotations are written in the order Z, X, Y, in
 /// degrees; the root, and joints that leave their OFFSET, have positions before them; an end's tip is its End Site.
 /// Numbers have six decimals, so that at a `unit` of 0.01 places are right to a micrometre; the same take is the same
-/// bytes. Written as write_file does: whole or not at all. Throws std::invalid_argument on names that other programs
-/// cannot read (empty, or with blanks or braces), on numbers that are missing, naming frame and bone, on no unit as
-/// read_bvh, and as write_file.
+/// bytes. Written as write_file does: whole or not at all. Throws std::invalid_argument on names that cannot be
+/// read again (empty, with braces, or with other blanks than one between words), on numbers that are missing, naming
+/// frame and bone, on no unit as read_bvh, and as write_file.
 void write_bvh(const Take& take, const std::filesystem::path& path, double unit = 0.01);
 
 }  // namespace fragmotion

@@ -24,14 +24,21 @@ constexpr const char* kOrder = "YXZ";  // of euler_to_quaternion: Rz Rx Ry
 constexpr const char* kRotations = " Zrotation Xrotation Yrotation";
 constexpr const char* kPositions = " Xposition Yposition Zposition";
 
-bool is_odd(unsigned char c) { return c <= ' ' || c == 127 || c == '{' || c == '}'; }
+bool is_odd(unsigned char c) { return c < ' ' || c == 127 || c == '{' || c == '}'; }
+
+// Whether a reader that parts lines at their blanks gets the name back: as Biped's, with one between two words.
+bool is_read_back(const std::string& name) {
+  return std::none_of(name.begin(), name.end(), is_odd) && name.front() != ' ' && name.back() != ' ' &&
+         name.find("  ") == std::string::npos;
+}
 
 void check_names(const Skeleton& skeleton) {
   for (const std::string& name : skeleton.names) {
     if (name.empty()) throw std::invalid_argument("a bone has no name, and a BVH file needs one for each: name it");
-    if (std::any_of(name.begin(), name.end(), is_odd)) {
-      throw std::invalid_argument("bone '" + name + "': a blank or a brace ends a name in a BVH file: rename it");
-    }
+    if (is_read_back(name)) continue;
+    throw std::invalid_argument("bone '" + name +
+                                "': no brace, and no blank but one between words, may be in a name of a BVH file: "
+                                "rename it");
   }
 }
 

@@ -66,4 +66,14 @@ std::vector<int> discontinuities(const Skeleton& skeleton, const Clip& clip) {
   return frames;
 }
 
+void close_way(const std::vector<int>& discontinuities, Clip& clip) {
+  for (const int f : discontinuities) {
+    for (std::size_t axis : {0, 1}) {
+      const std::size_t first = std::size_t{3} * f + axis;
+      const double jump = clip.root_positions[first] - clip.root_positions[first - 3];
+      for (std::size_t i = first; i < clip.root_positions.size(); i += 3) clip.root_positions[i] -= jump;
+    }
+  }
+}
+
 }  // namespace fragmotion

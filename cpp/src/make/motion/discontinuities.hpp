@@ -15,4 +15,8 @@ namespace fragmotion {
 /// began.
 std::vector<int> discontinuities(const Skeleton& skeleton, const Clip& clip);
 
+/// Lets the hips go on at each of these frames over the place where they were in the frame before: how fast a body goes
+/// is told by the frames around, and a place to which it jumped is no way that it went.
+void close_way(const std::vector<int>& discontinuities, Clip& clip);
+
 }  // namespace fragmotion

@@ -268,11 +268,12 @@ struct Told {
 Told told_posture(const std::vector<Clip>& clips, Body& body) {
   Told told{rest_posture(body.skeleton()), {}};
   face_forward(body.map, told.posture);
+  const std::vector<Vector3> hinges = mean_hinges(body.kinematics, body.map, clips);
   body.stands = stands(body.map, told.posture);
-  if (body.stands) return told;
+  if (body.stands && bends_back(body.map, told.posture, hinges)) return told;
   const std::optional<PosedBones> mean = mean_posture(body.kinematics, body.map, clips);
-  body.stands = mean.has_value();
-  return mean ? Told{*mean, mean_hinges(body.kinematics, body.map, clips)} : told;
+  body.stands = body.stands || mean;
+  return mean ? Told{*mean, hinges} : told;
 }
 
 // How the feet stand flat: in the clips where they do, else as in the posture.

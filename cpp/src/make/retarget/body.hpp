@@ -31,9 +31,9 @@ struct Body {
 };
 
 /// The body of a skeleton by its map of roles. The pose is told by the rest pose where that is one of a standing body,
-/// however its arms are held and wherever it faces, else by how it goes in `clips` of it; flat feet by the clips where
-/// they stand in them; where hands without fingers point by `skin`, where given. Throws std::invalid_argument naming
-/// what is missing of hips and legs, or hangs wrong.
+/// however its arms are held and wherever it faces, whose knees bend to its back in `clips` of it, else by how it goes
+/// in these; flat feet by the clips where they stand in them; where hands without fingers point by `skin`, where given.
+/// Throws std::invalid_argument naming what is missing of hips and legs, or hangs wrong.
 Body make_body(const Skeleton& skeleton, const RoleMap& map, const std::vector<Clip>& clips = {},
                const Skin* skin = nullptr);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quantile.hpp"
 #include "base/rates.hpp"
 #include "motion/foot_paths.hpp"
 #include "motion/pose.hpp"
@@ -121,30 +122,51 @@ std::vector<int> flat_frames(const FootPath& path, const FootHeights& floor, dou
   return frames;
 }
 
-// Sums up the frames in which a foot stands flat.
+// A moment in which a foot stands flat.
+struct FlatMoment {
+  Quaternion foot, toe;
+  double ball = 0, heel = 0;
+};
+
+// The frames in which a foot stands flat.
 class FlatFrames {
  public:
   explicit FlatFrames(const Leg& leg) : leg_(leg) {}
 
   void add(const Quaternion& to_frame, const PosedBones& posed, const FootPath& path, int frame) {
-    foot_.add(to_frame * posed.rotations[leg_.foot]);
-    if (leg_.toe >= 0) toe_.add(to_frame * posed.rotations[leg_.toe]);
-    ball_ += path.ball[frame].z();
-    heel_ += path.heel[frame].z();
-    ++count_;
+    moments_.push_back({to_frame * posed.rotations[leg_.foot],
+                        leg_.toe >= 0 ? to_frame * posed.rotations[leg_.toe] : Quaternion::Identity(),
+                        path.ball[frame].z(), path.heel[frame].z()});
   }
 
-  FlatFoot result() const {
-    if (count_ < kEnough) return {};
-    const Quaternion toe = leg_.toe >= 0 ? toe_.mean() : Quaternion::Identity();
-    return {true, foot_.mean(), toe, {ball_ / count_, heel_ / count_}};
+  // The mean of those on the ground on which most of them are, nearer to it than `near`: somebody who sits lets feet
+  // hang still somewhere else.
+  FlatFoot result(double near) const {
+    const double ball = middle(&FlatMoment::ball), heel = middle(&FlatMoment::heel);
+    MeanRotation foot, toe;
+    FootHeights sums;
+    int count = 0;
+    for (const FlatMoment& moment : moments_) {
+      if (std::abs(moment.ball - ball) >= near || std::abs(moment.heel - heel) >= near) continue;
+      foot.add(moment.foot);
+      toe.add(moment.toe);
+      sums.ball += moment.ball;
+      sums.heel += moment.heel;
+      ++count;
+    }
+    if (count < kEnough) return {};
+    return {true, foot.mean(), toe.mean(), {sums.ball / count, sums.heel / count}};
   }
 
  private:
+  double middle(double FlatMoment::*height) const {
+    std::vector<double> heights;
+    for (const FlatMoment& moment : moments_) heights.push_back(moment.*height);
+    return heights.empty() ? 0 : median(heights);
+  }
+
   Leg leg_;
-  MeanRotation foot_, toe_;
-  double ball_ = 0, heel_ = 0;
-  int count_ = 0;
+  std::vector<FlatMoment> moments_;
 };
 
 Vector3 between(const RoleMap& map, const PosedBones& posture, Role role) {
@@ -201,6 +223,17 @@ std::vector<Vector3> mean_hinges(const Kinematics& kinematics, const RoleMap& ma
   return sums;
 }
 
+bool bends_back(const RoleMap& map, const PosedBones& posture, const std::vector<Vector3>& hinges) {
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    for (const Role role : {Role::kThigh, Role::kShin}) {
+      const int bone = map.bone(role, side);
+      const Vector3 hinge = posture.rotations[bone] * hinges[bone];
+      if (!hinge.isZero(0) && hinge.dot(-Vector3::UnitX()) < kStraight) return false;
+    }
+  }
+  return true;
+}
+
 std::array<FlatFoot, 2> flat_feet(const Kinematics& kinematics, const Legs& legs, const std::vector<Clip>& clips) {
   const std::vector<int> bones = kinematics.chains({legs[0].foot, legs[0].toe, legs[1].foot, legs[1].toe});
   const double scale = standard_scale(kinematics.skeleton());
@@ -216,7 +249,8 @@ std::array<FlatFoot, 2> flat_feet(const Kinematics& kinematics, const Legs& legs
       }
     }
   }
-  return {sums[0].result(), sums[1].result()};
+  const double near = kFlatSole / scale;
+  return {sums[0].result(near), sums[1].result(near)};
 }
 
 void face_forward(const RoleMap& map, PosedBones& posture) {

@@ -23,6 +23,10 @@ std::optional<PosedBones> mean_posture(const Kinematics& kinematics, const RoleM
 /// and where they hardly bend.
 std::vector<Vector3> mean_hinges(const Kinematics& kinematics, const RoleMap& map, const std::vector<Clip>& clips);
 
+/// Whether knees bend to the back of a posture that faces +y, which they do about these hinges, or nothing is known of
+/// any: files whose rotations were made of joints' places alone turn their bones otherwise than they rest.
+bool bends_back(const RoleMap& map, const PosedBones& posture, const std::vector<Vector3>& hinges);
+
 /// A foot that stands flat, as clips have it.
 struct FlatFoot {
   bool known = false;
@@ -30,7 +34,8 @@ struct FlatFoot {
   FootHeights heights;                                                     ///< m
 };
 
-/// The left and the right foot where they stand flat and still in clips.
+/// The left and the right foot where they stand flat and still in clips, on the ground on which most of that is: who
+/// sits lets them hang.
 std::array<FlatFoot, 2> flat_feet(const Kinematics& kinematics, const Legs& legs, const std::vector<Clip>& clips);
 
 /// Turns a posture so that it faces +y and stands upright: about the vertical alone, unless the trunk leans far.
