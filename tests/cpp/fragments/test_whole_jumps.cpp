@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "fragments/evident.hpp"
 #include "fragments/packed_pool.hpp"
 #include "fragments/whole_jumps.hpp"
 #include "walker.hpp"
@@ -52,6 +53,18 @@ TEST(WholeJumps, BeginWhereTheCrouchDoesAndEndWhereTheLandingDoes) {
     EXPECT_EQ(pool.fragments[other].first_played(), pool.fragments[other].begin);
     EXPECT_EQ(pool.fragments[other].last_played(), pool.fragments[other].end);
   }
+}
+
+TEST(WholeJumps, LendSomeOfTheJumpToCrouchAndLandingAlone) {
+  FragmentPool pool{humanoid(), {make_clip(humanoid(), jumping_clip())}, {}};
+  pool.fragments = {fragment(0, 0.8, 0), fragment(0.8, 1.3, 0), fragment(1.3, 1.7, 1), fragment(1.7, 2.2, 0),
+                    fragment(2.2, 2.9, 0)};
+  lead_to_jumps(pool);
+  const double led = pool.fragments[1].evident.jump;
+  EXPECT_GT(led, 0.3);
+  EXPECT_FALSE(pool.fragments[1].evident.jumps());
+  EXPECT_EQ(pool.fragments[3].evident.jump, led);
+  for (const int other : {0, 4}) EXPECT_EQ(pool.fragments[other].evident.jump, 0);
 }
 
 TEST(WholeJumps, StayWithinWhatBelongsTogether) {

@@ -347,6 +347,30 @@ TEST(Player, GoesForwardFromWhereItIsPut) {
   }
 }
 
+TEST(Player, GoesByStepsWithRestsOnBothFeetWhereItIsToGoSlowly) {
+  constexpr double kRate = 60, kSlow = 0.25;  // frames a second, m/s
+  Player player(gait_character());
+  for (int i = 0; i < 2 * kRate; ++i) player.step({0, kSlow, 0, 0}, 1 / kRate);
+  const double from = player.frame().position.y();
+  int rests = 0;
+  std::array<int, 2> swings{}, longest{};
+  for (int i = 0; i < 10 * kRate; ++i) {
+    player.step({0, kSlow, 0, 0}, 1 / kRate);
+    const auto feet = player.standing_feet();
+    rests += feet[0] && feet[1] ? 1 : 0;
+    for (int side = 0; side < 2; ++side) {
+      swings[side] = feet[side] ? 0 : swings[side] + 1;
+      longest[side] = std::max(longest[side], swings[side]);
+    }
+  }
+  EXPECT_NEAR(player.frame().position.y() - from, 10 * kSlow, 0.1);
+  EXPECT_GT(rests, 0.4 * 10 * kRate);  // in the takes a fifth of the time
+  for (const int swing : longest) {
+    EXPECT_GT(swing, 0.3 * kRate);
+    EXPECT_LT(swing, 0.7 * kRate);  // in the takes 0.4 s
+  }
+}
+
 TEST(Player, MovesAndTurnsWithThePlaceWhereItStarts) {
   PlayerOptions at_once;  // for the command that is followed is rounded otherwise there
   at_once.responsiveness = 1;

@@ -128,6 +128,7 @@ ControlSpace perform(FragmentPool& pool, const Kinematics& kinematics, const Bui
     f.evident = evident_control(motions[f.clip], pool.clips[f.clip].rate, f.begin, f.end, usual, standard);
     evident.push_back(f.evident);
   }
+  lead_to_jumps(pool);
   const ControlSpace space = control_space_of(evident, scale, options.controls);
   for (Fragment& f : pool.fragments) f.evident.turn *= standard.turn_rate() / space.turn_rate();
   return space;

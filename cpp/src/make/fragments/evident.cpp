@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/quantile.hpp"
+#include "fragments/whole_jumps.hpp"
 #include "motion/gait_bounces.hpp"
 
 namespace fragmotion {
@@ -54,6 +55,18 @@ Control evident_control(const BodyMotion& motion, double rate, int begin, int en
   control.turn = (motion.heading[end] - motion.heading[begin]) / seconds / space.turn_rate();
   control.jump = std::max(evident_jump(rise), kTakesOff * evident_jump(flight));
   return control;
+}
+
+void lead_to_jumps(FragmentPool& pool) {
+  find_whole_jumps(pool);
+  for (const Fragment& jump : pool.fragments) {
+    if (!jump.evident.jumps()) continue;
+    for (Fragment& f : pool.fragments) {
+      const int of_it = std::min(f.end, jump.last_played()) - std::max(f.begin, jump.first_played());
+      const bool leads = f.clip == jump.clip && 2 * of_it > f.end - f.begin;
+      if (leads) f.evident.jump = std::max(f.evident.jump, kTakesOff);
+    }
+  }
 }
 
 }  // namespace fragmotion

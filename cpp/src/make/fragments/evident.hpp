@@ -31,4 +31,7 @@ double usual_height(const std::vector<BodyMotion>& motions);
 Control evident_control(const BodyMotion& motion, double rate, int begin, int end, double usual,
                         const ControlSpace& space);
 
+/// Lets what is mostly of a whole jump (whole_jumps.hpp), its crouch or its landing, show no less than what takes off.
+void lead_to_jumps(FragmentPool& pool);
+
 }  // namespace fragmotion

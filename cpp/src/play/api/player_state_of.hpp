@@ -139,6 +139,8 @@ void PlayerState::exchange(Archive& a, RootGovernor& governor) {
   a.number(governor.begins_, 0, 1);
   a.number(governor.turn_rate_, -kMostSpeed, kMostSpeed);
   a.number(governor.tempo_, 0.01, 2);  // the square root of a slow walk's speed over a run's, and no quotient by 0
+  a.number(governor.quicker_, 0.01, 10);
+  a.number(governor.ahead_, -kMostTime, kMostTime);
   a.number(governor.target_heading_, -kMostPlace, kMostPlace);
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "control/gaits.hpp"
+#include "motion/contacts.hpp"
 
 namespace fragmotion {
 
@@ -135,6 +136,8 @@ int ControlSpace::nearest(const Control& control) const {
   const int jump = least(2, [&](int i) { return square(weights_.jump * (i - control.jump)); });
   return layout_.index(velocity, turn - 1, jump == 1);
 }
+
+bool ControlSpace::asks_to_go(const Control& control) const { return control.speed() * scale_ > 0.8 * kMoving; }
 
 Control ControlSpace::rounded(const Control& control) const {
   const Control steps = this->steps();

@@ -91,6 +91,9 @@ class ControlSpace {
   const ControlWeights& weights() const { return weights_; }
   const Control& point(int index) const { return points_[index]; }
 
+  /// Whether a control asks to go, by single steps at least: for more than four fifths of kMoving.
+  bool asks_to_go(const Control& control) const;
+
   /// The control without a turn or a jump where none can be asked for.
   Control admitted(const Control& control) const {
     return {control.x, control.y, layout_.turn ? control.turn : 0, layout_.jump ? control.jump : 0};

@@ -76,8 +76,8 @@ bool FootLock::all_locked() const {
 }
 
 // A body that has come to stand does not stay in the middle of a stride.
-void FootLock::settle(double seconds) {
-  stood_ = all_locked() ? stood_ + seconds : 0;
+void FootLock::settle(bool settles, double seconds) {
+  stood_ = settles && all_locked() ? stood_ + seconds : 0;
   if (stood_ < body_->constants.release) return;
   const auto astray = [&](const Foot& foot) { return (foot.place - foot.moved).norm() * body_->scale; };
   Foot& foot = *std::max_element(feet_.begin(), feet_.end(),
@@ -183,7 +183,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
   const Vector2 shift = heading * edit.shift;
   std::array<Vector3, kMostLegs> ankles;
   double strained = 0;
-  settle(seconds);
+  settle(edit.settles, seconds);
   for (int side = 0; side < count; ++side) {
     const Vector3 place = ball(skeleton, legs[side], posed), ankle = ankle_of(legs[side], posed);
     const FootHeights& floor = contacts.floors[side];

@@ -18,7 +18,8 @@ namespace fragmotion {
 struct StepEdit {
   Matrix2 stride = Matrix2::Zero();
   Vector2 shift = Vector2::Zero();
-  double clears = 0;  ///< How much of the way off the floor a free foot is lifted that is too low to go so fast.
+  double clears = 0;    ///< How much of the way off the floor a free foot is lifted that is too low to go so fast.
+  bool settles = true;  ///< Whether a body steps out of a stride in which it stands: it is not about to go on.
 
   /// By how much a foot is moved that is so far from the hips, m in the world, of a body that faces `heading`.
   Vector2 moved(const Vector2& from_hips, double heading) const;
@@ -96,7 +97,7 @@ class FootLock {
   bool all_locked() const;
   Vector2 away(int side, const Vector2& moved, bool planted, double seconds);
   void lock(Foot& foot, const Vector2& shown, double seconds) const;
-  void settle(double seconds);
+  void settle(bool settles, double seconds);
   double step_height(const Foot& foot) const;
   double hovers(const Foot& foot, double over, double ball, double clear) const;
   double lowered(Foot& foot, double over, double hovers) const;

@@ -13,12 +13,16 @@ constexpr double kToDeepest = 0.7;  // s at most from the highest moment of the 
 constexpr double kToUpright = 0.6;  // s at most from there to where the hips are up
 constexpr double kUpright = 0.01;   // m of a 1.8 m character under their highest, from where hips are up
 
+double hips_height(const PackedClip& clip, int frame) { return sample_pose(clip, frame, 0, nullptr).z(); }
+double hips_height(const Clip& clip, int frame) { return clip.root_positions[std::size_t{3} * frame + 2]; }
+
 // The hips' heights over some frames of a clip.
 class HipsHeights {
  public:
-  HipsHeights(const Skeleton& skeleton, const PackedClip& clip, int first, int last)
+  template <typename AnyClip>
+  HipsHeights(const Skeleton& skeleton, const AnyClip& clip, int first, int last)
       : first_(first), last_(last), tolerance_(kUpright / standard_scale(skeleton)), rate_(clip.rate) {
-    for (int f = first; f <= last; ++f) heights_.push_back(sample_pose(clip, f, 0, nullptr).z());
+    for (int f = first; f <= last; ++f) heights_.push_back(hips_height(clip, f));
   }
 
   double operator()(int frame) const { return heights_[frame - first_]; }
@@ -56,7 +60,8 @@ class HipsHeights {
 
 // The frames that belong together with a fragment: of a take the fragments that follow each other without a gap, as
 // there may be a discontinuity between others, of a synthesized clip all.
-std::pair<int, int> connected(const PackedPool& pool, int fragment) {
+template <typename AnyClip>
+std::pair<int, int> connected(const Pool<AnyClip>& pool, int fragment) {
   const std::vector<Fragment>& all = pool.fragments;
   const Fragment& f = all[fragment];
   if (f.origin == Origin::interpolated || f.origin == Origin::transformed) return {0, pool.clips[f.clip].frames - 1};
@@ -69,12 +74,13 @@ std::pair<int, int> connected(const PackedPool& pool, int fragment) {
 
 }  // namespace
 
-void find_whole_jumps(PackedPool& pool) {
+template <typename AnyClip>
+void find_whole_jumps(Pool<AnyClip>& pool) {
   for (int i = 0; i < static_cast<int>(pool.fragments.size()); ++i) {
     Fragment& f = pool.fragments[i];
     f.lead_in = f.lead_out = 0;
     if (!f.evident.jumps()) continue;
-    const PackedClip& clip = pool.clips[f.clip];
+    const AnyClip& clip = pool.clips[f.clip];
     const auto [first, last] = connected(pool, i);
     const int far = static_cast<int>((kToDeepest + kToUpright) * clip.rate) + 1;
     const HipsHeights heights(pool.skeleton, clip, std::max(first, f.begin - far), std::min(last, f.end + far));
@@ -83,5 +89,8 @@ void find_whole_jumps(PackedPool& pool) {
     f.lead_out = std::max(0, heights.upright(highest, 1) - f.end);
   }
 }
+
+template void find_whole_jumps(FragmentPool& pool);
+template void find_whole_jumps(PackedPool& pool);
 
 }  // namespace fragmotion

@@ -8,6 +8,7 @@ namespace fragmotion {
 /// Makes each fragment that jumps a whole jump: its lead_in begins where the hips, high before they crouch for the
 /// take-off, begin to sink, at most 0.6 s before the crouch is deepest, and its lead_out ends where the hips, deep
 /// after the landing, are up again, at most 0.6 s after that. Neither leaves the clip. The others get none.
-void find_whole_jumps(PackedPool& pool);
+template <typename AnyClip>
+void find_whole_jumps(Pool<AnyClip>& pool);
 
 }  // namespace fragmotion

@@ -8,7 +8,6 @@
 #include "base/rates.hpp"
 #include "base/rounding.hpp"
 #include "fragments/entry_poses.hpp"
-#include "motion/contacts.hpp"
 
 namespace fragmotion {
 
@@ -62,12 +61,12 @@ bool Director::has_changed(const Control& wanted) const {
   return character_->space.distance(wanted, decided_for_) > kChange;
 }
 
-// Whatever goes slower than the slowest speed, and does not stand, goes at that.
+// Whatever is to go slower than the slowest speed goes at that.
 int Director::look_up_class(int playing, const Control& wanted) const {
   const ControlSpace& space = character_->space;
   Control asked = wanted;
   const double speed = wanted.speed();
-  if (speed * space.scale() > kMoving && speed < space.slowest()) {
+  if (space.asks_to_go(wanted) && speed < space.slowest()) {
     asked.x *= space.slowest() / speed;
     asked.y *= space.slowest() / speed;
   }

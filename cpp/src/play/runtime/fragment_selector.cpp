@@ -63,7 +63,7 @@ void FragmentSelector::find_candidates(int next_class, const Control& control, c
   const Character& c = *style_->character;
   const Control& usually = c.pool.fragments[c.classes.representatives[next_class]].evident;
   const Control wanted = control;  // whatever is written, this stays
-  const bool matches = matches_jump(usually, wanted), goes = is_moving(wanted) && answers(usually, wanted),
+  const bool matches = matches_jump(usually, wanted), goes = c.space.asks_to_go(wanted) && answers(usually, wanted),
              is_mirrored = left.fragment.origin == Origin::mirrored;
   const auto of_left = static_cast<std::size_t>(left.fragment.clip);
   const bool is_here = of_left < c.contacts.size() && &left.contacts == &c.contacts[of_left];  // not of another style
@@ -77,8 +77,8 @@ void FragmentSelector::find_candidates(int next_class, const Control& control, c
   }
 }
 
-bool FragmentSelector::is_moving(const Control& control) const {
-  return control.speed() * style_->character->space.scale() > kMoving;
+bool FragmentSelector::is_moving(const Control& evident) const {
+  return evident.speed() * style_->character->space.scale() > kMoving;
 }
 
 // The tip_distance() of a fragment's beginning to what was extrapolated.
@@ -118,7 +118,8 @@ float FragmentSelector::least_cost(int next_class, const Control& evident, const
 
 bool FragmentSelector::goes_as_asked(int of_class, const Control& control) const {
   const Character& c = *style_->character;
-  return !is_moving(control) || answers(c.pool.fragments[c.classes.representatives[of_class]].evident, control);
+  return !c.space.asks_to_go(control) ||
+         answers(c.pool.fragments[c.classes.representatives[of_class]].evident, control);
 }
 
 int FragmentSelector::successor(int fragment, const Control& control) const {
@@ -130,7 +131,7 @@ int FragmentSelector::successor(int fragment, const Control& control) const {
   const bool is_excluded =
       quality.match[static_cast<std::size_t>(class_of(next)) * quality.controls + c.space.nearest(control)] == 0;
   const bool stands = !is_moving(evident) || style_->cost.slows_down(next),
-             as_asked = is_moving(control) ? answers(evident, control) : stands;
+             as_asked = c.space.asks_to_go(control) ? answers(evident, control) : stands;
   return !is_excluded && as_asked && matches_jump(evident, control) ? next : -1;
 }
 

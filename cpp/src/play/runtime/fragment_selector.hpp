@@ -82,7 +82,7 @@ class FragmentSelector {
   void extrapolate(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const;
   void extrapolate(const Playback& playback) const;
   void extrapolate_end(const Fragment& fragment) const;
-  bool is_moving(const Control& control) const;
+  bool is_moving(const Control& evident) const;
   void find_candidates(int next_class, const Control& control, const Left& left, Candidates& candidates) const;
   float distance(int fragment) const;
   int out_of_turn(const Entrant& entrant, bool went, const StepSequence& steps) const;

@@ -204,6 +204,21 @@ double Playback::until_standing(int side) const {
   return std::max(0.0, (static_cast<double>(next - stands.begin()) - at) / rate);
 }
 
+BothStand Playback::both_stand() const {
+  const Contacts& contacts = this->contacts();
+  const std::size_t frames = contacts.feet[0].size(), now = frame_of_clip();
+  const auto both = [&](std::size_t f) { return contacts.stands(0, f) && contacts.stands(1, f); };
+  const int stance = contacts.stands(0, now) ? 0 : 1;
+  std::size_t begins = now;
+  while (contacts.stands(stance, begins) && !both(begins)) ++begins;
+  if (!both(begins)) return {};
+  std::size_t ends = begins + 1;
+  while (ends < frames && both(ends)) ++ends;
+  const double rate = clip(now_).rate, at = fragment().first_played() + now_.seconds * rate;
+  const double from = begins > now ? static_cast<double>(begins) : at;
+  return {(from - at) / rate, std::max(1.0, static_cast<double>(ends) - from) / rate};
+}
+
 bool Playback::is_in_the_air() const {
   if (!evident().jumps()) return false;
   return !contacts().feet[0].empty() && !contacts().any_stands(frame_of_clip());

@@ -8,6 +8,13 @@
 
 namespace fragmotion {
 
+/// When both feet stand next before the one that stands is lifted: s until then, 0 where they do, and s that they do so
+/// from then on, a frame at least.
+struct BothStand {
+  double begins = -1;  ///< -1: they do not
+  double lasts = 0;
+};
+
 /// A stitch that is to take less is none, s.
 constexpr double kShortestStitch = 0.001;
 
@@ -90,6 +97,8 @@ class Playback {
   std::array<bool, 2> standing_feet(double seconds) const;
   /// Until a foot stands, as the take has it, s: 0 where it does; the take's end where it does not any more.
   double until_standing(int side) const;
+  /// When both feet stand next, as the take has it.
+  BothStand both_stand() const;
   /// How the feet came down so far.
   const StepSequence& steps() const { return steps_; }
   /// Since the first pose that is played of the fragment, s.

@@ -138,7 +138,7 @@ void Player::keep(const Vector2& faster) {
 
 Vector2 Player::commanded_velocity() const {
   if (playing_moves()[0] < 0 && !playback_.is_in_the_air()) return governor_.commanded(frame().heading);
-  return governor_.tempo() * playback_.mean_travel().velocity + governor_.velocity();
+  return governor_.pace() * playback_.mean_travel().velocity + governor_.velocity();
 }
 
 void Player::correct(const Control& control, double seconds) {
@@ -156,10 +156,10 @@ FeetAhead Player::feet_ahead() const {
   Course course{playback_.frame(), governor_.velocity(), governor_.turn_rate(), correction_.steps(), {}, {}, {}};
   for (int side = 0; side < 2; ++side) {
     course.stands[side] = correction_.plants(side, contacts.stands(side, playback_.frame_of_clip()));
-    course.until_standing[side] = playback_.until_standing(side) / governor_.tempo();
+    course.until_standing[side] = playback_.until_standing(side) / governor_.pace();
   }
   course.sample = [this](double seconds, WorldPose& pose) {
-    playback_.sample_body(playback_.seconds() + governor_.tempo() * seconds, pose);
+    playback_.sample_body(playback_.seconds() + governor_.pace() * seconds, pose);
   };
   return look_ahead(*workspace_->body, workspace_->floors, correction_.foot_lock(), course, workspace_->shown,
                     workspace_->poses[0]);
@@ -246,7 +246,7 @@ double Player::advance_by_policy(const Control& control, double most) {
   const Control soon = governor_.command(control, frame().heading, most + kSoon);
   const bool changes = !(soon.x == control.x && soon.y == control.y) && !playback_.is_in_the_air();
   if (director_.is_due(soon, changes, playback_, selector_)) go_on(soon);
-  const double tempo = governor_.tempo(), played = director_.until_due(playback_, most * tempo), part = played / tempo;
+  const double pace = governor_.pace(), played = director_.until_due(playback_, most * pace), part = played / pace;
   playback_.advance(played);
   governor_.steer(control, part, playback_);
   return part;

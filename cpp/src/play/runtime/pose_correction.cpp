@@ -8,12 +8,6 @@
 #include "runtime/look_stitch.hpp"
 
 namespace fragmotion {
-namespace {
-
-constexpr double kLonger = kTurnsAtMost - 1;  // of a step at most, as legs swing that much faster for it
-
-}  // namespace
-
 PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace, bool lock_feet)
     : workspace_(&workspace),
       scale_(character.space.scale()),
@@ -45,16 +39,18 @@ void PoseCorrection::correct(const Playback& playback, const RootGovernor& gover
 void PoseCorrection::edit_steps(const Control& evident, const RootGovernor& governor, double seconds) {
   const Vector2 velocity{evident.x, evident.y};
   const bool goes = evident.speed() * scale_ > kMoving;
-  const Matrix2 wanted =
-      goes ? Matrix2{governor.velocity() * velocity.transpose() / (governor.tempo() * velocity.squaredNorm())}
-           : Matrix2{Matrix2::Zero()};
-  const double most = std::min(1.0, kLonger / std::max(kLonger, wanted.norm()));
+  const Vector2 longer = governor.velocity() + (governor.pace() - governor.tempo()) * velocity;
+  const Matrix2 wanted = goes ? Matrix2{longer * velocity.transpose() / (governor.tempo() * velocity.squaredNorm())}
+                              : Matrix2{Matrix2::Zero()};
+  const double longest = kTurnsAtMost - 1;  // of a step, as legs swing that much faster for it
+  const double most = std::min(1.0, longest / std::max(longest, wanted.norm()));
   const double strode = filtered(seconds, workspace_->constants.feet.release);
   steps_.stride += strode * (most * wanted - steps_.stride);
   const Vector2 behind =
       -workspace_->constants.feet.ahead * workspace_->shown.root.z() / kGravity * lean_.acceleration();
   steps_.shift += strode * (behind - steps_.shift);
   const double pushes = scale_ * governor.acceleration().norm() / workspace_->constants.root.acceleration;
+  steps_.settles = !governor.rests();
   steps_.clears = goes ? std::min(1.0, pushes) : 0;
 }
 

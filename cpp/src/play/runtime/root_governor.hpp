@@ -29,7 +29,7 @@ class RootGovernor {
   void resume(double heading, const Vector2& velocity) { limit_.reset(heading, velocity); }
   /// Lets the root keep the velocity by which what played was faster than what begins to, m/s in the character frame.
   void keep(const Vector2& faster) {
-    velocity_ += tempo_ * faster;
+    velocity_ += pace() * faster;
     begins_ = true;
   }
 
@@ -44,6 +44,10 @@ class RootGovernor {
   /// How much faster than captured what plays is to be played: half of what the control is slower or faster than the
   /// fragment is made up for by steps that follow each other later or sooner, the rest by shorter or longer ones.
   double tempo() const { return tempo_; }
+  /// The same at this moment: where steps are so slow, legs swing sooner, and both feet stand the longer.
+  double pace() const { return tempo_ * quicker_; }
+  /// Whether both feet are to stand for longer than captured, or do.
+  bool rests() const { return ahead_ > 0; }
   /// Of the root beyond what plays: m/s in the character frame, and rad/s.
   const Vector2& velocity() const { return velocity_; }
   double turn_rate() const { return turn_rate_; }
@@ -57,6 +61,7 @@ class RootGovernor {
   friend struct PlayerState;
 
   void steer_tempo(const Control& command, const Playback& playback, double seconds);
+  void steer_pace(const Playback& playback, const Travel& mean, double settled, double seconds);
   void steer_velocity(const Control& command, const Vector2& mean, bool in_the_air, double settled, double seconds);
   void steer_turn(double asked, double mean, const Playback& playback, double settled, double seconds);
   Vector2 velocity_to_add(const Control& command, const Vector2& mean) const;
@@ -71,6 +76,8 @@ class RootGovernor {
   bool begins_ = true;                  // but for when it has just begun
   double turn_rate_ = 0;                // that is added, rad/s
   double tempo_ = 1;
+  double quicker_ = 1;         // the pace over the tempo,
+  double ahead_ = 0;           // and s of what plays by which it has got ahead of that
   double target_heading_ = 0;  // rad: what the turn rates that were asked for add up to
 };
 
