@@ -100,8 +100,9 @@ std::map<int, int> find_hanging(const std::vector<std::string>& names, const std
       if (strays < least) least = strays, best = other;
     }
     if (best < 0) continue;
-    if (beside == bone) best = hub_of(straying, parents, candidates, bone, best);
-    if (best == bone) continue;
+    const int hub = beside == bone ? hub_of(straying, parents, candidates, bone, best) : best;
+    if (hub == bone) continue;
+    if (!moves(parents, hanging, bone, hub)) best = hub;
     hanging[bone] = best;
     if (is_paired) hanging[beside] = twin(best);
   }
