@@ -91,7 +91,6 @@ void bind_tables(py::class_<Character, Holder>& character) {
       .def_property_readonly("table", viewed<int>(table, 1))
       .def_property_readonly("bridges", viewed<int>(bridges, 1))
       .def_property_readonly("class_names", &class_names)
-      .def_property_readonly("unanswered", &unanswered_controls)
       .def_property_readonly(
           "coverage_counts",
           [](const Character& c) { return to_array(coverage(c.pool.fragments, c.space).counts, {c.space.size()}); })

@@ -181,6 +181,16 @@ void bind_abilities(py::module_& m) {
         return std::vector<bool>(done.begin(), done.end());
       },
       py::arg("character").none(false), py::arg("threads") = 0);
+  m.def(
+      "undone_controls",
+      [](const ControlSpace& space, const std::vector<bool>& done) {
+        if (static_cast<int>(done.size()) != space.size())
+          throw std::invalid_argument("done has " + std::to_string(done.size()) +
+                                      " values, expected one of each of the " + std::to_string(space.size()) +
+                                      " controls");
+        return undone_controls(space, {done.begin(), done.end()});
+      },
+      py::arg("space"), py::arg("done"));
 }
 
 void bind_explain(py::module_& m) {

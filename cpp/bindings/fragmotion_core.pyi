@@ -536,8 +536,6 @@ class Character:
     """[n,n]: 1/(1 + Dis(last pose of Q, first pose of Q')), the first factor of Eq. 2."""
     match: Doubles
     """[n,controls]: 1/(1 + ControlDis(Ev(Q'), c)), the second factor of Eq. 2."""
-    unanswered: list[str]
-    """What can be asked for by the stick alone, as "run back", and no class does: the nearest that one does is done."""
     table: Ints
     """[n,controls]: the policy that drives, class x control -> next class."""
     bridges: Ints
@@ -1039,6 +1037,10 @@ def optimal_performance(character: Character, trace: ArrayLike, rate: float, sho
 def abilities(character: Character, threads: int = 0) -> list[bool]:
     """Which of its controls the character does: those without a jump are asked for over six seconds, and done where
     velocity and turn rate are within a fifth and 30 %; of those with a jump, which a fragment performs."""
+
+def undone_controls(space: ControlSpace, done: Sequence[bool]) -> list[str]:
+    """What can be asked for by the stick alone, as "run back", and is not done, as `abilities` tells; ValueError unless
+    `done` has a value of each control."""
 
 NO_RESPONSE: float
 """s after which a change of the stick counts as not answered."""

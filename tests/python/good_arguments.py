@@ -371,6 +371,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "entered": performance.entered.tolist(),
         },
         "abilities": {"character": other, "threads": 1},
+        "undone_controls": {"space": other.space, "done": [True] * len(other.space.points)},
         "response_times": {"character": other, **player},
         "about_face_times": {"character": other, **player},
         "speed_ripples": {"character": other, **player},

@@ -46,6 +46,7 @@ def test_info_tells_what_was_built(folder: Path, capsys: pytest.CaptureFixture[s
     assert found["classes"] == 20 == len(character.class_names)
     assert found["fragments"] == len(character.fragment_durations) > 100
     assert found["walk"] == character.space.walk and found["policies"] == character.policies
+    assert found["undone"] == core.undone_controls(character.space, core.abilities(character)) != []
 
 
 def test_a_broken_file_is_named_and_the_rest_is_built_from(

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .control_layout import ControlLayout
+from ..compat.core import core
+from .control_layout import ControlLayout, layout_of
 
 if TYPE_CHECKING:
+    from fragmotion_core import ControlSpace
     from numpy.typing import NDArray
 
 NOTHING = "Hardly moves: none of its takes goes anywhere, as far as can be told"
@@ -38,12 +40,10 @@ def say_abilities(done: Sequence[bool], layout: ControlLayout) -> str:
     return told[0].upper() + told[1:]
 
 
-def say_undone(done: Sequence[bool], layout: ControlLayout) -> str:
+def say_undone(done: Sequence[bool], space: ControlSpace) -> str:
     """Which ways to go are not done as they are asked for, and what is done instead; empty where all are, or none."""
-    table = np.asarray(done, bool).reshape(layout.shape)[1:, layout.shape[1] // 2, 0]
-    names = [f"{gait} {direction}" for gait in layout.gaits for direction in layout.direction_names]
-    undone = [name for name, is_done in zip(names, table) if not is_done]
-    if not undone or not table.any():
+    undone = core.undone_controls(space, done)
+    if not undone or say_abilities(done, layout_of(space)) == NOTHING:
         return ""
     return (
         f"Cannot {', '.join(undone)} as it is asked to: no take shows how, and none could be made that does. "

@@ -38,16 +38,23 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
     carrying, hips = carriers(obj, rig), bones[rig.skeleton.roles["hips"]]
     others = [bone for bone in bones if bone.name not in carrying]
     candidates = [bone.name for bone in others if any(_is_moved(obj, action, bone, least) for action in actions)]
+    found = _beside_body(obj, rig)
     if candidates:
         poses = np.concatenate([posing.sample_poses(context, obj, action, _times(action))[0] for action in actions])
         parents = [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
-        found = core.find_hanging(bones.keys(), parents, poses, [bones.find(name) for name in candidates])
-        found = {**_beside_hips(obj, hips, candidates), **found}
-        for bone, on in sorted(found.items()):
-            row = obj.fragmotion.hanging.add()
-            row.name, row.on = bones[bone].name, bones[on].name
-        rig = make_rig(obj)
-    return _say(obj, rig, candidates)
+        moving = core.find_hanging(bones.keys(), parents, poses, [bones.find(name) for name in candidates])
+        found = {**found, **_beside_hips(obj, hips, candidates), **moving}
+    for bone, on in sorted(found.items()):
+        row = obj.fragmotion.hanging.add()
+        row.name, row.on = bones[bone].name, bones[on].name
+    return _say(obj, make_rig(obj) if found else rig, candidates)
+
+
+def _beside_body(obj: bpy.types.Object, rig: Rig) -> dict[int, int]:
+    """What deforms a mesh and hangs on no bone, as legs beside the spine: the body takes it along."""
+    bones, top = obj.data.bones, rig.skeleton.names[0]
+    alone = [bone for bone in bones if bone.parent is None and bone.use_deform and bone.name != top]
+    return {bones.find(bone.name): bones.find(top) for bone in alone}
 
 
 def _beside_hips(obj: bpy.types.Object, hips: bpy.types.Bone, moved: Sequence[str]) -> dict[int, int]:

@@ -96,6 +96,7 @@ def info(options: argparse.Namespace) -> Done:
 
 
 def _described(character: core.Character) -> Done:
+    undone = core.undone_controls(character.space, core.abilities(character))
     figures: dict[str, Any] = {
         "bones": len(character.skeleton.names),
         "fragments": len(character.fragment_durations),
@@ -106,6 +107,6 @@ def _described(character: core.Character) -> Done:
         **dict(zip(character.space.gaits, character.space.speeds)),
         "directions": character.space.directions,
         "controls": len(character.space.points),
-        **({"unanswered": character.unanswered} if character.unanswered else {}),
+        **({"undone": undone} if undone else {}),
     }
     return Done(figures, listed(figures))

@@ -117,6 +117,19 @@ def test_a_tail_beside_the_hips_goes_where_they_go(addon: ModuleType) -> None:
         assert off < np.linalg.norm(obj.pose.bones["hips"].location) + 1e-3, "by what the hips go on their own"
 
 
+def test_what_hangs_on_no_bone_goes_along(addon: ModuleType) -> None:
+    obj = making.open_sample()
+    action = bpy.data.actions["walk forward"]
+    with making.editing(obj) as bones:
+        for side in ("L", "R"):
+            bones[f"thigh.{side}"].use_connect, bones[f"thigh.{side}"].parent = False, None
+        bones.new("target").tail = (0, 0, 1)
+        bones["target"].use_deform = False
+    addon.rig.hanging.find_hanging(bpy.context, obj, [action])
+    assert {row.name: row.on for row in obj.fragmotion.hanging} == {"thigh.L": "root", "thigh.R": "root"}
+    assert {"shin.L", "foot.R"} < set(addon.rig.rigs.make_rig(obj).skeleton.names)
+
+
 def test_build_says_which_feet_are_not_held(addon: ModuleType) -> None:
     obj = making.open_sample()
     assert addon.character.building.say_feet(addon.rig.rigs.make_rig(obj).skeleton) == []

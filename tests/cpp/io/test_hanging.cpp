@@ -61,6 +61,21 @@ TEST(Hanging, IsFoundThoughTheFootIsOffItsPlaceWhereItStands) {
   EXPECT_EQ(find_hanging(kNames, kParents, poses.data(), 112, {4}), (std::map<int, int>{{4, 3}}));
 }
 
+// A trunk, two shoulders and a tail on one bone that stays behind, which all sway together, the tail a bit more.
+TEST(Hanging, IsOnTheTrunkOfWhatGoesBesideIt) {
+  const std::vector<std::string> names = {"root", "one", "two", "trunk", "tail"};
+  const std::vector<int> parents = {-1, 0, 0, 0, 0};
+  std::vector<double> poses;
+  for (int f = 0; f < 12; ++f) {
+    const Frame trunk = at(0, 1 + 0.1 * std::sin(f));
+    const Frame one = trunk * at(0.3, 0, 0.6 * std::sin(f)), two = trunk * at(0.3, 0, 0.5 * std::cos(f));
+    for (const Frame& frame : {at(0, 0), one, two, trunk, trunk * at(-0.3, 0)}) add_rows(frame, poses);
+  }
+  const std::map<int, int> on_trunk = {{1, 3}, {2, 3}, {4, 3}};
+  EXPECT_EQ(find_hanging(names, parents, poses.data(), 12, {1, 2, 3, 4}), on_trunk);
+  EXPECT_EQ(find_hanging(names, parents, poses.data(), 12, {1, 2, 4}), on_trunk);
+}
+
 TEST(Hanging, IsNeverOnABoneThatItMoves) {
   const std::vector<double> poses = swing();
   for (const auto& [bone, on] : find_hanging(kNames, kParents, poses.data(), 12, {1, 2, 3, 4, 5, 6}))

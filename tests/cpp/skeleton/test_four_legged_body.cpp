@@ -73,7 +73,7 @@ TEST(FourLeggedBody, MayHaveAllItsLegsOnOneBone) {
   EXPECT_EQ(found.names[roles.left_fore_foot], "f3.L");
   EXPECT_EQ(found.names[roles.right_fore_leg], "f1.R");
   skeleton.names[2] = "c";
-  EXPECT_EQ(make_skeleton(skeleton).roles.left_fore_foot, -1) << "nothing tells which end is the head's";
+  EXPECT_EQ(find_role_map(skeleton).bone(Role::kForeFoot, Side::kLeft), -1) << "nothing tells which end is the head's";
 }
 
 // The bones of the legs may begin near each other in the middle of the trunk, as Mesh2Motion's fox has them.

@@ -9,7 +9,7 @@ import bpy
 
 from ...character import building
 from ...character.abilities import NOTHING, say_undone
-from ...character.control_layout import layout_of, say_lacking
+from ...character.control_layout import say_lacking
 from ...character.coverage import lacking
 from ...jobs import Job
 from ...mocap.actions import fitting
@@ -70,7 +70,7 @@ class FRAGMOTION_OT_build(BuildFields, Building, bpy.types.Operator):
             f"does {figures.performed} of {figures.controls} controls{told}",
         )
         spare = say_lacking(built.character)
-        undone = say_undone(built.done[0], layout_of(built.character.space))
+        undone = say_undone(built.done[0], built.character.space)
         remarks = (
             *filter(NOTHING.__eq__, (figures.abilities,)),
             *self._warnings,

@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "base/rates.hpp"
+#include "character/naming.hpp"
 #include "evaluate/performance.hpp"
 #include "fragments/coverage.hpp"
 
@@ -47,6 +48,16 @@ std::vector<char> abilities(const std::shared_ptr<const Character>& character, i
     }
   });
   return done;
+}
+
+std::vector<std::string> undone_controls(const ControlSpace& space, const std::vector<char>& done) {
+  std::vector<std::string> names;
+  for (int c = 0; c < space.size(); ++c) {
+    const Control& control = space.point(c);
+    const bool goes = control.turn == 0 && !control.jumps() && control.speed() > 0;
+    if (goes && !done[c]) names.push_back(control_name(space, control));
+  }
+  return names;
 }
 
 }  // namespace fragmotion

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "runtime/player.hpp"
@@ -14,5 +15,9 @@ namespace fragmotion {
 /// character of 1.8 m. Of the controls with a jump those are done that a fragment performs (kPerformed).
 /// Deterministic whatever the number of threads.
 std::vector<char> abilities(const std::shared_ptr<const Character>& character, int threads = 0);
+
+/// The names of the controls without turn or jump that ask for motion and are not `done` [controls], as abilities()
+/// tells.
+std::vector<std::string> undone_controls(const ControlSpace& space, const std::vector<char>& done);
 
 }  // namespace fragmotion

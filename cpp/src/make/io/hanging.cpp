@@ -3,6 +3,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <limits>
+#include <numeric>
 
 #include "io/rigid_matrix.hpp"
 #include "skeleton/bone_names.hpp"
@@ -43,6 +45,27 @@ class Straying {
   int frames_;
 };
 
+// Of bones beside each other that go together, as the trunk and the legs of a body without a bone that carries them
+// all, the one whose frame holds the others best: one that is no candidate, where none does so far better. `other`
+// where it is none of them.
+int hub_of(const Straying& straying, const std::vector<int>& parents, const std::vector<int>& candidates, int bone,
+           int other) {
+  if (parents[other] != parents[bone]) return other;
+  std::vector<int> hubs(parents.size());
+  std::iota(hubs.begin(), hubs.end(), 0);
+  hubs.erase(std::remove_if(hubs.begin(), hubs.end(), [&](int b) { return parents[b] != parents[bone]; }), hubs.end());
+  const auto is_candidate = [&](int b) { return std::count(candidates.begin(), candidates.end(), b) > 0; };
+  std::stable_partition(hubs.begin(), hubs.end(), [&](int b) { return !is_candidate(b); });
+  int best = hubs[0];
+  double least = std::numeric_limits<double>::infinity();
+  for (const int hub : hubs) {
+    double strays = 0;
+    for (const int held : candidates) strays += parents[held] == parents[bone] ? straying.of(held, hub) : 0;
+    if (strays < kShare * least) least = strays, best = hub;
+  }
+  return best;
+}
+
 // Whether a bone moves another, which hangs on its parent or, where that is told, on another bone.
 bool moves(const std::vector<int>& parents, const std::map<int, int>& hanging, int bone, int other) {
   if (other < 0 || other == bone) return other == bone;
@@ -77,6 +100,9 @@ std::map<int, int> find_hanging(const std::vector<std::string>& names, const std
       if (strays < least) least = strays, best = other;
     }
     if (best < 0) continue;
+    const int hub = beside == bone ? hub_of(straying, parents, candidates, bone, best) : best;
+    if (hub == bone) continue;
+    if (!moves(parents, hanging, bone, hub)) best = hub;
     hanging[bone] = best;
     if (is_paired) hanging[beside] = twin(best);
   }

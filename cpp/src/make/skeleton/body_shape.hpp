@@ -16,6 +16,14 @@ using Poses = std::vector<const Vector3*>;
 
 /// Of a body's size: a bone that ends where it begins, a marker.
 constexpr double kStub = 1e-3;
+/// Of a limb's length: by less than that the bones of two that are alike differ.
+constexpr double kAlike = 0.05;
+/// Of a leg's length: a bone that it begins with and that is shorter is a part of the trunk.
+constexpr double kNoLegBone = 0.1;
+/// Of a leg's length: the hind and the fore feet are apart along the ground by that at least.
+constexpr double kTrunkLength = 0.3;
+/// Of a limb's length: over the lowest end, or over the ground, what stands there is at most.
+constexpr double kStands = 0.15;
 
 /// Two limbs that are alike, and the bone that they hang on.
 struct LimbPair {

@@ -10,11 +10,8 @@ namespace fragmotion {
 namespace {
 
 // Of a leg's length.
-constexpr double kFeetLevel = 0.2;    // between the heights of the hind and the fore feet, at most
-constexpr double kTrunkLength = 0.3;  // between the hind and the fore feet along the ground, at least
-constexpr double kNoLegBone = 0.1;    // a bone that a leg begins with and that is shorter is a part of the trunk
-constexpr double kMeet = 2.0 / 3;    // of how far the ends of hip bones and shoulder blades are apart: their beginnings
-constexpr double kPawHeight = 0.15;  // over the ground, at most: where a paw begins
+constexpr double kFeetLevel = 0.2;  // between the heights of the hind and the fore feet, at most
+constexpr double kMeet = 2.0 / 3;   // of how far the ends of hip bones and shoulder blades are apart: their beginnings
 constexpr double kByShape = 0.85;
 
 constexpr double kLowerLeg = 0.4;  // of a leg, at least: what is below its knee or elbow
@@ -150,7 +147,7 @@ class FourLegs {
     std::size_t upper = 0, foot = chain.size() - 1;
     const std::size_t bones = std::min(pair.chains[0].size(), pair.chains[1].size());
     while (upper + 3 < bones && is_of_trunk(pair, side, upper)) ++upper;
-    while (foot > upper + 2 && height(chain[foot - 1]) < kPawHeight * length) --foot;
+    while (foot > upper + 2 && height(chain[foot - 1]) < kStands * length) --foot;
     Limb limb;
     const auto set = [&](int part, std::size_t i) {
       limb.bones[part] = chain[i];

@@ -11,7 +11,6 @@ namespace {
 // Lengths are shares of BodyShape::size().
 constexpr double kLimb = 0.2;     // a limb at least
 constexpr double kLongest = 0.6;  // of the way along its bones, from a limb's beginning to its end
-constexpr double kAlike = 0.05;   // of a limb's length: bones of a pair differ by less
 constexpr double kHand = 0.3;     // of a limb's length that hands and feet reach at most
 
 // As far as the hands: which finger reaches farthest may differ.

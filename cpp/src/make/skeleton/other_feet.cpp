@@ -10,8 +10,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kStands = 0.15;  // of a limb's length over the lowest end, at most
-
 double highest_end(const BodyShape& shape, const LimbPair& pair) {
   return std::max(shape.rest()[pair.chains[0].back()].z(), shape.rest()[pair.chains[1].back()].z());
 }

@@ -7,6 +7,7 @@
 
 #include "skeleton/role_map.hpp"
 #include "skeleton/role_names.hpp"
+#include "skeleton/standing_legs.hpp"
 
 namespace fragmotion {
 namespace {
@@ -52,6 +53,7 @@ Roles roles_of(const RoleMap& map) {
 
 Roles find_roles(const Skeleton& skeleton) {
   Roles roles = roles_of(find_role_map(skeleton));
+  if (legs_with_feet(roles).empty() && legs_with_feet(skeleton.roles).empty()) tell_standing_legs(skeleton, roles);
   if (roles.hips < 0) roles.hips = first_branching(skeleton);
   return roles;
 }

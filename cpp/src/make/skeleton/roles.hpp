@@ -9,8 +9,9 @@ namespace fragmotion {
 /// std::invalid_argument as that does.
 Skeleton make_skeleton(Skeleton skeleton);
 
-/// The roles that find_role_map() (role_map.hpp) tells from names, hierarchy and shape. Where it tells no hips, those
-/// are the first bone with three children or more, else bone 0.
+/// The roles that find_role_map() (role_map.hpp) tells from names, hierarchy and shape; where it tells no feet, and the
+/// skeleton's own roles do not, the legs of tell_standing_legs(). Where nothing tells the hips, those are the first
+/// bone with three children or more, else bone 0.
 Roles find_roles(const Skeleton& skeleton);
 
 }  // namespace fragmotion

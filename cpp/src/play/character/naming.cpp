@@ -2,7 +2,6 @@
 #include "character/naming.hpp"
 
 #include "control/gaits.hpp"
-#include "policy/answer.hpp"
 
 namespace fragmotion {
 namespace {
@@ -36,18 +35,6 @@ std::vector<std::string> class_names(const Character& character) {
     const std::string name = control_name(character.space, character.pool.fragments[representative].evident);
     const int number = ++used[name];
     names.push_back(number == 1 ? name : name + " " + std::to_string(number));
-  }
-  return names;
-}
-
-std::vector<std::string> unanswered_controls(const Character& character) {
-  const ControlSpace& space = character.space;
-  const std::vector<int> answered = answered_controls(character.quality, space, evident_of_classes(character));
-  std::vector<std::string> names;
-  for (int c = 0; c < space.size(); ++c) {
-    const Control& wanted = space.point(c);
-    const bool plain = wanted.turn == 0 && !wanted.jumps();
-    if (plain && answered[c] != c) names.push_back(control_name(space, wanted));
   }
   return names;
 }

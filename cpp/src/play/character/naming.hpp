@@ -14,8 +14,4 @@ std::string control_name(const ControlSpace& space, const Control& control);
 /// is called the same.
 std::vector<std::string> class_names(const Character& character);
 
-/// The names of the controls without turn or jump that ask for motion which no class answers(): what is done instead is
-/// said by answered_controls().
-std::vector<std::string> unanswered_controls(const Character& character);
-
 }  // namespace fragmotion
