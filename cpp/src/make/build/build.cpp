@@ -250,11 +250,6 @@ std::vector<Contacts> contacts_of(const FragmentPool& pool, int threads) {
   return contacts;
 }
 
-Progress part_of(const Progress& progress, double from, double to) {
-  if (!progress) return {};
-  return [=](double fraction, const std::string& stage) { return progress(from + (to - from) * fraction, stage); };
-}
-
 Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
                  const BuildOptions& options, const Progress& progress) {
   check(clips, traces, options);
