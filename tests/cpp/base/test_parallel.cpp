@@ -92,5 +92,25 @@ TEST(ParallelMap, ReturnsWhatIsMadeOfEachIndexInOrder) {
   EXPECT_TRUE(parallel_map(0, 3, [](int i) { return i; }).empty());
 }
 
+TEST(ParallelMap, LetsOthersGoOnWhileOneLasts) {
+  std::atomic<int> made{0};
+  parallel_map(8, 2, [&](int i) {
+    while (i == 0 && made < 7) std::this_thread::yield();
+    return ++made;
+  });
+  EXPECT_EQ(made, 8);
+}
+
+TEST(ParallelMap, ThrowsTheFirstException) {
+  for (const int threads : {1, 3}) {
+    try {
+      parallel_map(8, threads, [](int i) { return i < 2 ? i : throw std::runtime_error(std::to_string(i)); });
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "2");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fragmotion

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <set>
 #include <stdexcept>
 
@@ -262,7 +263,9 @@ TEST(Cluster, TakesTheRunThatScoresBest) {
   options.classes = 25;
   options.restarts = 6;
   double worst = 0;
+  std::mutex mutex;
   const Classes found = cluster(t, equal_weights(t), options, [&](const Classes& classes) {
+    const std::lock_guard lock(mutex);
     worst = std::max(worst, classes.inertia);
     return classes.inertia;
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <thread>
 #include <vector>
@@ -15,6 +16,13 @@ constexpr int kMostThreads = 256;
 inline int thread_count(int requested) {
   const int threads = requested > 0 ? requested : static_cast<int>(std::thread::hardware_concurrency());
   return std::clamp(threads, 1, kMostThreads);
+}
+
+/// Throws the first of these errors, if there is any.
+inline void rethrow_first(const std::vector<std::exception_ptr>& errors) {
+  for (const std::exception_ptr& error : errors) {
+    if (error) std::rethrow_exception(error);
+  }
 }
 
 /// Calls body(begin, end) on `threads` consecutive parts of 0 .. count - 1, the first part on the calling thread.
@@ -42,18 +50,27 @@ void parallel_for(int count, int threads, const Body& body) {
   run(0);
   for (int part = started; part < threads; ++part) run(part);
   for (std::thread& worker : workers) worker.join();
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
+  rethrow_first(errors);
 }
 
-/// make(i) of each i in 0 .. count - 1, in order, made on `threads` threads as by parallel_for.
+/// make(i) of each i in 0 .. count - 1, in order. Each of the threads makes the next one that none has begun, so that
+/// those may last as they will. An exception is thrown again here, the lowest i's first.
 template <typename Make>
 auto parallel_map(int count, int threads, const Make& make) {
   std::vector<decltype(make(0))> made(std::max(0, count));
-  parallel_for(count, threads, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) made[i] = make(i);
+  std::vector<std::exception_ptr> errors(made.size());
+  std::atomic<int> next{0};
+  threads = std::clamp(threads, 1, std::max(1, count));
+  parallel_for(threads, threads, [&](int, int) {
+    for (int i = next++; i < count; i = next++) {
+      try {
+        made[i] = make(i);
+      } catch (...) {
+        errors[i] = std::current_exception();
+      }
+    }
   });
+  rethrow_first(errors);
   return made;
 }
 

@@ -20,4 +20,10 @@ inline void report(const Progress& progress, double fraction, const std::string&
   if (progress && !progress(fraction, stage)) throw Cancelled();
 }
 
+/// A part of a task's progress as the whole's.
+inline Progress part_of(const Progress& progress, double from, double to) {
+  if (!progress) return {};
+  return [=](double fraction, const std::string& stage) { return progress(from + (to - from) * fraction, stage); };
+}
+
 }  // namespace fragmotion

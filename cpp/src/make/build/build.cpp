@@ -234,32 +234,24 @@ const std::vector<std::string>& policy_names() {
 }
 
 std::vector<Contacts> contacts_of(const FragmentPool& pool, int threads) {
-  std::vector<bool> captured(pool.clips.size(), false);
+  std::vector<char> captured(pool.clips.size(), 0);
   for (const Fragment& f : pool.fragments) {
     captured[f.clip] = !is_made(f.origin);
   }
   std::vector<Contacts> contacts(pool.clips.size());
-  const auto find = [&](bool whether, const Floors* floors) {
-    parallel_for(static_cast<int>(contacts.size()), thread_count(threads), [&](int begin, int end) {
-      const Kinematics kinematics(pool.skeleton);
-      for (int c = begin; c < end; ++c) {
-        if (captured[c] == whether) contacts[c] = find_plants(kinematics, pool.clips[c], floors);
-      }
+  const Kinematics kinematics(pool.skeleton);
+  std::vector<int> takes, others;
+  for (std::size_t c = 0; c < captured.size(); ++c) (captured[c] ? takes : others).push_back(static_cast<int>(c));
+  const auto find = [&](const std::vector<int>& clips, const Floors* floors) {
+    std::vector<Contacts> found = parallel_map(static_cast<int>(clips.size()), thread_count(threads), [&](int i) {
+      return find_plants(kinematics, pool.clips[clips[i]], floors);
     });
+    for (std::size_t i = 0; i < clips.size(); ++i) contacts[clips[i]] = found[i];
+    return found;
   };
-  find(true, nullptr);
-  std::vector<Contacts> of_takes;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    if (captured[c]) of_takes.push_back(contacts[c]);
-  }
-  const Floors usual = usual_floors(of_takes);
-  find(false, &usual);
+  const Floors usual = usual_floors(find(takes, nullptr));
+  find(others, &usual);
   return contacts;
-}
-
-Progress part_of(const Progress& progress, double from, double to) {
-  if (!progress) return {};
-  return [=](double fraction, const std::string& stage) { return progress(from + (to - from) * fraction, stage); };
 }
 
 Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const std::vector<Trace>& traces,
@@ -279,7 +271,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   report_held(c, pool);
   c.report["cut_seconds"] = stage.lap();
   report(progress, 0.5, "Synthesizing fragments");
-  if (options.synthesize) synthesize(pool, c.space, usual, options.cut.longest);
+  if (options.synthesize) synthesize(pool, c.space, usual, options.cut.longest, options.threads);
   for (Clip& clip : pool.clips) {
     for (std::vector<double>* values : {&clip.root_positions, &clip.rotations, &clip.headings})
       round_to_single(*values);

@@ -22,9 +22,6 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
 /// The second half: classes, Eq. 2 and policies, in place of those that the character has.
 void learn(const Material& material, const BuildOptions& options, const Progress& progress);
 
-/// A part of a task's progress as the whole's.
-Progress part_of(const Progress& progress, double from, double to);
-
 /// The character without its moves.
 Character without_moves(Character character);
 

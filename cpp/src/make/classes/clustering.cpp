@@ -139,53 +139,57 @@ class Clustering {
   float rounding_;  // by which a distance of sums of poses may exceed that of the poses
 };
 
-// Finds classes among an even sample first where the pool is large.
-class SampledClustering {
- public:
-  SampledClustering(const Trajectories& t, const std::vector<float>& weights, const std::vector<char>& kinds,
-                    const ClusterOptions& options)
-      : pool_(t.count),
-        fragments_(even_sample(kinds, kSampled * options.classes)),
-        sample_(some(t, fragments_)),
-        weights_(some(weights, fragments_)),
-        kinds_(some(kinds, fragments_)),
-        among_sample_(sample_, weights_, kinds_, options),
-        among_all_(t, weights, kinds, options) {}
-
-  Classes operator()(Random random, int threads) const {
-    const Classes found = among_sample_(random, threads);
-    std::vector<int> labels(pool_, -1);
-    for (std::size_t i = 0; i < fragments_.size(); ++i) labels[fragments_[i]] = found.labels[i];
-    return among_all_(labels, threads);
-  }
-
- private:
-  int pool_;
-  std::vector<int> fragments_;
-  Trajectories sample_;
-  std::vector<float> weights_;
-  std::vector<char> kinds_;
-  Clustering among_sample_, among_all_;
-};
-
-// The best of all restarts; each runs on one thread, unless there are more threads than restarts.
+// What find(run, threads) finds in each run, which is on one thread, unless there are more threads than runs.
 template <typename Find>
-Classes best_run(const Find& find, const ClusterOptions& options, const ClassScore& score, const Progress& progress) {
-  const int runs = std::max(1, options.restarts), threads = thread_count(options.threads);
-  Random seeds(options.seed);
-  std::vector<Random> starts;
-  for (int run = 0; run < runs; ++run) starts.emplace_back(seeds.next());
+std::vector<Classes> in_runs(std::size_t count, int threads, const Find& find, const Progress& progress) {
+  const int runs = static_cast<int>(count);
   std::vector<Classes> found(runs);
   parallel_for(runs, threads, [&](int begin, int end) {
     const bool calling = begin == 0;
     for (int run = begin; run < end; ++run) {
       if (calling) report(progress, static_cast<double>(run) / end, kStage);
-      found[run] = find(starts[run], std::max(1, threads / runs));
+      found[run] = find(run, std::max(1, threads / runs));
     }
   });
-  report(progress, 1, kStage);
-  std::vector<double> scores;
-  for (const Classes& classes : found) scores.push_back(score ? score(classes) : -classes.inertia);
+  return found;
+}
+
+// Finds classes among some of the fragments.
+std::vector<Classes> among(const std::vector<int>& fragments, const Trajectories& t, const std::vector<float>& weights,
+                           const std::vector<char>& kinds, const ClusterOptions& options,
+                           const std::vector<Random>& starts, const Progress& progress) {
+  const Trajectories chosen = some(t, fragments);
+  const std::vector<float> chosen_weights = some(weights, fragments);
+  const std::vector<char> chosen_kinds = some(kinds, fragments);
+  const Clustering clustering(chosen, chosen_weights, chosen_kinds, options);
+  return in_runs(
+      starts.size(), thread_count(options.threads),
+      [&](int run, int threads) { return clustering(starts[run], threads); }, progress);
+}
+
+// The same among all; where these are many, it begins with the classes of an even sample.
+std::vector<Classes> among_all(const Trajectories& t, const std::vector<float>& weights, const std::vector<char>& kinds,
+                               const ClusterOptions& options, const std::vector<Random>& starts,
+                               const Progress& progress) {
+  const bool many = t.count / kSampled >= options.classes;
+  const std::vector<int> sample = many ? even_sample(kinds, kSampled * options.classes) : std::vector<int>();
+  const std::vector<Classes> first =
+      many ? among(sample, t, weights, kinds, options, starts, part_of(progress, 0, 0.5)) : std::vector<Classes>();
+  const Clustering clustering(t, weights, kinds, options);
+  const auto find = [&](int run, int threads) {
+    if (!many) return clustering(starts[run], threads);
+    std::vector<int> labels(t.count, -1);
+    for (std::size_t i = 0; i < sample.size(); ++i) labels[sample[i]] = first[run].labels[i];
+    return clustering(labels, threads);
+  };
+  return in_runs(starts.size(), thread_count(options.threads), find, many ? part_of(progress, 0.5, 1) : progress);
+}
+
+// The best of all restarts.
+const Classes& best_of(const std::vector<Classes>& found, const ClassScore& score, int threads) {
+  const std::vector<double> scores = parallel_map(static_cast<int>(found.size()), threads, [&](int run) {
+    return score ? score(found[run]) : -found[run].inertia;
+  });
   return found[std::max_element(scores.begin(), scores.end()) - scores.begin()];
 }
 
@@ -236,10 +240,12 @@ Classes cluster(const Trajectories& t, const std::vector<float>& weights, const 
   require_range("the number of iterations", options.iterations, 1, kMostIterations);
   check(t, weights, kinds);
   check_count(t, options.classes);
-  if (t.count / kSampled < options.classes) {
-    return best_run(Clustering(t, weights, kinds, options), options, score, progress);
-  }
-  return best_run(SampledClustering(t, weights, kinds, options), options, score, progress);
+  Random seeds(options.seed);
+  std::vector<Random> starts;
+  for (int run = 0; run < std::max(1, options.restarts); ++run) starts.emplace_back(seeds.next());
+  const std::vector<Classes> found = among_all(t, weights, kinds, options, starts, progress);
+  report(progress, 1, kStage);
+  return best_of(found, score, thread_count(options.threads));
 }
 
 }  // namespace fragmotion

@@ -28,7 +28,8 @@ struct ClusterOptions {
 /// How many fragments differ from all others, or `most` where there are more.
 int distinct_fragments(const Trajectories& t, int most);
 
-/// What makes one clustering better than another: the greater score. By default the smaller inertia.
+/// What makes one clustering better than another: the greater score. By default the smaller inertia. Threads ask at the
+/// same time.
 using ClassScore = std::function<double(const Classes&)>;
 
 /// k-means under Dis: k-means++ starts, Elkan's lower bounds (exact, since Dis is a norm), empty classes refilled with

@@ -100,9 +100,10 @@ struct CycleSearch {
   bool closes(int first, int last) const {
     const double end = gap(last, first);
     if (end > kClosed) return false;
-    double farthest = farthest_within(trajectories, first) / trajectories.reach;
-    for (int f = first; f < last; ++f) farthest = std::max(farthest, gap(f, first));
-    return 2 * end <= farthest;
+    for (int f = first; f < last; ++f) {
+      if (2 * end <= gap(f, first)) return true;
+    }
+    return 2 * end <= farthest_within(trajectories, first) / trajectories.reach;
   }
 
   // Where fragments first .. last lead to the beginning of that one.

@@ -67,9 +67,8 @@ HipTurns::HipTurns(const Kinematics& kinematics, const Legs& legs, const Fragmen
 
 double HipTurns::of(const Clip& clip, int number, int begin, int end, GaitEdit edit) {
   edit.turn = edit.hips = 0;
-  const auto [found, fresh] = found_.try_emplace({number, begin, end, edit.direction, edit.speed}, 0.0);
-  if (fresh) found->second = find(clip, begin, end, edit);
-  return found->second;
+  return found_.get({number, begin, end, edit.direction, edit.speed, edit.tempo},
+                    [&] { return find(clip, begin, end, edit); });
 }
 
 double HipTurns::find(const Clip& clip, int begin, int end, const GaitEdit& edit) const {

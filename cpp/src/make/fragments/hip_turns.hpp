@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <map>
 #include <tuple>
 
+#include "base/memo.hpp"
 #include "fragments/fragment.hpp"
 #include "fragments/gait_cycle.hpp"
 #include "fragments/gait_edit.hpp"
@@ -22,7 +22,7 @@ class HipTurns {
   /// which `number` tells it from others. Where the thighs or knees would leave their ranges, those of a body on two
   /// legs turn towards the path as far as is needed, or as the spine bears. A range is left no further than a take
   /// leaves that of the others, in the mean, and than in the cycle itself, or as it steps in place or straight on.
-  /// Whether it turns makes no difference.
+  /// Whether it turns makes no difference. Threads may ask at the same time.
   double of(const Clip& clip, int number, int begin, int end, GaitEdit edit);
 
  private:
@@ -33,7 +33,7 @@ class HipTurns {
   const Legs& legs_;
   const FragmentPool& pool_;
   JointRanges leg_ranges_, spine_ranges_;
-  std::map<std::tuple<int, int, int, double, double>, double> found_;  // by cycle, direction and speed
+  Memo<std::tuple<int, int, int, double, double, double>, double> found_;  // by cycle, direction, speed and tempo
 };
 
 }  // namespace fragmotion

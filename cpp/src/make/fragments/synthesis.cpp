@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
+#include "base/memo.hpp"
+#include "base/parallel.hpp"
 #include "base/quantile.hpp"
 #include "base/ranges.hpp"
 #include "base/rounding.hpp"
@@ -102,14 +103,16 @@ double longest_stand(const FragmentPool& pool, const std::vector<int>& standing)
 // Fills the holes of a pool's control space.
 class Synthesizer {
  public:
-  Synthesizer(FragmentPool& pool, std::size_t takes, const ControlSpace& space, double usual, double longest)
+  Synthesizer(FragmentPool& pool, std::size_t takes, const ControlSpace& space, double usual, double longest,
+              int threads)
       : pool_(pool),
         space_(space),
         usual_(usual),
         longest_(longest),
+        threads_(thread_count(threads)),
         kinematics_(pool.skeleton),
         legs_(find_legs(kinematics_, pool.clips)),
-        trajectories_(trajectories(pool)),
+        trajectories_(trajectories(pool, kPoses, threads)),
         hip_turns_(kinematics_, legs_, pool, takes),
         originals_(static_cast<int>(pool.fragments.size())),
         cycles_(closed_cycles(pool, trajectories_, space, takes)) {
@@ -120,16 +123,29 @@ class Synthesizer {
   void fill() {
     const int stand = space_.nearest({});
     const SpeedRange speeds(pool_.fragments, space_);
-    std::vector<int> missing;
-    for (int c = 0; c < space_.size(); ++c) missing.push_back(std::max(0, kWanted - performers(c)));
-    for (int c = 0; c < space_.size(); ++c) {
-      if (missing[c] == 0 || c == stand || !speeds.allows(space_.point(c))) continue;
-      interpolate(space_.point(c), missing[c]);
-      transform(space_.point(c));
-    }
+    const ControlLayout& layout = space_.layout();
+    const int points = layout.turns() * layout.jumps();  // of a velocity, which are made of the same gaits
+    auto made = parallel_map(layout.velocities(), threads_, [&](int velocity) {
+      Additions additions;
+      for (int c = points * velocity; c < points * (velocity + 1); ++c) {
+        const int missing = std::max(0, kWanted - performers(c));
+        if (missing == 0 || c == stand || !speeds.allows(space_.point(c))) continue;
+        interpolate(space_.point(c), missing, additions);
+        transform(space_.point(c), additions);
+      }
+      return additions;
+    });
+    for (Additions& additions : made) add(std::move(additions));
   }
 
  private:
+  // A clip, and its fragments, which do not know the clip's number yet.
+  struct Addition {
+    Clip clip;
+    std::vector<Fragment> fragments;
+  };
+  using Additions = std::vector<Addition>;
+
   double distance(int fragment, const Control& control) const {
     return space_.distance(pool_.fragments[fragment].evident, control);
   }
@@ -143,23 +159,34 @@ class Synthesizer {
   // Frames kept beyond a fragment's end.
   int tail(double rate) const { return static_cast<int>(std::lround(kTail * rate)); }
 
-  // Adds a clip whose frames ends[i] .. ends[i + 1] are fragments.
-  void add(Clip clip, const std::vector<int>& ends, Origin origin) {
+  // A clip whose frames ends[i] .. ends[i + 1] are fragments.
+  Addition addition(Clip clip, const std::vector<int>& ends, Origin origin) const {
     const BodyMotion motion = body_motion(kinematics_, clip);
-    add(std::move(clip), motion, ends, origin);
+    return addition(std::move(clip), motion, ends, origin);
   }
 
-  void add(Clip clip, const BodyMotion& motion, const std::vector<int>& ends, Origin origin) {
+  Addition addition(Clip clip, const BodyMotion& motion, const std::vector<int>& ends, Origin origin) const {
+    Addition made;
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       Fragment fragment;
-      fragment.clip = static_cast<int>(pool_.clips.size());
       fragment.begin = ends[i];
       fragment.end = ends[i + 1];
       fragment.origin = origin;
       fragment.evident = evident_control(motion, clip.rate, ends[i], ends[i + 1], usual_, space_);
-      pool_.fragments.push_back(fragment);
+      made.fragments.push_back(fragment);
     }
-    pool_.clips.push_back(make_clip(pool_.skeleton, std::move(clip)));
+    made.clip = make_clip(pool_.skeleton, std::move(clip));
+    return made;
+  }
+
+  void add(Additions made) {
+    for (Addition& each : made) {
+      for (Fragment& fragment : each.fragments) {
+        fragment.clip = static_cast<int>(pool_.clips.size());
+        pool_.fragments.push_back(fragment);
+      }
+      pool_.clips.push_back(std::move(each.clip));
+    }
   }
 
   std::vector<int> nearest_originals(const Control& control) const {
@@ -191,7 +218,7 @@ class Synthesizer {
   }
 
   // Interpolates up to `count` pairs of similar fragments that together perform the control.
-  void interpolate(const Control& control, int count) {
+  void interpolate(const Control& control, int count, Additions& additions) const {
     const auto similar = static_cast<float>(kSimilar * kPoses * trajectories_.reach);
     const std::vector<int> near = nearest_originals(control);
     std::vector<Pair> pairs;
@@ -212,7 +239,7 @@ class Synthesizer {
       const int frames = tail(pool_.clips[a.clip].rate);
       Clip clip = interpolated(kinematics_, pool_, a, b, pairs[i].weight, frames);
       const int end = clip.frames - 1 - frames;
-      add(std::move(clip), {0, end}, Origin::interpolated);
+      additions.push_back(addition(std::move(clip), {0, end}, Origin::interpolated));
     }
   }
 
@@ -265,9 +292,7 @@ class Synthesizer {
   }
 
   const Contacts& contacts(int clip) {
-    const auto [found, fresh] = contacts_.try_emplace(clip);
-    if (fresh) found->second = find_contacts(kinematics_, pool_.clips[clip]);
-    return found->second;
+    return contacts_.get(clip, [&] { return find_contacts(kinematics_, pool_.clips[clip]); });
   }
 
   // What goes round and round as a cycle; `number` tells its clip from others.
@@ -279,16 +304,13 @@ class Synthesizer {
 
   Gait gait_of(const ClosedCycle& cycle) {
     if (!cycle.is_step()) return {pool_.clips[cycle.clip], contacts(cycle.clip), cycle.clip, cycle.begin, cycle.end};
-    const auto [found, fresh] = steps_.try_emplace(&cycle);
-    if (fresh) {
-      found->second = gait_of_step(kinematics_, pool_, cycle, contacts(cycle.clip), contacts(cycle.image));
-    }
-    const GaitSource& step = found->second;
+    const GaitSource& step = steps_.get(
+        &cycle, [&] { return gait_of_step(kinematics_, pool_, cycle, contacts(cycle.clip), contacts(cycle.image)); });
     return {step.clip, step.contacts, -1 - static_cast<int>(&cycle - cycles_.data()), step.begin, step.end};
   }
 
   // Transforms the cheapest cycle for the control, in pieces that follow each other as in the take.
-  void transform(const Control& control) {
+  void transform(const Control& control, Additions& additions) {
     const ClosedCycle* best = cheapest(control);
     if (!best) return;
     const Gait gait = gait_of(*best);
@@ -310,7 +332,8 @@ class Synthesizer {
     const Clip made = transformed(kinematics_, legs_, clip, gait.contacts, gait.begin, gait.end, most, change);
     std::vector<int> ends;
     for (int piece = 0; piece <= pieces; ++piece) ends.push_back(length * piece / pieces);
-    if (control.jump <= best->evident.jump) return add(part(made, 0, length + beyond), ends, Origin::transformed);
+    if (control.jump <= best->evident.jump)
+      return additions.push_back(addition(part(made, 0, length + beyond), ends, Origin::transformed));
     std::vector<double> higher(pieces, 0);
     std::vector<Leap> leaps = leaping(made, gait, ends, control, higher);
     if (!takes_jump_ &&
@@ -319,7 +342,8 @@ class Synthesizer {
       leaps = leaping(made, gait, ends, control, higher);
       for (Leap& leap : leaps) fly_as_fast(control, leap);
     }
-    for (Leap& leap : leaps) add(std::move(leap.clip), leap.motion, {leap.begin, leap.end}, Origin::transformed);
+    for (Leap& leap : leaps)
+      additions.push_back(addition(std::move(leap.clip), leap.motion, {leap.begin, leap.end}, Origin::transformed));
   }
 
   // A gait that begins with frame `first` of a cycle, whose flight in a hop ends on the foot that did not take off:
@@ -361,21 +385,22 @@ class Synthesizer {
   const ControlSpace& space_;
   double usual_;
   double longest_;
+  int threads_;
   Kinematics kinematics_;
   Legs legs_;
   Trajectories trajectories_;
   HipTurns hip_turns_;
   int originals_;
   std::vector<ClosedCycle> cycles_;
-  bool takes_jump_ = false;                         // then these show how high and fast
-  double dip_ = kLeastDip;                          // m of a 1.8 m character that jumps on the spot
-  std::map<int, Contacts> contacts_;                // of the clips that were transformed
-  std::map<const ClosedCycle*, GaitSource> steps_;  // likewise
+  bool takes_jump_ = false;                     // then these show how high and fast
+  double dip_ = kLeastDip;                      // m of a 1.8 m character that jumps on the spot
+  Memo<int, Contacts> contacts_;                // of the clips that were transformed
+  Memo<const ClosedCycle*, GaitSource> steps_;  // likewise
 };
 
 }  // namespace
 
-void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, double longest) {
+void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, double longest, int threads) {
   require_range("the longest fragment (s)", longest, 0.1, 10);
   std::vector<int> standing;
   for (std::size_t f = 0; f < pool.fragments.size(); ++f) {
@@ -386,7 +411,7 @@ void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, dou
                                     [](const Fragment& f) { return f.origin == Origin::mirrored; });
   if (standing.empty()) add_standing(pool);
   const bool stands_long = longest_stand(pool, standing) >= kStandsLong;
-  Synthesizer(pool, mirrored ? clips / 2 : clips, space, usual, longest).fill();
+  Synthesizer(pool, mirrored ? clips / 2 : clips, space, usual, longest, threads).fill();
   if (stands_long) return;
   add_living_stand(pool, space, usual, static_cast<int>(standing.empty() ? clips : pool.clips.size()));
   if (standing.empty()) pool.fragments.erase(pool.fragments.begin() + static_cast<std::ptrdiff_t>(fragments));

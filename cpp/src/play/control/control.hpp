@@ -58,6 +58,17 @@ struct ControlWeights {
 /// ControlDis between controls that is "a lot" (Sec. 3.3): what was decided on is decided anew.
 constexpr double kChange = 1;
 
+/// ControlSpace::distance(), for loops over many: the weight of the velocity squared, those of turn and jump.
+struct ControlMetric {
+  double velocity_squared, turn, jump;
+
+  double operator()(const Control& a, const Control& b) const {
+    const auto square = [](double value) { return value * value; };
+    return std::sqrt(velocity_squared * (square(a.x - b.x) + square(a.y - b.y)) + square(turn * (a.turn - b.turn)) +
+                     square(jump * (a.jump - b.jump)));
+  }
+};
+
 /// What can be asked for (Sec. 4): the points of a layout at a character's own speeds and turn rate. The default is the
 /// paper's, of 102 points (Fig. 4).
 class ControlSpace {
@@ -108,10 +119,10 @@ class ControlSpace {
   /// ControlDis (Eq. 2): weighted Euclidean, a weight multiplying its difference before it is squared:
   /// sqrt((velocity scale)^2 (dx^2 + dy^2) + (turn dturn)^2 + (jump djump)^2), turn and jump standing for their
   /// weights.
-  double distance(const Control& a, const Control& b) const {
-    const auto square = [](double value) { return value * value; };
-    return std::sqrt(square(weights_.velocity * scale_) * (square(a.x - b.x) + square(a.y - b.y)) +
-                     square(weights_.turn * (a.turn - b.turn)) + square(weights_.jump * (a.jump - b.jump)));
+  double distance(const Control& a, const Control& b) const { return metric()(a, b); }
+  ControlMetric metric() const {
+    const double velocity = weights_.velocity * scale_;
+    return {velocity * velocity, weights_.turn, weights_.jump};
   }
 
  private:

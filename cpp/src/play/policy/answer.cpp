@@ -75,7 +75,7 @@ class HeldControl {
       play(k);
       if (bridge(k, next(k)) >= 0) play(bridge(k, next(k)));
     }
-    return goes_along(sum / played, wanted_);
+    return goes_along(sum.x() / played, sum.y() / played, wanted_);
   }
 
   // Finds which classes lead to a cycle that answers, and those of the cycles that do not.

@@ -9,17 +9,16 @@
 namespace fragmotion {
 
 /// Whether a velocity is within 45 degrees of a control's direction, and along it no less than half its speed.
-inline bool goes_along(const Vector2& velocity, const Control& wanted) {
+inline bool goes_along(double x, double y, const Control& wanted) {
   constexpr double kSlowest = 0.5;  // of the speed that is asked for
-  const double along = velocity.x() * wanted.x + velocity.y() * wanted.y,
-               across = velocity.x() * wanted.y - velocity.y() * wanted.x;
-  return along >= kSlowest * wanted.speed() * wanted.speed() && along >= std::abs(across);
+  const double along = x * wanted.x + y * wanted.y, across = x * wanted.y - y * wanted.x;
+  return static_cast<bool>((along >= kSlowest * wanted.speed() * wanted.speed()) & (along >= std::abs(across)));
 }
 
 /// Whether what is evident goes as a control asks for that is held: without a jump, within 45 degrees of its direction,
 /// and along it at no less than half its speed. What all of some do, their mean does, too.
 inline bool answers(const Control& evident, const Control& wanted) {
-  return matches_jump(evident, wanted) && goes_along({evident.x, evident.y}, wanted);
+  return matches_jump(evident, wanted) && goes_along(evident.x, evident.y, wanted);
 }
 
 /// [controls]: the control that is performed in place of each. It is itself, but where it asks for motion that no class

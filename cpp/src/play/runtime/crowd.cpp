@@ -66,7 +66,9 @@ void Crowd::step_part(int part, const Control* controls, double seconds, double*
   if (part < 0 || part >= parts_) throw std::invalid_argument("part " + std::to_string(part) + " does not exist");
   const int last = first_player(part + 1, parts_, size()) - 1;
   for (int i = first_player(part, parts_, size()); i <= last; ++i) {
-    players_[std::min(i + 1, last)].prefetch();
+    const int next = std::min(i + 1, last);
+    players_[next].prefetch();
+    if (rotations != nullptr) prefetch(rotations + std::ptrdiff_t{4} * bones_ * next, std::size_t{4} * bones_);
     step_player(i, controls[i], seconds, roots, rotations);
   }
 }

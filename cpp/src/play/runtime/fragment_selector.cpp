@@ -55,26 +55,21 @@ void FragmentSelector::extrapolate_end(const Fragment& fragment) const {
   extrapolate(root.frame(), before, now);
 }
 
-// Finds the members that may be played, and what is known of their costs before they are joined; one that costs least
-// comes first. Where the representative jumps, or does not, as is wanted, or answers a control that asks for motion,
-// they do so too.
+// Finds what is known of the members' costs before they are joined, which is infinite of those that may not be played:
+// where the representative jumps, or does not, as is wanted, or answers a control that asks for motion, they do so too.
 void FragmentSelector::find_candidates(int next_class, const Control& control, const Left& left,
                                        Candidates& candidates) const {
   const Character& c = *style_->character;
   const Control& usually = c.pool.fragments[c.classes.representatives[next_class]].evident;
-  const Control wanted = control;  // whatever is written, this stays
-  const bool matches = matches_jump(usually, wanted), goes = c.space.asks_to_go(wanted) && answers(usually, wanted),
-             is_mirrored = left.fragment.origin == Origin::mirrored;
   const auto of_left = static_cast<std::size_t>(left.fragment.clip);
   const bool is_here = of_left < c.contacts.size() && &left.contacts == &c.contacts[of_left];  // not of another style
-  const int clip = is_here ? left.fragment.clip : -1;
-  candidates.clear();
-  for (const Entrant& entrant : style_->members[next_class]) {
-    if (matches && !matches_jump(entrant.evident, wanted)) continue;
-    if (goes && !answers(entrant.evident, wanted)) continue;
-    candidates.emplace_back(style_->cost.of_entering(entrant, wanted, is_mirrored, clip), &entrant);
-    if (candidates.back().first < candidates.front().first) std::swap(candidates.front(), candidates.back());
-  }
+  const Entry entry{control, left.fragment.origin == Origin::mirrored, is_here ? left.fragment.clip : -1,
+                    matches_jump(usually, control), c.space.asks_to_go(control) && answers(usually, control)};
+  const Entrants& entrants = style_->members[next_class];
+  auto& [apart, barred] = workspace_->entering;
+  float* costs = candidates.costs.data();
+  style_->cost.of_entering(entrants, entry, apart.data(), barred.data(), costs);
+  candidates.best = static_cast<int>(std::min_element(costs, costs + entrants.count) - costs);
 }
 
 bool FragmentSelector::is_moving(const Control& evident) const {
@@ -89,29 +84,33 @@ float FragmentSelector::distance(int fragment) const {
 }
 
 // How many feet come down out of turn where a fragment follows what goes, or does not, after these steps.
-int FragmentSelector::out_of_turn(const Entrant& entrant, bool went, const StepSequence& steps) const {
-  const bool goes_on = went && is_moving(entrant.evident);
-  return goes_on ? steps_out_of_turn(steps, style_->entry_steps[entrant.fragment]) : 0;
+int FragmentSelector::out_of_turn(const Entrants& entrants, int member, bool went, const StepSequence& steps) const {
+  const bool goes_on = went && is_moving(entrants.evident(member));
+  return goes_on ? steps_out_of_turn(steps, style_->entry_steps[entrants.fragment(member)]) : 0;
 }
 
-// The candidate that costs least, if that is less than `most`, which comes first from now on. By the triangle
-// inequality a fragment's beginning is at least as far as the representative's less what is between these two, so that
-// few distances are measured.
+// The cost of the candidate that costs least, if that is less than `most`, which is the best from now on. Few distances
+// are measured: that to the representative tells how far others are at least.
 float FragmentSelector::least_cost(int next_class, const Control& evident, const StepSequence& steps,
                                    Candidates& candidates, float most) const {
   const TransitionCost& cost = style_->cost;
+  const Entrants& entrants = style_->members[next_class];
   const bool went = is_moving(evident);
   const float usual = distance(style_->character->classes.representatives[next_class]);
-  for (auto& candidate : candidates) {
-    const auto [known, entrant] = candidate;
-    const float nearest = std::max(0.0F, usual - entrant->beside_usual);
-    if (known + cost.of_joining(nearest, 0) >= most) continue;
-    const int feet = out_of_turn(*entrant, went, steps);
-    if (known + cost.of_joining(nearest, feet) >= most) continue;
-    const float whole = known + cost.of_joining(distance(entrant->fragment), feet);
-    if (whole >= most) continue;
+  const auto look = [&](int member) {
+    const float known = candidates.costs[member], nearest = std::max(0.0F, usual - entrants.beside_usual(member));
+    if (known + cost.of_joining(nearest, 0) >= most) return;
+    const int feet = out_of_turn(entrants, member, went, steps);
+    if (known + cost.of_joining(nearest, feet) >= most) return;
+    const float whole = known + cost.of_joining(distance(entrants.fragment(member)), feet);
+    if (whole >= most) return;
     most = whole;
-    std::swap(candidate, candidates.front());
+    candidates.best = member;
+  };
+  look(candidates.best);
+  for (int first = 0; first < entrants.count; first += kLanes) {
+    if (!cost.any_under(entrants, first, candidates.costs.data(), usual, most)) continue;
+    for (int member = first; member < first + kLanes; ++member) look(member);
   }
   return most;
 }
@@ -140,7 +139,8 @@ Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, c
                                        float enough) const {
   Candidates& candidates = workspace_->candidates[0];
   find_candidates(next_class, control, {playback.fragment(), playback.contacts()}, candidates);
-  if (candidates.front().first >= enough) return {candidates.front().first, 0};
+  const float known = candidates.costs[candidates.best];
+  if (known >= enough) return {known, 0};
   extrapolate(playback);
   return least_cost(next_class, control, playback.evident(), playback.steps());
 }
@@ -161,7 +161,7 @@ Cost FragmentSelector::least_cost(int next_class, const Control& control, const 
                                   const StepSequence& steps) const {
   Candidates& candidates = workspace_->candidates[0];
   const float whole = least_cost(next_class, evident, steps, candidates, kAny);
-  return {whole, style_->cost.of_going_on(candidates.front().second->fragment, control)};
+  return {whole, style_->cost.of_going_on(style_->members[next_class].fragment(candidates.best), control)};
 }
 
 int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback) {
@@ -171,22 +171,31 @@ int FragmentSelector::choose(int next_class, const Control& control, const Playb
   const auto variety = static_cast<float>(weights().variety);
   const bool went = is_moving(playback.evident());
   const float usual = distance(style_->character->classes.representatives[next_class]);
-  float least = std::numeric_limits<float>::infinity();
-  for (auto& [cost, entrant] : candidates) {
-    const int feet = out_of_turn(*entrant, went, playback.steps());
-    const float at_least = cost + style_->cost.of_joining(std::max(0.0F, usual - entrant->beside_usual), feet);
-    cost = at_least > least + variety ? at_least : cost + style_->cost.of_joining(distance(entrant->fragment), feet);
-    least = std::min(least, cost);
+  const Entrants& entrants = style_->members[next_class];
+  auto& drawn = workspace_->drawn;
+  drawn.clear();
+  for (int i = 0; i < entrants.count; ++i) {
+    if (candidates.costs[i] == kAny) continue;
+    drawn.emplace_back(candidates.costs[i], i);
+    if (drawn.back().first < drawn.front().first) std::swap(drawn.front(), drawn.back());
   }
-  const auto end = std::partition(candidates.begin(), candidates.end(),
-                                  [&](const auto& candidate) { return candidate.first <= least + variety; });
-  const int drawn = std::max(1, static_cast<int>(end - candidates.begin()));  // none costs a number in a forged state
-  return candidates[random_.below(drawn)].second->fragment;
+  float least = std::numeric_limits<float>::infinity();
+  for (auto& [cost, member] : drawn) {
+    const int feet = out_of_turn(entrants, member, went, playback.steps()), fragment = entrants.fragment(member);
+    const float at_least = cost + style_->cost.of_joining(std::max(0.0F, usual - entrants.beside_usual(member)), feet);
+    cost = at_least > least + variety ? at_least : cost + style_->cost.of_joining(distance(fragment), feet);
+    least = std::min(least, cost);
+    member = fragment;
+  }
+  const auto end =
+      std::partition(drawn.begin(), drawn.end(), [&](const auto& each) { return each.first <= least + variety; });
+  const int count = std::max(1, static_cast<int>(end - drawn.begin()));  // none costs a number in a forged state
+  return drawn[random_.below(count)].second;
 }
 
 int FragmentSelector::choose_any(int next_class) {
-  const std::vector<Entrant>& members = style_->members[next_class];
-  return members[random_.below(static_cast<int>(members.size()))].fragment;
+  const Entrants& entrants = style_->members[next_class];
+  return entrants.fragment(random_.below(entrants.count));
 }
 
 int FragmentSelector::best_class(const Control& control, const Playback& playback) const {
@@ -223,7 +232,7 @@ Exit FragmentSelector::best_exit(const std::array<Exit, 2>& classes, const Contr
     known[i] = std::numeric_limits<float>::infinity();
     if (classes[i].next_class < 0) continue;
     find_candidates(classes[i].next_class, control, left, workspace_->candidates[i]);
-    known[i] = workspace_->candidates[i].front().first;
+    known[i] = workspace_->candidates[i].costs[workspace_->candidates[i].best];
   }
   const auto most = [&](std::size_t i, double wait) {
     return static_cast<float>(best.cost - (classes[i].cost + haste * wait));

@@ -85,7 +85,7 @@ class FragmentSelector {
   bool is_moving(const Control& evident) const;
   void find_candidates(int next_class, const Control& control, const Left& left, Candidates& candidates) const;
   float distance(int fragment) const;
-  int out_of_turn(const Entrant& entrant, bool went, const StepSequence& steps) const;
+  int out_of_turn(const Entrants& entrants, int member, bool went, const StepSequence& steps) const;
   float least_cost(int next_class, const Control& evident, const StepSequence& steps, Candidates& candidates,
                    float most) const;
   Cost least_cost(int next_class, const Control& control, const Control& evident, const StepSequence& steps) const;

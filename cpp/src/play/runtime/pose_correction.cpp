@@ -8,7 +8,7 @@
 #include "runtime/look_stitch.hpp"
 
 namespace fragmotion {
-PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace, bool lock_feet)
+[[gnu::cold]] PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace, bool lock_feet)
     : workspace_(&workspace),
       scale_(character.space.scale()),
       lock_feet_(lock_feet),

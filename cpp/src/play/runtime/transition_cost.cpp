@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "fragments/body_tips.hpp"
+#include "base/vectorised.hpp"
+#include "policy/answer.hpp"
 
 namespace fragmotion {
 namespace {
@@ -13,7 +15,7 @@ constexpr double kStep = 0.4;  // s
 
 }  // namespace
 
-TransitionCost::TransitionCost(const Character& character, const TransitionWeights& weights)
+[[gnu::cold]] TransitionCost::TransitionCost(const Character& character, const TransitionWeights& weights)
     : character_(&character),
       ends_(end_velocities(character.pool)),
       match_(static_cast<float>(weights.match)),
@@ -49,19 +51,71 @@ float TransitionCost::of_going_on(int fragment, const Control& control) const {
          bent_ * static_cast<float>(turned);
 }
 
-std::vector<std::vector<Entrant>> TransitionCost::entrants() const {
+[[gnu::cold]] std::vector<Entrants> TransitionCost::entrants() const {
   const Character& c = *character_;
   const std::size_t row = c.entry_poses.size() / c.pool.fragments.size();
   const auto entry = [&](int fragment) { return c.entry_poses.data() + row * fragment; };
-  std::vector<std::vector<Entrant>> all(c.classes.count);
-  for (std::size_t i = 0; i < c.pool.fragments.size(); ++i) {
-    const int fragment = static_cast<int>(i), label = c.classes.labels[i];
-    const Fragment& f = c.pool.fragments[i];
-    const float beside =
-        tip_distance(entry(fragment), entry(c.classes.representatives[label]), static_cast<int>(row) / 3);
-    all[label].push_back({fragment, f.clip, f.origin == Origin::mirrored, made_[i], entered_[i], beside, f.evident});
+  const std::vector<std::vector<int>> members = c.classes.members();
+  std::vector<Entrants> all(members.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Entrants& e = all[k];
+    e.count = static_cast<int>(members[k].size());
+    e.stride = padded(e.count);
+    e.numbers = std::vector<int>(std::size_t{3} * e.stride);
+    e.costs = std::vector<float>(std::size_t{3} * e.stride, std::numeric_limits<float>::infinity());
+    e.evidents = std::vector<double>(std::size_t{4} * e.stride);
+    for (int i = 0; i < e.count; ++i) {
+      const int fragment = members[k][i];
+      const Fragment& f = c.pool.fragments[fragment];
+      int* number = &e.numbers[i];
+      for (const int value : {fragment, f.clip, f.origin == Origin::mirrored ? 1 : 0})
+        *number = value, number += e.stride;
+      const float beside =
+          tip_distance(entry(fragment), entry(c.classes.representatives[k]), static_cast<int>(row) / 3);
+      float* cost = &e.costs[i];
+      for (const float value : {made_[fragment], entered_[fragment], beside}) *cost = value, cost += e.stride;
+      double* evident = &e.evidents[i];
+      for (const double value : {f.evident.x, f.evident.y, f.evident.turn, f.evident.jump})
+        *evident = value, evident += e.stride;
+    }
   }
   return all;
+}
+
+FRAGMOTION_VECTORISED void TransitionCost::of_entering(const Entrants& entrants, const Entry& entry,
+                                                       double* __restrict apart, double* __restrict barred,
+                                                       float* __restrict costs) const {
+  const double infinite = std::numeric_limits<double>::infinity();
+  const int count = entrants.stride / kLanes * kLanes;
+  const Control wanted = entry.control;
+  const ControlMetric metric = character_->space.metric();
+  const double *x = entrants.evidents.data(), *y = x + count, *turn = y + count, *jump = turn + count;
+  for (int i = 0; i < count; ++i) apart[i] = metric({x[i], y[i], turn[i], jump[i]}, wanted);
+  for (int i = 0; i < count; ++i) barred[i] = 0;
+  if (entry.matches) {
+    for (int i = 0; i < count; ++i) barred[i] = matches_jump({0, 0, 0, jump[i]}, wanted) ? barred[i] : infinite;
+  }
+  if (entry.goes) {
+    for (int i = 0; i < count; ++i) barred[i] = goes_along(x[i], y[i], wanted) ? barred[i] : infinite;
+  }
+  const int *clip = entrants.numbers.data() + count, *mirrored = clip + count;
+  const float *made = entrants.costs.data(), *entered = made + count;
+  const float match = match_, manner = manner_;
+  for (int i = 0; i < count; ++i) {
+    const float side = mirrored[i] == (entry.is_mirrored ? 1 : 0) ? 0 : manner,
+                take = clip[i] == entry.clip ? 0 : manner;
+    costs[i] =
+        match * static_cast<float>(apart[i]) + made[i] + entered[i] + side + take + static_cast<float>(barred[i]);
+  }
+}
+
+bool TransitionCost::any_under(const Entrants& entrants, int first, const float* costs, float usual, float most) const {
+  const float* beside = &entrants.costs[std::size_t{2} * entrants.stride + first];
+  const float per_distance = per_distance_;
+  int under = 0;
+  for (int i = 0; i < kLanes; ++i)
+    under |= costs[first + i] + std::max(0.0F, usual - beside[i]) * per_distance < most ? 1 : 0;
+  return under != 0;
 }
 
 }  // namespace fragmotion

@@ -1,20 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "character/character.hpp"
+#include "fragments/body_tips.hpp"
 #include "fragments/hips_velocity.hpp"
 #include "runtime/player_constants.hpp"
 #include "runtime/step_sequence.hpp"
 
 namespace fragmotion {
 
-/// A member of a class, and what its costs are told by, all in one place of the memory.
-struct Entrant {
-  int fragment = 0, clip = 0;
+/// The members of a class, and what their costs are told by, each beside the others': they are told together. Rows are
+/// padded to whole blocks of kLanes, with what costs infinitely much.
+struct Entrants {
+  int count = 0, stride = 0;
+  std::vector<int> numbers;      ///< [3, stride]: fragments, clips, and 1 where it is a mirror image
+  std::vector<float> costs;      ///< [3, stride]: of perform() and of enter() what no control tells, and beside_usual()
+  std::vector<double> evidents;  ///< [4, stride]: x, y, turn and jump
+
+  int fragment(int i) const { return numbers[i]; }
+  /// tip_distance() of its beginning to the representative's.
+  float beside_usual(int i) const { return costs[2 * stride + i]; }
+  Control evident(int i) const {
+    return {evidents[i], evidents[stride + i], evidents[2 * stride + i], evidents[3 * stride + i]};
+  }
+};
+
+/// What members of a class enter after, mirrored or not, of a clip of this number; under which control, and whether
+/// those alone may that jump, or do not, as is wanted, and that answer() it.
+struct Entry {
+  Control control;
   bool is_mirrored = false;
-  float made = 0, entered = 0;  ///< Of perform() and of enter() what no control tells.
-  float beside_usual = 0;       ///< tip_distance() of its beginning to the representative's.
-  Control evident;
+  int clip = -1;
+  bool matches = false, goes = false;
 };
 
 /// What it costs to play fragment g next, t seconds from now, in metres of Dis of a body whose tip_reach() is
@@ -43,12 +62,15 @@ class TransitionCost {
   /// Of going on with a fragment as the successor under a control.
   float of_going_on(int fragment, const Control& control) const;
   /// The members of each class.
-  std::vector<std::vector<Entrant>> entrants() const;
-  /// perform() + enter() of one after another, mirrored or not, that is of a clip of this number.
-  float of_entering(const Entrant& entrant, const Control& control, bool is_mirrored, int clip) const {
-    return of_performing(entrant.evident, entrant.made, control) + entrant.entered +
-           (entrant.is_mirrored != is_mirrored ? manner_ : 0) + (entrant.clip == clip ? 0 : manner_);
-  }
+  std::vector<Entrants> entrants() const;
+  /// Writes perform() + enter() of each, infinite where it may not be entered, to a row of costs; in two others it
+  /// works.
+  void of_entering(const Entrants& entrants, const Entry& entry, double* __restrict apart, double* __restrict barred,
+                   float* __restrict costs) const;
+  /// Whether any of a block, from a member on, may cost less than `most` where these costs are known, and the
+  /// representative joins by a tip_distance() that is `usual`: by the triangle inequality the beginning of another is
+  /// at least as far as that, less what is between the two.
+  bool any_under(const Entrants& entrants, int first, const float* costs, float usual, float most) const;
   /// join() by a tip_distance() of places and of speeds, both of which it sums, for so many feet out of turn.
   float of_joining(float distance, int out_of_turn) const {
     return distance * per_distance_ + out_of_turn_ * out_of_turn;

@@ -26,7 +26,7 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
   for (int style = 0; style < character.style_count(); ++style) {
     const Character& c = character.in_style(style);
     TransitionCost cost(c, constants.transition);
-    std::vector<std::vector<Entrant>> members = cost.entrants();
+    std::vector<Entrants> members = cost.entrants();
     lists.push_back(
         {&c, std::move(members), entry_steps(c), std::move(cost), step_seconds(c), successors(c.pool.fragments)});
     most = std::max(most, c.pool.fragments.size());
@@ -49,7 +49,9 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
         spine.push_back(b);
     }
   }
-  for (Candidates& each : candidates) each.reserve(most);
+  for (Candidates& each : candidates) each.costs.resize(most + kLanes);
+  for (std::vector<double>& each : entering) each.resize(most + kLanes);
+  drawn.reserve(most);
   shown.rotations.resize(std::size_t{4} * kinematics.bones());
   poses.fill(shown);
   for (WorldPose& pose : looks) pose.rotations.resize(4 * look.size());
@@ -58,7 +60,7 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
 Workspace Workspace::another() const {
   Workspace made(*this);
   made.body = std::make_shared<FootLock::Body>(*body);
-  for (std::size_t i = 0; i < candidates.size(); ++i) made.candidates[i].reserve(candidates[i].capacity());
+  made.drawn.reserve(drawn.capacity());
   return made;
 }
 

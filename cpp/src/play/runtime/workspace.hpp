@@ -18,16 +18,19 @@ namespace fragmotion {
 
 /// What is looked up of the fragments of one style.
 struct FragmentLists {
-  const Character* character;                 ///< In that style.
-  std::vector<std::vector<Entrant>> members;  ///< Of each class.
-  std::vector<EntrySteps> entry_steps;        ///< entry_steps()
-  TransitionCost cost;                        ///< Of playing each.
-  std::vector<double> step_seconds;           ///< step_seconds()
-  std::vector<int> successors;                ///< successors()
+  const Character* character;           ///< In that style.
+  std::vector<Entrants> members;        ///< Of each class.
+  std::vector<EntrySteps> entry_steps;  ///< entry_steps()
+  TransitionCost cost;                  ///< Of playing each.
+  std::vector<double> step_seconds;     ///< step_seconds()
+  std::vector<int> successors;          ///< successors()
 };
 
-/// Members of a class, and what each costs.
-using Candidates = std::vector<std::pair<float, const Entrant*>>;
+/// What is known of the costs of a class's Entrants, and which of them is hoped to cost least.
+struct Candidates {
+  std::vector<float> costs;
+  int best = 0;
+};
 
 /// What players of one character that step in turn share: what never changes, and room to work in.
 struct Workspace {
@@ -55,8 +58,10 @@ struct Workspace {
 
   // Of the FragmentSelector's: rows as those of Character::entry_poses.
   std::array<BodyTips, 3> tips;
-  std::vector<float> onward;             ///< Tips of what is shown, and of how it would go on.
-  std::array<Candidates, 2> candidates;  ///< Of one class, or of the two that are compared.
+  std::vector<float> onward;                    ///< Tips of what is shown, and of how it would go on.
+  std::array<Candidates, 2> candidates;         ///< Of one class, or of the two that are compared.
+  std::array<std::vector<double>, 2> entering;  ///< Room for TransitionCost::of_entering().
+  std::vector<std::pair<float, int>> drawn;     ///< Costs and fragments of those that one is drawn of.
 
   UnpackedPoses unpacked;          ///< Of all that plays.
   WorldPose shown;                 ///< By the player that stepped last.
