@@ -88,6 +88,8 @@ class StandingLegs {
     std::vector<LimbPair> pairs;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
       for (std::size_t j = i + 1; j < leaves.size(); ++j) {
+        if (shape_.parent(leaves[i]) == shape_.parent(leaves[j]))
+          continue;  // of one bone each, of which there may be many
         const int node = tree_.common(leaves[i], leaves[j]);
         if (node < 0) continue;
         LimbPair pair{node, {chain_below(node, leaves[i]), chain_below(node, leaves[j])}, 0};
