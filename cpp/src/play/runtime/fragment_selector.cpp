@@ -86,7 +86,7 @@ float FragmentSelector::distance(int fragment) const {
 // How many feet come down out of turn where a fragment follows what goes, or does not, after these steps.
 int FragmentSelector::out_of_turn(const Entrants& entrants, int member, bool went, const StepSequence& steps) const {
   const bool goes_on = went && is_moving(entrants.evident(member));
-  return goes_on ? steps_out_of_turn(steps, style_->entry_steps[entrants.fragment[member]]) : 0;
+  return goes_on ? steps_out_of_turn(steps, style_->entry_steps[entrants.fragment(member)]) : 0;
 }
 
 // The cost of the candidate that costs least, if that is less than `most`, which is the best from now on. Few distances
@@ -98,11 +98,11 @@ float FragmentSelector::least_cost(int next_class, const Control& evident, const
   const bool went = is_moving(evident);
   const float usual = distance(style_->character->classes.representatives[next_class]);
   const auto look = [&](int member) {
-    const float known = candidates.costs[member], nearest = std::max(0.0F, usual - entrants.beside_usual[member]);
+    const float known = candidates.costs[member], nearest = std::max(0.0F, usual - entrants.beside_usual(member));
     if (known + cost.of_joining(nearest, 0) >= most) return;
     const int feet = out_of_turn(entrants, member, went, steps);
     if (known + cost.of_joining(nearest, feet) >= most) return;
-    const float whole = known + cost.of_joining(distance(entrants.fragment[member]), feet);
+    const float whole = known + cost.of_joining(distance(entrants.fragment(member)), feet);
     if (whole >= most) return;
     most = whole;
     candidates.best = member;
@@ -160,7 +160,7 @@ Cost FragmentSelector::least_cost(int next_class, const Control& control, const 
                                   const StepSequence& steps) const {
   Candidates& candidates = workspace_->candidates[0];
   const float whole = least_cost(next_class, evident, steps, candidates, kAny);
-  return {whole, style_->cost.of_going_on(style_->members[next_class].fragment[candidates.best], control)};
+  return {whole, style_->cost.of_going_on(style_->members[next_class].fragment(candidates.best), control)};
 }
 
 int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback) {
@@ -180,8 +180,8 @@ int FragmentSelector::choose(int next_class, const Control& control, const Playb
   }
   float least = std::numeric_limits<float>::infinity();
   for (auto& [cost, member] : drawn) {
-    const int feet = out_of_turn(entrants, member, went, playback.steps()), fragment = entrants.fragment[member];
-    const float at_least = cost + style_->cost.of_joining(std::max(0.0F, usual - entrants.beside_usual[member]), feet);
+    const int feet = out_of_turn(entrants, member, went, playback.steps()), fragment = entrants.fragment(member);
+    const float at_least = cost + style_->cost.of_joining(std::max(0.0F, usual - entrants.beside_usual(member)), feet);
     cost = at_least > least + variety ? at_least : cost + style_->cost.of_joining(distance(fragment), feet);
     least = std::min(least, cost);
     member = fragment;
@@ -194,7 +194,7 @@ int FragmentSelector::choose(int next_class, const Control& control, const Playb
 
 int FragmentSelector::choose_any(int next_class) {
   const Entrants& entrants = style_->members[next_class];
-  return entrants.fragment[random_.below(entrants.count)];
+  return entrants.fragment(random_.below(entrants.count));
 }
 
 int FragmentSelector::best_class(const Control& control, const Playback& playback) const {

@@ -23,20 +23,20 @@ double within_one(double value, const char* name) {
 
 }  // namespace
 
-Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options)
+[[gnu::cold]] Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options)
     : Player(character, options, std::make_shared<Workspace>(*character, options.constants)) {
   complete(options);
 }
 
 // Makes what a player of a crowd may lack.
-void Player::complete(const PlayerOptions& options) {
+[[gnu::cold]] void Player::complete(const PlayerOptions& options) {
   reaching_ = std::make_shared<Reaching>(*workspace_);
   reaching_->apply(ground_level(), 0);
   make_extras(options);
 }
 
-Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options,
-               std::shared_ptr<Workspace> workspace)
+[[gnu::cold]] Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& options,
+                             std::shared_ptr<Workspace> workspace)
     : character_(std::move(character)),
       workspace_(std::move(workspace)),
       governor_(*character_, workspace_->constants.root, within_one(options.root_adjustment, "root adjustment"),
@@ -60,13 +60,13 @@ void Player::set_options(const PlayerOptions& options) {
   if (extras_ != nullptr) extras_->upper_body.set_stitch(stitch);
 }
 
-Player Player::another(const PlayerOptions& options) const {
+[[gnu::cold]] Player Player::another(const PlayerOptions& options) const {
   Player player(character_, options, std::make_shared<Workspace>(workspace_->another()));
   player.complete(options);
   return player;
 }
 
-Player Player::branch() const {
+[[gnu::cold]] Player Player::branch() const {
   Player player(*this);
   if (reaching_ != nullptr) player.reaching_ = std::make_shared<Reaching>(*reaching_);
   if (extras_ != nullptr) player.extras_ = std::make_shared<Extras>(*extras_);

@@ -14,7 +14,7 @@ constexpr double kLonger = kTurnsAtMost - 1;  // of a step at most, as legs swin
 
 }  // namespace
 
-PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace, bool lock_feet)
+[[gnu::cold]] PoseCorrection::PoseCorrection(const Character& character, Workspace& workspace, bool lock_feet)
     : workspace_(&workspace),
       scale_(character.space.scale()),
       lock_feet_(lock_feet),

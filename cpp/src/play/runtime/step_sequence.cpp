@@ -20,7 +20,7 @@ struct Wrap {
 };
 
 // The frames in which a foot comes down.
-std::vector<int> strikes(const std::vector<bool>& stands) {
+[[gnu::cold]] std::vector<int> strikes(const std::vector<bool>& stands) {
   std::vector<int> frames;
   for (std::size_t f = 1; f < stands.size(); ++f) {
     if (stands[f] && !stands[f - 1]) frames.push_back(static_cast<int>(f));
@@ -60,7 +60,7 @@ void StepSequence::advance(const std::array<bool, 2>& now, double seconds) {
   stands = now;
 }
 
-std::vector<EntrySteps> entry_steps(const Character& character) {
+[[gnu::cold]] std::vector<EntrySteps> entry_steps(const Character& character) {
   std::vector<EntrySteps> all;
   const std::vector<Wrap> wraps = fragmotion::wraps(character);
   std::vector<std::array<std::vector<int>, 2>> strikes;
@@ -78,7 +78,7 @@ std::vector<EntrySteps> entry_steps(const Character& character) {
   return all;
 }
 
-std::vector<double> step_seconds(const Character& character) {
+[[gnu::cold]] std::vector<double> step_seconds(const Character& character) {
   std::vector<double> all;
   std::vector<std::vector<int>> strikes;
   for (const Contacts& contacts : character.contacts) strikes.push_back(foot_strikes(contacts));

@@ -15,7 +15,7 @@ constexpr double kStep = 0.4;  // s
 
 }  // namespace
 
-TransitionCost::TransitionCost(const Character& character, const TransitionWeights& weights)
+[[gnu::cold]] TransitionCost::TransitionCost(const Character& character, const TransitionWeights& weights)
     : character_(&character),
       ends_(end_velocities(character.pool)),
       match_(static_cast<float>(weights.match)),
@@ -52,33 +52,33 @@ float TransitionCost::of_going_on(int fragment, const Control& control) const {
          bent_ * static_cast<float>(turned);
 }
 
-std::vector<Entrants> TransitionCost::entrants() const {
+[[gnu::cold]] std::vector<Entrants> TransitionCost::entrants() const {
   const Character& c = *character_;
   const std::size_t row = c.entry_poses.size() / c.pool.fragments.size();
   const auto entry = [&](int fragment) { return c.entry_poses.data() + row * fragment; };
-  std::vector<Entrants> all;
-  for (const std::vector<int>& members : c.classes.members()) {
-    Entrants& e = all.emplace_back();
-    const float* usual = entry(c.classes.representatives[all.size() - 1]);
-    e.count = static_cast<int>(members.size());
-    for (const int fragment : members) {
+  const std::vector<std::vector<int>> members = c.classes.members();
+  std::vector<Entrants> all(members.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Entrants& e = all[k];
+    e.count = static_cast<int>(members[k].size());
+    e.stride = padded(e.count);
+    e.numbers = std::vector<int>(std::size_t{3} * e.stride);
+    e.costs = std::vector<float>(std::size_t{3} * e.stride, std::numeric_limits<float>::infinity());
+    e.evidents = std::vector<double>(std::size_t{4} * e.stride);
+    for (int i = 0; i < e.count; ++i) {
+      const int fragment = members[k][i];
       const Fragment& f = c.pool.fragments[fragment];
-      e.fragment.push_back(fragment);
-      e.clip.push_back(f.clip);
-      e.is_mirrored.push_back(f.origin == Origin::mirrored ? 1 : 0);
-      e.made.push_back(made_[fragment]);
-      e.entered.push_back(entered_[fragment]);
-      e.beside_usual.push_back(tip_distance(entry(fragment), usual, static_cast<int>(row) / 3));
-      e.x.push_back(f.evident.x);
-      e.y.push_back(f.evident.y);
-      e.turn.push_back(f.evident.turn);
-      e.jump.push_back(f.evident.jump);
+      int* number = &e.numbers[i];
+      for (const int value : {fragment, f.clip, f.origin == Origin::mirrored ? 1 : 0})
+        *number = value, number += e.stride;
+      const float beside =
+          tip_distance(entry(fragment), entry(c.classes.representatives[k]), static_cast<int>(row) / 3);
+      float* cost = &e.costs[i];
+      for (const float value : {made_[fragment], entered_[fragment], beside}) *cost = value, cost += e.stride;
+      double* evident = &e.evidents[i];
+      for (const double value : {f.evident.x, f.evident.y, f.evident.turn, f.evident.jump})
+        *evident = value, evident += e.stride;
     }
-    const int padded_count = padded(e.count);
-    for (std::vector<int>* row : {&e.fragment, &e.clip, &e.is_mirrored}) row->resize(padded_count);
-    for (std::vector<float>* row : {&e.entered, &e.beside_usual}) row->resize(padded_count);
-    for (std::vector<double>* row : {&e.x, &e.y, &e.turn, &e.jump}) row->resize(padded_count);
-    e.made.resize(padded_count, std::numeric_limits<float>::infinity());
   }
   return all;
 }
@@ -86,22 +86,21 @@ std::vector<Entrants> TransitionCost::entrants() const {
 FRAGMOTION_VECTORISED void TransitionCost::of_entering(const Entrants& entrants, const Entry& entry,
                                                        double* __restrict apart, double* __restrict barred,
                                                        float* __restrict costs) const {
-  constexpr double kBarred = std::numeric_limits<double>::infinity();
-  const int count = entrants.padded_count() / kLanes * kLanes;
+  const double infinite = std::numeric_limits<double>::infinity();
+  const int count = entrants.stride / kLanes * kLanes;
   const Control wanted = entry.control;
   const ControlMetric metric = character_->space.metric();
-  const double *x = entrants.x.data(), *y = entrants.y.data(), *turn = entrants.turn.data(),
-               *jump = entrants.jump.data();
+  const double *x = entrants.evidents.data(), *y = x + count, *turn = y + count, *jump = turn + count;
   for (int i = 0; i < count; ++i) apart[i] = metric({x[i], y[i], turn[i], jump[i]}, wanted);
   for (int i = 0; i < count; ++i) barred[i] = 0;
   if (entry.matches) {
-    for (int i = 0; i < count; ++i) barred[i] = matches_jump({0, 0, 0, jump[i]}, wanted) ? barred[i] : kBarred;
+    for (int i = 0; i < count; ++i) barred[i] = matches_jump({0, 0, 0, jump[i]}, wanted) ? barred[i] : infinite;
   }
   if (entry.goes) {
-    for (int i = 0; i < count; ++i) barred[i] = goes_along(x[i], y[i], wanted) ? barred[i] : kBarred;
+    for (int i = 0; i < count; ++i) barred[i] = goes_along(x[i], y[i], wanted) ? barred[i] : infinite;
   }
-  const int *mirrored = entrants.is_mirrored.data(), *clip = entrants.clip.data();
-  const float *made = entrants.made.data(), *entered = entrants.entered.data();
+  const int *clip = entrants.numbers.data() + count, *mirrored = clip + count;
+  const float *made = entrants.costs.data(), *entered = made + count;
   const float match = match_, of_side = mirrored_, of_take = other_take_;
   for (int i = 0; i < count; ++i) {
     const float side = mirrored[i] == (entry.is_mirrored ? 1 : 0) ? 0 : of_side,
@@ -111,9 +110,8 @@ FRAGMOTION_VECTORISED void TransitionCost::of_entering(const Entrants& entrants,
   }
 }
 
-FRAGMOTION_VECTORISED bool TransitionCost::any_under(const Entrants& entrants, int first, const float* costs,
-                                                     float usual, float most) const {
-  const float* beside = &entrants.beside_usual[first];
+bool TransitionCost::any_under(const Entrants& entrants, int first, const float* costs, float usual, float most) const {
+  const float* beside = &entrants.costs[std::size_t{2} * entrants.stride + first];
   const float per_distance = per_distance_;
   int under = 0;
   for (int i = 0; i < kLanes; ++i)

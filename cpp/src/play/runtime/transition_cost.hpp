@@ -14,14 +14,17 @@ namespace fragmotion {
 /// The members of a class, and what their costs are told by, each beside the others': they are told together. Rows are
 /// padded to whole blocks of kLanes, with what costs infinitely much.
 struct Entrants {
-  int count = 0;
-  std::vector<int> fragment, clip, is_mirrored;
-  std::vector<float> made, entered;  ///< Of perform() and of enter() what no control tells.
-  std::vector<float> beside_usual;   ///< tip_distance() of its beginning to the representative's.
-  std::vector<double> x, y, turn, jump;
+  int count = 0, stride = 0;
+  std::vector<int> numbers;      ///< [3, stride]: fragments, clips, and 1 where it is a mirror image
+  std::vector<float> costs;      ///< [3, stride]: of perform() and of enter() what no control tells, and beside_usual()
+  std::vector<double> evidents;  ///< [4, stride]: x, y, turn and jump
 
-  int padded_count() const { return static_cast<int>(made.size()); }
-  Control evident(int i) const { return {x[i], y[i], turn[i], jump[i]}; }
+  int fragment(int i) const { return numbers[i]; }
+  /// tip_distance() of its beginning to the representative's.
+  float beside_usual(int i) const { return costs[2 * stride + i]; }
+  Control evident(int i) const {
+    return {evidents[i], evidents[stride + i], evidents[2 * stride + i], evidents[3 * stride + i]};
+  }
 };
 
 /// What members of a class enter after, mirrored or not, of a clip of this number; under which control, and whether

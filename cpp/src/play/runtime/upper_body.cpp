@@ -30,7 +30,7 @@ void blend(const Quaternion& to, double weight, double* rotation) {
 
 }  // namespace
 
-UpperBody::UpperBody(const Character& character, Workspace& workspace, Stitching stitching, double stitch)
+[[gnu::cold]] UpperBody::UpperBody(const Character& character, Workspace& workspace, Stitching stitching, double stitch)
     : track(character),
       character_(&character),
       workspace_(&workspace),
