@@ -12,7 +12,8 @@ namespace fragmotion {
 inline bool goes_along(double x, double y, const Control& wanted) {
   constexpr double kSlowest = 0.5;  // of the speed that is asked for
   const double along = x * wanted.x + y * wanted.y, across = x * wanted.y - y * wanted.x;
-  return static_cast<bool>((along >= kSlowest * wanted.speed() * wanted.speed()) & (along >= std::abs(across)));
+  const bool is_fast = along >= kSlowest * wanted.speed() * wanted.speed(), is_near = along >= std::abs(across);
+  return is_fast && is_near;
 }
 
 /// Whether what is evident goes as a control asks for that is held: without a jump, within 45 degrees of its direction,
