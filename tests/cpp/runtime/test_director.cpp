@@ -194,8 +194,8 @@ double share_that_stays(const TransitionWeights& weights) {
 
 TEST(Player, StaysInATakeTheMoreTheMoreItCostsToLeaveIt) {
   TransitionWeights fickle, loyal;
-  fickle.other_take = fickle.mirrored = 0;
-  loyal.other_take = loyal.mirrored = 100;
+  fickle.manner = 0;
+  loyal.manner = 100;
   EXPECT_GT(share_that_stays({}), 0.1);
   EXPECT_GT(share_that_stays(loyal), share_that_stays(fickle));
 }

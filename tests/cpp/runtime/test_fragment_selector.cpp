@@ -37,7 +37,7 @@ double stated_performing(const Choice& choice, int fragment, const Control& cont
   const TransitionWeights weights;
   const Fragment& f = c.pool.fragments[fragment];
   const bool made = f.origin == Origin::interpolated || f.origin == Origin::transformed;
-  return weights.match * c.space.distance(f.evident, control) + (made ? weights.made : 0);
+  return weights.match * c.space.distance(f.evident, control) + (made ? weights.manner : 0);
 }
 
 // Its stated equation, of a fragment that is entered from what plays; how the tips would go on is the selector's.
@@ -49,8 +49,8 @@ double stated_cost(const Choice& choice, const std::vector<EndVelocities>& ends,
   double cost = stated_performing(choice, fragment, control);
   cost += weights.unsteady * standard_scale(c.pool.skeleton) * (ends[fragment].last - ends[fragment].first).norm();
   cost += weights.hurried * std::max(0.0, 1 - c.pool.seconds(f) / 0.4);
-  if ((f.origin == Origin::mirrored) != (left.origin == Origin::mirrored)) cost += weights.mirrored;
-  if (f.clip != left.clip) cost += weights.other_take;
+  if ((f.origin == Origin::mirrored) != (left.origin == Origin::mirrored)) cost += weights.manner;
+  if (f.clip != left.clip) cost += weights.manner;
   if (moves(f.evident) && moves(left.evident)) {
     cost += weights.out_of_turn *
             steps_out_of_turn(choice.playback.steps(), choice.workspace.styles->front().entry_steps[fragment]);
