@@ -35,7 +35,7 @@ struct Carried {
     pose.root.y() += speed * frame * kFrame;
     pose.rotations.assign(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
     if (on_floor) contacts.floors = find_contacts(kinematics, clip).floors;
-    lock.apply(pose, contacts, 0, frame == 0 ? 0 : kFrame);
+    lock.apply(pose, contacts, {}, frame == 0 ? 0 : kFrame);
     PosedBones posed(skeleton.size());
     kinematics.world(pose.root, pose.rotations.data(), posed.heads.data(), posed.rotations.data());
     return posed;
@@ -59,6 +59,38 @@ TEST(FootLock, KeepsTheEndOfALegWithoutAFootWhereItIs) {
   EXPECT_TRUE(body.lock.locked(0));
 }
 
+// How far a ball goes along the ground in a frame in which its motion goes at a speed and lifts it, or sets it down, at
+// another, while its contact goes on, or begins or ends.
+double gone(double rises, FootLock::Frames frames) {
+  Carried body;
+  Contacts contacts;
+  contacts.feet = {std::vector<bool>{false, true, true, true, false}, std::vector<bool>(5, false)};
+  contacts.floors = find_contacts(body.kinematics, body.clip).floors;
+  Vector2 before = Vector2::Zero(), now = Vector2::Zero();
+  for (int f = 0; f < 30; ++f) {
+    WorldPose pose{load_vector(body.clip.root_positions.data()), body.clip.headings[0], {}};
+    pose.root += Vector3{0, body.speed, rises} * (f - 29) * kFrame;
+    pose.rotations.assign(body.clip.rotations.begin(),
+                          body.clip.rotations.begin() + std::ptrdiff_t{4} * body.skeleton.size());
+    body.lock.apply(pose, contacts, f < 29 ? FootLock::Frames{2, 2, 2} : frames, f == 0 ? 0 : kFrame);
+    PosedBones posed(body.skeleton.size());
+    body.kinematics.world(pose.root, pose.rotations.data(), posed.heads.data(), posed.rotations.data());
+    before = now;
+    now = ball(body.skeleton, body.legs[0], posed).head<2>();
+  }
+  return (now - before).norm();
+}
+
+TEST(FootLock, LetsABallRollOffAndComeDownAsItsMotionDoesOnlyWhereAContactBeginsOrEnds) {
+  const double motion = 0.3 * kFrame;
+  const FootLock::Frames begins{1, 0, 3}, goes_on{2, 1, 3}, ends{3, 1, 4};
+  EXPECT_GT(gone(kLeaves, ends), 0.9 * motion);
+  EXPECT_NEAR(gone(kLeaves / 2, ends), motion / 2, 0.1 * motion);
+  EXPECT_LT(gone(kLeaves, goes_on), 0.1 * motion);
+  EXPECT_LT(gone(0, ends), 0.1 * motion);
+  EXPECT_LT(gone(-0.01, begins), 0.1 * motion);
+}
+
 TEST(FootLock, EditsStepsByTheFeetsPlacesFromTheHipsAndAShift) {
   Carried body;
   WorldPose pose{load_vector(body.clip.root_positions.data()), 0.5, {}};
@@ -73,7 +105,7 @@ TEST(FootLock, EditsStepsByTheFeetsPlacesFromTheHipsAndAShift) {
   StepEdit edit;
   edit.stride << 0.5, 0, 0.2, -0.3;
   edit.shift = {0.04, 0.12};
-  body.lock.apply(pose, standing(false), 0, 0, edit);
+  body.lock.apply(pose, standing(false), {}, 0, edit);
   const Matrix2 heading = Eigen::Rotation2Dd(0.5).toRotationMatrix();
   const Vector2 wanted = before + heading * (edit.stride * heading.transpose() * before + edit.shift);
   EXPECT_LT((place(pose) - wanted).norm(), 0.005);
@@ -247,7 +279,7 @@ double lifted(bool on_ground, double clears) {
     const double before = place();
     StepEdit edit;
     edit.clears = clears;
-    body.lock.apply(pose, contacts, 0, f == 0 ? 0 : kFrame, edit);
+    body.lock.apply(pose, contacts, {}, f == 0 ? 0 : kFrame, edit);
     height = (place() - before) * standard_scale(body.skeleton);
   }
   return height;
@@ -274,7 +306,7 @@ TEST(FootLock, StepsOutOfAStrideThatItStandsIn) {
                           body.clip.rotations.begin() + std::ptrdiff_t{4} * body.skeleton.size());
     PosedBones moved(body.skeleton.size()), posed(body.skeleton.size());
     body.kinematics.world(pose.root, pose.rotations.data(), moved.heads.data(), moved.rotations.data());
-    body.lock.apply(pose, both, 0, f == 0 ? 0 : kFrame);
+    body.lock.apply(pose, both, {}, f == 0 ? 0 : kFrame);
     body.kinematics.world(pose.root, pose.rotations.data(), posed.heads.data(), posed.rotations.data());
     const Vector3 now = ball(body.skeleton, body.legs[0], posed), free = ball(body.skeleton, body.legs[0], moved);
     highest = std::max(highest, now.z() - free.z());
@@ -300,7 +332,7 @@ TEST(FootLock, LeavesASkeletonWithoutLegsAsItIs) {
   WorldPose pose{load_vector(clip.root_positions.data()), 0, {}};
   pose.rotations.assign(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
   const std::vector<double> before = pose.rotations;
-  lock.apply(pose, standing(true), 0, kFrame);
+  lock.apply(pose, standing(true), {}, kFrame);
   EXPECT_EQ(pose.rotations, before);
 }
 

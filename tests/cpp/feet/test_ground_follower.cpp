@@ -329,6 +329,20 @@ TEST(FootOnGround, ComesDownQuicklyWhereItsLandingWasNotForeseen) {
   EXPECT_NEAR(last, 0.18, 0.01);
 }
 
+TEST(FootOnGround, GoesOnFromItsHeightWhenItIsToLandNearerThanWasForeseen) {
+  const Ground wall = [](const Vector3& from) {
+    return GroundPoint{from.y() > 0.5 && from.y() < 0.55 ? 0.4 : 0, Vector3::UnitZ()};
+  };
+  GroundProbe probe(wall, 5, kMany);
+  FootOnGround foot;
+  foot.advance(foot_at(0.16, 0, 0.16), 0, 0, probe, 0);
+  for (int i = 1; i < 22; ++i) foot.advance(foot_at(0.16 + 0.02 * i, (30 - i) * kStep, 0.76), 0, kStep, probe, 0);
+  const double before = foot.height();
+  EXPECT_GT(before, 0.4);
+  foot.advance(foot_at(0.6, 0.1, 0.65), 0, kStep, probe, 0);
+  EXPECT_LT(std::abs(foot.height() - before), 5 * kStep) << "no faster than a foot goes";
+}
+
 TEST(HipsOnGround, GoUpASlopeAsThePlaneDoesAndOverStairsWithoutAKink) {
   for (const Ground& ground : {Ground(up_along_y), Ground(stairs)}) {
     GroundProbe probe(ground, 50, 240 * kMany);

@@ -86,7 +86,8 @@ std::array<double, 4> slides(bool holds) {
     pose.root.y() *= 0.9;
     const auto first = clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size() * f;
     pose.rotations.assign(first, first + std::ptrdiff_t{4} * skeleton.size());
-    if (holds) lock.apply(pose, contacts, f, f > 0 ? 1 / clip.rate : 0);
+    const auto frame = static_cast<std::size_t>(f);
+    if (holds) lock.apply(pose, contacts, {frame, frame, frame}, f > 0 ? 1 / clip.rate : 0);
     kinematics.world(pose.root, pose.rotations.data(), posed.heads.data(), posed.rotations.data());
     for (int leg = 0; leg < 4; ++leg) {
       const Vector3 place = ball(skeleton, legs[leg], posed);

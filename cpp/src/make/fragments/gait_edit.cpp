@@ -33,7 +33,8 @@ void plant_feet(const Kinematics& kinematics, const Legs& legs, Clip& clip, cons
     pose.root = load_vector(root);
     pose.heading = clip.headings[f];
     std::copy_n(rotations, pose.rotations.size(), pose.rotations.begin());
-    lock.apply(pose, contacts, frame_of(f, begin, end), f > 0 ? 1 / clip.rate : 0);
+    const std::size_t frame = frame_of(f, begin, end);
+    lock.apply(pose, contacts, {frame, frame, frame}, f > 0 ? 1 / clip.rate : 0);
     store_vector(pose.root, root);
     std::copy(pose.rotations.begin(), pose.rotations.end(), rotations);
   }

@@ -121,6 +121,8 @@ void PlayerState::exchange(Archive& a, FootLock& lock) {
     a.number(foot.steps, 0, 1);
     for (Vector2* place : {&foot.moved, &foot.shown, &foot.place, &foot.offset}) vector(a, *place, kMostPlace);
     for (Vector2* speed : {&foot.speed, &foot.drift, &foot.offset_speed}) vector(a, *speed, kMostPlace);
+    a.number(foot.height, -kMostPlace, kMostPlace);
+    a.number(foot.holds, 0, 1);
     a.number(foot.free, 0, kMostPlace);
     a.number(foot.lowered, -kMostPlace, kMostPlace);
     a.number(foot.raised, -kPi, kPi);

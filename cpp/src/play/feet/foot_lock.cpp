@@ -68,7 +68,8 @@ void FootLock::reset() {
 void FootLock::lock(Foot& foot, const Vector2& shown, double seconds) const {
   foot.locked = true;
   foot.place = fresh_ ? shown : foot.shown;
-  foot.drift = seconds > 0 && !fresh_ ? Vector2{(shown - foot.shown) / seconds} : Vector2::Zero();
+  foot.drift = seconds > 0 && !fresh_ ? Vector2{(shown - foot.shown) / seconds - (1 - foot.holds) * foot.speed}
+                                      : Vector2::Zero();
 }
 
 bool FootLock::all_locked() const {
@@ -134,7 +135,7 @@ void FootLock::release(Foot& foot, const Vector2& held) const {
   foot.locked = false;
   foot.steps = held.norm() * body_->scale > body_->constants.astray;
   foot.offset = held;
-  foot.offset_speed = foot.drift - foot.speed;
+  foot.offset_speed = foot.drift - foot.holds * foot.speed;
   foot.free = 0;
 }
 
@@ -155,7 +156,7 @@ Vector2 FootLock::away(int side, const Vector2& moved, bool planted, double seco
   if (planted && !foot.locked && !stepping && away.norm() * body_->scale < constants.too_far)
     lock(foot, moved + away, seconds);
   if (foot.locked) {
-    foot.place += constants.rests * (1 - body_->filters.rests) * foot.drift;
+    foot.place += (1 - foot.holds) * seconds * foot.speed + constants.rests * (1 - body_->filters.rests) * foot.drift;
     foot.drift *= body_->filters.rests;
     away = foot.place - moved;
     if (!planted || away.norm() * body_->scale > too_far) release(foot, away);
@@ -164,13 +165,22 @@ Vector2 FootLock::away(int side, const Vector2& moved, bool planted, double seco
   return away;
 }
 
+// The ball of a foot rolls off as fast as its motion lifts it, and comes down where that sets it: as much as what
+// slides counts so high over the ground.
+double FootLock::holds(int side, const Contacts& contacts, const Frames& frames, double height, double seconds) const {
+  if (fresh_ || seconds == 0 || frames.before == frames.after) return 1;
+  const double rises = (height - feet_[side].height) / seconds;
+  if (rises > 0) return contacts.stands(side, frames.after) ? 1 : std::max(0.0, 1 - rises * body_->scale / kLeaves);
+  return contacts.stands(side, frames.before) ? 1 : skate_weight(height * body_->scale);
+}
+
 // What a foot's steps are seen from: the hips, or the middle between the fore legs.
 Vector3 FootLock::under(int side, const WorldPose& pose) const {
   if (side < 2) return pose.root;
   return (body_->posed.heads[body_->legs[2].thigh] + body_->posed.heads[body_->legs[3].thigh]) / 2;
 }
 
-void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds,
+void FootLock::apply(WorldPose& pose, const Contacts& contacts, const Frames& frames, double seconds,
                      const StepEdit& edit) {
   auto& [constants, kinematics, legs, scale, leg_bones, bones, posed, filters] = *body_;
   const int count = legs.count();
@@ -187,16 +197,18 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, std::size_t fram
   for (int side = 0; side < count; ++side) {
     const Vector3 place = ball(skeleton, legs[side], posed), ankle = ankle_of(legs[side], posed);
     const FootHeights& floor = contacts.floors[side];
-    const double over = std::min(place.z() - floor.ball, ankle.z() - floor.heel);
+    const double height = place.z() - floor.ball, over = std::min(height, ankle.z() - floor.heel);
     const bool locked = feet_[side].locked, low = over * scale < kLanding;
-    const bool hands_over = locked && contacts.stands(other(side), frame) && !feet_[other(side)].locked;
-    const bool stands = hands_over || (contacts.stands(side, frame) && (locked || low));
+    const bool hands_over = locked && contacts.stands(other(side), frames.now) && !feet_[other(side)].locked;
+    const bool stands = hands_over || (contacts.stands(side, frames.now) && (locked || low));
+    const bool outlasts = hands_over && !contacts.stands(side, frames.now);
+    feet_[side].holds = outlasts ? 1 : holds(side, contacts, frames, height, seconds);
+    feet_[side].height = height;
     const Vector2 edited = longer * (place - under(side, pose)).head<2>() + shift;
     const Vector2 before = feet_[side].shown, held = away(side, place.head<2>() + edited, stands, seconds),
                   by = edited + held;
     const double speed = fresh_ || seconds == 0 ? 0 : (feet_[side].shown - before).norm() / seconds;
-    const double hovers =
-        this->hovers(feet_[side], over, place.z() - floor.ball, edit.clears * clear_at(speed * scale) / scale);
+    const double hovers = this->hovers(feet_[side], over, height, edit.clears * clear_at(speed * scale) / scale);
     const double lift =
         softly_over(-over, kSoftGround / scale) + step_height(feet_[side]) - lowered(feet_[side], over, hovers);
     const Vector3 moved{by.x(), by.y(), lift};

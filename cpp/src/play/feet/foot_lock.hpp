@@ -28,11 +28,12 @@ struct StepEdit {
 /// Keeps planted feet where they are: the ball of a foot that is planted comes to rest and stays there, the leg follows
 /// (two_bone_ik.hpp). A foot that is lifted, or that its motion has left too far behind, goes back to its motion
 /// smoothly, with a step where that is far; but the only foot that stands is kept for longer, and until the other one
-/// has come down whose turn it is. Where a leg would be a little too short, the heel of a foot that is left behind
-/// rises and the hips sink; where it would be much too short, the foot steps on. A planted foot that hovers is lowered
-/// to the floor, and one that sets off is lifted off it: a stitch from a stand would drag it. A body that has stood for
-/// a while in the middle of a stride steps out of it. The feet of a four-legged body are two pairs, each like a
-/// biped's. Does nothing to a skeleton without legs. Allocates nothing once it is made.
+/// has come down whose turn it is. A ball that comes down at the beginning of a contact of its motion, or rises at its
+/// end, goes with it: it is rolled over, not held in the air. Where a leg would be a little too short, the heel of a
+/// foot that is left behind rises and the hips sink; where it would be much too short, the foot steps on. A planted
+/// foot that hovers is lowered to the floor, and one that sets off is lifted off it: a stitch from a stand would drag
+/// it. A body that has stood for a while in the middle of a stride steps out of it. The feet of a four-legged body are
+/// two pairs, each like a biped's. Does nothing to a skeleton without legs. Allocates nothing once it is made.
 class FootLock {
  public:
   /// What the foot locks of one body share that are applied in turn: what never changes, and room to work in.
@@ -64,10 +65,17 @@ class FootLock {
   /// All feet are free, and where their motion has them.
   void reset();
 
+  /// Of a clip: what is shown, and what is a step's loading before and after it, between which a contact is told to
+  /// begin or end. Where all are the same, feet are held in place for all of their contacts.
+  struct Frames {
+    std::size_t now, before, after;
+  };
+
   /// Moves the legs of the pose that is shown `seconds` after the last one, and is, or is to become, a frame with these
   /// contacts. A foot that stands in that frame is planted once it is near the ground, where the
   /// edited step has it.
-  void apply(WorldPose& pose, const Contacts& contacts, std::size_t frame, double seconds, const StepEdit& edit = {});
+  void apply(WorldPose& pose, const Contacts& contacts, const Frames& frames, double seconds,
+             const StepEdit& edit = {});
 
   bool locked(int side) const { return feet_[side].locked; }
   /// How far a locked foot goes on until it is at rest, m.
@@ -88,7 +96,9 @@ class FootLock {
     Vector2 speed = Vector2::Zero();                           // of its motion
     Vector2 place = Vector2::Zero(), drift = Vector2::Zero();  // of the lock; the drift comes to rest
     Vector2 offset = Vector2::Zero(), offset_speed = Vector2::Zero();  // from the motion, when it was let go
-    double free = 0;                                                   // s since then
+    double height = 0;                                                 // m over its floor, of its ball by its motion
+    double holds = 1;    // the part of its motion's speed that a locked foot is kept from
+    double free = 0;     // s since then
     double lowered = 0;  // m, while it is planted and would hover; under 0 while it is free and would be too low
     double raised = 0;   // rad, its heel, while the leg would be too short
   };
@@ -96,6 +106,7 @@ class FootLock {
   Vector3 under(int side, const WorldPose& pose) const;
   bool all_locked() const;
   Vector2 away(int side, const Vector2& moved, bool planted, double seconds);
+  double holds(int side, const Contacts& contacts, const Frames& frames, double height, double seconds) const;
   void lock(Foot& foot, const Vector2& shown, double seconds) const;
   void settle(bool settles, double seconds);
   double step_height(const Foot& foot) const;

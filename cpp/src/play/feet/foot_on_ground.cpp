@@ -19,20 +19,22 @@ double arch(double part) { return 1 - std::pow(2 * part - 1, 4); }
 
 bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, GroundProbe& probe, int spared) {
   metre_ = probe.metre();
+  const Vector2 place = foot.now.place() + shift();
+  const double planned = height_on_way(place, seconds);
   due_ = foot.stands ? 0 : foot.due;
   swing_time_ = foot.stands ? 0 : swing_time_ + seconds;
-  const Vector2 place = foot.now.place() + shift();
-  const double before = on_way(place, 0).height + (foot.stands ? lift_ : 0);
   if (foot.stands) {
     stand(foot, probe, spared);
   } else {
     swing(foot, probe, spared);
   }
   advance_shift(foot, fresh_ ? kSettles : seconds);
-  if (!fresh_) error_.value += before - on_way(place, 0).height;
-  plane_ = on_way(foot.now.place() + shift(), 0);
+  if (!fresh_) error_.value += planned - height_on_way(place, 0);
   error_.advance(0, std::max(due_, kSettles), seconds);
-  clear(foot, lower, seconds, probe);
+  if (!foot.stands) clear(foot, lower, seconds, probe);
+  const Vector2 now = foot.now.place() + shift();
+  plane_ = on_way(now, 0);
+  lift_ = lift(now, 0);
   bear(foot, seconds);
   stood_ = foot.stands;
   fresh_ = false;
@@ -41,6 +43,7 @@ bool FootOnGround::advance(const FootAhead& foot, double lower, double seconds, 
 
 void FootOnGround::stand(const FootAhead& foot, GroundProbe& probe, int spared) {
   const bool lands = fresh_ || !stood_;
+  clearance_ = {};
   probe.spare(spared + kAsksAtLeast);
   if (lands) beside_ = fresh_ ? beside_edges(foot, probe) : shift();
   const Sole sole = foot.landing().moved(beside_);
@@ -112,13 +115,17 @@ Footing FootOnGround::on_way(const Vector2& place, double later) const {
   return {place, (1 - part) * last_.at(place) + part * next_.at(place), (1 - part) * last_.slope + part * next_.slope};
 }
 
+// How much it clears what is in its way at a place on it.
+double FootOnGround::lift(const Vector2& place, double later) const {
+  return std::max(clearance_.value, 0.0) * arch(part_of_way(place, later));
+}
+
+double FootOnGround::height_on_way(const Vector2& place, double later) const {
+  return on_way(place, later).height + lift(place, later);
+}
+
 // Steps over what is in its way, in one arch.
 void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, GroundProbe& probe) {
-  if (foot.stands) {
-    clearance_ = {};
-    lift_ = 0;
-    return;
-  }
   const Vector2 now = foot.now.place() + shift();
   const KnownGround::Along along{(foot.landing().place() + beside_ - now).normalized(), kApart};
   double wanted = 0;
@@ -130,7 +137,6 @@ void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, Gr
     if (over > 0 && height > 0) wanted = std::max(wanted, (over + std::min(over, kUneven * metre_)) / height);
   }
   clearance_.advance(std::min(wanted, kHighestStep * metre_), fresh_ ? 0 : kLoading, seconds);
-  lift_ = std::max(clearance_.value, 0.0) * arch(part_of_way(now, 0));
 }
 
 void FootOnGround::bear(const FootAhead& foot, double seconds) {

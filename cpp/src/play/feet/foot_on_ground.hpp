@@ -8,8 +8,8 @@ namespace fragmotion {
 
 /// How one foot is moved from level ground onto the ground: it stands on the plane of its footing, and goes from one to
 /// the next over what is in its way. A foot that rests asks nothing; one on its way asks for what is under its landing,
-/// and with what is left of a step's questions for edges beside that and for what is before it. Where it comes to stand
-/// on another footing than was foreseen, it gets there smoothly, too.
+/// and with what is left of a step's questions for edges beside that and for what is before it. Where it is to land, or
+/// comes to stand, elsewhere than was foreseen, it gets there smoothly, too.
 class FootOnGround {
  public:
   static constexpr int kAsksAtLeast = 3;  ///< times, for what is under its sole
@@ -48,6 +48,8 @@ class FootOnGround {
   void bear(const FootAhead& foot, double seconds);
   double part_of_way(const Vector2& place, double later) const;
   Footing on_way(const Vector2& place, double later) const;
+  double lift(const Vector2& place, double later) const;
+  double height_on_way(const Vector2& place, double later) const;
 
   bool fresh_ = true, stood_ = false;
   bool found_ = true;  // ground under where it stands, or is to

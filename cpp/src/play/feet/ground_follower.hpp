@@ -26,6 +26,8 @@ class GroundFollower {
   /// Moves a pose that is shown `seconds` after the last one.
   void apply(WorldPose& pose, const FeetAhead& feet, double seconds);
 
+  /// Whether feet stand on one level, and are to, but for what is not seen.
+  bool is_even() const { return exact_ < 0.5; }
   /// The height of the ground under the body, m, as its hips follow it.
   double level() const { return level_; }
   /// Since reset(): s in which there was no ground under it. Meanwhile it goes on at the height that it had.

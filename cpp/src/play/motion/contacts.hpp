@@ -39,8 +39,9 @@ constexpr double kMoving = 0.3;
 /// and slower than this it shuffles, as between jumps and stands, and does not walk.
 constexpr double kWalking = 0.5;
 
-/// m/s of a character of 1.8 m, from where on a foot of a body that stands still does not stand.
-constexpr double kStandingSpeed = 0.5;
+/// m/s of a character of 1.8 m: from where on a foot of a body that stands still does not stand; and from where on the
+/// ball of a foot that rises goes away.
+constexpr double kStandingSpeed = 0.5, kLeaves = 0.25;
 
 /// A foot stands while its lower end is within 4.5 cm of its floor and nearly still: slower than kStandingSpeed plus a
 /// fifth of the hips' speed (lengths of a character of 1.8 m). Gaps and contacts shorter than 0.06 s are closed, these

@@ -9,7 +9,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSpeedShare = 0.2, kLeaves = 0.25, kShortest = 0.06;
+constexpr double kSpeedShare = 0.2, kShortest = 0.06;
 
 double speed_at(const std::vector<Vector3>& path, int f, double rate) {
   const int last = static_cast<int>(path.size()) - 1, a = std::max(0, f - 1), b = std::min(last, f + 1);

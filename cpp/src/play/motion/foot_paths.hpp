@@ -37,7 +37,7 @@ FootPaths foot_paths(const Kinematics& kinematics, const Clip& clip);
 std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, const std::vector<Vector3>& hips,
                                 double rate, double scale);
 
-/// Ends each contact as soon as the ball rises and goes away, faster than 0.25 m/s of a character of 1.8 m.
+/// Ends each contact as soon as the ball rises and goes away, faster than kLeaves.
 void end_where_ball_rises(const FootPath& path, double rate, double scale, std::vector<bool>& contacts);
 
 /// find_contacts() of feet and hips that went so.

@@ -91,8 +91,9 @@ class Playback {
   bool is_in_the_air() const;
   /// The frame of the clip that is shown now.
   double at() const { return fragment().first_played() + now_.seconds * clip(now_).rate; }
-  /// The frame of the clip that is nearest to now.
+  /// The frame of the clip that is nearest to now, and to a time since the fragment's first pose, s.
   std::size_t frame_of_clip() const { return frame_of_clip(now_.seconds); }
+  std::size_t frame_of_clip(double seconds) const;
   /// Which feet stand at a time since the fragment's first pose, s.
   std::array<bool, 2> standing_feet(double seconds) const;
   /// Until a foot stands, as the take has it, s: 0 where it does; the take's end where it does not any more.
@@ -136,7 +137,6 @@ class Playback {
   void sample(const Placed& placed, WorldPose& pose) const;
   void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
   Vector2 begin_stitch(const Placed& old);
-  std::size_t frame_of_clip(double seconds) const;
   void pass_markers(double after, double until);
   void crossfade(double weight, WorldPose& pose) const;
 

@@ -142,7 +142,7 @@ Vector2 Player::commanded_velocity() const {
 }
 
 void Player::correct(const Control& control, double seconds) {
-  correction_.correct(playback_, governor_, seconds);
+  correction_.correct(playback_, governor_, follower_ == nullptr || follower_->is_even(), seconds);
   if (follower_ != nullptr) follower_->apply(workspace_->shown, feet_ahead(), seconds);
   root_ = workspace_->shown.root;
   if (!gaze_.rests())

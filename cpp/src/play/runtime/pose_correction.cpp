@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/filtered.hpp"
+#include "feet/standing_leg.hpp"
 #include "motion/contacts.hpp"
 #include "runtime/look_stitch.hpp"
 
@@ -26,11 +27,11 @@ void PoseCorrection::reset() {
   lean_.reset();
 }
 
-void PoseCorrection::correct(const Playback& playback, const RootGovernor& governor, double seconds) {
+void PoseCorrection::correct(const Playback& playback, const RootGovernor& governor, bool even, double seconds) {
   const Skeleton& skeleton = workspace_->kinematics.skeleton();
   lean_.apply(skeleton, workspace_->shown, governor.acceleration(), seconds);
   edit_steps(playback.evident_of_hips(), governor, seconds);
-  if (lock_feet_) lock_feet(playback, seconds);
+  if (lock_feet_) lock_feet(playback, even, seconds);
 }
 
 // A foot that stands goes back under the hips as fast as the fragment goes forward; by what the root makes that faster
@@ -54,10 +55,12 @@ void PoseCorrection::edit_steps(const Control& evident, const RootGovernor& gove
   steps_.clears = goes ? std::min(1.0, pushes) : 0;
 }
 
-void PoseCorrection::lock_feet(const Playback& playback, double seconds) {
+void PoseCorrection::lock_feet(const Playback& playback, bool even, double seconds) {
   const Contacts& contacts = playback.contacts();
   if (contacts.feet[0].empty()) return;
-  foot_lock_.apply(workspace_->shown, contacts, playback.frame_of_clip(), seconds, steps_);
+  const double loading = even ? kLoading : 0;
+  const auto frame = [&](double later) { return playback.frame_of_clip(playback.seconds() + later); };
+  foot_lock_.apply(workspace_->shown, contacts, {frame(0), frame(-loading), frame(loading)}, seconds, steps_);
 }
 
 }  // namespace fragmotion

@@ -24,13 +24,14 @@ class PoseCorrection {
   const FootLock* foot_lock() const { return lock_feet_ ? &foot_lock_ : nullptr; }
   void prefetch() const { foot_lock_.prefetch(); }
   /// Corrects Workspace::shown, `seconds` after the pose that was shown last.
-  void correct(const Playback& playback, const RootGovernor& governor, double seconds);
+  /// On even ground feet roll as in the takes; on uneven ground they are held for all of a contact.
+  void correct(const Playback& playback, const RootGovernor& governor, bool even, double seconds);
 
  private:
   friend struct PlayerState;
 
   void edit_steps(const Control& evident, const RootGovernor& governor, double seconds);
-  void lock_feet(const Playback& playback, double seconds);
+  void lock_feet(const Playback& playback, bool even, double seconds);
 
   Workspace* workspace_;
   double scale_;
