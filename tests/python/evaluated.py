@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from conftest import NAMES, OFFSETS, PARENTS, TIPS, build_options, walking_arrays
 from fragmotion_command import main
+from fragmotion_command.evaluate.loading import read_recordings
 from fragmotion_command.evaluate.measures import synthesis
 
 CLASSES = 12
@@ -98,8 +99,6 @@ def trace(run: Run, kind: str, name: str) -> Any:
 @pytest.fixture(scope="session")
 def built(takes: Path, run: Run) -> core.Character:
     """The character that the tool built, built by hand."""
-    files = [core.read_bvh(path) for path in sorted(takes.glob("*.bvh"))]
-    skeleton = files[0].skeleton
-    clips = [core.Clip.from_take(take, skeleton) for take in files]
+    recordings = read_recordings([takes], 0.01)
     options = build_options(classes=CLASSES, seed=SEED, policies=["anticipate", "greedy", "svm", "iterate"])
-    return core.build(skeleton, clips, [trace(run, "train", run.result["train"][0])], options)
+    return core.build(*recordings, [trace(run, "train", run.result["train"][0])], options)

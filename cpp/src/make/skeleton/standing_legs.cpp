@@ -71,7 +71,7 @@ class StandingLegs {
 
   // Without the bones of the trunk that limbs begin with: those on the midline, and stubs.
   void begin_with_legs(LimbPair& pair) const {
-    auto& [a, b] = pair.chains;
+    Chain &a = pair.chains[0], &b = pair.chains[1];
     const auto is_of_trunk = [&] {
       return (head(a[0]) - head(b[0])).norm() < kAlike * pair.length || shape_.length(a[1]) < kNoLegBone * pair.length;
     };
