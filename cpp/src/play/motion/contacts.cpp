@@ -37,6 +37,8 @@ bool Contacts::any_stands(std::size_t frame) const {
   return false;
 }
 
+bool Contacts::both_stand(std::size_t frame) const { return stands(0, frame) && stands(1, frame); }
+
 double floor_of(const std::vector<Vector3>& path) {
   std::vector<double> heights;
   for (const Vector3& p : path) heights.push_back(p.z());

@@ -22,6 +22,8 @@ struct Contacts {
 
   bool stands(int foot, std::size_t frame) const { return frame < feet[foot].size() && feet[foot][frame]; }
   bool any_stands(std::size_t frame) const;
+  /// The left and the right one.
+  bool both_stand(std::size_t frame) const;
 };
 
 /// Of a path's points, that may be under its floor.

@@ -200,20 +200,20 @@ double Playback::until_standing(int side) const {
   const Fragment& f = fragment();
   const double rate = clip(now_).rate, at = f.first_played() + now_.seconds * rate;
   const std::vector<bool>& stands = contacts().feet[side];
-  const auto next = std::find(stands.begin() + static_cast<std::ptrdiff_t>(frame_of_clip()), stands.end(), true);
-  return std::max(0.0, (static_cast<double>(next - stands.begin()) - at) / rate);
+  std::size_t next = frame_of_clip();
+  while (next < stands.size() && !stands[next]) ++next;
+  return std::max(0.0, (static_cast<double>(next) - at) / rate);
 }
 
 BothStand Playback::both_stand() const {
   const Contacts& contacts = this->contacts();
   const std::size_t frames = contacts.feet[0].size(), now = frame_of_clip();
-  const auto both = [&](std::size_t f) { return contacts.stands(0, f) && contacts.stands(1, f); };
   const int stance = contacts.stands(0, now) ? 0 : 1;
   std::size_t begins = now;
-  while (contacts.stands(stance, begins) && !both(begins)) ++begins;
-  if (!both(begins)) return {};
+  while (contacts.stands(stance, begins) && !contacts.both_stand(begins)) ++begins;
+  if (!contacts.both_stand(begins)) return {};
   std::size_t ends = begins + 1;
-  while (ends < frames && both(ends)) ++ends;
+  while (ends < frames && contacts.both_stand(ends)) ++ends;
   const double rate = clip(now_).rate, at = fragment().first_played() + now_.seconds * rate;
   const double from = begins > now ? static_cast<double>(begins) : at;
   return {(from - at) / rate, std::max(1.0, static_cast<double>(ends) - from) / rate};
