@@ -4,6 +4,7 @@ input."""
 
 from __future__ import annotations
 
+import argparse
 import json
 import math
 from pathlib import Path
@@ -16,7 +17,7 @@ from conftest import Array, walking_clips
 from fragmotion_command.evaluate.loading import Recordings
 from sample_motions import write_sample
 
-from tools.measuring.beside import comparing, measures, tuning
+from tools.measuring.beside import comparing, inputs, measures, tuning
 from tools.measuring.beside.__main__ import main
 from tools.measuring.beside.motion import footfalls, response
 from tools.measuring.beside.motion.likeness import Likeness
@@ -25,6 +26,7 @@ from tools.measuring.beside.setting import Setting, frame_controls, make_setting
 from tools.measuring.beside.systems import Fragments, Matching, Shown, matching
 from tools.measuring.beside.table import ROWS, beside_table
 from tools.measuring.blend import read_recordings
+from tools.measuring.directing.inputs import SAMPLE
 from tools.measuring.peers.kinematics.bodies import RATE, Motion, facing
 from tools.measuring.peers.motion_matching.constants import Constants, load
 from tools.measuring.peers.motion_matching.library import floors_of
@@ -242,6 +244,12 @@ def test_bad_input_is_one_line_and_exit_code_1(
     assert main([str(folder) if word == "TAKES" else word for word in words]) == 1
     message = capsys.readouterr().err
     assert cause in message and message.count("\n") == 1 and message.startswith("beside: ")
+
+
+def test_takes_may_be_those_of_a_blend() -> None:
+    parser = argparse.ArgumentParser()
+    inputs.add_arguments(parser)
+    inputs.check(parser.parse_args([str(SAMPLE)]))
 
 
 def test_a_body_without_toes_is_refused(skeleton: core.Skeleton) -> None:

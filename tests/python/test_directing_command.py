@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import math
 from pathlib import Path
@@ -100,7 +101,11 @@ def test_the_command_prints_a_table_and_saves_the_figures(
 
 
 def test_the_sample_character_is_directed_unless_told() -> None:
-    assert inputs.SAMPLE.is_file()
+    parser = argparse.ArgumentParser()
+    inputs.add_arguments(parser)
+    options = parser.parse_args([])
+    inputs.check(options)
+    assert inputs.needs_blender(options)
 
 
 @pytest.mark.parametrize(

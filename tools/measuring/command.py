@@ -10,10 +10,12 @@ from pathlib import Path
 
 from tools.shell import Failure
 
+BLEND = ".blend"
+
 
 def has_blend(paths: Sequence[Path]) -> bool:
     """Whether Blender is needed to read the takes."""
-    return any(path.suffix.lower() == ".blend" for path in paths)
+    return any(path.suffix.lower() == BLEND for path in paths)
 
 
 def run_command(

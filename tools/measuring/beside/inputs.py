@@ -8,6 +8,7 @@ from pathlib import Path
 
 from fragmotion_command.files import find_takes
 
+from tools.measuring.command import BLEND
 from tools.shell import Failure
 
 
@@ -48,4 +49,4 @@ def check(options: argparse.Namespace) -> None:
     for target in (options.json, options.constants):
         if target and not target.absolute().parent.is_dir():
             raise Failure(f"{target.parent}: there is no such folder")
-    find_takes(options.mocap)
+    find_takes(options.mocap, (BLEND,))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fragmotion_command.files import find_takes
 
-from tools.measuring.command import has_blend
+from tools.measuring.command import BLEND, has_blend
 from tools.paths import TOP
 from tools.shell import Failure
 
@@ -61,4 +61,4 @@ def check(options: argparse.Namespace) -> None:
     for text in options.style:
         if "=" not in text.strip("="):
             raise Failure(f"--style {text} tells no name or no pattern, as in tired=*_tired_*")
-    find_takes(mocap_of(options))
+    find_takes(mocap_of(options), (BLEND,))
