@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "add_bone.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
@@ -14,11 +15,7 @@ constexpr double kDogTrunk = 0.9;  // m from the hips to the shoulders
 inline Skeleton dog() {
   Skeleton s;
   const auto add = [&](const std::string& name, int parent, const Vector3& offset, const Vector3& tip) {
-    s.names.push_back(name);
-    s.parents.push_back(parent);
-    s.rest_rotations.push_back(Quaternion::Identity());
-    s.offsets.push_back(offset);
-    s.tips.push_back(tip);
+    add_bone(s, name, parent, offset, tip);
   };
   add("a", -1, {0, 0, 0.96}, {0, -kDogTrunk, 0});
   add("b", 0, {0, -kDogTrunk, 0}, {0, -0.1, 0});

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "add_bone.hpp"
 #include "skeleton/skeleton.hpp"
 
 namespace fragmotion {
@@ -67,11 +68,7 @@ class Humanoid {
 
   std::string add(const std::string& name, const std::string& parent, const Vector3& head, const Vector3& tip) {
     const int above = skeleton.find(parent);
-    skeleton.names.push_back(name);
-    skeleton.parents.push_back(above);
-    skeleton.rest_rotations.push_back(Quaternion::Identity());
-    skeleton.offsets.push_back(above < 0 ? head : Vector3{head - place_[parent]});
-    skeleton.tips.push_back(tip);
+    add_bone(skeleton, name, above, above < 0 ? head : Vector3{head - place_[parent]}, tip);
     place_[name] = head;
     return name;
   }

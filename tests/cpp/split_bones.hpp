@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "add_bone.hpp"
 #include "character/character.hpp"
 #include "fragments/distance.hpp"
 #include "fragments/entry_poses.hpp"
@@ -52,12 +53,7 @@ struct SplitBones {
 
  private:
   int add(const std::string& name, int parent, const Quaternion& rest, const Vector3& offset, const Vector3& tip) {
-    skeleton.names.push_back(name);
-    skeleton.parents.push_back(parent);
-    skeleton.rest_rotations.push_back(rest);
-    skeleton.offsets.push_back(offset);
-    skeleton.tips.push_back(tip);
-    return skeleton.size() - 1;
+    return add_bone(skeleton, name, parent, offset, tip, rest);
   }
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "add_bone.hpp"
 #include "base/random.hpp"
 #include "base/turn_between.hpp"
 #include "fragments/cutting.hpp"
@@ -19,11 +20,7 @@ namespace fragmotion {
 inline Skeleton humanoid(double size = 1) {
   Skeleton s;
   const auto add = [&](const char* name, int parent, const Vector3& offset, const Vector3& tip) {
-    s.names.emplace_back(name);
-    s.parents.push_back(parent);
-    s.rest_rotations.push_back(Quaternion::Identity());
-    s.offsets.emplace_back(size * offset);
-    s.tips.emplace_back(size * tip);
+    add_bone(s, name, parent, size * offset, size * tip);
   };
   add("hips", -1, {0, 0, 0.96}, {0, 0, 0.15});
   add("spine", 0, {0, 0, 0.15}, {0, 0, 0.4});

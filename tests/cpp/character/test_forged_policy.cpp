@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "add_bone.hpp"
 #include "allocations.hpp"
 #include "character/policy_bytes.hpp"
 #include "fragments/packed_pool.hpp"
@@ -231,11 +232,7 @@ Character same_fragments(int bones, int fragments) {
   Skeleton skeleton;
   Clip clip{"still", 10, 3, {}, {}, {}};
   for (int b = 0; b < bones; ++b) {
-    skeleton.names.push_back("bone" + std::to_string(b));
-    skeleton.parents.push_back(b == 0 ? -1 : 0);
-    skeleton.rest_rotations.push_back(Quaternion::Identity());
-    skeleton.offsets.emplace_back(0, 0, 1);
-    skeleton.tips.emplace_back(0, 0, 1);
+    add_bone(skeleton, "bone" + std::to_string(b), b == 0 ? -1 : 0, {0, 0, 1}, {0, 0, 1});
   }
   clip.root_positions.assign(9, 0);
   for (int i = 0; i < 3 * bones; ++i) clip.rotations.insert(clip.rotations.end(), {1, 0, 0, 0});

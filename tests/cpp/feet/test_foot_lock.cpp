@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "add_bone.hpp"
 #include "feet/foot_lock.hpp"
 #include "feet/standing_leg.hpp"
 #include "motion/legs.hpp"
@@ -179,11 +180,7 @@ void add_toes(Carried& body) {
     const bool left = toe == &s.roles.left_toe;
     const int foot = left ? s.roles.left_foot : s.roles.right_foot;
     *toe = s.size();
-    s.names.emplace_back(left ? "toe.L" : "toe.R");
-    s.parents.push_back(foot);
-    s.rest_rotations.push_back(Quaternion::Identity());
-    s.offsets.push_back(s.tips[foot]);
-    s.tips.emplace_back(0, -0.06, 0);
+    add_bone(s, left ? "toe.L" : "toe.R", foot, s.tips[foot], {0, -0.06, 0});
     body.clip.rotations.insert(body.clip.rotations.begin() + std::ptrdiff_t{4} * (s.size() - 1), {1, 0, 0, 0});
   }
   body.clip.rotations.resize(std::size_t{4} * s.size());

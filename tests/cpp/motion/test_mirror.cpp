@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "add_bone.hpp"
 #include "io/bvh.hpp"
 #include "mocap_files.hpp"
 #include "motion/mirror.hpp"
@@ -80,11 +81,8 @@ Skeleton with_fingers_of_its_own(std::vector<int>& left) {
     for (const auto& [finger, aside] : {std::pair<std::string, double>{"index", -0.02}, {"middle", 0.0}}) {
       for (int joint = 1; joint <= 2; ++joint) {
         if (side == ".L" && joint == 1) left.push_back(s.size());
-        s.parents.push_back(joint == 1 ? hand : s.size() - 1);
-        s.names.push_back(finger + "_" + std::to_string(joint) + side);
-        s.rest_rotations.push_back(Quaternion::Identity());
-        s.offsets.emplace_back(joint == 1 ? Vector3{0, aside, -0.09} : Vector3{0, 0, -0.04});
-        s.tips.emplace_back(0, 0, -0.04);
+        add_bone(s, finger + "_" + std::to_string(joint) + side, joint == 1 ? hand : s.size() - 1,
+                 joint == 1 ? Vector3{0, aside, -0.09} : Vector3{0, 0, -0.04}, {0, 0, -0.04});
       }
     }
   }

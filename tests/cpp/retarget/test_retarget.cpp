@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "add_bone.hpp"
 #include "dog.hpp"
 #include "humanoids.hpp"
 #include "mocap_files.hpp"
@@ -208,12 +209,7 @@ Skeleton with_spines(int spines) {
   Skeleton made;
   std::vector<int> index(skeleton.size());
   const auto add = [&](const std::string& name, int parent, const Vector3& offset, const Vector3& tip) {
-    made.names.push_back(name);
-    made.parents.push_back(parent);
-    made.rest_rotations.push_back(Quaternion::Identity());
-    made.offsets.push_back(offset);
-    made.tips.push_back(tip);
-    return made.size() - 1;
+    return add_bone(made, name, parent, offset, tip);
   };
   for (int b = 0; b < skeleton.size(); ++b) {
     int parent = b == 0 ? -1 : index[skeleton.parents[b]];
@@ -243,11 +239,7 @@ TEST(Retarget, TwistBonesHaveTheirShareOfTheHandsTurn) {
   const Skeleton source = humanoid();
   Skeleton target = source;
   const int forearm = target.find("forearm.L");
-  target.names.emplace_back("forearm_twist.L");
-  target.parents.push_back(forearm);
-  target.rest_rotations.push_back(Quaternion::Identity());
-  target.offsets.emplace_back(0, 0, -0.125);
-  target.tips.emplace_back(0, 0, -0.1);
+  add_bone(target, "forearm_twist.L", forearm, {0, 0, -0.125}, {0, 0, -0.1});
   target = make_skeleton(target);
   RoleMap map = find_role_map(source);
   map.twists = {{target.size() - 1, forearm, 0.5}};

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "add_bone.hpp"
 #include "dog.hpp"
 #include "skeleton/role_map.hpp"
 
@@ -82,11 +83,7 @@ TEST(FourLeggedBody, MayHaveHipBonesAndShoulderBladesThatMeet) {
   Skeleton skeleton;
   std::vector<int> now;  // where its bones are
   const auto add = [&](const std::string& name, int parent, const Vector3& offset, int as) {
-    skeleton.names.push_back(name);
-    skeleton.parents.push_back(parent);
-    skeleton.rest_rotations.push_back(Quaternion::Identity());
-    skeleton.offsets.push_back(offset);
-    skeleton.tips.push_back(given.tips[as]);
+    add_bone(skeleton, name, parent, offset, given.tips[as]);
   };
   for (int b = 0; b < given.size(); ++b) {
     int parent = b == 0 ? -1 : now[given.parents[b]];

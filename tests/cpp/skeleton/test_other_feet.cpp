@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "add_bone.hpp"
 #include "dog.hpp"
 #include "skeleton/other_feet.hpp"
 
@@ -20,12 +21,9 @@ TEST(OtherFeet, AreWhatElseABodyStandsOn) {
       const std::string name = "m" + std::to_string(pair), end = side > 0 ? ".L" : ".R";
       const int leg = skeleton.size();
       for (int part = 0; part < 3; ++part) {
-        skeleton.names.push_back(name + std::to_string(part) + end);
-        skeleton.parents.push_back(part == 0 ? 0 : leg + part - 1);
-        skeleton.rest_rotations.push_back(Quaternion::Identity());
         const Vector3 hip{0.2 * side, -0.2 - 0.1 * pair, pair == 2 ? -0.1 : 2 * length - 0.9};
-        skeleton.offsets.push_back(part == 0 ? hip : Vector3{0, 0, -length});
-        skeleton.tips.push_back({0, 0, -length});
+        add_bone(skeleton, name + std::to_string(part) + end, part == 0 ? 0 : leg + part - 1,
+                 part == 0 ? hip : Vector3{0, 0, -length}, {0, 0, -length});
       }
       if (pair < 2) expected.push_back(skeleton.names.back());
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "add_bone.hpp"
 #include "base/random.hpp"
 #include "dog.hpp"
 #include "humanoids.hpp"
@@ -175,11 +176,7 @@ TEST(RoleMap, IsRightOrSilentHungOnAnotherBone) {
 TEST(RoleMap, SaysNothingOfWhatIsNoBody) {
   Skeleton chain;
   for (int b = 0; b < 30; ++b) {
-    chain.names.push_back("joint" + std::to_string(b));
-    chain.parents.push_back(b - 1);
-    chain.rest_rotations.push_back(Quaternion::Identity());
-    chain.offsets.push_back({0, 0, 0.1});
-    chain.tips.push_back({0, 0, 0.1});
+    add_bone(chain, "joint" + std::to_string(b), b - 1, {0, 0, 0.1}, {0, 0, 0.1});
   }
   EXPECT_TRUE(find_role_map(chain).bones.empty());
   Skeleton one = chain;
@@ -193,11 +190,7 @@ TEST(RoleMap, SaysNothingOfWhatIsNoBody) {
 
 /// Appends a bone to a skeleton whose frames are the world's axes.
 void append(Skeleton& skeleton, const std::string& name, const std::string& parent, const Vector3& offset) {
-  skeleton.names.push_back(name);
-  skeleton.parents.push_back(skeleton.find(parent));
-  skeleton.rest_rotations.push_back(Quaternion::Identity());
-  skeleton.offsets.push_back(offset);
-  skeleton.tips.push_back({0.02, 0, 0});
+  add_bone(skeleton, name, skeleton.find(parent), offset, {0.02, 0, 0});
 }
 
 TEST(RoleMap, TellsTwistBonesAndTheirShareApart) {
@@ -384,11 +377,8 @@ TEST(RoleMap, OfAsManyBonesAsAreAllowedIsNoError) {
   Skeleton wide, deep;
   for (int b = 0; b < 4096; ++b) {
     for (Skeleton* skeleton : {&wide, &deep}) {
-      skeleton->names.push_back("foot" + std::to_string(b) + "_L");
-      skeleton->parents.push_back(b == 0 ? -1 : skeleton == &wide ? 0 : b - 1);
-      skeleton->rest_rotations.push_back(Quaternion::Identity());
-      skeleton->offsets.push_back({0.001 * b, 0, 0.1});
-      skeleton->tips.push_back({0, 0, 0.1});
+      add_bone(*skeleton, "foot" + std::to_string(b) + "_L", (skeleton == &wide ? std::min(b, 1) : b) - 1,
+               {0.001 * b, 0, 0.1}, {0, 0, 0.1});
     }
   }
   EXPECT_NO_THROW(make_skeleton(wide));

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "add_bone.hpp"
 #include "io/asf_amc.hpp"
 #include "io/bvh.hpp"
 #include "mocap_files.hpp"
@@ -23,11 +24,7 @@ constexpr double kTolerance = 1e-12;
 Skeleton plain_skeleton(const std::vector<std::pair<std::string, std::string>>& bones) {
   Skeleton skeleton;
   for (const auto& [name, parent] : bones) {
-    skeleton.parents.push_back(skeleton.find(parent));
-    skeleton.names.push_back(name);
-    skeleton.rest_rotations.push_back(Quaternion::Identity());
-    skeleton.offsets.push_back(Vector3(0, 0, 1));
-    skeleton.tips.push_back(Vector3(0, 0, 0.5));
+    add_bone(skeleton, name, skeleton.find(parent), {0, 0, 1}, {0, 0, 0.5});
   }
   return skeleton;
 }

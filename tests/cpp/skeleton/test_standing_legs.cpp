@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "add_bone.hpp"
 #include "skeleton/role_map.hpp"
 #include "skeleton/roles.hpp"
 
@@ -30,12 +31,7 @@ class Limbed {
   }
 
   int add(const std::string& name, int parent, const Vector3& offset, const Vector3& tip) {
-    skeleton_.names.push_back(name);
-    skeleton_.parents.push_back(parent);
-    skeleton_.rest_rotations.push_back(Quaternion::Identity());
-    skeleton_.offsets.push_back(offset);
-    skeleton_.tips.push_back(tip);
-    return skeleton_.size() - 1;
+    return add_bone(skeleton_, name, parent, offset, tip);
   }
 
   std::string told(int Roles::*role) const {

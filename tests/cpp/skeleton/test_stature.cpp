@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "add_bone.hpp"
 #include "humanoids.hpp"
 #include "io/asf_amc.hpp"
 #include "io/bvh.hpp"
@@ -48,19 +49,12 @@ Skeleton in_halves(const Skeleton& whole) {
     const int parent = whole.parents[bone];
     int above = parent < 0 ? -1 : places[parent];
     if (parent >= 0) {
-      halves.names.push_back(whole.names[bone] + "_helper");
-      halves.parents.push_back(above);
-      halves.rest_rotations.push_back(Quaternion::Identity());
-      halves.offsets.emplace_back(whole.offsets[bone] / 2);
-      halves.tips.emplace_back(whole.offsets[bone] / 2);
+      add_bone(halves, whole.names[bone] + "_helper", above, whole.offsets[bone] / 2, whole.offsets[bone] / 2);
       above = halves.size() - 1;
     }
     places[bone] = halves.size();
-    halves.names.push_back(whole.names[bone]);
-    halves.parents.push_back(above);
-    halves.rest_rotations.push_back(whole.rest_rotations[bone]);
-    halves.offsets.emplace_back(parent < 0 ? whole.offsets[bone] : Vector3(whole.offsets[bone] / 2));
-    halves.tips.push_back(whole.tips[bone]);
+    add_bone(halves, whole.names[bone], above, parent < 0 ? whole.offsets[bone] : Vector3(whole.offsets[bone] / 2),
+             whole.tips[bone], whole.rest_rotations[bone]);
   }
   for (int Roles::*role :
        {&Roles::hips, &Roles::head, &Roles::left_thigh, &Roles::right_thigh, &Roles::left_foot, &Roles::right_foot}) {
