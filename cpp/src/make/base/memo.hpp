@@ -21,11 +21,11 @@ class Memo {
  private:
   struct Entry {
     std::once_flag made;
-    Value value;
+    Value value{};
   };
 
   Entry& entry_of(const Key& key) {
-    const std::lock_guard lock(mutex_);
+    const std::scoped_lock lock(mutex_);
     return entries_[key];
   }
 

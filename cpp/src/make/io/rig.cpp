@@ -181,7 +181,7 @@ Rig::Rig(Armature armature)
       kinematics_(make_body(skeleton_bones_)) {}
 
 Rig::Object Rig::parse_object(const double* matrix, const std::string& label) const {
-  std::array<double, 16> unstretched;
+  std::array<double, 16> unstretched{};
   std::copy_n(matrix, unstretched.size(), unstretched.begin());
   for (int column = 0; column < 4; ++column) unstretched[8 + column] /= rise_;
   const RowMajor world(unstretched.data());

@@ -111,7 +111,7 @@ Velocities Treading::velocities(double turn, const Vector2& center) const {
   Velocities way(windows_, Vector2::Zero());
   Vector2 correlation = Vector2::Zero();
   for (const SolePath& sole : soles_) correlation += add_circled(sole.ankle, turn, center, way);
-  const double feet = static_cast<double>(soles_.size());
+  const auto feet = static_cast<double>(soles_.size());
   if (is_stiff() && mean_velocity(way).norm() < feet * kTreads * slowest()) return strides(turn, center);
   if (correlation.norm() < feet / std::sqrt(windows_)) {  // the standard error of that of numbers that have none
     if (swings(turn, center)) return strides(turn, center);

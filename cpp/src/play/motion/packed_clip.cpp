@@ -258,7 +258,7 @@ Vector3 sample_pose(const PackedClip& clip, double at, int bones, double* rotati
   unsigned bit = between.root(clip, root);
   const bool is_between = between.weight > 0;
   for (int block = 0; block < blocks; ++block) {
-    TurnBlock pose, next;
+    TurnBlock pose, next;  // NOLINT(cppcoreguidelines-pro-type-member-init): unpack_block() fills them
     bit = unpack_block(clip, block, between.pose, is_between ? between.next : nullptr, bit, pose, next);
     blend_block(clip, block, pose, is_between ? next : pose, static_cast<float>(between.weight), rotations);
   }
