@@ -296,7 +296,8 @@ FRAGMOTION_EXPORT int32_t fragmotion_rig_bone(const FragmotionRig* rig, int32_t 
 
 typedef struct FragmotionPlayerOptions {
   uint32_t size;
-  uint32_t step_interval; /* level of detail: it plays on every n-th step, by their time in all; 1 .. 64; 1 */
+  uint32_t step_interval; /* level of detail: it plays on every n-th step, by their time in all; over 1, where feet are
+                             not held, what it plays next is looked up, which takes a quarter of the time; 1 .. 64; 1 */
   uint64_t seed;          /* of what it chooses, from the next reset on; 1 */
   double responsiveness;  /* 0 .. 1: how soon what is asked for is done; 0.5 is what a body does */
   double root_adjustment; /* 0 .. 1: how much the body does of what is asked for beyond its motion; 1 */

@@ -103,6 +103,13 @@ TEST(ApiState, GoesBackToTheBitWithinCrossFades) {
   expect_rollback(options, false, false);
 }
 
+TEST(ApiState, GoesBackToTheBitFarAway) {
+  FragmotionPlayerOptions options = fragmotion_player_options();
+  options.step_interval = 2;
+  options.hold_feet = 0;
+  expect_rollback(options, false, false);
+}
+
 TEST(ApiState, IsRefusedWhereItIsNoneOfThisPlayer) {
   const auto player = playing(styled_api_character());
   go_wildly(player.get(), 0, 200);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <functional>
 #include <new>
+#include <utility>
 
 #include "allocations.hpp"
 #include "runtime/crowd.hpp"
@@ -62,10 +63,11 @@ TEST(Allocations, AreCounted) {
 
 TEST(Allocations, AreNoneInAPlayersSteps) {
   for (const Stitching stitching : {Stitching::inertialize, Stitching::crossfade}) {
-    for (const bool lock_feet : {true, false}) {
+    for (const auto& [lock_feet, far_away] : {std::pair{true, false}, {false, false}, {false, true}}) {
       PlayerOptions options;
       options.stitching = stitching;
       options.lock_feet = lock_feet;
+      options.far_away = far_away;
       Player player(gait_character(), options);
       Random random(1);
       EXPECT_EQ(allocations_of([&] { play(player, random); }), 0U);

@@ -73,8 +73,11 @@ def show_frames(measured: Measured) -> None:
         named = f"{character} frame, "
         frames = {name.removeprefix(named): time for name, time in measured.seconds.items() if name.startswith(named)}
         print(f"\n{called}: a frame " + "; ".join(f"{name} {nanoseconds(time)}" for name, time in frames.items()))
-        far = ", ".join(f"every {frames}. frame {off:.3f} m" for frames, off in sorted(measured.off[character].items()))
-        print(f"Players that step in some frames, without held feet, are off there: {far} (median of all bones)")
+        far = ", ".join(
+            f"in every {frames}. frame {off:.3f} and {slides:.3f}"
+            for frames, (off, slides) in sorted(measured.off[character].items())
+        )
+        print(f"Far players, who step {far} m/s: off what is asked, and of feet that stand (held in every frame)")
 
 
 def show_growth(growth: Growth) -> None:

@@ -50,7 +50,8 @@ class Measured:
         self.cpu_seconds: dict[str, float] = {}
         self.whole: dict[str, Any] = {}
         self.asked: dict[str, float] = {}
-        self.off: dict[str, dict[int, float]] = {}  # by character, by how many frames a player steps at once: m
+        # By character, by how many frames a player steps at once: m/s off what is asked, and of feet that stand.
+        self.off: dict[str, dict[int, tuple[float, float]]] = {}
         large: dict[int, list[tuple[float, float, float]]] = {}
         for run in runs:
             name, _, arguments = run["name"].partition("/")
@@ -62,7 +63,7 @@ class Measured:
                 large.setdefault(int(arguments.partition("/")[0]), []).append(figures)
             elif name.endswith(_FAR_ERROR):
                 off = self.off.setdefault(name.partition(" ")[0], {})
-                off[int(arguments.partition("/")[0])] = run["off"]
+                off[int(arguments.partition("/")[0])] = run["off"], run["slides"]
             elif "asked" in run:
                 self.asked[name] = run["asked"]
             elif seconds < self.seconds.get(name, float("inf")):

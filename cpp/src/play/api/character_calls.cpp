@@ -83,6 +83,8 @@ Hero::Hero(Character&& loaded, std::uint64_t which, FragmotionAxes engine, doubl
       fingerprint(which),
       axes(engine, unit),
       kinematics(character->pool.skeleton) {
+  const std::array<LegRoles, kMostLegs> legs = leg_roles(skeleton().roles);
+  for (int side = 0; side < 2; ++side) leg_bones[side] = kinematics.chains({legs[side].foot, legs[side].toe});
   for (int style = 0; style < character->style_count(); ++style) {
     class_names.push_back(fragmotion::class_names(character->in_style(style)));
     turns_well.push_back(fragmotion::turns_well(player, style));

@@ -30,6 +30,7 @@ struct Hero {
   std::uint64_t fingerprint;  ///< Of the file.
   Axes axes;
   Kinematics kinematics;
+  std::array<std::vector<int>, 2> leg_bones;          ///< From the hips to each foot's toe.
   std::vector<std::vector<std::string>> class_names;  ///< Of each style.
   std::vector<TurnsWell> turns_well;                  ///< Likewise.
   std::vector<std::string> plain_names;               ///< Of bones: plain_name().

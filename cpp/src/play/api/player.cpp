@@ -21,6 +21,7 @@ PlayerOptions to_options(const FragmotionPlayerOptions& options) {
   wanted.stitching = options.cross_fades != 0 ? Stitching::crossfade : Stitching::inertialize;
   wanted.root_adjustment = options.root_adjustment;
   wanted.responsiveness = options.responsiveness;
+  wanted.far_away = options.step_interval > 1 && options.hold_feet == 0;
   return wanted;
 }
 
@@ -201,7 +202,9 @@ void FragmotionPlayer::take_pose(Shown& pose) const {
 Vector3 FragmotionPlayer::sole(int side) const {
   const LegRoles leg = leg_roles(hero->skeleton().roles)[side];
   if (leg.foot < 0) return now.root;
-  world(now);
+  PosedBones& posed = scratch->posed;
+  hero->kinematics.world(now.root, now.rotations.data(), hero->leg_bones[side], posed.heads.data(),
+                         posed.rotations.data());
   return fragmotion::sole(hero->skeleton(), leg, scratch->posed);
 }
 

@@ -104,7 +104,7 @@ void PlayerState::exchange(Archive& a, Playback& playback, int of_style, const N
   placed(a, playback.before_, all_of(character, style));
   control(a, playback.evident_of_hips_);
   vector(a, playback.beside_ends_, kMostSpeed);
-  a.number(playback.faded_, 0, kMostTime);
+  for (double* time : {&playback.faded_, &playback.stitched_}) a.number(*time, 0, kMostTime);
   for (bool& stands : playback.steps_.stands) a.number(stands, 0, 1);
   a.number(playback.steps_.last, -1, 1);
   a.number(playback.steps_.since, 0, kMostPlace);

@@ -87,7 +87,11 @@ int Director::next_class(const Control& control, const Playback& playback, const
   int next = waiting;
   if (waiting < 0 || has_changed(wanted)) {
     decided_for_ = wanted;
-    next = (is_planned(wanted) ? exit_ : plan_exit(wanted, playback, selector)).next_class;
+    if (!plans_) {
+      next = look_up_class(class_, wanted);
+    } else {
+      next = (is_planned(wanted) ? exit_ : plan_exit(wanted, playback, selector)).next_class;
+    }
     const int bridge = bridge_between(class_, next);
     // The jump, too, waits for the end of the stand-in-place fragment.
     if (bridge >= 0) return waiting_ = next, bridge;
@@ -104,7 +108,7 @@ bool Director::makes_way(const Playback& playback) const {
 bool Director::leaves_early(const Control& wanted, bool changes, const Playback& playback,
                             const FragmentSelector& selector) {
   const bool too_soon = playback.seconds() <= soonest(playback) - kRounding;
-  if (too_soon || playback.left() <= kMomentsApart || waiting_ >= 0 || plays_forced_) return false;
+  if (!plans_ || too_soon || playback.left() <= kMomentsApart || waiting_ >= 0 || plays_forced_) return false;
   if (playback.is_jumping() || !has_changed(wanted)) return false;
   if (!is_planned(wanted)) {
     // It will be planned anew: one part of a step plays no more of a fragment than two frames of a game.
@@ -148,10 +152,11 @@ int Director::continuation(const Control& control, const Playback& playback, con
   const Control wanted = this->wanted(control);
   const int found = selector.successor(playback.number(), wanted);
   if (found < 0) return -1;
-  const int entered = selector.class_of(found), after = look_up_class(entered, wanted);
-  if (bridge_between(entered, after) >= 0 || !selector.goes_as_asked(after, wanted)) return -1;
   const int next = waiting_ >= 0 && !has_changed(wanted) ? waiting_ : look_up_class(class_, wanted);
   const float staying = selector.cost_of_going_on(found, wanted);
+  if (!plans_) return staying <= selector.usual_cost(class_, next, wanted, playback, staying) ? found : -1;
+  const int entered = selector.class_of(found), after = look_up_class(entered, wanted);
+  if (bridge_between(entered, after) >= 0 || !selector.goes_as_asked(after, wanted)) return -1;
   const int second = selector.successor(found, wanted);
   const float going_on = second < 0 ? FragmentSelector::kAny : staying + selector.cost_of_going_on(second, wanted);
   const Cost left = selector.cost_of_leaving(next, wanted, playback, going_on);
@@ -182,6 +187,7 @@ void Director::resume(int next_class, const Control& control) {
 }
 
 double Director::until_due(const Playback& playback, double most) const {
+  if (!plans_) return std::min(most, playback.left());
   const auto until = [&](double time) {
     return time - playback.seconds() > kRounding ? time - playback.seconds() : most;
   };

@@ -15,6 +15,8 @@ class Director {
 
   /// As PlayerOptions::responsiveness.
   void set_responsiveness(double responsiveness);
+  /// Whether it leaves what plays before its end, and looks for when; else it looks up what follows at its end.
+  void set_plans(bool plans) { plans_ = plans; }
   /// Plays the class that best performs standing still.
   void reset();
   /// Decides among another style's classes from now on, by its policy; a class that was forced is forgotten. resume()
@@ -63,6 +65,7 @@ class Director {
   const Character* character_;
   const Policy* policy_;
   double haste_ = 0;
+  bool plans_ = true;
   int class_ = 0, previous_ = 0;
   int waiting_ = -1;  // the class that follows a stand-in-place fragment
   int forced_ = -1;   // the class that force() asked for and that does not play yet

@@ -164,26 +164,42 @@ Cost FragmentSelector::least_cost(int next_class, const Control& control, const 
   return {whole, style_->cost.of_going_on(style_->members[next_class].fragment(candidates.best), control)};
 }
 
-int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback) {
+float FragmentSelector::usual_cost(int of_class, int next_class, const Control& control, const Playback& playback,
+                                   float enough) const {
+  const Quality& quality = style_->character->quality;
+  const double smooth = quality.smoothness[static_cast<std::size_t>(of_class) * quality.classes + next_class];
+  const float joining =
+      style_->cost.of_joining(static_cast<float>(2 * (1 / smooth - 1)), 0);  // of places and of speeds
+  if (joining >= enough) return joining;
   Candidates& candidates = workspace_->candidates[0];
   find_candidates(next_class, control, {playback.fragment(), playback.contacts()}, candidates);
-  extrapolate(playback);
+  return candidates.costs[candidates.best] + joining;
+}
+
+int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback, bool posed) {
+  Candidates& candidates = workspace_->candidates[0];
+  find_candidates(next_class, control, {playback.fragment(), playback.contacts()}, candidates);
+  if (posed) extrapolate(playback);
   const auto variety = static_cast<float>(weights().variety);
   const bool went = is_moving(playback.evident());
-  const float usual = distance(style_->character->classes.representatives[next_class]);
+  const float usual = posed ? distance(style_->character->classes.representatives[next_class]) : 0;
   const Entrants& entrants = style_->members[next_class];
+  const auto feet_of = [&](int member) { return out_of_turn(entrants, member, went, playback.steps()); };
+  const int best = candidates.best;
+  const float most = posed ? kAny : candidates.costs[best] + style_->cost.of_joining(0, feet_of(best)) + variety;
   auto& drawn = workspace_->drawn;
   drawn.clear();
   for (int i = 0; i < entrants.count; ++i) {
-    if (candidates.costs[i] == kAny) continue;
+    if (candidates.costs[i] == kAny || candidates.costs[i] > most) continue;
     drawn.emplace_back(candidates.costs[i], i);
     if (drawn.back().first < drawn.front().first) std::swap(drawn.front(), drawn.back());
   }
   float least = std::numeric_limits<float>::infinity();
   for (auto& [cost, member] : drawn) {
-    const int feet = out_of_turn(entrants, member, went, playback.steps()), fragment = entrants.fragment(member);
+    const int feet = feet_of(member), fragment = entrants.fragment(member);
     const float at_least = cost + style_->cost.of_joining(std::max(0.0F, usual - entrants.beside_usual(member)), feet);
-    cost = at_least > least + variety ? at_least : cost + style_->cost.of_joining(distance(fragment), feet);
+    const bool measured = posed && !(at_least > least + variety);
+    cost = measured ? cost + style_->cost.of_joining(distance(fragment), feet) : at_least;
     least = std::min(least, cost);
     member = fragment;
   }

@@ -49,8 +49,8 @@ class FragmentSelector {
   bool goes_as_asked(int of_class, const Control& control) const;
   /// The class of a fragment.
   int class_of(int fragment) const { return style_->character->classes.labels[fragment]; }
-  /// The member to play after what plays now.
-  int choose(int next_class, const Control& control, const Playback& playback);
+  /// The member to play after what plays now: as it joins on to that, or, where it is not `posed`, as its class does.
+  int choose(int next_class, const Control& control, const Playback& playback, bool posed = true);
   /// Any member.
   int choose_any(int next_class);
 
@@ -58,6 +58,8 @@ class FragmentSelector {
   int best_class(const Control& control, const Playback& playback) const;
   /// What it costs to play a class after what is shown; or, where that is no less than `enough`, anything between.
   Cost cost_of_leaving(int next_class, const Control& control, const Playback& playback, float enough = kAny) const;
+  /// The same at least after a class's end, if its members join as the representatives do (Eq. 2).
+  float usual_cost(int of_class, int next_class, const Control& control, const Playback& playback, float enough) const;
   /// The same after a fragment that is played to its end, which begins after these steps.
   Cost cost_of_leaving(int next_class, const Control& control, int fragment, StepSequence steps) const;
   /// What it costs to join a move on to what is shown.

@@ -20,7 +20,7 @@ Playback::Playback(const Character& character, Workspace& workspace, Stitching s
 }
 
 void Playback::reset(int fragment, const CharacterFrame& frame) {
-  faded_ = turning_ = 0;
+  faded_ = turning_ = stitched_ = 0;
   inertialization_.clear();
   look_.clear();
   play(place(style_, fragment, frame));
@@ -28,15 +28,19 @@ void Playback::reset(int fragment, const CharacterFrame& frame) {
   show();
 }
 
+// Whether it follows what plays in its take, now.
+bool Playback::goes_on(const Placed& next) const {
+  return &clip(next) == &clip(now_) && std::abs(fragment(next).first_played() - at()) < kFloatRounding;
+}
+
 void Playback::play(const Placed& placed) {
-  const double first = fragment(placed).first_played();
-  const bool goes_on = &clip(placed) == &clip(now_) && std::abs(first - at()) < kFloatRounding;
-  const double after = goes_on ? at() : first - 2 * kFloatRounding;
+  const double first = fragment(placed).first_played(), after = goes_on(placed) ? at() : first - 2 * kFloatRounding;
   now_ = placed;
   pass_markers(after, first);
   const Vector2 velocity = hips_velocity(clip(now_), fragment());
   evident_of_hips_ = {velocity.x(), velocity.y(), evident().turn, evident().jump};
-  beside_ends_ = velocity - mean_velocity_around(clip(now_), fragment(), step_seconds());
+  beside_ends_ = Vector2::Zero();
+  if (!far_away_) beside_ends_ = velocity - mean_velocity_around(clip(now_), fragment(), step_seconds());
 }
 
 Playback::Placed Playback::place(int style, int number, const CharacterFrame& frame) const {
@@ -71,7 +75,7 @@ void Playback::sample(const Placed& placed, WorldPose& pose) const {
 void Playback::sample_stitched(Placed placed, double seconds, WorldPose& pose) const {
   placed.seconds = seconds;
   sample(placed, pose);
-  if (stitching_ == Stitching::inertialize) look_.apply(std::max(0.0, seconds), inertialization_, pose);
+  if (stitching_ == Stitching::inertialize) look_.apply(std::max(0.0, stitched_ + seconds), inertialization_, pose);
 }
 
 void Playback::sample(double seconds, WorldPose& pose) const { sample_stitched(now_, seconds, pose); }
@@ -80,7 +84,7 @@ void Playback::sample_body(double seconds, WorldPose& pose) const {
   Placed placed = now_;
   placed.seconds = seconds;
   sample(placed, pose);
-  if (stitching_ == Stitching::inertialize) inertialization_.apply(std::max(0.0, seconds), pose);
+  if (stitching_ == Stitching::inertialize) inertialization_.apply(std::max(0.0, stitched_ + seconds), pose);
 }
 
 Vector2 Playback::start(int fragment) { return start(place(style_, fragment, frame_)); }
@@ -88,14 +92,39 @@ Vector2 Playback::start(int fragment) { return start(place(style_, fragment, fra
 Vector2 Playback::start_move(int part) { return start(place(0, part, frame_)); }
 
 Vector2 Playback::start(const Placed& next) {
-  before_ = now_;
-  play(next);
   const bool inertializes = stitching_ == Stitching::inertialize;
-  const Vector2 faster = inertializes && stitch_ > 0 ? begin_stitch(before_) : Vector2::Zero();
+  if (far_away_ && inertializes && goes_on(next)) return go_on(next);
+  before_ = now_;
+  const Vector2 went = far_away_ ? mean_travel().velocity : Vector2::Zero();
+  play(next);
+  Vector2 faster = Vector2::Zero();
+  if (inertializes && stitch_ > 0) faster = far_away_ ? begin_far_stitch(before_, went) : begin_stitch(before_);
+  stitched_ = 0;
   faded_ = inertializes ? 0 : std::min(stitch_, left());
   steps_.advance(standing_feet(0), 0);
-  show();
+  find_frame();
   return faster;
+}
+
+// Its take, and the stitch under way, go on.
+Vector2 Playback::go_on(const Placed& next) {
+  Placed placed = now_;
+  placed.number = next.number;
+  placed.seconds = 0;
+  stitched_ += now_.seconds;
+  before_ = now_;
+  play(placed);
+  return Vector2::Zero();
+}
+
+// Keeps the pose, and of velocities that of the mean of the steps alone.
+Vector2 Playback::begin_far_stitch(const Placed& old, const Vector2& went) {
+  auto& [shown, unused, fresh, unused_too] = workspace_->poses;
+  sample_stitched(old, old.seconds, shown);
+  sample(now_, fresh);
+  inertialization_.begin(shown, shown, fresh, fresh, 1, stitch_);
+  look_.clear();
+  return went - mean_travel().velocity;
 }
 
 // Begins a stitch from the old fragment, as it is shown, to the one that plays now; returns what start() does.
@@ -148,7 +177,7 @@ void Playback::show() {
   WorldPose& shown = workspace_->shown;
   sample(now_, shown);
   if (stitching_ == Stitching::inertialize) {
-    look_.apply(now_.seconds, inertialization_, shown);
+    look_.apply(stitched_ + now_.seconds, inertialization_, shown);
   } else if (now_.seconds < faded_) {
     crossfade(ease_in_ease_out(now_.seconds / faded_), shown);
   }
@@ -159,7 +188,7 @@ void Playback::find_frame() {
   if (stitching_ == Stitching::crossfade) return show();
   WorldPose place;
   put(now_, root_at(clip(now_), at()), place);
-  inertialization_.move(now_.seconds, place);
+  inertialization_.move(stitched_ + now_.seconds, place);
   frame_ = {place.root.head<2>(), place.heading};
 }
 
@@ -234,6 +263,8 @@ double Playback::step_seconds() const {
 }
 
 Travel Playback::mean_travel() const {
+  if (far_away_)
+    return {{evident_of_hips_.x, evident_of_hips_.y}, evident_of_hips_.turn * styled(now_).space.turn_rate()};
   const PackedClip& source = clip(now_);
   Travel travel = travel_around(source, fragment().first_played() + now_.seconds * source.rate, step_seconds());
   travel.velocity += beside_ends_;

@@ -44,6 +44,8 @@ class Playback {
   void change_style(int style) { style_ = style; }
   /// As PlayerOptions::stitch, of the stitches that begin from now on.
   void set_stitch(double stitch) { stitch_ = stitch < kShortestStitch ? 0 : stitch; }
+  /// Whether poses are joined without the speeds of bones, which nobody sees from far away.
+  void set_far_away(bool far_away) { far_away_ = far_away; }
   /// Nothing but this fragment plays, from its first pose, placed at `frame`.
   void reset(int fragment, const CharacterFrame& frame);
   /// Stitches a fragment on to what is shown. Returns how much faster what played went over the ground, m/s in the
@@ -137,6 +139,9 @@ class Playback {
   void sample(const Placed& placed, WorldPose& pose) const;
   void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
   Vector2 begin_stitch(const Placed& old);
+  Vector2 begin_far_stitch(const Placed& old, const Vector2& went);
+  bool goes_on(const Placed& next) const;
+  Vector2 go_on(const Placed& next);
   void pass_markers(double after, double until);
   void crossfade(double weight, WorldPose& pose) const;
 
@@ -145,10 +150,12 @@ class Playback {
   Stitching stitching_;
   int style_ = 0;
   double stitch_ = 0;
+  bool far_away_ = false;
   Placed now_, before_;
   Control evident_of_hips_;
   Vector2 beside_ends_ = Vector2::Zero();  // evident_of_hips_ without mean_velocity_around()
   double faded_ = 0;
+  double stitched_ = 0;  // s for which the stitch was under way when what plays began
   StepSequence steps_;
   PassedMarkers passed_;  // within a step, so that nothing of it is kept between two
   Inertialization inertialization_;

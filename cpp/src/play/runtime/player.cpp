@@ -65,7 +65,8 @@ void Player::go_on(const Control& control) {
     director_.resume(selector_.class_of(fragment_), control);
   } else {
     const int next = director_.decide(control, playback_, selector_);
-    fragment_ = director_.plays_forced() ? selector_.choose_any(next) : selector_.choose(next, wanted, playback_);
+    fragment_ =
+        director_.plays_forced() ? selector_.choose_any(next) : selector_.choose(next, wanted, playback_, !far_away_);
   }
   play(fragment_);
 }
@@ -159,7 +160,7 @@ void Player::step(const Control& given, double seconds) {
   director_.observe(control);
   if (seconds == 0) playback_.show();
   for (double rest = seconds; rest > kRounding * seconds;) {
-    rest -= advance(control, std::min(rest, kGameStep));
+    rest -= advance(control, far_away_ ? rest : std::min(rest, kGameStep));
     const bool is_seen = rest <= kRounding * seconds || extras_ != nullptr;  // what begins over a pose looks at it
     if (is_seen) {
       playback_.show();

@@ -38,6 +38,9 @@ struct PlayerOptions {
   /// of it from which the next one is joined best, at 1 at once.
   double responsiveness = 0.5;
   PlayerConstants constants{};  ///< As they are: what `dev.py tune` changes.
+  /// It is seen from far away: fragments are played to their ends, and what follows is looked up (Sec. 3.3) and joined
+  /// as well as its class is, without a plan; all of a step is played at once, and no foot is held.
+  bool far_away = false;
 };
 
 /// s in which a change of style looks for the moment that joins best.
@@ -175,6 +178,7 @@ class Player {
 
   void complete(const PlayerOptions& options);
   void make_extras(const PlayerOptions& options);
+  void set_far_away(const PlayerOptions& options);
   void set_style(int style);
   double begin_style(const Control& control, double most);
   Control wanted(const Control& control) const;
@@ -217,6 +221,7 @@ class Player {
   std::shared_ptr<GroundFollower> follower_;  // its own; null without ground
   int entered_ = 0;
   int fragment_ = 0;
+  bool far_away_ = false;
   Vector3 root_ = Vector3::Zero();  // as it is shown
 };
 

@@ -39,6 +39,7 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
       playback_(*character_, *workspace_, options.stitching, within_one(options.stitch, "stitching time, in s,")),
       correction_(*character_, *workspace_, options.lock_feet),
       gaze_(*workspace_) {
+  set_far_away(options);
   reset();
 }
 
@@ -49,8 +50,15 @@ void Player::set_options(const PlayerOptions& options) {
   governor_.set(adjustment, responsiveness);
   director_.set_responsiveness(responsiveness);
   playback_.set_stitch(stitch);
-  correction_.set_lock_feet(options.lock_feet);
+  set_far_away(options);
   if (extras_ != nullptr) extras_->upper_body.set_stitch(stitch);
+}
+
+void Player::set_far_away(const PlayerOptions& options) {
+  far_away_ = options.far_away;
+  director_.set_plans(!far_away_);
+  playback_.set_far_away(far_away_);
+  correction_.set_feet(options.lock_feet && !far_away_, !far_away_);
 }
 
 Player Player::another(const PlayerOptions& options) const {

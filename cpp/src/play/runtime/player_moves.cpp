@@ -17,7 +17,10 @@ void Player::make_extras(const PlayerOptions& options) {
              {}});
 }
 
-void Player::play_move(int part) { keep(playback_.start_move(part)); }
+void Player::play_move(int part) {
+  keep(playback_.start_move(part));
+  playback_.show();  // what the upper body's next move is measured from
+}
 
 MoveTrack& Player::track_of(int move) {
   if (move < 0 || move >= static_cast<int>(character_->moves.size())) {
@@ -57,6 +60,7 @@ void Player::imitate(const Player& other) {
   selector_ = other.selector_;
   playback_ = other.playback_;
   correction_ = other.correction_;
+  far_away_ = other.far_away_;
 }
 
 bool Player::is_stitched() const { return playback_.seconds() > playback_.faded() - kRounding; }

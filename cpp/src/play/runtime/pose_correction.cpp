@@ -16,9 +16,11 @@ namespace fragmotion {
       foot_lock_(workspace.body),
       lean_(workspace.trunk, workspace.body->legs, scale_, workspace.constants.lean) {}
 
-void PoseCorrection::set_lock_feet(bool lock_feet) {
-  if (lock_feet != lock_feet_) foot_lock_.reset();
-  lock_feet_ = lock_feet;
+void PoseCorrection::set_feet(bool lock, bool edit) {
+  if (lock != lock_feet_) foot_lock_.reset();
+  if (!edit) steps_ = {};
+  lock_feet_ = lock;
+  edit_steps_ = edit;
 }
 
 void PoseCorrection::reset() {
@@ -29,8 +31,8 @@ void PoseCorrection::reset() {
 
 void PoseCorrection::correct(const Playback& playback, const RootGovernor& governor, bool even, double seconds) {
   const Skeleton& skeleton = workspace_->kinematics.skeleton();
-  lean_.apply(skeleton, workspace_->shown, governor.acceleration(), seconds);
-  edit_steps(playback.evident_of_hips(), governor, seconds);
+  lean_.apply(skeleton, workspace_->shown, edit_steps_ ? governor.acceleration() : Vector2::Zero(), seconds);
+  if (edit_steps_) edit_steps(playback.evident_of_hips(), governor, seconds);
   if (lock_feet_) lock_feet(playback, even, seconds);
 }
 

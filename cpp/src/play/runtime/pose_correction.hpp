@@ -16,7 +16,8 @@ class PoseCorrection {
 
   void reset();
   /// As it was told when it was made. Feet that were held and are not any more are free.
-  void set_lock_feet(bool lock_feet);
+  /// Whether steps are as long as the way, too.
+  void set_feet(bool lock, bool edit);
   const StepEdit& steps() const { return steps_; }
   /// Whether a foot stands: it is held where it is, or, where feet are not held, it is to stand.
   bool plants(int side, bool stands) const { return lock_feet_ ? foot_lock_.locked(side) : stands; }
@@ -35,7 +36,7 @@ class PoseCorrection {
 
   Workspace* workspace_;
   double scale_;
-  bool lock_feet_;
+  bool lock_feet_, edit_steps_ = true;
   StepEdit steps_;
   FootLock foot_lock_;
   Lean lean_;
