@@ -21,12 +21,11 @@ namespace fragmotion::benchmarks {
 namespace {
 
 constexpr int kFramesPerControl = 6, kNearPlayers = 10000, kManyPlayers = 50000;
-constexpr double kTrace = 60;                 // s of it
-constexpr std::size_t kSetOff = 60;           // frames until they go
-constexpr int kMeasured = 24;                 // frames, in which each has stepped as often as it does
-constexpr double kNear = 20, kMiddle = 60;    // m from the camera: the limits of levels, with one player a square metre
-constexpr int kCompared = 100, kSteps = 600;  // players, and steps for which they are
-constexpr int kHalfSecond = 30;               // frames
+constexpr double kTrace = 60;               // s of it
+constexpr std::size_t kSetOff = 60;         // frames until they go
+constexpr int kMeasured = 24;               // frames, in which each has stepped as often as it does
+constexpr double kNear = 20, kMiddle = 60;  // m from the camera: the limits of levels, with one player a square metre
+constexpr int kCompared = 100, kSteps = 600, kHalfSecond = 30;  // players, frames for which they are, half a second's
 
 struct Level {
   int step_interval;
