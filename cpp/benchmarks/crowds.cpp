@@ -25,7 +25,7 @@ constexpr double kTrace = 60;               // s of it
 constexpr std::size_t kSetOff = 60;         // frames until they go
 constexpr int kMeasured = 24;               // frames, in which each has stepped as often as it does
 constexpr double kNear = 20, kMiddle = 60;  // m from the camera: the limits of levels, with one player a square metre
-constexpr int kCompared = 100, kSteps = 600, kHalfSecond = 30;  // players, frames for which they are, half a second's
+constexpr int kCompared = 100, kSteps = 640, kHalfSecond = 32;  // players, and frames: all, and half a second
 
 struct Level {
   int step_interval;
