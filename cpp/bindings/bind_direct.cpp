@@ -18,8 +18,6 @@ using OneFollower = OneCallAtATime<PathFollower>;
 // x, y and heading, as Player.frame.
 using Frame = std::tuple<double, double, double>;
 
-constexpr int kMostPlaces = 1000000;
-
 CharacterFrame to_frame(const Frame& frame) {
   const auto& [x, y, heading] = frame;
   return {Vector2{x, y}, heading};
@@ -248,7 +246,8 @@ py::array_t<double> to_rows(const std::vector<Vector3>& places) {
 }
 
 void check_count(int count) {
-  if (count < 0 || count > kMostPlaces) throw std::invalid_argument("the number of places must be 0 to 1000000");
+  if (count < 0 || static_cast<std::size_t>(count) > kMostPathPoints)
+    throw std::invalid_argument("the number of places must be 0 to 1000000");
 }
 
 void bind_area(py::module_& m) {
@@ -269,7 +268,8 @@ void bind_area(py::module_& m) {
           [](const PaintedArea& area, const Doubles& starts, int count, std::uint64_t seed, double room) {
             check_count(count);
             check_shape(starts, "starts", {-1, 3});
-            check_count(static_cast<int>(std::min<py::ssize_t>(starts.shape(0) * count, kMostPlaces + 1)));
+            check_count(
+                static_cast<int>(std::min<py::ssize_t>(starts.shape(0) * count, py::ssize_t{kMostPathPoints} + 1)));
             const std::vector<double> numbers = to_vector(starts, "starts", -kFarthestBody, kFarthestBody);
             std::vector<Vector3> places;
             for (std::size_t i = 0; i < numbers.size(); i += 3) places.emplace_back(&numbers[i]);

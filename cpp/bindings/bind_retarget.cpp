@@ -12,8 +12,6 @@
 namespace fragmotion::bindings {
 namespace {
 
-constexpr int kPoses = 240;  // of clips, by which nameless bones are known
-
 void check_bones(const std::vector<Clip>& clips, const Skeleton& skeleton) {
   for (const Clip& clip : clips) {
     if (clip.rotations.size() == std::size_t{4} * skeleton.size() * clip.frames) continue;
@@ -28,7 +26,7 @@ ObservedPoses observed(const Skeleton& skeleton, const std::vector<Clip>& clips)
   for (const Clip& clip : clips) frames += clip.frames;
   ObservedPoses poses;
   for (const Clip& clip : clips) {
-    for (int f = 0; f < clip.frames; f += std::max(1, frames / kPoses)) {
+    for (int f = 0; f < clip.frames; f += frames_between_looks(frames)) {
       world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
       poses.heads.insert(poses.heads.end(), posed.heads.begin(), posed.heads.end());
       ++poses.poses;

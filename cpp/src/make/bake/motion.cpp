@@ -7,13 +7,14 @@
 #include <string>
 
 #include "base/ranges.hpp"
+#include "base/rounding.hpp"
 
 namespace fragmotion {
 namespace {
 
 bool are_rotations(const std::vector<double>& rotations) {
   for (std::size_t i = 0; i < rotations.size(); i += 4) {
-    if (!(std::abs(load_quaternion(&rotations[i]).norm() - 1) <= kUnitTolerance)) return false;
+    if (!(std::abs(load_quaternion(&rotations[i]).norm() - 1) <= kFileRounding)) return false;
   }
   return true;
 }

@@ -15,17 +15,17 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kTwoGaits = 1.6;  // a run is at least so much faster than a walk, unless nothing goes between them:
+// A run is at least so much faster than a walk, unless nothing goes between them, and a speed that is looked for than
+// the one before it.
+constexpr double kTwoGaits = 1.6;
 // So far apart are the halves of what is spread evenly, which is the flattest that has one mode.
 const double kOneMode = std::sqrt(12);
-constexpr double kApart = 1.2;       // a speed that is asked for is at least so much faster than the one before it,
-constexpr double kFoundApart = 1.5;  // and one that is looked for
-constexpr double kGroup = 0.02;      // of what goes, that a speed has at least
-constexpr double kAsFast = 1.15;     // a fragment of a speed is no more than so much faster or slower
+// A speed that is asked for is at least so much faster than the one before it, and its fragments differ by no more.
+constexpr double kApart = 1.2;
+constexpr double kGroup = 0.02;  // of what goes, that a speed has at least
 constexpr int kFew = 3, kOneIn = 200;
 constexpr double kMostOf = 0.75;  // of so many directions: as good as all
 constexpr int kRounds = 100;
-constexpr double kTurning = kPi / 6;  // rad/s
 
 // Sorted values in two clusters.
 struct Clusters {
@@ -174,8 +174,8 @@ int speeds_of(const std::vector<Control>& evident, const ControlSpace& space) {
   int held = 0;
   for (const double speed : space.speeds()) {
     const double wanted = speed * space.scale();
-    const auto slow = std::lower_bound(going.begin(), going.end(), wanted / kAsFast),
-               fast = std::upper_bound(going.begin(), going.end(), wanted * kAsFast);
+    const auto slow = std::lower_bound(going.begin(), going.end(), wanted / kApart),
+               fast = std::upper_bound(going.begin(), going.end(), wanted * kApart);
     if (!are_few(fast - slow, going.size())) ++held;
   }
   return held;
@@ -211,13 +211,13 @@ ControlSpace control_space_of(const std::vector<Control>& evident, double scale,
   ControlLayout layout = options.layout;
   check(layout);
   if (options.find) {
-    const std::vector<double> found = speeds_apart(going, kMostSpeeds, kFoundApart);
+    const std::vector<double> found = speeds_apart(going, kMostSpeeds, kTwoGaits);
     if (!found.empty()) layout.speeds = static_cast<int>(found.size());
     layout.directions = found_directions(evident, scale);
     layout.turn = show_turns(evident, ControlSpace().turn_rate());
     layout.jump = show_jumps(evident);
   }
-  const double ratio = options.find ? kFoundApart : kApart;
+  const double ratio = options.find ? kTwoGaits : kApart;
   std::vector<double> speeds =
       layout.speeds == 2 ? two_gaits(going) : filled(speeds_apart(going, layout.speeds, ratio), layout.speeds);
   for (double& speed : speeds) speed /= scale;

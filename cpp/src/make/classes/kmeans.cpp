@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "base/parallel.hpp"
@@ -14,7 +13,6 @@ namespace {
 
 // Bounds are kept in floats; so much of them is given away to rounding.
 constexpr float kSlack = 1e-5F;
-constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 // The index that falls to a share of the total; where all is zero, each index is as likely.
 int draw(const std::vector<double>& cumulated, double share) {
@@ -93,7 +91,7 @@ KMeans::KMeans(const Points& points, int classes, int threads)
       kinds_(n_, 0),
       labels_(points.count(), 0),
       averaged_(points.count(), -1),
-      upper_(points.count(), kInfinite) {}
+      upper_(points.count(), INFINITY) {}
 
 // A point that may become a mean: how far each point is from it, or at least is where that is no nearer than the
 // nearest mean so far, and by how much less the inertia would be.
@@ -112,7 +110,7 @@ void KMeans::seed(Random& random) {
   lower_.assign(static_cast<std::size_t>(points_.count()) * n_, 0);
   for (int k = 0; k < n_; ++k) {
     const std::vector<double> squares = cumulated_squares();
-    if (k == 0) std::fill(upper_.begin(), upper_.end(), kInfinite);
+    if (k == 0) std::fill(upper_.begin(), upper_.end(), INFINITY);
     const auto tried = candidates.begin() + (k == 0 ? 1 : trials);
     for (auto candidate = candidates.begin(); candidate != tried; ++candidate) {
       candidate->point = draw(squares, random.uniform());
@@ -165,7 +163,7 @@ void KMeans::start(const std::vector<int>& labels, std::vector<float> lower) {
   lower_ = std::move(lower);
   average();
   for (int& label : labels_) label = std::max(0, label);
-  std::fill(upper_.begin(), upper_.end(), kInfinite);
+  std::fill(upper_.begin(), upper_.end(), INFINITY);
   assign();
 }
 
@@ -217,7 +215,7 @@ bool KMeans::refill_empty_classes() {
     --count[labels_[furthest]];
     ++count[k];
     labels_[furthest] = k;
-    upper_[furthest] = kInfinite;
+    upper_[furthest] = INFINITY;
     refilled = true;
   }
   return refilled;

@@ -25,7 +25,6 @@ namespace {
 
 constexpr const char* kColumns[] = {"velocity_x", "velocity_y", "turn", "jump"};
 constexpr const char* kHeader = "velocity_x,velocity_y,turn,jump";
-constexpr std::size_t kNumbers = 4;  // the columns of a control
 constexpr const char* kMove = "move";
 constexpr const char* kStyle = "style";
 constexpr const char* kLook = "look";
@@ -93,13 +92,13 @@ std::vector<std::string> parse_header(const std::string& file, std::string_view 
   std::vector<std::string> further;
   std::string_view left = line;
   const std::size_t count = count_cells(line);
-  if (count < kNumbers) refuse();
+  if (count < std::size(kColumns)) refuse();
   for (std::size_t i = 0; i < count; ++i) {
     const std::optional<std::string> name = take_cell(left);
     const bool again = name && name != kMove && std::count(further.begin(), further.end(), *name) > 0;
     const bool known = name == kMove || name == kStyle || name == kLook || name == kHands[0] || name == kHands[1];
-    if (i < kNumbers ? name != kColumns[i] : again || !known) refuse();
-    if (i >= kNumbers) further.push_back(*name);
+    if (i < std::size(kColumns) ? name != kColumns[i] : again || !known) refuse();
+    if (i >= std::size(kColumns)) further.push_back(*name);
   }
   return further;
 }
@@ -122,8 +121,8 @@ void check_control(const std::string& file, std::size_t line, const Control& con
 }
 
 Control parse_control(const std::string& file, std::size_t line, const std::string* cells) {
-  double values[kNumbers];
-  for (std::size_t i = 0; i < kNumbers; ++i) {
+  double values[std::size(kColumns)];
+  for (std::size_t i = 0; i < std::size(kColumns); ++i) {
     const std::optional<double> value = parse_double(cells[i]);
     if (!value) {
       fail(file, line, std::string(kColumns[i]) + " is '" + cells[i].substr(0, 40) + "', expected a finite number");
@@ -141,7 +140,7 @@ class RowParser {
   RowParser(const std::string& file, std::vector<std::string> further)
       : file_(file),
         further_(std::move(further)),
-        cells_(kNumbers + further_.size()),
+        cells_(std::size(kColumns) + further_.size()),
         held_(further_.size(), -1),
         last_(further_.size()) {}
 
@@ -149,7 +148,7 @@ class RowParser {
     split(line, row);
     found_.trace.push_back(parse_control(file_, line, cells_.data()));
     for (std::size_t i = 0; i < further_.size(); ++i) {
-      std::string name = as_utf8(std::move(cells_[kNumbers + i]));
+      std::string name = as_utf8(std::move(cells_[std::size(kColumns) + i]));
       if (further_[i] == kMove) {
         hold(held_[i], std::move(name));
       } else if (further_[i] == kStyle) {

@@ -18,7 +18,6 @@ constexpr double kGoodEnough = 0.4;  // of what will do, in place and in time
 constexpr double kSooner[] = {0,    0.05,  -0.05, 0.1,   -0.1, 0.15,  0.08, -0.08, 0.02, -0.02,
                               0.03, -0.03, 0.06,  -0.06, 0.12, -0.12, 0.2,  -0.15, 0.04, 0.25};
 constexpr int kUsualTries = 10;
-constexpr double kAround = 0.5;  // m of a 1.8 m character around its place in which it is looked for on the path
 
 // Measures a walk frame by frame.
 class Measure {
@@ -47,12 +46,12 @@ class Measure {
   }
   bool is_at_end(double left, double speed) const {
     const double way = follower_.path().length() - follower_.way();
-    return left * scale_ < kArrived && way * scale_ < kAround && speed * scale_ < kMoving;
+    return left * scale_ < kArrived && way * scale_ < kNearby && speed * scale_ < kMoving;
   }
 
   void add_distance(const CharacterFrame& now, PathWalk& walk) {
     const Path& path = follower_.path();
-    const double length = path.length(), around = std::min(kAround / scale_, length / 2),
+    const double length = path.length(), around = std::min(kNearby / scale_, length / 2),
                  from = follower_.way() - around, to = follower_.way() + around;
     const double place =
         path.nearest(now.position, path.is_closed() ? from : std::max(from, 0.0), stands_ ? std::min(to, length) : to);

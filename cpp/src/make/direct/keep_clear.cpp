@@ -16,7 +16,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kNearGoal = 0.5;                  // m of a 1.8 m character: what is nearer than that is no goal
 constexpr double kGoalLate = 1.5, kGoalLater = 3;  // times as long as planned, and s more: then a goal is given up
 constexpr double kGoesOn = 0.2;  // s until a body can do otherwise, in which it goes on: it takes so much more room
 constexpr int kForgets = 10;     // controls after which it forgets on which side it went past something
@@ -193,7 +192,7 @@ class Heeding {
     follower_.reset();
     for (; next_ < member_->goals.size() && !follower_; ++next_) {
       const Vector2 here = player().frame().position, goal = member_->goals[next_];
-      if ((goal - here).norm() * space().scale() < kNearGoal || !is_open(goal)) continue;
+      if ((goal - here).norm() * space().scale() < kNearby || !is_open(goal)) continue;
       follower_.emplace(space(), Path({here, goal}));
       due_ = kGoalLate * follower_->seconds_left() + kGoalLater;
     }

@@ -24,7 +24,6 @@ constexpr int kRound = 64, kBest = 8;    // tries of a round, and those of them 
 constexpr double kWide = 0.4;            // of kMost: the spread of a first round,
 constexpr double kNear = 0.12;           // and of one about the best so far
 constexpr double kSettledSpread = 0.01;  // of kMost: the spread at which a search has settled
-constexpr int kMostRounds = 24;          // rounds until it begins anew
 
 using Change = std::array<double, kBumps * kParts>;
 
@@ -112,7 +111,7 @@ class PinSearch {
       std::stable_sort(trials.begin(), trials.end(), cheaper);
       if (trials[0].cost < best.cost) best = trials[0];
       narrow(cloud, trials);
-      if (!cloud.settled() && (round + 1) % kMostRounds != 0) continue;
+      if (!cloud.settled()) continue;
       // In turn about the best so far and, with another seed where that may change, anywhere.
       const bool about_best = ++turn % 2 == 1;
       cloud = about_best ? Cloud(best.change, kNear) : Cloud({}, kWide);

@@ -8,6 +8,7 @@
 #include "doctor/basis.hpp"
 #include "doctor/check.hpp"
 #include "doctor/lengths.hpp"
+#include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
 namespace {
@@ -17,9 +18,6 @@ const Eigen::Matrix3d kMirror = Vector3{-1, 1, 1}.asDiagonal();
 
 constexpr double kLeastBody = 1.3, kMostBody = 2.2;    // m: what a unit must make of a grown person
 constexpr double kLeastAnimal = 0.3, kMostAnimal = 5;  // m: of an animal on four legs, a cat to an elephant
-constexpr double kBends = 0.03;                        // of a leg's length: that a knee points to a side for certain
-constexpr double kUnsure = 0.3;   // cosine: feet that do not point to the front for certain, as a runner's
-constexpr double kPoints = -0.5;  // cosine: feet that point to the back for certain
 
 struct Unit {
   const char* name;
@@ -120,8 +118,9 @@ Front front_of(const Patient& patient) {
   return front;
 }
 
+// Feet of a runner, say, do not point to the front for certain.
 bool points_back(const Front& front) {
-  return (front.knees < -kBends && front.feet < kUnsure) || (front.knees < kBends && front.feet < kPoints);
+  return (front.knees < -kBends && front.feet < kNoDirection) || (front.knees < kBends && front.feet < -kSameWay);
 }
 
 }  // namespace

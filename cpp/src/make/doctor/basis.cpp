@@ -8,8 +8,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kNearAxis = 0.8;  // cosine
-
 Vector3 middle_of_feet(const Patient& patient, int frame) {
   return 0.5 * (patient.head(frame, patient.legs[0].end) + patient.head(frame, patient.legs[1].end));
 }

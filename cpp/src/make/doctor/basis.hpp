@@ -7,6 +7,9 @@
 
 namespace fragmotion {
 
+/// Cosine: a direction that is nearer to an axis is along it.
+constexpr double kNearAxis = 0.8;
+
 /// The axis nearest to a direction, where the angle between them is under 37 degrees; else zero.
 Vector3 nearest_axis(const Vector3& direction);
 

@@ -8,10 +8,8 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kDropped = 1.75;    // times the steps beside: a frame has been left out
-constexpr double kUnlike = 0.4;      // of the step: how far it may be from so many steps beside
-constexpr double kAlike = 0.75;      // cosine of the steps beside
-constexpr double kLeastSpeed = 0.5;  // m/s, the bones' root mean square, of a character of 1.8 m
+constexpr double kDropped = 1.75;  // times the steps beside: a frame has been left out
+constexpr double kAlike = 0.75;    // cosine of the steps beside
 
 using Step = Eigen::VectorXd;
 
@@ -26,9 +24,9 @@ Step step_to(const Patient& patient, int frame) {
 int dropped_between(const Patient& patient, const Step& before, const Step& step, const Step& after) {
   const Step usual = 0.5 * (before + after);
   const double speed = usual.norm() / std::sqrt(patient.bones()) * patient.rate() * patient.scale();
-  if (!(speed > kLeastSpeed && before.dot(after) > kAlike * before.norm() * after.norm())) return 0;
+  if (!(speed > kWalking && before.dot(after) > kAlike * before.norm() * after.norm())) return 0;
   const double times = step.dot(usual) / usual.squaredNorm();
-  if (times < kDropped || (step - times * usual).norm() > kUnlike * step.norm()) return 0;
+  if (times < kDropped || (step - times * usual).norm() > kLeft * step.norm()) return 0;
   const int count = static_cast<int>(std::lround(times)) - 1;
   return count <= brief(patient.rate()) ? count : 0;
 }

@@ -9,6 +9,7 @@
 #include "doctor/lengths.hpp"
 #include "doctor/runs.hpp"
 #include "motion/contacts.hpp"
+#include "motion/gait_bounces.hpp"
 
 namespace fragmotion {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 // Of a character of 1.8 m. The 24 flights of two actors that are so long and even fall at 9.2 to 11.1 m/s^2.
 constexpr double kAloft = 0.05;     // m: of all joints of the feet over where they stand
 constexpr int kShortestFlight = 5;  // of a flight
-constexpr double kBow = 0.02;       // m: how high it is at least
 constexpr double kEven = 0.1;       // of what a straight way leaves unexplained: what a fall does at most
 constexpr double kOtherRate = 1.8;  // times the rate: animators let bodies fall slower or faster, too
 
@@ -61,7 +61,7 @@ double fall(const Patient& patient, const Run& run) {
     heights[i] = height(patient, run.begin + i) * patient.scale();
   }
   const double curve = least_squares(powers, heights)[2], end = powers(0, 1);
-  if (-curve * end * end < kBow) return 0;
+  if (-curve * end * end < kLeastBounce) return 0;
   const double straight = unexplained(powers.leftCols(2), heights);
   return unexplained(powers, heights) < kEven * kEven * straight ? -2 * curve : 0;
 }

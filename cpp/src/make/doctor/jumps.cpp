@@ -2,17 +2,16 @@
 #include <algorithm>
 #include <set>
 
+#include "doctor/basis.hpp"
 #include "doctor/check.hpp"
 #include "doctor/runs.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kOutOfLine = 5;   // times the steps beside
-constexpr double kAtEnd = 3;       // s: where a calibration is looked for
-constexpr int kFrameOrTwo = 2;     // of another pose at an end: no motion whatever they are
-constexpr double kArmsOut = 0.85;  // cosine
-constexpr double kStill = 0.15;    // m/s: the bones' mean, of somebody who holds a pose
+constexpr double kOutOfLine = 5;  // times the steps beside
+constexpr double kAtEnd = 3;      // s: where a calibration is looked for
+constexpr int kFrameOrTwo = 2;    // of another pose at an end: no motion whatever they are
 
 bool is_torn(const Patient& patient, int frame) {
   const double step = patient.step(frame) * patient.scale();
@@ -52,7 +51,7 @@ bool has_arms_out(const Patient& patient, int frame) {
   right.normalize();
   for (int side = 0; side < 2; ++side) {
     const Vector3 arm = patient.head(frame, patient.arms[side].end) - patient.head(frame, patient.arms[side].top);
-    if (!(arm.normalized().dot(side == 0 ? -right : right) > kArmsOut)) return false;
+    if (!(arm.normalized().dot(side == 0 ? -right : right) > kNearAxis)) return false;
   }
   return true;
 }

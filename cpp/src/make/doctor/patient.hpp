@@ -27,6 +27,12 @@ inline bool is_animal(double stature) { return stature >= 0.1 && stature <= 15; 
 /// s: what is shorter is no step, and no pose that somebody holds.
 constexpr double kShortestStep = 0.3;
 
+/// m/s of a character of 1.8 m: feet that stand are slower, and the bones of somebody who holds a pose.
+constexpr double kStill = 0.15;
+
+/// Of what is unlike what should be: what an explanation leaves of it at most.
+constexpr double kLeft = 0.4;
+
 /// A leg or an arm by its joints, from the body on; -1 where there is none.
 struct Limb3 {
   int top = -1, middle = -1, end = -1;

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kTurn = kPi / 7.2;                 // rad: at once, of a bone in its parent
 constexpr double kLeastMove = 0.05, kMoveRate = 4;  // m, m/s: of a bone of a character of 1.8 m
-constexpr double kBack = 0.5;                       // of the jump: how far a bone may come back from where it left
 constexpr double kCalm = 0.3;      // of the jump: how far it moves from frame to frame before and after
 constexpr double kLongest = 0.05;  // s, four frames at the least
 constexpr int kMostRounds = 8;
@@ -75,7 +74,7 @@ class SpikeFinder {
     const double first = step(bone, begin);
     for (int f = begin + 1; first > 1 && f <= begin + longest_ && f < patient_.frames(); ++f) {
       const double jump = std::min(first, step(bone, f));
-      if (distance_(bone, begin - 1, f) < kBack * jump)
+      if (2 * distance_(bone, begin - 1, f) < jump)
         return jump > 1 && is_calm(bone, begin - 1, kCalm * jump) && is_calm(bone, f + 1, kCalm * jump) ? f : 0;
     }
     return 0;

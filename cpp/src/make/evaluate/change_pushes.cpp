@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/rates.hpp"
+#include "base/rounding.hpp"
 #include "evaluate/about_face.hpp"
 #include "evaluate/body_track.hpp"
 #include "evaluate/dragging.hpp"
@@ -15,7 +16,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSameWay = 20 * kPi / 180;    // rad
 constexpr double kAfter = 1.5, kBefore = 0.2;  // s
 
 struct Step {
@@ -78,7 +78,7 @@ Change kind_of(const Control& from, const Control& to) {
   if (to.speed() == 0) return Change::stop;
   const double angle = std::acos(std::clamp(before.dot(after) / (from.speed() * to.speed()), -1.0, 1.0));
   if (angle > kTurnsBack) return Change::reverse;
-  return angle > kSameWay || from.turn != to.turn ? Change::turn : Change::gait;
+  return angle > kFloatRounding || from.turn != to.turn ? Change::turn : Change::gait;
 }
 
 std::array<ChangePushes, kChanges> change_pushes(const std::shared_ptr<const Character>& character,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/quantile.hpp"
@@ -15,7 +14,6 @@ namespace {
 
 constexpr double kAroundJump = 0.5;  // s
 constexpr double kShortest = 0.05;   // s
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double median_height(const std::vector<BodyTrack>& tracks, std::vector<Vector3> BodyTrack::*path) {
   std::vector<double> heights;
@@ -35,7 +33,7 @@ bool in_the_air(const BodyTrack& track, int f) {
 }
 
 double dip(const BodyTrack& track, int first, int last, double usual) {
-  if (first < 0 || last >= track.frames()) return kNone;
+  if (first < 0 || last >= track.frames()) return NAN;
   double deepest = 0;
   for (int f = first; f <= last; ++f) deepest = std::max(deepest, usual - track.hips[f].z());
   return deepest;
@@ -51,7 +49,7 @@ double flight_ratio(const BodyTrack& track, int take_off, int landing) {
   const double apex = highest(track, take_off, landing);
   const double rise = apex - track.center[take_off].z(), fall = apex - track.center[landing].z();
   const double ballistic = std::sqrt(2 * rise / kGravity) + std::sqrt(2 * fall / kGravity);
-  return ballistic < kShortest ? kNone : (landing - take_off) / track.rate / ballistic;
+  return ballistic < kShortest ? NAN : (landing - take_off) / track.rate / ballistic;
 }
 
 }  // namespace

@@ -5,13 +5,9 @@
 #include <utility>
 
 #include "base/quantile.hpp"
+#include "runtime/lean.hpp"
 
 namespace fragmotion {
-namespace {
-
-constexpr double kHard = 6;  // m/s^2
-
-}  // namespace
 
 Spread spread(std::vector<double> values) {
   if (values.empty()) return {};

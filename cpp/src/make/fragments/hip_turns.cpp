@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fragments/distance.hpp"
 #include "fragments/strides.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr int kLooked = 16;   // poses of a cycle that tell what its joints bear
 constexpr int kHalvings = 6;  // of what is not borne whole
 
 GaitCycle thinned(const GaitCycle& cycle) {
   GaitCycle thin;
-  const int count = std::min(kLooked, cycle.frames());
+  const int count = std::min(kPoses, cycle.frames());
   for (int i = 0; i < count; ++i) thin.poses.push_back(cycle.poses[i * cycle.frames() / count]);
   thin.end = cycle.end;
   return thin;

@@ -15,7 +15,6 @@ namespace fragmotion {
 namespace {
 
 constexpr double kStandingShare = 0.9;  // of the frames; in the others it may rear and leap
-constexpr double kDown = 0.5;  // of that: a dog that goes is over 0.67 in 99 % of frames, one that sits under 0.3
 
 // How high the hips and the shoulders are, m.
 using Heights = std::array<double, 2>;
@@ -63,8 +62,9 @@ void drop_lying(FragmentPool& pool, std::size_t first) {
   for (const Clip& clip : pool.clips) clips.push_back(heights_of(kinematics, legs, clip));
   const Heights standing = {standing_height(clips, 0), standing_height(clips, 1)};
   const double ground = ground_of(kinematics, legs, pool.clips);
+  // A dog that goes is over 0.67 of its height in 99 % of frames, one that sits under 0.3.
   const auto is_down = [&](const Heights& heights) {
-    const auto sank = [&](int pair) { return heights[pair] - ground < kDown * (standing[pair] - ground); };
+    const auto sank = [&](int pair) { return heights[pair] - ground < (standing[pair] - ground) / 2; };
     return sank(0) || sank(1);
   };
   const auto lies = [&](const Fragment& fragment) {

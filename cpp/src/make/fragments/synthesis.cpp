@@ -41,7 +41,6 @@ constexpr double kMostTempo = 1.2;  // the most by which steps are hurried, as t
 constexpr double kStandSeconds = 0.5;
 constexpr double kStandsLong = 3;  // s that a take stands, so that one does not see it begin again
 constexpr int kStands = 48;        // fragments that stand, one after the other, until they begin again
-constexpr double kBackward = 1;    // of effort: to be played backward
 
 double angle_between(const Control& a, const Control& b) {
   return wrapped(std::atan2(b.y, b.x) - std::atan2(a.y, a.x));
@@ -270,7 +269,7 @@ class Synthesizer {
     const bool moves = ev.speed() > moving, wants = control.speed() > moving, steps = wants || control.turn != 0;
     if (moves != steps) return std::numeric_limits<double>::infinity();
     double effort = kFlawed * cycle.flaw + effort_of_turn(ev, control) + 2 * ev.jump;
-    if (cycle.backward()) effort += kBackward;
+    if (cycle.backward()) ++effort;
     if (steps && !wants) effort += ev.speed() / space_.walk();  // it steps in place
     if (wants && effort < most) {
       effort += effort_of_direction(ev, control);

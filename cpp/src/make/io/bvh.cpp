@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/read_file.hpp"
+#include "base/rounding.hpp"
 #include "base/text_reader.hpp"
 #include "base/utf8.hpp"
 #include "io/file_unit.hpp"
@@ -21,8 +22,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kEndSiteShare = 0.3;     // Of a bone's own offset: the length of a bone whose End Site has none.
-constexpr double kRateTolerance = 0.001;  // Files round the frame time: 0.0333333 is 30 frames a second.
+constexpr double kEndSiteShare = 0.3;  // Of a bone's own offset: the length of a bone whose End Site has none.
 
 constexpr std::array<std::string_view, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                            "Xrotation", "Yrotation", "Zrotation"};
@@ -46,7 +46,7 @@ double frame_rate(double frame_time) {
   const double rate = 1 / frame_time;
   const double nearest = *std::min_element(
       kRates.begin(), kRates.end(), [rate](double a, double b) { return std::abs(a - rate) < std::abs(b - rate); });
-  return std::abs(nearest - rate) <= kRateTolerance * nearest ? nearest : rate;
+  return std::abs(nearest - rate) <= kFileRounding * nearest ? nearest : rate;
 }
 
 class BvhReader {

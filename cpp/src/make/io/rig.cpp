@@ -138,7 +138,7 @@ void check_pose(const Skeleton& skeleton, const double* root_position, const dou
     fail(label, "the root position is not finite, or more than 1000 km from the origin");
   for (int b = skeleton.roles.hips; b < skeleton.size(); ++b) {
     if (skeleton.is_below(b, skeleton.roles.hips) &&
-        !(std::abs(load_quaternion(rotations + 4 * b).norm() - 1) < kUnitTolerance))
+        !(std::abs(load_quaternion(rotations + 4 * b).norm() - 1) < kFileRounding))
       fail(label + ", bone '" + skeleton.names[b] + "'", "the rotation is not a unit quaternion");
   }
 }
@@ -195,7 +195,7 @@ std::vector<Rig::Rigid> Rig::parse_rest(const Armature& armature) {
     const RowMajor matrix(&armature.rest[16 * static_cast<std::size_t>(b)]);
     const std::string label = bone_label(armature, b) + " at rest";
     rest[b] = {matrix.topRightCorner<3, 1>(), extract_rotation(matrix, label)};
-    if ((column_lengths(matrix).array() - 1).abs().maxCoeff() > kUnitTolerance || !is_square(matrix, kUnitTolerance))
+    if ((column_lengths(matrix).array() - 1).abs().maxCoeff() > kFileRounding || !is_square(matrix, kFileRounding))
       fail(label, "the matrix scales by " + print_scale(column_lengths(matrix)) + " or shears, expected a rotation");
   }
   return rest;
@@ -307,7 +307,7 @@ Rig::Object Rig::object_at(const std::string& clip, const double* worlds, int fr
   if (worlds == nullptr) return object_;
   const std::string label = frame_label(clip, frame);
   Object object = parse_object(worlds + 16 * static_cast<std::size_t>(frame), label);
-  if (std::abs(object.scale - object_.scale) > kUnitTolerance * object_.scale)
+  if (std::abs(object.scale - object_.scale) > kFileRounding * object_.scale)
     fail(label, "the object's scale is " + std::to_string(object.scale) + ", at rest it is " +
                     std::to_string(object_.scale) + ": remove the keys on the object's scale");
   return object;

@@ -8,13 +8,11 @@
 #include <vector>
 
 #include "base/rates.hpp"
+#include "base/rounding.hpp"
 #include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
 namespace {
-
-constexpr double kHeld = 0.01;  // of what a clip changes in a frame on the mean: less is nothing
-constexpr double kSame = 0.5;   // of the steps beside it: ends that are nearer show the same pose
 
 // The poses of a clip, each seen from the character frame of its hips.
 class Poses {
@@ -107,7 +105,7 @@ int cycle_of(const Kinematics& kinematics, const Clip& clip) {
   const double gap = poses.distance(last, 0);
   const double most = std::max(poses.distance(0, span), poses.distance(last - span, last));
   if (gap > most || most == 0) return 0;
-  return gap <= kSame * std::min(poses.distance(0, 1), poses.distance(last - 1, last)) ? last : clip.frames;
+  return 2 * gap <= std::min(poses.distance(0, 1), poses.distance(last - 1, last)) ? last : clip.frames;
 }
 
 Clip unrolled(const Kinematics& kinematics, const Clip& clip, int period, int count) {
@@ -127,7 +125,7 @@ Clip unrolled(const Kinematics& kinematics, const Clip& clip, int period, int co
 Clip without_held_end(Clip clip) {
   const std::size_t values = clip.rotations.size() / clip.frames;
   const std::vector<double> turns = steps_of(clip.rotations, values), ways = steps_of(clip.root_positions, 3);
-  const double turn = kHeld * mean_of(turns), way = kHeld * mean_of(ways);
+  const double turn = kFileRounding * mean_of(turns), way = kFileRounding * mean_of(ways);
   int frames = clip.frames;
   while (frames > 1 && turns[frames - 2] < turn && ways[frames - 2] <= way) --frames;
   clip.frames = frames;

@@ -3,18 +3,17 @@
 
 #include <algorithm>
 
+#include "base/rounding.hpp"
 #include "skeleton/relaxed_hands.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kStill = 1e-3;  // rad: what a file's digits make of none
-
 // Whether a bone is turned so in all of a clip.
 bool stays(const Clip& clip, int bones, int bone, const Quaternion& rotation) {
   const std::size_t width = std::size_t{4} * bones;
   for (std::size_t at = std::size_t{4} * bone; at < clip.rotations.size(); at += width) {
-    if (load_quaternion(&clip.rotations[at]).angularDistance(rotation) > kStill) return false;
+    if (load_quaternion(&clip.rotations[at]).angularDistance(rotation) > kFileRounding) return false;
   }
   return true;
 }

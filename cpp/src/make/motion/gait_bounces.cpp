@@ -9,10 +9,9 @@ namespace fragmotion {
 namespace {
 
 // Of a character of 1.8 m.
-constexpr double kLeastBounce = 0.02;  // m: what rises less is no bounce
-constexpr double kFeetApart = 0.1;     // m between feet that can change places
-constexpr double kAsHigh = 0.7;        // of a rise, that the next one has at least
-constexpr double kLongestStep = 0.7;   // s: no step of a gait takes longer
+constexpr double kFeetApart = 0.1;    // m between feet that can change places
+constexpr double kAsHigh = 0.7;       // of a rise, that the next one has at least
+constexpr double kLongestStep = 0.7;  // s: no step of a gait takes longer
 
 // The centre of mass between two of its lowest moments, or between one and the clip's end.
 struct Bounce {

@@ -5,6 +5,9 @@
 
 namespace fragmotion {
 
+/// m of a 1.8 m character: a body that rises less neither bounces nor flies.
+constexpr double kLeastBounce = 0.02;
+
 /// The frames in which a body goes up and down as in every step of a gait, however high: [frames], all false where the
 /// skeleton has no feet. `center`: the path of its centre of mass. In a gait the feet change places from each lowest
 /// moment to the next, or, where legs are rigid and pass each other there, from each highest one, but not those of

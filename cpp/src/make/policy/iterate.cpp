@@ -6,13 +6,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/rounding.hpp"
 #include "base/transposed.hpp"
 #include "policy/optimal.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kValueTolerance = 1e-6;
 constexpr int kMostSweeps = 10000;
 // Sweeps that keep the decisions of the last one, which takes a fifth of deciding: modified policy iteration (Puterman
 // and Shin, "Modified policy iteration algorithms for discounted Markov decision problems", Management Science 24,
@@ -146,7 +146,7 @@ std::vector<double> future_values(const Quality& quality, const Policy& policy, 
   const Matrix steps = IterateOptions().discount * Eigen::Map<const Matrix>(model.data(), controls, controls);
   Matrix value = Matrix::Zero(controls, n), future_value = value;
   double change = 1;
-  while (change > kValueTolerance) {
+  while (change > kFloatRounding) {
     future_value = steps * value;
     change = 0;
     for (int c = 0; c < controls; ++c) {

@@ -2,7 +2,7 @@
 #include "policy/optimal.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <stdexcept>
 
 #include "base/max_accumulate.hpp"
@@ -27,12 +27,6 @@ FRAGMOTION_VECTORISED void max_accumulate(double* best, const double* row, int c
   }
 }
 
-namespace {
-
-constexpr double kNone = -std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 NextClass::NextClass(const Quality& quality)
     : classes_(quality.classes), smoothness_(transposed(quality.smoothness, classes_, classes_)) {
   for (auto row = smoothness_.begin(); row != smoothness_.end(); row += classes_) {
@@ -45,7 +39,7 @@ NextClass::NextClass(const Quality& quality)
 // Calls take(Q') in order, but for classes whose sum is under that of another one after any class: few are left.
 template <typename Take>
 void NextClass::contenders(const double* match, const double* value, const Take& take) const {
-  double least = kNone;
+  double least = -INFINITY;
   for (int to = 0; to < classes_; ++to) least = std::max(least, roughest_[to] * match[to] + value[to]);
   for (int to = 0; to < classes_; ++to) {
     if (smoothest_[to] * match[to] + value[to] >= least) take(to);
@@ -53,12 +47,12 @@ void NextClass::contenders(const double* match, const double* value, const Take&
 }
 
 void NextClass::values(const double* match, const double* value, double* best) const {
-  std::fill_n(best, classes_, kNone);
+  std::fill_n(best, classes_, -INFINITY);
   contenders(match, value, [&](int to) { max_accumulate(best, after_all(to), classes_, match[to], value[to]); });
 }
 
 void NextClass::values(const double* match, const double* value, double* best, int* next) const {
-  std::fill_n(best, classes_, kNone);
+  std::fill_n(best, classes_, -INFINITY);
   contenders(match, value, [&](int to) {
     const double *row = after_all(to), m = match[to], v = value[to];
     for (int from = 0; from < classes_; ++from) {
@@ -70,7 +64,7 @@ void NextClass::values(const double* match, const double* value, double* best, i
 
 int NextClass::after(int from, const double* match, const double* value) const {
   int next = 0;
-  double best = kNone;
+  double best = -INFINITY;
   contenders(match, value, [&](int to) {
     const double candidate = after_all(to)[from] * match[to] + value[to];
     if (candidate > best) best = candidate, next = to;

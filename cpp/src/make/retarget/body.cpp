@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/listed.hpp"
+#include "base/rounding.hpp"
 #include "base/turn_between.hpp"
 #include "motion/soles.hpp"
 #include "retarget/posture.hpp"
@@ -123,7 +124,7 @@ class Directions {
   static Vector3 outward(Side side) { return (side == Side::kLeft ? -1 : 1) * Vector3::UnitX(); }
 
   void set(int bone, const Vector3& from, const Vector3& to) {
-    if (bone < 0 || from.norm() < kShortestLegBone / standard_scale(skeleton_)) return;
+    if (bone < 0 || from.norm() < kFileRounding / standard_scale(skeleton_)) return;
     from_[bone] = from.normalized();
     to_[bone] = to;
   }
@@ -251,7 +252,7 @@ double shortest_of(const Leg& leg, const PosedBones& posture) {
 void measure(const PosedBones& rest, Body& body) {
   body.leg = (length_of(body.legs[0], rest) + length_of(body.legs[1], rest)) / 2;
   body.hip_width = (rest.heads[body.legs[0].thigh] - rest.heads[body.legs[1].thigh]).norm();
-  const double least = kShortestLegBone / standard_scale(body.skeleton());
+  const double least = kFileRounding / standard_scale(body.skeleton());
   for (int side = 0; side < 2; ++side) {
     if (std::min(shortest_of(body.legs[side], rest), body.hip_width) > least) continue;
     throw std::invalid_argument("the " + std::string(side == 0 ? "left" : "right") +

@@ -5,14 +5,11 @@
 #include <limits>
 
 #include "retarget/posture.hpp"
+#include "skeleton/body_tree.hpp"
 #include "skeleton/likely_tips.hpp"
 
 namespace fragmotion {
 namespace {
-
-constexpr double kByPlace = 0.7;  // confidence of a bone whose name says nothing of what it is, at most
-constexpr double kAloft = 0.5;    // of a leg's length over the lowest bone: a foot does not end on the ground
-constexpr double kLowHips = 0.5;  // of the way from the feet up to the thighs: hips are higher
 
 class Doubts {
  public:
@@ -57,13 +54,13 @@ class Doubts {
     for (const Vector3& head : rest_.heads) lowest = std::min(lowest, head.z());
     for (const Side side : kSides) {
       const double foot = height(Role::kFoot, side), thigh = height(Role::kThigh, side);
-      if (foot - lowest > kAloft * (thigh - foot))
+      if (foot - lowest > (thigh - foot) / 2)
         add(Role::kFoot, side, bone(Role::kFoot, side),
             "is far over the lowest bone: the leg does not end on the ground, and may be an arm");
     }
     const double feet = (height(Role::kFoot, Side::kLeft) + height(Role::kFoot, Side::kRight)) / 2,
                  thighs = (height(Role::kThigh, Side::kLeft) + height(Role::kThigh, Side::kRight)) / 2;
-    if (height(Role::kHips, Side::kNone) < feet + kLowHips * (thighs - feet))
+    if (height(Role::kHips, Side::kNone) < (feet + thighs) / 2)
       add(Role::kHips, Side::kNone, bone(Role::kHips, Side::kNone),
           "lies between the feet, and the legs hang on it: to let the body sway about its hips, parent the thighs to "
           "the lowest bone of the spine (Edit Mode)");

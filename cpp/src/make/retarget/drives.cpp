@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/decompositions.hpp"
+#include "base/rounding.hpp"
 #include "retarget/posture.hpp"
 #include "skeleton/same_skeleton.hpp"
 
@@ -247,14 +248,14 @@ class Shape {
 }  // namespace
 
 bool same_body(const Body& source, const Body& target) {
-  return Shape(source).alike(Shape(target), target.leg / source.leg, kSameLength * target.leg);
+  return Shape(source).alike(Shape(target), target.leg / source.leg, kFileRounding * target.leg);
 }
 
 std::vector<Drive> find_drives(const Body& source, const Body& target) {
   std::vector<Drive> drives = Drives(source, target).all();
   if (!same_body(source, target)) return drives;
   const Shape from(source), to(target);
-  const bool rest_alike = from.rest_alike(to, target.leg / source.leg, kSameLength * target.leg);
+  const bool rest_alike = from.rest_alike(to, target.leg / source.leg, kFileRounding * target.leg);
   for (Drive& drive : drives) {
     Lead& lead = drive.first;
     if (rest_alike) lead.turn = from.rest(lead.bone).conjugate() * to.rest(drive.bone);

@@ -13,12 +13,9 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kUpright = 0.7;   // cosine of how far a trunk may lean from the vertical and be taken for upright
-constexpr double kStraight = 0.5;  // and a thigh or a shin for one of a standing body
-constexpr double kSlow = 0.25;     // of these: the slowest
-constexpr double kStill = 0.4;     // m/s of a 1.8 m character: a foot that is slower does not roll
-constexpr double kBends = 0.1;     // sine of the mean bend of a joint that tells its axis
-constexpr int kEnough = 5;         // frames that tell how a foot stands
+constexpr double kSlow = 0.25;  // of the moments in which the trunk is upright: the slowest
+constexpr double kStill = 0.4;  // m/s of a 1.8 m character: a foot that is slower does not roll
+constexpr int kEnough = 5;      // frames that tell how a foot stands
 
 struct Moment {
   int clip = 0, frame = 0;
@@ -34,7 +31,7 @@ double speed_at(const Clip& clip, int f) {
 
 bool upright(const PosedBones& posed, int hips, int top) {
   const Vector3 trunk = posed.heads[top] - posed.heads[hips];
-  return trunk.z() > kUpright * trunk.norm();
+  return trunk.z() > kSameWay * trunk.norm();
 }
 
 CharacterFrame frame_of(const Kinematics& kinematics, const PosedBones& posed) {
@@ -228,7 +225,7 @@ bool bends_back(const RoleMap& map, const PosedBones& posture, const std::vector
     for (const Role role : {Role::kThigh, Role::kShin}) {
       const int bone = map.bone(role, side);
       const Vector3 hinge = posture.rotations[bone] * hinges[bone];
-      if (!hinge.isZero(0) && hinge.dot(-Vector3::UnitX()) < kStraight) return false;
+      if (!hinge.isZero(0) && hinge.dot(-Vector3::UnitX()) < kSameWay) return false;
     }
   }
   return true;
@@ -259,7 +256,7 @@ void face_forward(const RoleMap& map, PosedBones& posture) {
   if (top != hips && !upright(posture, hips, top)) up = (posture.heads[top] - posture.heads[hips]).normalized();
   const double width = right.norm();
   right -= up.dot(right) * up;
-  if (right.norm() < kStraight * width) return;  // one hip above the other
+  if (right.norm() < kSameWay * width) return;  // one hip above the other
   right.normalize();
   Eigen::Matrix3d axes;  // the body's, in the rows
   axes << right.transpose(), up.cross(right).transpose(), up.transpose();
@@ -275,8 +272,8 @@ bool stands(const RoleMap& map, const PosedBones& posture) {
     const Vector3 &thigh = posture.heads[map.bone(Role::kThigh, side)],
                   &shin = posture.heads[map.bone(Role::kShin, side)],
                   &foot = posture.heads[map.bone(Role::kFoot, side)];
-    if (thigh.z() - shin.z() < kStraight * (thigh - shin).norm()) return false;
-    if (shin.z() - foot.z() < kStraight * (shin - foot).norm()) return false;
+    if (thigh.z() - shin.z() < kSameWay * (thigh - shin).norm()) return false;
+    if (shin.z() - foot.z() < kSameWay * (shin - foot).norm()) return false;
   }
   return true;
 }

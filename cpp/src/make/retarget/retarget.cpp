@@ -2,7 +2,6 @@
 #include "retarget/retarget.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -21,9 +20,7 @@ namespace fragmotion {
 namespace {
 
 constexpr double kRolls = 0.14;      // rad: a foot that is tipped further stands on its ball or heel alone
-constexpr double kSlowest = 1e-3;    // m/s of a 1.8 m character
 constexpr double kToeDepth = 0.005;  // m of a 1.8 m character
-constexpr double kFree = std::numeric_limits<double>::infinity();
 
 // Makes the target's compared pose and its feet the source's, of which it is the same body.
 void adopt(const Body& source, const std::vector<Drive>& drives, double scale, Body& target) {
@@ -85,7 +82,7 @@ struct Retarget::Parts {
         target(std::move(to)),
         drives(std::move(driven)),
         scale(target.leg / source.leg),
-        toe_depth(same_body(source, target) ? kFree : kToeDepth * scale / standard_scale(source.skeleton())),
+        toe_depth(same_body(source, target) ? INFINITY : kToeDepth * scale / standard_scale(source.skeleton())),
         twists(target),
         leading(leading_bones(source, drives)),
         following(below_hips(target.skeleton())),
@@ -190,7 +187,7 @@ class Transfer {
 
   // How far the hips must rise or sink for the legs of standing feet to reach their places.
   void find_moves() {
-    std::vector<double> least(clip_.frames, -kFree), most(clip_.frames, kFree);
+    std::vector<double> least(clip_.frames, -INFINITY), most(clip_.frames, INFINITY);
     for (int f = 0; f < clip_.frames; ++f) {
       pose(f);
       for (int side = 0; side < 2; ++side) {
@@ -280,7 +277,7 @@ class Transfer {
     const double size = standard_scale(parts_.source.skeleton());
     report.foot_skate = skate(motion.paths, parts_.scale, size / parts_.scale);
     report.source_foot_skate = parts_.scale * skate(motion_.paths, 0, size);
-    const double slowest = kSlowest * parts_.scale / size;
+    const double slowest = kFileRounding * parts_.scale / size;
     report.foot_skate_ratio = (report.foot_skate + slowest) / (report.source_foot_skate + slowest);
     report.remarks = remarks_on(report, standard_scale(skeleton()));
     return report;

@@ -14,8 +14,6 @@ using Chain = std::vector<int>;
 /// Of each pose the places of all bones' heads.
 using Poses = std::vector<const Vector3*>;
 
-/// Of a body's size: a bone that ends where it begins, a marker.
-constexpr double kStub = 1e-3;
 /// Of a limb's length: by less than that the bones of two that are alike differ.
 constexpr double kAlike = 0.05;
 /// Of a leg's length: a bone that it begins with and that is shorter is a part of the trunk.

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "skeleton/role_map.hpp"
+#include "skeleton/two_bone_ik.hpp"
+
 namespace fragmotion {
 namespace {
-
-constexpr double kBent = 0.05;     // of a leg's length that a knee is off the line from hip to foot
-constexpr double kSided = 0.5;     // mean cosine to the left
-constexpr double kTelling = 0.05;  // of the poses that tell the sides at least
 
 Vector3 level(Vector3 v) {
   v.z() = 0;
@@ -24,7 +23,7 @@ Vector3 down(const Limb& leg, const Vector3* heads) {
 bool stands(const BodyJoints& body, const Vector3* heads) {
   return std::all_of(body.legs.begin(), body.legs.end(), [&](const Limb& leg) {
     const Vector3 way = down(leg, heads);
-    return -way.z() > kUpright * way.norm();
+    return -way.z() > kSameWay * way.norm();
   });
 }
 
@@ -41,7 +40,7 @@ Vector3 knees_forward(const BodyJoints& body, const PosedFeet& pose) {
     const Vector3 knee = pose.heads[leg.bones[Limb::kLower]] - pose.heads[leg.bones[Limb::kUpper]];
     const Vector3 leg_way = down(leg, pose.heads);
     const Vector3 bent = knee - leg_way * (knee.dot(leg_way) / leg_way.squaredNorm());
-    if (bent.norm() > kBent * leg_way.norm()) forward += bent;
+    if (bent.norm() > kBends * leg_way.norm()) forward += bent;
   }
   return level(forward);
 }
@@ -63,7 +62,7 @@ Sided sided(const std::vector<PosedFeet>& poses, const BodyJoints& body, Forward
     sided.legs += across(body.legs, pose.heads).normalized().dot(left.normalized());
     if (has_arms) sided.arms += across(body.arms, pose.heads).normalized().dot(left.normalized());
   }
-  if (telling == 0 || telling < kTelling * static_cast<double>(poses.size())) return {};
+  if (telling == 0) return {};
   return {sided.legs / telling, sided.arms / telling};
 }
 
@@ -77,10 +76,10 @@ bool put_left_first(const std::vector<PosedFeet>& poses, BodyJoints& body) {
   const Sided feet = sided(poses, body, feet_forward), knees = sided(poses, body, knees_forward);
   if (feet.legs * knees.legs < 0) return false;
   const Sided& told = std::abs(feet.legs) > std::abs(knees.legs) ? feet : knees;
-  if (std::abs(told.legs) < kSided) return false;
+  if (std::abs(told.legs) < kSameWay) return false;
   if (told.legs < 0) std::swap(body.legs[0], body.legs[1]);
   if (told.arms < 0) std::swap(body.arms[0], body.arms[1]);
-  if (std::abs(told.arms) < kSided) body.arms = {};
+  if (std::abs(told.arms) < kSameWay) body.arms = {};
   return true;
 }
 

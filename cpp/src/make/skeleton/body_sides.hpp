@@ -8,9 +8,6 @@
 
 namespace fragmotion {
 
-/// The share of a leg's length that its foot is under the hips in a pose that stands.
-constexpr double kUpright = 0.5;
-
 /// A pose of a body: the places of all bones' heads, z up, and from where to where each leg's foot goes, zero where
 /// that is not known.
 struct PosedFeet {

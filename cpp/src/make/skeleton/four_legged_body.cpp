@@ -59,8 +59,8 @@ class FourLegs {
 
   // Whatever the height of the bone that it hangs on; and whoever goes on hands and knees has shins that lie.
   bool leads_down(const Chain& chain) const {
-    return BodyShape::descent(shape_.poses(), chain.front(), chain.back()) > kUpright &&
-           (!shape_.moves() || BodyShape::descent(shape_.poses(), knee(chain), chain.back()) > kUpright);
+    return BodyShape::descent(shape_.poses(), chain.front(), chain.back()) > kSameWay &&
+           (!shape_.moves() || BodyShape::descent(shape_.poses(), knee(chain), chain.back()) > kSameWay);
   }
 
   int knee(const Chain& chain) const {

@@ -7,9 +7,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kLeadsOn = 0.5;                 // cosine
 constexpr double kFoot = 0.33, kLongFoot = 0.6;  // of a shin's length, from the ankle to the ball: usual, and unlikely
-constexpr double kBackUp = 0.5;                  // cosine of a foot to the way from it up the shin
 
 struct RestBones {
   std::vector<Vector3> heads;
@@ -19,7 +17,7 @@ struct RestBones {
 
   bool leads_on(const Vector3& tip, int before, int bone) const {
     const Vector3 way = heads[bone] - heads[before];
-    return (rotations[bone] * tip).dot(way) >= kLeadsOn * tip.norm() * way.norm();
+    return (rotations[bone] * tip).dot(way) >= kSameWay * tip.norm() * way.norm();
   }
 
   // In the frame of the bone.
@@ -77,7 +75,7 @@ Skeleton with_short_feet(Skeleton skeleton, const Leg& left, const Leg& right) {
     if (leg.toe >= 0 || !leg.has_foot()) continue;
     const Vector3 up = rest.heads[leg.knee] - rest.heads[leg.foot], ahead = across.cross(up).normalized();
     Vector3& tip = skeleton.tips[leg.foot];
-    if ((rest.rotations[leg.foot] * tip).dot(up) > kBackUp * tip.norm() * up.norm())
+    if ((rest.rotations[leg.foot] * tip).dot(up) > kSameWay * tip.norm() * up.norm())
       tip = rest.rotations[leg.foot].conjugate() * ahead * kFoot * up.norm();
     else if (tip.norm() > kLongFoot * up.norm())
       tip *= kFoot * up.norm() / tip.norm();

@@ -13,6 +13,8 @@ namespace fragmotion {
 
 /// Of a foot's length: one that points less far ahead than that, and up or down, has no direction.
 constexpr double kNoDirection = 0.3;
+/// Cosine: directions that are nearer to each other point the same way.
+constexpr double kSameWay = 0.5;
 
 /// What a bone is to a body. Of spine, neck, fingers and toes there may be any number.
 enum class Role {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/rounding.hpp"
 #include "skeleton/body_shape.hpp"
 #include "skeleton/body_sides.hpp"
 
@@ -58,7 +59,7 @@ class ShapeFinder {
     if (shape_.is_below(legs, arms) || shape_.is_below(arms, legs)) return legs;
     int both = legs;
     while (both >= 0 && !shape_.is_below(arms, both)) both = shape_.parent(both);
-    return both >= 0 && (shape_.rest()[both] - shape_.rest()[legs]).norm() < kStub * shape_.size() ? both : -1;
+    return both >= 0 && (shape_.rest()[both] - shape_.rest()[legs]).norm() < kFileRounding * shape_.size() ? both : -1;
   }
 
   // The longest chain at a node that is neither of the pair's nor leads to the other pair.
@@ -93,13 +94,13 @@ class ShapeFinder {
     votes += !middle(b, a.node).empty() - !middle(a, b.node).empty();
     votes += shape_.is_below(b.node, a.node) ? 0.5 : -0.5;
     const double feet = lowest(a) - lowest(b);
-    if (depth_of(a, shape_.poses()) > kUpright || depth_of(b, shape_.poses()) > kUpright || stands(a.node, b.node))
+    if (depth_of(a, shape_.poses()) > kSameWay || depth_of(b, shape_.poses()) > kSameWay || stands(a.node, b.node))
       votes += feet < 0 ? 1.5 : -1.5;
     return votes;
   }
 
   // Whether the way between two bones is steep on the mean over all poses.
-  bool stands(int a, int b) const { return a != b && std::abs(BodyShape::descent(shape_.poses(), a, b)) > kUpright; }
+  bool stands(int a, int b) const { return a != b && std::abs(BodyShape::descent(shape_.poses(), a, b)) > kSameWay; }
 
   double lowest(const LimbPair& pair) const {
     double height = 0;

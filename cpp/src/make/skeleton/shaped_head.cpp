@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/rounding.hpp"
 #include "skeleton/body_shape.hpp"
 #include "skeleton/body_sides.hpp"
 
@@ -12,7 +13,6 @@ namespace {
 
 constexpr double kBroad = 0.25;                        // of the trunk's length that shoulders are apart at least
 constexpr double kHeadAbove = 0.16, kHeadUnder = 0.5;  // of the trunk's length that a head begins above the shoulders
-constexpr double kCopied = 1e-3;                       // of a bone's length that a copy of it differs by
 
 class HeadFinder {
  public:
@@ -23,7 +23,7 @@ class HeadFinder {
     const auto whole = [](const std::array<Limb, 2>& limbs) { return limbs[0].whole() && limbs[1].whole(); };
     if (!whole(body.arms) || !whole(body.legs)) return;
     for (std::size_t i = 1; i < chain.size(); ++i) {
-      if (shape_.length(chain[i]) < kStub * shape_.size()) chain.resize(i);  // a face, in the head's place
+      if (shape_.length(chain[i]) < kFileRounding * shape_.size()) chain.resize(i);  // a face, in the head's place
     }
     for (std::size_t i = 0; i < chain.size(); ++i) {
       if (shape_.children(chain[i]).size() > 1) chain.resize(i + 1);  // what carries a face
@@ -41,7 +41,7 @@ class HeadFinder {
     const auto length_of = [&](int bone) { return shape_.skeleton().tips[bone].norm(); };
     int head = chain[0];
     for (const int bone : chain) {
-      if (length_of(bone) > (1 + kCopied) * length_of(head)) head = bone;
+      if (length_of(bone) > (1 + kFileRounding) * length_of(head)) head = bone;
     }
     return head;
   }
@@ -68,7 +68,7 @@ class HeadFinder {
   bool may_be_mark(const Chain& chain, std::size_t i) const {
     const double length = shape_.skeleton().tips[chain[i]].norm(),
                  before = i > 0 ? shape_.skeleton().tips[chain[i - 1]].norm() : 0;
-    return i > 1 && i + 1 == chain.size() && std::abs(length - before) < kCopied * length;
+    return i > 1 && i + 1 == chain.size() && std::abs(length - before) < kFileRounding * length;
   }
 
   // The bones of a neck and beyond that begin where a head does: at rest and in the motion, where both tell.

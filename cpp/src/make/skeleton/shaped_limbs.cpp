@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounding.hpp"
 #include "skeleton/body_shape.hpp"
 
 namespace fragmotion {
@@ -125,7 +126,7 @@ class LimbShaper {
     };
     const std::vector<int>& beside = shape_.children(chain[foot]);
     if (std::any_of(beside.begin(), beside.end(), is_as_long)) return false;
-    return foot + 2 < bones || shape_.skeleton().tips[toe].norm() > kStub * shape_.size();
+    return foot + 2 < bones || shape_.skeleton().tips[toe].norm() > kFileRounding * shape_.size();
   }
 
   const BodyShape& shape_;

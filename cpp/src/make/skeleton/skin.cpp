@@ -4,11 +4,6 @@
 #include <algorithm>
 
 namespace fragmotion {
-namespace {
-
-constexpr double kMostOf = 0.5;  // of a point's weights, which are 1 in all
-
-}  // namespace
 
 std::vector<bool> bare_bones(const Skeleton& skeleton, const Skin& skin) {
   std::vector<double> carried(skeleton.size(), 0);
@@ -26,7 +21,7 @@ Vector3 way_of_skin(const Skeleton& skeleton, const Skin& skin, int bone) {
   std::vector<Vector3> ways;
   Vector3 sum = Vector3::Zero();
   for (const Skin::Weight& weight : skin.weights) {
-    if (weight.bone != bone || weight.weight <= kMostOf) continue;
+    if (weight.bone != bone || weight.weight <= 0.5) continue;
     ways.emplace_back(skin.points[weight.point] - heads[bone]);
     sum += ways.back();
   }

@@ -12,8 +12,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kShortestPath = 1e-3;  // m that a path is long at least
-
 void check(const std::vector<Vector2>& points, const std::vector<double>& speeds) {
   if (points.size() < 2)
     throw std::invalid_argument("a path needs two points, and has " + std::to_string(points.size()));
@@ -48,7 +46,7 @@ Path::Path(const std::vector<Vector2>& points, bool closed, const std::vector<do
     points_.push_back(points[at]);
     if (!speeds.empty()) speeds_.push_back(speeds[at]);
   }
-  if (!(length() > kShortestPath)) {
+  if (!(length() > kFileRounding)) {
     throw std::invalid_argument("the path has no length on the ground: its points lie above one another");
   }
 }

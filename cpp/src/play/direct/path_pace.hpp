@@ -13,6 +13,8 @@ namespace fragmotion {
 constexpr double kArrived = 0.2;
 /// How near a place is within its reach, m of a 1.8 m character.
 constexpr double kReach = 2 * kArrived;
+/// How near to a place a body is about there, m of a 1.8 m character.
+constexpr double kNearby = 0.5;
 /// The slowest that a body goes along a path, of a walk.
 constexpr double kSlowest = 0.5;
 

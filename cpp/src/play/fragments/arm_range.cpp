@@ -15,8 +15,6 @@ namespace {
 // Surgeons, Joint Motion, 1965).
 constexpr double kEasyArms = 100 * kPi / 180;
 
-constexpr double kBends = 0.05;  // on the mean: the sine of an elbow's bend, below which its axis is not known
-
 // What bends a straight arm forward from the rest pose, as the upper arm sees it.
 Vector3 forward_hinge(const Kinematics& kinematics, const Arm& arm) {
   const Skeleton& skeleton = kinematics.skeleton();

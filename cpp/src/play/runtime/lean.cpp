@@ -7,14 +7,9 @@
 #include "base/rounding.hpp"
 
 namespace fragmotion {
-namespace {
-
-constexpr double kMost = 6;  // m/s^2 of a 1.8 m character that it follows
-
-}  // namespace
 
 void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, double seconds) {
-  const Vector2 wanted = clamp_length(scale_ * acceleration, kMost);
+  const Vector2 wanted = clamp_length(scale_ * acceleration, kHard);
   const double part = filtered(seconds, constants_.follows);
   pushed_ += part * (wanted - pushed_);
   acceleration_ += part * (pushed_ - acceleration_);

@@ -10,6 +10,9 @@
 
 namespace fragmotion {
 
+/// m/s^2 of a 1.8 m character: what is more is hard.
+constexpr double kHard = 6;
+
 /// Leans a body that gets faster, slower or turns aside into its acceleration, as what pushes at its feet must not tip
 /// it over: by part of the angle whose tangent is the acceleration over gravity, forward and backward from the hips on,
 /// to the side by its spine, as hips that tilt would lift a foot. The head goes back by half of that. Does nothing to a

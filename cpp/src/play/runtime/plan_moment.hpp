@@ -16,12 +16,11 @@ namespace fragmotion {
 template <typename Cost>
 void Player::plan(Moment& moment, const Control& control, bool (Player::*can)() const, const Cost& cost) {
   Player& ahead = *extras_->rehearsal;
-  constexpr double kImpatience = 1;  // m of Dis of a body of kTunedReach that a second of waiting costs
   ahead.imitate(*this);
   double best = moment.patience(), least = std::numeric_limits<double>::infinity();
   for (double wait = 0;;) {
     ahead.playback_.show();
-    const double total = cost(ahead) + kImpatience * wait;
+    const double total = cost(ahead) + wait;  // a second costs a m of Dis of a body of kTunedReach
     if ((ahead.*can)() && total < least) least = total, best = wait;
     const double next = std::min(wait + kMomentsApart, moment.patience());
     if (next - wait < kRounding) break;

@@ -6,13 +6,13 @@
 #include <limits>
 
 #include "base/quantile.hpp"
+#include "fragments/entry_poses.hpp"
 #include "fragments/successors.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr double kQuick = 0.25;  // s
-constexpr float kLands = 0.1F;   // s until a foot is down that a fragment begins with, and that is still in the air
 
 // Where a cycle ends, and where it begins again; nowhere in other clips.
 struct Wrap {
@@ -104,7 +104,7 @@ int steps_out_of_turn(const StepSequence& steps, const EntrySteps& entry) {
   if (steps.last < 0) return 0;
   std::array<float, 2> strikes = entry.strikes;
   for (int side = 0; side < 2; ++side) {
-    if (entry.stands[side] && !steps.stands[side]) strikes[side] = kLands;
+    if (entry.stands[side] && !steps.stands[side]) strikes[side] = static_cast<float>(kEntry);
   }
   const float same = strikes[steps.last], other = strikes[1 - steps.last];
   const bool first_is_wrong = same < other || steps.since + other < kQuick;

@@ -24,7 +24,7 @@ bool same_rest(const Skeleton& a, const Skeleton& b) {
 }
 
 bool same_lengths(const Skeleton& a, const Skeleton& b) {
-  const double most = kSameLength * std::max(stature(a), stature(b));
+  const double most = kFileRounding * std::max(stature(a), stature(b));
   for (int bone = 0; bone < a.size(); ++bone) {
     const bool hangs = bone != a.roles.hips && a.is_below(bone, a.roles.hips);
     if (hangs && (a.offsets[bone] - b.offsets[bone]).norm() > most) return false;

@@ -7,9 +7,6 @@
 
 namespace fragmotion {
 
-/// Of the stature, or a leg's length: by how much lengths of one body may differ.
-constexpr double kSameLength = 1e-3;
-
 /// Whether motion of one skeleton is motion of the other as it stands: the same bones with the same parents and hips,
 /// and below the hips the same rest rotations in the world and the same lengths, to 1/1000 of the stature. Where the
 /// hips and what is above or beside them stand at rest does not count: takes put the hips where they are.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <unordered_set>
 
+#include "base/rounding.hpp"
 #include "base/take_limits.hpp"
 #include "skeleton/role_names.hpp"
 
@@ -61,7 +62,7 @@ void check_numbers(const Skeleton& skeleton, int bone) {
   check(skeleton.offsets[bone], "an offset");
   check(skeleton.tips[bone], "a tip");
   const double norm = skeleton.rest_rotations[bone].norm();
-  if (!(std::abs(norm - 1) < kUnitTolerance)) {
+  if (!(std::abs(norm - 1) < kFileRounding)) {
     throw std::invalid_argument(label + " has a rest rotation that is not a unit quaternion");
   }
 }

@@ -23,9 +23,6 @@ struct Roles {
   int left_fore_leg = -1, right_fore_leg = -1;  ///< Where the fore legs begin.
 };
 
-/// By how much a unit quaternion's length may be off: Blender's rotations are floats; anything worse is a mistake.
-constexpr double kUnitTolerance = 1e-3;
-
 /// So much faster than ever in the takes a bone turns at most.
 constexpr double kTurnsAtMost = 1.25;
 

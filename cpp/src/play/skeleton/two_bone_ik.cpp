@@ -136,7 +136,7 @@ Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe, int other_foo
   rest_pose(skeleton, heads, rotations);
   const bool has_toe = toe != foot && skeleton.is_below(toe, foot);
   Leg leg{thigh, -1, foot, has_toe ? toe : -1, skeleton.parents[foot]};
-  double most = kShortestLegBone / standard_scale(skeleton);
+  double most = kFileRounding / standard_scale(skeleton);
   if (ends_without_foot(skeleton, {thigh, foot, toe})) {
     leg.ankle = skeleton.tips[foot];
     if (skeleton.offsets[foot].norm() > most && leg.ankle.norm() > most) leg.knee = foot;
@@ -171,7 +171,7 @@ Arm arm_of(const Skeleton& skeleton, int trunk, int hand, int other_hand) {
   std::vector<Quaternion> rotations;
   rest_pose(skeleton, heads, rotations);
   Arm arm{-1, -1, hand};
-  double best = kShortestLegBone / standard_scale(skeleton);
+  double best = kFileRounding / standard_scale(skeleton);
   for (int elbow = skeleton.parents[hand]; elbow != trunk; elbow = skeleton.parents[elbow]) {
     for (int upper = skeleton.parents[elbow]; upper != trunk; upper = skeleton.parents[upper]) {
       const double found = evenness(heads[upper], heads[elbow], heads[hand]);

@@ -9,8 +9,9 @@
 
 namespace fragmotion {
 
-/// m of a 1.8 m character: a bone of a leg that is shorter has no direction.
-constexpr double kShortestLegBone = 1e-3;
+/// Of the length of a leg or an arm, and the sine of its bend: a knee or an elbow that is less off the line between its
+/// ends does not tell to where it bends.
+constexpr double kBends = 0.05;
 
 /// Of the length of a leg or an arm: so far it reaches as it is asked to, and beyond that it follows ever less.
 constexpr double kTires = 0.965;
