@@ -125,7 +125,7 @@ Findings find_ground(const Patient& patient) {
   const double over = height_over_ground(patient);
   if (over == 0 || rise_of(patient) > 0) return {};
   return {mendable(found(patient, "ground", Severity::kWarning,
-                         "the feet stand " + centimetres(std::abs(over)) + (over < 0 ? " under" : " over") +
+                         "the feet stand " + length_text(std::abs(over)) + (over < 0 ? " under" : " over") +
                              " the ground; move the take " + (over < 0 ? "up" : "down")))};
 }
 
@@ -135,7 +135,7 @@ Findings find_slope(const Patient& patient) {
   const double rise = rise_of(patient);
   if (rise == 0) return {};
   return {found(patient, "slope", Severity::kWarning,
-                "the ground that the feet stand on rises or falls by " + centimetres(rise) +
+                "the ground that the feet stand on rises or falls by " + length_text(rise) +
                     " over the take: a hill or stairs, or the capture drifted; leave out the part that is not level")};
 }
 
@@ -150,7 +150,7 @@ Findings find_fixed_hips(const Patient& patient) {
                rise = quantile(soles, kUsualShare) - quantile(soles, 1 - kUsualShare);
   if (moved > kFloatRounding * patient.stature() || rise * patient.scale() < kFootHeight) return {};
   return {found(patient, "height", Severity::kWarning,
-                "the hips stay at one height, and the lower foot goes up and down by " + centimetres(rise) +
+                "the hips stay at one height, and the lower foot goes up and down by " + length_text(rise) +
                     ": the file does not tell how high the body is, as poses seen in a video; have it solved with the "
                     "feet on the ground, or leave the take out")};
 }
