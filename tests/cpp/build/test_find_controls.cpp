@@ -64,6 +64,12 @@ TEST(ControlSpaceOf, TakesNoShuffleForAWalk) {
   expect_speeds(control_space_of(going({0.4, 3.5}, 4), 1, {}), {3.5 * 1.2 / 3.3, 3.5});
 }
 
+TEST(ControlSpaceOf, TakesASlowWalkOfAGiantForOne) {
+  std::vector<Control> evident = going({0.4, 3.5}, 4);
+  for (Control& c : evident) c.x *= 7, c.y *= 7;
+  expect_speeds(control_space_of(evident, 1 / 7.0, {}), {0.4 * 7, 3.5 * 7});
+}
+
 // A pack's walk and sprint may be 1.5 apart.
 TEST(ControlSpaceOf, TellsGaitsOfWhichNothingGoesBetweenThem) {
   expect_speeds(control_space_of(going({1.2, 1.8}, 4), 1, {}), {1.2, 1.8});

@@ -11,6 +11,7 @@
 #include "base/rounding.hpp"
 #include "control/gaits.hpp"
 #include "motion/contacts.hpp"
+#include "motion/gait_scale.hpp"
 
 namespace fragmotion {
 namespace {
@@ -70,12 +71,13 @@ std::vector<double> going_speeds(const std::vector<Control>& evident, double sca
   return speeds;
 }
 
-std::vector<double> two_gaits(const std::vector<double>& speeds) {
+// `least`: from where on it is no shuffle.
+std::vector<double> two_gaits(const std::vector<double>& speeds, double least) {
   const double walk = kGaits[kWalk].speed, jog = kGaits[kJog].speed, run = kGaits[kRun].speed;
   if (speeds.empty()) return {walk, run};
   const auto [slow, fast, apart] = two_clusters(speeds);
-  const auto walking = std::lower_bound(speeds.begin(), speeds.end(), kWalking);
-  if (slow < kWalking && walking != speeds.end()) return two_gaits({walking, speeds.end()});
+  const auto walking = std::lower_bound(speeds.begin(), speeds.end(), least);
+  if (slow < least && walking != speeds.end()) return two_gaits({walking, speeds.end()}, least);
   if (fast > (apart > kOneMode ? kApart : kTwoGaits) * slow) return {slow, fast};
   const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
   return mean < jog ? std::vector{mean, mean * (run / walk)} : std::vector{mean / (run / walk), mean};
@@ -218,8 +220,8 @@ ControlSpace control_space_of(const std::vector<Control>& evident, double scale,
     layout.jump = show_jumps(evident);
   }
   const double ratio = options.find ? kTwoGaits : kApart;
-  std::vector<double> speeds =
-      layout.speeds == 2 ? two_gaits(going) : filled(speeds_apart(going, layout.speeds, ratio), layout.speeds);
+  std::vector<double> speeds = layout.speeds == 2 ? two_gaits(going, kWalking * scale / gait_scale(scale))
+                                                  : filled(speeds_apart(going, layout.speeds, ratio), layout.speeds);
   for (double& speed : speeds) speed /= scale;
   return {layout, std::move(speeds), turn_rate(evident), scale};
 }

@@ -7,6 +7,7 @@
 
 #include "motion/contacts.hpp"
 #include "motion/cycle.hpp"
+#include "motion/gait_scale.hpp"
 #include "motion/soles.hpp"
 #include "motion/treading.hpp"
 
@@ -63,7 +64,7 @@ std::optional<FeetWay> way_of(const Treading& treading, const std::vector<SolePa
   way.mean = seen_mean(way.velocities, clip);
   const double speed = way.mean.norm();
   const bool treads = treading.slowest() > kTreads * speed && tread(soles, speed * (clip.frames - 1) / clip.rate);
-  if (speed * std::max(scale, std::sqrt(scale)) < kMoving || !treads) return std::nullopt;
+  if (speed * gait_scale(scale) < kMoving || !treads) return std::nullopt;
   return way;
 }
 

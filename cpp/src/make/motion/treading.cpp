@@ -10,6 +10,7 @@
 #include "base/rates.hpp"
 #include "base/rounding.hpp"
 #include "motion/contacts.hpp"
+#include "motion/gait_scale.hpp"
 #include "motion/steadiest_speed.hpp"
 
 namespace fragmotion {
@@ -253,7 +254,7 @@ Treading::Told Treading::told(const Velocities& way, double turn, const Vector2&
     for (int f = 0; f < windows_; ++f)
       along.back().speeds.push_back(velocity(tread.point->path, f, turn, center).dot(way[f].normalized()));
   }
-  const std::vector<double> usual = steadiest_speed(along, kMoving / std::max(scale_, std::sqrt(scale_)), grip());
+  const std::vector<double> usual = steadiest_speed(along, kMoving / gait_scale(scale_), grip());
   Told told;
   if (usual.empty()) return told;
   const std::vector<int> which = standing(along, usual);
