@@ -6,6 +6,7 @@
 #include "base/take_limits.hpp"
 #include "motion/clip.hpp"
 #include "motion/cycle.hpp"
+#include "motion/discontinuities.hpp"
 #include "motion/fingers.hpp"
 #include "motion/in_place.hpp"
 #include "motion/mirror.hpp"
@@ -217,6 +218,13 @@ void bind_clip(py::module_& m) {
             return without_gil([&] { return led_by_feet(clip, skeleton, speed); });
           },
           py::arg("skeleton"), py::arg("speed") = 0.0)
+      .def(
+          "discontinuities",
+          [](const Clip& clip, const Skeleton& skeleton) {
+            check_bones(clip, skeleton);
+            return without_gil([&] { return discontinuities(skeleton, clip); });
+          },
+          py::arg("skeleton"))
       .def(
           "character_frames",
           [](const Clip& clip, const Skeleton& skeleton) {

@@ -284,6 +284,9 @@ class Clip:
     def led_by_feet(self, skeleton: Skeleton, speed: float = 0.0) -> tuple[Clip, float] | None:
         """Of a clip on the spot, whose feet tread while the hips stay: the clip on the way that its feet tell, and how
         fast they go, m/s. `speed`: how fast it shall go, 0 .. 1000 m/s; 0: as its feet do. None of any other clip."""
+    def discontinuities(self, skeleton: Skeleton) -> list[int]:
+        """The frames that no body gets to from the frame before, in order: as after a calibration pose, or where one
+        motion follows another in a file; none in a closed cycle."""
     def character_frames(self, skeleton: Skeleton) -> Doubles:
         """[F,3]: the character frame's x, y and heading (rad, within a half turn; of the hips' thighs, not
         smoothed)."""

@@ -19,7 +19,7 @@ from ..mocap import actions
 from ..mocap.curve_points import read_once
 from ..mocap.doctor import tell_ground, tell_size
 from ..mocap.hands import hand_pose, with_hands
-from ..mocap.on_the_spot import led_by_feet
+from ..mocap.on_the_spot import lead_by_feet
 from ..mocap.sampling import rig_as_posed, sample_parts
 from ..mocap.styles import grouped, style_of
 from ..recordings.traces import make_traces
@@ -164,7 +164,8 @@ def _sample_all(
     for action in takes:
         try:
             with read_once():
-                parts = led_by_feet(action, sample_parts(context, obj, action, rig), rig.skeleton)
+                sampled = sample_parts(context, obj, action, rig)
+                parts = lead_by_feet(context.scene, obj, action, sampled, rig.skeleton)
                 ground = tell_ground(action, parts, rig.skeleton)
                 hovering.extend([f"'{action.name}': {ground}"] if ground else [])
                 clips.extend((style_of(action), with_hands(clip, rig, hands)) for clip in parts)

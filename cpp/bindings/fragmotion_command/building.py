@@ -28,7 +28,9 @@ def build(options: argparse.Namespace) -> Done:
     takes = read_mended(paths, options.unit)
     styles = _styles_of([each.path for each in takes], options)
     skeleton, clips = on_one_body(takes)
-    clips = [led_by_feet(clip, skeleton) for clip in clips]
+    parts = [[led.clip for led in led_by_feet(clip, skeleton)] for clip in clips]
+    styles = [style for style, some in zip(styles, parts) for _ in some]
+    clips = [clip for some in parts for clip in some]
     teacher = core.simulate_trace("explorer", 60, settings.seed, settings.usual_space)
     if any(styles):
         named = {name: [clip for clip, own in zip(clips, styles) if own == name] for name in sorted(set(styles))}

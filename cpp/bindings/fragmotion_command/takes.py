@@ -16,6 +16,7 @@ from .files import UNIT
 from .running import say
 
 _OF_UNIT = "unit"  # a finding's code
+_FEWEST = 2  # frames of a part
 
 
 class FileTake(NamedTuple):
@@ -23,6 +24,15 @@ class FileTake(NamedTuple):
 
     path: Path
     take: core.Take
+
+
+class Led(NamedTuple):
+    """A clip or a part of one, from its frame `first` on, on the way that its feet tell, m/s; 0 where they tell
+    none."""
+
+    first: int
+    clip: core.Clip
+    speed: float
 
 
 def read_take(path: Path, unit: float = UNIT) -> core.Take:
@@ -150,7 +160,25 @@ def _brought_over(takes: Sequence[FileTake], skeleton: core.Skeleton, known: Seq
     return [result.clip for result in brought]
 
 
-def led_by_feet(clip: core.Clip, skeleton: core.Skeleton) -> core.Clip:
-    """The clip; one that goes on the spot on the way that its feet tell."""
-    way = clip.led_by_feet(skeleton)
-    return way[0] if way else clip
+def led_by_feet(clip: core.Clip, skeleton: core.Skeleton, speed: float = 0) -> list[Led]:
+    """The clip; one that goes on the spot on the way that its feet tell, at `speed` m/s where that is told. One that
+    holds several motions end to end, some of which go on the spot, in its parts."""
+    ends = [*clip.discontinuities(skeleton), len(clip.root_positions)]
+    parts = [slice(*span) for span in zip([0, *ends], ends) if span[1] - span[0] >= _FEWEST]
+    if len(ends) > 1:
+        led = [_led(part.start, part_of(clip, skeleton, clip.name, part), skeleton, 0) for part in parts]
+        if any(each.speed for each in led):
+            return led
+    return [_led(0, clip, skeleton, speed)]
+
+
+def _led(first: int, part: core.Clip, skeleton: core.Skeleton, speed: float) -> Led:
+    way = part.led_by_feet(skeleton, speed)
+    return Led(first, *way) if way else Led(first, part, 0)
+
+
+def part_of(clip: core.Clip, skeleton: core.Skeleton, name: str, part: slice) -> core.Clip:
+    """Some frames of a clip, with their markers, as a clip of that name."""
+    markers = [(at - part.start, text) for at, text in clip.markers if part.start <= at <= part.stop - 1]
+    cut = core.Clip(skeleton, name, clip.rate, clip.root_positions[part], clip.rotations[part])
+    return cut.with_markers(markers)

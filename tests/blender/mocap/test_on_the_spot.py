@@ -92,10 +92,12 @@ def test_a_bake_that_hardly_moves_is_a_warning(addon: ModuleType, speeds: dict[s
 LEGS = {"leg-left": 1, "leg-right": -1}
 
 
-@pytest.fixture
-def figure() -> bpy.types.Object:
-    """A figure whose legs are one bone each, which an importer lets point upward; a stand, a walk and a run tick."""
-    obj = making.add_armature(
+GAITS_OF_FIGURE = (("stand", 0.01, 30), ("walk", 0.4, 24), ("run", 0.7, 18))  # how far legs swing, rad; frames
+
+
+def make_figure() -> bpy.types.Object:
+    """A figure whose legs are one bone each, which an importer lets point upward."""
+    obj: bpy.types.Object = making.add_armature(
         [
             ("root", None, (0, 0, 0), (0, 0, 0.2)),
             *((name, "root", (0.1 * side, 0, 0.4), (0.1 * side, 0, 0.6)) for name, side in LEGS.items()),
@@ -103,21 +105,44 @@ def figure() -> bpy.types.Object:
             ("head", "torso", (0, 0, 0.7), (0, 0, 0.9)),
         ]
     )
-    for name, swing, frames in (("stand", 0.01, 30), ("walk", 0.4, 24), ("run", 0.7, 18)):
+    return obj
+
+
+def key_pose(obj: bpy.types.Object, frame: int, height: float, angles: dict[str, float]) -> None:
+    """The root so high over where it rests, the legs so far back, rad."""
+    rest = {bone: obj.data.bones[bone].matrix_local for bone in ("root", *LEGS)}
+    obj.pose.bones["root"].matrix = Matrix.Translation((0, 0, height)) @ rest["root"]
+    obj.pose.bones["root"].keyframe_insert("location", frame=frame)
+    bpy.context.view_layer.update()
+    for bone, angle in angles.items():
+        axes = rest[bone].to_3x3()
+        turn = axes.inverted() @ Matrix.Rotation(angle, 3, "X") @ axes
+        obj.pose.bones[bone].rotation_quaternion = turn.to_quaternion()
+        obj.pose.bones[bone].keyframe_insert("rotation_quaternion", frame=frame)
+
+
+def key_gait(obj: bpy.types.Object, first: int, swing: float, frames: int) -> int:
+    """A cycle from a frame on; the frame after it."""
+    for frame in range(frames + 1):
+        angle = swing * np.sin(2 * np.pi * frame / frames)
+        key_pose(obj, first + frame, 0.1 * abs(angle), {bone: side * angle for bone, side in LEGS.items()})
+    return first + frames + 1
+
+
+def key_seat(obj: bpy.types.Object, first: int, frames: int) -> int:
+    """Sitting on the ground from a frame on; the frame after it."""
+    for frame in range(first, first + frames):
+        key_pose(obj, frame, -0.4, dict.fromkeys(LEGS, np.pi / 2))
+    return first + frames
+
+
+@pytest.fixture
+def figure() -> bpy.types.Object:
+    """With a stand, a walk and a run, which are ticked."""
+    obj = make_figure()
+    for name, swing, frames in GAITS_OF_FIGURE:
         obj.animation_data_clear()
-        rest = {bone: obj.data.bones[bone].matrix_local.copy() for bone in LEGS}
-        for frame in range(frames + 1):
-            angle = swing * np.sin(2 * np.pi * frame / frames)
-            obj.pose.bones["root"].matrix = Matrix.Translation((0, 0, 0.1 * abs(angle))) @ (
-                obj.data.bones["root"].matrix_local
-            )
-            obj.pose.bones["root"].keyframe_insert("location", frame=frame + 1)
-            bpy.context.view_layer.update()
-            for bone, side in LEGS.items():
-                obj.pose.bones[bone].rotation_quaternion = (
-                    rest[bone].to_3x3().inverted() @ Matrix.Rotation(side * angle, 3, "X") @ rest[bone].to_3x3()
-                ).to_quaternion()
-                obj.pose.bones[bone].keyframe_insert("rotation_quaternion", frame=frame + 1)
+        key_gait(obj, 1, swing, frames)
         obj.animation_data.action.name = name
         obj.animation_data.action.use_fake_user = True
         obj.animation_data.action.fragmotion.use = True
@@ -131,6 +156,23 @@ def test_legs_of_a_single_bone_lead_a_character_everywhere(addon: ModuleType, fi
     assert character.skeleton.roles["left_foot"] == "leg-left"
     steps = 2 * bpy.context.scene.render.fps / np.array([24, 18])  # a second
     assert character.space.speeds == pytest.approx(steps * 2 * 0.4 * np.sin([0.4, 0.7]), rel=0.1)
+
+
+def test_motions_that_follow_each_other_in_one_action_go_each_on_its_own_way(addon: ModuleType) -> None:
+    obj, frame = make_figure(), 1
+    spans = {}
+    for name, swing, frames in GAITS_OF_FIGURE:
+        spans[name] = frame, frame + frames
+        frame = key_seat(obj, key_gait(obj, frame, swing, frames), 8)
+    action = obj.animation_data.action
+    action.fragmotion.use = True
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    character = addon.character.building.load(obj)
+    steps = 2 * bpy.context.scene.render.fps / np.array([24, 18])  # a second
+    assert character.space.speeds == pytest.approx(steps * 2 * 0.4 * np.sin([0.4, 0.7]), rel=0.1)
+    (told,) = (row.text for row in action.fragmotion.findings if row.code == "in_place_parts")
+    assert all(f"{spans[name][0]} to {spans[name][1]} (" in told for name in ("walk", "run"))
+    assert addon.mocap.left_out.source_of(f"{action.name} from {spans['walk'][0]}") == (action.name, spans["walk"][0])
 
 
 def test_build_names_each_way_that_is_not_gone_as_it_is_asked_for(
