@@ -27,6 +27,7 @@ from ..rig.external_motion import external_motion
 from ..rig.hanging import find_hanging
 from ..rig.held import keep_held
 from ..rig.rigs import carriers, make_rig
+from ..rig.scaled import say_scaled
 from ..rig.skeletons import difference
 from . import classes
 from .abilities import say_abilities
@@ -104,7 +105,7 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
         grouped(styled),
         traces,
         options,
-        found + say_feet(rig.skeleton) + tell_size(takes, rig.skeleton) + warnings,
+        found + say_scaled(obj, takes) + say_feet(rig.skeleton) + tell_size(takes, rig.skeleton) + warnings,
     )
 
 

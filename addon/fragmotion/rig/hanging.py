@@ -31,8 +31,7 @@ class HangingBone(bpy.types.PropertyGroup):
 
 def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Sequence[bpy.types.Action]) -> list[str]:
     """Keep with the armature which of its bones hang on others in these Actions, and say so, and what is left out."""
-    bones = obj.data.bones
-    least = _STRAYS * float(np.ptp([bone.head_local for bone in bones], axis=0).max())
+    bones, least = obj.data.bones, least_way(obj)
     obj.fragmotion.hanging.clear()
     rig = make_rig(obj)
     carrying, hips = carriers(obj, rig), bones[rig.skeleton.roles["hips"]]
@@ -48,6 +47,11 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
         row = obj.fragmotion.hanging.add()
         row.name, row.on = bones[bone].name, bones[on].name
     return _say(obj, make_rig(obj) if found else rig, candidates)
+
+
+def least_way(obj: bpy.types.Object) -> float:
+    """How far at least a bone goes that is seen to, in the armature's units."""
+    return _STRAYS * float(np.ptp([bone.head_local for bone in obj.data.bones], axis=0).max())
 
 
 def _beside_body(obj: bpy.types.Object, rig: Rig) -> dict[int, int]:

@@ -152,3 +152,18 @@ def test_build_says_that_no_feet_are_known(addon: ModuleType) -> None:
     (told,) = addon.character.building.say_feet(addon.rig.rigs.make_rig(obj).skeleton)
     assert told.startswith("No feet are known")
     assert "Find Bones" in told
+
+
+def test_build_says_what_is_scaled(addon: ModuleType, capfd: pytest.CaptureFixture[str]) -> None:
+    obj = making.open_sample()
+    obj.fragmotion.moves.clear()
+    action = bpy.data.actions["walk forward"]
+    for each in bpy.data.actions:
+        each.fragmotion.use = each == action
+    addon.compat.versions.assign(obj, action)
+    for name, scale in (("head", 1.0), ("shin.L", 1.5), ("shin.R", 0.02)):
+        obj.pose.bones[name].scale = (scale, 1, 1)
+    obj.pose.bones["shin.R"].keyframe_insert("scale", frame=1)
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    (told,) = (line for line in capfd.readouterr().out.splitlines() if "the scale of" in line)
+    assert "the scale of bone 'shin.R' and 1 more, up to 50 times" in told
