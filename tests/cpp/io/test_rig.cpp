@@ -161,8 +161,8 @@ TEST(Rig, RefusesObjectsItCannotScaleUniformly) {
   } cases[] = {
       {"non-uniform", {1, 0, 0, 5, 0, 2, 0, 5, 0, 0, 1, 5, 0, 0, 0, 1}, {"(1, 2, 1): apply the scale (Ctrl+A)"}},
       {"tilted", {1, 0, 0, 0, 0, 0.8, -1.2, 0, 0, 0.6, 1.6, 0, 0, 0, 0, 1}, {"(1, 1, 2): apply the scale (Ctrl+A)"}},
-      {"negative", {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1}, {"(-1, -1, -1): apply the scale"}},
-      {"mirrored", {-3, 0, 0, 0, 0, 3, 0, 0, 0, 0, 3, 0, 0, 0, 0, 1}, {"(-3, -3, -3): apply the scale"}},
+      {"negative", {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1}, {"mirrored, by a negative scale"}},
+      {"mirrored", {-3, 0, 0, 0, 0, 3, 0, 0, 0, 0, 3, 0, 0, 0, 0, 1}, {"mirrored, by a negative scale"}},
       {"sheared", {1, 0.6, 0, 0, 0, 0.8, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, {"sheared", "(1, 1, 1)"}},
       {"nothing", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}, {"(0, 0, 0): apply the scale"}},
       {"flat", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}, {"(1, 1, 0): apply the scale"}},

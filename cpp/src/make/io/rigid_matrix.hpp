@@ -70,11 +70,12 @@ inline double stretch_upwards(const double* matrix) {
 /// The scale of an object's matrix; it is called `printed` where it is refused.
 inline double uniform_scale(const RowMajor& matrix, const Vector3& printed, const std::string& label) {
   const std::string advice =
-      ": apply the scale (Ctrl+A); only a positive one can be used that is uniform or differs upwards alone";
+      ": apply the scale (Ctrl+A); only one can be used that is uniform or differs upwards alone";
   if (!matrix.allFinite()) fail(label, "the world matrix is not finite");
   const Vector3 scale = column_lengths(matrix);
   const double mean = scale.mean();
-  if (matrix.topLeftCorner<3, 3>().determinant() < 0) fail(label, "the scale is " + print_scale(-printed) + advice);
+  if (matrix.topLeftCorner<3, 3>().determinant() < 0)
+    fail(label, "it is mirrored, by a negative scale of its own or of what it hangs on: make that positive");
   if (mean < kRounding || (scale.array() - mean).abs().maxCoeff() > kUniform * mean)
     fail(label, "the scale is " + print_scale(printed) + advice);
   if (!is_square(matrix, kUniform)) fail(label, "the object is sheared, with scale " + print_scale(printed) + advice);
