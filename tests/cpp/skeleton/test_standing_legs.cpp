@@ -15,7 +15,7 @@ namespace {
 // A trunk, named as no part of a body is, whose limbs are pairs of equal bones.
 class Limbed {
  public:
-  Limbed() { add("t0", -1, {0, 0, 1}, {0, 0, 0.5}); }
+  explicit Limbed(const std::string& trunk = "t0") { add(trunk, -1, {0, 0, 1}, {0, 0, 0.5}); }
 
   // From the trunk, m: where it begins on the left, and its bones.
   Limbed& limb(const std::string& name, const Vector3& begin, const std::vector<Vector3>& bones) {
@@ -69,6 +69,12 @@ TEST(StandingLegs, AreNoArmsOverABodyWithoutLegs) {
   bust.limb("a", {0.2, 0, 0.5}, {{0.3, 0, -0.1}, {0.3, 0, -0.1}});
   bust.add("t1", 0, {0, 0, 0.1}, {0, 0, 0.2});
   EXPECT_EQ(bust.told(&Roles::left_foot), "");
+}
+
+TEST(StandingLegs, AreNoneOnWhatIsNoPartOfABody) {
+  Limbed face("jaw");  // as a face's bones that hang on nothing else
+  face.limb("lip", {0.02, 0, 0}, kLeg);
+  EXPECT_EQ(face.told(&Roles::left_foot), "");
 }
 
 TEST(StandingLegs, AreFourOfWhatStandsOnFourAndFacesTheFront) {

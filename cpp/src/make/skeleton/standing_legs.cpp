@@ -43,6 +43,12 @@ class StandingLegs {
     return length;
   }
 
+  // The bone of the body that carries both; what is no part of it may stand between.
+  int common(int a, int b) const {
+    while (a >= 0 && !shape_.is_below(b, a)) a = shape_.parent(a);
+    return a;
+  }
+
   // From below a bone to a leaf.
   Chain chain_below(int node, int leaf) const {
     Chain chain;
@@ -90,7 +96,7 @@ class StandingLegs {
       for (std::size_t j = i + 1; j < leaves.size(); ++j) {
         if (shape_.parent(leaves[i]) == shape_.parent(leaves[j]))
           continue;  // of one bone each, of which there may be many
-        const int node = tree_.common(leaves[i], leaves[j]);
+        const int node = common(leaves[i], leaves[j]);
         if (node < 0) continue;
         LimbPair pair{node, {chain_below(node, leaves[i]), chain_below(node, leaves[j])}, 0};
         pair.length = length(pair.chains[0]);
