@@ -2,12 +2,14 @@
 // What the bones of a body on four legs are.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "add_bone.hpp"
 #include "dog.hpp"
+#include "humanoids.hpp"
 #include "skeleton/role_map.hpp"
 
 namespace fragmotion {
@@ -51,6 +53,21 @@ TEST(FourLeggedBody, HasTheForeLegsThatAreNamedSo) {
   const Skeleton turned = make_skeleton(skeleton);
   EXPECT_EQ(turned.names[turned.roles.left_thigh], "f1.R");
   EXPECT_EQ(turned.names[turned.roles.right_fore_foot], "front_h3.L");
+}
+
+// As every avatar of Second Life has them, for whoever wants to be a centaur.
+TEST(FourLeggedBody, IsNoManWithHindLegsToSpare) {
+  const std::vector<Family> all = families();
+  const auto family = std::find_if(all.begin(), all.end(), [](const Family& f) { return f.what == "Second Life"; });
+  Humanoid man(*family);
+  for (const auto& [side, sign] : {std::pair{"Left", 1.0}, {"Right", -1.0}}) {
+    int on = man.skeleton.find("mPelvis");
+    const Vector3 ways[] = {{0.13 * sign, 0.4, -0.1}, {0, -0.01, -0.4}, {0, 0.03, -0.4}, {0, -0.1, -0.05}};
+    for (int i = 0; i < 4; ++i) {
+      on = add_bone(man.skeleton, "mHindLimb" + std::to_string(i + 1) + side, on, ways[i], ways[std::min(i + 1, 3)]);
+    }
+  }
+  EXPECT_EQ(named_bones(man.skeleton, find_role_map(make_skeleton(man.skeleton))), man.roles);
 }
 
 // As Quaternius' rat has them, whose body's bone is low between them.

@@ -257,6 +257,16 @@ TEST(RoleMap, CountsFingersThatHaveTwoDigitsFromZero) {
   EXPECT_EQ(named.at("left_pinky_1"), "Bip01 L Finger04");
 }
 
+TEST(RoleMap, AFootThatHangsOnAnAnkleBeginsAtTheBall) {
+  Humanoid man(family_named("Second Life"));
+  for (const std::string side : {"Left", "Right"}) {
+    add_bone(man.skeleton, "mToe" + side, man.skeleton.find("mFoot" + side), {0, -0.06, 0}, {0, -0.03, 0});
+  }
+  const RoleMap map = find_role_map(make_skeleton(man.skeleton));
+  EXPECT_EQ(man.skeleton.names[map.bone(Role::kToe, Side::kLeft)], "mFootLeft");
+  EXPECT_EQ(man.skeleton.names[map.bone(Role::kFoot, Side::kLeft)], "mAnkleLeft");
+}
+
 TEST(RoleMap, AFootOnWhichNothingHangsGivesWayToTheOneBesideIt) {
   Skeleton skeleton = Humanoid(family_named("Unreal")).skeleton;
   for (const std::string side : {"l", "r"}) {

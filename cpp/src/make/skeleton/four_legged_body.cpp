@@ -29,7 +29,7 @@ class FourLegs {
   }
 
   std::optional<BodyJoints> find(std::vector<LimbPair> legs) const {
-    if (legs.size() != 2 || !carry_a_trunk(legs[0], legs[1])) return std::nullopt;
+    if (legs.size() != 2 || !carry_a_trunk(legs[0], legs[1]) || has_arms(legs)) return std::nullopt;
     const int head = find_head(legs);
     if (head < 0 && legs[0].node == legs[1].node) return std::nullopt;
     if (fore_of(legs, head) == 0) std::swap(legs[0], legs[1]);
@@ -90,6 +90,22 @@ class FourLegs {
     const double feet = mean([&](const Vector3* heads) { return lowest(a, heads) - lowest(b, heads); });
     const double rise = mean([&](const Vector3* heads) { return std::abs((begin(b, heads) - begin(a, heads)).z()); });
     return std::abs(feet) < kFeetLevel * leg && along > kTrunkLength * leg && along > rise;
+  }
+
+  // Whether bones beside all legs are named as arms are: of a man who can have an animal's legs besides.
+  bool has_arms(const std::vector<LimbPair>& legs) const {
+    const auto is_of_legs = [&](int bone) {
+      return std::any_of(legs.begin(), legs.end(), [&](const LimbPair& pair) {
+        return shape_.is_below(bone, pair.chains[0].front()) || shape_.is_below(bone, pair.chains[1].front());
+      });
+    };
+    std::array<bool, 2> found{};
+    for (int b = 0; b < tree_.size(); ++b) {
+      const Side side = tree_.names[b].side;
+      const bool is_arm = tree_.in_body[b] && side != Side::kNone && tree_.says(b, Role::kLowerArm) > 2;
+      if (is_arm && !is_of_legs(b)) found[side == Side::kLeft ? 0 : 1] = true;
+    }
+    return found[0] && found[1];
   }
 
   int find_head(const std::vector<LimbPair>& legs) const {

@@ -132,12 +132,14 @@ class LimbFinder {
     for (std::size_t i = 0; i < bones.size(); ++i) best_.confidence[i] = bones[i] < 0 ? 0 : confidence_of(scores[i]);
   }
 
-  /// Where another bone's name says a role clearly, but it hangs elsewhere, a bone that hardly says it has it not.
+  /// Where another bone's name says a role clearly, but it hangs elsewhere than on it, a bone that hardly says it has
+  /// it not.
   void drop_claimed_by_others(int part, Role role) {
     if (best_.bones[part] < 0 || fits(best_.bones[part], role) >= kClaims) return;
     for (int b = 0; b < tree_.size(); ++b) {
       const bool here = tree_.names[b].side == (side_ == 0 ? Side::kLeft : Side::kRight);
-      if (here && tree_.in_body[b] && !tree_.twist[b] && tree_.says(b, role) >= kClaims) {
+      const bool hangs_on_it = tree_.parents[b] == best_.bones[part];
+      if (here && !hangs_on_it && tree_.in_body[b] && !tree_.twist[b] && tree_.says(b, role) >= kClaims) {
         best_.bones[part] = -1;
         return;
       }
@@ -167,6 +169,14 @@ class LimbFinder {
       best_.bones[Limb::kTip] = b;
       best_.confidence[Limb::kTip] = confidence_of(score);
     }
+    begin_with_ball();
+  }
+
+  /// Below an ankle a foot is what begins at the ball, and its toes go on from there.
+  void begin_with_ball() {
+    if (best_.bones[Limb::kTip] < 0) return;
+    const int above = tree_.parents[best_.bones[Limb::kTip]];
+    if (above != best_.bones[Limb::kEnd] && fits(above, roles_[Limb::kTip]) > 0) best_.bones[Limb::kTip] = above;
   }
 
   const BodyTree& tree_;
@@ -239,6 +249,8 @@ int end_of_column(const BodyTree& tree, int from) {
 void find_head(const BodyTree& tree, BodyJoints& body) {
   double score = 0;
   body.head = best_unsided(tree, Role::kHead, score);
+  while (body.head >= 0 && tree.parents[body.head] >= 0 && tree.says(tree.parents[body.head], Role::kHead) >= kClaims)
+    body.head = tree.parents[body.head];  // of heads that hang on each other the first
   body.head_confidence = body.head < 0 ? 0 : confidence_of(score);
   if (body.head >= 0) return;
   const int arms = tree.common(body.arms[0].bones[Limb::kEnd], body.arms[1].bones[Limb::kEnd]);
