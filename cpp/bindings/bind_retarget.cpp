@@ -51,6 +51,13 @@ Body new_body(const Skeleton& skeleton, const std::vector<Clip>& clips, const st
   return make_body(skeleton, told.empty() ? map : with_told(skeleton, map, told), clips, skin);
 }
 
+NamedBones own_roles(const Body& body) {
+  RoleMap map = body.map;
+  const auto is_added = [&](const RoleBone& bone) { return bone.bone >= body.own_skeleton().size(); };
+  map.bones.erase(std::remove_if(map.bones.begin(), map.bones.end(), is_added), map.bones.end());
+  return named_bones(body.own_skeleton(), map);
+}
+
 }  // namespace
 
 void bind_retarget(py::module_& m) {
@@ -73,13 +80,14 @@ void bind_retarget(py::module_& m) {
            }),
            py::arg("skeleton"), py::arg("clips") = std::vector<Clip>(), py::arg("roles") = py::none(),
            py::arg("told") = NamedBones(), py::arg("skin") = py::none())
-      .def_property_readonly("skeleton", &Body::skeleton)
-      .def_property_readonly("roles", [](const Body& body) { return named_bones(body.skeleton(), body.map); })
+      .def_property_readonly("skeleton", &Body::own_skeleton)
+      .def_property_readonly("roles", &own_roles)
       .def_readonly("stands", &Body::stands)
       .def_property_readonly("reference", [](const Body& body) {
-        std::vector<double> rotations(4 * body.reference.size());
-        for (std::size_t b = 0; b < body.reference.size(); ++b) store_quaternion(body.reference[b], &rotations[4 * b]);
-        return to_array(std::move(rotations), {static_cast<py::ssize_t>(body.reference.size()), 4});
+        const int bones = body.own_skeleton().size();
+        std::vector<double> rotations(std::size_t{4} * bones);
+        for (int b = 0; b < bones; ++b) store_quaternion(body.reference[b], &rotations[std::size_t{4} * b]);
+        return to_array(std::move(rotations), {bones, 4});
       });
   py::class_<RetargetedClip>(m, "RetargetedClip", py::module_local())
       .def_readonly("clip", &RetargetedClip::clip)

@@ -328,6 +328,72 @@ TEST(Body, OfNoStandingRestPoseIsToldByItsClips) {
   }
 }
 
+TEST(Body, OfNoStandingRestPoseLooksStraightAheadOnTheMean) {
+  Skeleton folded = humanoid();
+  for (const char* name : {"thigh.L", "thigh.R"}) {
+    folded.rest_rotations[folded.find(name)] = Quaternion(Eigen::AngleAxisd(kPi, Vector3::UnitX()));
+  }
+  const int head = folded.find("head");
+  const Quaternion bowed(Eigen::AngleAxisd(0.5, Vector3::UnitX()));  // as bones of an actor's neck stand to his back
+  std::vector<Clip> clips = takes();
+  for (Clip& clip : clips) {
+    for (int f = 0; f < clip.frames; ++f) {
+      double* stored = &clip.rotations[4 * (static_cast<std::size_t>(f) * folded.size() + head)];
+      store_quaternion(load_quaternion(stored) * bowed, stored);
+    }
+  }
+  const Body told = make_body(folded, find_role_map(humanoid()), clips), plain = body_of(humanoid());
+  EXPECT_LT(told.reference[head].angularDistance(plain.reference[head] * bowed), 6 * kPi / 180);
+}
+
+// As blocky characters have them.
+Skeleton without_feet() {
+  Skeleton skeleton = humanoid();
+  for (const char* end : {".L", ".R"}) {
+    const int foot = skeleton.find(std::string("foot") + end), shin = skeleton.find(std::string("shin") + end);
+    skeleton.tips[shin] = skeleton.offsets[foot] + Vector3{0, 0, -0.07};
+    skeleton.names.erase(skeleton.names.begin() + foot);
+    skeleton.parents.erase(skeleton.parents.begin() + foot);
+    skeleton.offsets.erase(skeleton.offsets.begin() + foot);
+    skeleton.tips.erase(skeleton.tips.begin() + foot);
+    skeleton.rest_rotations.erase(skeleton.rest_rotations.begin() + foot);
+    for (int& parent : skeleton.parents) parent -= parent > foot ? 1 : 0;
+  }
+  skeleton.roles = {};
+  return make_skeleton(skeleton);
+}
+
+TEST(Retarget, LegsWithoutFeetStandOnTheirShins) {
+  const Skeleton target = without_feet();
+  const Body body = body_of(target);
+  EXPECT_EQ(body.own_skeleton().names, target.names);
+  const Retarget retarget(body_of(humanoid()), body);
+  for (const Clip& clip : takes()) {
+    const RetargetedClip result = retarget.apply(clip);
+    EXPECT_EQ(result.clip.rotations.size(), std::size_t{4} * target.size() * clip.frames);
+    EXPECT_LT(result.report.contact_error, 0.01) << clip.name;
+    EXPECT_LT(result.report.knee_beyond, 1e-6) << clip.name;
+  }
+  EXPECT_NE(error_of([&] { Retarget(body, body_of(humanoid())); }).find("have no feet"), std::string::npos);
+}
+
+// As some systems have them: of an ankle from which a stub leads down to a foot that lies on the ground.
+TEST(Body, HasTheFootThatLeadsAhead) {
+  Skeleton skeleton = humanoid();
+  for (const char* end : {".L", ".R"}) {
+    const int foot = skeleton.find(std::string("foot") + end);
+    skeleton.tips[foot] = {0, 0, -0.08};
+    add_bone(skeleton, std::string("toe") + end, foot, {0, 0, -0.08}, {0, -0.2, 0});
+  }
+  skeleton.roles = {};
+  const Skeleton stubbed = make_skeleton(skeleton);
+  const Body body = body_of(stubbed);
+  for (int side = 0; side < 2; ++side) {
+    EXPECT_EQ(stubbed.names[body.legs[side].foot], side == 0 ? "toe.L" : "toe.R");
+    EXPECT_GT(body.feet[side].y(), 0.9 * body.feet[side].norm()) << "which points ahead";
+  }
+}
+
 TEST(Body, StandsOnNoGroundOfFeetThatHang) {
   std::vector<Clip> clips = takes();
   const Body plain = make_body(humanoid(), find_role_map(humanoid()), clips);

@@ -10,6 +10,7 @@
 #include "base/rounding.hpp"
 #include "base/turn_between.hpp"
 #include "motion/soles.hpp"
+#include "retarget/added_feet.hpp"
 #include "retarget/posture.hpp"
 #include "skeleton/likely_tips.hpp"
 
@@ -110,6 +111,7 @@ class Directions {
 
   // What is left to turn a bone that has been turned by `turn` already.
   Quaternion rest_of(int bone, const Quaternion& turn) const {
+    if (std::find(level_.begin(), level_.end(), bone) != level_.end()) return turn.conjugate();
     if (from_[bone].squaredNorm() == 0) return Quaternion::Identity();
     const Quaternion there = turn_between(turn * from_[bone], to_[bone]);
     if (hinges_.empty() || hinges_[bone].squaredNorm() == 0) return there;
@@ -136,21 +138,18 @@ class Directions {
     }
   }
 
+  // The trunk as a whole; its joints stand over each other as the actor's do. On the mean a head looks straight ahead.
   void trunk() {
-    std::vector<int> bones{map_.bone(Role::kHips)};
-    for (const Role role : {Role::kSpine, Role::kNeck, Role::kHead}) {
-      for (const int bone : map_.chain(role)) bones.push_back(bone);
-    }
-    for (std::size_t i = 0; i + 1 < bones.size(); ++i) {
-      set(bones[i], posture_.heads[bones[i + 1]] - posture_.heads[bones[i]], Vector3::UnitZ());
-    }
-    if (bones.size() > 1) set(bones.back(), straight_on(bones[bones.size() - 2], bones.back()), Vector3::UnitZ());
+    const std::vector<int> neck = above_trunk();
+    const int hips = map_.bone(Role::kHips), top = neck.empty() ? top_of(map_) : neck[0];
+    set(hips, posture_.heads[top] - posture_.heads[hips], Vector3::UnitZ());
+    level_ = neck;
   }
 
-  // The direction of the bone before, as if the last one were as it is at rest.
-  Vector3 straight_on(int before, int last) const {
-    const PosedBones rest = rest_posture(skeleton_);
-    return posture_.rotations[last] * (rest.rotations[last].conjugate() * (rest.heads[last] - rest.heads[before]));
+  std::vector<int> above_trunk() const {
+    std::vector<int> bones = map_.chain(Role::kNeck);
+    for (const int head : map_.chain(Role::kHead)) bones.push_back(head);
+    return bones;
   }
 
   Vector3 tip(int bone) const { return posture_.rotations[bone] * skeleton_.tips[bone]; }
@@ -185,6 +184,7 @@ class Directions {
   const PosedBones& posture_;
   const std::vector<Vector3>& hinges_;
   std::vector<Vector3> from_, to_;
+  std::vector<int> level_;  // bones that are as in the posture
 };
 
 // Turns a foot straight ahead about the vertical. One that points up, down or backward is `turned` already, with the
@@ -301,16 +301,18 @@ void set_reference(const Told& told, Body& body) {
 
 }  // namespace
 
-Body make_body(const Skeleton& skeleton, const RoleMap& map, const std::vector<Clip>& clips, const Skin* skin) {
+Body make_body(const Skeleton& given, const RoleMap& told_map, const std::vector<Clip>& clips, const Skin* skin) {
+  const auto [skeleton, map] = with_feet(given, with_feet_ahead(given, told_map));
   check_complete(map);
   check_legs(skeleton, map);
   const std::array<Leg, 2> legs = {leg_of(skeleton, map, Side::kLeft), leg_of(skeleton, map, Side::kRight)};
   const Skeleton likely = with_likely_tips(with_short_feet(with_roles(skeleton, map), legs[0], legs[1]), map, skin);
   Body body(Kinematics(likely), on_body(skeleton, map));
+  body.given = given;
   body.legs = {legs[0], legs[1]};
   measure(rest_posture(skeleton), body);
-  Told told = told_posture(clips, body);
-  set_feet(clips, told.posture, body);
+  Told told = told_posture(body.has_added_feet() ? std::vector<Clip>() : clips, body);
+  set_feet(body.has_added_feet() ? std::vector<Clip>() : clips, told.posture, body);
   set_reference(told, body);
   return body;
 }

@@ -15,7 +15,7 @@ namespace fragmotion {
 /// its arms and fingers point straight to the sides, its legs straight down, its feet straight ahead and flat; trunk,
 /// neck and head are as they stand.
 struct Body {
-  Kinematics kinematics;  ///< Of the skeleton with the roles of the map.
+  Kinematics kinematics;  ///< Of the skeleton with the roles of the map, and with the feet that it lacks (with_feet).
   RoleMap map;
   bool stands = false;                ///< Whether a rest pose or clips tell that pose; else it is a guess.
   std::vector<Quaternion> reference;  ///< World rotation of each bone in that pose.
@@ -24,10 +24,13 @@ struct Body {
   Floors soles;                 ///< Heights of ball and heel over the ground where a foot stands flat, m.
   double leg = 0;               ///< Length of thigh and shin, mean of both legs, m.
   double hip_width = 0;         ///< Between the thighs' heads, m.
+  Skeleton given;               ///< Without feet that were added.
 
   Body(Kinematics posed, RoleMap roles) : kinematics(std::move(posed)), map(std::move(roles)) {}
 
   const Skeleton& skeleton() const { return kinematics.skeleton(); }
+  bool has_added_feet() const { return given.size() < skeleton().size(); }
+  const Skeleton& own_skeleton() const { return has_added_feet() ? given : skeleton(); }
 };
 
 /// The body of a skeleton by its map of roles. The pose is told by the rest pose where that is one of a standing body,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "retarget/retarget.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -133,7 +135,8 @@ class Transfer {
     result.rotations.resize(std::size_t{4} * parts_.target.kinematics.bones() * clip_.frames);
     for (int f = 0; f < clip_.frames; ++f) store(f, result);
     result = make_clip(parts_.target.skeleton(), std::move(result));
-    return {result, judge(result)};
+    RetargetReport report = judge(result);
+    return {without_added_feet(std::move(result)), std::move(report)};
   }
 
  private:
@@ -154,6 +157,18 @@ class Transfer {
     const double rise = (parts_.sole_rise(0, &FootHeights::heel) + parts_.sole_rise(1, &FootHeights::heel)) / 2;
     move(parts_.scale * hips_middle(parts_.source.legs, from_) + Vector3(0, 0, rise) -
          hips_middle(parts_.target.legs, to_));
+  }
+
+  // Rotations of the bones that the target has itself.
+  Clip without_added_feet(Clip clip) const {
+    if (!parts_.target.has_added_feet()) return clip;
+    const std::size_t all = std::size_t{4} * skeleton().size(), own = std::size_t{4} * parts_.target.given.size();
+    for (int f = 1; f < clip.frames; ++f) {
+      const auto frame = clip.rotations.begin() + static_cast<std::ptrdiff_t>(f * all);
+      std::copy_n(frame, own, clip.rotations.begin() + static_cast<std::ptrdiff_t>(f * own));
+    }
+    clip.rotations.resize(own * clip.frames);
+    return clip;
   }
 
   Quaternion followed(const Drive& drive) const {
@@ -330,6 +345,10 @@ class Transfer {
 };
 
 Retarget::Retarget(const Body& source, const Body& target) {
+  if (source.has_added_feet()) {
+    throw std::invalid_argument("'" + source.skeleton().names[0] + "' and its bones have no feet: motion is brought " +
+                                "from bodies whose feet tell when they stand");
+  }
   const bool same = same_body(source, target);
   for (const Body* body : {&source, &target}) {
     if (body->stands || same) continue;
