@@ -110,6 +110,21 @@ def test_bad_input_is_one_line_and_exit_code_1(
     assert cause in message and message.count("\n") == 1 and message.startswith("fragmotion: ")
 
 
+@pytest.mark.parametrize(
+    ("name", "start", "advice"),
+    [
+        ("walk.txt", b"HIERARCHY\nROOT hips", "it is a BVH file, so call it walk.bvh"),
+        ("walk.txt", "\ufeffHierarchy".encode("utf-16-le"), "it is a BVH file, so call it walk.bvh"),
+        ("walk.bvh.gz", b"\x1f\x8b\x08", "it is an archive, so unpack it first"),
+        ("notes.txt", b"Walks of Monday", ""),
+    ],
+)
+def test_a_take_by_another_name_is_told(tmp_path: Path, name: str, start: bytes, advice: str) -> None:
+    (tmp_path / name).write_bytes(start)
+    with pytest.raises(ValueError, match=rf"{name}: not motion capture that is read \(.*\)(: )?{advice}$"):
+        find_takes([tmp_path / name])
+
+
 def test_pictures_say_what_to_install(
     takes: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -37,7 +37,8 @@ def find_takes(directory: Path, names: Sequence[str] = ()) -> list[TakeFile]:
     takes = [TakeFile(path, bool(names)) for path in paths if path.suffix.lower() in ENDINGS]
     if not takes:
         where = ", ".join(f"'{path}'" for path in paths) if names else f"Folder '{directory}'"
-        raise UserError(f"{where}: no takes here ({', '.join(ENDINGS)}; an .amc with its .asf)")
+        advice = files.by_another_name(paths[0]) if len(names) == 1 else ""
+        raise UserError(f"{where}: no takes here ({', '.join(ENDINGS)}; an .amc with its .asf){advice}")
     return takes
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -123,6 +124,50 @@ TEST(Bvh, ReadsWindowsLinesByteOrderMarksAndNamesWithBlanks) {
   EXPECT_EQ(take.frames, 2);
 }
 
+std::string as_utf16(const std::string& ascii, bool high_first) {
+  std::string bytes;
+  for (const char letter : ascii) bytes += high_first ? std::string{'\0', letter} : std::string{letter, '\0'};
+  return bytes;
+}
+
+TEST(Bvh, ReadsUtf16WithAndWithoutAnOrderMark) {
+  const Take plain = read_text(kSmall);
+  for (const bool high_first : {true, false}) {
+    const std::string text = as_utf16(kSmall, high_first);
+    for (const std::string& mark : {std::string(), std::string(high_first ? "\xFE\xFF" : "\xFF\xFE")}) {
+      const Take take = read_text(mark + text);
+      EXPECT_EQ(take.skeleton.names, plain.skeleton.names);
+      EXPECT_EQ(take.translations, plain.translations);
+    }
+  }
+}
+
+TEST(Bvh, ReadsDecimalsAfterAComma) {
+  const Take plain = read_text(replaced(kSmall, "100 200", "100.5 200"));
+  const Take take = read_text(replaced(replaced(kSmall, "100 200", "100,5 200"), "0.0333333", "0,0333333"));
+  EXPECT_EQ(take.translations, plain.translations);
+  EXPECT_EQ(take.rate, plain.rate);
+}
+
+TEST(Bvh, ReadsLinesThatEndAsOnOldMacs) {
+  std::string text = kSmall;
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  EXPECT_EQ(read_text(text).translations, read_text(kSmall).translations);
+}
+
+TEST(Bvh, TellsThatAFileWasCutOff) {
+  const std::string small = kSmall;
+  EXPECT_EQ(error_of([&] { read_text(small.substr(0, small.rfind(" 0 0 0 90"))); }),
+            "small.bvh:20: frame 2 holds 5 values, 9 expected: the file was cut off in it");
+  EXPECT_EQ(error_of([&] { read_text(replaced(small, "Frames: 2", "Frames: 3")); }),
+            "small.bvh:20: the file ends after 2 frames, 3 expected: it was cut off, or 'Frames:' tells too many");
+}
+
+TEST(Bvh, NamesAnArchive) {
+  EXPECT_EQ(error_of([] { read_text("\x1F\x8B\x08zipped"); }),
+            "small.bvh: no text but a gzip archive: unpack it, and take what is inside");
+}
+
 TEST(Bvh, SnapsTheRateToTheOneMeant) {
   const std::pair<const char*, double> rates[] = {
       {"0.0333333", 30}, {".0083333", 120},        {"0.008333", 120},         {"0.04", 25},         {"0.0416667", 24},
@@ -186,7 +231,8 @@ std::vector<BrokenBvh> broken_frames() {
       {"farther than anything", replaced(small, "100 200", "100 1e13"),
        "19: a number from -1e12 to 1e12 expected, found '1e13'"},
       {"a word", replaced(small, "100 200", "100 two"), "19: a number expected, found 'two'"},
-      {"a decimal comma", replaced(small, "100 200", "100,5 200"), "19: a number expected, found '100,5'"},
+      {"a list", replaced(small, "100 200", "100,5,200"), "19: a number expected, found '100,5,200'"},
+      {"a comma and a point", replaced(small, "100 200", "1,000.5 200"), "19: a number expected, found '1,000.5'"},
       {"fewer frames", replaced(small, "Frames: 2", "Frames: 3"), "20: the file ends after 2 frames, 3 expected"},
       {"far fewer frames", replaced(small, "Frames: 2", "Frames: 999999999999"),
        "20: the file ends after 2 frames, 999999999999 expected"},

@@ -13,9 +13,9 @@
 #include <system_error>
 #include <utility>
 
+#include "base/decode_text.hpp"
 #include "base/take_limits.hpp"
 #include "base/types.hpp"
-#include "base/utf8.hpp"
 
 namespace fragmotion {
 
@@ -45,6 +45,14 @@ inline std::optional<double> parse_double(std::string_view text) {
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
+/// The same of a text whose decimals may stand after a comma, where it is no list: programs write what their system
+/// does.
+inline std::optional<double> parse_decimal(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos || text.find('.') != std::string_view::npos) return parse_double(text);
+  return parse_double(std::string(text.substr(0, comma)) + '.' + std::string(text.substr(comma + 1)));
+}
+
 inline std::optional<long long> parse_integer(std::string_view text) {
   long long value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -58,9 +66,7 @@ class TextReader {
  public:
   /// `file` names the text in errors.
   TextReader(std::string text, std::string file, char comment = '\0')
-      : file_(std::move(file)), text_(as_utf8(std::move(text))), comment_(comment) {
-    if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0) at_ = 3;  // UTF-8 byte order mark
-  }
+      : file_(std::move(file)), text_(decode_text(std::move(text), file_)), comment_(comment) {}
 
   /// The next word of this line, or an empty one at its end.
   std::string_view word_in_line() {
@@ -96,7 +102,7 @@ class TextReader {
   double number(std::string_view what) { return to_number(word_in_line(), what); }
 
   double to_number(std::string_view found, std::string_view what) const {
-    const std::optional<double> value = parse_double(found);
+    const std::optional<double> value = parse_decimal(found);
     if (!value) fail(std::string(what) + " expected, found " + quoted(found));
     if (std::abs(*value) > kLargestNumber)
       fail(std::string(what) + " from -1e12 to 1e12 expected, found " + quoted(found));

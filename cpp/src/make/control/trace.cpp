@@ -16,6 +16,7 @@
 #include "base/ranges.hpp"
 #include "base/read_file.hpp"
 #include "base/text_reader.hpp"
+#include "base/utf8.hpp"
 #include "base/write_file.hpp"
 #include "control/parse_trace.hpp"
 

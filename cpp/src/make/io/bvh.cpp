@@ -68,7 +68,9 @@ class BvhReader {
     reader_.expect("ROOT");
     open_joint();
     while (current_ >= 0) read_joint_entry();
-    if (same_word(reader_.peek(), "ROOT")) reader_.fail("more than one ROOT: one skeleton a file is expected");
+    if (same_word(reader_.peek(), "ROOT")) {
+      reader_.fail("more than one ROOT: one skeleton a file is expected, so put each into a file of its own");
+    }
   }
 
   void open_joint() {
@@ -76,7 +78,9 @@ class BvhReader {
     Joint joint;
     joint.name = read_joint_name();
     joint.parent = current_;
-    if (!names_.insert(joint.name).second) reader_.fail("joint '" + joint.name + "' appears twice");
+    if (!names_.insert(joint.name).second) {
+      reader_.fail("joint '" + joint.name + "' appears twice: give one of them another name");
+    }
     reader_.expect("{");
     current_ = static_cast<int>(joints_.size());
     joints_.push_back(std::move(joint));
@@ -197,13 +201,15 @@ class BvhReader {
     for (long long frame = 1; frame <= announced; ++frame) {
       if (reader_.peek().empty()) {
         reader_.fail("the file ends after " + std::to_string(frame - 1) + " frames, " + std::to_string(announced) +
-                     " expected");
+                     " expected: it was cut off, or 'Frames:' tells too many");
       }
       read_frame(frame, values);
       append_frame(values, take);
     }
     take.frames = static_cast<int>(announced);
-    if (!reader_.peek().empty()) reader_.fail("more frames than the " + std::to_string(announced) + " expected");
+    if (!reader_.peek().empty()) {
+      reader_.fail("more frames than the " + std::to_string(announced) + " expected: 'Frames:' tells too few");
+    }
   }
 
   long long read_frame_count() {
@@ -244,7 +250,7 @@ class BvhReader {
 
   [[noreturn]] void fail_frame(long long frame, const std::string& held) const {
     reader_.fail("frame " + std::to_string(frame) + " holds " + held + " values, " + std::to_string(channel_count_) +
-                 " expected");
+                 " expected" + (reader_.bytes_left() == 0 ? ": the file was cut off in it" : ""));
   }
 
   void append_frame(const std::vector<double>& values, Take& take) const {
