@@ -27,6 +27,7 @@ constexpr double kGroup = 0.02;  // of what goes, that a speed has at least
 constexpr int kFew = 3, kOneIn = 200;
 constexpr double kMostOf = 0.75;  // of so many directions: as good as all
 constexpr int kRounds = 100;
+constexpr double kTurning = kPi / 6;  // rad/s
 
 // Sorted values in two clusters.
 struct Clusters {

@@ -15,7 +15,8 @@ namespace fragmotion {
 namespace {
 
 // Of a character of 1.8 m.
-constexpr double kStays = 0.4;  // m that hips on the spot go at most
+constexpr double kStays = 0.4;       // m that hips on the spot go at most
+constexpr double kTurns = kPi / 12;  // rad/s: feet that stand turn by less in a gait that goes straight
 
 Vector2 root_at(const Clip& clip, int f) { return load_vector(&clip.root_positions[std::size_t{3} * f]).head<2>(); }
 
@@ -45,7 +46,7 @@ bool tread(const std::vector<SolePath>& soles, double way) {
 
 // Whether the body is seen to turn: its feet may then turn with it as they stand.
 bool turns(const Clip& clip) {
-  return std::abs(clip.headings.back() - clip.headings.front()) * clip.rate > kTurning * (clip.frames - 1);
+  return std::abs(clip.headings.back() - clip.headings.front()) * clip.rate > kTurns * (clip.frames - 1);
 }
 
 // The mean, as the body sees it.
@@ -74,7 +75,7 @@ std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& cl
   if (!treading.is_long_enough()) return std::nullopt;
   FeetWay way;
   if (!turns(clip)) way.turn = treading.turn();
-  if (std::abs(way.turn) < kTurning) way.turn = 0;
+  if (std::abs(way.turn) < kTurns) way.turn = 0;
   const Vector2 center = middle(clip);
   const auto told = way_of(treading, soles, treading.velocities(way.turn, center), way, clip, scale);
   return told ? told : way_of(treading, soles, treading.striding(way.turn, center), way, clip, scale);

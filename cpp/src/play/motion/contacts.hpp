@@ -41,9 +41,6 @@ constexpr double kMoving = 0.3;
 /// and slower than this it shuffles, as between jumps and stands, and does not walk.
 constexpr double kWalking = 0.5;
 
-/// rad/s: who turns slower goes straight.
-constexpr double kTurning = kPi / 6;
-
 /// m/s of a character of 1.8 m: from where on a foot of a body that stands still does not stand; and from where on the
 /// ball of a foot that rises goes away.
 constexpr double kStandingSpeed = 0.5, kLeaves = 0.25;
